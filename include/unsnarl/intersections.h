@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+/// How two faces that meet outside the hull of the vertices they share are related. Counted apart everywhere.
+enum class PairClass : std::uint8_t {
+  disjoint,    ///< the faces share no vertex (the criterion of the paper)
+  one_vertex,  ///< they share one vertex and meet elsewhere too
+  folded,      ///< they share an edge and overlap flat
+  duplicate,   ///< they have the same three vertices
+  degenerate,  ///< at least one of them has zero area
+};
+inline constexpr std::size_t pair_class_count = 5;
+inline constexpr std::array<std::string_view, pair_class_count> pair_class_names = {
+    "disjoint", "one_vertex", "folded", "duplicate", "degenerate"};
+
+/// Two intersecting faces, a < b. Touching counts as intersecting.
+struct IntersectingPair {
+  std::int32_t a = 0;
+  std::int32_t b = 0;
+  PairClass kind = PairClass::disjoint;
+
+  friend auto operator<=>(const IntersectingPair&, const IntersectingPair&) = default;
+};
+
+/// Number of pairs in each class, indexed by PairClass.
+struct PairCounts {
+  std::array<std::size_t, pair_class_count> by_class{};
+
+  std::size_t operator[](PairClass kind) const { return by_class[static_cast<std::size_t>(kind)]; }
+  std::size_t& operator[](PairClass kind) { return by_class[static_cast<std::size_t>(kind)]; }
+  std::size_t total() const;
+};
+
+/// Which vertices count as one. Decided on the input; never changes the file.
+enum class Weld : std::uint8_t {
+  none,   ///< every vertex by itself
+  seams,  ///< vertices at exactly equal positions along the seams of one shell (UV seams, STL corners, split normals)
+  all,    ///< all vertices at exactly equal positions
+};
+
+struct FindOptions {
+  Weld weld = Weld::seams;
+  double weld_tolerance = 0;  ///< length, in the units of the positions: vertices this close count as equal. >= 0
+  int threads = 0;            ///< 0: as many as the machine has
+};
+
+/// All pairs of faces that intersect, sorted by (a, b), decided by exact predicates. Ids are those of the given faces
+/// (polygons, not their triangles); a polygon that meets itself is reported with a == b.
+///
+/// Throws std::invalid_argument when a corner names a vertex that does not exist or a coordinate is not finite.
+std::vector<IntersectingPair> find_intersections(const SurfaceView& surface, const FindOptions& options = {});
+
+PairCounts count_by_class(const std::vector<IntersectingPair>& pairs);
+
+}  // namespace unsnarl

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "unsnarl/intersections.h"
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+/// How a repair ended. Only `embedded` promises a surface without self-intersections.
+enum class Status : std::uint8_t {
+  embedded,               ///< no two faces meet anywhere but in the hull of the vertices they share
+  reduced,                ///< fewer intersecting pairs than the input, but not none
+  no_progress,            ///< nothing better than the input was found; positions are the input's
+  obstructed,             ///< everything else repaired; only the listed obstructions remain
+  time_limit,             ///< stopped by RepairOptions::time_limit_s
+  memory_limit,           ///< stopped by RepairOptions::memory_limit_mb
+  displacement_exceeded,  ///< repaired, but some vertex had to move further than allowed
+  cancelled,              ///< stopped by Context::cancel
+};
+std::string_view to_string(Status status);
+
+/// Number format the repaired positions must stay embedded in.
+enum class Precision : std::uint8_t { float32, float64 };
+
+/// What counts as resolved.
+enum class Goal : std::uint8_t {
+  all,       ///< no intersecting pair of any class
+  disjoint,  ///< no pair of faces that share no vertex (the criterion of the paper)
+};
+
+/// Cancellation and progress, shared with other threads.
+class Context {
+ public:
+  struct Progress {
+    double fraction = 0;          ///< in [0, 1], never decreases
+    std::string_view phase;       ///< "diagnose", "untangle", "recover", "certify"
+    std::size_t pairs_left = 0;   ///< intersecting pairs at this moment
+    double displacement_rel = 0;  ///< largest displacement so far / bounding-box diagonal
+  };
+
+  /// Safe to call from any thread and from a signal handler.
+  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+  bool is_cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
+
+  /// Called from the thread that runs the repair, a few times a second at most.
+  std::function<void(const Progress&)> on_progress;
+
+ private:
+  std::atomic<bool> cancelled_{false};
+};
+
+struct RepairOptions {
+  FindOptions find;                     ///< identification of vertices, threads
+  Goal goal = Goal::all;
+  /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it, else float64.
+  std::optional<Precision> precision;
+  std::vector<std::uint8_t> fixed;      ///< one flag a vertex, nonzero: must not move. Empty: all may move
+  double min_gap_rel = 0;               ///< wanted gap between sheets / bounding-box diagonal; 0: a few float32 units
+  double max_displacement_rel = 0;      ///< allowed displacement / bounding-box diagonal; 0: any
+  double time_limit_s = 0;              ///< wall-clock seconds; 0: none
+  double memory_limit_mb = 0;           ///< resident memory, MB; 0: none
+  bool recover = true;                  ///< false: stop after untangling (for research)
+  bool paper = false;                   ///< the configuration of the paper instead of the regional ladder
+};
+
+/// Something that no motion of the vertices can resolve.
+struct Obstruction {
+  enum class Kind : std::uint8_t {
+    closed_non_orientable,  ///< a closed non-orientable component has no embedding in space
+    duplicate_faces,        ///< several faces on the same three vertices
+    fixed_faces,            ///< two intersecting faces with all vertices fixed
+  };
+  Kind kind;
+  std::vector<std::int32_t> faces;  ///< the faces concerned (input ids); a whole component is named by its first face
+  std::string message;              ///< one sentence for a person
+};
+std::string_view to_string(Obstruction::Kind kind);
+
+/// Connectivity of the input, after identification.
+struct Topology {
+  std::size_t vertices = 0, faces = 0, triangles = 0, components = 0;
+  std::size_t boundary_edges = 0, non_manifold_edges = 0, non_manifold_vertices = 0;
+  std::size_t duplicate_faces = 0, zero_area_faces = 0, duplicate_vertices = 0, unused_vertices = 0;
+  std::size_t closed_components = 0, non_orientable_components = 0;
+};
+
+/// One conflict region and how it was resolved.
+struct RegionReport {
+  std::string rung;            ///< name of the rung that resolved it; "none" where all failed
+  std::size_t faces = 0;       ///< faces that were free to move
+  std::size_t pairs = 0;       ///< intersecting pairs it started with
+  int iterations = 0;
+  double seconds = 0;
+};
+
+struct StageReport {
+  std::string name;
+  double seconds = 0;
+  double peak_memory_mb = 0;   ///< peak resident memory of the process at the end of the stage
+};
+
+struct RepairReport {
+  Topology topology;
+  PairCounts before, after;
+  std::vector<Obstruction> obstructions;
+  double diagonal = 0;                                   ///< of the input's bounding box; unit of every *_rel
+  double displacement_mean_rel = 0, displacement_rms_rel = 0, displacement_max_rel = 0;
+  double untouched_share = 1;                            ///< share of vertices that are bit-identical to the input
+  std::size_t turned_triangles = 0;                      ///< normals turned by more than 90 degrees
+  std::size_t turned_triangles_without_conflict = 0;     ///< of these: not in an intersecting pair of the input
+  double min_gap_rel = 0;                                ///< smallest gap met while contacts were watched; 0: not watched
+  double volume_change_rel = 0;                          ///< signed volume of closed components, after / before - 1
+  double area_change_rel = 0;
+  bool float32_embedded = false;
+  std::vector<RegionReport> regions;
+  std::vector<StageReport> stages;
+};
+
+struct RepairResult {
+  Status status = Status::no_progress;
+  std::vector<double> positions;  ///< 3 n doubles, vertex order of the input
+  RepairReport report;
+};
+
+/// Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
+///
+/// Never returns positions with more intersecting pairs than the input. The same input and options give the same
+/// bytes at any thread count (time limits and cancellation aside).
+///
+/// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an
+/// option is out of range.
+RepairResult repair(const SurfaceView& surface, const RepairOptions& options = {}, Context* context = nullptr);
+
+}  // namespace unsnarl

@@ -1,0 +1,100 @@
+#include "contact/bvh.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_sort.h>
+
+#include <cassert>
+#include <cstdint>
+
+namespace unsnarl {
+namespace {
+
+constexpr Index parallel_threshold = 20000;  // boxes; below it starting the tasks costs more than they save
+constexpr Index task_size = 4096;            // boxes below the node of a task: some hundred tasks at 1M boxes
+
+/// Spreads the low 21 bits of v to every third bit.
+std::uint64_t spread_bits(std::uint64_t v) {
+  v = (v | v << 32) & 0x001f00000000ffffULL;
+  v = (v | v << 16) & 0x001f0000ff0000ffULL;
+  v = (v | v << 8) & 0x100f00f00f00f00fULL;
+  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
+  v = (v | v << 2) & 0x1249249249249249ULL;
+  return v;
+}
+
+struct MortonBox {
+  std::uint64_t code;
+  Index box;
+  bool operator<(const MortonBox& other) const { return code != other.code ? code < other.code : box < other.box; }
+};
+
+}  // namespace
+
+void Bvh::build(std::span<const Box> boxes) {
+  const Index n = static_cast<Index>(boxes.size());
+  nodes_.clear();
+  tasks_.clear();
+  order_.resize(n);
+  boxes_.resize(n);
+  if (n == 0) return;
+  Box bounds;
+  for (const Box& box : boxes) bounds.extend(box.center());
+  Vec3 scale;
+  for (int k = 0; k < 3; ++k) {
+    const double extent = bounds.hi[k] - bounds.lo[k];
+    scale[k] = extent > 0 ? double((1 << 21) - 1) / extent : 0;
+  }
+  std::vector<MortonBox> sorted(n);
+  auto encode = [&](Index i) {
+    const Vec3 p = (boxes[i].center() - bounds.lo).cwiseProduct(scale);
+    sorted[i] = {spread_bits(std::uint64_t(p[0])) | spread_bits(std::uint64_t(p[1])) << 1 |
+                     spread_bits(std::uint64_t(p[2])) << 2,
+                 i};
+  };
+  if (n < parallel_threshold) {
+    for (Index i = 0; i < n; ++i) encode(i);
+    std::sort(sorted.begin(), sorted.end());
+  } else {
+    oneapi::tbb::parallel_for(Index{0}, n, encode);
+    oneapi::tbb::parallel_sort(sorted.begin(), sorted.end());
+  }
+  for (Index i = 0; i < n; ++i) order_[i] = sorted[i].box;
+  nodes_.reserve(2 * (n / leaf_size + 1) * 2);
+  build_node(0, n);
+  refit(boxes);
+}
+
+Index Bvh::build_node(Index begin, Index end) {
+  const Index id = static_cast<Index>(nodes_.size());
+  nodes_.push_back({{}, begin, end, 0});
+  if (end - begin > leaf_size) {
+    const Index middle = begin + (end - begin) / 2;
+    const Index left = build_node(begin, middle);
+    const Index right = build_node(middle, end);
+    nodes_[id].right = right;
+    if (end - begin > task_size) tasks_.emplace_back(left, right);
+    if (end - begin > task_size && middle - begin <= task_size) tasks_.emplace_back(left, left);
+    if (end - begin > task_size && end - middle <= task_size) tasks_.emplace_back(right, right);
+  }
+  if (id == 0 && end <= task_size) tasks_.emplace_back(0, 0);
+  return id;
+}
+
+void Bvh::refit(std::span<const Box> boxes) {
+  assert(boxes.size() == order_.size());
+  const Index n = size();
+  for (Index k = 0; k < n; ++k) boxes_[k] = boxes[order_[k]];
+  // Children come after their parent.
+  for (std::size_t id = nodes_.size(); id-- > 0;) {
+    Node& node = nodes_[id];
+    node.box = Box();
+    if (node.right == 0) {
+      for (Index k = node.begin; k < node.end; ++k) node.box.extend(boxes_[k]);
+    } else {
+      node.box.extend(nodes_[id + 1].box);
+      node.box.extend(nodes_[node.right].box);
+    }
+  }
+}
+
+}  // namespace unsnarl

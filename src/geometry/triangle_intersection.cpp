@@ -1,0 +1,162 @@
+#include "geometry/triangle_intersection.h"
+
+#include <algorithm>
+
+#include "geometry/predicates.h"
+
+namespace unsnarl {
+namespace {
+
+Sign side_of(const TrianglePoints& t, const Vec3& p) { return orient3d(t[0], t[1], t[2], p); }
+
+/// Both strictly on the same side.
+bool same_side(Sign s, Sign t) { return s * t > 0; }
+
+/// p in the closed segment ab, all three known to be collinear.
+bool between(const Vec3& a, const Vec3& b, const Vec3& p) {
+  const bool forward = lexicographic_less(a, b);
+  const Vec3& lo = forward ? a : b;
+  const Vec3& hi = forward ? b : a;
+  return !lexicographic_less(p, lo) && !lexicographic_less(hi, p);
+}
+
+/// Closed segments in the plane seen along `axis`, where not all four points are collinear.
+bool segments_meet_in_plane(int axis, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Sign ca = orient2d_dropping(axis, a, b, c), da = orient2d_dropping(axis, a, b, d);
+  if (same_side(ca, da)) return false;
+  const Sign ac = orient2d_dropping(axis, c, d, a), bc = orient2d_dropping(axis, c, d, b);
+  if (same_side(ac, bc)) return false;
+  if (ca == 0 && da == 0) return between(a, b, c) || between(a, b, d) || between(c, d, a) || between(c, d, b);
+  return true;
+}
+
+bool point_in_triangle_in_plane(int axis, const TrianglePoints& t, const Vec3& p) {
+  const Sign s0 = orient2d_dropping(axis, t[0], t[1], p);
+  const Sign s1 = orient2d_dropping(axis, t[1], t[2], p);
+  const Sign s2 = orient2d_dropping(axis, t[2], t[0], p);
+  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
+}
+
+/// Segment and triangle known to lie in one plane.
+bool segment_meets_triangle_in_plane(const Vec3& p, const Vec3& q, const TrianglePoints& t) {
+  const int axis = projection_axis(t[0], t[1], t[2]);
+  if (point_in_triangle_in_plane(axis, t, p) || point_in_triangle_in_plane(axis, t, q)) return true;
+  for (int k = 0; k < 3; ++k)
+    if (segments_meet_in_plane(axis, p, q, t[k], t[(k + 1) % 3])) return true;
+  return false;
+}
+
+/// Segment against triangle when the sides of its ends are known.
+bool segment_meets_triangle(const Vec3& p, Sign side_p, const Vec3& q, Sign side_q, const TrianglePoints& t) {
+  if (same_side(side_p, side_q)) return false;
+  if (side_p == 0 && side_q == 0) return segment_meets_triangle_in_plane(p, q, t);
+  const Sign s0 = orient3d(p, q, t[0], t[1]);
+  const Sign s1 = orient3d(p, q, t[1], t[2]);
+  if (same_side(s0, -s1)) return false;
+  const Sign s2 = orient3d(p, q, t[2], t[0]);
+  return !same_side(s0, -s2) && !same_side(s1, -s2);
+}
+
+/// A degenerate triangle as the segment it covers; `lo == hi` for a point.
+struct Extent {
+  Vec3 lo, hi;
+  bool is_point() const { return lo == hi; }
+};
+Extent extent_of(const TrianglePoints& t) {
+  Extent e{t[0], t[0]};
+  for (int k = 1; k < 3; ++k) {
+    if (lexicographic_less(t[k], e.lo)) e.lo = t[k];
+    if (lexicographic_less(e.hi, t[k])) e.hi = t[k];
+  }
+  return e;
+}
+
+bool point_on_segment(const Extent& s, const Vec3& p) { return collinear(s.lo, s.hi, p) && between(s.lo, s.hi, p); }
+
+bool segments_meet(const Extent& s, const Extent& t) {
+  if (s.is_point()) return point_on_segment(t, s.lo);
+  if (t.is_point()) return point_on_segment(s, t.lo);
+  if (orient3d(s.lo, s.hi, t.lo, t.hi) != 0) return false;
+  int axis = projection_axis(s.lo, s.hi, t.lo);
+  if (axis < 0) axis = projection_axis(s.lo, s.hi, t.hi);
+  if (axis >= 0) return segments_meet_in_plane(axis, s.lo, s.hi, t.lo, t.hi);
+  return between(s.lo, s.hi, t.lo) || between(s.lo, s.hi, t.hi) || between(t.lo, t.hi, s.lo);
+}
+
+/// Segment s and convex set b share the point `from`, an extreme common corner. Does b hold points of s beyond `from`
+/// towards `to`, an end of s other than `from`?
+bool continues_into(const Vec3& from, const Vec3& to, const TrianglePoints& b, int corner_of_b, bool b_is_degenerate) {
+  if (b_is_degenerate) {
+    const Extent e = extent_of(b);
+    const bool forward = lexicographic_less(from, to);
+    const Vec3& end = forward ? e.hi : e.lo;
+    return end != from && collinear(from, to, end) && lexicographic_less(from, end) == forward;
+  }
+  if (side_of(b, to) != 0) return false;
+  const int axis = projection_axis(b[0], b[1], b[2]);
+  const Vec3 &v = b[corner_of_b], &next = b[(corner_of_b + 1) % 3], &previous = b[(corner_of_b + 2) % 3];
+  const Sign turn = orient2d_dropping(axis, v, next, previous);
+  return turn * orient2d_dropping(axis, v, next, to) >= 0 && turn * orient2d_dropping(axis, v, to, previous) >= 0;
+}
+
+}  // namespace
+
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, const TrianglePoints& t) {
+  return segment_meets_triangle(p, side_of(t, p), q, side_of(t, q), t);
+}
+
+bool triangles_meet(const TrianglePoints& a, const TrianglePoints& b) {
+  const std::array<Sign, 3> sides_a = {side_of(b, a[0]), side_of(b, a[1]), side_of(b, a[2])};
+  if (same_side(sides_a[0], sides_a[1]) && same_side(sides_a[0], sides_a[2])) return false;
+  const std::array<Sign, 3> sides_b = {side_of(a, b[0]), side_of(a, b[1]), side_of(a, b[2])};
+  if (same_side(sides_b[0], sides_b[1]) && same_side(sides_b[0], sides_b[2])) return false;
+  // Where two triangles meet, an edge of one meets the other.
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3;
+    if (segment_meets_triangle(a[k], sides_a[k], a[l], sides_a[l], b)) return true;
+    if (segment_meets_triangle(b[k], sides_b[k], b[l], sides_b[l], a)) return true;
+  }
+  return false;
+}
+
+bool triangles_meet_beyond_vertex(const TrianglePoints& a, const TrianglePoints& b) {
+  // Both are convex and hold the vertex: going on from it through another common point, one of them is left through
+  // the edge opposite the vertex, at a point of the other.
+  const Sign a1 = side_of(b, a[1]), a2 = side_of(b, a[2]);
+  if (same_side(a1, a2)) return false;
+  const Sign b1 = side_of(a, b[1]), b2 = side_of(a, b[2]);
+  if (same_side(b1, b2)) return false;
+  return segment_meets_triangle(a[1], a1, a[2], a2, b) || segment_meets_triangle(b[1], b1, b[2], b2, a);
+}
+
+bool triangles_fold_flat(const TrianglePoints& a, const TrianglePoints& b) {
+  if (side_of(a, b[2]) != 0) return false;
+  const int axis = projection_axis(a[0], a[1], a[2]);
+  return same_side(orient2d_dropping(axis, a[0], a[1], a[2]), orient2d_dropping(axis, a[0], a[1], b[2]));
+}
+
+bool degenerate_triangles_meet(const TrianglePoints& a, const TrianglePoints& b, const std::array<int, 3>& shared_a) {
+  const bool degenerate_a = collinear(a[0], a[1], a[2]);
+  const bool degenerate_b = collinear(b[0], b[1], b[2]);
+  if (!degenerate_a) {
+    std::array<int, 3> shared_b = {-1, -1, -1};
+    for (int k = 0; k < 3; ++k)
+      if (shared_a[k] >= 0) shared_b[shared_a[k]] = k;
+    return degenerate_triangles_meet(b, a, shared_b);
+  }
+  const Extent s = extent_of(a);
+  int first = -1, last = -1;  // extreme shared corners along s
+  for (int k = 0; k < 3; ++k) {
+    if (shared_a[k] < 0) continue;
+    if (first < 0 || lexicographic_less(a[k], a[first])) first = k;
+    if (last < 0 || lexicographic_less(a[last], a[k])) last = k;
+  }
+  if (first < 0) {
+    if (degenerate_b) return segments_meet(s, extent_of(b));
+    return segment_meets_triangle(s.lo, s.hi, b);
+  }
+  return (a[first] != s.lo && continues_into(a[first], s.lo, b, shared_a[first], degenerate_b)) ||
+         (a[last] != s.hi && continues_into(a[last], s.hi, b, shared_a[last], degenerate_b));
+}
+
+}  // namespace unsnarl
