@@ -1,0 +1,53 @@
+# Sourced by ./demo and ./test from the top of the project: installs what is missing, then configures the release
+# preset. Everything it says goes to stderr.
+
+say() { printf '%s\n' "$*" >&2; }
+die() { say "error: $*"; exit 1; }
+
+install_missing_packages() {
+  command -v dpkg-query >/dev/null || {
+    say "This is not a Debian system: nothing is installed. cmake/debian_packages.txt lists what the build needs."
+    return
+  }
+  local missing=() name purpose
+  while read -r name purpose; do
+    [[ -z $name || $name == \#* ]] && continue
+    if [[ $(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null) != installed ]]; then
+      [[ ${#missing[@]} -eq 0 ]] && say "Missing Debian packages:"
+      say "  $(printf '%-20s %s' "$name" "$purpose")"
+      missing+=("$name")
+    fi
+  done < cmake/debian_packages.txt
+  [[ ${#missing[@]} -eq 0 ]] && return
+
+  local as_root=()
+  if [[ $EUID -ne 0 ]]; then
+    command -v sudo >/dev/null ||
+      die "installing them needs root and there is no sudo. As root, run: apt-get install ${missing[*]}"
+    as_root=(sudo)
+  fi
+  say "Installing them with apt-get${as_root:+ (through sudo)} ..."
+  local log
+  log=$(mktemp)
+  if ! { "${as_root[@]}" apt-get update -q &&
+         "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+       } >"$log" 2>&1; then
+    tail -n 15 "$log" >&2
+    rm -f "$log"
+    die "apt-get failed (its last lines are above). When it works again, or offline from a local mirror, run:
+  apt-get install ${missing[*]}"
+  fi
+  rm -f "$log"
+}
+
+configure_release() {
+  local log
+  log=$(mktemp)
+  if ! cmake --preset release "$@" >"$log" 2>&1; then
+    cat "$log" >&2
+    rm -f "$log"
+    die "CMake could not configure the build (its words are above). A build directory from another machine or
+compiler is the usual cause: remove build/release and try again."
+  fi
+  rm -f "$log"
+}

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Checks what the sources include.
+
+layers  a file includes only from its own layer or one below; public headers only each other and the standard library
+gpl     the product includes no part of CGAL that is under the GPL, and CGAL at all in one file only
+
+usage: check_includes.py {layers,gpl} PROJECT_DIR
+"""
+
+import re
+import sys
+from pathlib import Path
+
+# What each layer may include besides itself and the public headers. Keep in step with src/CMakeLists.txt.
+BELOW = {
+    "geometry": [],
+    "mesh": ["geometry"],
+    "contact": ["geometry", "mesh"],
+    "energy": ["geometry", "mesh", "contact"],
+    "optimize": ["geometry"],
+    "io": ["geometry", "mesh"],
+    "render": ["geometry", "mesh"],
+    "repair": ["geometry", "mesh", "contact", "energy", "optimize", "io", "render"],
+    "samples": ["geometry", "mesh"],
+}
+THIRD_PARTY = re.compile(r"^(Eigen|CGAL|tbb|oneapi|fmt|nlohmann|CLI|png|zlib|boost|gmp|mpfr|gtest|benchmark)\b")
+CGAL_ONLY_IN = "src/geometry/exact_predicates.cpp"
+# The kernel, its number types and Intersections_3 are under the LGPL.
+CGAL_LGPL = re.compile(
+    r"^CGAL/(Exact_predicates_(in)?exact_constructions_kernel|Simple_cartesian|Cartesian|Filtered_kernel|Gmpq|Gmpz|"
+    r"Mpzf|MP_Float|Quotient|Interval_nt|FPU|enum|number_utils|Kernel/\w+|Kernel_23/\w+|Intersections_3/\w+|"
+    r"Cartesian_converter|Lazy_exact_nt|Exact_rational|intersections|predicates/\w+|Uncertain)\.h$")
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+
+
+def includes(path):
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if match := INCLUDE.match(line):
+            yield number, match[1]
+
+
+def sources(folder):
+    return sorted(p for p in folder.rglob("*") if p.suffix in {".h", ".cpp"})
+
+
+def layer_of(included):
+    first, _, rest = included.partition("/")
+    return first if rest and first in BELOW else None
+
+
+def check_layers(project):
+    for path in sources(project / "include"):
+        for number, included in includes(path):
+            if THIRD_PARTY.match(included) or layer_of(included):
+                yield f"{path}:{number}: public header includes <{included}>; it may include only unsnarl/* and std"
+    for layer, below in BELOW.items():
+        folder = project / layer if layer == "samples" else project / "src" / layer
+        for path in sources(folder):
+            for number, included in includes(path):
+                if included.startswith(("src/", "apps/", "tests/", "../")):
+                    yield f"{path}:{number}: '{included}'; include paths are relative to src/ or include/"
+                    continue
+                other = layer_of(included)
+                if other and other != layer and other not in below:
+                    yield (f"{path}:{number}: layer '{layer}' includes '{included}' of layer '{other}'; "
+                           f"it may include from {', '.join([layer, *below])}")
+
+
+def check_gpl(project):
+    for folder in ("include", "src", "samples", "apps"):
+        for path in sources(project / folder):
+            for number, included in includes(path):
+                if not included.startswith("CGAL/"):
+                    continue
+                if path.relative_to(project).as_posix() != CGAL_ONLY_IN:
+                    yield f"{path}:{number}: includes <{included}>; CGAL is used in {CGAL_ONLY_IN} only"
+                if not CGAL_LGPL.match(included):
+                    yield (f"{path}:{number}: <{included}> is not among the headers known to be under the LGPL; "
+                           "check its SPDX line before adding it to this list")
+
+
+def main():
+    if len(sys.argv) != 3 or sys.argv[1] not in ("layers", "gpl"):
+        sys.exit(__doc__)
+    project = Path(sys.argv[2])
+    findings = list({"layers": check_layers, "gpl": check_gpl}[sys.argv[1]](project))
+    for finding in findings:
+        print(finding)
+    sys.exit(1 if findings else 0)
+
+
+if __name__ == "__main__":
+    main()
