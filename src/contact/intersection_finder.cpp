@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "geometry/predicates.h"
 #include "geometry/triangle_intersection.h"
 
 namespace unsnarl {
@@ -16,8 +15,6 @@ constexpr std::size_t parallel_threshold = 20000;  // triangles; below it one th
 TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {
   return {x.col(t[first]), x.col(t[(first + 1) % 3]), x.col(t[(first + 2) % 3])};
 }
-
-bool is_degenerate(const TrianglePoints& t) { return collinear(t[0], t[1], t[2]); }
 
 }  // namespace
 
@@ -37,35 +34,20 @@ bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairCl
     kind = PairClass::duplicate;
     return true;
   }
-  // A degenerate triangle has every point in its plane; so the cheap rejections below hold for it, and whatever they
-  // let pass is looked at again.
+  Meeting meeting;
   if (shared_count == 0) {
     kind = PairClass::disjoint;
-    const TrianglePoints pa = rotated(x, a, 0), pb = rotated(x, b, 0);
-    const Sign a0 = orient3d(pb[0], pb[1], pb[2], pa[0]);
-    const Sign a1 = orient3d(pb[0], pb[1], pb[2], pa[1]);
-    if (a0 * a1 > 0) {
-      const Sign a2 = orient3d(pb[0], pb[1], pb[2], pa[2]);
-      if (a0 * a2 > 0) return false;
-    }
-    if (!is_degenerate(pa) && !is_degenerate(pb)) return triangles_meet(pa, pb);
-    kind = PairClass::degenerate;
-    return degenerate_triangles_meet(pa, pb, shared);
-  }
-  if (shared_count == 1) {
+    meeting = triangles_meet(rotated(x, a, 0), rotated(x, b, 0));
+  } else if (shared_count == 1) {
     kind = PairClass::one_vertex;
-    const TrianglePoints pa = rotated(x, a, corner_a), pb = rotated(x, b, corner_b);
-    if (orient3d(pb[0], pb[1], pb[2], pa[1]) * orient3d(pb[0], pb[1], pb[2], pa[2]) > 0) return false;
-    if (orient3d(pa[0], pa[1], pa[2], pb[1]) * orient3d(pa[0], pa[1], pa[2], pb[2]) > 0) return false;
-    if (!is_degenerate(pa) && !is_degenerate(pb)) return triangles_meet_beyond_vertex(pa, pb);
+    meeting = triangles_meet_beyond_vertex(rotated(x, a, corner_a), rotated(x, b, corner_b));
   } else {
     kind = PairClass::folded;
     const int apex_a = 3 - sum_a, apex_b = 3 - sum_b;
     const Vec3 u = x.col(a[(apex_a + 1) % 3]), v = x.col(a[(apex_a + 2) % 3]);
-    const TrianglePoints pa = {u, v, x.col(a[apex_a])}, pb = {u, v, x.col(b[apex_b])};
-    if (orient3d(pa[0], pa[1], pa[2], pb[2]) != 0) return false;
-    if (!is_degenerate(pa) && !is_degenerate(pb)) return triangles_fold_flat(pa, pb);
+    meeting = triangles_fold_flat({u, v, x.col(a[apex_a])}, {u, v, x.col(b[apex_b])});
   }
+  if (meeting != Meeting::ask_degenerate) return meeting == Meeting::yes;
   kind = PairClass::degenerate;
   return degenerate_triangles_meet(rotated(x, a, 0), rotated(x, b, 0), shared);
 }

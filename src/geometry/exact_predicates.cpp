@@ -1,4 +1,4 @@
-// The exact fall-back of the predicates, by CGAL's kernel (LGPL). The only file of the product that includes CGAL: the
+// The last resort of the predicates, by CGAL's kernel (LGPL). The only file of the product that includes CGAL: the
 // kernel switches the rounding mode, which this file alone is compiled for.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -11,7 +11,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 Kernel::Point_3 point(const Vec3& p) { return {p[0], p[1], p[2]}; }
 }  // namespace
 
-Sign orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+Sign orient3d_by_kernel(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return static_cast<Sign>(CGAL::orientation(point(a), point(b), point(c), point(d)));
 }
 

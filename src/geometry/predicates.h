@@ -12,7 +12,9 @@ namespace unsnarl {
 using Sign = int;  // -1, 0, +1
 
 namespace detail {
+/// By exact expansions where the coordinate differences are exact, else by the kernel.
 Sign orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+Sign orient3d_by_kernel(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 Sign orient2d_exact(double ax, double ay, double bx, double by, double cx, double cy);
 
 inline constexpr double half_ulp = 1.1102230246251565e-16;  // 2^-53

@@ -71,6 +71,11 @@ Extent extent_of(const TrianglePoints& t) {
   return e;
 }
 
+/// A degenerate triangle has every point in its plane; only then is the exact test of degeneracy needed.
+bool maybe_degenerate(const std::array<Sign, 3>& sides_of_others, const TrianglePoints& t) {
+  return sides_of_others == std::array<Sign, 3>{0, 0, 0} && collinear(t[0], t[1], t[2]);
+}
+
 bool point_on_segment(const Extent& s, const Vec3& p) { return collinear(s.lo, s.hi, p) && between(s.lo, s.hi, p); }
 
 bool segments_meet(const Extent& s, const Extent& t) {
@@ -105,34 +110,40 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const TrianglePoints& 
   return segment_meets_triangle(p, side_of(t, p), q, side_of(t, q), t);
 }
 
-bool triangles_meet(const TrianglePoints& a, const TrianglePoints& b) {
+Meeting triangles_meet(const TrianglePoints& a, const TrianglePoints& b) {
   const std::array<Sign, 3> sides_a = {side_of(b, a[0]), side_of(b, a[1]), side_of(b, a[2])};
-  if (same_side(sides_a[0], sides_a[1]) && same_side(sides_a[0], sides_a[2])) return false;
+  if (same_side(sides_a[0], sides_a[1]) && same_side(sides_a[0], sides_a[2])) return Meeting::no;
   const std::array<Sign, 3> sides_b = {side_of(a, b[0]), side_of(a, b[1]), side_of(a, b[2])};
-  if (same_side(sides_b[0], sides_b[1]) && same_side(sides_b[0], sides_b[2])) return false;
+  if (same_side(sides_b[0], sides_b[1]) && same_side(sides_b[0], sides_b[2])) return Meeting::no;
+  if (maybe_degenerate(sides_a, b) || maybe_degenerate(sides_b, a)) return Meeting::ask_degenerate;
   // Where two triangles meet, an edge of one meets the other.
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
-    if (segment_meets_triangle(a[k], sides_a[k], a[l], sides_a[l], b)) return true;
-    if (segment_meets_triangle(b[k], sides_b[k], b[l], sides_b[l], a)) return true;
+    if (segment_meets_triangle(a[k], sides_a[k], a[l], sides_a[l], b)) return Meeting::yes;
+    if (segment_meets_triangle(b[k], sides_b[k], b[l], sides_b[l], a)) return Meeting::yes;
   }
-  return false;
+  return Meeting::no;
 }
 
-bool triangles_meet_beyond_vertex(const TrianglePoints& a, const TrianglePoints& b) {
+Meeting triangles_meet_beyond_vertex(const TrianglePoints& a, const TrianglePoints& b) {
   // Both are convex and hold the vertex: going on from it through another common point, one of them is left through
   // the edge opposite the vertex, at a point of the other.
-  const Sign a1 = side_of(b, a[1]), a2 = side_of(b, a[2]);
-  if (same_side(a1, a2)) return false;
-  const Sign b1 = side_of(a, b[1]), b2 = side_of(a, b[2]);
-  if (same_side(b1, b2)) return false;
-  return segment_meets_triangle(a[1], a1, a[2], a2, b) || segment_meets_triangle(b[1], b1, b[2], b2, a);
+  const std::array<Sign, 3> sides_a = {0, side_of(b, a[1]), side_of(b, a[2])};
+  if (same_side(sides_a[1], sides_a[2])) return Meeting::no;
+  const std::array<Sign, 3> sides_b = {0, side_of(a, b[1]), side_of(a, b[2])};
+  if (same_side(sides_b[1], sides_b[2])) return Meeting::no;
+  if (maybe_degenerate(sides_a, b) || maybe_degenerate(sides_b, a)) return Meeting::ask_degenerate;
+  const bool meet = segment_meets_triangle(a[1], sides_a[1], a[2], sides_a[2], b) ||
+                    segment_meets_triangle(b[1], sides_b[1], b[2], sides_b[2], a);
+  return meet ? Meeting::yes : Meeting::no;
 }
 
-bool triangles_fold_flat(const TrianglePoints& a, const TrianglePoints& b) {
-  if (side_of(a, b[2]) != 0) return false;
+Meeting triangles_fold_flat(const TrianglePoints& a, const TrianglePoints& b) {
+  if (side_of(a, b[2]) != 0) return Meeting::no;
   const int axis = projection_axis(a[0], a[1], a[2]);
-  return same_side(orient2d_dropping(axis, a[0], a[1], a[2]), orient2d_dropping(axis, a[0], a[1], b[2]));
+  if (axis < 0 || collinear(b[0], b[1], b[2])) return Meeting::ask_degenerate;
+  const bool overlap = same_side(orient2d_dropping(axis, a[0], a[1], a[2]), orient2d_dropping(axis, a[0], a[1], b[2]));
+  return overlap ? Meeting::yes : Meeting::no;
 }
 
 bool degenerate_triangles_meet(const TrianglePoints& a, const TrianglePoints& b, const std::array<int, 3>& shared_a) {

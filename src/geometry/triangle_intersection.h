@@ -13,14 +13,17 @@ using TrianglePoints = std::array<Vec3, 3>;
 /// Segment pq against a triangle that is not degenerate.
 bool segment_meets_triangle(const Vec3& p, const Vec3& q, const TrianglePoints& t);
 
-/// Two triangles without a common vertex, neither degenerate.
-bool triangles_meet(const TrianglePoints& a, const TrianglePoints& b);
+/// Answer of a test that cannot decide for degenerate triangles.
+enum class Meeting { no, yes, ask_degenerate };
 
-/// Two triangles with a[0] and b[0] their one common vertex, neither degenerate: do they meet anywhere else?
-bool triangles_meet_beyond_vertex(const TrianglePoints& a, const TrianglePoints& b);
+/// Two triangles without a common vertex.
+Meeting triangles_meet(const TrianglePoints& a, const TrianglePoints& b);
 
-/// Two triangles with (a[0], a[1]) and (b[0], b[1]) their common edge, neither degenerate: do they overlap flat?
-bool triangles_fold_flat(const TrianglePoints& a, const TrianglePoints& b);
+/// Two triangles with a[0] and b[0] their one common vertex: do they meet anywhere else?
+Meeting triangles_meet_beyond_vertex(const TrianglePoints& a, const TrianglePoints& b);
+
+/// Two triangles with (a[0], a[1]) and (b[0], b[1]) their common edge: do they overlap flat?
+Meeting triangles_fold_flat(const TrianglePoints& a, const TrianglePoints& b);
 
 /// The general case, for pairs with at least one degenerate triangle, which is the segment or the point that it is:
 /// do they meet outside the hull of the corners they share? `shared_a[k]` is the corner of b that corner k of a is, or -1.
