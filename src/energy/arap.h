@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "geometry/types.h"
+
+namespace unsnarl {
+
+enum class ArapWeights {
+  uniform,    ///< every edge the same: thin triangles do no harm
+  cotangent,  ///< (cot a + cot b) / 2 at rest, negative ones cut to 0
+};
+
+struct ArapOptions {
+  ArapWeights weights = ArapWeights::uniform;
+  double uniform_weight = 0.57735026918962573;  ///< the cotangent of the equilateral triangle: both weights agree there
+};
+
+/// As-rigid-as-possible energy (paper §3.3, E_reg), with one rotation R_i a vertex, chosen best for its star:
+///   E = 1/2 sum_i sum_{j in N(i)} w_ij |(x_i - x_j) - R_i (rest_i - rest_j)|^2.
+/// Its Hessian with the rotations held is 2 L, L the Laplacian with weights w. Scales as length squared.
+class Arap {
+ public:
+  /// Edges are those of `triangles`. Vertices from `free_count` on stand still in unseen surroundings: their rotation
+  /// is the identity, whatever their few neighbours here do.
+  Arap(std::span<const Triangle> triangles, const Positions& rest, Index free_count, const ArapOptions& options = {});
+
+  /// Returns weight * E and adds weight * its gradient (all vertices; the caller drops what is fixed).
+  double value_and_gradient(const Positions& x, Positions& gradient, double weight = 1);
+
+  /// The best rotation of vertex i at the last evaluation.
+  const Eigen::Matrix3d& rotation(Index i) const { return rotations_[i]; }
+
+  /// Weights of the edges, as triplets (i, j, w) with i < j: the Laplacian to match.
+  struct WeightedEdge {
+    Index i, j;
+    double weight;
+  };
+  std::span<const WeightedEdge> edges() const { return edges_; }
+
+ private:
+  Index free_count_ = 0;
+  std::vector<WeightedEdge> edges_;
+  std::vector<Index> offsets_;  // of each vertex's half-edges
+  std::vector<Index> neighbours_;
+  std::vector<double> weights_;
+  Positions rest_edges_;  // rest_i - rest_j, one column a half-edge
+  std::vector<Eigen::Matrix3d> rotations_;
+};
+
+/// The rotation R that maximises trace(R^T S): the closest to S. For S of rank < 2 one of many, but always a rotation.
+Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& s);
+
+}  // namespace unsnarl

@@ -1,0 +1,148 @@
+#include "energy/arap.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <cmath>
+#include <random>
+
+namespace unsnarl {
+namespace {
+
+double uniform(std::mt19937& generator) { return static_cast<double>(generator()) / 4294967295.0 * 2 - 1; }
+
+struct Grid {
+  std::vector<Triangle> triangles;
+  Positions rest;
+};
+
+// A bumpy grid of n x n vertices.
+Grid make_grid(Index n, std::mt19937& generator) {
+  Grid grid;
+  grid.rest.resize(3, n * n);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) grid.rest.col(i * n + j) = Vec3(i, j, 0.3 * uniform(generator));
+  }
+  for (Index i = 0; i + 1 < n; ++i) {
+    for (Index j = 0; j + 1 < n; ++j) {
+      grid.triangles.push_back({i * n + j, (i + 1) * n + j, (i + 1) * n + j + 1});
+      grid.triangles.push_back({i * n + j, (i + 1) * n + j + 1, i * n + j + 1});
+    }
+  }
+  return grid;
+}
+
+Positions shaken(const Positions& x, double by, std::mt19937& generator) {
+  Positions result = x;
+  for (Index i = 0; i < x.cols(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) result(axis, i) += by * uniform(generator);
+  }
+  return result;
+}
+
+double value_of(Arap& energy, const Positions& x) {
+  Positions unused = Positions::Zero(3, x.cols());
+  return energy.value_and_gradient(x, unused);
+}
+
+TEST(ClosestRotation, AgreesWithTheSingularValueDecomposition) {
+  std::mt19937 generator(1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    Eigen::Matrix3d s;
+    for (int i = 0; i < 9; ++i) s(i) = uniform(generator);
+    if (trial % 4 == 1) s.col(2) = s.col(0) + s.col(1);                      // flat stars: rank 2
+    if (trial % 4 == 2) s = s * Eigen::Vector3d(1, 1e-3, 1e-6).asDiagonal();  // slivers
+    if (trial % 4 == 3) s *= 1e-9;
+    const Eigen::Matrix3d r = closest_rotation(s);
+    EXPECT_NEAR((r * r.transpose() - Eigen::Matrix3d::Identity()).norm(), 0, 1e-12);
+    EXPECT_NEAR(r.determinant(), 1, 1e-12);
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(s, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+    const Eigen::Vector3d sigma = svd.singularValues();
+    EXPECT_NEAR((r.transpose() * s).trace() / s.norm(), (sigma[0] + sigma[1] + sign * sigma[2]) / s.norm(), 1e-11);
+  }
+}
+
+TEST(ClosestRotation, DegenerateInputStillGivesARotation) {
+  for (const Eigen::Matrix3d& s :
+       {Eigen::Matrix3d(Eigen::Matrix3d::Zero()), Eigen::Matrix3d(Vec3(1, 2, 3) * Vec3(3, -1, 1).transpose()),
+        Eigen::Matrix3d(-Eigen::Matrix3d::Identity())}) {
+    const Eigen::Matrix3d r = closest_rotation(s);
+    EXPECT_NEAR((r * r.transpose() - Eigen::Matrix3d::Identity()).norm(), 0, 1e-12);
+    EXPECT_NEAR(r.determinant(), 1, 1e-12);
+  }
+}
+
+TEST(Arap, RigidMotionsCostNothing) {
+  std::mt19937 generator(2);
+  const Grid grid = make_grid(5, generator);
+  const Eigen::Matrix3d r = (Eigen::AngleAxisd(2.5, Vec3(1, 2, 3).normalized())).toRotationMatrix();
+  const Positions moved = (r * grid.rest).colwise() + Vec3(4, -5, 6);
+  for (const ArapWeights weights : {ArapWeights::uniform, ArapWeights::cotangent}) {
+    ArapOptions options;
+    options.weights = weights;
+    Arap energy(grid.triangles, grid.rest, 25, options);
+    Positions gradient = Positions::Zero(3, 25);
+    EXPECT_NEAR(energy.value_and_gradient(moved, gradient), 0, 1e-20);
+    EXPECT_NEAR(gradient.norm(), 0, 1e-10);
+    EXPECT_NEAR((energy.rotation(7) - r).norm(), 0, 1e-10);
+  }
+}
+
+TEST(Arap, GradientMatchesFiniteDifferences) {
+  std::mt19937 generator(3);
+  const Grid grid = make_grid(5, generator);
+  for (const ArapWeights weights : {ArapWeights::uniform, ArapWeights::cotangent}) {
+    for (const Index free_count : {25, 15}) {
+      ArapOptions options;
+      options.weights = weights;
+      Arap energy(grid.triangles, grid.rest, free_count, options);
+      const Positions x = shaken(grid.rest, 0.4, generator);
+      Positions gradient = Positions::Zero(3, 25);
+      energy.value_and_gradient(x, gradient, 3);
+      for (Index i = 0; i < 25; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+          Positions up = x, down = x;
+          up(axis, i) += 1e-6;
+          down(axis, i) -= 1e-6;
+          EXPECT_NEAR(3 * (value_of(energy, up) - value_of(energy, down)) / 2e-6, gradient(axis, i), 1e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST(Arap, ScalesAsLengthSquared) {
+  std::mt19937 generator(4);
+  const Grid grid = make_grid(5, generator);
+  const Positions x = shaken(grid.rest, 0.4, generator);
+  Arap energy(grid.triangles, grid.rest, 25), scaled(grid.triangles, 8 * grid.rest, 25);
+  EXPECT_NEAR(value_of(scaled, 8 * x), 64 * value_of(energy, x), 1e-9);
+}
+
+TEST(Arap, BothWeightsAgreeOnEquilateralTriangles) {
+  Grid hexagon;
+  hexagon.rest = Positions::Zero(3, 7);
+  for (Index i = 0; i < 6; ++i) {
+    hexagon.rest.col(i + 1) = Vec3(std::cos(i * M_PI / 3), std::sin(i * M_PI / 3), 0);
+    hexagon.triangles.push_back({0, i + 1, (i + 1) % 6 + 1});
+  }
+  ArapOptions options;
+  options.weights = ArapWeights::cotangent;
+  const Arap energy(hexagon.triangles, hexagon.rest, 7, options);
+  for (const Arap::WeightedEdge& e : energy.edges()) {
+    EXPECT_NEAR(e.weight, ArapOptions{}.uniform_weight * (e.i == 0 ? 1 : 0.5), 1e-12);
+  }
+}
+
+TEST(Arap, FixedSurroundingsDoNotTurn) {
+  std::mt19937 generator(5);
+  const Grid grid = make_grid(4, generator);
+  Arap energy(grid.triangles, grid.rest, 8);
+  value_of(energy, shaken(grid.rest, 0.5, generator));
+  for (Index i = 8; i < 16; ++i) EXPECT_TRUE(energy.rotation(i).isIdentity(0));
+}
+
+}  // namespace
+}  // namespace unsnarl
