@@ -1,0 +1,42 @@
+#include "mesh/areas.h"
+
+namespace unsnarl {
+
+Vec3 triangle_normal(const Positions& x, const Triangle& t) {
+  const Vec3 n = area_vector(x, t);
+  const double length = n.norm();
+  return length > 0 ? Vec3(n / length) : Vec3::Zero();
+}
+
+std::vector<double> triangle_areas(const Positions& x, std::span<const Triangle> triangles) {
+  std::vector<double> areas(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) areas[i] = triangle_area(x, triangles[i]);
+  return areas;
+}
+
+double total_area(const Positions& x, std::span<const Triangle> triangles) {
+  double sum = 0;
+  for (const Triangle& t : triangles) sum += triangle_area(x, t);
+  return sum;
+}
+
+double signed_volume(const Positions& x, std::span<const Triangle> triangles) {
+  if (triangles.empty()) return 0;
+  const Vec3 origin = x.col(triangles[0][0]);
+  double sum = 0;
+  for (const Triangle& t : triangles) {
+    const Vec3 a = x.col(t[0]) - origin, b = x.col(t[1]) - origin, c = x.col(t[2]) - origin;
+    sum += a.dot(b.cross(c));
+  }
+  return sum / 6;
+}
+
+double mean_edge_length(const Positions& x, std::span<const Triangle> triangles) {
+  if (triangles.empty()) return 0;
+  double sum = 0;
+  for (const Triangle& t : triangles)
+    for (int k = 0; k < 3; ++k) sum += (x.col(t[k]) - x.col(t[(k + 1) % 3])).norm();
+  return sum / (3.0 * static_cast<double>(triangles.size()));
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geometry/types.h"
+
+namespace unsnarl {
+
+/// Twice the area times the unit normal.
+inline Vec3 area_vector(const Positions& x, const Triangle& t) {
+  const Vec3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
+  return (b - a).cross(c - a);
+}
+inline double triangle_area(const Positions& x, const Triangle& t) { return 0.5 * area_vector(x, t).norm(); }
+/// Unit normal; zero where the triangle has no area.
+Vec3 triangle_normal(const Positions& x, const Triangle& t);
+
+std::vector<double> triangle_areas(const Positions& x, std::span<const Triangle> triangles);
+/// Sum of the areas of all triangles.
+double total_area(const Positions& x, std::span<const Triangle> triangles);
+
+/// Signed volume enclosed by the triangles, positive where their normals point outward. Meaningful for closed oriented
+/// sets only; taken about the first vertex, so that distance from the origin costs no digits.
+double signed_volume(const Positions& x, std::span<const Triangle> triangles);
+
+/// Mean length of the sides of the triangles (an edge of two triangles counts twice); 0 without triangles.
+double mean_edge_length(const Positions& x, std::span<const Triangle> triangles);
+
+}  // namespace unsnarl

@@ -1,0 +1,166 @@
+#include "mesh/components.h"
+
+#include <algorithm>
+
+#include "geometry/predicates.h"
+#include "mesh/union_find.h"
+
+namespace unsnarl {
+namespace {
+
+/// True where triangle t runs along the edge from its smaller to its larger vertex.
+bool runs_forward(const Triangle& t, const Edge& e) {
+  for (int k = 0; k < 3; ++k)
+    if (t[k] == e[0] && t[(k + 1) % 3] == e[1]) return true;
+  return false;
+}
+
+/// Colours the triangles so that neighbours across an edge of two triangles agree in orientation, and marks the
+/// components where that fails.
+void find_orientability(std::span<const Triangle> triangles, const EdgeTable& edges, Components& components) {
+  std::vector<std::int8_t> turned(triangles.size(), -1);
+  std::vector<Index> stack;
+  for (std::size_t seed = 0; seed < triangles.size(); ++seed) {
+    if (turned[seed] >= 0) continue;
+    turned[seed] = 0;
+    stack.push_back(static_cast<Index>(seed));
+    while (!stack.empty()) {
+      const Index t = stack.back();
+      stack.pop_back();
+      for (Index e : edges.edges_of_triangle[t]) {
+        if (e < 0 || edges.triangles_of_edge[e].size() != 2) continue;
+        const Index other = edges.triangles_of_edge[e][edges.triangles_of_edge[e][0] == t ? 1 : 0];
+        const bool clash =
+            runs_forward(triangles[t], edges.edges[e]) == runs_forward(triangles[other], edges.edges[e]);
+        const auto wanted = static_cast<std::int8_t>(clash ? 1 - turned[t] : turned[t]);
+        if (turned[other] < 0) {
+          turned[other] = wanted;
+          stack.push_back(other);
+        } else if (turned[other] != wanted) {
+          components.list[components.component_of_triangle[t]].orientable = false;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Components find_components(std::span<const Triangle> triangles, Index vertex_count, const EdgeTable& edges) {
+  UnionFind sets(static_cast<std::size_t>(vertex_count));
+  for (const Triangle& t : triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  Components result;
+  result.component_of_triangle.resize(triangles.size());
+  result.component_of_vertex.assign(static_cast<std::size_t>(vertex_count), -1);
+  std::vector<Index> component_of_root(static_cast<std::size_t>(vertex_count), -1);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    Index& component = component_of_root[sets.find(triangles[i][0])];
+    if (component < 0) {
+      component = result.count();
+      result.list.emplace_back().first_triangle = static_cast<Index>(i);
+    }
+    result.component_of_triangle[i] = component;
+    ++result.list[component].triangles;
+    for (Index v : triangles[i]) {
+      if (result.component_of_vertex[v] < 0) ++result.list[component].vertices;
+      result.component_of_vertex[v] = component;
+    }
+  }
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+    Component& component = result.list[result.component_of_vertex[edges.edges[e][0]]];
+    const std::size_t uses = edges.triangles_of_edge[static_cast<Index>(e)].size();
+    ++component.edges;
+    component.boundary_edges += uses == 1;
+    component.non_manifold_edges += uses > 2;
+  }
+  find_orientability(triangles, edges, result);
+  return result;
+}
+
+std::size_t count_non_manifold_vertices(std::span<const Triangle> triangles, Index vertex_count,
+                                        const EdgeTable& edges) {
+  // Fans are sets of corners, corner k of triangle i being 3 i + k.
+  UnionFind fans(3 * triangles.size());
+  const auto corner = [&](Index t, Index v) {
+    const Triangle& triangle = triangles[t];
+    return 3 * t + (triangle[0] == v ? 0 : triangle[1] == v ? 1 : 2);
+  };
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+    const auto around = edges.triangles_of_edge[static_cast<Index>(e)];
+    for (std::size_t i = 1; i < around.size(); ++i)
+      for (Index v : edges.edges[e]) fans.unite(corner(around[0], v), corner(around[i], v));
+  }
+  std::vector<Index> fan_of_vertex(static_cast<std::size_t>(vertex_count), -1);
+  std::vector<std::uint8_t> several(static_cast<std::size_t>(vertex_count), 0);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (Index v : triangles[i]) {
+      const Index fan = fans.find(corner(static_cast<Index>(i), v));
+      if (fan_of_vertex[v] < 0) fan_of_vertex[v] = fan;
+      if (fan_of_vertex[v] != fan) several[v] = 1;
+    }
+  return static_cast<std::size_t>(std::count(several.begin(), several.end(), 1));
+}
+
+std::vector<std::vector<Index>> duplicate_triangles(std::span<const Triangle> triangles) {
+  struct Entry {
+    Triangle sorted;
+    Index triangle;
+    auto operator<=>(const Entry&) const = default;
+  };
+  std::vector<Entry> entries(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    entries[i] = {triangles[i], static_cast<Index>(i)};
+    std::sort(entries[i].sorted.begin(), entries[i].sorted.end());
+  }
+  std::sort(entries.begin(), entries.end());
+  std::vector<std::vector<Index>> groups;
+  for (std::size_t i = 0; i < entries.size();) {
+    std::size_t end = i + 1;
+    while (end < entries.size() && entries[end].sorted == entries[i].sorted) ++end;
+    if (end - i > 1) {
+      groups.emplace_back();
+      for (; i < end; ++i) groups.back().push_back(entries[i].triangle);
+    }
+    i = end;
+  }
+  std::sort(groups.begin(), groups.end());
+  return groups;
+}
+
+Topology describe_topology(const SurfaceView& surface, const Identification& identification,
+                           const Triangulation& triangulation, const EdgeTable& edges, const Components& components) {
+  Topology topology;
+  const std::vector<Triangle>& triangles = triangulation.triangles;
+  topology.vertices = static_cast<std::size_t>(identification.count);
+  topology.faces = surface.face_count();
+  topology.triangles = triangles.size();
+  topology.components = components.list.size();
+  for (const Component& component : components.list) {
+    topology.boundary_edges += static_cast<std::size_t>(component.boundary_edges);
+    topology.non_manifold_edges += static_cast<std::size_t>(component.non_manifold_edges);
+    topology.closed_components += component.closed();
+    topology.non_orientable_components += !component.orientable;
+  }
+  topology.non_manifold_vertices = count_non_manifold_vertices(triangles, identification.count, edges);
+  for (const auto& group : duplicate_triangles(triangles)) topology.duplicate_faces += group.size() - 1;
+  topology.duplicate_vertices = identification.merged;
+
+  std::vector<std::uint8_t> used(static_cast<std::size_t>(identification.count), 0), has_area(topology.faces, 0);
+  for (Index v : surface.corners) used[identification.vertex_of[v]] = 1;
+  topology.unused_vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), 0));
+  const auto position = [&](Index v) {
+    const double* p = &surface.positions[3 * static_cast<std::size_t>(identification.first[v])];
+    return Vec3(p[0], p[1], p[2]);
+  };
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    std::uint8_t& seen = has_area[triangulation.polygon[i]];
+    if (!seen) seen = !collinear(position(triangles[i][0]), position(triangles[i][1]), position(triangles[i][2]));
+  }
+  topology.zero_area_faces = static_cast<std::size_t>(std::count(has_area.begin(), has_area.end(), 0));
+  return topology;
+}
+
+}  // namespace unsnarl

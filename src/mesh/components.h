@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "geometry/types.h"
+#include "mesh/adjacency.h"
+#include "mesh/identification.h"
+#include "mesh/triangulation.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+
+/// A set of triangles connected through shared vertices.
+struct Component {
+  Index first_triangle = 0;
+  Index triangles = 0;
+  Index vertices = 0;
+  Index edges = 0;
+  Index boundary_edges = 0;      ///< edges of one triangle
+  Index non_manifold_edges = 0;  ///< edges of three or more
+  bool orientable = true;        ///< its triangles can be turned so that all edges of two triangles run both ways
+
+  Index euler_characteristic() const { return vertices - edges + triangles; }
+  /// Every edge has exactly two triangles.
+  bool closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
+  /// Such a surface has no embedding in space: no motion of its vertices can resolve it.
+  bool obstructed() const { return closed() && !orientable; }
+};
+
+struct Components {
+  std::vector<Component> list;               ///< in the order of their first triangles
+  std::vector<Index> component_of_triangle;
+  std::vector<Index> component_of_vertex;    ///< -1: unused vertex
+  Index count() const { return static_cast<Index>(list.size()); }
+};
+
+/// Components of triangles over vertices 0 .. vertex_count - 1; `edges` is build_edges(triangles).
+Components find_components(std::span<const Triangle> triangles, Index vertex_count, const EdgeTable& edges);
+
+/// Number of vertices at which the triangles around the vertex do not hang together through edges at it (bow ties).
+std::size_t count_non_manifold_vertices(std::span<const Triangle> triangles, Index vertex_count,
+                                        const EdgeTable& edges);
+
+/// Groups of two or more triangles on the same three vertices, in any order of the vertices; triangles ascending within
+/// a group, groups in the order of their first triangles.
+std::vector<std::vector<Index>> duplicate_triangles(std::span<const Triangle> triangles);
+
+/// Everything that RepairReport::topology holds. `vertices` counts identified ones; `duplicate_faces` the triangles
+/// beyond the first of each group; `zero_area_faces` the faces of which no triangle has any area;
+/// `duplicate_vertices` what Identification::merged counts.
+Topology describe_topology(const SurfaceView& surface, const Identification& identification,
+                           const Triangulation& triangulation, const EdgeTable& edges, const Components& components);
+
+}  // namespace unsnarl

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "geometry/types.h"
+#include "unsnarl/intersections.h"
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+/// Which vertices of the file count as one.
+struct Identification {
+  std::vector<Index> vertex_of;  ///< file vertex -> identified vertex; dense ids in the order of first occurrence
+  std::vector<Index> first;      ///< identified vertex -> the first file vertex that it stands for
+  Index count = 0;               ///< number of identified vertices
+  std::size_t merged = 0;        ///< file vertices that count as an earlier one
+};
+
+/// Decides it from the positions of the surface, with "equal" meaning exactly equal (-0.0 equals 0.0), or, where
+/// `tolerance` > 0, joined by a chain of positions no further apart than it.
+///
+/// Weld::seams, in three steps:
+///  (a) a shell is a set of faces connected through shared vertex ids;
+///  (b) two boundary edges (used by one face) with equal end points are glued, and their shells become one, unless
+///      the two faces have equal corners (coincident sheets, as of two-sided hair cards, stay apart). Where more than
+///      two edges meet, edges of one shell find their partners first, opposite directions before equal ones; what no
+///      pairing settles is glued together;
+///  (c) boundary vertices of one shell at equal positions become one, again unless coincident faces would collapse.
+/// Interior vertices are never glued: pinches and double curves that pass through mesh points stay as they are.
+///
+/// Precondition: valid ids, finite coordinates (see require_valid).
+Identification identify(const SurfaceView& surface, Weld weld = Weld::seams, double tolerance = 0);
+
+/// Class of each vertex by position alone, in the order of first occurrence; what Weld::all glues.
+std::vector<Index> position_classes(std::span<const double> positions, double tolerance = 0);
+
+/// Throws std::invalid_argument naming the first corner that names no vertex, offset that is out of order, or
+/// coordinate that is not finite.
+void require_valid(const SurfaceView& surface);
+
+}  // namespace unsnarl

@@ -1,0 +1,204 @@
+#include "mesh/triangulation.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace unsnarl {
+namespace {
+
+/// Polygons cut by one task; the tasks do not depend on the number of threads.
+constexpr std::size_t polygons_in_block = 8192;
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Summed from the left: near-ties are decided by rounding, and independent checkers must decide them alike.
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Cuts polygons one after another, keeping its memory.
+class PolygonCutter {
+ public:
+  PolygonCutter(const SurfaceView& surface, CutStatistics& statistics) : surface_(surface), statistics_(statistics) {}
+
+  /// Calls emit(a, b, c) with the file vertices of each triangle.
+  template <class Emit>
+  void cut(std::span<const Index> corners, Emit&& emit) {
+    if (corners.size() < 3) {
+      ++statistics_.too_small;
+    } else if (corners.size() == 3) {
+      ++statistics_.triangles;
+      emit(corners[0], corners[1], corners[2]);
+    } else {
+      find_mean_normal(corners);
+      if (corners.size() == 4)
+        cut_quad(corners[0], corners[1], corners[2], corners[3], emit);
+      else
+        clip_ears(corners, emit);
+    }
+  }
+
+ private:
+  Vec3 position(Index v) const {
+    const double* p = &surface_.positions[3 * static_cast<std::size_t>(v)];
+    return {p[0], p[1], p[2]};
+  }
+
+  void find_mean_normal(std::span<const Index> corners) {
+    const Vec3 origin = position(corners[0]);
+    normal_ = Vec3::Zero();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3 a = position(corners[k]) - origin, b = position(corners[(k + 1) % corners.size()]) - origin;
+      normal_ += cross(a, b);
+    }
+  }
+
+  /// Positive where a, b, c turn left as seen against the mean normal.
+  double side(Index a, Index b, Index c) const {
+    const Vec3 origin = position(a);
+    return dot(normal_, cross(position(b) - origin, position(c) - origin));
+  }
+
+  template <class Emit>
+  void cut_quad(Index a, Index b, Index c, Index d, Emit&& emit) {
+    ++statistics_.quads;
+    const bool first_is_flat = std::min(side(a, b, c), side(a, c, d)) > 0;
+    if (first_is_flat || std::min(side(b, c, d), side(b, d, a)) <= 0) {
+      emit(a, b, c);
+      emit(a, c, d);
+    } else {
+      ++statistics_.quads_other_diagonal;
+      emit(b, c, d);
+      emit(b, d, a);
+    }
+  }
+
+  /// What is known about a corner as an ear. A blocked one stays blocked while its witness is there.
+  struct Ear {
+    enum class State : std::uint8_t { unknown, free, reflex, blocked };
+    State state = State::unknown;
+    Index witness = 0;  // place of a corner that lies in the ear
+  };
+
+  /// Always cuts the first ear from the start of the polygon. What is known about the others is kept, so that a polygon
+  /// with k corners costs about k^2 instead of k^3.
+  template <class Emit>
+  void clip_ears(std::span<const Index> corners, Emit&& emit) {
+    ++statistics_.clipped;
+    const auto n = static_cast<Index>(corners.size());
+    ring_.resize(n);
+    for (Index i = 0; i < n; ++i) ring_[i] = i;
+    ears_.assign(n, {});
+    gone_.assign(n, 0);
+    while (ring_.size() > 3) {
+      const std::size_t m = ring_.size();
+      std::size_t k = 0;
+      while (k < m && !is_ear(corners, k)) ++k;
+      if (k == m) {
+        ++statistics_.forced_ears;
+        k = 0;
+      }
+      const Index before = ring_[(k + m - 1) % m], here = ring_[k], after = ring_[(k + 1) % m];
+      emit(corners[before], corners[here], corners[after]);
+      gone_[here] = 1;
+      ears_[before].state = ears_[after].state = Ear::State::unknown;
+      ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    emit(corners[ring_[0]], corners[ring_[1]], corners[ring_[2]]);
+  }
+
+  bool is_ear(std::span<const Index> corners, std::size_t k) {
+    Ear& ear = ears_[ring_[k]];
+    if (ear.state == Ear::State::free) return true;
+    if (ear.state == Ear::State::reflex) return false;
+    if (ear.state == Ear::State::blocked && !gone_[ear.witness]) return false;
+    const std::size_t m = ring_.size();
+    const Index a = corners[ring_[(k + m - 1) % m]], b = corners[ring_[k]], c = corners[ring_[(k + 1) % m]];
+    if (side(a, b, c) <= 0) {
+      ear.state = Ear::State::reflex;
+      return false;
+    }
+    for (Index place : ring_) {
+      const Index x = corners[place];
+      if (x == a || x == b || x == c) continue;
+      if (side(a, b, x) >= 0 && side(b, c, x) >= 0 && side(c, a, x) >= 0) {
+        ear.state = Ear::State::blocked;
+        ear.witness = place;
+        return false;
+      }
+    }
+    ear.state = Ear::State::free;
+    return true;
+  }
+
+  const SurfaceView& surface_;
+  CutStatistics& statistics_;
+  Vec3 normal_;
+  std::vector<Index> ring_;  // places (corner numbers) still there, in order
+  std::vector<Ear> ears_;    // by place
+  std::vector<std::uint8_t> gone_;
+};
+
+void add(CutStatistics& sum, const CutStatistics& part) {
+  sum.triangles += part.triangles;
+  sum.quads += part.quads;
+  sum.quads_other_diagonal += part.quads_other_diagonal;
+  sum.clipped += part.clipped;
+  sum.forced_ears += part.forced_ears;
+  sum.too_small += part.too_small;
+  sum.dropped += part.dropped;
+}
+
+}  // namespace
+
+Triangulation triangulate(const SurfaceView& surface, std::span<const Index> vertex_of) {
+  const std::size_t count = surface.face_count();
+  std::vector<Triangulation> blocks((count + polygons_in_block - 1) / polygons_in_block);
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+    Triangulation& block = blocks[i];
+    PolygonCutter cutter(surface, block.statistics);
+    const std::size_t end = std::min(count, (i + 1) * polygons_in_block);
+    for (std::size_t f = i * polygons_in_block; f < end; ++f)
+      cutter.cut(surface.face(f), [&](Index a, Index b, Index c) {
+        const Triangle t = vertex_of.empty() ? Triangle{a, b, c} : Triangle{vertex_of[a], vertex_of[b], vertex_of[c]};
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+          ++block.statistics.dropped;
+          return;
+        }
+        block.triangles.push_back(t);
+        block.polygon.push_back(static_cast<Index>(f));
+      });
+  });
+
+  Triangulation result;
+  std::size_t total = 0;
+  for (const Triangulation& block : blocks) total += block.triangles.size();
+  result.triangles.reserve(total);
+  result.polygon.reserve(total);
+  for (const Triangulation& block : blocks) {
+    result.triangles.insert(result.triangles.end(), block.triangles.begin(), block.triangles.end());
+    result.polygon.insert(result.polygon.end(), block.polygon.begin(), block.polygon.end());
+    add(result.statistics, block.statistics);
+  }
+  return result;
+}
+
+std::string CutStatistics::describe() const {
+  std::string text;
+  const auto say = [&](std::size_t number, const std::string& what) {
+    if (number == 0) return;
+    if (!text.empty()) text += ", ";
+    text += std::to_string(number) + " " + what;
+  };
+  say(triangles, "triangles as they are");
+  say(quads - quads_other_diagonal, "quads cut from their first corner");
+  say(quads_other_diagonal, "quads cut from their second corner");
+  say(clipped, "larger polygons cut ear by ear");
+  say(forced_ears, "of these ears forced");
+  say(too_small, "faces with fewer than three corners");
+  say(dropped, "triangles with a repeated vertex left out");
+  return text.empty() ? "no faces" : text;
+}
+
+}  // namespace unsnarl

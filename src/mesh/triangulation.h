@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/types.h"
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+/// How the polygons of a surface were cut; part of the report, since a result holds for this cut.
+struct CutStatistics {
+  std::size_t triangles = 0;             ///< polygons with three corners, taken as they are
+  std::size_t quads = 0;                 ///< polygons with four corners
+  std::size_t quads_other_diagonal = 0;  ///< of these: cut from the second corner, since the first diagonal folds
+  std::size_t clipped = 0;               ///< polygons with more corners, cut by ear clipping
+  std::size_t forced_ears = 0;           ///< ears cut although none was convex and empty (twisted polygons)
+  std::size_t too_small = 0;             ///< polygons with fewer than three corners: no triangle
+  std::size_t dropped = 0;               ///< triangles left out because two of their corners are one vertex
+
+  /// One sentence for a person; names only what occurs.
+  std::string describe() const;
+};
+
+/// A surface cut into triangles.
+struct Triangulation {
+  std::vector<Triangle> triangles;  ///< of identified vertices (or file vertices, if no map was given)
+  std::vector<Index> polygon;       ///< face of the surface that each triangle comes from, ascending
+  CutStatistics statistics;
+};
+
+/// Cuts every polygon once, by the positions given: a quad along the diagonal from its first corner, or along the other
+/// where that one folds and the other does not; a larger polygon by ear clipping in its mean plane, as it is often
+/// concave. `vertex_of` (file vertex -> identified vertex, see Identification) renames the corners after the cut;
+/// triangles with a repeated vertex are then left out and counted. Empty: no renaming.
+///
+/// Precondition: valid ids, finite coordinates. The result does not depend on the number of threads.
+Triangulation triangulate(const SurfaceView& surface, std::span<const Index> vertex_of = {});
+
+}  // namespace unsnarl

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "geometry/types.h"
+
+namespace unsnarl {
+
+/// Disjoint sets of 0 .. n - 1. The root of a set is its smallest member, whatever the order of the unions.
+class UnionFind {
+ public:
+  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+
+  Index find(Index i) {
+    while (parent_[i] != i) {
+      parent_[i] = parent_[parent_[i]];
+      i = parent_[i];
+    }
+    return i;
+  }
+  /// False where both were in one set already.
+  bool unite(Index i, Index j) {
+    i = find(i);
+    j = find(j);
+    if (i == j) return false;
+    if (j < i) std::swap(i, j);
+    parent_[j] = i;
+    return true;
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+}  // namespace unsnarl
