@@ -16,6 +16,8 @@ TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {
   return {x.col(t[first]), x.col(t[(first + 1) % 3]), x.col(t[(first + 2) % 3])};
 }
 
+bool uses_a_vertex_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
 }  // namespace
 
 bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairClass& kind) {
@@ -30,6 +32,10 @@ bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairCl
         ++shared_count;
         break;
       }
+  if (shared_count >= 2 && (uses_a_vertex_twice(a) || uses_a_vertex_twice(b))) {
+    kind = PairClass::degenerate;
+    return degenerate_triangles_meet(rotated(x, a, 0), rotated(x, b, 0), shared);
+  }
   if (shared_count == 3) {
     kind = PairClass::duplicate;
     return true;

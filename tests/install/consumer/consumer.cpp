@@ -7,7 +7,7 @@
 
 int main() {
   unsnarl::Surface surface;
-  surface.positions = {0, 0, 0, 2, 0, 0, 0, 2, 0,  //
+  surface.positions = {0,   0,   0,  2,   0,   0,   0,   2,   0,  //
                        0.5, 0.5, -1, 0.6, 0.5, 0.1, 0.5, 0.6, 0.1};
   surface.corners = {0, 1, 2, 3, 4, 5};
 
