@@ -1,0 +1,110 @@
+#include "mesh/components.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh/shapes.h"
+
+namespace unsnarl {
+namespace {
+
+using namespace shapes;
+
+Index vertex_count(const std::vector<Triangle>& triangles) {
+  Index n = 0;
+  for (const Triangle& t : triangles) n = std::max({n, t[0] + 1, t[1] + 1, t[2] + 1});
+  return n;
+}
+
+Component only_component(const std::vector<Triangle>& triangles) {
+  const Components found = find_components(triangles, vertex_count(triangles), build_edges(triangles));
+  EXPECT_EQ(found.count(), 1);
+  return found.list.at(0);
+}
+
+TEST(Components, TorusIsClosedAndOrientable) {
+  const Component torus = only_component(torus_triangles(6, 5));
+  EXPECT_TRUE(torus.closed());
+  EXPECT_TRUE(torus.orientable);
+  EXPECT_FALSE(torus.obstructed());
+  EXPECT_EQ(torus.euler_characteristic(), 0);
+  EXPECT_EQ(torus.vertices, 30);
+}
+
+TEST(Components, TurnedTrianglesDoNotMakeItNonOrientable) {
+  std::vector<Triangle> triangles = torus_triangles(6, 5);
+  for (std::size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i][0], triangles[i][1]);
+  EXPECT_TRUE(only_component(triangles).orientable);
+}
+
+TEST(Components, KleinBottleIsObstructed) {
+  const Component bottle = only_component(klein_bottle_triangles(6, 5));
+  EXPECT_TRUE(bottle.closed());
+  EXPECT_FALSE(bottle.orientable);
+  EXPECT_TRUE(bottle.obstructed());
+  EXPECT_EQ(bottle.euler_characteristic(), 0);
+}
+
+TEST(Components, MoebiusStripHasABoundaryAndMayBeEmbedded) {
+  const Component strip = only_component(moebius_triangles(7, 2));
+  EXPECT_FALSE(strip.closed());
+  EXPECT_FALSE(strip.orientable);
+  EXPECT_FALSE(strip.obstructed());
+  EXPECT_EQ(strip.boundary_edges, 14);
+  EXPECT_EQ(strip.euler_characteristic(), 0);
+}
+
+TEST(Components, AreNumberedByTheirFirstTriangles) {
+  std::vector<Triangle> triangles = {{7, 8, 9}, {0, 1, 2}, {8, 9, 10}, {2, 3, 4}};
+  const Components found = find_components(triangles, 12, build_edges(triangles));
+  ASSERT_EQ(found.count(), 2);
+  EXPECT_EQ(found.component_of_triangle, (std::vector<Index>{0, 1, 0, 1}));
+  EXPECT_EQ(found.component_of_vertex[11], -1);
+  EXPECT_EQ(found.component_of_vertex[10], 0);
+  EXPECT_EQ(found.list[1].first_triangle, 1);
+  EXPECT_EQ(found.list[1].vertices, 5);
+  EXPECT_EQ(count_non_manifold_vertices(triangles, 12, build_edges(triangles)), 1u);  // vertex 2: a bow tie
+}
+
+TEST(Components, ThreeSheetsOnOneEdgeAreNotManifold) {
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  const Component component = only_component(triangles);
+  EXPECT_EQ(component.non_manifold_edges, 1);
+  EXPECT_EQ(component.boundary_edges, 6);
+  EXPECT_FALSE(component.closed());
+  EXPECT_EQ(count_non_manifold_vertices(triangles, 5, build_edges(triangles)), 0u);
+}
+
+TEST(Components, DuplicatesAreFoundInAnyOrderOfCorners) {
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {3, 1, 0}, {2, 0, 1}, {0, 1, 3}, {2, 1, 0}, {4, 5, 6}};
+  EXPECT_EQ(duplicate_triangles(triangles), (std::vector<std::vector<Index>>{{0, 2, 4}, {1, 3}}));
+}
+
+TEST(Topology, OfASoupWithDefects) {
+  Surface s = exploded(cube());
+  const Index a = add_vertex(s, 5, 5, 5), b = add_vertex(s, 6, 6, 6), c = add_vertex(s, 7, 7, 7);
+  add_vertex(s, 9, 9, 9);     // unused
+  add_face(s, {a, b, c});     // no area
+  add_face(s, {c, b, a});     // and a duplicate
+  const Identification id = identify(s);
+  const Triangulation cut = triangulate(s, id.vertex_of);
+  const EdgeTable edges = build_edges(cut.triangles);
+  const Topology topology =
+      describe_topology(s, id, cut, edges, find_components(cut.triangles, id.count, edges));
+  EXPECT_EQ(topology.vertices, 12u);
+  EXPECT_EQ(topology.faces, 8u);
+  EXPECT_EQ(topology.triangles, 14u);
+  EXPECT_EQ(topology.components, 2u);
+  EXPECT_EQ(topology.boundary_edges, 0u);
+  EXPECT_EQ(topology.non_manifold_edges, 0u);
+  EXPECT_EQ(topology.duplicate_faces, 1u);
+  EXPECT_EQ(topology.zero_area_faces, 2u);
+  EXPECT_EQ(topology.duplicate_vertices, 16u);
+  EXPECT_EQ(topology.unused_vertices, 1u);
+  EXPECT_EQ(topology.closed_components, 2u);
+  EXPECT_EQ(topology.non_orientable_components, 0u);
+}
+
+}  // namespace
+}  // namespace unsnarl

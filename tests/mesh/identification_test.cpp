@@ -1,0 +1,229 @@
+#include "mesh/identification.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "mesh/shapes.h"
+
+namespace unsnarl {
+namespace {
+
+using namespace shapes;
+
+void expect_consistent(const Surface& s, const Identification& id) {
+  ASSERT_EQ(id.vertex_of.size(), s.positions.size() / 3);
+  ASSERT_EQ(static_cast<std::size_t>(id.count), id.first.size());
+  EXPECT_EQ(id.merged, id.vertex_of.size() - id.first.size());
+  Index next = 0;
+  for (std::size_t v = 0; v < id.vertex_of.size(); ++v) {
+    ASSERT_LE(id.vertex_of[v], next);
+    if (id.vertex_of[v] == next) {
+      EXPECT_EQ(id.first[next++], static_cast<Index>(v));
+    }
+  }
+}
+
+Index count_of(const Surface& s, Weld weld = Weld::seams, double tolerance = 0) {
+  const Identification id = identify(s, weld, tolerance);
+  expect_consistent(s, id);
+  return id.count;
+}
+
+TEST(Identification, NoneKeepsEveryVertex) { EXPECT_EQ(count_of(exploded(cube()), Weld::none), 24); }
+
+TEST(Identification, CornersOfASoupBecomeTheOctahedron) {
+  const Surface s = exploded(octahedron());
+  EXPECT_EQ(count_of(s), 6);
+  const Identification id = identify(s);
+  for (std::size_t v = 0; v < id.vertex_of.size(); ++v)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(s.positions[3 * v + k], s.positions[3 * id.first[id.vertex_of[v]] + k]);
+}
+
+TEST(Identification, SixSeparateQuadsBecomeACube) { EXPECT_EQ(count_of(exploded(cube())), 8); }
+
+TEST(Identification, MinusZeroIsZero) {
+  Surface s = exploded(cube());
+  for (std::size_t i = 0; i < s.positions.size(); i += 2)
+    if (s.positions[i] == 0) s.positions[i] = -0.0;
+  EXPECT_EQ(count_of(s), 8);
+  EXPECT_EQ(count_of(s, Weld::all), 8);
+}
+
+TEST(Identification, ClosedSolidsThatTouchStayApart) {
+  Surface s = cube();
+  append(s, cube(), 1, 0, 0);  // share a face by position
+  append(s, cube(), 0, 1, 1);  // an edge
+  EXPECT_EQ(count_of(s), 24);
+  EXPECT_EQ(count_of(s, Weld::all), 18);
+}
+
+TEST(Identification, SoupOfCubesTouchingInAFaceStaysTwoCubes) {
+  Surface s = exploded(cube());
+  append(s, exploded(cube()), 1, 0, 0);
+  EXPECT_EQ(count_of(s), 16);
+}
+
+TEST(Identification, SoupOfCubesTouchingInAnEdgeStaysTwoCubes) {
+  Surface s = exploded(cube());
+  append(s, exploded(cube()), 1, 1, 0);
+  EXPECT_EQ(count_of(s), 16);
+}
+
+TEST(Identification, SoupOfCubesTouchingInACornerStaysTwoCubes) {
+  Surface s = exploded(cube());
+  append(s, exploded(cube()), 1, 1, 1);
+  EXPECT_EQ(count_of(s), 16);
+}
+
+TEST(Identification, TwoCopiesOfASolidStayTwo) {
+  Surface s = exploded(octahedron());
+  append(s, exploded(octahedron()));
+  EXPECT_EQ(count_of(s), 12);
+}
+
+/// A strip of quads in the plane z = 0, front and back as separate sheets.
+Surface card(Index n, bool soup) {
+  Surface front, back;
+  for (Index i = 0; i <= n; ++i)
+    for (Index j = 0; j < 2; ++j) {
+      add_vertex(front, i, j, 0);
+      add_vertex(back, i, j, 0);
+    }
+  for (Index i = 0; i < n; ++i) {
+    add_face(front, {2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+    add_face(back, {2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2});
+  }
+  Surface s = soup ? exploded(front) : front;
+  append(s, soup ? exploded(back) : back);
+  return s;
+}
+
+TEST(Identification, TwoSidedCardIsNotGlued) { EXPECT_EQ(count_of(card(4, false)), 20); }
+TEST(Identification, TwoSidedCardAsSoupBecomesTwoSheets) { EXPECT_EQ(count_of(card(4, true)), 20); }
+
+TEST(Identification, TwoSidedCardHangingOnOneEdgeIsNotGlued) {
+  // Front and back share the vertices of one end, so that they are one shell.
+  Surface s = card(4, false);
+  for (Index& v : s.corners)
+    if (v == 10 || v == 11) v -= 10;
+  EXPECT_EQ(count_of(s), 20);  // 18 and the two that are not used now
+}
+
+TEST(Identification, SeamOfASheetIsGluedAlsoWhereOrientationsDiffer) {
+  for (const bool flipped : {false, true}) {
+    Surface s;
+    for (int i = 0; i < 2; ++i) {
+      add_vertex(s, 0, 0, 0);
+      add_vertex(s, 0, 1, 0);
+      add_vertex(s, i == 0 ? -1 : 1, 0, 0);
+    }
+    add_face(s, {0, 2, 1});
+    add_face(s, flipped ? std::vector<Index>{3, 5, 4} : std::vector<Index>{3, 4, 5});
+    EXPECT_EQ(count_of(s), 4);
+  }
+}
+
+TEST(Identification, PagesOnOneSpineAreGluedToIt) {
+  for (const int pages : {3, 4, 5, 12}) {
+    Surface s;
+    for (int i = 0; i < pages; ++i) {
+      const Index a = add_vertex(s, 0, 0, 0), b = add_vertex(s, 0, 0, 1), c = add_vertex(s, 1, i, 0.5);
+      add_face(s, i % 2 == 0 ? std::vector<Index>{a, b, c} : std::vector<Index>{b, a, c});
+    }
+    EXPECT_EQ(count_of(s), 2 + pages);
+  }
+}
+
+TEST(Identification, PinchedInteriorIsNotGlued) {
+  // Two pyramids whose apexes meet, joined by nothing else: interior vertices, hence apart.
+  Surface s;
+  for (int side = 0; side < 2; ++side) {
+    const Index apex = add_vertex(s, 0, 0, 0);
+    const double z = side == 0 ? 1 : -1;
+    const Index a = add_vertex(s, 1, 0, z);
+    add_vertex(s, 0, 1, z);
+    add_vertex(s, -1, -1, z);
+    for (Index k = 0; k < 3; ++k) add_face(s, {apex, a + k, a + (k + 1) % 3});
+  }
+  EXPECT_EQ(count_of(s), 8);
+  EXPECT_EQ(count_of(s, Weld::all), 7);
+}
+
+TEST(Identification, SheetWrappedTwiceKeepsBothLayers) {
+  const Index n = 8;  // quads a turn, sampled on the same points in both turns
+  Surface s;
+  for (Index i = 0; i <= 2 * n; ++i)
+    for (Index j = 0; j < 3; ++j) add_vertex(s, std::cos((i % n) * 0.7), std::sin((i % n) * 0.7), j);
+  for (Index i = 0; i < 2 * n; ++i)
+    for (Index j = 0; j < 2; ++j) add_face(s, {3 * i + j, 3 * i + 3 + j, 3 * i + 4 + j, 3 * i + 1 + j});
+  // The ends of the sheet meet each other (a closed double loop), the layers stay apart.
+  EXPECT_EQ(count_of(s), 6 * n);
+}
+
+TEST(Identification, PoleSplitAlongAZeroLengthEdgeIsOne) {
+  // A fan whose apex was split for texture coordinates, with a zero-area quad side there.
+  Surface s;
+  s.positions = {0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0};
+  add_face(s, {0, 2, 3});
+  add_face(s, {1, 0, 3, 4});
+  EXPECT_EQ(count_of(s), 4);
+}
+
+TEST(Identification, ToleranceJoinsNearCorners) {
+  Surface s = exploded(cube());
+  for (std::size_t i = 0; i < s.positions.size(); ++i) s.positions[i] += 1e-7 * static_cast<double>(i);
+  EXPECT_EQ(count_of(s), 24);
+  EXPECT_EQ(count_of(s, Weld::seams, 2e-5), 8);
+  EXPECT_EQ(count_of(s, Weld::all, 2e-5), 8);
+  EXPECT_EQ(count_of(s, Weld::all, 1e-8), 24);
+}
+
+TEST(Identification, ToleranceWorksAcrossCellsAndFarFromTheOrigin) {
+  Surface s;
+  add_vertex(s, 1e9, -0.001, 0);
+  add_vertex(s, 1e9, 0.001, 0);
+  add_vertex(s, 1e9, 0.1, 0);
+  EXPECT_EQ(count_of(s, Weld::all, 0.01), 2);
+}
+
+TEST(Identification, NothingIn) { EXPECT_EQ(count_of(Surface{}), 0); }
+
+std::string complaint(const Surface& s) {
+  try {
+    require_valid(s);
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return {};
+}
+
+TEST(RequireValid, SaysWhatIsWrongAndWhere) {
+  EXPECT_EQ(complaint(cube()), "");
+  Surface s = cube();
+  s.corners[5] = 8;
+  EXPECT_NE(complaint(s).find("face 1 uses vertex 8, but there are 8"), std::string::npos) << complaint(s);
+  s = cube();
+  s.corners[0] = -1;
+  EXPECT_NE(complaint(s), "");
+  s = cube();
+  s.positions[4] = std::numeric_limits<double>::infinity();
+  EXPECT_NE(complaint(s).find("vertex 1 "), std::string::npos);
+  s = cube();
+  s.offsets[2] = 99;
+  EXPECT_NE(complaint(s), "");
+  s = cube();
+  s.offsets.back() = 3;
+  EXPECT_NE(complaint(s), "");
+  s = cube();
+  s.offsets.clear();
+  s.corners.resize(4);
+  EXPECT_NE(complaint(s), "");
+  s = cube();
+  s.positions.pop_back();
+  EXPECT_NE(complaint(s), "");
+}
+
+}  // namespace
+}  // namespace unsnarl

@@ -1,0 +1,215 @@
+#include "mesh/triangulation.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <random>
+
+#include "mesh/identification.h"
+#include "mesh/shapes.h"
+
+namespace unsnarl {
+namespace {
+
+using namespace shapes;
+
+Vec3 at(const Surface& s, Index v) { return {s.positions[3 * v], s.positions[3 * v + 1], s.positions[3 * v + 2]}; }
+
+Surface polygon(const std::vector<std::array<double, 3>>& points) {
+  Surface s;
+  std::vector<Index> corners;
+  for (const auto& p : points) corners.push_back(add_vertex(s, p[0], p[1], p[2]));
+  add_face(s, corners);
+  return s;
+}
+
+/// Sum of areas seen along z, each triangle with its own sign; smallest of them in `smallest`.
+double signed_area(const Surface& s, const Triangulation& cut, double& smallest) {
+  double sum = 0;
+  smallest = 1e300;
+  for (const Triangle& t : cut.triangles) {
+    const double area = 0.5 * (at(s, t[1]) - at(s, t[0])).cross(at(s, t[2]) - at(s, t[0]))[2];
+    sum += area;
+    smallest = std::min(smallest, area);
+  }
+  return sum;
+}
+
+TEST(Triangulation, TrianglesStayAsTheyAre) {
+  const Triangulation cut = triangulate(octahedron());
+  ASSERT_EQ(cut.triangles.size(), 8u);
+  EXPECT_EQ(cut.triangles[1], (Triangle{2, 1, 4}));
+  EXPECT_EQ(cut.polygon[7], 7);
+  EXPECT_EQ(cut.statistics.triangles, 8u);
+}
+
+TEST(Triangulation, ConvexQuadIsCutFromItsFirstCorner) {
+  const Triangulation cut = triangulate(polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0.3}, {0, 1, 0}}));
+  EXPECT_EQ(cut.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(cut.polygon, (std::vector<Index>{0, 0}));
+}
+
+TEST(Triangulation, ConcaveQuadIsCutWhereItDoesNotFold) {
+  // The second corner is a dent, so the first diagonal runs outside.
+  const Surface s = polygon({{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, {1, 3, 0}});
+  const Triangulation cut = triangulate(s);
+  EXPECT_EQ(cut.triangles, (std::vector<Triangle>{{1, 2, 3}, {1, 3, 0}}));
+  EXPECT_EQ(cut.statistics.quads_other_diagonal, 1u);
+}
+
+TEST(Triangulation, QuadWhoseDentIsTheFirstCornerNeedsNoOther) {
+  const Triangulation cut = triangulate(polygon({{1, 1, 0}, {2, 0, 0}, {1, 3, 0}, {0, 0, 0}}));
+  EXPECT_EQ(cut.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(cut.statistics.quads_other_diagonal, 0u);
+}
+
+TEST(Triangulation, BowTieQuadFallsBackToTheFirstDiagonal) {
+  const Triangulation cut = triangulate(polygon({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(cut.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(Triangulation, LShapeIsCoveredOnce) {
+  const Surface s = polygon({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}});
+  const Triangulation cut = triangulate(s);
+  ASSERT_EQ(cut.triangles.size(), 4u);
+  double smallest = 0;
+  EXPECT_DOUBLE_EQ(signed_area(s, cut, smallest), 3);
+  EXPECT_GT(smallest, 0);
+  EXPECT_EQ(cut.statistics.clipped, 1u);
+  EXPECT_EQ(cut.statistics.forced_ears, 0u);
+}
+
+TEST(Triangulation, NonPlanarPolygonKeepsItsTrianglesFacingOneWay) {
+  std::vector<std::array<double, 3>> points;
+  for (int i = 0; i < 9; ++i)
+    points.push_back({std::cos(i * 0.698), std::sin(i * 0.698), 0.2 * ((i * 7) % 5)});
+  const Surface s = polygon(points);
+  const Triangulation cut = triangulate(s);
+  ASSERT_EQ(cut.triangles.size(), 7u);
+  double smallest = 0;
+  signed_area(s, cut, smallest);
+  EXPECT_GT(smallest, 0);
+}
+
+TEST(Triangulation, CombWithManyTeethIsCoveredOnce) {
+  std::vector<std::array<double, 3>> points = {{0, 0, 0}};
+  const int teeth = 60;
+  points.push_back({2.0 * teeth, 0, 0});
+  for (int i = teeth; i-- > 0;) {
+    points.push_back({2.0 * i + 2, 5, 0});
+    points.push_back({2.0 * i + 1, 1, 0});
+  }
+  points.push_back({0, 5, 0});
+  const Surface s = polygon(points);
+  const Triangulation cut = triangulate(s);
+  EXPECT_EQ(cut.triangles.size(), points.size() - 2);
+  double smallest = 0, expected = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto &a = points[i], &b = points[(i + 1) % points.size()];
+    expected += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+  }
+  EXPECT_NEAR(signed_area(s, cut, smallest), expected, 1e-9);
+  EXPECT_GE(smallest, 0);
+}
+
+/// The rule written down without any bookkeeping.
+std::vector<Triangle> cut_simply(const Surface& s, std::vector<Index> p) {
+  Vec3 n = Vec3::Zero();
+  for (std::size_t k = 0; k < p.size(); ++k)
+    n += (at(s, p[k]) - at(s, p[0])).cross(at(s, p[(k + 1) % p.size()]) - at(s, p[0]));
+  const auto side = [&](Index a, Index b, Index c) {
+    const Vec3 m = (at(s, b) - at(s, a)).cross(at(s, c) - at(s, a));
+    return n[0] * m[0] + n[1] * m[1] + n[2] * m[2];
+  };
+  std::vector<Triangle> out;
+  while (p.size() > 3) {
+    std::size_t chosen = 0;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const Index a = p[(k + p.size() - 1) % p.size()], b = p[k], c = p[(k + 1) % p.size()];
+      bool ear = side(a, b, c) > 0;
+      for (Index x : p)
+        if (ear && x != a && x != b && x != c)
+          ear = !(side(a, b, x) >= 0 && side(b, c, x) >= 0 && side(c, a, x) >= 0);
+      if (ear) {
+        chosen = k;
+        break;
+      }
+    }
+    out.push_back({p[(chosen + p.size() - 1) % p.size()], p[chosen], p[(chosen + 1) % p.size()]});
+    p.erase(p.begin() + static_cast<std::ptrdiff_t>(chosen));
+  }
+  out.push_back({p[0], p[1], p[2]});
+  return out;
+}
+
+TEST(Triangulation, BookkeepingChangesNothing) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 300; ++round) {
+    Surface s;
+    std::vector<Index> corners;
+    const int size = 5 + static_cast<int>(random() % 12);
+    const auto range = static_cast<unsigned>(2 + round % 7);  // tiny integers: ties and repeated points abound
+    for (int i = 0; i < size; ++i) {
+      if (i > 2 && random() % 10 == 0)
+        corners.push_back(corners[random() % corners.size()]);
+      else
+        corners.push_back(add_vertex(s, random() % range, random() % range, round % 3 == 0 ? random() % 2 : 0));
+    }
+    add_face(s, corners);
+    const Triangulation cut = triangulate(s);
+    std::vector<Triangle> expected = cut_simply(s, corners);
+    const std::size_t all = expected.size();
+    std::erase_if(expected, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    EXPECT_EQ(cut.triangles, expected);
+    EXPECT_EQ(cut.statistics.dropped, all - expected.size());
+  }
+}
+
+TEST(Triangulation, RepeatedCornersAreDroppedAndCounted) {
+  Surface s = polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  add_face(s, {0, 1, 1});
+  add_face(s, {0, 1, 2, 2});
+  add_face(s, {0, 1});
+  const Triangulation cut = triangulate(s);
+  EXPECT_EQ(cut.triangles.size(), 2u);
+  EXPECT_EQ(cut.polygon, (std::vector<Index>{0, 2}));
+  EXPECT_EQ(cut.statistics.dropped, 2u);
+  EXPECT_EQ(cut.statistics.too_small, 1u);
+}
+
+TEST(Triangulation, CornersAreRenamedAfterTheCut) {
+  const Surface s = exploded(cube());
+  const Identification id = identify(s);
+  const Triangulation cut = triangulate(s, id.vertex_of);
+  ASSERT_EQ(cut.triangles.size(), 12u);
+  for (const Triangle& t : cut.triangles)
+    for (Index v : t) EXPECT_LT(v, 8);
+}
+
+TEST(Triangulation, SameAtAnyThreadCount) {
+  Surface s;
+  std::mt19937 random(3);
+  for (int f = 0; f < 30000; ++f) {
+    std::vector<Index> corners;
+    for (unsigned k = 0; k < 3 + random() % 5; ++k)
+      corners.push_back(add_vertex(s, random() % 9, random() % 9, random() % 3));
+    add_face(s, corners);
+  }
+  std::vector<Triangulation> cuts;
+  for (const std::size_t threads : {1, 2, 4}) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    cuts.push_back(triangulate(s));
+  }
+  for (const Triangulation& cut : cuts) {
+    EXPECT_EQ(cut.triangles, cuts[0].triangles);
+    EXPECT_EQ(cut.polygon, cuts[0].polygon);
+  }
+}
+
+TEST(Triangulation, DescribesOnlyWhatOccurs) {
+  EXPECT_EQ(triangulate(cube()).statistics.describe(), "6 quads cut from their first corner");
+  EXPECT_EQ(CutStatistics{}.describe(), "no faces");
+}
+
+}  // namespace
+}  // namespace unsnarl
