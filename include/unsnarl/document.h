@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+enum class Format : std::uint8_t { obj, off, ply, stl, glb, gltf };
+std::string_view to_string(Format format);
+/// By the extension of a path ("a/b.OBJ"), or by the bare name of a format ("obj"). Case does not matter.
+std::optional<Format> format_from_extension(std::string_view path);
+
+/// A file cannot be read or makes no sense. The message says what, where (line or byte, face and vertex as the format
+/// counts them) and what to do.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file cannot be written.
+class WriteError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Names that a file gives to its faces, of one kind.
+struct FaceLabels {
+  std::string kind;                   ///< OBJ: "object", "group", "material"; STL: "object"; glTF: "node", "mesh", "material"
+  std::vector<std::string> names;     ///< each name once, in the order of the file
+  std::vector<std::int32_t> of_face;  ///< one entry a face: index into names, or -1
+};
+
+/// One file to write. An empty name stands for the main file; other names are relative to its folder.
+struct OutputFile {
+  std::filesystem::path name;
+  std::string bytes;
+};
+
+/// A mesh file with its bytes: positions out, positions patched back in, every other token as it was.
+///
+/// A coordinate that did not change keeps its token; without any motion the file comes back byte for byte. What
+/// follows from the positions is updated for the parts that moved: STL facet normals (unless stored as 0 0 0), glTF
+/// accessor bounds, GLB chunk lengths.
+class Document {
+ public:
+  /// Format by extension unless given. Throws FileError.
+  static Document read(const std::filesystem::path& path, std::optional<Format> format = {});
+  /// `folder` is where the external buffers of a glTF lie. Throws FileError.
+  static Document parse(std::string bytes, Format format, const std::filesystem::path& folder = {});
+
+  Document(Document&&) noexcept;
+  Document& operator=(Document&&) noexcept;
+  ~Document();
+
+  Format format() const;
+  /// Positions as a reader sees them, all finite; faces of any size >= 3, all corners in range. glTF: world space of the default scene.
+  /// STL: three vertices a facet. Faces with fewer than 3 corners stay in the file but are left out here (noted).
+  const Surface& surface() const;
+  const std::vector<FaceLabels>& face_labels() const;
+  /// Things worth telling the user, one sentence each.
+  const std::vector<std::string>& notes() const;
+  /// The file holds 32-bit floats (STL, glTF, PLY with float positions), so `float32_digits` makes no difference.
+  bool stores_float32() const;
+
+  /// The files to write, the main file first; then the external buffers of a glTF.
+  /// positions: as many as in surface(), finite. float32_digits: in text, moved coordinates are rounded to float32 and
+  /// written with the fewest digits that give that float back; otherwise with the fewest that give the double back.
+  /// Throws FileError where the format cannot hold the change (integer positions), WriteError for coordinates beyond
+  /// float32, std::invalid_argument for a wrong count or a coordinate that is not finite.
+  std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const;
+  /// The positions that reading patched(...) back gives, bit for bit.
+  std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const;
+
+ private:
+  explicit Document(Format format, std::unique_ptr<class MeshFile> file);
+  Format format_;
+  std::unique_ptr<class MeshFile> file_;
+};
+
+/// Writes to a temporary file in the folder of `path`, flushes it to the disk, renames it: either the old file or the
+/// whole new one is there, never a part. Keeps the permissions of an existing target; follows a symbolic link;
+/// writes straight into devices and pipes. Throws WriteError, and then leaves no temporary file behind.
+void write_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace unsnarl

@@ -1,0 +1,105 @@
+#include "unsnarl/document.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "io/mesh_file.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr std::array<std::pair<Format, std::string_view>, 6> format_names = {{{Format::obj, "obj"},
+                                                                              {Format::off, "off"},
+                                                                              {Format::ply, "ply"},
+                                                                              {Format::stl, "stl"},
+                                                                              {Format::glb, "glb"},
+                                                                              {Format::gltf, "gltf"}}};
+
+std::unique_ptr<MeshFile> parse_file(std::string bytes, Format format, const std::filesystem::path& folder) {
+  switch (format) {
+    case Format::obj:
+      return parse_obj(std::move(bytes));
+    case Format::off:
+      return parse_off(std::move(bytes));
+    case Format::ply:
+      return parse_ply(std::move(bytes));
+    case Format::stl:
+      return parse_stl(std::move(bytes));
+    case Format::glb:
+      return parse_glb(std::move(bytes), folder);
+    case Format::gltf:
+      return parse_gltf(std::move(bytes), folder);
+  }
+  throw std::invalid_argument("unknown format");
+}
+
+void check_positions(const Surface& surface, std::span<const double> positions) {
+  if (positions.size() != surface.positions.size()) {
+    throw std::invalid_argument(
+        fmt::format("{} coordinates given for a file with {}", positions.size(), surface.positions.size()));
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!std::isfinite(positions[i])) {
+      throw std::invalid_argument(fmt::format("vertex {} (counting from 0) is not finite", i / 3));
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(Format format) { return format_names[static_cast<std::size_t>(format)].second; }
+
+std::optional<Format> format_from_extension(std::string_view path) {
+  std::string extension(path.substr(path.find_last_of("./\\") + 1));
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  for (const auto& [format, name] : format_names) {
+    if (extension == name) return format;
+  }
+  return std::nullopt;
+}
+
+Document::Document(Format format, std::unique_ptr<MeshFile> file) : format_(format), file_(std::move(file)) {}
+Document::Document(Document&&) noexcept = default;
+Document& Document::operator=(Document&&) noexcept = default;
+Document::~Document() = default;
+
+Document Document::read(const std::filesystem::path& path, std::optional<Format> format) {
+  if (!format) format = format_from_extension(path.string());
+  if (!format) {
+    throw FileError(fmt::format("{}: the extension does not tell the format; name one of obj, off, ply, stl, glb, gltf",
+                                path.string()));
+  }
+  std::string bytes = read_file(path);
+  try {
+    return parse(std::move(bytes), *format, path.parent_path());
+  } catch (const FileError& error) {
+    throw FileError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+Document Document::parse(std::string bytes, Format format, const std::filesystem::path& folder) {
+  return Document(format, parse_file(std::move(bytes), format, folder));
+}
+
+Format Document::format() const { return format_; }
+const Surface& Document::surface() const { return file_->surface; }
+const std::vector<FaceLabels>& Document::face_labels() const { return file_->labels; }
+const std::vector<std::string>& Document::notes() const { return file_->notes; }
+bool Document::stores_float32() const { return file_->stores_float32; }
+
+std::vector<OutputFile> Document::patched(std::span<const double> positions, bool float32_digits) const {
+  check_positions(file_->surface, positions);
+  return file_->patched(positions, float32_digits);
+}
+
+std::vector<double> Document::as_written(std::span<const double> positions, bool float32_digits) const {
+  check_positions(file_->surface, positions);
+  return file_->as_written(positions, float32_digits);
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "unsnarl/document.h"
+
+namespace unsnarl {
+
+/// One parsed file of one format. What Document promises, each format keeps here; the arguments are checked already.
+class MeshFile {
+ public:
+  MeshFile() = default;
+  MeshFile(const MeshFile&) = delete;
+  MeshFile& operator=(const MeshFile&) = delete;
+  virtual ~MeshFile() = default;
+
+  virtual std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const = 0;
+  virtual std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const = 0;
+
+  std::string bytes;  ///< the main file as it was read
+  Surface surface;
+  std::vector<FaceLabels> labels;
+  std::vector<std::string> notes;
+  bool stores_float32 = false;
+};
+
+std::unique_ptr<MeshFile> parse_obj(std::string bytes);
+std::unique_ptr<MeshFile> parse_off(std::string bytes);
+std::unique_ptr<MeshFile> parse_ply(std::string bytes);
+std::unique_ptr<MeshFile> parse_stl(std::string bytes);
+std::unique_ptr<MeshFile> parse_glb(std::string bytes, const std::filesystem::path& folder);
+std::unique_ptr<MeshFile> parse_gltf(std::string bytes, const std::filesystem::path& folder);
+
+/// Reads a regular file whole. Throws FileError (missing, a folder, a pipe, unreadable).
+std::string read_file(const std::filesystem::path& path);
+
+}  // namespace unsnarl

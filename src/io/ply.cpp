@@ -1,0 +1,505 @@
+// Stanford PLY: ASCII, binary little and big endian; any elements and properties beside the positions.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "io/byte_order.h"
+#include "io/mesh_file.h"
+#include "io/surface_builder.h"
+#include "io/text_scanner.h"
+#include "io/token_edits.h"
+
+namespace unsnarl {
+namespace {
+
+enum class Scalar : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+std::optional<Scalar> scalar_by_name(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, Scalar>, 16> names = {
+      {{"char", Scalar::int8},     {"int8", Scalar::int8},       {"uchar", Scalar::uint8},   {"uint8", Scalar::uint8},
+       {"short", Scalar::int16},   {"int16", Scalar::int16},     {"ushort", Scalar::uint16}, {"uint16", Scalar::uint16},
+       {"int", Scalar::int32},     {"int32", Scalar::int32},     {"uint", Scalar::uint32},   {"uint32", Scalar::uint32},
+       {"float", Scalar::float32}, {"float32", Scalar::float32}, {"double", Scalar::float64},
+       {"float64", Scalar::float64}}};
+  for (const auto& [known, type] : names) {
+    if (known == name) return type;
+  }
+  return std::nullopt;
+}
+
+std::size_t size_of(Scalar type) {
+  constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  return sizes[static_cast<std::size_t>(type)];
+}
+
+bool is_integer(Scalar type) { return type != Scalar::float32 && type != Scalar::float64; }
+
+double load_scalar(const char* from, Scalar type, std::endian order) {
+  switch (type) {
+    case Scalar::int8:
+      return load<std::int8_t>(from, order);
+    case Scalar::uint8:
+      return load<std::uint8_t>(from, order);
+    case Scalar::int16:
+      return load<std::int16_t>(from, order);
+    case Scalar::uint16:
+      return load<std::uint16_t>(from, order);
+    case Scalar::int32:
+      return load<std::int32_t>(from, order);
+    case Scalar::uint32:
+      return load<std::uint32_t>(from, order);
+    case Scalar::float32:
+      return load<float>(from, order);
+    case Scalar::float64:
+      break;
+  }
+  return load<double>(from, order);
+}
+
+struct Property {
+  std::string name;
+  Scalar type = Scalar::float32;
+  std::optional<Scalar> count_type;  ///< set: a list
+};
+
+struct Element {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+
+  std::optional<std::size_t> find(std::string_view property) const {
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+      if (properties[i].name == property) return i;
+    }
+    return std::nullopt;
+  }
+  /// Bytes that every record takes at least (lists being empty).
+  std::size_t smallest_record() const {
+    std::size_t size = 0;
+    for (const Property& p : properties) size += size_of(p.count_type.value_or(p.type));
+    return size;
+  }
+};
+
+struct Header {
+  bool ascii = false;
+  std::endian order = std::endian::little;
+  std::vector<Element> elements;
+  std::size_t size = 0;  ///< bytes, including the end of its last line
+};
+
+class PlyFile final : public MeshFile {
+ public:
+  std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const override {
+    const std::vector<double>& old = surface.positions;
+    const std::vector<double> written = as_written(positions, float32_digits);
+    if (ascii) {
+      TokenEdits edits;
+      for (std::size_t i = 0; i < old.size(); ++i) {
+        if (written[i] != old[i]) edits.replace_number(bytes, begin(i), positions[i], precision(i, float32_digits));
+      }
+      return {{{}, edits.apply(bytes)}};
+    }
+    std::string result = bytes;
+    for (std::size_t i = 0; i < old.size(); ++i) {
+      if (written[i] == old[i]) continue;
+      if (types[i % 3] == Scalar::float32) {
+        store(result.data() + begin(i), static_cast<float>(written[i]), order);
+      } else {
+        store(result.data() + begin(i), written[i], order);
+      }
+    }
+    return {{{}, std::move(result)}};
+  }
+
+  std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const override {
+    std::vector<double> result = surface.positions;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      if (positions[i] == result[i]) continue;
+      if (is_integer(types[i % 3])) {
+        throw FileError(fmt::format("property {} of the vertices is an integer and cannot hold the new position of vertex {} "
+                                    "(counting from 0); convert the file to float or double", "xyz"[i % 3], i / 3));
+      }
+      const double written = value_as_written(positions[i], precision(i, float32_digits));
+      if (written != result[i]) result[i] = written;
+    }
+    return result;
+  }
+
+  /// Where coordinate i starts.
+  std::size_t begin(std::size_t i) const {
+    return begins.empty() ? first + i / 3 * stride + within[i % 3] : begins[i];
+  }
+
+  bool ascii = false;
+  std::endian order = std::endian::little;
+  std::array<Scalar, 3> types{};  ///< of x, y, z
+  std::vector<std::size_t> begins;   ///< where each coordinate starts; empty where all records are of one size:
+  std::size_t first = 0, stride = 0;
+  std::array<std::size_t, 3> within{};
+
+ private:
+  TextPrecision precision(std::size_t i, bool float32_digits) const {
+    if (types[i % 3] == Scalar::float32) return TextPrecision::stored_float;
+    // In binary a double holds the float itself; only digits need the detour through text.
+    if (float32_digits) return ascii ? TextPrecision::float_digits : TextPrecision::stored_float;
+    return TextPrecision::double_digits;
+  }
+};
+
+class HeaderParser {
+ public:
+  explicit HeaderParser(std::string_view text) : text_(text), lines_(text, {}) {}
+
+  Header parse() {
+    if (text_.empty()) throw FileError("the file is empty; a PLY file starts with 'ply'");
+    if (next_word() != "ply" || !at_line_end()) throw FileError("line 1: 'ply' missing; check that it is a PLY file");
+    // In a binary file the byte after the last line could be anything, so its end looks like that of the first line.
+    const bool crlf = text_.substr(lines_.offset()).starts_with("\r\n");
+    lines_.next_line();
+    bool has_format = false;
+    for (;;) {
+      if (lines_.at_end()) lines_.fail("the file ends within the header ('end_header' missing); it is cut short");
+      line_ = lines_.offset();
+      const std::string_view word = next_word();
+      if (word == "end_header") {
+        finish(crlf);
+        break;
+      }
+      if (word == "format") {
+        format();
+        has_format = true;
+      } else if (word == "element") {
+        element();
+      } else if (word == "property") {
+        property();
+      } else if (word != "comment" && word != "obj_info" && !word.empty()) {
+        lines_.fail(fmt::format("{} is not a PLY header line", in_quotes(word)), line_);
+      }
+      lines_.next_line();
+    }
+    if (!has_format) lines_.fail("the header has no 'format' line", line_);
+    return std::move(header_);
+  }
+
+ private:
+  std::string_view next_word() {
+    lines_.skip_blanks();
+    return lines_.token();
+  }
+  bool at_line_end() { return !lines_.skip_blanks(); }
+
+  void format() {
+    const std::string_view name = next_word();
+    header_.ascii = name == "ascii";
+    header_.order = name == "binary_big_endian" ? std::endian::big : std::endian::little;
+    if (!header_.ascii && name != "binary_little_endian" && name != "binary_big_endian") {
+      lines_.fail(fmt::format("unknown format {}; ascii, binary_little_endian or binary_big_endian is possible", in_quotes(name)),
+                  line_);
+    }
+  }
+  void element() {
+    Element result;
+    result.name = next_word();
+    lines_.skip_blanks();
+    std::int64_t count = 0;
+    if (!lines_.integer(count) || count < 0) lines_.fail("an element line is 'element NAME COUNT'", line_);
+    result.count = static_cast<std::size_t>(count);
+    header_.elements.push_back(std::move(result));
+  }
+  Scalar scalar() {
+    const std::string_view name = next_word();
+    const std::optional<Scalar> type = scalar_by_name(name);
+    if (!type) lines_.fail(fmt::format("unknown property type {}", in_quotes(name)), line_);
+    return *type;
+  }
+  void property() {
+    if (header_.elements.empty()) lines_.fail("a property before the first element", line_);
+    Property result;
+    lines_.skip_blanks();
+    if (lines_.peek() == "list") {
+      lines_.token();
+      result.count_type = scalar();
+      if (!is_integer(*result.count_type)) lines_.fail("the length of a list must have an integer type", line_);
+    }
+    result.type = scalar();
+    result.name = next_word();
+    header_.elements.back().properties.push_back(std::move(result));
+  }
+  void finish(bool crlf) {
+    lines_.skip_blanks();
+    const std::size_t end = lines_.offset();
+    const std::string_view rest = text_.substr(end);
+    if (rest.empty()) {
+      header_.size = end;
+    } else if (rest[0] == '\n') {
+      header_.size = end + 1;
+    } else if (rest[0] == '\r') {
+      header_.size = end + (crlf && rest.starts_with("\r\n") ? 2 : 1);
+    } else {
+      lines_.fail("'end_header' is not alone on its line", line_);
+    }
+  }
+
+  std::string_view text_;
+  TextScanner lines_;
+  Header header_;
+  std::size_t line_ = 0;
+};
+
+/// What a body is read from; AsciiSource and BinarySource look the same to the parser below.
+class AsciiSource {
+ public:
+  AsciiSource(std::string_view bytes, const Header& header) : text_(bytes, {}) { text_.seek(header.size); }
+
+  static constexpr std::size_t least_bytes(const Element& element) { return 2 * element.properties.size(); }
+  /// The last token needs no white space after it.
+  std::size_t remaining() const { return text_.remaining() + 1; }
+  std::size_t offset() const { return text_.offset(); }
+  void seek(std::size_t offset) { text_.seek(offset); }
+  [[noreturn]] void fail(const std::string& message) const { text_.fail(message); }
+
+  std::size_t to_next_value() {
+    if (!text_.skip_space()) fail_at_end();
+    return text_.offset();
+  }
+  void skip(Scalar) {
+    to_next_value();
+    text_.token();
+  }
+  double coordinate(Scalar type, std::size_t vertex) {
+    to_next_value();
+    return type == Scalar::float32 ? static_cast<double>(text_.coordinate<float>(vertex))
+                                   : text_.coordinate<double>(vertex);
+  }
+  std::int64_t whole_number(Scalar) {
+    to_next_value();
+    std::int64_t value = 0;
+    if (text_.integer(value)) return value;
+    double number = 0;  // some write 3.0
+    if (text_.number(number) == TextScanner::Number::ok && number == std::floor(number) && std::abs(number) < 1e15) {
+      return static_cast<std::int64_t>(number);
+    }
+    text_.fail(fmt::format("{} where a whole number should be", in_quotes(text_.peek())));
+  }
+
+ private:
+  [[noreturn]] void fail_at_end() const { text_.fail("the file ends before all elements were read; it is cut short"); }
+  TextScanner text_;
+};
+
+class BinarySource {
+ public:
+  BinarySource(std::string_view bytes, const Header& header) : bytes_(bytes), at_(header.size), order_(header.order) {}
+
+  static std::size_t least_bytes(const Element& element) { return element.smallest_record(); }
+  std::size_t remaining() const { return bytes_.size() - at_; }
+  std::size_t offset() const { return at_; }
+  void seek(std::size_t offset) { at_ = offset; }
+  [[noreturn]] void fail(const std::string& message) const { throw FileError(fmt::format("byte {}: {}", at_, message)); }
+
+  std::size_t to_next_value() const { return at_; }
+  void skip(Scalar type, std::size_t count = 1) {
+    if (count > remaining() / size_of(type)) {
+      fail("the file ends before all elements were read; it is cut short");
+    }
+    at_ += count * size_of(type);
+  }
+  double value(Scalar type) {
+    const std::size_t start = at_;
+    skip(type);
+    return load_scalar(bytes_.data() + start, type, order_);
+  }
+  double coordinate(Scalar type, std::size_t vertex) {
+    const double result = value(type);
+    if (!std::isfinite(result)) {
+      at_ -= size_of(type);
+      fail(fmt::format("vertex {} (counting from 0) is not finite; correct or remove it", vertex));
+    }
+    return result;
+  }
+  std::int64_t whole_number(Scalar type) {
+    const double result = value(type);
+    if (!(std::abs(result) < 1e15) || result != std::floor(result)) {
+      at_ -= size_of(type);
+      fail("a number that is not whole where a whole number should be");
+    }
+    return static_cast<std::int64_t>(result);
+  }
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_;
+  std::endian order_;
+};
+
+template <class Source>
+class BodyParser {
+ public:
+  BodyParser(PlyFile& file, const Header& header) : file_(file), header_(header), source_(file.bytes, header) {}
+
+  void parse() {
+    const Element* vertices = nullptr;
+    const Element* faces = nullptr;
+    for (const Element& element : header_.elements) {
+      if (element.name == "tristrips") {
+        throw FileError("the faces are stored as triangle strips ('element tristrips'), which is not supported; "
+                        "convert the file to faces");
+      }
+      if (element.name == "vertex") vertices = &element;
+      if (element.name == "face") faces = &element;
+    }
+    if (vertices == nullptr) throw FileError("the header has no 'element vertex'; a mesh needs vertices");
+    vertex_count_ = vertices->count;
+    for (const Element& element : header_.elements) {
+      check_count(element);
+      if (&element == vertices) {
+        read_vertices(element);
+      } else if (&element == faces) {
+        read_faces(element);
+      } else {
+        for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) skip_record(element);
+      }
+    }
+    faces_.note_ignored(file_.notes);
+  }
+
+ private:
+  void check_count(const Element& element) const {
+    const std::size_t least = Source::least_bytes(element);
+    if (least > 0 && element.count > source_.remaining() / least) {
+      source_.fail(fmt::format("the header promises {} records of '{}', but only {} bytes are left; the file is cut short or "
+                               "damaged", element.count, element.name, file_.bytes.size() - source_.offset()));
+    }
+    if ((element.name == "vertex" || element.name == "face") &&
+        element.count > std::numeric_limits<std::int32_t>::max()) {
+      source_.fail(fmt::format("{} records of '{}' are more than 32-bit ids can count", element.count, element.name));
+    }
+  }
+
+  /// The length of the list at this place, which has to fit into the file.
+  std::size_t list_length(const Property& property) {
+    const std::size_t start = source_.to_next_value();
+    const std::int64_t length = source_.whole_number(*property.count_type);
+    if (length < 0 || static_cast<std::uint64_t>(length) > source_.remaining()) {
+      source_.seek(start);
+      source_.fail(fmt::format("a list '{}' of {} entries, more than the file can hold", property.name, length));
+    }
+    return static_cast<std::size_t>(length);
+  }
+  void skip_property(const Property& property) {
+    const std::size_t length = property.count_type ? list_length(property) : 1;
+    for (std::size_t i = 0; i < length; ++i) source_.skip(property.type);
+  }
+  void skip_record(const Element& element) {
+    for (const Property& property : element.properties) skip_property(property);
+  }
+
+  void read_vertices(const Element& element) {
+    std::array<std::size_t, 3> xyz{};
+    bool fixed_size = !header_.ascii;
+    for (int k = 0; k < 3; ++k) {
+      const std::string name(1, "xyz"[k]);
+      const std::optional<std::size_t> found = element.find(name);
+      if (!found || element.properties[*found].count_type) {
+        throw FileError(fmt::format("the vertices have no property '{}'; a mesh needs x, y and z", name));
+      }
+      xyz[k] = *found;
+      file_.types[k] = element.properties[*found].type;
+    }
+    for (const Property& property : element.properties) fixed_size &= !property.count_type;
+    note_types();
+
+    file_.surface.positions.resize(3 * element.count);
+    if (fixed_size) {
+      file_.first = source_.offset();
+      file_.stride = element.smallest_record();
+    } else {
+      file_.begins.resize(3 * element.count);
+    }
+    for (std::size_t v = 0; v < element.count; ++v) {
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const auto k = static_cast<std::size_t>(std::find(xyz.begin(), xyz.end(), p) - xyz.begin());
+        if (k == 3) {
+          skip_property(element.properties[p]);
+          continue;
+        }
+        const std::size_t start = source_.to_next_value();
+        if (fixed_size) {
+          file_.within[k] = start - file_.first - v * file_.stride;
+        } else {
+          file_.begins[3 * v + k] = start;
+        }
+        file_.surface.positions[3 * v + k] = source_.coordinate(file_.types[k], v);
+      }
+    }
+  }
+
+  void note_types() {
+    file_.stores_float32 = true;
+    bool integers = false;
+    for (const Scalar type : file_.types) {
+      file_.stores_float32 &= type == Scalar::float32;
+      integers |= is_integer(type);
+    }
+    if (integers) file_.notes.push_back("The positions are stored as integers, which cannot hold a repaired mesh; convert them first.");
+  }
+
+  void read_faces(const Element& element) {
+    std::optional<std::size_t> corners = element.find("vertex_indices");
+    if (!corners) corners = element.find("vertex_index");
+    if (element.count > 0 && (!corners || !element.properties[*corners].count_type)) {
+      throw FileError("the faces have no list 'vertex_indices' or 'vertex_index'; a mesh needs one of them");
+    }
+    file_.surface.corners.reserve(3 * std::min(element.count, file_.bytes.size() / 3));
+    std::vector<std::int32_t> face;
+    for (std::size_t f = 0; f < element.count; ++f) {
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const Property& property = element.properties[p];
+        if (p != *corners) {
+          skip_property(property);
+          continue;
+        }
+        face.clear();
+        const std::size_t length = list_length(property);
+        for (std::size_t i = 0; i < length; ++i) {
+          const std::size_t start = source_.to_next_value();
+          const std::int64_t v = source_.whole_number(property.type);
+          if (v < 0 || static_cast<std::uint64_t>(v) >= vertex_count_) {
+            source_.seek(start);
+            source_.fail(fmt::format("face {} uses vertex {}, but the file has {} vertices (faces and vertices count from 0)",
+                                     f, v, vertex_count_));
+          }
+          face.push_back(static_cast<std::int32_t>(v));
+        }
+        if (!faces_.add(face)) source_.fail("more face corners than 32-bit ids can count; split the mesh");
+      }
+    }
+  }
+
+  PlyFile& file_;
+  const Header& header_;
+  Source source_;
+  FaceCollector faces_{file_.surface};
+  std::size_t vertex_count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<MeshFile> parse_ply(std::string bytes) {
+  auto file = std::make_unique<PlyFile>();
+  file->bytes = std::move(bytes);
+  const Header header = HeaderParser(file->bytes).parse();
+  file->ascii = header.ascii;
+  file->order = header.order;
+  if (header.ascii) {
+    BodyParser<AsciiSource>(*file, header).parse();
+  } else {
+    BodyParser<BinarySource>(*file, header).parse();
+  }
+  return file;
+}
+
+}  // namespace unsnarl
