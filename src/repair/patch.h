@@ -1,8 +1,11 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "contact/bvh.h"
 #include "geometry/types.h"
+#include "repair/scene.h"
 
 namespace unsnarl {
 
@@ -20,5 +23,29 @@ struct Patch {
   std::vector<Index> faces;         ///< patch triangle -> triangle of the whole, ascending within active and obstacles
   double edge_length = 0;           ///< h: mean edge of the intersecting faces at rest (or of all active ones)
 };
+
+/// Finds the triangles of a scene near a place while some of its vertices move: a tree over all triangles as they
+/// were when it was built, and a list of those that have moved since.
+class SceneIndex {
+ public:
+  explicit SceneIndex(const Scene& scene);
+  /// Triangles whose boxes, as they are now, overlap the given box; each once, unsorted.
+  void query(const Box& box, std::vector<Index>& found) const;
+  /// The triangles of these vertices have moved.
+  void mark_moved(std::span<const Index> vertices);
+
+ private:
+  const Scene& scene_;
+  Bvh bvh_;
+  std::vector<Index> moved_;
+  std::vector<std::uint8_t> is_moved_;
+};
+
+/// Cuts out the patch with these free vertices (ascending, none fixed). Obstacles: all triangles within `reach` (a
+/// length) of the box of an active triangle. `edge_length` is left to the caller.
+Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach);
+
+/// Takes the free vertices' positions over into the scene.
+void paste_patch(const Patch& patch, Scene& scene, SceneIndex& index);
 
 }  // namespace unsnarl

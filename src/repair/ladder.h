@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "repair/scene.h"
+#include "unsnarl/intersections.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+
+struct LadderOptions {
+  /// Free vertices' share of their components from which on local rungs are skipped. They fail there and cost seconds.
+  double whole_component_share = 0.6;
+  std::function<bool()> stop;
+  std::function<void(std::size_t pairs_left)> on_progress;
+};
+
+struct LadderResult {
+  std::vector<RegionReport> regions;       ///< resolved ones, and last the ones that no rung resolved
+  std::vector<std::vector<Index>> moved;   ///< vertices freed for each resolved region, for recovery
+  std::vector<IntersectingPair> left;      ///< pairs of triangles that remain
+};
+
+/// Untangles the scene region by region: every conflict region climbs from gentle local rungs to the flow of its whole
+/// component, everything outside it held. Pairs in `ignored` (sorted, of triangles) cannot be resolved and are let be.
+LadderResult climb_ladder(Scene& scene, std::span<const IntersectingPair> ignored, const LadderOptions& options);
+
+}  // namespace unsnarl

@@ -1,0 +1,240 @@
+#include "repair/local_solver.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
+
+#include "contact/intersection_finder.h"
+#include "energy/arap.h"
+#include "energy/minkowski_penalty.h"
+#include "repair/contours.h"
+
+namespace unsnarl {
+namespace {
+
+/// Cotangent weight of an equilateral mesh; uniform weights keep slivers harmless.
+constexpr double laplacian_weight = 0.57735026918962573;
+
+double area(const Positions& x, const Triangle& t) {
+  const Vec3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// The metric in which directions are taken: Laplacian + area / range^2 on the free vertices, the others held.
+class Metric {
+ public:
+  Metric(const Patch& patch, const EdgeTable& edges, double range) {
+    const Index n = patch.free_count;
+    std::vector<double> diagonal(n, 0);
+    for (Index t = 0; t < patch.active_count; ++t) {
+      const double share = area(patch.x, patch.triangles[t]) / 3;
+      for (Index v : patch.triangles[t])
+        if (v < n) diagonal[v] += share / (range * range);
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const auto& [u, v] : edges.edges) {
+      if (u < n) diagonal[u] += laplacian_weight;
+      if (v < n) diagonal[v] += laplacian_weight;
+      if (u < n && v < n) entries.emplace_back(v, u, -laplacian_weight);  // lower triangle, u < v
+    }
+    for (Index v = 0; v < n; ++v) entries.emplace_back(v, v, diagonal[v] > 0 ? diagonal[v] : 1);
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    factor_.compute(matrix);
+  }
+  bool ok() const { return factor_.info() == Eigen::Success; }
+  /// Free columns of force -> direction.
+  Eigen::MatrixX3d solve(const Positions& force, Index n) const {
+    return factor_.solve(Eigen::MatrixX3d(force.leftCols(n).transpose()));
+  }
+
+ private:
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+/// The Minkowski penalty's candidates within a margin of each other.
+class PenaltyForce {
+ public:
+  PenaltyForce(const Patch& patch, double margin)
+      : patch_(patch), margin_(margin), penalty_(patch.triangles, {.margin = margin}), boxes_(patch.triangles.size()) {}
+
+  void add(const Positions& x, double weight, Positions& force) {
+    for (std::size_t t = 0; t < boxes_.size(); ++t) boxes_[t] = box_of(x, patch_.triangles[t]).inflated(0.5 * margin_);
+    if (bvh_.size() == 0)
+      bvh_.build(boxes_);
+    else
+      bvh_.refit(boxes_);
+    penalty_.pairs.clear();
+    bvh_.self_pairs([&](Index a, Index b) {
+      if (a < patch_.active_count || b < patch_.active_count) penalty_.pairs.push_back({std::min(a, b), std::max(a, b)});
+    });
+    std::sort(penalty_.pairs.begin(), penalty_.pairs.end());
+    penalty_.value_and_gradient(x, force, -weight);
+  }
+  const MinkowskiPenalty& penalty() const { return penalty_; }
+
+ private:
+  const Patch& patch_;
+  double margin_;
+  MinkowskiPenalty penalty_;
+  std::vector<Box> boxes_;
+  Bvh bvh_;
+};
+
+/// Pushes the two sheets of every intersection curve apart, each curve in one direction.
+void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& edges,
+                       std::span<const IntersectingPair> pairs, const MinkowskiPenalty& penalty, Positions& force) {
+  const Contours contours = trace_contours(x, patch.triangles, edges, pairs);
+  std::vector<Vec3> direction(contours.count, Vec3::Zero());
+  for (const Crossing& c : contours.crossings) direction[c.contour] += c.side * c.direction;
+  for (Vec3& d : direction) {
+    const double size = d.norm();
+    d = size > 0 ? Vec3(d / size) : Vec3(0, 0, 1);
+  }
+  for (const Crossing& c : contours.crossings) {
+    const Vec3 push = c.side * direction[c.contour];
+    const auto [u, v] = edges.edges[c.edge];
+    force.col(u) += (1 - c.along) * push;
+    force.col(v) += c.along * push;
+    for (int k = 0; k < 3; ++k) force.col(patch.triangles[c.face][k]) -= c.weights[k] * push;
+  }
+  for (const IntersectingPair& pair : contours.uncrossed) {
+    const Penetration p = penalty.evaluate(x, pair.a, pair.b);
+    if (!(p.depth > 0)) continue;
+    for (int k = 0; k < 3; ++k) {
+      force.col(patch.triangles[pair.a][k]) += p.weight_a[k] * p.normal;
+      force.col(patch.triangles[pair.b][k]) -= p.weight_b[k] * p.normal;
+    }
+  }
+}
+
+/// x <- (M + range^2 L)^-1 M x with the border held: rounds off everything smaller than the range.
+void smooth(const Patch& patch, const Metric& metric, double range, Positions& x) {
+  const Index n = patch.free_count;
+  Positions pull = Positions::Zero(3, x.cols());
+  for (Index t = 0; t < patch.active_count; ++t) {
+    const double share = area(patch.x, patch.triangles[t]) / 3 / (range * range);
+    for (Index v : patch.triangles[t])
+      if (v < n) pull.col(v) += share * x.col(v);
+  }
+  // The held neighbours' share of the Laplacian.
+  std::vector<Edge> done;
+  for (Index t = 0; t < patch.active_count; ++t)
+    for (int k = 0; k < 3; ++k) {
+      Index u = patch.triangles[t][k], v = patch.triangles[t][(k + 1) % 3];
+      if (u > v) std::swap(u, v);
+      if (u < n && v >= n) done.push_back({u, v});
+    }
+  std::sort(done.begin(), done.end());
+  done.erase(std::unique(done.begin(), done.end()), done.end());
+  for (const auto& [u, v] : done) pull.col(u) += laplacian_weight * x.col(v);
+  x.leftCols(n) = metric.solve(pull, n).transpose();
+}
+
+}  // namespace
+
+double jitter_of(Index v, int k) {
+  // splitmix64
+  std::uint64_t z = (static_cast<std::uint64_t>(v) * 3 + static_cast<std::uint64_t>(k) + 1) * 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  z ^= z >> 31;
+  return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
+}
+
+std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs,
+                                             std::span<const IntersectingPair> tolerated) {
+  std::erase_if(pairs, [&](const IntersectingPair& pair) {
+    const auto it = std::lower_bound(tolerated.begin(), tolerated.end(), pair, [](const auto& p, const auto& q) {
+      return std::tie(p.a, p.b) < std::tie(q.a, q.b);
+    });
+    return it != tolerated.end() && it->a == pair.a && it->b == pair.b;
+  });
+  return pairs;
+}
+
+bool has_squeezed_face(const Patch& patch, const Positions& start, const Positions& x, double floor) {
+  for (Index t = 0; t < patch.active_count; ++t)
+    if (area(x, patch.triangles[t]) < floor * area(start, patch.triangles[t])) return true;
+  return false;
+}
+
+void shrink_displacement(Patch& patch, const Positions& start, int bisections,
+                         const std::function<bool(const Positions&)>& is_clean) {
+  const Index n = patch.free_count;
+  const Positions whole = patch.x;
+  double dirty = 0, clean = 1;
+  Positions x = whole;
+  for (int k = 0; k < bisections; ++k) {
+    const double middle = 0.5 * (dirty + clean);
+    x.leftCols(n) = start.leftCols(n) + middle * (whole.leftCols(n) - start.leftCols(n));
+    if (is_clean(x)) {
+      clean = middle;
+      patch.x = x;
+    } else {
+      dirty = middle;
+    }
+  }
+}
+
+LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const IntersectingPair> tolerated,
+                          const LocalOptions& options, const std::function<bool()>& stop) {
+  LocalResult result;
+  const Index n = patch.free_count;
+  const double h = patch.edge_length;
+  if (n == 0 || !(h > 0)) return result;
+  const Positions start = patch.x;
+  const EdgeTable edges = build_edges(patch.triangles);
+  const Metric metric(patch, edges, rung.locality * h);
+  if (!metric.ok()) return result;
+  IntersectionFinder finder(patch.triangles, patch.active_count);
+  PenaltyForce penalty(patch, options.margin * h);
+  Arap arap(std::span(patch.triangles).first(patch.active_count), patch.rest, n);
+
+  Positions x = start;
+  for (Index v = 0; v < n; ++v)
+    for (int k = 0; k < 3; ++k) x(k, v) += options.jitter * h * jitter_of(v, k);
+
+  LocalMethod method = rung.method;
+  std::size_t initial_pairs = 0;
+  auto is_clean = [&](const Positions& y) {
+    return blocking_pairs(finder.find(y), tolerated).empty() && !has_squeezed_face(patch, start, y, options.area_floor);
+  };
+  for (; result.iterations <= rung.max_iterations; ++result.iterations) {
+    if (stop && stop()) break;
+    const std::vector<IntersectingPair> pairs = blocking_pairs(finder.find(x), tolerated);
+    if (pairs.empty()) {
+      result.clean = true;
+      break;
+    }
+    if (result.iterations == 0) initial_pairs = pairs.size();
+    if (method == LocalMethod::smoothing) {
+      smooth(patch, metric, rung.locality * h, x);
+      if (pairs.size() * 5 <= initial_pairs) method = LocalMethod::penalty;
+      continue;
+    }
+    Positions force = Positions::Zero(3, x.cols());
+    if (method == LocalMethod::penalty) {
+      penalty.add(x, h, force);
+      arap.value_and_gradient(x, force, -1);
+    } else {
+      add_contour_force(patch, x, edges, pairs, penalty.penalty(), force);
+    }
+    Eigen::MatrixX3d direction = metric.solve(force, n);
+    const double size = direction.rowwise().norm().maxCoeff();
+    if (!(size > 0) || !std::isfinite(size)) break;
+    const double limit = rung.step * h;
+    if (method == LocalMethod::contour || size > limit) direction *= limit / size;
+    x.leftCols(n) += direction.transpose();
+  }
+  if (result.clean && has_squeezed_face(patch, start, x, options.area_floor)) result.clean = false;
+  if (!result.clean) return result;
+  patch.x = x;
+  shrink_displacement(patch, start, options.bisections, is_clean);
+  result.displacement = (patch.x - start).leftCols(n).colwise().norm().maxCoeff();
+  return result;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "repair/patch.h"
+#include "unsnarl/intersections.h"
+
+namespace unsnarl {
+
+/// How a local rung finds its direction.
+enum class LocalMethod {
+  penalty,    ///< gradient of the Minkowski penalty (paper §3.2) + ARAP
+  contour,    ///< one direction for each intersection curve, its two sheets pushed apart along it
+  smoothing,  ///< implicit smoothing until few crossings are left, then `penalty`
+};
+
+/// One way to untangle a small patch. Lengths in units of the patch's h.
+struct LocalRung {
+  std::string_view name;
+  LocalMethod method;
+  int rings;            ///< edges from the intersecting faces to the border of the free vertices
+  double step;          ///< largest vertex motion of an iteration, h
+  double locality;      ///< range of the direction's smoothing, h
+  int max_iterations;
+};
+
+struct LocalOptions {
+  double margin = 0.03;        ///< h: the penalty acts until the faces are this far apart; 28 iterations against 61 without
+  double jitter = 1e-3;        ///< h: breaks symmetry (coincident sheets, exact folds)
+  double area_floor = 1e-3;    ///< a face thinner than this share of its area at the start is not accepted
+  int bisections = 5;          ///< of the displacement back to the start; the smallest clean one is kept
+};
+
+struct LocalResult {
+  bool clean = false;
+  int iterations = 0;
+  double displacement = 0;  ///< largest vertex motion, length
+};
+
+/// Tries to move the patch's free vertices, from patch.x on, until no active triangle intersects another, except in the
+/// `tolerated` pairs (of patch triangles, sorted): those of other regions nearby. On success patch.x is the result; else it is what it was.
+LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const IntersectingPair> tolerated = {},
+                          const LocalOptions& options = {}, const std::function<bool()>& stop = {});
+
+/// Unit-free pseudo-random number in [-1, 1], the same everywhere, for vertex `v`, coordinate `k`.
+double jitter_of(Index v, int k);
+
+/// Pairs of the patch's active triangles that are not tolerated.
+std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs,
+                                             std::span<const IntersectingPair> tolerated);
+
+/// True where some active triangle has less than `floor` times its area at `start` (and had any).
+bool has_squeezed_face(const Patch& patch, const Positions& start, const Positions& x, double floor);
+
+/// Bisects the displacement from `start` to patch.x, keeping the smallest clean one in patch.x.
+void shrink_displacement(Patch& patch, const Positions& start, int bisections,
+                         const std::function<bool(const Positions&)>& is_clean);
+
+}  // namespace unsnarl

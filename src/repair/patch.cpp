@@ -1,0 +1,98 @@
+#include "repair/patch.h"
+
+#include <algorithm>
+
+namespace unsnarl {
+namespace {
+
+std::vector<Box> boxes_of(const Scene& scene) {
+  std::vector<Box> boxes(scene.triangle_count());
+  for (Index t = 0; t < scene.triangle_count(); ++t) boxes[t] = box_of(scene.x, scene.triangles[t]);
+  return boxes;
+}
+
+void sort_unique(std::vector<Index>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+}  // namespace
+
+SceneIndex::SceneIndex(const Scene& scene)
+    : scene_(scene), bvh_(boxes_of(scene)), is_moved_(scene.triangle_count(), 0) {}
+
+void SceneIndex::query(const Box& box, std::vector<Index>& found) const {
+  bvh_.query(box, [&](Index t) {
+    if (!is_moved_[t]) found.push_back(t);
+  });
+  for (Index t : moved_)
+    if (box_of(scene_.x, scene_.triangles[t]).overlaps(box)) found.push_back(t);
+}
+
+void SceneIndex::mark_moved(std::span<const Index> vertices) {
+  for (Index v : vertices)
+    for (Index t : scene_.triangles_of_vertex[v])
+      if (!is_moved_[t]) {
+        is_moved_[t] = 1;
+        moved_.push_back(t);
+      }
+}
+
+Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach) {
+  Patch patch;
+  patch.free_count = static_cast<Index>(free_vertices.size());
+  for (Index v : free_vertices)
+    patch.faces.insert(patch.faces.end(), scene.triangles_of_vertex[v].begin(), scene.triangles_of_vertex[v].end());
+  sort_unique(patch.faces);
+  patch.active_count = static_cast<Index>(patch.faces.size());
+
+  // One query for every few active triangles near each other would do; one for each is simple and was never the
+  // bottleneck.
+  std::vector<Index> near;
+  for (Index k = 0; k < patch.active_count; ++k) {
+    const Triangle& t = scene.triangles[patch.faces[k]];
+    Box box = box_of(scene.x, t);
+    box.extend(box_of(scene.rest, t));
+    index.query(box.inflated(reach), near);
+    if (near.size() > 16 * (patch.faces.size() + 1024)) sort_unique(near);
+  }
+  sort_unique(near);
+  std::vector<Index> obstacles;
+  std::set_difference(near.begin(), near.end(), patch.faces.begin(), patch.faces.end(), std::back_inserter(obstacles));
+  patch.faces.insert(patch.faces.end(), obstacles.begin(), obstacles.end());
+
+  std::vector<Index> fixed;
+  for (Index t : patch.faces)
+    for (Index v : scene.triangles[t]) fixed.push_back(v);
+  sort_unique(fixed);
+  patch.vertices.assign(free_vertices.begin(), free_vertices.end());
+  std::set_difference(fixed.begin(), fixed.end(), free_vertices.begin(), free_vertices.end(),
+                      std::back_inserter(patch.vertices));
+
+  const auto first_fixed = patch.vertices.begin() + patch.free_count;
+  auto local = [&](Index v) {
+    auto it = std::lower_bound(patch.vertices.begin(), first_fixed, v);
+    if (it == first_fixed || *it != v) it = std::lower_bound(first_fixed, patch.vertices.end(), v);
+    return static_cast<Index>(it - patch.vertices.begin());
+  };
+  patch.triangles.reserve(patch.faces.size());
+  for (Index t : patch.faces) {
+    const Triangle& corners = scene.triangles[t];
+    patch.triangles.push_back({local(corners[0]), local(corners[1]), local(corners[2])});
+  }
+  patch.rest.resize(3, patch.vertices.size());
+  patch.x.resize(3, patch.vertices.size());
+  for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
+    patch.x.col(k) = scene.x.col(patch.vertices[k]);
+    const bool is_free = static_cast<Index>(k) < patch.free_count;
+    patch.rest.col(k) = (is_free ? scene.rest : scene.x).col(patch.vertices[k]);
+  }
+  return patch;
+}
+
+void paste_patch(const Patch& patch, Scene& scene, SceneIndex& index) {
+  for (Index k = 0; k < patch.free_count; ++k) scene.x.col(patch.vertices[k]) = patch.x.col(k);
+  index.mark_moved({patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
+}
+
+}  // namespace unsnarl

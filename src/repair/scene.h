@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/types.h"
+#include "mesh/adjacency.h"
+
+namespace unsnarl {
+
+/// The whole surface as the solvers see it: identified vertices, triangles, where they were and where they are.
+struct Scene {
+  Positions rest;                        ///< the input
+  Positions x;                           ///< now
+  std::vector<Triangle> triangles;
+  std::vector<std::uint8_t> fixed;       ///< one flag a vertex
+  IndexLists triangles_of_vertex;
+  IndexLists neighbours;                 ///< of vertices, by edges
+
+  Index vertex_count() const { return static_cast<Index>(rest.cols()); }
+  Index triangle_count() const { return static_cast<Index>(triangles.size()); }
+};
+
+/// A scene at rest.
+Scene make_scene(Positions rest, std::vector<Triangle> triangles, std::vector<std::uint8_t> fixed);
+
+}  // namespace unsnarl
