@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+/// A number that shapes a sample. Values outside [minimum, maximum] are refused.
+struct SampleParameter {
+  std::string name;
+  double value = 0;  ///< the default
+  double minimum = 0, maximum = 0;
+  std::string description;  ///< with its unit
+};
+
+/// A generator of a surface that runs through itself.
+struct Sample {
+  std::string name;
+  std::string description;  ///< one line
+  std::vector<SampleParameter> parameters;
+  /// False: no motion of the vertices can embed it (closed and non-orientable), so that repair has to refuse.
+  bool embeddable = true;
+};
+
+/// All samples in a fixed order: the first `analytic_sample_count` are analytic surfaces (the data set that appendix A of
+/// Minarčík, Liu, Crane, Li: "Untangling Surfaces via Shape and Mesh Repulsion" asks for), then shapes as modellers
+/// leave them, then obstructions.
+std::span<const Sample> all_samples();
+inline constexpr std::size_t analytic_sample_count = 28;
+
+/// resolution: sampling steps along the longest direction of the surface's parameter domain, [8, 2000]; 0: the sample's
+/// own, which gives 1,500 to 5,000 faces. Lengths are of the order of one. Parts of a sample meet by index, without
+/// duplicated vertices; the result is the same on every run.
+/// Throws std::invalid_argument, naming the valid choices, for an unknown sample or parameter or a value out of range.
+Surface make_sample(std::string_view name, int resolution = 0, const std::map<std::string, double>& parameters = {});
+
+}  // namespace unsnarl
