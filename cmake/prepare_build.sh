@@ -32,10 +32,10 @@ install_missing_packages() {
   if ! { "${as_root[@]}" apt-get update -q &&
          "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
        } >"$log" 2>&1; then
-    tail -n 15 "$log" >&2
+    grep -E '^(E|W|Err):? ?' "$log" | head -n 12 >&2 || true
     rm -f "$log"
-    die "apt-get failed (its last lines are above). When it works again, or offline from a local mirror, run:
-  apt-get install ${missing[*]}"
+    die "apt-get failed (its complaints are above). Is the network there, and does /etc/apt/sources.list name a mirror of
+Debian 12? When that is settled, run this again, or as root: apt-get install ${missing[*]}"
   fi
   rm -f "$log"
 }
