@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+namespace unsnarl {
+
+/// Returns f(x) and overwrites `gradient` (same size as x) with its gradient.
+using Objective = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)>;
+
+struct LineSearchOptions {
+  double sufficient_decrease = 1e-4;  ///< Armijo's beta_0 (paper §3.5.1)
+  double shrink = 0.5;                ///< factor between trials
+  double first_step = 1;              ///< alpha of the first trial
+  double smallest_step = 1e-10;       ///< the search ends below this alpha (paper §3.5.1)
+  /// For objectives that are not smooth: the search ends below this alpha too, but *takes* that step. 0: never.
+  double accept_step = 0;
+};
+
+struct LineSearchResult {
+  double step = 0;          ///< alpha taken; 0: none, x is unchanged
+  bool sufficient = false;  ///< Armijo's condition holds (or `accept` said yes)
+  int evaluations = 0;
+};
+
+/// Backtracking from x along `direction`. On success x, value and gradient are those of the new point; else unchanged.
+/// `accept(x)`: optional; a trial point to which it says yes is taken at once, whatever the value.
+LineSearchResult backtrack(const Objective& objective, const Eigen::VectorXd& direction, const LineSearchOptions& options,
+                           Eigen::VectorXd& x, double& value, Eigen::VectorXd& gradient,
+                           const std::function<bool(const Eigen::VectorXd&)>& accept = {});
+
+/// The largest Euclidean norm among consecutive blocks of `block` entries: how far the fastest vertex moves.
+double largest_block_norm(const Eigen::VectorXd& v, int block);
+
+}  // namespace unsnarl

@@ -1,0 +1,82 @@
+#include "optimize/line_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace unsnarl {
+namespace {
+
+double parabola(const Eigen::VectorXd& x, Eigen::VectorXd& g) {
+  g = 2 * x;
+  return x.squaredNorm();
+}
+
+struct State {
+  Eigen::VectorXd x, gradient;
+  double value;
+  explicit State(const Objective& f, double at) : x(Eigen::VectorXd::Constant(1, at)), gradient(1) { value = f(x, gradient); }
+};
+
+TEST(LineSearch, HalvesUntilTheDecreaseSuffices) {
+  State s(parabola, 1);
+  const Eigen::VectorXd d = Eigen::VectorXd::Constant(1, -8);
+  const LineSearchResult result = backtrack(parabola, d, {}, s.x, s.value, s.gradient);
+  EXPECT_EQ(result.step, 0.125);  // 1 -> -7, -3, -1 (no decrease), 0
+  EXPECT_EQ(result.evaluations, 4);
+  EXPECT_TRUE(result.sufficient);
+  EXPECT_EQ(s.x[0], 0);
+  EXPECT_EQ(s.value, 0);
+  EXPECT_EQ(s.gradient[0], 0);
+}
+
+TEST(LineSearch, LeavesEverythingAloneWhenItFails) {
+  State s(parabola, 1);
+  const Eigen::VectorXd uphill = Eigen::VectorXd::Constant(1, 1);
+  const LineSearchResult result = backtrack(parabola, uphill, {}, s.x, s.value, s.gradient);
+  EXPECT_EQ(result.step, 0);
+  EXPECT_FALSE(result.sufficient);
+  EXPECT_EQ(s.x[0], 1);
+  EXPECT_EQ(s.value, 1);
+  EXPECT_EQ(result.evaluations, 34);  // 2^-33 > 1e-10 > 2^-34
+}
+
+TEST(LineSearch, TakesTheLastStepWhereToldTo) {
+  State s(parabola, 1);
+  LineSearchOptions options;
+  options.accept_step = 0.1;
+  const LineSearchResult result = backtrack(parabola, Eigen::VectorXd::Constant(1, 1), options, s.x, s.value, s.gradient);
+  EXPECT_EQ(result.step, 0.125);
+  EXPECT_FALSE(result.sufficient);
+  EXPECT_EQ(s.x[0], 1.125);
+}
+
+TEST(LineSearch, TakesWhatTheCallerAccepts) {
+  State s(parabola, 1);
+  const auto accept = [](const Eigen::VectorXd& x) { return x[0] > 1.2 && x[0] < 1.6; };
+  const LineSearchResult result = backtrack(parabola, Eigen::VectorXd::Constant(1, 1), {}, s.x, s.value, s.gradient, accept);
+  EXPECT_EQ(result.step, 0.5);
+  EXPECT_TRUE(result.sufficient);
+}
+
+TEST(LineSearch, BacksOutOfNonFiniteValues) {
+  const auto log_like = [](const Eigen::VectorXd& x, Eigen::VectorXd& g) {
+    g = Eigen::VectorXd::Constant(1, 1 - 1 / x[0]);
+    return x[0] > 0 ? x[0] - std::log(x[0]) : std::numeric_limits<double>::quiet_NaN();
+  };
+  State s(log_like, 2);
+  const LineSearchResult result = backtrack(log_like, Eigen::VectorXd::Constant(1, -4), {}, s.x, s.value, s.gradient);
+  EXPECT_EQ(result.step, 0.25);
+  EXPECT_EQ(s.x[0], 1);
+}
+
+TEST(LineSearch, LargestBlockNorm) {
+  Eigen::VectorXd v(6);
+  v << 1, 2, 2, 0, 3, 4;
+  EXPECT_EQ(largest_block_norm(v, 3), 5);
+  EXPECT_EQ(largest_block_norm(Eigen::VectorXd(), 3), 0);
+}
+
+}  // namespace
+}  // namespace unsnarl
