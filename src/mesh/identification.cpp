@@ -166,12 +166,13 @@ class SeamGluing {
       const auto corners = surface_.face(f);
       for (std::size_t k = 1; k < corners.size(); ++k) shells_.unite(corners[0], corners[k]);
     }
-    find_boundary_edges();
-    if (edges_.empty()) return std::move(glued_);
+    for_each_open_side([](Index v) { return v; }, [&](const Side& side) { add_boundary_edge(side); });
     find_coincident_faces();
     group_edges();
     glue_edges();
     glue_vertices();
+    glue_collapsed_edges();
+    if (is_soup()) glue_open_vertices();
     return std::move(glued_);
   }
 
@@ -180,31 +181,38 @@ class SeamGluing {
     Index larger, face, from, to;
   };
 
-  void find_boundary_edges() {
+  template <class Visit>
+  void for_each_side(Visit&& visit) const {
+    for (std::size_t f = 0; f < surface_.face_count(); ++f) {
+      const auto corners = surface_.face(f);
+      for (std::size_t k = 0; k < corners.size(); ++k)
+        visit(static_cast<Index>(f), corners[k], corners[k + 1 < corners.size() ? k + 1 : 0]);
+    }
+  }
+
+  /// Visits the sides whose pair of vertices, after renaming, occurs once in the whole surface.
+  template <class Rename, class Visit>
+  void for_each_open_side(Rename&& rename, Visit&& visit) {
     const std::size_t n = surface_.vertex_count();
     std::vector<Index> begin(n + 1, 0);
-    const auto for_each_side = [&](auto&& visit) {
-      for (std::size_t f = 0; f < surface_.face_count(); ++f) {
-        const auto corners = surface_.face(f);
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-          const Index a = corners[k], b = corners[k + 1 < corners.size() ? k + 1 : 0];
-          if (a != b) visit(static_cast<Index>(f), a, b);
-        }
-      }
-    };
-    for_each_side([&](Index, Index a, Index b) { ++begin[std::min(a, b) + 1]; });
+    for_each_side([&](Index, Index from, Index to) {
+      const Index a = rename(from), b = rename(to);
+      if (a != b) ++begin[std::min(a, b) + 1];
+    });
     for (std::size_t v = 0; v < n; ++v) begin[v + 1] += begin[v];
-    std::vector<Side> sides(begin[n]);
+    std::vector<Side> sides(static_cast<std::size_t>(begin[n]));
     std::vector<Index> next(begin.begin(), begin.end() - 1);
-    for_each_side([&](Index f, Index a, Index b) { sides[next[std::min(a, b)]++] = {std::max(a, b), f, a, b}; });
-
+    for_each_side([&](Index f, Index from, Index to) {
+      const Index a = rename(from), b = rename(to);
+      if (a != b) sides[next[std::min(a, b)]++] = {std::max(a, b), f, from, to};
+    });
     for (std::size_t v = 0; v < n; ++v) {
       const auto first = sides.begin() + begin[v], last = sides.begin() + begin[v + 1];
       std::stable_sort(first, last, [](const Side& s, const Side& t) { return s.larger < t.larger; });
       for (auto it = first; it != last;) {
         auto end = it + 1;
         while (end != last && end->larger == it->larger) ++end;
-        if (end - it == 1) add_boundary_edge(*it);
+        if (end - it == 1) visit(*it);
         it = end;
       }
     }
@@ -212,7 +220,7 @@ class SeamGluing {
 
   void add_boundary_edge(const Side& side) {
     on_boundary_[side.from] = on_boundary_[side.to] = 1;
-    // An edge of no length has no direction to glue along; step (c) joins its ends.
+    // An edge of no length has no direction to glue along; steps (c) and (d) join its ends.
     if (class_of_[side.from] == class_of_[side.to]) return;
     edges_.push_back({side.face, side.from, side.to, class_of_[side.from] < class_of_[side.to]});
   }
@@ -238,6 +246,7 @@ class SeamGluing {
       std::uint64_t hash = 0;
       std::sort(classes.begin(), classes.end());
       classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
+      if (classes.size() < 3) continue;  // collapsed: it lies in an edge or a point of its neighbours anyway
       for (Index c : classes) hash = mixed(hash + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(c + 1));
       const Index other =
           table.find_or_add(hash, static_cast<Index>(f), [&](Index g) { return corner_classes(g) == classes; });
@@ -414,42 +423,43 @@ class SeamGluing {
 
   /// Step (c).
   void glue_vertices() {
-    const std::size_t n = surface_.vertex_count();
-    // Faces of coincident sets at each vertex; nearly always none.
-    std::vector<std::pair<Index, CoincidentCorner>> at_vertex;
     for (std::size_t f = 0; f < surface_.face_count(); ++f)
       if (coincident_set_[f] >= 0)
-        for (Index v : surface_.face(f)) at_vertex.push_back({v, {coincident_set_[f], static_cast<Index>(f)}});
-    std::sort(at_vertex.begin(), at_vertex.end());
+        for (Index v : surface_.face(f)) coincident_at_.push_back({v, {coincident_set_[f], static_cast<Index>(f)}});
+    std::sort(coincident_at_.begin(), coincident_at_.end());
+    glue_equal_vertices(on_boundary_, [&](Index v) { return shells_.find(v); });
+  }
 
-    // Boundary vertices by class; a class is visited once, its members ascending.
+  /// Glues the chosen vertices that have equal positions and lie in one group.
+  template <class GroupOf>
+  void glue_equal_vertices(const std::vector<std::uint8_t>& chosen, GroupOf&& group_of) {
+    const std::size_t n = surface_.vertex_count();
     std::vector<Index> begin(n + 1, 0);
     for (std::size_t v = 0; v < n; ++v)
-      if (on_boundary_[v]) ++begin[class_of_[v] + 1];
+      if (chosen[v]) ++begin[class_of_[v] + 1];
     for (std::size_t c = 0; c < n; ++c) begin[c + 1] += begin[c];
-    std::vector<Index> members(begin[n]), next(begin.begin(), begin.end() - 1);
+    std::vector<Index> members(static_cast<std::size_t>(begin[n])), next(begin.begin(), begin.end() - 1);
     for (std::size_t v = 0; v < n; ++v)
-      if (on_boundary_[v]) members[next[class_of_[v]]++] = static_cast<Index>(v);
+      if (chosen[v]) members[next[class_of_[v]]++] = static_cast<Index>(v);
 
-    std::vector<std::array<Index, 3>> by_shell;  // shell, glued vertex, vertex
+    std::vector<std::array<Index, 3>> by_group;  // group, glued vertex, vertex
     for (std::size_t c = 0; c < n; ++c) {
       if (begin[c + 1] - begin[c] < 2) continue;
-      by_shell.clear();
+      by_group.clear();
       for (Index i = begin[c]; i < begin[c + 1]; ++i)
-        by_shell.push_back({shells_.find(members[i]), glued_.find(members[i]), members[i]});
-      std::sort(by_shell.begin(), by_shell.end());
-      for (auto it = by_shell.begin(); it != by_shell.end();) {
+        by_group.push_back({group_of(members[i]), glued_.find(members[i]), members[i]});
+      std::sort(by_group.begin(), by_group.end());
+      for (auto it = by_group.begin(); it != by_group.end();) {
         auto last = it + 1;
-        while (last != by_shell.end() && (*last)[0] == (*it)[0]) ++last;
-        glue_in_shell({it, last}, at_vertex);
+        while (last != by_group.end() && (*last)[0] == (*it)[0]) ++last;
+        glue_at_one_place({it, last});
         it = last;
       }
     }
   }
 
-  /// Glues the vertices of one shell at one place, except where two coincident faces would share the vertex.
-  void glue_in_shell(std::span<const std::array<Index, 3>> vertices,
-                     const std::vector<std::pair<Index, CoincidentCorner>>& at_vertex) {
+  /// Glues vertices, except where two coincident faces would share the result.
+  void glue_at_one_place(std::span<const std::array<Index, 3>> vertices) {
     struct Cluster {
       Index vertex;
       std::vector<CoincidentCorner> faces;
@@ -459,9 +469,9 @@ class SeamGluing {
       Cluster piece{vertices[i][1], {}};
       for (; i < vertices.size() && vertices[i][1] == piece.vertex; ++i) {
         const Index v = vertices[i][2];
-        for (auto it = std::lower_bound(at_vertex.begin(), at_vertex.end(), v,
+        for (auto it = std::lower_bound(coincident_at_.begin(), coincident_at_.end(), v,
                                         [](const auto& entry, Index w) { return entry.first < w; });
-             it != at_vertex.end() && it->first == v; ++it)
+             it != coincident_at_.end() && it->first == v; ++it)
           piece.faces.push_back(it->second);
       }
       const auto fits = [&](const Cluster& cluster) {
@@ -480,12 +490,87 @@ class SeamGluing {
     }
   }
 
+  /// Step (d). Pieces of the surface that lie in one point are told from pinches by their Euler characteristic.
+  void glue_collapsed_edges() {
+    std::vector<Edge> collapsed;  // of glued vertices
+    for_each_side([&](Index, Index a, Index b) {
+      if (class_of_[a] != class_of_[b]) return;
+      a = glued_.find(a);
+      b = glued_.find(b);
+      if (a != b) collapsed.push_back({std::min(a, b), std::max(a, b)});
+    });
+    if (collapsed.empty()) return;
+    std::sort(collapsed.begin(), collapsed.end());
+    collapsed.erase(std::unique(collapsed.begin(), collapsed.end()), collapsed.end());
+
+    const std::size_t n = surface_.vertex_count();
+    UnionFind pieces(n);
+    std::vector<Index> euler(n, 0);  // by root of the piece
+    std::vector<std::uint8_t> in_piece(n, 0);
+    for (const Edge& e : collapsed) {
+      pieces.unite(e[0], e[1]);
+      in_piece[e[0]] = in_piece[e[1]] = 1;
+    }
+    for (std::size_t v = 0; v < n; ++v)
+      if (in_piece[v]) ++euler[pieces.find(static_cast<Index>(v))];
+    for (const Edge& e : collapsed) --euler[pieces.find(e[0])];
+    std::vector<Index> corners;
+    for (std::size_t f = 0; f < surface_.face_count(); ++f) {
+      corners.clear();
+      for (Index v : surface_.face(f)) corners.push_back(glued_.find(v));
+      if (corners.empty() || !in_piece[corners[0]]) continue;
+      std::sort(corners.begin(), corners.end());
+      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+      const Index piece = pieces.find(corners[0]);
+      const bool inside = std::all_of(corners.begin(), corners.end(), [&](Index v) { return pieces.find(v) == piece; });
+      if (inside && corners.size() > 2) ++euler[piece];
+    }
+    // Pieces that would bring two coincident faces together stay as they are.
+    struct Corner {
+      Index piece, set, vertex;
+      auto operator<=>(const Corner&) const = default;
+    };
+    std::vector<Corner> coincident;
+    for (const auto& [v, corner] : coincident_at_) {
+      const Index vertex = glued_.find(v);
+      if (in_piece[vertex]) coincident.push_back({pieces.find(vertex), corner.set, vertex});
+    }
+    std::sort(coincident.begin(), coincident.end());
+    for (std::size_t i = 1; i < coincident.size(); ++i) {
+      const Corner &a = coincident[i - 1], &b = coincident[i];
+      if (a.piece == b.piece && a.set == b.set && a.vertex != b.vertex) euler[a.piece] = 0;
+    }
+    for (const Edge& e : collapsed)
+      if (euler[pieces.find(e[0])] == 1) glued_.unite(e[0], e[1]);
+  }
+
+  /// No vertex has two faces: the ids say nothing about what is connected.
+  bool is_soup() const {
+    std::vector<Index> face_of(surface_.vertex_count(), -1);
+    for (std::size_t f = 0; f < surface_.face_count(); ++f)
+      for (Index v : surface_.face(f)) {
+        if (face_of[v] >= 0 && face_of[v] != static_cast<Index>(f)) return false;
+        face_of[v] = static_cast<Index>(f);
+      }
+    return true;
+  }
+
+  /// Step (e).
+  void glue_open_vertices() {
+    std::vector<std::uint8_t> open(surface_.vertex_count(), 0);
+    for_each_open_side([&](Index v) { return glued_.find(v); },
+                       [&](const Side& side) { open[glued_.find(side.from)] = open[glued_.find(side.to)] = 1; });
+    for (std::size_t v = 0; v < open.size(); ++v) open[v] = open[glued_.find(static_cast<Index>(v))];
+    glue_equal_vertices(open, [](Index) { return Index{0}; });
+  }
+
   const SurfaceView& surface_;
   std::vector<Index> class_of_;
   UnionFind shells_, glued_;
   std::vector<std::uint8_t> on_boundary_;  // by vertex
   std::vector<BoundaryEdge> edges_;
-  std::vector<Index> coincident_set_;        // by face
+  std::vector<Index> coincident_set_;        // by face; -1 where no other face has equal corners
+  std::vector<std::pair<Index, CoincidentCorner>> coincident_at_;  // by vertex, sorted; nearly always empty
   std::vector<std::array<Index, 2>> groups_;  // [begin, end) of edges at one place, two or more
   std::vector<std::uint8_t> settled_;         // by edge
 };

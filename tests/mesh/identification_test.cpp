@@ -171,6 +171,46 @@ TEST(Identification, PoleSplitAlongAZeroLengthEdgeIsOne) {
   EXPECT_EQ(count_of(s), 4);
 }
 
+TEST(Identification, InteriorEdgeOfLengthZeroIsOneVertex) {
+  // A hexagonal fan whose centre was split: two triangles without area around the short edge.
+  Surface s;
+  for (int k = 0; k < 6; ++k) add_vertex(s, std::cos(k * 1.047), std::sin(k * 1.047), 0);
+  const Index a = add_vertex(s, 0, 0, 0), b = add_vertex(s, 0, 0, 0);
+  for (Index k = 0; k < 6; ++k) add_face(s, {k, (k + 1) % 6, k < 3 ? a : b});
+  add_face(s, {a, 3, b});
+  add_face(s, {b, 0, a});
+  EXPECT_EQ(count_of(s), 7);
+  EXPECT_EQ(count_of(s, Weld::none), 8);
+}
+
+TEST(Identification, CollapsedCrossSectionOfATubeStaysARing) {
+  Surface s;
+  for (Index i = 0; i < 3; ++i)
+    for (Index j = 0; j < 5; ++j) {
+      const double r = i == 1 ? 0 : 1;
+      add_vertex(s, r * std::cos(j * 1.257), r * std::sin(j * 1.257), i);
+    }
+  for (Index i = 0; i < 2; ++i)
+    for (Index j = 0; j < 5; ++j)
+      add_face(s, {5 * i + j, 5 * i + (j + 1) % 5, 5 * i + 5 + (j + 1) % 5, 5 * i + 5 + j});
+  EXPECT_EQ(count_of(s), 15);
+}
+
+TEST(Identification, PartsOfASoupThatMeetInSingleBorderVerticesAreJoined) {
+  // The border x = 0 is one edge on one side and two on the other.
+  Surface s;
+  s.positions = {-1, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
+  add_face(s, {0, 1, 2});
+  add_face(s, {3, 4, 5});
+  add_face(s, {6, 7, 8});
+  EXPECT_EQ(count_of(s), 5);
+  // With ids that say what is connected, parts that merely touch stay apart.
+  s.corners = {0, 1, 2, 3, 4, 5, 5, 4, 8};
+  const Identification id = identify(s);
+  EXPECT_NE(id.vertex_of[1], id.vertex_of[3]);
+  EXPECT_NE(id.vertex_of[2], id.vertex_of[8]);
+}
+
 TEST(Identification, ToleranceJoinsNearCorners) {
   Surface s = exploded(cube());
   for (std::size_t i = 0; i < s.positions.size(); ++i) s.positions[i] += 1e-7 * static_cast<double>(i);
