@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +16,7 @@ Eigen::Matrix3d from_quaternion(const Eigen::Vector4d& q) {  // w x y z, unit
 
 // Below this product of the largest eigenvalue's gaps to the others the closed form is left for a decomposition.
 constexpr double safe_gap = 1e-5;
+constexpr Index parallel_threshold = 2000;  // vertices; some 0.3 us each
 
 }  // namespace
 
@@ -128,13 +131,19 @@ Arap::Arap(std::span<const Triangle> triangles, const Positions& rest, Index fre
 
 double Arap::value_and_gradient(const Positions& x, Positions& gradient, double weight) {
   const Index n = static_cast<Index>(offsets_.size()) - 1;
-  for (Index i = 0; i < std::min(n, free_count_); ++i) {
+  const auto rotate = [&](Index i) {
     Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
     for (Index h = offsets_[i]; h < offsets_[i + 1]; ++h) {
       const Vec3 moved = weights_[h] * (x.col(i) - x.col(neighbours_[h]));
       s.noalias() += moved * rest_edges_.col(h).transpose();
     }
     rotations_[i] = closest_rotation(s);
+  };
+  const Index turning = std::min(n, free_count_);
+  if (turning < parallel_threshold) {
+    for (Index i = 0; i < turning; ++i) rotate(i);
+  } else {
+    oneapi::tbb::parallel_for(Index{0}, turning, rotate);
   }
   double value = 0;
   for (Index i = 0; i < n; ++i) {

@@ -206,7 +206,7 @@ TEST(PolygonPenetration, AgreesWithTrianglesAndWithSampling) {
   EXPECT_NEAR((foot_b - foot_a - p.depth * p.normal).norm(), 0, 1e-12);
 }
 
-void expect_energy_gradient(const MinkowskiPenalty& energy, const Positions& x, double tolerance) {
+void expect_energy_gradient(MinkowskiPenalty& energy, const Positions& x, double tolerance) {
   Positions gradient = Positions::Zero(3, x.cols());
   const double value = energy.value_and_gradient(x, gradient, 2.5);
   EXPECT_GT(value, 0);
@@ -218,6 +218,25 @@ void expect_energy_gradient(const MinkowskiPenalty& energy, const Positions& x, 
         return energy.value_and_gradient(moved, unused, 2.5);
       };
       EXPECT_NEAR((at(1e-7) - at(-1e-7)) / 2e-7, gradient(axis, i), tolerance);
+    }
+  }
+}
+
+TEST(TrianglePenetration, HintsChangeNothingButTheCost) {
+  std::mt19937 generator(9);
+  for (int trial = 0; trial < 500; ++trial) {
+    const Corners a = random_triangle(generator), b = random_triangle(generator);
+    const double margin = trial % 2 ? 0.1 : 0;
+    const Penetration plain = triangle_penetration(a, b, margin);
+    for (int start = 0; start < 256; start += 3) {
+      std::uint8_t hint = static_cast<std::uint8_t>(start);
+      const Penetration hinted = triangle_penetration(a, b, margin, &hint);
+      ASSERT_EQ(hinted.depth > 0, plain.depth > 0);
+      if (plain.depth <= 0) {
+        continue;
+      }
+      ASSERT_EQ(hinted.depth, plain.depth);
+      ASSERT_EQ(hinted.weight_a, plain.weight_a);
     }
   }
 }
