@@ -1,0 +1,295 @@
+#include "io/gltf_container.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "io/byte_order.h"
+#include "io/mesh_file.h"
+#include "io/text_scanner.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
+constexpr std::size_t glb_header_size = 12, chunk_header_size = 8;
+
+std::uint32_t word(std::string_view bytes, std::size_t at) {
+  return load<std::uint32_t>(bytes.data() + at, std::endian::little);
+}
+
+std::string with_edits(std::string_view text, std::vector<TextEdit> edits) {
+  std::sort(edits.begin(), edits.end(), [](const TextEdit& a, const TextEdit& b) { return a.begin < b.begin; });
+  std::string result;
+  std::size_t done = 0;
+  for (const TextEdit& edit : edits) {
+    result.append(text, done, edit.begin - done);
+    result += edit.text;
+    done = edit.end;
+  }
+  result.append(text, done, text.size() - done);
+  return result;
+}
+
+/// Six bits of a base64 digit (also of the URL-safe alphabet), or -1.
+int base64_bits(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  if (c == '+' || c == '-') return 62;
+  if (c == '/' || c == '_') return 63;
+  return -1;
+}
+
+std::optional<std::string> base64_decoded(std::string_view text) {
+  while (text.ends_with('=')) text.remove_suffix(1);
+  std::string result;
+  result.reserve(text.size() / 4 * 3 + 3);
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const int six = base64_bits(c);
+    if (six < 0) return std::nullopt;
+    bits = bits << 6 | static_cast<std::uint32_t>(six);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      result += static_cast<char>(bits >> count & 0xFF);
+    }
+  }
+  return result;
+}
+
+/// Replaces the digits whose bytes differ; everything else in `text` stays, be it padding or unused bits.
+void base64_patch(std::string& text, std::string_view old_bytes, std::string_view new_bytes) {
+  const bool url_safe = text.find_first_of("-_") != std::string::npos;
+  const std::string_view last_two = url_safe ? "-_" : "+/";
+  for (std::size_t i = 0; i < old_bytes.size(); ++i) {
+    if (old_bytes[i] == new_bytes[i]) continue;
+    const std::size_t group = i / 3 * 3;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t at = group / 3 * 4 + k;
+      // Digit k covers the bits 6 k to 6 k + 5 of the group; those of bytes that do not exist stay.
+      std::uint32_t six = 0;
+      for (std::size_t bit = 6 * k; bit < 6 * k + 6; ++bit) {
+        const std::size_t byte = group + bit / 8;
+        std::uint32_t value = 0;
+        if (byte < new_bytes.size()) {
+          value = static_cast<unsigned char>(new_bytes[byte]) >> (7 - bit % 8) & 1;
+        } else if (at < text.size() && text[at] != '=') {
+          value = static_cast<std::uint32_t>(base64_bits(text[at])) >> (6 * k + 5 - bit) & 1;
+        }
+        six = six << 1 | value;
+      }
+      if (at >= text.size() || text[at] == '=') continue;
+      constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+      if (static_cast<std::uint32_t>(base64_bits(text[at])) != six) {
+        text[at] = six < 62 ? digits[six] : last_two[six - 62];
+      }
+    }
+  }
+}
+
+std::string percent_decoded(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = 0;
+    const char* digits = text.data() + i + 1;
+    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      result += static_cast<char>(code);
+      i += 2;
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+/// May this file be read and, at the output, written? Only below the folder of the glTF.
+bool is_inside_folder(const std::filesystem::path& name) {
+  if (name.empty() || name.is_absolute() || name.string().find('\0') != std::string::npos) return false;
+  return std::none_of(name.begin(), name.end(), [](const std::filesystem::path& part) { return part == ".."; });
+}
+
+std::size_t data_uri_start(std::string_view uri) {
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) return std::string_view::npos;
+  return comma + 1;
+}
+
+/// A JSON string token for `text`, with '/' escaped where `old_token` does so.
+std::string json_string(std::string_view text, std::string_view old_token) {
+  const bool escape_slash = old_token.find("\\/") != std::string_view::npos;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < ' ') {
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+      continue;
+    }
+    if (c == '"' || c == '\\' || (c == '/' && escape_slash)) result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+GltfContainer GltfContainer::of_glb(std::string_view bytes) {
+  if (bytes.empty()) throw FileError("the file is empty; a GLB file starts with 'glTF'");
+  if (bytes.size() < glb_header_size + chunk_header_size || !bytes.starts_with("glTF")) {
+    throw FileError("byte 0: 'glTF' and a header of 12 bytes should be here; check that it is a GLB file");
+  }
+  if (word(bytes, 4) != 2) {
+    throw FileError(fmt::format("byte 4: glTF version {}, but only version 2 is supported; convert the file", word(bytes, 4)));
+  }
+  const std::size_t length = word(bytes, 8);
+  if (length > bytes.size()) {
+    throw FileError(fmt::format("byte 8: the header promises {} bytes, but the file has {}; it is cut short", length,
+                                bytes.size()));
+  }
+  GltfContainer result;
+  bool has_json = false;
+  for (std::size_t at = glb_header_size; at + chunk_header_size <= length;) {
+    const std::size_t size = word(bytes, at);
+    const std::uint32_t type = word(bytes, at + 4);
+    if (size > length - at - chunk_header_size) {
+      throw FileError(fmt::format("byte {}: a chunk of {} bytes reaches beyond the end of the file; it is cut short", at, size));
+    }
+    const ByteRange range{at + chunk_header_size, size};
+    if (!has_json) {
+      if (type != json_chunk) throw FileError(fmt::format("byte {}: the first chunk should be JSON; the file is damaged", at));
+      has_json = true;
+      result.json = range;
+    } else if (type == binary_chunk && !result.binary) {
+      result.binary = range;
+    }
+    at += chunk_header_size + size;
+  }
+  if (!has_json) throw FileError("the file holds no JSON chunk; it is cut short");
+  return result;
+}
+
+std::string GltfContainer::rebuilt(std::string_view bytes, std::vector<TextEdit> json_edits,
+                                   const std::optional<std::string>& new_binary) const {
+  std::string result(bytes);
+  if (new_binary) result.replace(binary->begin, binary->size, *new_binary);
+  if (json_edits.empty()) return result;
+  std::string text = with_edits(bytes.substr(json.begin, json.size), std::move(json_edits));
+  const bool is_glb = json.begin > 0;
+  if (is_glb) {
+    // Chunks are padded with spaces to whole words.
+    while (text.ends_with(' ')) text.pop_back();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const auto size = static_cast<std::uint32_t>(text.size());
+    const auto total = static_cast<std::uint32_t>(word(bytes, 8) + text.size() - json.size);
+    store(result.data() + 8, total, std::endian::little);
+    store(result.data() + json.begin - chunk_header_size, size, std::endian::little);
+  }
+  result.replace(json.begin, json.size, text);
+  return result;
+}
+
+GltfBuffers::GltfBuffers(const std::vector<JsonText::Value>& json, std::string_view bytes, const GltfContainer& container,
+                         const std::filesystem::path& folder) {
+  buffers_.resize(json.size());
+  std::map<std::filesystem::path, std::size_t> known;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    load(i, json[i], bytes, container);
+    Buffer& buffer = buffers_[i];
+    buffer.same_as = i;
+    if (buffer.kind == Buffer::Kind::file && buffer.error.empty()) {
+      buffer.same_as = known.try_emplace(buffer.name, i).first->second;
+      if (buffer.same_as != i) continue;
+      try {
+        buffer.owned = read_file(folder / buffer.name);
+      } catch (const FileError& error) {
+        buffer.error = fmt::format("buffer {}: {}", i, error.what());
+      }
+    }
+  }
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    Buffer& buffer = buffers_[i];
+    const std::optional<std::size_t> length = json[i]["byteLength"].index();
+    Buffer& source = buffers_[buffer.same_as];
+    const std::size_t size = source.kind == Buffer::Kind::binary_chunk ? source.view.size() : source.owned.size();
+    if (source.error.empty() && (!length || *length > size)) {
+      source.error = fmt::format("buffer {} should have {} bytes, but {} are there; the file is cut short or damaged", i,
+                                 length ? fmt::to_string(*length) : "some", size);
+    }
+  }
+}
+
+void GltfBuffers::load(std::size_t i, const JsonText::Value& json, std::string_view bytes,
+                       const GltfContainer& container) {
+  Buffer& buffer = buffers_[i];
+  buffer.uri = json["uri"];
+  if (!buffer.uri) {
+    buffer.kind = Buffer::Kind::binary_chunk;
+    if (i == 0 && container.binary) {
+      buffer.view = bytes.substr(container.binary->begin, container.binary->size);
+    } else {
+      buffer.error = fmt::format("buffer {} has no uri and no binary chunk; its data is missing (geometry compressed by an "
+                                 "extension is not supported)", i);
+    }
+    return;
+  }
+  const std::string uri = buffer.uri.string();
+  if (uri.starts_with("data:")) {
+    buffer.kind = Buffer::Kind::data_uri;
+    const std::size_t start = data_uri_start(uri);
+    std::optional<std::string> decoded;
+    if (start != std::string::npos) decoded = base64_decoded(std::string_view(uri).substr(start));
+    if (decoded) {
+      buffer.owned = std::move(*decoded);
+    } else {
+      buffer.error = fmt::format("buffer {}: the data: URI is not valid base64; the file is damaged", i);
+    }
+    return;
+  }
+  buffer.name = percent_decoded(uri);
+  if (!is_inside_folder(buffer.name) || uri.find("://") != std::string::npos) {
+    buffer.error = fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i, in_quotes(uri));
+  }
+}
+
+std::size_t GltfBuffers::resolve(std::size_t buffer) const {
+  if (buffer >= buffers_.size()) {
+    throw FileError(fmt::format("buffer {} is used, but the file has {} buffers; it is damaged", buffer, buffers_.size()));
+  }
+  return buffers_[buffer].same_as;
+}
+
+std::string_view GltfBuffers::data(std::size_t i) const {
+  const Buffer& buffer = buffers_[i];
+  if (!buffer.error.empty()) throw FileError(buffer.error);
+  return buffer.kind == Buffer::Kind::binary_chunk ? buffer.view : std::string_view(buffer.owned);
+}
+
+std::vector<OutputFile> GltfBuffers::rebuilt(std::string_view bytes, const GltfContainer& container,
+                                             std::vector<TextEdit> json_edits,
+                                             std::map<std::size_t, std::string> changed) const {
+  std::vector<OutputFile> files(1);
+  std::optional<std::string> binary;
+  for (std::size_t i = 0; i < buffers_.size(); ++i) {
+    const Buffer& buffer = buffers_[i];
+    const auto change = changed.find(i);
+    const bool is_changed = change != changed.end();
+    if (buffer.kind == Buffer::Kind::binary_chunk && is_changed) {
+      binary = std::move(change->second);
+    } else if (buffer.kind == Buffer::Kind::data_uri && is_changed) {
+      std::string uri = buffer.uri.string();
+      const std::size_t start = data_uri_start(uri);
+      std::string encoded = uri.substr(start);
+      base64_patch(encoded, buffer.owned, change->second);
+      json_edits.push_back({buffer.uri.begin(), buffer.uri.end(),
+                            json_string(uri.substr(0, start) + encoded, buffer.uri.text())});
+    } else if (buffer.kind == Buffer::Kind::file && buffer.same_as == i && buffer.error.empty()) {
+      files.push_back({buffer.name, is_changed ? std::move(change->second) : buffer.owned});
+    }
+  }
+  files[0].bytes = container.rebuilt(bytes, std::move(json_edits), binary);
+  return files;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "io/json_text.h"
+
+namespace unsnarl {
+
+/// An affine map from the space of a mesh to the world, and back. The identity gives exactly what it gets.
+class Placement {
+ public:
+  Placement() = default;
+  /// Row-major 3 x 4.
+  explicit Placement(const std::array<double, 12>& rows);
+
+  /// Can positions be mapped back?
+  bool is_invertible() const { return is_invertible_; }
+  std::array<double, 3> to_world(const std::array<double, 3>& local) const;
+  std::array<double, 3> to_local(const std::array<double, 3>& world) const;
+  Placement operator*(const Placement& inner) const;
+  friend bool operator==(const Placement& a, const Placement& b) { return a.rows_ == b.rows_; }
+
+ private:
+  std::array<double, 12> rows_{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  std::array<double, 9> inverse_{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  bool is_identity_ = true, is_invertible_ = true;
+};
+
+/// Where a mesh stands: the first place that the default scene gives it.
+struct MeshPlace {
+  Placement placement;
+  std::string node;           ///< name of the node; empty: the scene does not show the mesh
+  std::size_t instances = 0;  ///< nodes of the scene that show it
+  bool is_skinned = false;
+  bool was_flat = false;      ///< no node has an invertible transform; the identity stands in
+};
+
+/// One entry a mesh. Throws FileError where the nodes are no forest.
+std::vector<MeshPlace> places_of_meshes(const JsonText::Value& root, std::size_t mesh_count);
+
+}  // namespace unsnarl
