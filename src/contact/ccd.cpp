@@ -1,0 +1,119 @@
+#include "contact/ccd.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unsnarl {
+namespace {
+
+/// Number of leading vertices that form the first primitive.
+int first_primitive_size(StencilKind kind) { return kind == StencilKind::edge_edge ? 2 : 1; }
+int stencil_size(StencilKind kind) { return kind == StencilKind::vertex_edge ? 3 : 4; }
+
+/// Upper bound of the speed at which the two primitives approach; removes the common motion from p first.
+double approach_speed(StencilKind kind, std::array<Vec3, 4>& p) {
+  const int n = stencil_size(kind);
+  const int first = first_primitive_size(kind);
+  Vec3 mean = Vec3::Zero();
+  for (int i = 0; i < n; ++i) mean += p[i];
+  mean /= n;
+  double fastest[2] = {0, 0};
+  for (int i = 0; i < n; ++i) {
+    p[i] -= mean;
+    double& f = fastest[i < first ? 0 : 1];
+    f = std::max(f, p[i].squaredNorm());
+  }
+  return std::sqrt(fastest[0]) + std::sqrt(fastest[1]);
+}
+
+}  // namespace
+
+double time_of_impact(StencilKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& p, double separation,
+                      const CcdOptions& options) {
+  std::array<Vec3, 4> velocity = p;
+  const double speed = approach_speed(kind, velocity);
+  if (!(speed > 0)) return 1;
+  double free_distance = closest(kind, x).distance - separation;
+  if (free_distance > speed) return 1;  // too slow to arrive within the step; also where both are zero
+  if (!(free_distance > 0)) return std::numeric_limits<double>::min();  // precondition broken: do not move
+  const double keep = options.slack * free_distance;
+
+  const int n = stencil_size(kind);
+  std::array<Vec3, 4> moved = x;
+  double time = 0;
+  for (int advance = 0; advance < options.max_advances; ++advance) {
+    const double next = time + (1 - options.slack) * free_distance / speed;
+    if (next >= 1) return 1;
+    if (!(next > time)) break;
+    for (int i = 0; i < n; ++i) moved[i] = x[i] + next * velocity[i];
+    const double distance = closest(kind, moved).distance - separation;
+    if (distance < keep && time > 0) break;
+    time = next;
+    if (!(distance > keep)) break;
+    free_distance = distance;
+  }
+  return std::max(time, std::numeric_limits<double>::min());
+}
+
+double time_of_impact(const SeparatedStencil& s, const Positions& x, const Positions& p, const CcdOptions& options) {
+  std::array<Vec3, 4> position, displacement;
+  const int n = s.stencil.size();
+  for (int i = 0; i < 4; ++i) {
+    if (i < n) {
+      position[i] = x.col(s.stencil.v[i]);
+      displacement[i] = p.col(s.stencil.v[i]);
+    } else {
+      position[i].setZero();
+      displacement[i].setZero();
+    }
+  }
+  return time_of_impact(s.stencil.kind, position, displacement, s.separation, options);
+}
+
+double largest_step(std::span<const SeparatedStencil> stencils, const Positions& x, const Positions& p,
+                    const CcdOptions& options) {
+  double step = 1;
+  for (const SeparatedStencil& s : stencils) step = std::min(step, time_of_impact(s, x, p, options));
+  return step;
+}
+
+int filter_displacements(std::span<const SeparatedStencil> stencils, const Positions& x, Positions& p,
+                         OnCollision on_collision, const CcdOptions& options) {
+  // Shortening halves at least nothing by itself; after this many sweeps whoever still collides stays where it is.
+  constexpr int sweeps_of_shortening = 8;
+  std::vector<std::uint8_t> changed(static_cast<std::size_t>(x.cols()), 1);
+  std::vector<std::uint8_t> changing(changed.size(), 0);
+  std::vector<double> scale(changed.size(), 1);
+  for (int sweep = 0;; ++sweep) {
+    bool any = false;
+    const bool stay = on_collision == OnCollision::stay || sweep >= sweeps_of_shortening;
+    for (const SeparatedStencil& s : stencils) {
+      const int n = s.stencil.size();
+      bool touched = false;
+      bool moving = false;
+      for (int i = 0; i < n; ++i) {
+        touched |= changed[s.stencil.v[i]] != 0;
+        moving |= !p.col(s.stencil.v[i]).isZero(0);
+      }
+      if (!touched || !moving) continue;
+      const double t = time_of_impact(s, x, p, options);
+      if (t >= 1) continue;
+      any = true;
+      for (int i = 0; i < n; ++i) {
+        const Index v = s.stencil.v[i];
+        if (p.col(v).isZero(0)) continue;
+        scale[v] = stay ? 0 : std::min(scale[v], t);
+        changing[v] = 1;
+      }
+    }
+    if (!any) return sweep + 1;
+    for (Index v = 0; v < static_cast<Index>(changing.size()); ++v) {
+      if (changing[v]) p.col(v) *= scale[v];
+      scale[v] = 1;
+    }
+    changed.swap(changing);
+    std::fill(changing.begin(), changing.end(), std::uint8_t{0});
+  }
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,103 @@
+#include "energy/ipc_barrier.h"
+
+namespace unsnarl {
+namespace {
+
+struct Edges {
+  Vec3 u, v;
+  double c;  // |u x v|^2
+};
+
+Edges edges_of(const Stencil& s, const Positions& x) {
+  Edges e;
+  e.u = x.col(s.v[1]) - x.col(s.v[0]);
+  e.v = x.col(s.v[3]) - x.col(s.v[2]);
+  e.c = e.u.cross(e.v).squaredNorm();
+  return e;
+}
+
+/// Cheap lower bound: false where the boxes of the two primitives are farther apart than `reach`.
+bool may_be_near(const Stencil& s, const Positions& x, double reach) {
+  for (int axis = 0; axis < 3; ++axis) {
+    double lo[2], hi[2];
+    const int first = s.kind == StencilKind::edge_edge ? 2 : 1;
+    lo[0] = hi[0] = x(axis, s.v[0]);
+    if (first == 2) {
+      lo[0] = std::min(lo[0], x(axis, s.v[1]));
+      hi[0] = std::max(hi[0], x(axis, s.v[1]));
+    }
+    lo[1] = hi[1] = x(axis, s.v[first]);
+    for (int i = first + 1; i < s.size(); ++i) {
+      lo[1] = std::min(lo[1], x(axis, s.v[i]));
+      hi[1] = std::max(hi[1], x(axis, s.v[i]));
+    }
+    if (lo[0] - hi[1] > reach || lo[1] - hi[0] > reach) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double IpcBarrier::value(const Positions& x, std::span<const BarrierStencil> stencils) const {
+  double sum = 0;
+  for (const BarrierStencil& s : stencils) {
+    if (!may_be_near(s.stencil, x, s.activation)) continue;
+    const double distance = closest(s.stencil, x).distance;
+    if (distance >= s.activation) continue;
+    const double width = s.activation - s.separation;
+    double energy = width * barrier((distance - s.separation) / width);
+    if (s.mollifier_threshold > 0) energy *= mollifier(edges_of(s.stencil, x).c, s.mollifier_threshold);
+    sum += energy;
+  }
+  return force_scale_ * sum;
+}
+
+double IpcBarrier::evaluate(const Positions& x, std::span<const BarrierStencil> stencils,
+                            std::vector<BarrierContact>& contacts) const {
+  contacts.clear();
+  double sum = 0;
+  for (std::size_t i = 0; i < stencils.size(); ++i) {
+    const BarrierStencil& s = stencils[i];
+    if (!may_be_near(s.stencil, x, s.activation)) continue;
+    BarrierContact contact;
+    contact.closest = closest(s.stencil, x);
+    if (contact.closest.distance >= s.activation) continue;
+    contact.stencil = static_cast<Index>(i);
+    const double width = s.activation - s.separation;
+    const double y = (contact.closest.distance - s.separation) / width;
+    const double energy = width * barrier(y);
+    double factor = 1;
+    if (s.mollifier_threshold > 0) {
+      const Edges e = edges_of(s.stencil, x);
+      if (e.c < s.mollifier_threshold) {
+        factor = mollifier(e.c, s.mollifier_threshold);
+        contact.mollified = true;
+        // d|u x v|^2 = 2 (|v|^2 u - (u.v) v) . du + 2 (|u|^2 v - (u.v) u) . dv
+        const double slope = 2 * force_scale_ * energy * mollifier_derivative(e.c, s.mollifier_threshold);
+        contact.twist.col(0) = slope * (e.v.squaredNorm() * e.u - e.u.dot(e.v) * e.v);
+        contact.twist.col(1) = slope * (e.u.squaredNorm() * e.v - e.u.dot(e.v) * e.u);
+      }
+    }
+    sum += factor * energy;
+    contact.force = force_scale_ * factor * barrier_derivative(y);
+    contact.stiffness = force_scale_ * factor * barrier_second_derivative(y) / width;
+    contacts.push_back(contact);
+  }
+  return force_scale_ * sum;
+}
+
+void IpcBarrier::add_gradient(std::span<const BarrierStencil> stencils, std::span<const BarrierContact> contacts,
+                              double scale, Positions& g) {
+  for (const BarrierContact& contact : contacts) {
+    const Stencil& s = stencils[contact.stencil].stencil;
+    const Vec3 force = scale * contact.force * contact.closest.direction;
+    for (int i = 0; i < s.size(); ++i) g.col(s.v[i]) += contact.closest.weights[i] * force;
+    if (!contact.mollified) continue;
+    g.col(s.v[0]) -= scale * contact.twist.col(0);
+    g.col(s.v[1]) += scale * contact.twist.col(0);
+    g.col(s.v[2]) -= scale * contact.twist.col(1);
+    g.col(s.v[3]) += scale * contact.twist.col(1);
+  }
+}
+
+}  // namespace unsnarl

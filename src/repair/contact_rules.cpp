@@ -1,0 +1,72 @@
+#include "repair/contact_rules.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace unsnarl {
+
+ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options)
+    : patch_(patch),
+      in_conflict_(std::move(in_conflict)),
+      options_(options),
+      candidates_(patch.triangles, static_cast<Index>(patch.rest.cols())) {}
+
+void ContactRules::gather(const Positions& x, double radius, std::span<const std::uint8_t> moves,
+                          std::vector<ContactRule>& rules) {
+  constexpr double mollifier_sin2 = 1e-3;  // as in IPC
+  rules.clear();
+  candidates_.gather(x, radius, moves, stencils_);
+  for (const Stencil& s : stencils_) {
+    ContactRule rule;
+    rule.stencil.stencil = s;
+    rule.distance = closest(s, x).distance;
+    if (!(rule.distance > 0)) continue;
+    rule.rest_distance = closest(s, patch_.rest).distance;
+    bool conflict = false;
+    candidates_.triangles_at_first(s, [&](Index t) { conflict |= in_conflict_[t] != 0; });
+    bool second = false;
+    candidates_.triangles_at_second(s, [&](Index t) { second |= in_conflict_[t] != 0; });
+    const bool neighbours = candidates_.are_neighbours(s);
+    if (neighbours) {
+      conflict = conflict && second;
+      if (!conflict && rule.rest_distance <= options_.roundoff) continue;
+    } else {
+      conflict = conflict || second;
+    }
+    double separation = options_.min_gap;
+    rule.reach = std::max(options_.reach_share * rule.rest_distance, options_.reach_gaps * options_.min_gap);
+    if (neighbours && !conflict) {
+      separation = std::min(separation, options_.neighbour_share * rule.rest_distance);
+      rule.reach = options_.reach_share * rule.rest_distance;
+    } else if (!neighbours && conflict) {
+      rule.reach = std::numeric_limits<double>::infinity();
+    }
+    rule.stencil.separation = std::min(separation, 0.5 * rule.distance);
+    if (s.kind == StencilKind::edge_edge) {
+      const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();
+      const double v2 = (patch_.rest.col(s.v[3]) - patch_.rest.col(s.v[2])).squaredNorm();
+      rule.stencil.mollifier_threshold = mollifier_sin2 * u2 * v2;
+    }
+    rules.push_back(rule);
+  }
+  for (Index t = 0; t < patch_.active_count; ++t) {
+    const Triangle& f = patch_.triangles[t];
+    if (!moves[f[0]] && !moves[f[1]] && !moves[f[2]]) continue;
+    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
+    for (int k = 0; k < 3; ++k) {
+      ContactRule rule;
+      const Stencil s{StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
+      rule.rest_distance = closest(s, patch_.rest).distance;
+      if (rule.rest_distance <= options_.roundoff) continue;  // without area at rest: it may stay so
+      rule.reach = options_.altitude_share * rule.rest_distance;
+      rule.distance = closest(s, x).distance;
+      if (rule.distance > rule.reach + radius || !(rule.distance > 0)) continue;
+      rule.stencil.stencil = s;
+      rule.stencil.separation = std::min(options_.altitude_floor * rule.rest_distance, 0.5 * rule.distance);
+      rule.own_altitude = true;
+      rules.push_back(rule);
+    }
+  }
+}
+
+}  // namespace unsnarl

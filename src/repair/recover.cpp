@@ -1,0 +1,496 @@
+#include "repair/recover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "energy/arap_triangle.h"
+#include "energy/bending.h"
+#include "energy/ipc_barrier.h"
+#include "energy/quadratic_pull.h"
+#include "mesh/areas.h"
+#include "repair/contact_rules.h"
+#include "repair/embedding_guard.h"
+#include "repair/open_gaps.h"
+#include "repair/snap_home.h"
+
+namespace unsnarl {
+namespace {
+
+using Matrix34 = Eigen::Matrix<double, 3, 4>;
+
+/// Symmetric positive semidefinite operator over the moving vertices: a scalar sparse matrix on each coordinate plus
+/// rank-one terms of up to four vertices.
+struct StepOperator {
+  struct RankOne {
+    std::array<Index, 4> slot;  // -1: does not move
+    Matrix34 g;                 // the term is stiffness * g g^T
+    double stiffness;
+  };
+  std::vector<Index> row_begin, column;
+  std::vector<double> entry;
+  std::vector<RankOne> terms;
+  double shift = 0;  // times the mass
+  std::vector<double> mass;
+
+  void apply(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const {
+    const Index n = static_cast<Index>(mass.size());
+    for (Index i = 0; i < n; ++i) {
+      Vec3 sum = (shift * mass[i]) * v.col(i);
+      for (Index k = row_begin[i]; k < row_begin[i + 1]; ++k) sum += entry[k] * v.col(column[k]);
+      result.col(i) = sum;
+    }
+    for (const RankOne& t : terms) {
+      double dot = 0;
+      for (int k = 0; k < 4; ++k) {
+        if (t.slot[k] >= 0) dot += t.g.col(k).dot(v.col(t.slot[k]));
+      }
+      dot *= t.stiffness;
+      for (int k = 0; k < 4; ++k) {
+        if (t.slot[k] >= 0) result.col(t.slot[k]) += dot * t.g.col(k);
+      }
+    }
+  }
+
+  void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const {
+    const Index n = static_cast<Index>(mass.size());
+    blocks.resize(n);
+    for (Index i = 0; i < n; ++i) {
+      double diagonal = shift * mass[i];
+      for (Index k = row_begin[i]; k < row_begin[i + 1]; ++k) {
+        if (column[k] == i) diagonal += entry[k];
+      }
+      blocks[i] = diagonal * Eigen::Matrix3d::Identity();
+    }
+    for (const RankOne& t : terms) {
+      for (int k = 0; k < 4; ++k) {
+        if (t.slot[k] >= 0) blocks[t.slot[k]].noalias() += t.stiffness * t.g.col(k) * t.g.col(k).transpose();
+      }
+    }
+    for (Eigen::Matrix3d& block : blocks) {
+      if (diagonal_only) {
+        block = Vec3(block.diagonal().cwiseInverse()).asDiagonal();
+      } else {
+        const Eigen::Matrix3d inverse = block.inverse();
+        block = 0.5 * (inverse + inverse.transpose());
+      }
+    }
+  }
+};
+
+class Recovery {
+ public:
+  Recovery(Patch& patch, const RecoverOptions& options, const std::function<bool()>& stop);
+  RecoverResult run();
+
+ private:
+  void release_everything();
+  void release_contact_region();
+  void set_moving(const std::vector<std::uint8_t>& moves);
+  void build_operator();
+  /// Steps at one activation distance until converged or `steps` are used up.
+  void steps_at(double activation, int steps);
+  void gather(double activation, double margin);
+  double energy(const Positions& x);
+  /// Energy, gradient and the rank-one terms of the Hessian at x_.
+  double linearise();
+  double step_limit(const Positions& p);
+  void snap();
+  void check();
+  double measure_gap();
+  bool stopped() {
+    if (stop_ && !result_.stopped) result_.stopped = stop_();
+    return result_.stopped;
+  }
+
+  Patch& patch_;
+  const RecoverOptions& options_;
+  const std::function<bool()>& stop_;
+  RecoverResult result_;
+
+  Positions& x_;
+  Positions start_;
+  double h_ = 0;
+  double min_gap_ = 0;
+  EmbeddingGuard guard_;
+  std::unique_ptr<ContactRules> rules_;
+  Positions safe_;  // last state the exact guard has seen
+
+  ArapTriangle arap_;
+  Bending bending_;
+  QuadraticPull pull_;
+  IpcBarrier barrier_;
+  IndexLists neighbours_;
+  std::vector<double> snap_reach_;
+
+  std::vector<std::uint8_t> moves_;  // per vertex
+  std::vector<Index> moving_;        // slot -> vertex
+  std::vector<Index> slot_;          // vertex -> slot or -1
+  std::vector<Index> triangles_, hinges_;  // with a moving vertex
+  StepOperator operator_;
+
+  std::vector<ContactRule> gathered_;
+  std::vector<BarrierStencil> stencils_;
+  std::vector<BarrierContact> contacts_;
+  double margin_ = 0;           // motion since the last gathering that the list allows
+  Positions gathered_at_;
+  double activation_ = 0;
+
+  Positions gradient_, step_, trial_;
+  Eigen::Matrix3Xd rhs_, solution_;
+  std::vector<Eigen::Matrix3d> blocks_;
+  BlockJacobiPcg pcg_;
+};
+
+Recovery::Recovery(Patch& patch, const RecoverOptions& options, const std::function<bool()>& stop)
+    : patch_(patch), options_(options), stop_(stop), x_(patch.x), start_(patch.x), guard_(patch), safe_(patch.x) {
+  const Index n = static_cast<Index>(x_.cols());
+  const std::span<const Triangle> active(patch.triangles.data(), static_cast<std::size_t>(patch.active_count));
+  h_ = patch.edge_length > 0 ? patch.edge_length : mean_edge_length(patch.rest, active);
+
+  const double largest = std::max(x_.cwiseAbs().maxCoeff(), patch.rest.cwiseAbs().maxCoeff());
+  const double ulp = std::numeric_limits<double>::epsilon() * largest;
+  ContactRuleOptions rule_options;
+  rule_options.roundoff = 64 * ulp;
+  rule_options.min_gap = min_gap_ = std::max(options.min_gap, 1024 * ulp);
+
+  std::vector<std::uint8_t> in_conflict(patch.triangles.size(), 0);
+  IntersectionFinder at_rest(patch.triangles, patch.active_count);
+  for (const IntersectingPair& pair : at_rest.find(patch.rest)) in_conflict[pair.a] = in_conflict[pair.b] = 1;
+  rules_ = std::make_unique<ContactRules>(patch, std::move(in_conflict), rule_options);
+
+  const EdgeTable& edges = rules_->candidates().edges();
+  neighbours_ = vertex_neighbours(edges.edges, n);
+  arap_ = ArapTriangle(patch.rest, active);
+  std::vector<Hinge> hinges = hinges_of(patch.triangles, edges);
+  std::erase_if(hinges, [&](const Hinge& hinge) {
+    return std::all_of(hinge.begin(), hinge.end(), [&](Index v) { return v >= patch.free_count; });
+  });
+  Bending::Options bending;
+  bending.edge_length = h_;
+  bending_ = Bending(patch.rest, patch.x, hinges, bending);
+
+  pull_.mass = vertex_areas(patch.rest, patch.triangles);
+  pull_.rest = patch.rest;
+  double mass = 0;
+  for (Index v = 0; v < patch.free_count; ++v) mass += pull_.mass[v];
+  mass /= std::max<Index>(patch.free_count, 1);
+  barrier_ = IpcBarrier(options.contact_force * mass * h_);
+
+  snap_reach_.assign(n, 0);
+  for (Index v = 0; v < patch.free_count; ++v) {
+    double sum = 0;
+    for (Index w : neighbours_[v]) sum += (patch.rest.col(w) - patch.rest.col(v)).norm();
+    if (neighbours_[v].size() > 0) snap_reach_[v] = options.snap_reach * sum / static_cast<double>(neighbours_[v].size());
+  }
+  gradient_.resize(3, n);
+  step_.resize(3, n);
+  release_everything();
+}
+
+void Recovery::set_moving(const std::vector<std::uint8_t>& moves) {
+  moves_ = moves;
+  moving_.clear();
+  slot_.assign(moves_.size(), -1);
+  for (Index v = 0; v < patch_.free_count; ++v) {
+    if (!moves_[v]) continue;
+    slot_[v] = static_cast<Index>(moving_.size());
+    moving_.push_back(v);
+  }
+  triangles_.clear();
+  for (Index t = 0; t < arap_.size(); ++t) {
+    const Triangle& f = arap_.triangle(t);
+    if (moves_[f[0]] || moves_[f[1]] || moves_[f[2]]) triangles_.push_back(t);
+  }
+  hinges_.clear();
+  for (Index e = 0; e < bending_.size(); ++e) {
+    const Hinge& f = bending_.hinge(e);
+    if (moves_[f[0]] || moves_[f[1]] || moves_[f[2]] || moves_[f[3]]) hinges_.push_back(e);
+  }
+  build_operator();
+  margin_ = 0;
+}
+
+void Recovery::release_everything() {
+  std::vector<std::uint8_t> moves(static_cast<std::size_t>(x_.cols()), 0);
+  std::fill(moves.begin(), moves.begin() + patch_.free_count, std::uint8_t{1});
+  set_moving(moves);
+}
+
+void Recovery::release_contact_region() {
+  std::vector<std::uint8_t> moves(static_cast<std::size_t>(x_.cols()), 0);
+  std::vector<Index> front;
+  const auto release = [&](Index v) {
+    if (v >= patch_.free_count || moves[v]) return;
+    moves[v] = 1;
+    front.push_back(v);
+  };
+  for (Index v = 0; v < patch_.free_count; ++v) {
+    if (x_.col(v) != patch_.rest.col(v)) release(v);
+  }
+  std::vector<Index> previous;
+  for (int ring = 0; ring < options_.contact_rings; ++ring) {
+    previous.swap(front);
+    front.clear();
+    for (Index v : previous) {
+      for (Index w : neighbours_[v]) release(w);
+    }
+  }
+  set_moving(moves);
+}
+
+void Recovery::build_operator() {
+  // Hessian of pull and ARAP with the rotations held: a scalar matrix with the pattern of the mesh.
+  const Index n = static_cast<Index>(moving_.size());
+  const double arap = options_.arap_length * options_.arap_length * h_ * h_ * arap_.weight();
+  operator_.mass.resize(n);
+  operator_.row_begin.assign(n + 1, 0);
+  operator_.column.clear();
+  operator_.entry.clear();
+  const IndexLists& triangles_of_vertex = rules_->candidates().triangles_of_vertex();
+  for (Index i = 0; i < n; ++i) {
+    const Index v = moving_[i];
+    operator_.mass[i] = pull_.mass[v];
+    double diagonal = options_.pull * pull_.mass[v];
+    const Index begin = static_cast<Index>(operator_.column.size());
+    for (Index w : neighbours_[v]) {
+      if (slot_[w] < 0) continue;
+      operator_.column.push_back(slot_[w]);
+      operator_.entry.push_back(0);
+    }
+    for (Index t : triangles_of_vertex[v]) {
+      if (t >= arap_.size()) continue;
+      for (Index w : arap_.triangle(t)) {
+        if (w == v) continue;
+        diagonal += arap;
+        if (slot_[w] < 0) continue;
+        for (Index k = begin; k < static_cast<Index>(operator_.column.size()); ++k) {
+          if (operator_.column[k] == slot_[w]) operator_.entry[k] -= arap;
+        }
+      }
+    }
+    operator_.column.push_back(i);
+    operator_.entry.push_back(diagonal);
+    operator_.row_begin[i + 1] = static_cast<Index>(operator_.column.size());
+  }
+  operator_.shift = options_.time_step > 0 ? 1 / options_.time_step : 0;
+}
+
+void Recovery::gather(double activation, double margin) {
+  activation_ = activation;
+  margin_ = margin;
+  gathered_at_ = x_;
+  rules_->gather(x_, activation + 2 * margin, moves_, gathered_);
+  stencils_.clear();
+  for (const ContactRule& rule : gathered_) {
+    BarrierStencil s = rule.stencil;
+    s.activation = rule.own_altitude ? rule.reach : std::min(activation, rule.reach);
+    s.activation = std::max(s.activation, 1.5 * s.separation);
+    stencils_.push_back(s);
+  }
+}
+
+double Recovery::energy(const Positions& x) {
+  double pull = 0;
+  for (Index v : moving_) pull += pull_.mass[v] * (x.col(v) - patch_.rest.col(v)).squaredNorm();
+  double arap = 0;
+  for (Index t : triangles_) arap += arap_.triangle_energy(x, t, nullptr);
+  double bending = 0;
+  for (Index e : hinges_) {
+    const double r = bending_.residual(x, e, nullptr);
+    bending += bending_.weight(e) * r * r;
+  }
+  const double arap_scale = options_.arap_length * options_.arap_length * h_ * h_;
+  const double bending_scale = std::pow(options_.bending_length * h_, 4);
+  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending_scale * bending + barrier_.value(x, stencils_);
+}
+
+double Recovery::linearise() {
+  gradient_.setZero();
+  double pull = 0;
+  for (Index v : moving_) {
+    const Vec3 d = x_.col(v) - patch_.rest.col(v);
+    pull += pull_.mass[v] * d.squaredNorm();
+    gradient_.col(v) += options_.pull * pull_.mass[v] * d;
+  }
+  const double arap_scale = options_.arap_length * options_.arap_length * h_ * h_;
+  double arap = 0;
+  Eigen::Matrix3d forces;
+  for (Index t : triangles_) {
+    arap += arap_.triangle_energy(x_, t, &forces);
+    for (int k = 0; k < 3; ++k) gradient_.col(arap_.triangle(t)[k]) += arap_scale * forces.col(k);
+  }
+  operator_.terms.clear();
+  const double bending_scale = std::pow(options_.bending_length * h_, 4);
+  double bending = 0;
+  StepOperator::RankOne term;
+  for (Index e : hinges_) {
+    const double r = bending_.residual(x_, e, &term.g);
+    const double w = bending_scale * bending_.weight(e);
+    bending += w * r * r;
+    const Hinge& hinge = bending_.hinge(e);
+    for (int k = 0; k < 4; ++k) {
+      gradient_.col(hinge[k]) += w * r * term.g.col(k);
+      term.slot[k] = slot_[hinge[k]];
+    }
+    term.stiffness = w;
+    operator_.terms.push_back(term);
+  }
+  const double contact = barrier_.evaluate(x_, stencils_, contacts_);
+  IpcBarrier::add_gradient(stencils_, contacts_, 1, gradient_);
+  for (const BarrierContact& c : contacts_) {
+    const Stencil& s = stencils_[c.stencil].stencil;
+    term.g.setZero();
+    term.slot = {-1, -1, -1, -1};
+    for (int k = 0; k < s.size(); ++k) {
+      term.slot[k] = slot_[s.v[k]];
+      term.g.col(k) = c.closest.weights[k] * c.closest.direction;
+    }
+    term.stiffness = c.stiffness;
+    operator_.terms.push_back(term);
+  }
+  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending + contact;
+}
+
+double Recovery::step_limit(const Positions& p) {
+  double step = 1;
+  for (const BarrierStencil& s : stencils_) {
+    step = std::min(step, time_of_impact({s.stencil, s.separation}, x_, p, options_.ccd));
+  }
+  return step;
+}
+
+void Recovery::steps_at(double activation, int steps) {
+  if (moving_.empty()) return;
+  gather(activation, options_.margin_max * h_);
+  double current = linearise();
+  std::vector<double> history = {current};
+  int short_steps = 0;
+  for (int count = 0; count < steps && !stopped(); ++count) {
+    const Index n = static_cast<Index>(moving_.size());
+    rhs_.resize(3, n);
+    for (Index i = 0; i < n; ++i) rhs_.col(i) = -gradient_.col(moving_[i]);
+    operator_.inverse_blocks(options_.scalar_jacobi, blocks_);
+    result_.solver_iterations += pcg_.solve([&](const auto& v, auto& out) { operator_.apply(v, out); }, blocks_, rhs_,
+                                            solution_, options_.solver);
+    ++result_.iterations;
+    const double longest = std::sqrt(solution_.colwise().squaredNorm().maxCoeff());
+    const double slope = -rhs_.cwiseProduct(solution_).sum();
+    if (!(longest > 0) || !(slope < 0)) break;
+
+    const double wanted = std::min(longest, options_.step_cap * h_);
+    double moved = 0;
+    for (Index v : moving_) moved = std::max(moved, (x_.col(v) - gathered_at_.col(v)).norm());
+    if (moved + wanted > margin_ && (moved > 0 || margin_ < options_.margin_max * h_)) {
+      gather(activation, std::clamp(1.5 * wanted, options_.margin_min * h_, options_.margin_max * h_));
+      moved = 0;
+    }
+    const double scale = std::min(1.0, std::min(wanted, margin_ - moved) / longest);
+    step_.setZero();
+    for (Index i = 0; i < n; ++i) step_.col(moving_[i]) = scale * solution_.col(i);
+
+    double alpha = step_limit(step_);
+    const bool limited = alpha < 1;
+    double next = current;
+    bool accepted = false;
+    for (int halving = 0; halving < 40; ++halving, alpha *= 0.5) {
+      trial_ = x_ + alpha * step_;
+      next = energy(trial_);
+      if (next <= current + options_.armijo * alpha * scale * slope) {
+        accepted = true;
+        break;
+      }
+    }
+    if (!accepted) break;
+    x_.swap(trial_);
+    short_steps = limited && alpha < 0.1 ? short_steps + 1 : 0;
+    current = linearise();
+    history.push_back(current);
+    const double motion = alpha * scale * longest;
+    if (!limited && motion < options_.stop_motion * h_) break;
+    const int window = options_.stop_window;
+    if (static_cast<int>(history.size()) > window &&
+        history[history.size() - 1 - window] - current < options_.stop_decrease * current) {
+      break;
+    }
+  }
+}
+
+void Recovery::snap() {
+  result_.home = 0;
+  snap_home(x_, patch_.rest, snap_reach_, *rules_, guard_, moves_);
+  safe_ = x_;
+}
+
+void Recovery::check() {
+  guard_.roll_back(x_, safe_);
+  safe_ = x_;
+}
+
+double Recovery::measure_gap() {
+  release_everything();
+  rules_->gather(x_, 4 * min_gap_, moves_, gathered_);
+  double gap = std::numeric_limits<double>::infinity();
+  result_.closed = 0;
+  for (const ContactRule& rule : gathered_) {
+    if (rule.own_altitude) continue;
+    gap = std::min(gap, rule.distance);
+    if (rule.stencil.separation >= 0.5 * rule.distance) ++result_.closed;
+  }
+  return gap;
+}
+
+RecoverResult Recovery::run() {
+  OpenGapsOptions open;
+  open.target = std::max(options_.open_target * h_, 3 * min_gap_);
+  open.max_rounds = options_.open_rounds;
+  open.step_cap = 5 * open.target;
+  open_gaps(x_, *rules_, guard_, moves_, open);
+  safe_ = x_;
+
+  const double least = options_.activation_gaps * min_gap_;
+  double activation = std::max(options_.activation * h_, least);
+  steps_at(activation, std::min(options_.first_steps, options_.max_steps));
+  check();
+  snap();
+  for (int stage = 0; stage < options_.stages && !stopped(); ++stage) {
+    release_contact_region();
+    if (moving_.empty()) break;
+    steps_at(activation, options_.max_steps - result_.iterations);
+    check();
+    activation = std::max(activation * options_.activation_factor, least);
+  }
+  release_everything();
+  snap();
+
+  result_.min_gap = measure_gap();
+  result_.home = 0;
+  for (Index v = 0; v < patch_.free_count; ++v) {
+    result_.home += x_.col(v) == patch_.rest.col(v);
+    result_.moved |= x_.col(v) != start_.col(v);
+  }
+  return result_;
+}
+
+}  // namespace
+
+RecoverOptions RecoverOptions::paper() {
+  RecoverOptions options;
+  options.max_steps = 500;
+  options.first_steps = 500;
+  options.stages = 0;
+  options.stop_decrease = 0;
+  options.stop_motion = 0;
+  options.solver = {1e-6, 2000};
+  options.scalar_jacobi = true;
+  options.time_step = 1;
+  return options;
+}
+
+RecoverResult recover(Patch& patch, const RecoverOptions& options, const std::function<bool()>& stop) {
+  if (patch.free_count == 0) return {};
+  return Recovery(patch, options, stop).run();
+}
+
+}  // namespace unsnarl

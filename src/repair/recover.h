@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+
+#include "contact/ccd.h"
+#include "optimize/block_jacobi_pcg.h"
+#include "repair/patch.h"
+
+namespace unsnarl {
+
+/// Constants of recover(). h is the patch's edge length.
+struct RecoverOptions {
+  /// Wanted distance between primitives that share no vertex, an absolute length; 0: a thousand units in the last
+  /// place of the largest coordinate. Callers give a few units in the last place of the format to be written.
+  double min_gap = 0;
+
+  // Energy: pull + (arap_length h)^2 ARAP + (bending_length h)^4 bending + barrier.
+  double pull = 1;            ///< weight of the quadratic pull
+  double arap_length = 2;     ///< in h: waves shorter than this are kept by ARAP rather than pulled home
+  double bending_length = 1;  ///< in h
+  /// Contact force per mean vertex mass and h at B'(y) = -1: the barrier balances a vertex that is one h from home
+  /// against its elastic neighbourhood at about half the activation distance.
+  double contact_force = 10;
+
+  // Continuation: the barrier's activation distance starts at `activation` and shrinks.
+  double activation = 0.1;           ///< in h
+  double activation_factor = 0.2;    ///< from stage to stage
+  int stages = 3;
+  double activation_gaps = 3;        ///< the activation distance never falls below this many min_gap
+
+  // Gaps and home.
+  double open_target = 0.01;         ///< in h: gaps are first opened to this
+  int open_rounds = 12;
+  double snap_reach = 0.1;           ///< share of the mean edge at a vertex from which it may be sent straight home
+  int contact_rings = 2;             ///< rings around what is not home or in contact that stay free after the first snap
+
+  // Steps.
+  int first_steps = 12;              ///< steps at the first activation distance, with everything free
+  int max_steps = 120;               ///< Newton steps in all
+  double stop_decrease = 1e-3;       ///< a stage ends when the energy fell by less than this share ...
+  int stop_window = 10;              ///< ... in this many steps
+  double stop_motion = 1e-4;         ///< or when a full step moved no vertex farther than this, in h
+  double step_cap = 0.5;             ///< longest motion of a vertex in a step, in h
+  double margin_min = 0.02;          ///< least and largest motion, in h, for which a list of close stencils is gathered
+  double margin_max = 0.25;
+  double armijo = 1e-4;
+  PcgOptions solver = {1e-2, 100};
+  bool scalar_jacobi = false;        ///< precondition by the diagonal only
+  double time_step = 0;              ///< artificial time step of the paper's variant: adds |x - x_last|^2 / (2 time_step); 0: none
+  CcdOptions ccd;
+
+  /// The paper's own recovery (§3.5.1): 500 Newton steps with artificial time steps, PCG with a diagonal Jacobi preconditioner at
+  /// relative tolerance 1e-6, one activation distance, no active region, no early stop.
+  static RecoverOptions paper();
+};
+
+struct RecoverResult {
+  int iterations = 0;          ///< Newton steps
+  int solver_iterations = 0;   ///< PCG iterations in all
+  double min_gap = 0;          ///< least distance of a contact stencil of the active faces (infinite: none is near)
+  Index closed = 0;            ///< stencils whose gap could not be opened to what was wanted
+  Index home = 0;              ///< free vertices that are bit-exactly at rest
+  bool moved = false;          ///< any vertex is elsewhere than at the start
+  bool stopped = false;        ///< by the caller
+};
+
+/// Moves the free vertices of an embedded patch back toward rest, as near as contact allows, without ever leaving the
+/// embedded set (paper §3.4, eq. 12; barrier and step filter after Incremental Potential Contact).
+///
+/// Open gaps, a few steps, send home what can go home, steps on what cannot, send home again.
+/// \pre patch.x has no intersecting pair with an active triangle, in any class. Pairs that are there are kept out of
+/// the way and never become more.
+/// Guarantees: no new pair; stencils keep the distance `min_gap` once they have it (neighbours that are closer at rest keep
+/// a share of their rest distance); free vertices that can go home are bit-exactly at rest. Single-threaded but for the exact
+/// check, deterministic. `stop` is asked once a step; what was reached by then is kept.
+RecoverResult recover(Patch& patch, const RecoverOptions& options = {}, const std::function<bool()>& stop = {});
+
+}  // namespace unsnarl

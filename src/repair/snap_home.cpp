@@ -1,0 +1,47 @@
+#include "repair/snap_home.h"
+
+#include <algorithm>
+
+namespace unsnarl {
+
+Index snap_home(Positions& x, const Positions& rest, std::span<const double> reach, ContactRules& rules,
+                EmbeddingGuard& guard, std::span<const std::uint8_t> moves, int rounds) {
+  std::vector<ContactRule> close;
+  std::vector<SeparatedStencil> filter;
+  std::vector<std::uint8_t> trying(moves.size());
+  Positions p(3, x.cols());
+  Positions safe;
+  Index arrived = 0;
+  for (int round = 0; round < rounds; ++round) {
+    p.setZero();
+    double longest = 0;
+    for (Index v = 0; v < x.cols(); ++v) {
+      trying[v] = 0;
+      if (!moves[v] || x.col(v) == rest.col(v)) continue;
+      const Vec3 way = rest.col(v) - x.col(v);
+      const double length = way.norm();
+      if (length > reach[v]) continue;
+      p.col(v) = way;
+      trying[v] = 1;
+      longest = std::max(longest, length);
+    }
+    if (!(longest > 0)) return arrived;
+    rules.gather(x, 2 * longest + rules.options().min_gap, trying, close);
+    filter.clear();
+    for (const ContactRule& rule : close) filter.push_back({rule.stencil.stencil, rule.stencil.separation});
+    filter_displacements(filter, x, p, OnCollision::stay);
+    safe = x;
+    Index moved = 0;
+    for (Index v = 0; v < x.cols(); ++v) {
+      if (!trying[v] || p.col(v).isZero(0)) continue;
+      x.col(v) = rest.col(v);
+      ++moved;
+    }
+    moved -= guard.roll_back(x, safe);
+    arrived += std::max(moved, Index{0});
+    if (moved <= 0) break;
+  }
+  return arrived;
+}
+
+}  // namespace unsnarl
