@@ -1,0 +1,240 @@
+// What must be true of repair whatever the mesh.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "oracle/intersections_oracle.h"
+#include "property/meshes.h"
+#include "unsnarl/intersections.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+namespace {
+
+struct NamedMesh {
+  const char* name;
+  Surface surface;
+};
+/// Self-intersecting, without obstruction.
+std::vector<NamedMesh> tangles() {
+  return {{"touching_tori", meshes::touching_tori()},
+          {"curled_strip", meshes::curled_strip()},
+          {"dented_sheets", meshes::dented_sheets()}};
+}
+
+std::vector<IntersectingPair> judged(const Surface& surface, const std::vector<double>& positions) {
+  std::vector<oracle::OracleTriangle> triangles;
+  for (std::size_t f = 0; f < surface.view().face_count(); ++f) {
+    const auto face = surface.view().face(f);
+    triangles.push_back({face[0], face[1], face[2]});
+  }
+  return oracle::intersections_by_cgal(positions, triangles);
+}
+
+std::vector<double> as_float32(std::vector<double> positions) {
+  for (double& value : positions) value = static_cast<float>(value);
+  return positions;
+}
+
+double diagonal_of(const Surface& surface) {
+  std::array<double, 3> lo, hi;
+  lo.fill(1e300), hi.fill(-1e300);
+  for (std::size_t k = 0; k < surface.positions.size(); ++k) {
+    lo[k % 3] = std::min(lo[k % 3], surface.positions[k]);
+    hi[k % 3] = std::max(hi[k % 3], surface.positions[k]);
+  }
+  return std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
+}
+
+TEST(RepairProperties, result_is_embedded_in_both_precisions_says_cgal) {
+  for (const auto& [name, surface] : tangles()) {
+    SCOPED_TRACE(name);
+    ASSERT_FALSE(judged(surface, surface.positions).empty()) << "the mesh tests nothing";
+    const RepairResult result = repair(surface);
+    EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
+    ASSERT_EQ(result.positions.size(), surface.positions.size());
+    EXPECT_TRUE(judged(surface, result.positions).empty());
+    EXPECT_TRUE(result.report.float32_embedded);
+    EXPECT_TRUE(judged(surface, as_float32(result.positions)).empty());
+    EXPECT_EQ(result.report.after.total(), 0u);
+    EXPECT_EQ(result.report.before.total(), find_intersections(surface).size());
+  }
+}
+
+TEST(RepairProperties, what_is_reported_is_what_happened) {
+  for (const auto& [name, surface] : tangles()) {
+    SCOPED_TRACE(name);
+    const RepairResult result = repair(surface);
+    const RepairReport& report = result.report;
+    std::size_t untouched = 0;
+    double largest = 0;
+    for (std::size_t v = 0; v < surface.view().vertex_count(); ++v) {
+      const double *p = &surface.positions[3 * v], *q = &result.positions[3 * v];
+      untouched += std::equal(p, p + 3, q);
+      largest = std::max(largest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+    }
+    EXPECT_NEAR(report.diagonal, diagonal_of(surface), 1e-12);
+    EXPECT_NEAR(report.untouched_share, static_cast<double>(untouched) / surface.view().vertex_count(), 1e-12);
+    EXPECT_NEAR(report.displacement_max_rel * report.diagonal, largest, 1e-12 + 1e-6 * largest);
+    EXPECT_LE(report.displacement_mean_rel, report.displacement_rms_rel * (1 + 1e-12));
+    EXPECT_LE(report.displacement_rms_rel, report.displacement_max_rel * (1 + 1e-12));
+    EXPECT_GT(report.displacement_max_rel, 0);
+    EXPECT_FALSE(report.regions.empty());
+  }
+}
+
+TEST(RepairProperties, embedded_input_comes_back_bit_for_bit) {
+  for (const Surface& surface : {meshes::torus(), meshes::tube(), Surface{}}) {
+    const RepairResult result = repair(surface);
+    EXPECT_EQ(result.status, Status::embedded);
+    EXPECT_TRUE(result.positions == surface.positions);
+    EXPECT_EQ(result.report.untouched_share, 1);
+    EXPECT_EQ(result.report.displacement_max_rel, 0);
+  }
+}
+
+TEST(RepairProperties, a_repaired_mesh_is_left_alone) {
+  for (const auto& [name, surface] : tangles()) {
+    SCOPED_TRACE(name);
+    Surface repaired = surface;
+    repaired.positions = repair(surface).positions;
+    EXPECT_TRUE(repair(repaired).positions == repaired.positions);
+  }
+}
+
+TEST(RepairProperties, same_bytes_at_any_thread_count) {
+  for (const auto& [name, surface] : tangles()) {
+    SCOPED_TRACE(name);
+    RepairOptions options;
+    options.find.threads = 1;
+    const std::vector<double> expected = repair(surface, options).positions;
+    for (const int threads : {2, 4}) {
+      options.find.threads = threads;
+      EXPECT_TRUE(repair(surface, options).positions == expected) << threads << " threads";
+    }
+  }
+}
+
+TEST(RepairProperties, a_distant_component_changes_no_byte) {
+  for (const auto& [name, surface] : tangles()) {
+    SCOPED_TRACE(name);
+    const std::vector<double> alone = repair(surface).positions;
+    // Far away, and with a tangle of its own.
+    for (const Surface& distant : {meshes::torus(), meshes::dented_sheets()}) {
+      const Surface together = meshes::joined(surface, meshes::translated(distant, 50, -20, 30));
+      const std::vector<double> positions = repair(together).positions;
+      EXPECT_TRUE(std::equal(alone.begin(), alone.end(), positions.begin()));
+    }
+  }
+}
+
+TEST(RepairProperties, fixed_vertices_do_not_move) {
+  for (const auto& [name, surface] : tangles()) {
+    SCOPED_TRACE(name);
+    RepairOptions options;
+    options.fixed.assign(surface.view().vertex_count(), 0);
+    for (std::size_t v = 0; v < options.fixed.size() / 2; ++v) options.fixed[v] = 1;
+    const RepairResult result = repair(surface, options);
+    EXPECT_TRUE(std::equal(surface.positions.begin(),
+                           surface.positions.begin() + static_cast<std::ptrdiff_t>(3 * (options.fixed.size() / 2)),
+                           result.positions.begin()));
+    EXPECT_LE(judged(surface, result.positions).size(), judged(surface, surface.positions).size());
+  }
+}
+
+TEST(RepairProperties, what_is_all_fixed_is_an_obstruction) {
+  const Surface surface = meshes::touching_tori();
+  RepairOptions options;
+  options.fixed.assign(surface.view().vertex_count(), 1);
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::obstructed);
+  EXPECT_TRUE(result.positions == surface.positions);
+  ASSERT_FALSE(result.report.obstructions.empty());
+  EXPECT_EQ(result.report.obstructions[0].kind, Obstruction::Kind::fixed_faces);
+}
+
+TEST(RepairProperties, duplicate_faces_are_named_and_all_else_repaired) {
+  Surface surface = meshes::touching_tori();
+  surface.corners.insert(surface.corners.end(), {surface.corners[1], surface.corners[2], surface.corners[0]});
+  const auto last = static_cast<std::int32_t>(surface.view().face_count()) - 1;
+  const RepairResult result = repair(surface);
+  EXPECT_EQ(result.status, Status::obstructed);
+  ASSERT_EQ(result.report.obstructions.size(), 1u);
+  EXPECT_EQ(result.report.obstructions[0].kind, Obstruction::Kind::duplicate_faces);
+  EXPECT_EQ(result.report.obstructions[0].faces, (std::vector<std::int32_t>{0, last}));
+  const auto left = judged(surface, result.positions);
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_TRUE((left[0] == IntersectingPair{0, last, PairClass::duplicate}));
+}
+
+TEST(RepairProperties, a_klein_bottle_is_refused_by_name) {
+  const Surface surface = meshes::klein_bottle();
+  ASSERT_FALSE(judged(surface, surface.positions).empty());
+  const RepairResult result = repair(surface);
+  EXPECT_EQ(result.status, Status::obstructed);
+  EXPECT_TRUE(result.positions == surface.positions);
+  ASSERT_FALSE(result.report.obstructions.empty());
+  EXPECT_EQ(result.report.obstructions[0].kind, Obstruction::Kind::closed_non_orientable);
+}
+
+TEST(RepairProperties, a_klein_bottle_does_not_keep_others_from_repair) {
+  const Surface tangle = meshes::dented_sheets();
+  const Surface surface = meshes::joined(tangle, meshes::translated(meshes::klein_bottle(), 40, 0, 0));
+  const RepairResult result = repair(surface);
+  EXPECT_EQ(result.status, Status::obstructed);
+  const std::vector<double> first_part(result.positions.begin(),
+                                       result.positions.begin() + static_cast<std::ptrdiff_t>(tangle.positions.size()));
+  EXPECT_TRUE(judged(tangle, first_part).empty());
+}
+
+TEST(RepairProperties, limits_are_kept) {
+  const Surface surface = meshes::curled_strip();
+  RepairOptions options;
+  options.max_displacement_rel = 1e-9;
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::displacement_exceeded) << to_string(result.status);
+}
+
+TEST(RepairProperties, cancelling_leaves_nothing_worse) {
+  const Surface surface = meshes::curled_strip();
+  const std::size_t before = judged(surface, surface.positions).size();
+  Context at_once;
+  at_once.cancel();
+  EXPECT_EQ(repair(surface, {}, &at_once).status, Status::cancelled);
+
+  Context soon;
+  int calls = 0;
+  double fraction = 0;
+  soon.on_progress = [&](const Context::Progress& progress) {
+    EXPECT_GE(progress.fraction, fraction);
+    EXPECT_LE(progress.fraction, 1);
+    fraction = progress.fraction;
+    if (++calls == 2) soon.cancel();
+  };
+  const RepairResult result = repair(surface, {}, &soon);
+  EXPECT_TRUE(result.status == Status::cancelled || calls < 2) << to_string(result.status);
+  EXPECT_LE(judged(surface, result.positions).size(), before);
+}
+
+TEST(RepairProperties, senseless_options_are_refused) {
+  const Surface surface = meshes::tube();
+  RepairOptions options;
+  options.fixed.assign(3, 1);
+  EXPECT_THROW(repair(surface, options), std::invalid_argument) << "three flags for all vertices";
+  options = {};
+  options.max_displacement_rel = -1;
+  EXPECT_THROW(repair(surface, options), std::invalid_argument);
+  options = {};
+  options.min_gap_rel = std::nan("");
+  EXPECT_THROW(repair(surface, options), std::invalid_argument);
+  options = {};
+  options.find.threads = -1;
+  EXPECT_THROW(repair(surface, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace unsnarl
