@@ -61,6 +61,9 @@ struct RepairOptions {
   Goal goal = Goal::all;
   /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it, else float64.
   std::optional<Precision> precision;
+  /// The positions that a reader of the file to be written will see, given those to be written and whether float32
+  /// digits are enough. Unset: rounded to `precision`. The result is certified as it returns them.
+  std::function<std::vector<double>(std::span<const double> positions, bool float32)> as_written;
   std::vector<std::uint8_t> fixed;      ///< one flag a vertex, nonzero: must not move. Empty: all may move
   double min_gap_rel = 0;               ///< wanted gap between sheets / bounding-box diagonal; 0: a few float32 units
   double max_displacement_rel = 0;      ///< allowed displacement / bounding-box diagonal; 0: any
@@ -118,7 +121,8 @@ struct RepairReport {
   double min_gap_rel = 0;                                ///< smallest gap met while contacts were watched; 0: not watched
   double volume_change_rel = 0;                          ///< signed volume of closed components, after / before - 1
   double area_change_rel = 0;
-  bool float32_embedded = false;
+  bool float32_embedded = false;                         ///< holds after rounding all positions to float32
+  Precision precision = Precision::float64;              ///< the format in which the result was made to hold
   std::vector<RegionReport> regions;
   std::vector<StageReport> stages;
 };

@@ -1,6 +1,7 @@
 #include "repair/contact_rules.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace unsnarl {
@@ -19,9 +20,9 @@ void ContactRules::gather(const Positions& x, double radius, std::span<const std
   for (const Stencil& s : stencils_) {
     ContactRule rule;
     rule.stencil.stencil = s;
-    rule.distance = closest(s, x).distance;
+    rule.distance = std::sqrt(squared_distance(s, x));
     if (!(rule.distance > 0)) continue;
-    rule.rest_distance = closest(s, patch_.rest).distance;
+    rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
     bool conflict = false;
     candidates_.triangles_at_first(s, [&](Index t) { conflict |= in_conflict_[t] != 0; });
     bool second = false;
@@ -56,10 +57,10 @@ void ContactRules::gather(const Positions& x, double radius, std::span<const std
     for (int k = 0; k < 3; ++k) {
       ContactRule rule;
       const Stencil s{StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
-      rule.rest_distance = closest(s, patch_.rest).distance;
+      rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
       if (rule.rest_distance <= options_.roundoff) continue;  // without area at rest: it may stay so
       rule.reach = options_.altitude_share * rule.rest_distance;
-      rule.distance = closest(s, x).distance;
+      rule.distance = std::sqrt(squared_distance(s, x));
       if (rule.distance > rule.reach + radius || !(rule.distance > 0)) continue;
       rule.stencil.stencil = s;
       rule.stencil.separation = std::min(options_.altitude_floor * rule.rest_distance, 0.5 * rule.distance);

@@ -282,6 +282,7 @@ void Recovery::gather(double activation, double margin) {
   margin_ = margin;
   gathered_at_ = x_;
   rules_->gather(x_, activation + 2 * margin, moves_, gathered_);
+  if (getenv("RECDBG")) fprintf(stderr, "gather act %.3g margin %.3g -> %zu stencils\n", activation / h_, margin / h_, gathered_.size());
   stencils_.clear();
   for (const ContactRule& rule : gathered_) {
     BarrierStencil s = rule.stencil;
@@ -404,6 +405,7 @@ void Recovery::steps_at(double activation, int steps) {
     }
     if (!accepted) break;
     x_.swap(trial_);
+    if (getenv("RECDBG")) fprintf(stderr, "  step %d E %.6g->%.6g moving %zu longest %.3g scale %.3g alpha %.3g limited %d contacts %zu pcg %d\n", result_.iterations, current, next, moving_.size(), longest / h_, scale, alpha, limited, contacts_.size(), result_.solver_iterations);
     short_steps = limited && alpha < 0.1 ? short_steps + 1 : 0;
     current = linearise();
     history.push_back(current);
@@ -430,7 +432,7 @@ void Recovery::check() {
 
 double Recovery::measure_gap() {
   release_everything();
-  rules_->gather(x_, 4 * min_gap_, moves_, gathered_);
+  rules_->gather(x_, std::max(4 * min_gap_, 2 * activation_), moves_, gathered_);
   double gap = std::numeric_limits<double>::infinity();
   result_.closed = 0;
   for (const ContactRule& rule : gathered_) {

@@ -1,0 +1,53 @@
+#include "unsnarl/certify.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "contact/intersection_finder.h"
+#include "geometry/predicates.h"
+#include "repair/prepared_surface.h"
+#include "repair/rounding.h"
+#include "repair/threads.h"
+
+namespace unsnarl {
+namespace {
+
+bool has_no_area(const Positions& x, const Triangle& t) {
+  return collinear(Vec3(x.col(t[0])), Vec3(x.col(t[1])), Vec3(x.col(t[2])));
+}
+
+}  // namespace
+
+Certificate certify(const SurfaceView& input, std::span<const double> positions, const FindOptions& options) {
+  if (positions.size() != input.positions.size())
+    throw std::invalid_argument("there are " + std::to_string(positions.size() / 3) + " positions for a surface of " +
+                                std::to_string(input.vertex_count()) + " vertices");
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    if (!std::isfinite(positions[k]))
+      throw std::invalid_argument("vertex " + std::to_string(k / 3) + " has a coordinate that is not finite");
+  const ThreadLimit threads(options.threads);
+  const PreparedSurface prepared = prepare(input, options);
+  const Positions x = prepared.gather(positions);
+  Certificate certificate;
+  const std::vector<Index>& id = prepared.identification.vertex_of;
+  for (std::size_t v = 0; v < id.size() && options.weld_tolerance == 0; ++v)
+    for (int k = 0; k < 3; ++k) certificate.seams_closed &= positions[3 * v + k] == x(k, id[v]);
+  for (const Triangle& t : prepared.triangles())
+    if (has_no_area(x, t) && !has_no_area(prepared.rest, t)) ++certificate.new_zero_area_faces;
+  IntersectionFinder finder(prepared.triangles());
+  const auto pairs = finder.find(x);
+  certificate.triangle_pairs = pairs.size();
+  certificate.pairs = count_by_class(pairs_of_faces(prepared, pairs));
+  certificate.pairs_float32 = count_by_class(pairs_of_faces(prepared, finder.find(rounded_to_float32(x))));
+  return certificate;
+}
+
+std::vector<IntersectingPair> find_intersections(const SurfaceView& surface, const FindOptions& options) {
+  const ThreadLimit threads(options.threads);
+  const PreparedSurface prepared = prepare(surface, options);
+  IntersectionFinder finder(prepared.triangles());
+  return pairs_of_faces(prepared, finder.find(prepared.rest));
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "repair/prepared_surface.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+
+/// What the input is, before any work.
+struct Diagnosis {
+  Topology topology;
+  Components components;
+  std::vector<IntersectingPair> pairs;        ///< of triangles, sorted
+  std::vector<Obstruction> obstructions;
+  std::vector<IntersectingPair> obstructed;   ///< those pairs that no motion can resolve; a subset of `pairs`, sorted
+};
+
+/// `fixed`: one flag an identified vertex; empty: none.
+Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed);
+
+}  // namespace unsnarl

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+
+#include "repair/diagnose.h"
+#include "repair/prepared_surface.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+
+/// Fills displacement, untouched share, turned triangles, volume and area change of a report. `positions` and the
+/// surface's own are 3 n doubles.
+void measure_change(const SurfaceView& surface, const PreparedSurface& prepared, const Diagnosis& diagnosis,
+                    std::span<const double> positions, RepairReport& report);
+
+/// Resident memory of this process, MB: now, and the most so far.
+double resident_memory_mb();
+double peak_memory_mb();
+
+}  // namespace unsnarl

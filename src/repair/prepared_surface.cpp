@@ -1,0 +1,48 @@
+#include "repair/prepared_surface.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace unsnarl {
+
+Positions PreparedSurface::gather(std::span<const double> positions) const {
+  Positions x(3, identification.count);
+  for (Index v = 0; v < identification.count; ++v)
+    for (int k = 0; k < 3; ++k) x(k, v) = positions[3 * static_cast<std::size_t>(identification.first[v]) + k];
+  return x;
+}
+
+std::vector<double> PreparedSurface::scatter(std::span<const double> input, const Positions& x) const {
+  std::vector<double> positions(input.begin(), input.end());
+  for (std::size_t v = 0; v < identification.vertex_of.size(); ++v) {
+    const Index id = identification.vertex_of[v];
+    for (int k = 0; k < 3; ++k)
+      if (x(k, id) != rest(k, id)) positions[3 * v + k] = x(k, id);
+  }
+  return positions;
+}
+
+PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options) {
+  require_valid(surface);
+  PreparedSurface prepared;
+  prepared.identification = identify(surface, options.weld, options.weld_tolerance);
+  prepared.triangulation = triangulate(surface, prepared.identification.vertex_of);
+  prepared.rest = prepared.gather(surface.positions);
+  return prepared;
+}
+
+std::vector<IntersectingPair> pairs_of_faces(const PreparedSurface& prepared, std::span<const IntersectingPair> pairs) {
+  const std::vector<Index>& polygon = prepared.triangulation.polygon;
+  std::vector<IntersectingPair> faces;
+  faces.reserve(pairs.size());
+  for (const IntersectingPair& pair : pairs) {
+    const auto [a, b] = std::minmax(polygon[pair.a], polygon[pair.b]);
+    faces.push_back({a, b, pair.kind});
+  }
+  std::sort(faces.begin(), faces.end());
+  const auto same_faces = [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b; };
+  faces.erase(std::unique(faces.begin(), faces.end(), same_faces), faces.end());
+  return faces;
+}
+
+}  // namespace unsnarl

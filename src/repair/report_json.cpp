@@ -1,0 +1,135 @@
+#include "repair/report_json.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+#include "unsnarl/version.h"
+
+namespace unsnarl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json options_json(const RepairOptions& options) {
+  return {{"goal", to_string(options.goal)},
+          {"weld", to_string(options.find.weld)},
+          {"weld_tolerance", options.find.weld_tolerance},
+          {"threads", options.find.threads},
+          {"precision", options.precision ? Json(to_string(*options.precision)) : Json("automatic")},
+          {"fixed_vertices", std::count_if(options.fixed.begin(), options.fixed.end(), [](auto f) { return f != 0; })},
+          {"min_gap_rel", options.min_gap_rel},
+          {"max_displacement_rel", options.max_displacement_rel},
+          {"time_limit_s", options.time_limit_s},
+          {"memory_limit_mb", options.memory_limit_mb},
+          {"recover", options.recover},
+          {"paper", options.paper}};
+}
+
+Json stages_json(const RepairResult& result, const ReportFiles& files) {
+  Json stages = Json::array();
+  for (const auto* list : {&files.before_repair, &result.report.stages, &files.after_repair})
+    for (const StageReport& stage : *list)
+      stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"peak_memory_mb", stage.peak_memory_mb}});
+  return stages;
+}
+
+}  // namespace
+
+Json topology_json(const Topology& t) {
+  return {{"vertices", t.vertices},
+          {"faces", t.faces},
+          {"triangles", t.triangles},
+          {"components", t.components},
+          {"closed_components", t.closed_components},
+          {"non_orientable_components", t.non_orientable_components},
+          {"boundary_edges", t.boundary_edges},
+          {"non_manifold_edges", t.non_manifold_edges},
+          {"non_manifold_vertices", t.non_manifold_vertices},
+          {"duplicate_faces", t.duplicate_faces},
+          {"zero_area_faces", t.zero_area_faces},
+          {"duplicate_vertices", t.duplicate_vertices},
+          {"unused_vertices", t.unused_vertices}};
+}
+
+Json pair_counts_json(const PairCounts& counts) {
+  Json by_class = Json::object();
+  for (std::size_t i = 0; i < pair_class_count; ++i) by_class[std::string(pair_class_names[i])] = counts.by_class[i];
+  return {{"total", counts.total()}, {"by_class", by_class}};
+}
+
+Json report_json(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
+  const RepairReport& r = result.report;
+  Json json;
+  json["schema"] = "unsnarl-report";
+  json["schema_version"] = report_schema_version;
+  json["version"] = version;
+  json["status"] = to_string(result.status);
+  json["exit_code"] = files.exit_code;
+  json["input"] = {{"path", files.input},
+                   {"format", files.format},
+                   {"vertices", files.vertices},
+                   {"faces", files.faces},
+                   {"triangulation", files.triangulation},
+                   {"notes", files.notes}};
+  json["output"] = {{"written", !files.output.empty()},
+                    {"path", files.output.empty() ? Json() : Json(files.output)},
+                    {"digits", files.digits}};
+  json["options"] = options_json(options);
+  json["topology"] = topology_json(r.topology);
+  json["before"] = pair_counts_json(r.before);
+  json["after"] = pair_counts_json(r.after);
+  json["obstructions"] = Json::array();
+  for (const Obstruction& obstruction : r.obstructions)
+    json["obstructions"].push_back(
+        {{"kind", to_string(obstruction.kind)}, {"faces", obstruction.faces}, {"message", obstruction.message}});
+  json["diagonal"] = r.diagonal;
+  json["displacement_mean_rel"] = r.displacement_mean_rel;
+  json["displacement_rms_rel"] = r.displacement_rms_rel;
+  json["displacement_max_rel"] = r.displacement_max_rel;
+  json["untouched_share"] = r.untouched_share;
+  json["turned_triangles"] = r.turned_triangles;
+  json["turned_triangles_without_conflict"] = r.turned_triangles_without_conflict;
+  json["min_gap_rel"] = r.min_gap_rel;
+  json["volume_change_rel"] = r.volume_change_rel;
+  json["area_change_rel"] = r.area_change_rel;
+  json["float32_embedded"] = r.float32_embedded;
+  json["regions"] = Json::array();
+  for (const RegionReport& region : r.regions)
+    json["regions"].push_back({{"rung", region.rung},
+                               {"faces", region.faces},
+                               {"pairs", region.pairs},
+                               {"iterations", region.iterations},
+                               {"seconds", region.seconds}});
+  json["stages"] = stages_json(result, files);
+  json["seconds"] = files.seconds;
+  json["peak_memory_mb"] = peak_memory_mb();
+  return json;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+  return static_cast<double>(usage.ru_maxrss) / (1 << 20);  // bytes there, kilobytes elsewhere
+#else
+  return static_cast<double>(usage.ru_maxrss) / (1 << 10);
+#endif
+}
+
+std::string_view to_string(Weld weld) {
+  switch (weld) {
+    case Weld::none: return "none";
+    case Weld::seams: return "seams";
+    case Weld::all: return "all";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(Precision precision) {
+  return precision == Precision::float32 ? "float32" : "float64";
+}
+
+std::string_view to_string(Goal goal) { return goal == Goal::all ? "all" : "disjoint"; }
+
+}  // namespace unsnarl

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+
+/// Raised whenever a key of a report is renamed, removed or changes its meaning; new keys do not raise it.
+inline constexpr int report_schema_version = 1;
+
+/// What a report says about the files around a repair.
+struct ReportFiles {
+  std::string input, output;        ///< paths; output empty: none written
+  std::string format;               ///< "obj", ...
+  std::string digits;               ///< "float32" or "float64": what moved coordinates were rounded to
+  std::size_t vertices = 0, faces = 0;  ///< as the file counts them
+  std::string triangulation;        ///< how the polygons were cut, in words
+  std::vector<std::string> notes;   ///< what the reader remarked
+  int exit_code = 0;
+  double seconds = 0;               ///< from the start of the program
+  std::vector<StageReport> before_repair, after_repair;  ///< reading, writing
+};
+
+/// The report of `unsnarl fix`; keys as documented in docs/report.md.
+nlohmann::ordered_json report_json(const RepairResult& result, const RepairOptions& options, const ReportFiles& files);
+
+/// Parts that other reports share.
+nlohmann::ordered_json topology_json(const Topology& topology);
+nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
+
+/// Highest resident memory of this process so far, MB (1 MB = 2^20 bytes).
+double peak_memory_mb();
+
+std::string_view to_string(Weld weld);
+std::string_view to_string(Precision precision);
+std::string_view to_string(Goal goal);
+
+}  // namespace unsnarl
