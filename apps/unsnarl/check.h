@@ -1,0 +1,17 @@
+#pragma once
+
+#include "command_options.h"
+
+namespace unsnarl::app {
+
+struct CheckOptions : MeshOptions {
+  bool json = false;
+  std::string pairs;
+};
+void add_check_options(CLI::App& command, CheckOptions& options);
+
+/// Counts and locates self-intersections, on standard output. Returns the exit code.
+/// Throws FileError, WriteError, UsageError.
+int run_check(const CheckOptions& options);
+
+}  // namespace unsnarl::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <stdexcept>
+
+#include "unsnarl/repair.h"
+
+namespace unsnarl::app {
+
+/// Exit codes of the program, the same for all commands.
+enum ExitCode : int {
+  exit_embedded = 0,  ///< nothing intersects (any more)
+  exit_intersecting = 1,
+  exit_usage = 2,
+  exit_invalid_input = 3,
+  exit_cannot_write = 4,
+  exit_limit = 5,
+  exit_cancelled = 6,
+  exit_obstructed = 7,
+  exit_internal_error = 70,
+};
+
+constexpr ExitCode exit_code_of(Status status) {
+  switch (status) {
+    case Status::embedded: return exit_embedded;
+    case Status::reduced:
+    case Status::no_progress: return exit_intersecting;
+    case Status::obstructed: return exit_obstructed;
+    case Status::time_limit:
+    case Status::memory_limit:
+    case Status::displacement_exceeded: return exit_limit;
+    case Status::cancelled: return exit_cancelled;
+  }
+  return exit_internal_error;
+}
+
+/// Two options that contradict each other, a value that makes no sense: exit_usage.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace unsnarl::app

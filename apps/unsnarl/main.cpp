@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <new>
+#include <optional>
+
+#include "check.h"
+#include "exit_code.h"
+#include "fix.h"
+#include "interruption.h"
+#include "sample.h"
+#include "unsnarl/document.h"
+#include "unsnarl/version.h"
+
+namespace unsnarl::app {
+namespace {
+
+int complain(ExitCode code, const char* what) {
+  fmt::print(stderr, "unsnarl: {}\n", what);
+  return code;
+}
+
+int run(int argc, char** argv) {
+  Interruption interruption;
+  CLI::App program(
+      "Takes a surface mesh that runs through itself and gives back the same mesh (same vertices, faces, texture\n"
+      "coordinates, everything), moved as little as possible, with no self-intersection left. Certified exactly.",
+      "unsnarl");
+  program.set_version_flag("--version", std::string("unsnarl ") + version);
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(34);
+  FixOptions fix;
+  CheckOptions check;
+  SampleOptions sample;
+  CLI::App* const fix_command = program.add_subcommand("fix", "Repair a mesh");
+  CLI::App* const check_command = program.add_subcommand("check", "Count and locate the self-intersections of a mesh");
+  CLI::App* const sample_command = program.add_subcommand("sample", "Make a self-intersecting surface to play with");
+  add_fix_options(*fix_command, fix);
+  add_check_options(*check_command, check);
+  add_sample_options(*sample_command, sample);
+  program.footer(
+      "Examples:\n"
+      "  unsnarl check hand.obj                              does it intersect itself, and where?\n"
+      "  unsnarl fix hand.obj -o hand_fixed.obj              repair it\n"
+      "  unsnarl fix hand.obj -o out.obj --picture out.png   and look at it\n\n"
+      "Exit codes: 0 embedded (check: nothing found), 1 self-intersections left (check: found), 2 usage,\n"
+      "3 cannot read, 4 cannot write, 5 limit of time, memory or displacement, 6 interrupted,\n"
+      "7 all repaired but what no motion can resolve, 70 internal error.\n"
+      "'unsnarl fix --help' explains the options.");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return program.exit(e, std::cout, std::cerr) == 0 ? exit_embedded : exit_usage;
+  }
+  try {
+    std::optional<tbb::global_control> limit;
+    if (const int threads = *fix_command ? fix.threads : check.threads; threads > 0)
+      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    if (*fix_command) return run_fix(fix, interruption);
+    if (*check_command) return run_check(check);
+    return run_sample(sample);
+  } catch (const UsageError& e) {
+    return complain(exit_usage, e.what());
+  } catch (const FileError& e) {
+    return complain(exit_invalid_input, e.what());
+  } catch (const WriteError& e) {
+    return complain(exit_cannot_write, e.what());
+  } catch (const std::bad_alloc&) {
+    return complain(exit_limit, "not enough memory");
+  } catch (const std::exception& e) {
+    return complain(exit_internal_error, fmt::format("internal error: {}. Please report it", e.what()).c_str());
+  }
+}
+
+}  // namespace
+}  // namespace unsnarl::app
+
+int main(int argc, char** argv) { return unsnarl::app::run(argc, argv); }

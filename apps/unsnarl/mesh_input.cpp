@@ -1,0 +1,52 @@
+#include "mesh_input.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+
+#include "exit_code.h"
+
+namespace unsnarl::app {
+
+std::optional<Format> format_from_name(const std::string& name) {
+  if (name.empty()) return {};
+  const std::optional<Format> format = format_from_extension(name);
+  if (!format) throw UsageError(fmt::format("--format {}: no such format; choose obj, off, ply, stl, glb or gltf", name));
+  return format;
+}
+
+Document read_mesh(const std::string& path, const std::optional<Format>& format) {
+  if (path != standard_stream) return Document::read(path, format);
+  if (!format) throw UsageError("standard input has no extension to tell its format by: add --format obj (or off, ...)");
+  std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};
+  if (std::cin.bad()) throw FileError("standard input: cannot read");
+  return Document::parse(std::move(bytes), *format);
+}
+
+std::vector<std::uint8_t> read_vertex_flags(const std::string& path, std::size_t vertex_count) {
+  std::ifstream file(path);
+  if (!file) throw FileError(path + ": cannot open; --fix-vertices needs a file of 0-based vertex ids");
+  std::vector<std::uint8_t> flags(vertex_count, 0);
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    for (std::string word; words >> word;) {
+      std::size_t id = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
+      if (error != std::errc{} || end != word.data() + word.size())
+        throw FileError(fmt::format("{}:{}: '{}' is no vertex id; give whole numbers from 0", path, number, word));
+      if (id >= vertex_count)
+        throw FileError(fmt::format("{}:{}: there is no vertex {}; the mesh has {} vertices, counted from 0", path,
+                                    number, id, vertex_count));
+      flags[id] = 1;
+    }
+  }
+  if (file.bad()) throw FileError(path + ": cannot read");
+  return flags;
+}
+
+}  // namespace unsnarl::app

@@ -1,0 +1,108 @@
+#include "staged_output.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+
+#include "mesh_input.h"
+
+namespace unsnarl::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path with_links_followed(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::weakly_canonical(path, error);
+  if (error) throw WriteError(fmt::format("{}: cannot follow the link: {}", path.string(), error.message()));
+  return target;
+}
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+/// A rename is only safe from a loss of power once the folder is on the disk; some file systems cannot, which is fine.
+void flush_folder(const fs::path& folder) {
+  const int id = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (id < 0) return;
+  static_cast<void>(::fsync(id));
+  ::close(id);
+}
+
+}  // namespace
+
+StagedOutput::StagedOutput(const fs::path& target, Interruption& interruption)
+    : target_(with_links_followed(target)), interruption_(interruption) {
+  std::error_code ignored;
+  if (fs::is_directory(target_, ignored))
+    throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()));
+  std::string pattern = (folder_of(target_) / ".unsnarl-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr)
+    throw WriteError(fmt::format("{}: cannot create files in the folder {}: {}", target.string(),
+                                 folder_of(target_).string(), std::strerror(errno)));
+  folder_ = pattern;
+  interruption_.set_temporary_folder(folder_);
+}
+
+StagedOutput::~StagedOutput() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+  interruption_.set_temporary_folder({});
+}
+
+void StagedOutput::write(const std::vector<OutputFile>& files) {
+  names_.clear();
+  for (const OutputFile& file : files) {
+    const fs::path name = file.name.empty() ? target_.filename() : file.name;
+    const fs::path staged = folder_ / name;
+    std::error_code error;
+    fs::create_directories(staged.parent_path(), error);
+    try {
+      write_atomically(staged, file.bytes);
+    } catch (const WriteError& e) {
+      // The reader of the message knows the final name only.
+      throw WriteError(fmt::format("{}: cannot be written ({})", (folder_of(target_) / name).string(), e.what()));
+    }
+    names_.push_back(name);
+  }
+}
+
+std::vector<fs::path> StagedOutput::targets() const {
+  std::vector<fs::path> paths;
+  for (const fs::path& name : names_) paths.push_back(folder_of(target_) / name);
+  return paths;
+}
+
+void StagedOutput::commit() {
+  for (std::size_t i = names_.size(); i-- > 0;) {
+    const fs::path from = folder_ / names_[i], to = folder_of(target_) / names_[i];
+    std::error_code error;
+    fs::create_directories(folder_of(to), error);
+    struct stat old {};
+    if (::stat(to.c_str(), &old) == 0) static_cast<void>(::chmod(from.c_str(), old.st_mode & 07777));
+    fs::rename(from, to, error);
+    if (error) throw WriteError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+  }
+  flush_folder(folder_of(target_));
+}
+
+bool is_stream(const std::string& path) {
+  if (path == standard_stream) return true;
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+void write_to_stream(const std::string& path, std::string_view bytes) {
+  if (path != standard_stream) return write_atomically(path, bytes);
+  std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::cout.flush();
+  if (!std::cout) throw WriteError("standard output: cannot write; its reader has gone, or the disk is full");
+}
+
+}  // namespace unsnarl::app

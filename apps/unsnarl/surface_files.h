@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/types.h"
+#include "unsnarl/document.h"
+#include "unsnarl/intersections.h"
+
+namespace unsnarl::app {
+
+/// A new file with nothing but the surface; coordinates with the fewest digits that give the double back.
+/// Formats: obj, off, ply (ASCII, double). Throws UsageError for others.
+std::string surface_file(const SurfaceView& surface, Format format, const std::string& comment);
+
+/// A binary PLY for looking at: the surface at `positions`, faces coloured red where they intersect, orange where they
+/// did before, grey elsewhere; and the number of pairs that each face is in, before and after, as face properties.
+std::string highlight_file(const SurfaceView& surface, std::span<const double> positions,
+                           const std::vector<IntersectingPair>& before, const std::vector<IntersectingPair>& after);
+
+}  // namespace unsnarl::app
