@@ -16,6 +16,7 @@ struct SampleParameter {
   double value = 0;  ///< the default
   double minimum = 0, maximum = 0;
   std::string description;  ///< with its unit
+  bool whole = false;       ///< only whole numbers
 };
 
 /// A generator of a surface that runs through itself.
@@ -31,10 +32,10 @@ struct Sample {
 /// Minarčík, Liu, Crane, Li: "Untangling Surfaces via Shape and Mesh Repulsion" asks for), then shapes as modellers
 /// leave them, then obstructions.
 std::span<const Sample> all_samples();
-inline constexpr std::size_t analytic_sample_count = 28;
+inline constexpr std::size_t analytic_sample_count = 32;
 
 /// resolution: sampling steps along the longest direction of the surface's parameter domain, [8, 2000]; 0: the sample's
-/// own, which gives 1,500 to 5,000 faces. Lengths are of the order of one. Parts of a sample meet by index, without
+/// own, which gives 1,000 to 5,000 faces. y points up. Parts of a sample meet by index, without
 /// duplicated vertices; the result is the same on every run.
 /// Throws std::invalid_argument, naming the valid choices, for an unknown sample or parameter or a value out of range.
 Surface make_sample(std::string_view name, int resolution = 0, const std::map<std::string, double>& parameters = {});

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "samples/block_surface.h"
+#include "samples/parameter_grid.h"
+#include "samples/sample_maker.h"
+#include "samples/sphere_grid.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A sphere's steps along its equator are four sides of the cube that it is made from.
+int cube_divisions(int resolution) { return std::max(2, resolution / 4); }
+
+/// After L. Sacht, A. Jacobson, D. Panozzo, C. Schueller, O. Sorkine-Hornung: "Consistent Volumetric Discretizations
+/// Inside Self-Intersecting Surfaces" (2013): top and bottom of a disc are pushed through each other.
+Surface flying_saucer(int resolution, const SampleValues& values) {
+  const double dent = values["dent"];
+  return sample_sphere(cube_divisions(resolution), FaceKind::triangles, [&](const Vec3& d) {
+    const double r = std::hypot(d[0], d[2]);
+    // Height of the top over the radius; the bottom is its mirror image. Negative within r < dent.
+    const double height = d[1] * (0.55 * r - 0.55 * dent);
+    return Vec3(d[0], height + 0.02 * d[0] * d[2], d[2]);
+  });
+}
+
+Surface figure8_torus(int resolution, const SampleValues& values) {
+  const int turns = values.whole("turns");
+  return sample_grid({{0, 2 * pi, resolution, Seam::closed},
+                      {0, 2 * pi, steps_for(6, resolution, 12, 8), Seam::closed},
+                      FaceKind::quads},
+                     [&](double u, double v) {
+                       const double a = turns * u + 0.4, x = std::sin(v), y = 0.5 * std::sin(2 * v);
+                       const double r = 2 + std::cos(a) * x - std::sin(a) * y;
+                       return Vec3(r * std::cos(u), std::sin(a) * x + std::cos(a) * y, r * std::sin(u));
+                     });
+}
+
+/// A torus whose tube reaches across the axis. On a round ring all of the tube would meet in two points of the axis.
+Surface spindle_torus(int resolution, const SampleValues& values) {
+  const double ring = values["ring"], eccentricity = values["eccentricity"];
+  return sample_grid({{0, 2 * pi, resolution, Seam::closed}, {0, 2 * pi, resolution / 2, Seam::closed}},
+                     [&](double u, double v) {
+                       const double r = ring * (1 + eccentricity * std::cos(2 * u)) + std::cos(v);
+                       return Vec3(r * std::cos(u), std::sin(v), r * std::sin(u));
+                     });
+}
+
+/// A plate with holes rolled up so far that its ends, handles and all, run through each other.
+Surface pretzel(int resolution, const SampleValues& values) {
+  const int genus = values.whole("genus");
+  std::vector<Block> blocks;
+  for (int x = 0; x < 2 * genus + 1; ++x)
+    for (int y = 0; y < 3; ++y)
+      if (x % 2 == 0 || y != 1) blocks.push_back({x, y, 0});
+  const int length = 2 * genus + 1;
+  Surface surface = sample_blocks(blocks, std::max(2, resolution / length), FaceKind::quads, 0.45);
+  const double bend = values["bend"] * pi / 180;
+  const double radius = length / bend;
+  for (std::size_t v = 0; v < surface.positions.size(); v += 3) {
+    double* p = &surface.positions[v];
+    const double angle = (p[0] / length - 0.5) * bend, r = radius + p[2] - 0.5;
+    // Tilted a little along the way, so that the ends do not meet face to face.
+    const double y = p[1] - 1.5 + 0.25 * angle;
+    p[0] = r * std::sin(angle);
+    p[1] = y;
+    p[2] = r * std::cos(angle);
+  }
+  return surface;
+}
+
+}  // namespace
+
+std::vector<SampleMaker> closed_surface_samples() {
+  return {
+      {{"flying_saucer",
+        "disc-like closed surface whose top and bottom pass through each other: genus 0, one double circle",
+        {{"dent", 0.5, 0.1, 0.9, "radius of the part that is turned through, saucer radius 1"}}},
+       76,
+       flying_saucer},
+      {{"figure8_torus",
+        "figure eight swept around a ring with full turns: orientable, genus 1, one double circle",
+        {{"turns", 1, 0, 5, "full turns of the figure eight", true}}},
+       72,
+       figure8_torus},
+      {{"spindle_torus",
+        "torus whose tube is thicker than its oval ring: genus 1, a spindle inside with two sharp ends",
+        {{"ring", 0.5, 0, 0.95, "mean radius of the ring, tube radius 1"},
+         {"eccentricity", 0.5, 0, 1, "how oval the ring is; 0: round, and everything meets in two points"}}},
+       64,
+       spindle_torus},
+      {{"pretzel",
+        "plate with holes rolled up until its handles run through each other: genus 2 or as told",
+        {{"genus", 2, 1, 6, "number of holes", true},
+         {"bend", 410, 0, 600, "angle that the plate is rolled by, in degrees"}}},
+       30,
+       pretzel},
+  };
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "samples/lattice_noise.h"
+#include "samples/parameter_grid.h"
+#include "samples/sample_maker.h"
+#include "samples/sphere_grid.h"
+#include "samples/tube.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Spheres on the corners of a triangle, each through the others: with three, double circles that cross in two triple
+/// points.
+Surface intersecting_spheres(int resolution, const SampleValues& values) {
+  const int count = values.whole("count");
+  MeshBuilder builder;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * pi * k / count;
+    const Vec3 centre = values["distance"] * Vec3(std::cos(angle), 0.13 * k, std::sin(angle));
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7 * k, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    builder.append(sample_sphere(std::max(2, resolution / 4), FaceKind::triangles,
+                                 [&](const Vec3& d) { return Vec3(centre + turn * d); }));
+  }
+  return builder.take();
+}
+
+/// Rings in a row, each through its neighbour's tube instead of through its hole.
+Surface linked_rings(int resolution, const SampleValues& values) {
+  const int count = values.whole("count");
+  MeshBuilder builder;
+  for (int k = 0; k < count; ++k) {
+    const Vec3 centre(values["distance"] * k, 0.04 * k, 0.03 * k);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(k * pi / 2 + 0.2 * k, Vec3::UnitX()).toRotationMatrix();
+    const double tube = 0.3;
+    builder.append(sample_grid({{0, 2 * pi, resolution, Seam::closed},
+                                {0, 2 * pi, steps_for(tube, resolution, 1, 6), Seam::closed},
+                                k % 2 == 0 ? FaceKind::quads : FaceKind::triangles},
+                               [&](double u, double v) {
+                                 const double r = 1 + tube * std::cos(v);
+                                 return Vec3(centre + turn * Vec3(r * std::cos(u), tube * std::sin(v), r * std::sin(u)));
+                               }));
+  }
+  return builder.take();
+}
+
+/// Paper fig. 8 shows such a scene: a bell, a second one inside, and tentacles through both and through each other.
+Surface jellyfish(int resolution, const SampleValues& values) {
+  MeshBuilder builder;
+  const auto bell = [&](double size, double ruffle, double drop) {
+    const int around = resolution;
+    builder.append(sample_grid({{0, 2 * pi, around, Seam::closed, 0.37 * size},
+                                {0.12, 1.9, steps_for(1.8, around, 2 * pi, 6)},
+                                FaceKind::quads},
+                               [&](double u, double v) {
+                                 const double wave = ruffle * std::pow(v / 1.9, 4) * std::sin(7 * u);
+                                 const double r = size * (std::sin(v) + wave);
+                                 return Vec3(r * std::cos(u), size * 0.8 * std::cos(v) - drop + 0.1 * wave, r * std::sin(u));
+                               }));
+  };
+  bell(1.0, 0.13, 0);
+  bell(0.86, 0.24, -0.02);  // its ruffles reach through the outer bell
+  const int tentacles = values.whole("tentacles");
+  for (int k = 0; k < tentacles; ++k) {
+    const auto id = static_cast<std::uint32_t>(k);
+    const double angle = 2 * pi * (k + 0.6 * hashed_unit(11, id)) / tentacles, start = 0.55 + 0.3 * hashed_unit(12, id);
+    const double swing = 0.35 + 0.3 * hashed_unit(13, id), phase = 2 * pi * hashed_unit(14, id);
+    const Vec3 out(std::cos(angle), 0, std::sin(angle)), side(-std::sin(angle), 0, std::cos(angle));
+    // From inside the bell, whose wall most of them cross, down into the bundle.
+    const auto centre = [=](double t) {
+      return Vec3(start * (1 - 0.5 * t) * out + Vec3(0, 0.75 - 2.6 * t, 0) +
+                  swing * t * (std::sin(5 * t + phase) * side + 0.6 * std::cos(4 * t + phase) * out));
+    };
+    builder.append(sample_tube({centre, 0, 1, false, [](double t) { return 0.085 - 0.05 * t; }, std::max(8, resolution / 2), 6,
+                                k % 2 == 0 ? FaceKind::triangles : FaceKind::quads}));
+  }
+  return builder.take();
+}
+
+}  // namespace
+
+std::vector<SampleMaker> scene_samples() {
+  return {
+      {{"intersecting_spheres",
+        "spheres through each other: closed components, double circles that meet in triple points",
+        {{"count", 3, 2, 12, "number of spheres", true},
+         {"distance", 0.65, 0.2, 2, "distance of their centres from the middle, radius 1"}}},
+       36,
+       intersecting_spheres},
+      {{"linked_rings",
+        "chain of rings whose tubes pass through each other: genus 1 each",
+        {{"count", 3, 2, 12, "number of rings", true},
+         {"distance", 1.75, 0.5, 2.5, "distance between neighbours, ring radius 1"}}},
+       48,
+       linked_rings},
+      {{"jellyfish",
+        "scene of many objects: two bells and tentacles through each other",
+        {{"tentacles", 10, 1, 60, "number of tentacles", true}}},
+       56,
+       jellyfish},
+  };
+}
+
+}  // namespace unsnarl
