@@ -33,7 +33,7 @@ double time_of_impact(StencilKind kind, const std::array<Vec3, 4>& x, const std:
   std::array<Vec3, 4> velocity = p;
   const double speed = approach_speed(kind, velocity);
   if (!(speed > 0)) return 1;
-  double free_distance = closest(kind, x).distance - separation;
+  double free_distance = std::sqrt(squared_distance(kind, x)) - separation;
   if (free_distance > speed) return 1;  // too slow to arrive within the step; also where both are zero
   if (!(free_distance > 0)) return std::numeric_limits<double>::min();  // precondition broken: do not move
   const double keep = options.slack * free_distance;
@@ -46,8 +46,9 @@ double time_of_impact(StencilKind kind, const std::array<Vec3, 4>& x, const std:
     if (next >= 1) return 1;
     if (!(next > time)) break;
     for (int i = 0; i < n; ++i) moved[i] = x[i] + next * velocity[i];
-    const double distance = closest(kind, moved).distance - separation;
-    if (distance < keep && time > 0) break;
+    const double distance = std::sqrt(squared_distance(kind, moved)) - separation;
+    // The first advance is safe whatever round-off makes of the distance there.
+    if (!(distance > keep) && time > 0) break;
     time = next;
     if (!(distance > keep)) break;
     free_distance = distance;
@@ -79,7 +80,7 @@ double largest_step(std::span<const SeparatedStencil> stencils, const Positions&
 
 int filter_displacements(std::span<const SeparatedStencil> stencils, const Positions& x, Positions& p,
                          OnCollision on_collision, const CcdOptions& options) {
-  // Shortening halves at least nothing by itself; after this many sweeps whoever still collides stays where it is.
+  // Shortened displacements may collide anew. After this many sweeps whoever still collides stays where it is.
   constexpr int sweeps_of_shortening = 8;
   std::vector<std::uint8_t> changed(static_cast<std::size_t>(x.cols()), 1);
   std::vector<std::uint8_t> changing(changed.size(), 0);

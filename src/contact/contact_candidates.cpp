@@ -47,18 +47,23 @@ void ContactCandidates::gather(const Positions& x, double radius, std::span<cons
     bvh_.build(boxes_);
     built_ = true;
   }
-  bvh_.self_pairs([&](Index a, Index b) { gather_pair(x, radius, moves, a, b, stencils); });
+  // One query per moving triangle: what stands still needs no looking at, however much of it there is.
+  moving_.assign(triangles_.size(), 0);
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Triangle& f = triangles_[t];
+    moving_[t] = moves[f[0]] || moves[f[1]] || moves[f[2]];
+  }
+  for (Index t = 0; t < static_cast<Index>(triangles_.size()); ++t) {
+    if (!moving_[t]) continue;
+    bvh_.query(boxes_[t], [&](Index other) {
+      if (other > t || (other < t && !moving_[other])) gather_pair(x, radius, moves, t, other, stencils);
+    });
+  }
 }
 
 void ContactCandidates::gather_pair(const Positions& x, double radius, std::span<const std::uint8_t> moves, Index a,
                                     Index b, std::vector<Stencil>& stencils) const {
-  const auto triangle_moves = [&](Index t) {
-    const Triangle& f = triangles_[t];
-    return moves[f[0]] || moves[f[1]] || moves[f[2]];
-  };
-  const bool moving[2] = {triangle_moves(a), triangle_moves(b)};
-  if (!moving[0] && !moving[1]) return;
-
+  const bool moving[2] = {moving_[a] != 0, moving_[b] != 0};
   const Index faces[2] = {a, b};
   for (int side = 0; side < 2; ++side) {
     const Index t = faces[side];
@@ -71,8 +76,8 @@ void ContactCandidates::gather_pair(const Positions& x, double radius, std::span
       if (!(owned_corners_[t] & (1u << k)) || has_corner(other, v)) continue;
       if (!moves[v] && !moving[1 - side]) continue;
       if (!point_near(x.col(v), box, radius)) continue;
-      if (closest_vertex_face(x.col(v), x.col(f[0]), x.col(f[1]), x.col(f[2])).distance > radius) continue;
-      stencils.push_back({StencilKind::vertex_face, {v, f[0], f[1], f[2]}});
+      const Stencil stencil{StencilKind::vertex_face, {v, f[0], f[1], f[2]}};
+      if (squared_distance(stencil, x) <= radius * radius) stencils.push_back(stencil);
     }
   }
   if (!(owned_corners_[a] & 56) || !(owned_corners_[b] & 56)) return;
@@ -87,8 +92,8 @@ void ContactCandidates::gather_pair(const Positions& x, double radius, std::span
       if (e[0] == g[0] || e[0] == g[1] || e[1] == g[0] || e[1] == g[1]) continue;
       if (!e_moves && !moves[g[0]] && !moves[g[1]]) continue;
       if (!box.overlaps(box_of_edge(x, g[0], g[1]))) continue;
-      if (closest_edge_edge(x.col(e[0]), x.col(e[1]), x.col(g[0]), x.col(g[1])).distance > radius) continue;
-      stencils.push_back({StencilKind::edge_edge, {e[0], e[1], g[0], g[1]}});
+      const Stencil stencil{StencilKind::edge_edge, {e[0], e[1], g[0], g[1]}};
+      if (squared_distance(stencil, x) <= radius * radius) stencils.push_back(stencil);
     }
   }
 }

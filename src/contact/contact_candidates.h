@@ -67,6 +67,7 @@ class ContactCandidates {
   IndexLists triangles_of_vertex_;
   // Every vertex and edge is looked after by its first triangle, so that a stencil is listed once.
   std::vector<std::uint8_t> owned_corners_;  // bit k: corner k; bit 3 + k: edge k of the triangle
+  std::vector<std::uint8_t> moving_;         // per triangle: has a moving vertex
   std::vector<Box> boxes_;
   Bvh bvh_;
   bool built_ = false;

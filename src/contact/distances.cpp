@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace unsnarl {
 namespace {
@@ -10,32 +11,37 @@ namespace {
 // boundaries are tried as well and the nearest point found wins. Costs nothing on ordinary meshes.
 constexpr double degenerate_sin2 = 1e-10;
 
-Closest finish(const Vec3& difference, const std::array<double, 4>& weights) {
+/// Nearest points before the square root is taken.
+struct Nearest {
+  Vec3 difference;
+  double squared_distance = std::numeric_limits<double>::infinity();
+  std::array<double, 4> weights;
+};
+
+Closest finish(const Nearest& nearest) {
   Closest result;
-  result.distance = difference.norm();
-  if (result.distance > 0) result.direction = difference / result.distance;
-  result.weights = weights;
+  result.distance = nearest.difference.norm();
+  if (result.distance > 0) result.direction = nearest.difference / result.distance;
+  result.weights = nearest.weights;
   return result;
 }
 
-/// Parameter in [0, 1] of the point of the segment from the origin along e that is nearest to p.
-double nearest_parameter(const Vec3& p, const Vec3& e) {
-  const double length2 = e.squaredNorm();
-  return length2 > 0 ? std::clamp(p.dot(e) / length2, 0.0, 1.0) : 0.0;
-}
-
-}  // namespace
-
-Closest closest_vertex_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
+/// Nearest point of the segment from a along e (to b) to p: parameter and difference.
+double nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b, Vec3& difference) {
   const Vec3 e = b - a;
   const Vec3 q = p - a;
+  const double length2 = e.squaredNorm();
+  const double t = length2 > 0 ? std::clamp(q.dot(e) / length2, 0.0, 1.0) : 0.0;
   // From the nearer end, so that the difference of large numbers is not taken there.
-  const double t = nearest_parameter(q, e);
-  const Vec3 difference = t <= 0.5 ? Vec3(q - t * e) : Vec3((p - b) + (1 - t) * e);
-  return finish(difference, {1, -(1 - t), -t, 0});
+  if (t <= 0.5) {
+    difference = q - t * e;
+  } else {
+    difference = (p - b) + (1 - t) * e;
+  }
+  return t;
 }
 
-Closest closest_vertex_face(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+Nearest nearest_vertex_face(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a;
   const Vec3 ac = c - a;
   const Vec3 ap = p - a;
@@ -45,94 +51,109 @@ Closest closest_vertex_face(const Vec3& p, const Vec3& a, const Vec3& b, const V
   const double w = ab.cross(ap).dot(n);  // and of c
   const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
   const bool sliver = n2 <= degenerate_sin2 * longest2 * longest2;
-  const bool inside = n2 > 0 && v >= 0 && w >= 0 && v + w <= n2;
 
-  Closest best;
-  best.distance = std::numeric_limits<double>::infinity();
-  if (inside) {
+  Nearest best;
+  if (n2 > 0 && v >= 0 && w >= 0 && v + w <= n2) {
     const double y = v / n2;
     const double z = w / n2;
-    const double x = std::max(0.0, 1 - y - z);
-    if (sliver) {
-      best = finish(ap - y * ab - z * ac, {1, -x, -y, -z});
-    } else {
-      // Away from the face's plane the difference is along the normal; taking it so keeps tiny distances accurate.
-      const double height = ap.dot(n) / n2;
-      best = finish(height * n, {1, -x, -y, -z});
-      return best;
-    }
+    best.weights = {1, -std::max(0.0, 1 - y - z), -y, -z};
+    // The difference is along the normal; taking it so keeps tiny distances accurate, unless the normal is not.
+    best.difference = sliver ? Vec3(ap - y * ab - z * ac) : Vec3((ap.dot(n) / n2) * n);
+    best.squared_distance = best.difference.squaredNorm();
+    if (!sliver) return best;
   }
-  const Closest edges[3] = {closest_vertex_edge(p, a, b), closest_vertex_edge(p, b, c), closest_vertex_edge(p, c, a)};
+  const Vec3* corner[3] = {&a, &b, &c};
   for (int k = 0; k < 3; ++k) {
-    if (edges[k].distance >= best.distance) continue;
-    best = edges[k];
+    Vec3 difference;
+    const int next = (k + 1) % 3;
+    const double t = nearest_on_segment(p, *corner[k], *corner[next], difference);
+    const double squared_distance = difference.squaredNorm();
+    if (squared_distance >= best.squared_distance) continue;
+    best.difference = difference;
+    best.squared_distance = squared_distance;
     best.weights = {1, 0, 0, 0};
-    best.weights[1 + k] = edges[k].weights[1];
-    best.weights[1 + (k + 1) % 3] = edges[k].weights[2];
+    best.weights[1 + k] = -(1 - t);
+    best.weights[1 + next] = -t;
   }
   return best;
 }
 
-Closest closest_edge_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+Nearest nearest_edge_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a;
   const Vec3 v = d - c;
   const Vec3 r = a - c;
   const Vec3 n = u.cross(v);
   const double n2 = n.squaredNorm();
-  const double uu = u.squaredNorm();
-  const double vv = v.squaredNorm();
-
-  Closest best;
-  best.distance = std::numeric_limits<double>::infinity();
-  const bool parallel = n2 <= degenerate_sin2 * uu * vv;
+  Nearest best;
   if (n2 > 0) {
+    const bool parallel = n2 <= degenerate_sin2 * u.squaredNorm() * v.squaredNorm();
     // Lines: r + s u - t v is parallel to n.
-    double s = v.cross(r).dot(n) / n2;
-    double t = u.cross(r).dot(n) / n2;
+    const double s = v.cross(r).dot(n) / n2;
+    const double t = u.cross(r).dot(n) / n2;
     if (s >= 0 && s <= 1 && t >= 0 && t <= 1) {
-      if (parallel) {
-        best = finish(r + s * u - t * v, {1 - s, s, -(1 - t), -t});
-      } else {
-        return finish((r.dot(n) / n2) * n, {1 - s, s, -(1 - t), -t});
-      }
+      best.weights = {1 - s, s, -(1 - t), -t};
+      best.difference = parallel ? Vec3(r + s * u - t * v) : Vec3((r.dot(n) / n2) * n);
+      best.squared_distance = best.difference.squaredNorm();
+      if (!parallel) return best;
     }
   }
   // The minimum lies on the boundary of the square of parameters: an end point against the other segment.
-  const Closest ends[4] = {closest_vertex_edge(a, c, d), closest_vertex_edge(b, c, d), closest_vertex_edge(c, a, b),
-                           closest_vertex_edge(d, a, b)};
   for (int k = 0; k < 4; ++k) {
-    if (ends[k].distance >= best.distance) continue;
-    best = ends[k];
-    const double near = ends[k].weights[1];  // -(1 - t)
-    const double far = ends[k].weights[2];   // -t
-    switch (k) {
-      case 0: best.weights = {1, 0, near, far}; break;
-      case 1: best.weights = {0, 1, near, far}; break;
-      case 2: best.weights = {-near, -far, -1, 0}; break;
-      default: best.weights = {-near, -far, 0, -1}; break;
-    }
-    if (k >= 2) best.direction = -best.direction;
+    Vec3 difference;
+    const bool first = k < 2;
+    const Vec3& p = k == 0 ? a : k == 1 ? b : k == 2 ? c : d;
+    const double t = first ? nearest_on_segment(p, c, d, difference) : nearest_on_segment(p, a, b, difference);
+    const double squared_distance = difference.squaredNorm();
+    if (squared_distance >= best.squared_distance) continue;
+    best.squared_distance = squared_distance;
+    best.difference = first ? difference : Vec3(-difference);
+    best.weights = {0, 0, 0, 0};
+    best.weights[k] = first ? 1 : -1;
+    best.weights[first ? 2 : 0] = first ? -(1 - t) : 1 - t;
+    best.weights[first ? 3 : 1] = first ? -t : t;
   }
   return best;
 }
 
-Closest closest(StencilKind kind, const std::array<Vec3, 4>& x) {
-  switch (kind) {
-    case StencilKind::vertex_face: return closest_vertex_face(x[0], x[1], x[2], x[3]);
-    case StencilKind::edge_edge: return closest_edge_edge(x[0], x[1], x[2], x[3]);
-    case StencilKind::vertex_edge: break;
-  }
-  return closest_vertex_edge(x[0], x[1], x[2]);
+Nearest nearest_vertex_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
+  Nearest best;
+  const double t = nearest_on_segment(p, a, b, best.difference);
+  best.squared_distance = best.difference.squaredNorm();
+  best.weights = {1, -(1 - t), -t, 0};
+  return best;
 }
 
-Closest closest(const Stencil& stencil, const Positions& x) {
+Nearest nearest(const Stencil& stencil, const Positions& x) {
   const auto& v = stencil.v;
   switch (stencil.kind) {
-    case StencilKind::vertex_face: return closest_vertex_face(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
-    case StencilKind::edge_edge: return closest_edge_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
+    case StencilKind::vertex_face: return nearest_vertex_face(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
+    case StencilKind::edge_edge: return nearest_edge_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
     case StencilKind::vertex_edge: break;
   }
-  return closest_vertex_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]));
+  return nearest_vertex_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]));
 }
+
+}  // namespace
+
+Closest closest_vertex_face(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return finish(nearest_vertex_face(p, a, b, c));
+}
+Closest closest_edge_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return finish(nearest_edge_edge(a, b, c, d));
+}
+Closest closest_vertex_edge(const Vec3& p, const Vec3& a, const Vec3& b) { return finish(nearest_vertex_edge(p, a, b)); }
+
+Closest closest(const Stencil& stencil, const Positions& x) { return finish(nearest(stencil, x)); }
+
+double squared_distance(StencilKind kind, const std::array<Vec3, 4>& x) {
+  switch (kind) {
+    case StencilKind::vertex_face: return nearest_vertex_face(x[0], x[1], x[2], x[3]).squared_distance;
+    case StencilKind::edge_edge: return nearest_edge_edge(x[0], x[1], x[2], x[3]).squared_distance;
+    case StencilKind::vertex_edge: break;
+  }
+  return nearest_vertex_edge(x[0], x[1], x[2]).squared_distance;
+}
+
+double squared_distance(const Stencil& stencil, const Positions& x) { return nearest(stencil, x).squared_distance; }
 
 }  // namespace unsnarl

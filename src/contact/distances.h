@@ -39,7 +39,9 @@ Closest closest_edge_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
 /// Closest points of vertex p and segment (a, b), which may be degenerate.
 Closest closest_vertex_edge(const Vec3& p, const Vec3& a, const Vec3& b);
 
-Closest closest(StencilKind kind, const std::array<Vec3, 4>& x);
 Closest closest(const Stencil& stencil, const Positions& x);
+
+double squared_distance(StencilKind kind, const std::array<Vec3, 4>& x);
+double squared_distance(const Stencil& stencil, const Positions& x);
 
 }  // namespace unsnarl

@@ -1,6 +1,7 @@
 #include "energy/arap_triangle.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace unsnarl {
 namespace {
@@ -35,35 +36,75 @@ ArapTriangle::ArapTriangle(const Positions& rest, std::span<const Triangle> tria
   }
 }
 
-double ArapTriangle::triangle_energy(const Positions& x, Index t, Eigen::Matrix3d* forces) const {
-  const Triangle& f = triangles_[t];
-  const Eigen::Matrix<double, 2, 3>& e0 = rest_edges_[t];
-  Eigen::Matrix3d e;
-  for (int k = 0; k < 3; ++k) e.col(k) = x.col(f[(k + 1) % 3]) - x.col(f[k]);
-
+Eigen::Matrix<double, 3, 2> ArapTriangle::fitted_rotation(const Eigen::Matrix3d& edges, Index t) const {
   // Closest matrix with orthonormal columns to S = sum_k e_k e0_k^T, from the square root of C = S^T S in closed form.
-  const Eigen::Matrix<double, 3, 2> s = e * e0.transpose();
+  const Eigen::Matrix<double, 3, 2> s = edges * rest_edges_[t].transpose();
   const double c00 = s.col(0).squaredNorm();
   const double c11 = s.col(1).squaredNorm();
   const double c01 = s.col(0).dot(s.col(1));
   const double root_det = s.col(0).cross(s.col(1)).norm();
   const double trace = c00 + c11;
-  Eigen::Matrix<double, 3, 2> r;
   if (root_det > rank_one_ratio * trace) {
     const double root_trace = std::sqrt(trace + 2 * root_det);
     Eigen::Matrix2d inverse_root;
     inverse_root << c11 + root_det, -c01, -c01, c00 + root_det;
-    r.noalias() = s * (inverse_root / (root_det * root_trace));
-  } else if (trace > 0) {
-    r = s / std::sqrt(trace);
-  } else {
-    r.setZero();
+    return s * (inverse_root / (root_det * root_trace));
   }
-  e.noalias() -= r * e0;
+  if (trace > 0) return s / std::sqrt(trace);
+  return Eigen::Matrix<double, 3, 2>::Zero();
+}
+
+double ArapTriangle::triangle_energy(const Positions& x, Index t, Eigen::Matrix3d* forces) const {
+  const Triangle& f = triangles_[t];
+  Eigen::Matrix3d e;
+  for (int k = 0; k < 3; ++k) e.col(k) = x.col(f[(k + 1) % 3]) - x.col(f[k]);
+  e -= fitted_rotation(e, t) * rest_edges_[t];
   if (forces) {
     for (int k = 0; k < 3; ++k) forces->col(k) = weight_ * (e.col((k + 2) % 3) - e.col(k));
   }
   return 0.5 * weight_ * e.squaredNorm();
+}
+
+// The three edge vectors sum to zero, so their squares are those of two orthonormal combinations:
+// a = (e_0 - e_1) / sqrt 2 = (2 x_1 - x_0 - x_2) / sqrt 2,  b = (e_0 + e_1 - 2 e_2) / sqrt 6 = 3 (x_2 - x_0) / sqrt 6.
+namespace {
+constexpr double combine_a = std::numbers::sqrt2 / 2;
+constexpr double combine_b = 1.2247448713915890;  // 3 / sqrt 6
+constexpr double coefficient_a[3] = {-combine_a, 2 * combine_a, -combine_a};
+constexpr double coefficient_b[3] = {-combine_b, 0, combine_b};
+}  // namespace
+
+ArapTriangle::Strain ArapTriangle::strain(const Positions& x, Index t) const {
+  const Triangle& f = triangles_[t];
+  Eigen::Matrix3d e;
+  for (int k = 0; k < 3; ++k) e.col(k) = x.col(f[(k + 1) % 3]) - x.col(f[k]);
+  Strain strain;
+  strain.rotation = fitted_rotation(e, t);
+  const Eigen::Matrix<double, 2, 3>& e0 = rest_edges_[t];
+  const Eigen::Vector2d a = combine_a * (e0.col(0) - e0.col(1));
+  const Eigen::Vector2d b = (e0.col(0) + e0.col(1) - 2 * e0.col(2)) * (combine_a / std::numbers::sqrt3);
+  strain.turn = Eigen::Vector4d(-a[1], a[0], -b[1], b[0]).normalized();
+  return strain;
+}
+
+Eigen::Matrix3d ArapTriangle::Strain::apply(const Eigen::Matrix3d& v) const {
+  const Vec3 a = combine_a * (2 * v.col(1) - v.col(0) - v.col(2));
+  const Vec3 b = combine_b * (v.col(2) - v.col(0));
+  Eigen::Vector4d y;
+  y << rotation.transpose() * a, rotation.transpose() * b;
+  y -= turn.dot(y) * turn;
+  const Vec3 back_a = rotation * y.head<2>();
+  const Vec3 back_b = rotation * y.tail<2>();
+  Eigen::Matrix3d result;
+  for (int k = 0; k < 3; ++k) result.col(k) = coefficient_a[k] * back_a + coefficient_b[k] * back_b;
+  return result;
+}
+
+Eigen::Matrix3d ArapTriangle::Strain::block(int k) const {
+  const double a = coefficient_a[k];
+  const double b = coefficient_b[k];
+  const Eigen::Vector2d t = a * turn.head<2>() + b * turn.tail<2>();
+  return rotation * ((a * a + b * b) * Eigen::Matrix2d::Identity() - t * t.transpose()) * rotation.transpose();
 }
 
 double ArapTriangle::value(const Positions& x) const {

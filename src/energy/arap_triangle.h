@@ -31,7 +31,23 @@ class ArapTriangle {
   /// Energy of triangle t and, where `forces` is not null, its derivatives in the three corners.
   double triangle_energy(const Positions& x, Index t, Eigen::Matrix3d* forces) const;
 
+  /// Gauss-Newton part of the Hessian of one triangle: the strains in its plane. Motions of the three corners along the
+  /// normal and turns in the plane cost nothing, as at rest.
+  class Strain {
+   public:
+    /// Corner k of the result: sum_l H_kl v_l / weight.
+    Eigen::Matrix3d apply(const Eigen::Matrix3d& v) const;
+    /// Diagonal block of corner k / weight.
+    Eigen::Matrix3d block(int k) const;
+
+    Eigen::Matrix<double, 3, 2> rotation;  // of the rest frame
+    Eigen::Vector4d turn;                  // unit: the infinitesimal turn in the plane, in the coordinates below
+  };
+  Strain strain(const Positions& x, Index t) const;
+
  private:
+  Eigen::Matrix<double, 3, 2> fitted_rotation(const Eigen::Matrix3d& edges, Index t) const;
+
   std::vector<Triangle> triangles_;
   std::vector<Eigen::Matrix<double, 2, 3>> rest_edges_;  // in a frame of the triangle's own; edge k: corner k to k + 1
   double weight_ = 0;

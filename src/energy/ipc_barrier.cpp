@@ -42,7 +42,7 @@ double IpcBarrier::value(const Positions& x, std::span<const BarrierStencil> ste
   double sum = 0;
   for (const BarrierStencil& s : stencils) {
     if (!may_be_near(s.stencil, x, s.activation)) continue;
-    const double distance = closest(s.stencil, x).distance;
+    const double distance = std::sqrt(squared_distance(s.stencil, x));
     if (distance >= s.activation) continue;
     const double width = s.activation - s.separation;
     double energy = width * barrier((distance - s.separation) / width);

@@ -30,7 +30,13 @@ struct StepOperator {
   };
   std::vector<Index> row_begin, column;
   std::vector<double> entry;
+  struct Strained {
+    Triangle slot;
+    ArapTriangle::Strain strain;
+    double stiffness;
+  };
   std::vector<RankOne> terms;
+  std::vector<Strained> strains;
   double shift = 0;  // times the mass
   std::vector<double> mass;
 
@@ -40,6 +46,20 @@ struct StepOperator {
       Vec3 sum = (shift * mass[i]) * v.col(i);
       for (Index k = row_begin[i]; k < row_begin[i + 1]; ++k) sum += entry[k] * v.col(column[k]);
       result.col(i) = sum;
+    }
+    Eigen::Matrix3d corners;
+    for (const Strained& t : strains) {
+      for (int k = 0; k < 3; ++k) {
+        if (t.slot[k] >= 0) {
+          corners.col(k) = t.stiffness * v.col(t.slot[k]);
+        } else {
+          corners.col(k).setZero();
+        }
+      }
+      corners = t.strain.apply(corners);
+      for (int k = 0; k < 3; ++k) {
+        if (t.slot[k] >= 0) result.col(t.slot[k]) += corners.col(k);
+      }
     }
     for (const RankOne& t : terms) {
       double dot = 0;
@@ -62,6 +82,11 @@ struct StepOperator {
         if (column[k] == i) diagonal += entry[k];
       }
       blocks[i] = diagonal * Eigen::Matrix3d::Identity();
+    }
+    for (const Strained& t : strains) {
+      for (int k = 0; k < 3; ++k) {
+        if (t.slot[k] >= 0) blocks[t.slot[k]] += t.stiffness * t.strain.block(k);
+      }
     }
     for (const RankOne& t : terms) {
       for (int k = 0; k < 4; ++k) {
@@ -90,7 +115,7 @@ class Recovery {
   void set_moving(const std::vector<std::uint8_t>& moves);
   void build_operator();
   /// Steps at one activation distance until converged or `steps` are used up.
-  void steps_at(double activation, int steps);
+  void steps_at(double activation, int steps, const RecoverOptions::Stop& stop);
   void gather(double activation, double margin);
   double energy(const Positions& x);
   /// Energy, gradient and the rank-one terms of the Hessian at x_.
@@ -241,9 +266,9 @@ void Recovery::release_contact_region() {
 }
 
 void Recovery::build_operator() {
-  // Hessian of pull and ARAP with the rotations held: a scalar matrix with the pattern of the mesh.
+  // Hessian of pull and of a share of ARAP with the rotations held: a scalar matrix with the pattern of the mesh.
   const Index n = static_cast<Index>(moving_.size());
-  const double arap = options_.arap_length * options_.arap_length * h_ * h_ * arap_.weight();
+  const double arap = options_.rotation_damping * options_.arap_length * options_.arap_length * h_ * h_ * arap_.weight();
   operator_.mass.resize(n);
   operator_.row_begin.assign(n + 1, 0);
   operator_.column.clear();
@@ -282,7 +307,6 @@ void Recovery::gather(double activation, double margin) {
   margin_ = margin;
   gathered_at_ = x_;
   rules_->gather(x_, activation + 2 * margin, moves_, gathered_);
-  if (getenv("RECDBG")) fprintf(stderr, "gather act %.3g margin %.3g -> %zu stencils\n", activation / h_, margin / h_, gathered_.size());
   stencils_.clear();
   for (const ContactRule& rule : gathered_) {
     BarrierStencil s = rule.stencil;
@@ -318,8 +342,14 @@ double Recovery::linearise() {
   const double arap_scale = options_.arap_length * options_.arap_length * h_ * h_;
   double arap = 0;
   Eigen::Matrix3d forces;
+  operator_.strains.clear();
+  StepOperator::Strained strained;
+  strained.stiffness = (1 - options_.rotation_damping) * arap_scale * arap_.weight();
   for (Index t : triangles_) {
     arap += arap_.triangle_energy(x_, t, &forces);
+    strained.strain = arap_.strain(x_, t);
+    for (int k = 0; k < 3; ++k) strained.slot[k] = slot_[arap_.triangle(t)[k]];
+    if (options_.rotation_damping < 1) operator_.strains.push_back(strained);
     for (int k = 0; k < 3; ++k) gradient_.col(arap_.triangle(t)[k]) += arap_scale * forces.col(k);
   }
   operator_.terms.clear();
@@ -362,9 +392,9 @@ double Recovery::step_limit(const Positions& p) {
   return step;
 }
 
-void Recovery::steps_at(double activation, int steps) {
+void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop& stop) {
   if (moving_.empty()) return;
-  gather(activation, options_.margin_max * h_);
+  gather(activation, options_.margin_min * h_);
   double current = linearise();
   std::vector<double> history = {current};
   int short_steps = 0;
@@ -384,7 +414,8 @@ void Recovery::steps_at(double activation, int steps) {
     double moved = 0;
     for (Index v : moving_) moved = std::max(moved, (x_.col(v) - gathered_at_.col(v)).norm());
     if (moved + wanted > margin_ && (moved > 0 || margin_ < options_.margin_max * h_)) {
-      gather(activation, std::clamp(1.5 * wanted, options_.margin_min * h_, options_.margin_max * h_));
+      const double margin = wanted > options_.margin_reuse * h_ ? wanted : 2 * wanted;
+      gather(activation, std::clamp(margin, options_.margin_min * h_, options_.margin_max * h_));
       moved = 0;
     }
     const double scale = std::min(1.0, std::min(wanted, margin_ - moved) / longest);
@@ -405,15 +436,12 @@ void Recovery::steps_at(double activation, int steps) {
     }
     if (!accepted) break;
     x_.swap(trial_);
-    if (getenv("RECDBG")) fprintf(stderr, "  step %d E %.6g->%.6g moving %zu longest %.3g scale %.3g alpha %.3g limited %d contacts %zu pcg %d\n", result_.iterations, current, next, moving_.size(), longest / h_, scale, alpha, limited, contacts_.size(), result_.solver_iterations);
     short_steps = limited && alpha < 0.1 ? short_steps + 1 : 0;
     current = linearise();
     history.push_back(current);
-    const double motion = alpha * scale * longest;
-    if (!limited && motion < options_.stop_motion * h_) break;
-    const int window = options_.stop_window;
-    if (static_cast<int>(history.size()) > window &&
-        history[history.size() - 1 - window] - current < options_.stop_decrease * current) {
+    if (longest < std::max(options_.stop_motion * h_, options_.stop_activation * activation)) break;
+    if (static_cast<int>(history.size()) > stop.window &&
+        history[history.size() - 1 - stop.window] - current < stop.decrease * current) {
       break;
     }
   }
@@ -453,13 +481,14 @@ RecoverResult Recovery::run() {
 
   const double least = options_.activation_gaps * min_gap_;
   double activation = std::max(options_.activation * h_, least);
-  steps_at(activation, std::min(options_.first_steps, options_.max_steps));
+  steps_at(activation, std::min(options_.first_steps, options_.max_steps), options_.coarse);
   check();
   snap();
   for (int stage = 0; stage < options_.stages && !stopped(); ++stage) {
     release_contact_region();
     if (moving_.empty()) break;
-    steps_at(activation, options_.max_steps - result_.iterations);
+    const bool last = stage + 1 == options_.stages;
+    steps_at(activation, options_.max_steps - result_.iterations, last ? options_.fine : options_.coarse);
     check();
     activation = std::max(activation * options_.activation_factor, least);
   }
@@ -482,8 +511,8 @@ RecoverOptions RecoverOptions::paper() {
   options.max_steps = 500;
   options.first_steps = 500;
   options.stages = 0;
-  options.stop_decrease = 0;
-  options.stop_motion = 0;
+  options.coarse = options.fine = {0, 1};
+  options.stop_motion = options.stop_activation = 0;
   options.solver = {1e-6, 2000};
   options.scalar_jacobi = true;
   options.time_step = 1;

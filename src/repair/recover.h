@@ -37,14 +37,22 @@ struct RecoverOptions {
   // Steps.
   int first_steps = 12;              ///< steps at the first activation distance, with everything free
   int max_steps = 120;               ///< Newton steps in all
-  double stop_decrease = 1e-3;       ///< a stage ends when the energy fell by less than this share ...
-  int stop_window = 10;              ///< ... in this many steps
-  double stop_motion = 1e-4;         ///< or when a full step moved no vertex farther than this, in h
+  /// A stage ends when the energy fell by less than the share `decrease` in `window` steps ...
+  struct Stop {
+    double decrease = 0;
+    int window = 1;
+  };
+  Stop coarse = {1e-2, 4};           ///< before the last stage: it only has to come near
+  Stop fine = {1e-3, 8};             ///< in the last
+  double stop_motion = 1e-3;         ///< or when the Newton step moves no vertex farther than this, in h ...
+  double stop_activation = 0.05;     ///< ... or than this share of the activation distance
   double step_cap = 0.5;             ///< longest motion of a vertex in a step, in h
   double margin_min = 0.02;          ///< least and largest motion, in h, for which a list of close stencils is gathered
   double margin_max = 0.25;
+  double margin_reuse = 0.1;         ///< lists for steps longer than this, in h, are gathered for one step only
   double armijo = 1e-4;
   PcgOptions solver = {1e-2, 100};
+  double rotation_damping = 0.1;     ///< share of ARAP's Hessian with the rotations held; the rest is Gauss-Newton
   bool scalar_jacobi = false;        ///< precondition by the diagonal only
   double time_step = 0;              ///< artificial time step of the paper's variant: adds |x - x_last|^2 / (2 time_step); 0: none
   CcdOptions ccd;
