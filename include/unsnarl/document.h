@@ -34,7 +34,7 @@ class WriteError : public std::runtime_error {
 
 /// Names that a file gives to its faces, of one kind.
 struct FaceLabels {
-  std::string kind;                   ///< OBJ: "object", "group", "material"; STL: "object"; glTF: "node", "mesh", "material"
+  std::string kind;  ///< OBJ: "object", "group", "material"; STL: "object"; glTF: "node", "mesh", "material"
   std::vector<std::string> names;     ///< each name once, in the order of the file
   std::vector<std::int32_t> of_face;  ///< one entry a face: index into names, or -1
 };
@@ -62,8 +62,9 @@ class Document {
   ~Document();
 
   Format format() const;
-  /// Positions as a reader sees them, all finite; faces of any size >= 3, all corners in range. glTF: world space of the default scene.
-  /// STL: three vertices a facet. Faces with fewer than 3 corners stay in the file but are left out here (noted).
+  /// Positions as a reader sees them, all finite; faces of any size >= 3, all corners in range. glTF: world space of
+  /// the default scene. STL: three vertices a facet. Faces with fewer than 3 corners stay in the file but are left out
+  /// here (noted).
   const Surface& surface() const;
   const std::vector<FaceLabels>& face_labels() const;
   /// Things worth telling the user, one sentence each.
@@ -87,8 +88,9 @@ class Document {
 };
 
 /// Writes to a temporary file in the folder of `path`, flushes it to the disk, renames it: either the old file or the
-/// whole new one is there, never a part. Keeps the permissions of an existing target; follows a symbolic link;
-/// writes straight into devices and pipes. Throws WriteError, and then leaves no temporary file behind.
+/// whole new one is there, never a part. Keeps the permissions of an existing target and respects its write protection;
+/// follows a symbolic link; writes straight into devices and pipes. Throws WriteError, and then leaves no temporary
+/// file behind.
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace unsnarl

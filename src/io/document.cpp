@@ -50,7 +50,9 @@ void check_positions(const Surface& surface, std::span<const double> positions) 
 
 }  // namespace
 
-std::string_view to_string(Format format) { return format_names[static_cast<std::size_t>(format)].second; }
+std::string_view to_string(Format format) {
+  return format_names[static_cast<std::size_t>(format)].second;
+}
 
 std::optional<Format> format_from_extension(std::string_view path) {
   std::string extension(path.substr(path.find_last_of("./\\") + 1));
@@ -86,11 +88,21 @@ Document Document::parse(std::string bytes, Format format, const std::filesystem
   return Document(format, parse_file(std::move(bytes), format, folder));
 }
 
-Format Document::format() const { return format_; }
-const Surface& Document::surface() const { return file_->surface; }
-const std::vector<FaceLabels>& Document::face_labels() const { return file_->labels; }
-const std::vector<std::string>& Document::notes() const { return file_->notes; }
-bool Document::stores_float32() const { return file_->stores_float32; }
+Format Document::format() const {
+  return format_;
+}
+const Surface& Document::surface() const {
+  return file_->surface;
+}
+const std::vector<FaceLabels>& Document::face_labels() const {
+  return file_->labels;
+}
+const std::vector<std::string>& Document::notes() const {
+  return file_->notes;
+}
+bool Document::stores_float32() const {
+  return file_->stores_float32;
+}
 
 std::vector<OutputFile> Document::patched(std::span<const double> positions, bool float32_digits) const {
   check_positions(file_->surface, positions);

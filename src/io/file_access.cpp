@@ -28,7 +28,9 @@ class Descriptor {
   int id_;
 };
 
-std::string reason() { return std::generic_category().message(errno); }
+std::string reason() {
+  return std::generic_category().message(errno);
+}
 
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -124,6 +126,10 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
     throw WriteError(fmt::format("{}: is a folder; name a file", path.string()));
   }
   if (exists && !S_ISREG(status.st_mode)) return write_directly(target, bytes);
+  // Renaming would get past the protection of the old file.
+  if (exists && ::access(target.c_str(), W_OK) != 0) {
+    throw WriteError(fmt::format("{}: is write-protected: {}", path.string(), reason()));
+  }
 
   TemporaryFile temporary(target);
   if (!temporary.is_open()) {

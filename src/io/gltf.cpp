@@ -83,7 +83,9 @@ std::array<float, 3> load_position(std::string_view data, std::size_t offset) {
   return result;
 }
 
-std::array<double, 3> as_double(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+std::array<double, 3> as_double(const std::array<float, 3>& p) {
+  return {p[0], p[1], p[2]};
+}
 
 GltfFile::Local GltfFile::stored(const Block& block, std::size_t vertex) const {
   return load_position(buffers.data(block.layout.buffer), offset_of(block, vertex));
@@ -92,7 +94,8 @@ GltfFile::Local GltfFile::stored(const Block& block, std::size_t vertex) const {
 GltfFile::Local GltfFile::wanted(const Block& block, std::size_t vertex, std::span<const double> positions) const {
   const Local old = stored(block, vertex);
   const std::span<const double> world = positions.subspan(3 * vertex, 3);
-  if (std::equal(world.begin(), world.end(), surface.positions.begin() + static_cast<std::ptrdiff_t>(3 * vertex))) return old;
+  if (std::equal(world.begin(), world.end(), surface.positions.begin() + static_cast<std::ptrdiff_t>(3 * vertex)))
+    return old;
   const std::array<double, 3> local = placements[placement_of_vertex[vertex]].to_local({world[0], world[1], world[2]});
   Local result{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -110,8 +113,10 @@ std::vector<double> GltfFile::as_written(std::span<const double> positions, bool
       const Local local = wanted(block, v, positions);
       if (local == stored(block, v)) continue;
       if (!block.other_use.empty()) {
-        throw FileError(fmt::format("the positions of vertex {} (counting from 0) are {} too, which must not change; store "
-                                    "them apart", v, block.other_use));
+        throw FileError(
+            fmt::format("the positions of vertex {} (counting from 0) are {} too, which must not change; store "
+                        "them apart",
+                        v, block.other_use));
       }
       const std::array<double, 3> world = placements[placement_of_vertex[v]].to_world(as_double(local));
       std::copy(world.begin(), world.end(), result.begin() + static_cast<std::ptrdiff_t>(3 * v));
@@ -145,7 +150,8 @@ std::vector<OutputFile> GltfFile::patched(std::span<const double> positions, boo
   return buffers.rebuilt(bytes, container, std::move(edits), std::move(changed));
 }
 
-void GltfFile::update_bounds(const PositionAccessor& accessor, std::string_view data, std::vector<TextEdit>& edits) const {
+void GltfFile::update_bounds(const PositionAccessor& accessor, std::string_view data,
+                             std::vector<TextEdit>& edits) const {
   const Layout& layout = accessor.layout;
   const std::string_view old = buffers.data(layout.buffer);
   Local lo = load_position(data, layout.start), hi = lo;
@@ -181,9 +187,10 @@ class GltfParser {
     if (!root_.is_object()) throw FileError("the JSON text is no object; check that it is a glTF file");
     const std::string version = root_["asset"]["version"].string();
     if (!version.starts_with("2")) {
-      throw FileError(version.empty() ? std::string("'asset' with a version is missing; check that it is a glTF file")
-                                      : fmt::format("glTF version {}, but only version 2 is supported; convert the file",
-                                                    version.substr(0, 20)));
+      throw FileError(version.empty()
+                          ? std::string("'asset' with a version is missing; check that it is a glTF file")
+                          : fmt::format("glTF version {}, but only version 2 is supported; convert the file",
+                                        version.substr(0, 20)));
     }
     accessors_ = root_["accessors"].elements();
     views_ = root_["bufferViews"].elements();
@@ -236,8 +243,9 @@ class GltfParser {
           continue;
         }
         if (json["extensions"]["KHR_draco_mesh_compression"]) {
-          throw FileError(where(p) + ": compressed with KHR_draco_mesh_compression, which is not supported; "
-                                     "decompress the file first");
+          throw FileError(where(p) +
+                          ": compressed with KHR_draco_mesh_compression, which is not supported; "
+                          "decompress the file first");
         }
         p.positions = member_index(json["attributes"], "POSITION", 0, where(p));
         p.indices = json["indices"];
@@ -270,8 +278,9 @@ class GltfParser {
     std::size_t size = 0;
     if (std::string_view(type) == "VEC3") {
       if (result.component_type != single) {
-        throw FileError(name + " is quantised (KHR_mesh_quantization), which is not supported; "
-                               "convert the positions to 32-bit floats first");
+        throw FileError(name +
+                        " is quantised (KHR_mesh_quantization), which is not supported; "
+                        "convert the positions to 32-bit floats first");
       }
       size = position_size;
     } else {
@@ -285,12 +294,13 @@ class GltfParser {
       throw FileError(name + " has no bufferView; geometry that an extension stores elsewhere is not supported");
     }
     const std::size_t view_id = member_index(accessor, "bufferView", 0, name);
-    if (view_id >= views_.size()) throw FileError(fmt::format("{}: bufferView {} does not exist; it is damaged", name, view_id));
+    if (view_id >= views_.size())
+      throw FileError(fmt::format("{}: bufferView {} does not exist; it is damaged", name, view_id));
     const Value& view = views_[view_id];
     for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
       if (view["extensions"][extension]) {
-        throw FileError(fmt::format("{}: compressed with {}, which is not supported; decompress the file first", name,
-                                    extension));
+        throw FileError(
+            fmt::format("{}: compressed with {}, which is not supported; decompress the file first", name, extension));
       }
     }
     result.buffer = file_.buffers.resolve(member_index(view, "buffer", std::numeric_limits<std::size_t>::max(), name));
@@ -303,19 +313,22 @@ class GltfParser {
     const std::size_t start = member_index(accessor, "byteOffset", 0, name);
     const std::size_t available = file_.buffers.data(result.buffer).size();
     if (view_start > available || view_size > available - view_start) {
-      throw FileError(fmt::format("{}: bufferView {} reaches beyond its buffer of {} bytes; the file is cut short or damaged",
-                                  name, view_id, available));
+      throw FileError(
+          fmt::format("{}: bufferView {} reaches beyond its buffer of {} bytes; the file is cut short or damaged", name,
+                      view_id, available));
     }
-    if (result.count > 0 &&
-        (start > view_size || view_size - start < size || (view_size - start - size) / result.stride < result.count - 1)) {
-      throw FileError(fmt::format("{}: {} elements do not fit into bufferView {} of {} bytes; the file is cut short or damaged",
-                                  name, result.count, view_id, view_size));
+    if (result.count > 0 && (start > view_size || view_size - start < size ||
+                             (view_size - start - size) / result.stride < result.count - 1)) {
+      throw FileError(
+          fmt::format("{}: {} elements do not fit into bufferView {} of {} bytes; the file is cut short or damaged",
+                      name, result.count, view_id, view_size));
     }
     result.start = view_start + start;
     return result;
   }
 
-  /// Accessors that share bytes (several views of one vertex buffer) become one block, so that each number has one vertex.
+  /// Accessors that share bytes (several views of one vertex buffer) become one block, so that each number has one
+  /// vertex.
   void build_blocks() {
     const auto key = [this](std::size_t id) {
       const Layout& l = file_.accessors[id].layout;
@@ -324,9 +337,8 @@ class GltfParser {
     std::map<std::size_t, std::size_t> rank;
     for (const std::size_t id : order_) rank.try_emplace(id, rank.size());
     std::vector<std::size_t> sorted = order_;
-    std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
-      return std::pair(key(a), rank[a]) < std::pair(key(b), rank[b]);
-    });
+    std::sort(sorted.begin(), sorted.end(),
+              [&](std::size_t a, std::size_t b) { return std::pair(key(a), rank[a]) < std::pair(key(b), rank[b]); });
     struct Group {
       Layout layout;
       std::size_t rank;
@@ -381,8 +393,8 @@ class GltfParser {
         for (std::size_t byte = 0; byte < position_size; ++byte) {
           const std::size_t at = l.start + i * l.stride + byte;
           if (bytes[at]) {
-            throw FileError(fmt::format("two POSITION accessors overlap at byte {} of buffer {}; the file is damaged", at,
-                                        l.buffer));
+            throw FileError(fmt::format("two POSITION accessors overlap at byte {} of buffer {}; the file is damaged",
+                                        at, l.buffer));
           }
           bytes[at] = true;
         }
@@ -398,14 +410,17 @@ class GltfParser {
       if (found == file_.accessors.end()) return;
       Block& block = file_.blocks[found->second.block];
       if (block.other_use.empty()) {
-        file_.notes.push_back(fmt::format("Accessor {} holds positions and {}; a repair would have to change both, so it is "
-                                          "refused where these vertices have to move.", *id, what));
+        file_.notes.push_back(
+            fmt::format("Accessor {} holds positions and {}; a repair would have to change both, so it is "
+                        "refused where these vertices have to move.",
+                        *id, what));
       }
       block.other_use = what;
     };
     for (const Value& mesh : meshes_) {
       for (const Value& primitive : mesh["primitives"].elements()) {
-        for (const char* semantic : {"NORMAL", "COLOR_0", "TEXCOORD_0"}) use(primitive["attributes"][semantic], semantic);
+        for (const char* semantic : {"NORMAL", "COLOR_0", "TEXCOORD_0"})
+          use(primitive["attributes"][semantic], semantic);
         for (const Value& target : primitive["targets"].elements()) {
           for (const char* semantic : {"POSITION", "NORMAL"}) use(target[semantic], "a morph target");
         }
@@ -433,8 +448,9 @@ class GltfParser {
                              : indices.component_type == unsigned_short ? load<std::uint16_t>(at, std::endian::little)
                                                                         : load<std::uint32_t>(at, std::endian::little);
       if (id >= vertices) {
-        throw FileError(fmt::format("{}: index {} uses vertex {}, but the primitive has {} vertices (all counting from 0)",
-                                    where(p), i, id, vertices));
+        throw FileError(
+            fmt::format("{}: index {} uses vertex {}, but the primitive has {} vertices (all counting from 0)",
+                        where(p), i, id, vertices));
       }
       return static_cast<std::int32_t>(base + id);
     };
@@ -446,9 +462,9 @@ class GltfParser {
     }
     for (std::size_t i = 0; i + 2 < count; ++i) {
       // glTF 2.0, section 3.7.2.1
-      const std::array<std::int32_t, 3> face =
-          p.mode == triangle_strip ? std::array{vertex(i), vertex(i + 1 + i % 2), vertex(i + 2 - i % 2)}
-                                   : std::array{vertex(i + 1), vertex(i + 2), vertex(0)};
+      const std::array<std::int32_t, 3> face = p.mode == triangle_strip
+                                                   ? std::array{vertex(i), vertex(i + 1 + i % 2), vertex(i + 2 - i % 2)}
+                                                   : std::array{vertex(i + 1), vertex(i + 2), vertex(0)};
       // Strips repeat vertices to jump from one place to another; these triangles are no faces.
       const bool is_jump = face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
       if (p.mode == triangle_strip && is_jump) continue;
@@ -541,8 +557,9 @@ class GltfParser {
         const std::array<double, 3> world = file_.placements[file_.placement_of_vertex[v]].to_world(local);
         for (std::size_t k = 0; k < 3; ++k) {
           if (!std::isfinite(world[k])) {
-            throw FileError(fmt::format("byte {} of buffer {}: vertex {} (counting from 0) is not finite; correct or remove it",
-                                        offset, block.layout.buffer, v));
+            throw FileError(
+                fmt::format("byte {} of buffer {}: vertex {} (counting from 0) is not finite; correct or remove it",
+                            offset, block.layout.buffer, v));
           }
           file_.surface.positions[3 * v + k] = world[k];
         }
@@ -566,8 +583,8 @@ class GltfParser {
     if (skinned > 0) notes.push_back(fmt::format("{} with a skin: the bind pose is repaired.", meshes(skinned)));
     if (has_morph_targets_) notes.emplace_back("Morph targets: the base shape is repaired.");
     if (instanced > 0) {
-      notes.push_back(fmt::format("{} shown by several nodes: repaired where the first one shows it, the others follow.",
-                                  meshes(instanced)));
+      notes.push_back(fmt::format(
+          "{} shown by several nodes: repaired where the first one shows it, the others follow.", meshes(instanced)));
     }
     if (flat > 0) {
       notes.push_back(fmt::format("{} with a node transform that cannot be inverted: repaired without the transform.",
@@ -577,11 +594,13 @@ class GltfParser {
       notes.push_back(fmt::format("{} not shown by the default scene: repaired without a transform.", meshes(hidden)));
     }
     if (faces_elsewhere_ > 0) {
-      notes.push_back(fmt::format("{} faces share vertices with a mesh that stands elsewhere and are left out; they follow.",
-                                  faces_elsewhere_));
+      notes.push_back(
+          fmt::format("{} faces share vertices with a mesh that stands elsewhere and are left out; they follow.",
+                      faces_elsewhere_));
     }
     if (ignored_primitives_ > 0) {
-      notes.push_back(fmt::format("{} primitives without triangles or positions are left as they are.", ignored_primitives_));
+      notes.push_back(
+          fmt::format("{} primitives without triangles or positions are left as they are.", ignored_primitives_));
     }
   }
 
@@ -590,8 +609,8 @@ class GltfParser {
   std::vector<Value> accessors_, views_, meshes_;
   std::vector<MeshPlace> places_;
   std::vector<Primitive> primitives_;
-  std::vector<std::size_t> order_;              ///< POSITION accessors in the order of their first use
-  std::vector<std::int32_t> block_placement_;   ///< for vertices that no face uses
+  std::vector<std::size_t> order_;             ///< POSITION accessors in the order of their first use
+  std::vector<std::int32_t> block_placement_;  ///< for vertices that no face uses
   std::size_t corners_ = 0, faces_elsewhere_ = 0, ignored_primitives_ = 0;
   bool has_morph_targets_ = false;
 };

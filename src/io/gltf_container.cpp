@@ -141,7 +141,8 @@ GltfContainer GltfContainer::of_glb(std::string_view bytes) {
     throw FileError("byte 0: 'glTF' and a header of 12 bytes should be here; check that it is a GLB file");
   }
   if (word(bytes, 4) != 2) {
-    throw FileError(fmt::format("byte 4: glTF version {}, but only version 2 is supported; convert the file", word(bytes, 4)));
+    throw FileError(
+        fmt::format("byte 4: glTF version {}, but only version 2 is supported; convert the file", word(bytes, 4)));
   }
   const std::size_t length = word(bytes, 8);
   if (length > bytes.size()) {
@@ -154,11 +155,13 @@ GltfContainer GltfContainer::of_glb(std::string_view bytes) {
     const std::size_t size = word(bytes, at);
     const std::uint32_t type = word(bytes, at + 4);
     if (size > length - at - chunk_header_size) {
-      throw FileError(fmt::format("byte {}: a chunk of {} bytes reaches beyond the end of the file; it is cut short", at, size));
+      throw FileError(
+          fmt::format("byte {}: a chunk of {} bytes reaches beyond the end of the file; it is cut short", at, size));
     }
     const ByteRange range{at + chunk_header_size, size};
     if (!has_json) {
-      if (type != json_chunk) throw FileError(fmt::format("byte {}: the first chunk should be JSON; the file is damaged", at));
+      if (type != json_chunk)
+        throw FileError(fmt::format("byte {}: the first chunk should be JSON; the file is damaged", at));
       has_json = true;
       result.json = range;
     } else if (type == binary_chunk && !result.binary) {
@@ -190,8 +193,8 @@ std::string GltfContainer::rebuilt(std::string_view bytes, std::vector<TextEdit>
   return result;
 }
 
-GltfBuffers::GltfBuffers(const std::vector<JsonText::Value>& json, std::string_view bytes, const GltfContainer& container,
-                         const std::filesystem::path& folder) {
+GltfBuffers::GltfBuffers(const std::vector<JsonText::Value>& json, std::string_view bytes,
+                         const GltfContainer& container, const std::filesystem::path& folder) {
   buffers_.resize(json.size());
   std::map<std::filesystem::path, std::size_t> known;
   for (std::size_t i = 0; i < json.size(); ++i) {
@@ -214,8 +217,8 @@ GltfBuffers::GltfBuffers(const std::vector<JsonText::Value>& json, std::string_v
     Buffer& source = buffers_[buffer.same_as];
     const std::size_t size = source.kind == Buffer::Kind::binary_chunk ? source.view.size() : source.owned.size();
     if (source.error.empty() && (!length || *length > size)) {
-      source.error = fmt::format("buffer {} should have {} bytes, but {} are there; the file is cut short or damaged", i,
-                                 length ? fmt::to_string(*length) : "some", size);
+      source.error = fmt::format("buffer {} should have {} bytes, but {} are there; the file is cut short or damaged",
+                                 i, length ? fmt::to_string(*length) : "some", size);
     }
   }
 }
@@ -229,8 +232,10 @@ void GltfBuffers::load(std::size_t i, const JsonText::Value& json, std::string_v
     if (i == 0 && container.binary) {
       buffer.view = bytes.substr(container.binary->begin, container.binary->size);
     } else {
-      buffer.error = fmt::format("buffer {} has no uri and no binary chunk; its data is missing (geometry compressed by an "
-                                 "extension is not supported)", i);
+      buffer.error = fmt::format(
+          "buffer {} has no uri and no binary chunk; its data is missing (geometry compressed by an "
+          "extension is not supported)",
+          i);
     }
     return;
   }
@@ -249,13 +254,15 @@ void GltfBuffers::load(std::size_t i, const JsonText::Value& json, std::string_v
   }
   buffer.name = percent_decoded(uri);
   if (!is_inside_folder(buffer.name) || uri.find("://") != std::string::npos) {
-    buffer.error = fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i, in_quotes(uri));
+    buffer.error =
+        fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i, in_quotes(uri));
   }
 }
 
 std::size_t GltfBuffers::resolve(std::size_t buffer) const {
   if (buffer >= buffers_.size()) {
-    throw FileError(fmt::format("buffer {} is used, but the file has {} buffers; it is damaged", buffer, buffers_.size()));
+    throw FileError(
+        fmt::format("buffer {} is used, but the file has {} buffers; it is damaged", buffer, buffers_.size()));
   }
   return buffers_[buffer].same_as;
 }
@@ -282,8 +289,8 @@ std::vector<OutputFile> GltfBuffers::rebuilt(std::string_view bytes, const GltfC
       const std::size_t start = data_uri_start(uri);
       std::string encoded = uri.substr(start);
       base64_patch(encoded, buffer.owned, change->second);
-      json_edits.push_back({buffer.uri.begin(), buffer.uri.end(),
-                            json_string(uri.substr(0, start) + encoded, buffer.uri.text())});
+      json_edits.push_back(
+          {buffer.uri.begin(), buffer.uri.end(), json_string(uri.substr(0, start) + encoded, buffer.uri.text())});
     } else if (buffer.kind == Buffer::Kind::file && buffer.same_as == i && buffer.error.empty()) {
       files.push_back({buffer.name, is_changed ? std::move(change->second) : buffer.owned});
     }

@@ -31,7 +31,8 @@ struct GltfContainer {
   static GltfContainer of_glb(std::string_view bytes);
   static GltfContainer of_gltf(std::string_view bytes) { return {{0, bytes.size()}, std::nullopt}; }
 
-  /// The file with edited JSON (places count from the start of the JSON) and, where given, new binary data of the old size.
+  /// The file with edited JSON (places count from the start of the JSON) and, where given, new binary data of the old
+  /// size.
   std::string rebuilt(std::string_view bytes, std::vector<TextEdit> json_edits,
                       const std::optional<std::string>& new_binary) const;
 };
@@ -50,13 +51,13 @@ class GltfBuffers {
   std::string_view data(std::size_t buffer) const;
 
   /// All files to write: the main file with `json_edits` and the changed buffers, then the external buffers.
-  std::vector<OutputFile> rebuilt(std::string_view bytes, const GltfContainer& container, std::vector<TextEdit> json_edits,
-                                  std::map<std::size_t, std::string> changed) const;
+  std::vector<OutputFile> rebuilt(std::string_view bytes, const GltfContainer& container,
+                                  std::vector<TextEdit> json_edits, std::map<std::size_t, std::string> changed) const;
 
  private:
   struct Buffer {
     enum class Kind : std::uint8_t { binary_chunk, data_uri, file } kind = Kind::file;
-    std::size_t same_as = 0;     ///< the first buffer with the same file
+    std::size_t same_as = 0;  ///< the first buffer with the same file
     JsonText::Value uri;
     std::filesystem::path name;  ///< of a file
     std::string owned;           ///< data of a URI or file

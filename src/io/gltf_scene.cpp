@@ -157,7 +157,8 @@ std::vector<MeshPlace> places_of_meshes(const JsonText::Value& root, std::size_t
     if (id >= nodes.size()) {
       throw FileError(fmt::format("node {} is used, but the file has {} nodes; it is damaged", id, nodes.size()));
     }
-    if (visited[id]) throw FileError(fmt::format("node {} has several parents or contains itself; the file is damaged", id));
+    if (visited[id])
+      throw FileError(fmt::format("node {} has several parents or contains itself; the file is damaged", id));
     visited[id] = true;
     const JsonText::Value& node = nodes[id];
     const Placement world = parent * local_transform(node, id);

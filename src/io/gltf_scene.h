@@ -34,7 +34,7 @@ struct MeshPlace {
   std::string node;           ///< name of the node; empty: the scene does not show the mesh
   std::size_t instances = 0;  ///< nodes of the scene that show it
   bool is_skinned = false;
-  bool was_flat = false;      ///< no node has an invertible transform; the identity stands in
+  bool was_flat = false;  ///< no node has an invertible transform; the identity stands in
 };
 
 /// One entry a mesh. Throws FileError where the nodes are no forest.

@@ -92,7 +92,8 @@ class JsonParser {
   [[noreturn]] void fail(const char* message) const { throw FileError(fmt::format("JSON byte {}: {}", at_, message)); }
   char here() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   void skip_space() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t')) {
+    while (at_ < text_.size() &&
+           (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t')) {
       ++at_;
     }
   }
@@ -130,7 +131,8 @@ class JsonParser {
       if (c == last) return;
       if (c != ',') {
         --at_;
-        fail(at_ >= text_.size() ? "the text ends too early; it is cut short" : "',' or a closing bracket should be here");
+        fail(at_ >= text_.size() ? "the text ends too early; it is cut short"
+                                 : "',' or a closing bracket should be here");
       }
       skip_space();
     }
@@ -160,7 +162,8 @@ class JsonParser {
   }
   void escape() {
     const char c = here();
-    if (c == '\0' || std::string_view("\"\\/bfnrtu").find(c) == std::string_view::npos) fail("unknown escape in a string");
+    if (c == '\0' || std::string_view("\"\\/bfnrtu").find(c) == std::string_view::npos)
+      fail("unknown escape in a string");
     ++at_;
     for (int k = 0; c == 'u' && k < 4; ++k, ++at_) {
       if (hex_digit(here()) < 0) fail("four hexadecimal digits should follow \\u");
@@ -209,9 +212,13 @@ class JsonParser {
   std::size_t at_ = 0;
 };
 
-JsonText::JsonText(std::string_view text) : text_(text) { JsonParser(*this).parse(); }
+JsonText::JsonText(std::string_view text) : text_(text) {
+  JsonParser(*this).parse();
+}
 
-JsonText::Value JsonText::root() const { return {this, 0}; }
+JsonText::Value JsonText::root() const {
+  return {this, 0};
+}
 
 JsonText::Value JsonText::Value::operator[](std::string_view key) const {
   Value result;
@@ -249,6 +256,8 @@ std::optional<std::size_t> JsonText::Value::index() const {
   return static_cast<std::size_t>(*value);
 }
 
-std::string JsonText::Value::string() const { return is_string() ? decode(text()) : std::string(); }
+std::string JsonText::Value::string() const {
+  return is_string() ? decode(text()) : std::string();
+}
 
 }  // namespace unsnarl

@@ -1,4 +1,5 @@
-// Wavefront OBJ. Polygons with v, v/vt, v//vn or v/vt/vn corners; everything that is not a vertex position is passed on.
+// Wavefront OBJ. Polygons with v, v/vt, v//vn or v/vt/vn corners; everything that is not a vertex position is passed
+// on.
 #include <fmt/format.h>
 
 #include "io/mesh_file.h"

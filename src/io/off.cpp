@@ -63,7 +63,8 @@ class OffParser {
     take_flag("C", 4);
     take_flag("N", 3);
     if (word.starts_with("4") || word.starts_with("n")) {
-      text_.fail(fmt::format("{} holds vertices of another dimension than three; only three is supported", shown), start);
+      text_.fail(fmt::format("{} holds vertices of another dimension than three; only three is supported", shown),
+                 start);
     }
     const std::size_t taken = take("OFF");
     // Some data sets have the first count stuck to the keyword: 'OFF490 518 0'.
@@ -83,10 +84,9 @@ class OffParser {
       text_.fail(fmt::format("{} where the number of {} should be", in_quotes(text_.peek()), what));
     }
     // Each vertex and face takes at least two characters of the file.
-    if (static_cast<std::uint64_t>(value) > text_.remaining() / 2 ||
-        value > std::numeric_limits<std::int32_t>::max()) {
-      text_.fail(fmt::format("the header promises {} {}, but only {} bytes follow; the file is cut short or damaged", value,
-                             what, text_.remaining()));
+    if (static_cast<std::uint64_t>(value) > text_.remaining() / 2 || value > std::numeric_limits<std::int32_t>::max()) {
+      text_.fail(fmt::format("the header promises {} {}, but only {} bytes follow; the file is cut short or damaged",
+                             value, what, text_.remaining()));
     }
     return static_cast<std::size_t>(value);
   }
@@ -144,10 +144,9 @@ class OffParser {
     }
     std::int64_t value = 0;
     if (!text_.integer(value)) {
-      text_.fail(text_.at_end()
-                     ? fmt::format("the file ends after {} of {} faces; it is cut short", f, face_count_)
-                     : fmt::format("{} in face {} where a whole number should be (faces count from 0)",
-                                   in_quotes(text_.peek()), f));
+      text_.fail(text_.at_end() ? fmt::format("the file ends after {} of {} faces; it is cut short", f, face_count_)
+                                : fmt::format("{} in face {} where a whole number should be (faces count from 0)",
+                                              in_quotes(text_.peek()), f));
     }
     return value;
   }
@@ -157,14 +156,16 @@ class OffParser {
     const std::size_t start = text_.offset();
     const std::int64_t size = face_number(f);
     if (size < 0 || static_cast<std::uint64_t>(size) > text_.remaining()) {
-      text_.fail(fmt::format("face {} claims {} corners, more than the file can hold (faces count from 0)", f, size), start);
+      text_.fail(fmt::format("face {} claims {} corners, more than the file can hold (faces count from 0)", f, size),
+                 start);
     }
     face_.clear();
     for (std::int64_t k = 0; k < size; ++k) {
       const std::int64_t v = face_number(f);
       if (v < 0 || static_cast<std::uint64_t>(v) >= vertex_count_) {
-        text_.fail(fmt::format("face {} uses vertex {}, but the file has {} vertices (faces and vertices count from 0)", f, v,
-                               vertex_count_), start);
+        text_.fail(fmt::format("face {} uses vertex {}, but the file has {} vertices (faces and vertices count from 0)",
+                               f, v, vertex_count_),
+                   start);
       }
       face_.push_back(static_cast<std::int32_t>(v));
     }

@@ -17,12 +17,22 @@ namespace {
 enum class Scalar : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 std::optional<Scalar> scalar_by_name(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Scalar>, 16> names = {
-      {{"char", Scalar::int8},     {"int8", Scalar::int8},       {"uchar", Scalar::uint8},   {"uint8", Scalar::uint8},
-       {"short", Scalar::int16},   {"int16", Scalar::int16},     {"ushort", Scalar::uint16}, {"uint16", Scalar::uint16},
-       {"int", Scalar::int32},     {"int32", Scalar::int32},     {"uint", Scalar::uint32},   {"uint32", Scalar::uint32},
-       {"float", Scalar::float32}, {"float32", Scalar::float32}, {"double", Scalar::float64},
-       {"float64", Scalar::float64}}};
+  constexpr std::array<std::pair<std::string_view, Scalar>, 16> names = {{{"char", Scalar::int8},
+                                                                          {"int8", Scalar::int8},
+                                                                          {"uchar", Scalar::uint8},
+                                                                          {"uint8", Scalar::uint8},
+                                                                          {"short", Scalar::int16},
+                                                                          {"int16", Scalar::int16},
+                                                                          {"ushort", Scalar::uint16},
+                                                                          {"uint16", Scalar::uint16},
+                                                                          {"int", Scalar::int32},
+                                                                          {"int32", Scalar::int32},
+                                                                          {"uint", Scalar::uint32},
+                                                                          {"uint32", Scalar::uint32},
+                                                                          {"float", Scalar::float32},
+                                                                          {"float32", Scalar::float32},
+                                                                          {"double", Scalar::float64},
+                                                                          {"float64", Scalar::float64}}};
   for (const auto& [known, type] : names) {
     if (known == name) return type;
   }
@@ -34,7 +44,9 @@ std::size_t size_of(Scalar type) {
   return sizes[static_cast<std::size_t>(type)];
 }
 
-bool is_integer(Scalar type) { return type != Scalar::float32 && type != Scalar::float64; }
+bool is_integer(Scalar type) {
+  return type != Scalar::float32 && type != Scalar::float64;
+}
 
 double load_scalar(const char* from, Scalar type, std::endian order) {
   switch (type) {
@@ -119,8 +131,10 @@ class PlyFile final : public MeshFile {
     for (std::size_t i = 0; i < result.size(); ++i) {
       if (positions[i] == result[i]) continue;
       if (is_integer(types[i % 3])) {
-        throw FileError(fmt::format("property {} of the vertices is an integer and cannot hold the new position of vertex {} "
-                                    "(counting from 0); convert the file to float or double", "xyz"[i % 3], i / 3));
+        throw FileError(
+            fmt::format("property {} of the vertices is an integer and cannot hold the new position of vertex {} "
+                        "(counting from 0); convert the file to float or double",
+                        "xyz"[i % 3], i / 3));
       }
       const double written = value_as_written(positions[i], precision(i, float32_digits));
       if (written != result[i]) result[i] = written;
@@ -129,14 +143,12 @@ class PlyFile final : public MeshFile {
   }
 
   /// Where coordinate i starts.
-  std::size_t begin(std::size_t i) const {
-    return begins.empty() ? first + i / 3 * stride + within[i % 3] : begins[i];
-  }
+  std::size_t begin(std::size_t i) const { return begins.empty() ? first + i / 3 * stride + within[i % 3] : begins[i]; }
 
   bool ascii = false;
   std::endian order = std::endian::little;
-  std::array<Scalar, 3> types{};  ///< of x, y, z
-  std::vector<std::size_t> begins;   ///< where each coordinate starts; empty where all records are of one size:
+  std::array<Scalar, 3> types{};    ///< of x, y, z
+  std::vector<std::size_t> begins;  ///< where each coordinate starts; empty where all records are of one size:
   std::size_t first = 0, stride = 0;
   std::array<std::size_t, 3> within{};
 
@@ -196,7 +208,8 @@ class HeaderParser {
     header_.ascii = name == "ascii";
     header_.order = name == "binary_big_endian" ? std::endian::big : std::endian::little;
     if (!header_.ascii && name != "binary_little_endian" && name != "binary_big_endian") {
-      lines_.fail(fmt::format("unknown format {}; ascii, binary_little_endian or binary_big_endian is possible", in_quotes(name)),
+      lines_.fail(fmt::format("unknown format {}; ascii, binary_little_endian or binary_big_endian is possible",
+                              in_quotes(name)),
                   line_);
     }
   }
@@ -298,7 +311,9 @@ class BinarySource {
   std::size_t remaining() const { return bytes_.size() - at_; }
   std::size_t offset() const { return at_; }
   void seek(std::size_t offset) { at_ = offset; }
-  [[noreturn]] void fail(const std::string& message) const { throw FileError(fmt::format("byte {}: {}", at_, message)); }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw FileError(fmt::format("byte {}: {}", at_, message));
+  }
 
   std::size_t to_next_value() const { return at_; }
   void skip(Scalar type, std::size_t count = 1) {
@@ -345,8 +360,9 @@ class BodyParser {
     const Element* faces = nullptr;
     for (const Element& element : header_.elements) {
       if (element.name == "tristrips") {
-        throw FileError("the faces are stored as triangle strips ('element tristrips'), which is not supported; "
-                        "convert the file to faces");
+        throw FileError(
+            "the faces are stored as triangle strips ('element tristrips'), which is not supported; "
+            "convert the file to faces");
       }
       if (element.name == "vertex") vertices = &element;
       if (element.name == "face") faces = &element;
@@ -370,8 +386,10 @@ class BodyParser {
   void check_count(const Element& element) const {
     const std::size_t least = Source::least_bytes(element);
     if (least > 0 && element.count > source_.remaining() / least) {
-      source_.fail(fmt::format("the header promises {} records of '{}', but only {} bytes are left; the file is cut short or "
-                               "damaged", element.count, element.name, file_.bytes.size() - source_.offset()));
+      source_.fail(
+          fmt::format("the header promises {} records of '{}', but only {} bytes are left; the file is cut short or "
+                      "damaged",
+                      element.count, element.name, file_.bytes.size() - source_.offset()));
     }
     if ((element.name == "vertex" || element.name == "face") &&
         element.count > std::numeric_limits<std::int32_t>::max()) {
@@ -444,7 +462,9 @@ class BodyParser {
       file_.stores_float32 &= type == Scalar::float32;
       integers |= is_integer(type);
     }
-    if (integers) file_.notes.push_back("The positions are stored as integers, which cannot hold a repaired mesh; convert them first.");
+    if (integers)
+      file_.notes.push_back(
+          "The positions are stored as integers, which cannot hold a repaired mesh; convert them first.");
   }
 
   void read_faces(const Element& element) {
@@ -469,8 +489,9 @@ class BodyParser {
           const std::int64_t v = source_.whole_number(property.type);
           if (v < 0 || static_cast<std::uint64_t>(v) >= vertex_count_) {
             source_.seek(start);
-            source_.fail(fmt::format("face {} uses vertex {}, but the file has {} vertices (faces and vertices count from 0)",
-                                     f, v, vertex_count_));
+            source_.fail(
+                fmt::format("face {} uses vertex {}, but the file has {} vertices (faces and vertices count from 0)", f,
+                            v, vertex_count_));
           }
           face.push_back(static_cast<std::int32_t>(v));
         }

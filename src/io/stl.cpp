@@ -69,9 +69,10 @@ class BinaryStlFile final : public StlFile {
   void parse() {
     const std::size_t count = facet_count(bytes);
     if (count > (bytes.size() - header_size) / facet_size) {
-      throw FileError(fmt::format("the header promises {} facets, but the file ends within facet {} (counting from 1) at byte "
-                                  "{}; it is cut short or no STL file", count,
-                                  (bytes.size() - header_size) / facet_size + 1, bytes.size()));
+      throw FileError(
+          fmt::format("the header promises {} facets, but the file ends within facet {} (counting from 1) at byte "
+                      "{}; it is cut short or no STL file",
+                      count, (bytes.size() - header_size) / facet_size + 1, bytes.size()));
     }
     if (count > std::numeric_limits<std::int32_t>::max() / 3) {
       throw FileError(fmt::format("{} facets are more than 32-bit ids can count; split the mesh", count));
@@ -82,8 +83,9 @@ class BinaryStlFile final : public StlFile {
     for (std::size_t i = 0; i < surface.positions.size(); ++i) {
       const auto value = load<float>(bytes.data() + begin(i), std::endian::little);
       if (!std::isfinite(value)) {
-        throw FileError(fmt::format("byte {}: corner {} of facet {} (counting from 1) is not finite; correct or remove it",
-                                    begin(i), i / 3 % 3 + 1, i / 9 + 1));
+        throw FileError(
+            fmt::format("byte {}: corner {} of facet {} (counting from 1) is not finite; correct or remove it",
+                        begin(i), i / 3 % 3 + 1, i / 9 + 1));
       }
       surface.positions[i] = value;
     }

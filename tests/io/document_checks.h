@@ -30,7 +30,8 @@ inline bool same_bits(std::span<const double> a, std::span<const double> b) {
 }
 
 /// The main file after moving to `positions`.
-inline std::string patched_bytes(const Document& document, std::span<const double> positions, bool float32_digits = false) {
+inline std::string patched_bytes(const Document& document, std::span<const double> positions,
+                                 bool float32_digits = false) {
   return document.patched(positions, float32_digits).front().bytes;
 }
 

@@ -57,6 +57,15 @@ TEST_F(FileAccess, KeepsPermissions) {
   EXPECT_EQ(fs::status(folder_ / "a.obj").permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
+TEST_F(FileAccess, RespectsWriteProtection) {
+  if (::geteuid() == 0) GTEST_SKIP() << "nothing is protected from root";
+  write_atomically(folder_ / "a.obj", "one");
+  fs::permissions(folder_ / "a.obj", fs::perms::owner_read);
+  EXPECT_THROW(write_atomically(folder_ / "a.obj", "two"), WriteError);
+  EXPECT_EQ(content(folder_ / "a.obj"), "one");
+  EXPECT_EQ(files_in_folder(), 1u);
+}
+
 TEST_F(FileAccess, FollowsLinks) {
   write_atomically(folder_ / "a.obj", "one");
   fs::create_symlink("a.obj", folder_ / "link.obj");

@@ -27,14 +27,16 @@ std::string buffer_bytes(const std::vector<float>& positions = tetrahedron) {
 }
 
 /// All of the JSON but the buffers; `nodes` and the primitive's extra members vary.
-std::string json_text(const std::string& nodes = R"("nodes":[{"mesh":0,"name":"Knot"}])", const std::string& buffer = "",
+std::string json_text(const std::string& nodes = R"("nodes":[{"mesh":0,"name":"Knot"}])",
+                      const std::string& buffer = "",
                       const std::string& primitive = R"("attributes":{"POSITION":0},"indices":1,"material":0)") {
   return R"({"asset" : {"version":"2.0", "generator":"by hand"}, "scene":0,"scenes":[{"nodes":[0]}], )" + nodes +
          R"(,"meshes":[{"name":"Tangle","primitives":[{)" + primitive + R"(}]}],"materials":[{"name":"red"}],
   "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0.0,0e0],"max":[1, 1.000, 0.1]},
                {"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}],
   "bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],
-  "extras":{"min":[0,0,0]}, "buffers":[{)" + buffer + R"("byteLength":72}]})";
+  "extras":{"min":[0,0,0]}, "buffers":[{)" +
+         buffer + R"("byteLength":72}]})";
 }
 
 std::string glb(std::string json, std::string binary, const std::string& more_chunks = "") {
@@ -72,7 +74,8 @@ const std::string moved_node =
                 {"mesh":0,"scale":[2,2,-3],"name":"Knot"}])";
 
 TEST(Gltf, ReadsBothContainers) {
-  for (const Document& document : {Document::parse(plain, Format::glb), Document::parse(gltf_with_data_uri(), Format::gltf)}) {
+  for (const Document& document :
+       {Document::parse(plain, Format::glb), Document::parse(gltf_with_data_uri(), Format::gltf)}) {
     EXPECT_EQ(document.surface().positions, std::vector<double>(tetrahedron.begin(), tetrahedron.end()));
     EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}));
     EXPECT_TRUE(document.stores_float32());
@@ -102,12 +105,13 @@ TEST(Gltf, KeepsEveryPromiseOfPatching) {
 TEST(Gltf, OnlyTheMovedNumbersAndTheirBoundsChange) {
   const Document document = Document::parse(plain, Format::glb);
   std::vector<double> moved = document.surface().positions;
-  moved[4] = 0.5;      // within the bounds
-  moved[11] = 1.0 / 3; // the largest z
+  moved[4] = 0.5;       // within the bounds
+  moved[11] = 1.0 / 3;  // the largest z
   std::vector<float> positions = tetrahedron;
   positions[4] = 0.5f;
   positions[11] = 1.0f / 3;
-  EXPECT_EQ(patched_bytes(document, moved), glb(replaced(json_text(), "1.000, 0.1]", "1.000, 0.33333334]"), buffer_bytes(positions)));
+  EXPECT_EQ(patched_bytes(document, moved),
+            glb(replaced(json_text(), "1.000, 0.1]", "1.000, 0.33333334]"), buffer_bytes(positions)));
 }
 
 TEST(Gltf, DataUriChangesOnlyWhereItMust) {
@@ -136,14 +140,16 @@ TEST(Gltf, NodesPlaceTheirMeshes) {
 
 TEST(Gltf, MatrixIsColumnMajor) {
   const Document document = Document::parse(
-      glb(json_text(R"("nodes":[{"mesh":0,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1]}])"), buffer_bytes()), Format::glb);
+      glb(json_text(R"("nodes":[{"mesh":0,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1]}])"), buffer_bytes()),
+      Format::glb);
   EXPECT_EQ(document.surface().positions[3], 6.0);
   EXPECT_EQ(document.surface().positions[4], 6.0);
   EXPECT_EQ(document.surface().positions[5], 7.0);
 }
 
 TEST(Gltf, NotesOnWhatIsSpecial) {
-  const auto note = [](const std::string& nodes, const std::string& primitive = R"("attributes":{"POSITION":0},"indices":1)") {
+  const auto note = [](const std::string& nodes,
+                       const std::string& primitive = R"("attributes":{"POSITION":0},"indices":1)") {
     const std::string bytes = glb(json_text(nodes, "", primitive), buffer_bytes());
     check_patching(bytes, Format::glb);
     const Document document = Document::parse(bytes, Format::glb);
@@ -151,28 +157,35 @@ TEST(Gltf, NotesOnWhatIsSpecial) {
     return document.notes().empty() ? std::string() : document.notes().back();
   };
   EXPECT_PRED2(message_contains, note(R"("nodes":[{"mesh":0,"skin":0,"translation":[9,9,9]}])"), "bind pose");
-  EXPECT_PRED2(message_contains, note(R"("nodes":[{"mesh":0,"children":[1]},{"mesh":0,"translation":[9,9,9]}])"), "several nodes");
+  EXPECT_PRED2(message_contains, note(R"("nodes":[{"mesh":0,"children":[1]},{"mesh":0,"translation":[9,9,9]}])"),
+               "several nodes");
   EXPECT_PRED2(message_contains, note(R"("nodes":[{"mesh":0,"scale":[1,0,1]}])"), "cannot be inverted");
   EXPECT_PRED2(message_contains, note(R"("nodes":[{},{"mesh":0,"translation":[9,9,9]}])"), "not shown");
-  EXPECT_PRED2(message_contains, note(R"("nodes":[{"mesh":0}])",
-                                      R"("attributes":{"POSITION":0},"indices":1,"targets":[{"POSITION":5}])"), "Morph");
-  EXPECT_PRED2(message_contains, note(R"("nodes":[{"mesh":0}])",
-                                      R"("attributes":{"POSITION":0},"indices":1},{"mode":1,"attributes":{"POSITION":0})"),
+  EXPECT_PRED2(message_contains,
+               note(R"("nodes":[{"mesh":0}])", R"("attributes":{"POSITION":0},"indices":1,"targets":[{"POSITION":5}])"),
+               "Morph");
+  EXPECT_PRED2(message_contains,
+               note(R"("nodes":[{"mesh":0}])",
+                    R"("attributes":{"POSITION":0},"indices":1},{"mode":1,"attributes":{"POSITION":0})"),
                "1 primitives without triangles");
 }
 
 TEST(Gltf, ALaterPlaceServesWhereTheFirstIsFlat) {
   const Document document = Document::parse(
-      glb(json_text(R"("nodes":[{"mesh":0,"scale":[0,0,0]},{"mesh":0,"translation":[5,0,0]}])"), buffer_bytes()), Format::glb);
+      glb(json_text(R"("nodes":[{"mesh":0,"scale":[0,0,0]},{"mesh":0,"translation":[5,0,0]}])"), buffer_bytes()),
+      Format::glb);
   EXPECT_EQ(document.surface().positions[3], 1.0);  // node 1 is no part of the scene
-  const std::string both = replaced(json_text(R"("nodes":[{"mesh":0,"scale":[0,0,0]},{"mesh":0,"translation":[5,0,0]}])"),
-                                    R"("nodes":[0])", R"("nodes":[0,1])");
+  const std::string both =
+      replaced(json_text(R"("nodes":[{"mesh":0,"scale":[0,0,0]},{"mesh":0,"translation":[5,0,0]}])"), R"("nodes":[0])",
+               R"("nodes":[0,1])");
   EXPECT_EQ(Document::parse(glb(both, buffer_bytes()), Format::glb).surface().positions[3], 6.0);
 }
 
 TEST(Gltf, StripsFansAndUnindexed) {
   const auto corners = [](const std::string& primitive) {
-    return Document::parse(glb(json_text(R"("nodes":[{"mesh":0}])", "", primitive), buffer_bytes()), Format::glb).surface().corners;
+    return Document::parse(glb(json_text(R"("nodes":[{"mesh":0}])", "", primitive), buffer_bytes()), Format::glb)
+        .surface()
+        .corners;
   };
   using Corners = std::vector<std::int32_t>;
   EXPECT_EQ(corners(R"("attributes":{"POSITION":0},"mode":4)"), (Corners{0, 1, 2}));
@@ -181,9 +194,10 @@ TEST(Gltf, StripsFansAndUnindexed) {
 }
 
 TEST(Gltf, PrimitivesThatShareAnAccessorShareVertices) {
-  const std::string bytes = glb(json_text(R"("nodes":[{"mesh":0}])", "",
-                                          R"("attributes":{"POSITION":0},"indices":1},{"attributes":{"POSITION":0},"mode":6)"),
-                                buffer_bytes());
+  const std::string bytes =
+      glb(json_text(R"("nodes":[{"mesh":0}])", "",
+                    R"("attributes":{"POSITION":0},"indices":1},{"attributes":{"POSITION":0},"mode":6)"),
+          buffer_bytes());
   const Document document = Document::parse(bytes, Format::glb);
   EXPECT_EQ(document.surface().view().vertex_count(), 4u);
   EXPECT_EQ(document.surface().view().face_count(), 6u);
@@ -199,8 +213,9 @@ std::string interleaved(std::size_t second_start) {
   const std::string accessor = R"("bufferView":0,"componentType":5126,"type":"VEC3",)";
   return glb(R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":2}}]},
                  {"primitives":[{"attributes":{"POSITION":1,"NORMAL":2}}]}],"accessors":[{)" +
-                 accessor + R"("count":4},{)" + accessor + fmt::format(R"("count":3,"byteOffset":{},"min":[2,2,0.25]}},{{)", second_start) +
-                 accessor + R"("count":6,"byteOffset":12}],"bufferViews":[{"buffer":0,"byteLength":144,"byteStride":24}],
+                 accessor + R"("count":4},{)" + accessor +
+                 fmt::format(R"("count":3,"byteOffset":{},"min":[2,2,0.25]}},{{)", second_start) + accessor +
+                 R"("count":6,"byteOffset":12}],"bufferViews":[{"buffer":0,"byteLength":144,"byteStride":24}],
                  "buffers":[{"byteLength":144}]})",
              data);
 }
@@ -220,7 +235,8 @@ TEST(Gltf, PositionsThatCutThroughEachOtherAreRefused) {
 
 TEST(Gltf, PositionsThatAreNormalsTooCannotMove) {
   const Document document = Document::parse(
-      glb(json_text(R"("nodes":[{"mesh":0}])", "", R"("attributes":{"POSITION":0,"NORMAL":0},"indices":1)"), buffer_bytes()),
+      glb(json_text(R"("nodes":[{"mesh":0}])", "", R"("attributes":{"POSITION":0,"NORMAL":0},"indices":1)"),
+          buffer_bytes()),
       Format::glb);
   ASSERT_EQ(document.notes().size(), 1u);
   std::vector<double> moved = document.surface().positions;
@@ -270,7 +286,8 @@ TEST_F(GltfFolder, ExternalBuffersHaveToBeInTheFolder) {
     }
     return std::string();
   };
-  for (const char* uri : {"../x.bin", "/etc/passwd", "a/../../x.bin", "%2e%2e/x.bin", "https://example.org/x.bin", ""}) {
+  for (const char* uri :
+       {"../x.bin", "/etc/passwd", "a/../../x.bin", "%2e%2e/x.bin", "https://example.org/x.bin", ""}) {
     EXPECT_PRED2(message_contains, error(uri), "not a file in the folder") << uri;
   }
   EXPECT_PRED2(message_contains, error("missing.bin"), "missing.bin: cannot open");
@@ -289,21 +306,30 @@ TEST(Gltf, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("{}", Format::gltf, "'asset' with a version is missing");
   EXPECT_PARSE_ERROR("hello hello hello hello hello", Format::glb, "byte 0: 'glTF'");
   EXPECT_PARSE_ERROR(plain.substr(0, plain.size() - 1), Format::glb, "it is cut short");
-  EXPECT_PARSE_ERROR(replaced(plain, std::string("glTF\2", 5), std::string("glTF\1", 5)), Format::glb, "glTF version 1");
+  EXPECT_PARSE_ERROR(replaced(plain, std::string("glTF\2", 5), std::string("glTF\1", 5)), Format::glb,
+                     "glTF version 1");
   EXPECT_PRED2(message_contains, error("2.0", "1.0"), "glTF version 1.0");
-  EXPECT_PRED2(message_contains, error("\"count\":4,", "\"count\":5,"), "5 elements do not fit into bufferView 0 of 48 bytes");
+  EXPECT_PRED2(message_contains, error("\"count\":4,", "\"count\":5,"),
+               "5 elements do not fit into bufferView 0 of 48 bytes");
   EXPECT_PRED2(message_contains, error("\"count\":4,", "\"count\":9007199254740992,"), "do not fit");
-  EXPECT_PRED2(message_contains, error("\"count\":4,", "\"count\":3,"), "index 5 uses vertex 3, but the primitive has 3 vertices");
+  EXPECT_PRED2(message_contains, error("\"count\":4,", "\"count\":3,"),
+               "index 5 uses vertex 3, but the primitive has 3 vertices");
   EXPECT_PRED2(message_contains, error("\"count\":4,", "\"count\":4,\"sparse\":{},"), "is sparse");
   EXPECT_PRED2(message_contains, error("5126", "5122"), "quantised");
-  EXPECT_PRED2(message_contains, error("\"material\"", "\"extensions\":{\"KHR_draco_mesh_compression\":{}},\"material\""), "KHR_draco_mesh_compression, which");
-  EXPECT_PRED2(message_contains, error("\"byteLength\":48", "\"byteLength\":48,\"extensions\":{\"EXT_meshopt_compression\":{}}"),
+  EXPECT_PRED2(message_contains,
+               error("\"material\"", "\"extensions\":{\"KHR_draco_mesh_compression\":{}},\"material\""),
+               "KHR_draco_mesh_compression, which");
+  EXPECT_PRED2(message_contains,
+               error("\"byteLength\":48", "\"byteLength\":48,\"extensions\":{\"EXT_meshopt_compression\":{}}"),
                "EXT_meshopt_compression");
   EXPECT_PRED2(message_contains, error("\"POSITION\":0", "\"POSITION\":7"), "accessor 7 does not exist");
-  EXPECT_PRED2(message_contains, error("\"byteOffset\":48", "\"byteOffset\":49"), "bufferView 1 reaches beyond its buffer");
+  EXPECT_PRED2(message_contains, error("\"byteOffset\":48", "\"byteOffset\":49"),
+               "bufferView 1 reaches beyond its buffer");
   EXPECT_PRED2(message_contains, error("\"mesh\":0", "\"mesh\":3"), "node 0 shows mesh 3");
-  EXPECT_PRED2(message_contains, error("\"mesh\":0", "\"mesh\":0,\"children\":[0]"), "node 0 has several parents or contains itself");
-  EXPECT_PRED2(message_contains, error("\"mesh\":0", "\"mesh\":0,\"scale\":[1,2]"), "node 0: 'scale' should be 3 numbers");
+  EXPECT_PRED2(message_contains, error("\"mesh\":0", "\"mesh\":0,\"children\":[0]"),
+               "node 0 has several parents or contains itself");
+  EXPECT_PRED2(message_contains, error("\"mesh\":0", "\"mesh\":0,\"scale\":[1,2]"),
+               "node 0: 'scale' should be 3 numbers");
   std::vector<float> positions = tetrahedron;
   positions[7] = std::numeric_limits<float>::infinity();
   EXPECT_PARSE_ERROR(glb(json, buffer_bytes(positions)), Format::glb, "byte 24 of buffer 0: vertex 2");
@@ -312,14 +338,16 @@ TEST(Gltf, ErrorsSayWhatAndWhere) {
 TEST(Gltf, ManyPrimitivesOnTheSameIndicesAreRefused) {
   std::string primitives = R"("attributes":{"POSITION":0},"indices":1)";
   for (int i = 0; i < 20000; ++i) primitives += R"(},{"attributes":{"POSITION":0},"indices":1)";
-  EXPECT_TRUE(parse_error(glb(json_text(R"("nodes":[{"mesh":0}])", "", primitives), buffer_bytes()), Format::glb).empty());
+  EXPECT_TRUE(
+      parse_error(glb(json_text(R"("nodes":[{"mesh":0}])", "", primitives), buffer_bytes()), Format::glb).empty());
   std::string many;
   for (int i = 0; i < 60000; ++i) put(many, std::uint16_t{0});
   std::string json = json_text(R"("nodes":[{"mesh":0}])", "", primitives);
   json = replaced(json, "\"byteOffset\":48,\"byteLength\":24", "\"byteOffset\":48,\"byteLength\":120000");
   json = replaced(json, "\"count\":12", "\"count\":60000");
   json = replaced(json, "\"byteLength\":72}]", "\"byteLength\":120048}]");
-  EXPECT_PARSE_ERROR(glb(json, buffer_bytes().substr(0, 48) + many), Format::glb, "more face corners than a file of this size");
+  EXPECT_PARSE_ERROR(glb(json, buffer_bytes().substr(0, 48) + many), Format::glb,
+                     "more face corners than a file of this size");
 }
 
 TEST(Gltf, SurvivesDamage) {

@@ -8,7 +8,8 @@ namespace unsnarl {
 namespace {
 
 TEST(JsonText, FindsValuesAndTheirPlaces) {
-  const std::string text = "\xEF\xBB\xBF { \"a\" : [1, -2.5e1 ,true] , \"b\":{\"c\":\"x\\/y\\n\\u00e4\\ud83d\\ude00\"}, \"n\":null }\n";
+  const std::string text =
+      "\xEF\xBB\xBF { \"a\" : [1, -2.5e1 ,true] , \"b\":{\"c\":\"x\\/y\\n\\u00e4\\ud83d\\ude00\"}, \"n\":null }\n";
   const JsonText json(text);
   const JsonText::Value root = json.root();
   ASSERT_TRUE(root.is_object());
@@ -43,8 +44,10 @@ TEST(JsonText, EmptyContainers) {
 }
 
 TEST(JsonText, RefusesWhatIsNotJson) {
-  for (const char* text : {"", " ", "{", "[1", "[1,]", "{\"a\"}", "{\"a\":}", "{a:1}", "[1 2]", "01", "1.", ".5", "+1", "1e", "-",
-                           "nul", "\"", "\"\\x\"", "\"\\u12g4\"", "\"\\", "\"\\u1", "\"\n\"", "{} x", "[}", "{\"a\":1,}"}) {
+  for (const char* text :
+       {"",       " ",      "{",    "[1", "[1,]",      "{\"a\"}", "{\"a\":}", "{a:1}",   "[1 2]",       "01",
+        "1.",     ".5",     "+1",   "1e", "-",         "nul",     "\"",       "\"\\x\"", "\"\\u12g4\"", "\"\\",
+        "\"\\u1", "\"\n\"", "{} x", "[}", "{\"a\":1,}"}) {
     const std::string owned = text;
     EXPECT_THROW(JsonText{owned}, FileError) << text;
   }

@@ -24,7 +24,9 @@ const std::string tetrahedron =
     "p 1\n"
     "f 2 3 4";
 
-Document parse(const std::string& text) { return Document::parse(text, Format::obj); }
+Document parse(const std::string& text) {
+  return Document::parse(text, Format::obj);
+}
 
 TEST(Obj, ReadsPositionsAndCornersOfEveryKind) {
   const Document document = parse(tetrahedron);
@@ -66,7 +68,7 @@ TEST(Obj, FacesBeforeTheFirstNameHaveNone) {
 TEST(Obj, KeepsEveryPromiseOfPatching) {
   check_patching(tetrahedron, Format::obj);
   check_patching("\xEF\xBB\xBFv 1 2 3\r\nv 4 5 6\r\nv 7 8 10 1\r\nf 1 2 3\r\n", Format::obj);  // CR LF, byte order mark
-  check_patching("v 1 2 3\rv 4 5 6\rv 7 8 10\rf 1 2 3\r", Format::obj);                           // CR alone
+  check_patching("v 1 2 3\rv 4 5 6\rv 7 8 10\rf 1 2 3\r", Format::obj);                        // CR alone
   check_patching("v 0.1 \\\n 0.2 \\\r\n0.3\nv 1e-400 1e30 -7\nv 3 3 3\n\n\nf 1 2 3", Format::obj);
 }
 
@@ -116,7 +118,9 @@ TEST(Obj, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(std::string("\0\1\2\3 binary", 11), Format::obj, "not text");
 }
 
-TEST(Obj, SurvivesDamage) { check_damage(tetrahedron, Format::obj); }
+TEST(Obj, SurvivesDamage) {
+  check_damage(tetrahedron, Format::obj);
+}
 
 }  // namespace
 }  // namespace unsnarl

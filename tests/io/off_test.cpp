@@ -17,7 +17,9 @@ const std::string tetrahedron =
     "3 0 3 2 0.5 0.5 0.5 1\n"
     "3 1 2 3";
 
-Document parse(const std::string& text) { return Document::parse(text, Format::off); }
+Document parse(const std::string& text) {
+  return Document::parse(text, Format::off);
+}
 
 TEST(Off, ReadsPositionsAndFaces) {
   const Document document = parse(tetrahedron);
@@ -27,7 +29,8 @@ TEST(Off, ReadsPositionsAndFaces) {
 
 TEST(Off, ReadsEveryHeader) {
   const std::string rest = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-  for (const char* header : {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF\n3\n1 0\n", "OFF 3 1\n", "OFF3 1 0\n", "\n# c\nOFF\r\n3 1 0\r\n"}) {
+  for (const char* header :
+       {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF\n3\n1 0\n", "OFF 3 1\n", "OFF3 1 0\n", "\n# c\nOFF\r\n3 1 0\r\n"}) {
     EXPECT_EQ(parse(header + rest).surface().corners, (std::vector<std::int32_t>{0, 1, 2})) << header;
     check_patching(header + rest, Format::off);
   }
@@ -36,8 +39,9 @@ TEST(Off, ReadsEveryHeader) {
 TEST(Off, PassesOnWhateverElseAVertexHas) {
   check_patching("COFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2\n", Format::off);
   check_patching("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n", Format::off);
-  check_patching("STCNOFF\n3 1 0\n0 0 0 0 0 1 1 1 1 1 0.5 0.5\n1 0 0 0 0 1 1 1 1 1 0.5 0.5\n0 1 0 0 0 1 1 1 1 1 0.5 0.5\n3 0 1 2",
-                 Format::off);
+  check_patching(
+      "STCNOFF\n3 1 0\n0 0 0 0 0 1 1 1 1 1 0.5 0.5\n1 0 0 0 0 1 1 1 1 1 0.5 0.5\n0 1 0 0 0 1 1 1 1 1 0.5 0.5\n3 0 1 2",
+      Format::off);
 }
 
 TEST(Off, LinesNeedNotMatchVertices) {
@@ -48,7 +52,8 @@ TEST(Off, LinesNeedNotMatchVertices) {
 
 TEST(Off, KeepsEveryPromiseOfPatching) {
   check_patching(tetrahedron, Format::off);
-  check_patching("OFF\r\n5 2 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n1e-300 7 7\r\n1 1 1\r\n4 0 1 2 3\r\n3 1 2 4\r\n", Format::off);
+  check_patching("OFF\r\n5 2 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n1e-300 7 7\r\n1 1 1\r\n4 0 1 2 3\r\n3 1 2 4\r\n",
+                 Format::off);
 }
 
 TEST(Off, OnlyTheMovedCoordinateChanges) {
@@ -74,7 +79,9 @@ TEST(Off, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("OFF\n3 1 0\n0 0 0\n0 0 1\n1 0 0\n99 0 1 2\n", Format::off, "face 0 claims 99 corners");
 }
 
-TEST(Off, SurvivesDamage) { check_damage(tetrahedron, Format::off); }
+TEST(Off, SurvivesDamage) {
+  check_damage(tetrahedron, Format::off);
+}
 
 }  // namespace
 }  // namespace unsnarl

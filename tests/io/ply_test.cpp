@@ -31,17 +31,20 @@ const std::string ascii =
     "2 4 0 1 3 2 0\n"
     "3 3 1 2 3 0\n";
 
-Document parse(const std::string& text) { return Document::parse(text, Format::ply); }
+Document parse(const std::string& text) {
+  return Document::parse(text, Format::ply);
+}
 
 /// The same mesh in binary: `scalar` for x and z, double for y, with a list within each vertex where wanted.
 template <class Scalar>
-std::string binary(std::endian order, const std::string& scalar_name, bool list_in_vertex, const std::string& eol = "\n") {
-  std::string out = "ply" + eol + "format binary_" + (order == std::endian::big ? "big" : "little") + "_endian 1.0" + eol +
-                    "element vertex 4" + eol + "property short flags" + eol + "property " + scalar_name + " x" + eol +
-                    (list_in_vertex ? "property list ushort char weights" + eol : "") + "property double y" + eol +
-                    "property " + scalar_name + " z" + eol + "element face 2" + eol + "property list int uint vertex_index" +
-                    eol + "property uchar red" + eol + "element edge 1" + eol + "property list uint8 int8 extra" + eol +
-                    "end_header" + eol;
+std::string binary(std::endian order, const std::string& scalar_name, bool list_in_vertex,
+                   const std::string& eol = "\n") {
+  std::string out = "ply" + eol + "format binary_" + (order == std::endian::big ? "big" : "little") + "_endian 1.0" +
+                    eol + "element vertex 4" + eol + "property short flags" + eol + "property " + scalar_name + " x" +
+                    eol + (list_in_vertex ? "property list ushort char weights" + eol : "") + "property double y" +
+                    eol + "property " + scalar_name + " z" + eol + "element face 2" + eol +
+                    "property list int uint vertex_index" + eol + "property uchar red" + eol + "element edge 1" + eol +
+                    "property list uint8 int8 extra" + eol + "end_header" + eol;
   const auto put = [&](auto value) {
     out.resize(out.size() + sizeof(value));
     store(out.data() + out.size() - sizeof(value), value, order);
@@ -157,13 +160,16 @@ TEST(Ply, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("OFF\n", Format::ply, "'ply' missing");
   EXPECT_PARSE_ERROR("ply\nformat ascii 1.0\n", Format::ply, "within the header");
   EXPECT_PARSE_ERROR(replaced(ascii, "format ascii", "format morse"), Format::ply, "line 2: unknown format 'morse'");
-  EXPECT_PARSE_ERROR(replaced(ascii, "property uchar red", "property rgb red"), Format::ply, "line 8: unknown property type 'rgb'");
+  EXPECT_PARSE_ERROR(replaced(ascii, "property uchar red", "property rgb red"), Format::ply,
+                     "line 8: unknown property type 'rgb'");
   EXPECT_PARSE_ERROR(replaced(ascii, "float y", "float why"), Format::ply, "no property 'y'");
   EXPECT_PARSE_ERROR(replaced(ascii, "vertex_indices", "corners"), Format::ply, "no list 'vertex_indices'");
   EXPECT_PARSE_ERROR(replaced(ascii, "element camera", "element tristrips"), Format::ply, "triangle strips");
-  EXPECT_PARSE_ERROR(replaced(ascii, "element vertex 4", "element vertex 4000000000"), Format::ply, "promises 4000000000");
+  EXPECT_PARSE_ERROR(replaced(ascii, "element vertex 4", "element vertex 4000000000"), Format::ply,
+                     "promises 4000000000");
   EXPECT_PARSE_ERROR(replaced(ascii, "element vertex 4", "element vertex -4"), Format::ply, "element NAME COUNT");
-  EXPECT_PARSE_ERROR(replaced(ascii, "1.10", "nan"), Format::ply, "line 19: coordinate 'nan' of vertex 1 is not finite");
+  EXPECT_PARSE_ERROR(replaced(ascii, "1.10", "nan"), Format::ply,
+                     "line 19: coordinate 'nan' of vertex 1 is not finite");
   EXPECT_PARSE_ERROR(replaced(ascii, "1.10", "1e39"), Format::ply, "not finite in 32 bits");
   EXPECT_PARSE_ERROR(replaced(ascii, "3 0 2 1 6", "3 0 2 4 6"), Format::ply,
                      "line 23: face 0 uses vertex 4, but the file has 4 vertices");
@@ -174,7 +180,8 @@ TEST(Ply, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(packed.substr(0, packed.size() - 1), Format::ply, "byte");
   EXPECT_PARSE_ERROR(packed.substr(0, packed.size() - 60), Format::ply, "cut short");
   std::string not_finite = packed;
-  store(not_finite.data() + packed.find("end_header\n") + 11 + 2, std::numeric_limits<float>::infinity(), std::endian::big);
+  store(not_finite.data() + packed.find("end_header\n") + 11 + 2, std::numeric_limits<float>::infinity(),
+        std::endian::big);
   EXPECT_PARSE_ERROR(not_finite, Format::ply, "vertex 0 (counting from 0) is not finite");
 }
 

@@ -25,7 +25,9 @@ const std::string ascii =
     "facet normal 0 0 0 outer loop vertex 5 5 5 vertex 6 5 5 vertex 5 6 5 endloop endfacet\n"
     "endsolid";
 
-Document parse(const std::string& bytes) { return Document::parse(bytes, Format::stl); }
+Document parse(const std::string& bytes) {
+  return Document::parse(bytes, Format::stl);
+}
 
 std::string binary(const std::string& title, std::vector<std::array<float, 12>> facets) {
   std::string out = title;
@@ -93,8 +95,8 @@ TEST(Stl, NormalsOfMovedFacetsFollow) {
 TEST(Stl, ZeroNormalsStayAndNormalsWithoutAreaBecomeZero) {
   const Document document = parse(ascii);
   std::vector<double> moved = document.surface().positions;
-  moved[18] = 4;     // the facet with normal 0 0 0
-  moved[9] = 0.5;    // the facet without area gets one
+  moved[18] = 4;   // the facet with normal 0 0 0
+  moved[9] = 0.5;  // the facet without area gets one
   const std::string result = patched_bytes(document, moved);
   EXPECT_NE(result.find("facet normal 0 0 0 outer loop vertex 4 5 5"), std::string::npos);
   EXPECT_EQ(result.find("nan"), std::string::npos);
@@ -105,11 +107,15 @@ TEST(Stl, ZeroNormalsStayAndNormalsWithoutAreaBecomeZero) {
 TEST(Stl, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("", Format::stl, "empty");
   EXPECT_PARSE_ERROR("hello", Format::stl, "neither text that starts with 'solid' nor binary");
-  EXPECT_PARSE_ERROR(binary("x", two_facets).substr(0, 140), Format::stl, "promises 2 facets, but the file ends within facet 2");
+  EXPECT_PARSE_ERROR(binary("x", two_facets).substr(0, 140), Format::stl,
+                     "promises 2 facets, but the file ends within facet 2");
   EXPECT_PARSE_ERROR(ascii.substr(0, 100), Format::stl, "line ");
-  EXPECT_PARSE_ERROR(replaced(ascii, "vertex 0 1 0", "vertex 0 1"), Format::stl, "line 6: vertex 3 has fewer than three");
-  EXPECT_PARSE_ERROR(replaced(ascii, "vertex 0 1 0", "vertex 0 inf 0"), Format::stl, "line 6: coordinate 'inf' of vertex 3");
-  EXPECT_PARSE_ERROR(replaced(ascii, "    endloop", "    vertex 1 1 1"), Format::stl, "line 7: 'vertex' where 'endloop'");
+  EXPECT_PARSE_ERROR(replaced(ascii, "vertex 0 1 0", "vertex 0 1"), Format::stl,
+                     "line 6: vertex 3 has fewer than three");
+  EXPECT_PARSE_ERROR(replaced(ascii, "vertex 0 1 0", "vertex 0 inf 0"), Format::stl,
+                     "line 6: coordinate 'inf' of vertex 3");
+  EXPECT_PARSE_ERROR(replaced(ascii, "    endloop", "    vertex 1 1 1"), Format::stl,
+                     "line 7: 'vertex' where 'endloop'");
   EXPECT_PARSE_ERROR(replaced(ascii, "endsolid My Part\nsolid", "endsolid My Part\nliquid"), Format::stl, "'liquid'");
   std::vector<std::array<float, 12>> facets = two_facets;
   facets[1][6] = std::numeric_limits<float>::quiet_NaN();
