@@ -1,7 +1,5 @@
 #include "contact/intersection_finder.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 
@@ -9,8 +7,6 @@
 
 namespace unsnarl {
 namespace {
-
-constexpr std::size_t parallel_threshold = 20000;  // triangles; below it one thread is faster
 
 TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {
   return {x.col(t[first]), x.col(t[(first + 1) % 3]), x.col(t[(first + 2) % 3])};
@@ -62,26 +58,13 @@ IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles)
     : IntersectionFinder(triangles, static_cast<Index>(triangles.size())) {}
 
 IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Index active_count)
-    : triangles_(triangles), active_count_(active_count), boxes_(triangles.size()) {}
-
-void IntersectionFinder::update(const Positions& x) {
-  auto set_box = [&](std::size_t f) { boxes_[f] = box_of(x, triangles_[f]); };
-  if (triangles_.size() < parallel_threshold)
-    for (std::size_t f = 0; f < triangles_.size(); ++f) set_box(f);
-  else
-    oneapi::tbb::parallel_for(std::size_t{0}, triangles_.size(), set_box);
-  if (bvh_.size() == static_cast<Index>(triangles_.size()))
-    bvh_.refit(boxes_);
-  else
-    bvh_.build(boxes_);
-}
+    : triangles_(triangles), active_count_(active_count), tree_(triangles) {}
 
 std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
-  update(x);
-  std::vector<std::vector<IntersectingPair>> found(bvh_.task_count());
-  bvh_.self_pairs_parallel([&](Index task, Index i, Index j) {
-    if (i >= active_count_ && j >= active_count_) return;
-    if (i > j) std::swap(i, j);
+  tree_.update(x);
+  std::vector<std::vector<IntersectingPair>> found(tree_.task_count());
+  tree_.self_pairs([&](Index task, Index i, Index j) {
+    if (i >= active_count_) return;  // i < j
     PairClass kind;
     if (intersects(x, triangles_[i], triangles_[j], kind)) found[task].push_back({i, j, kind});
   });
@@ -92,10 +75,10 @@ std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
 }
 
 bool IntersectionFinder::any(const Positions& x) {
-  update(x);
+  tree_.update(x);
   std::atomic<bool> hit{false};
-  bvh_.self_pairs_parallel([&](Index, Index i, Index j) {
-    if (hit.load(std::memory_order_relaxed) || (i >= active_count_ && j >= active_count_)) return;
+  tree_.self_pairs([&](Index, Index i, Index j) {
+    if (i >= active_count_ || hit.load(std::memory_order_relaxed)) return;
     PairClass kind;
     if (intersects(x, triangles_[i], triangles_[j], kind)) hit.store(true, std::memory_order_relaxed);
   });

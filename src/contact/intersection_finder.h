@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/bvh.h"
+#include "contact/face_tree.h"
 #include "geometry/types.h"
 #include "unsnarl/intersections.h"
 
@@ -25,11 +25,9 @@ class IntersectionFinder {
   bool any(const Positions& x);
 
  private:
-  void update(const Positions& x);
   std::span<const Triangle> triangles_;
   Index active_count_;
-  std::vector<Box> boxes_;
-  Bvh bvh_;
+  FaceTree tree_;
 };
 
 }  // namespace unsnarl

@@ -54,22 +54,20 @@ class Metric {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
 
-/// The Minkowski penalty's candidates within a margin of each other.
+/// The Minkowski penalty of all pairs within a margin of each other.
 class PenaltyForce {
  public:
   PenaltyForce(const Patch& patch, double margin)
-      : patch_(patch), margin_(margin), penalty_(patch.triangles, {.margin = margin}), boxes_(patch.triangles.size()) {}
+      : patch_(patch), margin_(margin), penalty_(patch.triangles, {.margin = margin}), tree_(patch.triangles) {}
 
   void add(const Positions& x, double weight, Positions& force) {
-    for (std::size_t t = 0; t < boxes_.size(); ++t) boxes_[t] = box_of(x, patch_.triangles[t]).inflated(0.5 * margin_);
-    if (bvh_.size() == 0)
-      bvh_.build(boxes_);
-    else
-      bvh_.refit(boxes_);
-    penalty_.pairs.clear();
-    bvh_.self_pairs([&](Index a, Index b) {
-      if (a < patch_.active_count || b < patch_.active_count) penalty_.pairs.push_back({std::min(a, b), std::max(a, b)});
+    tree_.update(x, 0.5 * margin_);
+    std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
+    tree_.self_pairs([&](Index task, Index a, Index b) {
+      if (a < patch_.active_count) found[task].push_back({a, b});
     });
+    penalty_.pairs.clear();
+    for (const auto& list : found) penalty_.pairs.insert(penalty_.pairs.end(), list.begin(), list.end());
     std::sort(penalty_.pairs.begin(), penalty_.pairs.end());
     penalty_.value_and_gradient(x, force, -weight);
   }
@@ -79,8 +77,7 @@ class PenaltyForce {
   const Patch& patch_;
   double margin_;
   MinkowskiPenalty penalty_;
-  std::vector<Box> boxes_;
-  Bvh bvh_;
+  FaceTree tree_;
 };
 
 /// Pushes the two sheets of every intersection curve apart, each curve in one direction.

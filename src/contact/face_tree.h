@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "contact/bvh.h"
+#include "geometry/types.h"
+
+namespace unsnarl {
+
+/// A tree over triangles whose vertices move. Where most edges run along a few slanted directions (extruded shapes with
+/// long thin triangles), the boxes are aligned with those: boxes along the coordinate axes would hold mostly air.
+class FaceTree {
+ public:
+  /// The span must outlive the tree.
+  explicit FaceTree(std::span<const Triangle> triangles) : triangles_(triangles) {}
+
+  /// Takes over the positions; every box is inflated by `margin`.
+  void update(const Positions& x, double margin = 0);
+
+  /// Calls visit(task, i, j), i < j, once for each pair of triangles whose boxes overlap; in parallel over the tasks
+  /// [0, task_count()), in a fixed order within each.
+  template <class Visit>
+  void self_pairs(Visit&& visit) const {
+    bvh_.self_pairs_parallel([&](Index task, Index i, Index j) { visit(task, std::min(i, j), std::max(i, j)); });
+  }
+  Index task_count() const { return bvh_.task_count(); }
+
+ private:
+  void choose_frame(const Positions& x);
+
+  std::span<const Triangle> triangles_;
+  bool is_turned_ = false;
+  Eigen::Matrix3d frame_ = Eigen::Matrix3d::Identity();  // rows: the axes of the boxes
+  std::vector<Box> boxes_;
+  Bvh bvh_;
+};
+
+}  // namespace unsnarl
