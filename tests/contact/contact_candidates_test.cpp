@@ -1,0 +1,130 @@
+#include "contact/contact_candidates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+namespace unsnarl {
+namespace {
+
+using Key = std::array<Index, 5>;
+
+/// The same for every order in which a stencil can be written.
+Key key_of(const Stencil& s) {
+  std::array<Index, 4> v = s.v;
+  if (s.kind == StencilKind::vertex_face) {
+    std::sort(v.begin() + 1, v.end());
+  } else {
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
+    if (v[2] > v[3]) std::swap(v[2], v[3]);
+    if (v[0] > v[2]) {
+      std::swap(v[0], v[2]);
+      std::swap(v[1], v[3]);
+    }
+  }
+  return {static_cast<Index>(s.kind), v[0], v[1], v[2], v[3]};
+}
+
+struct Soup {
+  Positions x;
+  std::vector<Triangle> triangles;
+};
+
+/// Triangles over few vertices: many share vertices and edges, some are equal or degenerate.
+Soup random_soup(std::uint64_t seed, Index vertices, int count) {
+  std::mt19937_64 engine(seed);
+  Soup soup;
+  soup.x.resize(3, vertices);
+  for (Index v = 0; v < vertices; ++v)
+    for (int k = 0; k < 3; ++k) soup.x(k, v) = static_cast<double>(engine() >> 11) * 0x1p-53;
+  for (int t = 0; t < count; ++t) {
+    Triangle f;
+    for (Index& v : f) v = static_cast<Index>(engine() % static_cast<std::uint64_t>(vertices));
+    soup.triangles.push_back(f);
+  }
+  return soup;
+}
+
+std::set<Key> brute_force(const Soup& soup, double radius, const std::vector<std::uint8_t>& moves) {
+  std::set<Key> result;
+  const auto add = [&](const Stencil& s) {
+    bool moving = false;
+    for (Index v : s.v) moving |= moves[v] != 0;
+    if (moving && closest(s, soup.x).distance <= radius) result.insert(key_of(s));
+  };
+  std::set<Index> used;
+  for (const Triangle& f : soup.triangles) used.insert(f.begin(), f.end());
+  for (Index v : used) {
+    for (const Triangle& f : soup.triangles) {
+      if (f[0] != v && f[1] != v && f[2] != v) add({StencilKind::vertex_face, {v, f[0], f[1], f[2]}});
+    }
+  }
+  const EdgeTable table = build_edges(soup.triangles);
+  for (const Edge& e : table.edges) {
+    for (const Edge& g : table.edges) {
+      if (e[0] != g[0] && e[0] != g[1] && e[1] != g[0] && e[1] != g[1])
+        add({StencilKind::edge_edge, {e[0], e[1], g[0], g[1]}});
+    }
+  }
+  return result;
+}
+
+TEST(ContactCandidates, AgreeWithBruteForce) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const Soup soup = random_soup(seed, 25, 30);
+    std::vector<std::uint8_t> moves(25, 0);
+    for (Index v = 0; v < 25; ++v) moves[v] = seed % 3 == 0 || v % 4 == 0;
+    ContactCandidates candidates(soup.triangles, 25);
+    for (double radius : {0.02, 0.2}) {
+      std::vector<Stencil> found;
+      candidates.gather(soup.x, radius, moves, found);
+      std::set<Key> keys;
+      for (const Stencil& s : found) keys.insert(key_of(s));
+      EXPECT_EQ(keys, brute_force(soup, radius, moves)) << "seed " << seed << " radius " << radius;
+    }
+  }
+}
+
+TEST(ContactCandidates, ListNothingTwiceWhereNoTriangleIs) {
+  Soup soup = random_soup(5, 200, 150);
+  std::vector<std::uint8_t> moves(200, 1);
+  ContactCandidates candidates(soup.triangles, 200);
+  std::vector<Stencil> found;
+  candidates.gather(soup.x, 0.1, moves, found);
+  std::set<Key> keys;
+  for (const Stencil& s : found) keys.insert(key_of(s));
+  EXPECT_EQ(keys.size(), found.size());
+}
+
+TEST(ContactCandidates, FollowMotionAndRepeatThemselves) {
+  Soup soup = random_soup(6, 30, 30);
+  std::vector<std::uint8_t> moves(30, 1);
+  ContactCandidates candidates(soup.triangles, 30);
+  std::vector<Stencil> first, again;
+  candidates.gather(soup.x, 0.1, moves, first);
+  soup.x = soup.x.colwise().reverse().eval();
+  candidates.gather(soup.x, 0.05, moves, again);
+  std::set<Key> keys;
+  for (const Stencil& s : again) keys.insert(key_of(s));
+  EXPECT_EQ(keys, brute_force(soup, 0.05, moves));
+  std::vector<Stencil> repeated;
+  candidates.gather(soup.x, 0.05, moves, repeated);
+  EXPECT_EQ(again, repeated);
+}
+
+TEST(ContactCandidates, KnowNeighbours) {
+  //  3---2   5
+  //  | / |  / \      faces (0,1,2), (0,2,3), and (4,6,5) apart
+  //  0---1 4---6
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}};
+  ContactCandidates candidates(triangles, 7);
+  EXPECT_TRUE(candidates.are_neighbours({StencilKind::vertex_face, {3, 0, 1, 2}}));
+  EXPECT_FALSE(candidates.are_neighbours({StencilKind::vertex_face, {4, 0, 1, 2}}));
+  EXPECT_TRUE(candidates.are_neighbours({StencilKind::edge_edge, {0, 1, 2, 3}}));
+  EXPECT_FALSE(candidates.are_neighbours({StencilKind::edge_edge, {1, 2, 4, 5}}));
+}
+
+}  // namespace
+}  // namespace unsnarl

@@ -1,0 +1,101 @@
+#include "energy/bending.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "energy/finite_differences.h"
+
+namespace unsnarl {
+namespace {
+
+/// Two unit right triangles over the edge (0, 1), the second bent by `angle`.
+Positions bent(double angle) {
+  Positions x(3, 4);
+  x.col(0) = Vec3(0, 0, 0);
+  x.col(1) = Vec3(0, 1, 0);
+  x.col(2) = Vec3(-1, 0.5, 0);
+  x.col(3) = Vec3(std::cos(angle), 0.5, std::sin(angle));
+  return x;
+}
+
+double angle_of(const Positions& x) { return hinge_angle(x.col(0), x.col(1), x.col(2), x.col(3)); }
+
+TEST(Bending, AngleIsSignedAndReachesBothSides) {
+  EXPECT_NEAR(angle_of(bent(0)), 0, 1e-15);
+  const double sign = angle_of(bent(0.5)) > 0 ? 1 : -1;
+  for (double angle : {-3.1, -2.0, -0.3, 0.2, 1.57, 3.1}) EXPECT_NEAR(sign * angle_of(bent(angle)), angle, 1e-12);
+}
+
+TEST(Bending, AngleGradientAgreesWithFiniteDifferences) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Positions x = bent(0.6 * static_cast<double>(seed) - 2.7) + 0.1 * random_positions(seed, 4);
+    Eigen::Matrix<double, 3, 4> gradient;
+    const double angle = hinge_angle(x.col(0), x.col(1), x.col(2), x.col(3), gradient);
+    EXPECT_DOUBLE_EQ(angle, angle_of(x));
+    expect_gradient(angle_of, x, gradient, 1e-6, 1e-7);
+  }
+}
+
+TEST(Bending, FacesWithoutAreaHaveNoGradient) {
+  Positions x = bent(0.4);
+  x.col(2) = Vec3(0, 0.5, 0);
+  Eigen::Matrix<double, 3, 4> gradient;
+  hinge_angle(x.col(0), x.col(1), x.col(2), x.col(3), gradient);
+  EXPECT_TRUE(gradient.isZero(0));
+}
+
+TEST(Bending, GradientAgreesWithFiniteDifferences) {
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  const std::vector<Hinge> hinges = hinges_of(triangles, build_edges(triangles));
+  EXPECT_EQ(hinges.size(), 4u);
+  const Positions rest = random_positions(1, 5);
+  const Positions x = rest + 0.1 * random_positions(2, 5);
+  const Bending energy(rest, x, hinges, {});
+  Positions g = Positions::Zero(3, 5);
+  const double value = energy.value_and_gradient(x, 3, g);
+  EXPECT_DOUBLE_EQ(value, energy.value(x));
+  expect_gradient([&](const Positions& y) { return 3 * energy.value(y); }, x, g, 1e-6, 1e-4 * g.norm());
+}
+
+TEST(Bending, InvariantUnderRigidMotionAndScaling) {
+  const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
+  const Positions rest = bent(0.3), x = bent(1.2);
+  const double value = Bending(rest, x, hinges, {}).value(x);
+  EXPECT_GT(value, 0);
+  EXPECT_LT(Bending(rest, rest, hinges, {}).value(rest), 1e-28);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(3, -1, 2).normalized()).toRotationMatrix();
+  const Positions moved = (turn * x).colwise() + Vec3(1, 2, 3);
+  EXPECT_NEAR(Bending(rest, moved, hinges, {}).value(moved), value, 1e-12);
+  Bending::Options scaled;
+  scaled.edge_length = 5;
+  EXPECT_NEAR(Bending(5 * rest, 5 * x, hinges, scaled).value(5 * x), value, 1e-12);
+}
+
+TEST(Bending, RestAngleIsTakenOnTheSideOfTheStart) {
+  // At rest almost folded to one side, at the start almost folded to the other: the nearest way is through the fold.
+  const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
+  const Bending energy(bent(3.0), bent(-3.0), hinges, {});
+  EXPECT_NEAR(std::abs(energy.residual(bent(-3.0), 0, nullptr)), 2 * std::numbers::pi - 6, 1e-12);
+}
+
+TEST(Bending, SliversStayAsSoftAsOrdinaryHinges) {
+  Positions thin = bent(0);
+  thin(0, 2) = -1e-2;
+  const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
+  Eigen::Matrix<double, 3, 4> gradient;
+  const Bending energy(thin, thin, hinges, {});
+  energy.residual(thin, 0, &gradient);
+  EXPECT_LT(energy.weight(0) * gradient.squaredNorm(), 50);
+  thin(0, 2) = -1e-6;
+  EXPECT_EQ(Bending(thin, thin, hinges, {}).size(), 0);
+}
+
+TEST(Bending, NonManifoldEdgesChainTheirTriangles) {
+  const std::vector<Triangle> book = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+  EXPECT_EQ(hinges_of(book, build_edges(book)).size(), 2u);
+}
+
+}  // namespace
+}  // namespace unsnarl

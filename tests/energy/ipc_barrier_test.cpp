@@ -1,0 +1,103 @@
+#include "energy/ipc_barrier.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "energy/finite_differences.h"
+
+namespace unsnarl {
+namespace {
+
+TEST(IpcBarrier, FunctionAndDerivatives) {
+  EXPECT_EQ(barrier(1), 0);
+  EXPECT_EQ(barrier(1.5), 0);
+  EXPECT_EQ(barrier_derivative(1.5), 0);
+  EXPECT_TRUE(std::isinf(barrier(0)));
+  EXPECT_TRUE(std::isinf(barrier(-1)));
+  for (double y : {1e-3, 0.01, 0.2, 0.5, 0.9, 0.999}) {
+    const double step = 1e-6 * y;
+    EXPECT_GT(barrier(y), 0);
+    EXPECT_LT(barrier_derivative(y), 0);
+    EXPECT_GT(barrier_second_derivative(y), 0);
+    EXPECT_NEAR((barrier(y + step) - barrier(y - step)) / (2 * step), barrier_derivative(y),
+                1e-6 * (1 + std::abs(barrier_derivative(y))));
+    EXPECT_NEAR((barrier_derivative(y + step) - barrier_derivative(y - step)) / (2 * step),
+                barrier_second_derivative(y), 1e-5 * (1 + barrier_second_derivative(y)));
+  }
+}
+
+TEST(IpcBarrier, MollifierIsSmooth) {
+  EXPECT_EQ(mollifier(0, 0.1), 0);
+  EXPECT_EQ(mollifier(0.1, 0.1), 1);
+  EXPECT_EQ(mollifier(0.2, 0.1), 1);
+  EXPECT_NEAR(mollifier_derivative(0.1 - 1e-9, 0.1), 0, 1e-6);
+  EXPECT_NEAR((mollifier(0.05 + 1e-6, 0.1) - mollifier(0.05 - 1e-6, 0.1)) / 2e-6, mollifier_derivative(0.05, 0.1), 1e-8);
+}
+
+BarrierStencil stencil(StencilKind kind, double separation, double activation, double mollifier_threshold = 0) {
+  return {{kind, {0, 1, 2, kind == StencilKind::vertex_edge ? -1 : 3}}, separation, activation, mollifier_threshold};
+}
+
+void expect_barrier_gradient(const BarrierStencil& s, const Positions& x) {
+  const IpcBarrier energy(2.5);
+  std::vector<BarrierContact> contacts;
+  const double value = energy.evaluate(x, {&s, 1}, contacts);
+  EXPECT_NEAR(value, energy.value(x, {&s, 1}), 1e-12 * value);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_GE(contacts[0].stiffness, 0);  // rank one with a factor of this sign: positive semidefinite
+  Positions g = Positions::Zero(3, x.cols());
+  IpcBarrier::add_gradient({&s, 1}, contacts, 3, g);
+  expect_gradient([&](const Positions& y) { return 3 * energy.value(y, {&s, 1}); }, x, g, 1e-7, 1e-4 * (1 + g.norm()));
+  // No force on the whole: translations cost nothing.
+  EXPECT_LT(g.rowwise().sum().norm(), 1e-10 * (1 + g.norm()));
+}
+
+TEST(IpcBarrier, GradientOfVertexOverFaceEdgeAndCorner) {
+  Positions x(3, 4);
+  for (const Vec3& p : {Vec3(0.3, 0.3, 0.05), Vec3(0.5, -0.03, 0.04), Vec3(-0.03, -0.03, 0.02)}) {
+    x << p, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0);
+    expect_barrier_gradient(stencil(StencilKind::vertex_face, 0, 0.1), x);
+    expect_barrier_gradient(stencil(StencilKind::vertex_face, 0.02, 0.1), x);
+    expect_barrier_gradient(stencil(StencilKind::vertex_edge, 0.001, 0.5), x);
+  }
+}
+
+TEST(IpcBarrier, GradientOfCrossingAndNearlyParallelEdges) {
+  Positions x(3, 4);
+  x << Vec3(-1, 0, 0), Vec3(1, 0.1, 0), Vec3(0, -1, 0.05), Vec3(0.1, 1, 0.07);
+  expect_barrier_gradient(stencil(StencilKind::edge_edge, 0.01, 0.1, 1e-3 * 16), x);
+  x << Vec3(-1, 0, 0), Vec3(1, 0.001, 0), Vec3(-1, -0.02, 0.05), Vec3(1, 0.03, 0.05);
+  expect_barrier_gradient(stencil(StencilKind::edge_edge, 0.01, 0.1, 1e-3 * 16), x);
+  // Exactly parallel: the mollifier is zero, with zero slope in the distance.
+  x << Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, 0, 0.05), Vec3(1, 0, 0.05);
+  const BarrierStencil s = stencil(StencilKind::edge_edge, 0.01, 0.1, 1e-3 * 16);
+  EXPECT_EQ(IpcBarrier(1).value(x, {&s, 1}), 0);
+}
+
+TEST(IpcBarrier, ZeroBeyondActivationAndInfiniteAtSeparation) {
+  Positions x(3, 4);
+  x << Vec3(0.3, 0.3, 0.2), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0);
+  std::vector<BarrierContact> contacts;
+  const BarrierStencil far = stencil(StencilKind::vertex_face, 0.01, 0.1);
+  EXPECT_EQ(IpcBarrier(1).evaluate(x, {&far, 1}, contacts), 0);
+  EXPECT_TRUE(contacts.empty());
+  const BarrierStencil closed = stencil(StencilKind::vertex_face, 0.2, 0.4);
+  EXPECT_TRUE(std::isinf(IpcBarrier(1).value(x, {&closed, 1})));
+}
+
+TEST(IpcBarrier, ForceDependsOnTheRatioAlone) {
+  // Scaled positions and lengths: the energy scales as length, the force not at all.
+  Positions x(3, 4);
+  x << Vec3(0.3, 0.3, 0.05), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0);
+  const BarrierStencil s = stencil(StencilKind::vertex_face, 0.01, 0.1);
+  const BarrierStencil scaled = stencil(StencilKind::vertex_face, 0.05, 0.5);
+  std::vector<BarrierContact> contacts, scaled_contacts;
+  const double value = IpcBarrier(1).evaluate(x, {&s, 1}, contacts);
+  const double scaled_value = IpcBarrier(1).evaluate(5 * x, {&scaled, 1}, scaled_contacts);
+  EXPECT_NEAR(scaled_value, 5 * value, 1e-12);
+  EXPECT_NEAR(scaled_contacts[0].force, contacts[0].force, 1e-12);
+}
+
+}  // namespace
+}  // namespace unsnarl
