@@ -46,14 +46,16 @@ double smoothstep(double t) {
 /// Candidate pairs of triangles for the penalty, gathered with some room and kept until a vertex has used it up.
 class Candidates {
  public:
-  Candidates(const Patch& patch, double margin, double reach) : patch_(patch), margin_(margin), reach_(reach) {}
+  Candidates(const Patch& patch, double margin, double reach)
+      : patch_(patch), margin_(margin), largest_reach_(reach), reach_(reach) {}
 
   /// True where `pairs` has changed.
   bool update(const Positions& x, std::vector<MinkowskiPenalty::Pair>& pairs) {
-    const double reach2 = reach_ * reach_;
-    if (gathered_.cols() == x.cols() &&
-        (x - gathered_).leftCols(patch_.free_count).colwise().squaredNorm().maxCoeff() <= reach2) {
-      return false;
+    if (gathered_.cols() == x.cols()) {
+      const double motion = std::sqrt((x - gathered_).leftCols(patch_.free_count).colwise().squaredNorm().maxCoeff());
+      if (motion <= reach_) return false;
+      // Room that the next step would use up at once only costs.
+      reach_ = motion > 2 * largest_reach_ ? 0 : largest_reach_;
     }
     gathered_ = x;
     boxes_.resize(patch_.triangles.size());
@@ -66,13 +68,12 @@ class Candidates {
     });
     pairs.clear();
     for (const auto& list : found) pairs.insert(pairs.end(), list.begin(), list.end());
-    std::sort(pairs.begin(), pairs.end());
     return true;
   }
 
  private:
   const Patch& patch_;
-  double margin_, reach_;
+  double margin_, largest_reach_, reach_;
   Positions gathered_;
   std::vector<Box> boxes_;
   Bvh bvh_;
@@ -253,12 +254,24 @@ class Flow {
         break;
       }
       if (result.iterations >= rung_.max_iterations || (stop_ && stop_())) break;
-      if (stalled(pairs.size()) && !react(pairs.size())) break;
+      const bool stall = stalled(pairs.size());
+      if (worth_finishing(pairs.size(), stall) && finish(full_)) {
+        result.clean = true;
+        break;
+      }
+      if (stall && !react(pairs.size())) break;
       if (!step()) break;
       unpack(x_);
       pairs = find(full_);
       refresh(pairs);
     }
+    // One last try from the best state.
+    if (!result.clean && !(stop_ && stop_()) && result.pairs_left < finish_tried_ &&
+        static_cast<double>(result.pairs_left) < options_.stalled_share * static_cast<double>(initial_)) {
+      full_ = best_;
+      result.clean = finish(full_);
+    }
+    if (result.clean) result.pairs_left = 0;
     patch_.x = result.clean ? full_ : best_;
     if (result.clean) {
       shrink_displacement(patch_, patch_.rest, options_.bisections, [&](const Positions& y) {
@@ -336,6 +349,38 @@ class Flow {
     return true;
   }
 
+  bool worth_finishing(std::size_t count, bool stall) const {
+    if (count == 0 || 2 * count > finish_tried_) return false;
+    const double share = static_cast<double>(count) / static_cast<double>(initial_);
+    return count <= options_.few_finish || share <= options_.finish_share || (stall && share < options_.stalled_share);
+  }
+
+  // The contour method from x on; x is the result where it is clean, else unchanged.
+  bool finish(Positions& x) {
+    std::vector<IntersectingPair> ignored(tolerated_.begin(), tolerated_.end());
+    std::size_t count = 0;
+    for (const IntersectingPair& pair : blocking_pairs(finder_.find(x), tolerated_)) {
+      if (pair.kind == PairClass::duplicate) {
+        ignored.push_back(pair);
+      } else {
+        ++count;
+      }
+    }
+    finish_tried_ = count;
+    std::sort(ignored.begin(), ignored.end());
+    patch_.x.leftCols(n_) = x.leftCols(n_);
+    const LocalRung rung{LocalMethod::contour, options_.finish_step, options_.finish_locality,
+                         options_.finish_iterations};
+    LocalOptions local;
+    local.jitter = 0;
+    local.bisections = 0;
+    local.area_floor = options_.area_floor;
+    if (!solve_locally(patch_, rung, ignored, local, stop_).clean) return false;
+    if (has_squeezed_face(patch_, patch_.rest, patch_.x, options_.area_floor)) return false;
+    x.leftCols(n_) = patch_.x.leftCols(n_);
+    return true;
+  }
+
   // No sufficient drop of the number of pairs for some iterations.
   bool stalled(std::size_t count) {
     if (count == 0 || static_cast<double>(count) <= (1 - options_.stall_drop) * reference_) {
@@ -389,6 +434,7 @@ class Flow {
   std::size_t initial_ = 0;
   double reference_ = std::numeric_limits<double>::infinity();
   int waited_ = 0;
+  std::size_t finish_tried_ = std::numeric_limits<std::size_t>::max();  // pairs there were when finishing last failed
 };
 
 }  // namespace

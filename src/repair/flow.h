@@ -61,6 +61,14 @@ struct FlowOptions {
   double few_pairs = 0.1;           ///< of the initial number: then the penalty grows, else the clusters
   double spacing_growth = 1.6;
   double largest_minkowski = 1000;  ///< lambda_minkowski grows no further
+  /// From this share of the initial pairs on (and from few_finish pairs on), the local contour method tries to take away
+  /// the rest: it clears in a few steps what the flow would still chase after 100 iterations. Again when they have halved.
+  double finish_share = 0.05;
+  double stalled_share = 0.5;       ///< on a stall, and at the end of a rung, already from this share on
+  std::size_t few_finish = 12;      ///< pairs
+  int finish_iterations = 25;       ///< of the contour method; it needs 4 or never gets there
+  double finish_step = 0.3;         ///< h
+  double finish_locality = 8;       ///< h
   double area_floor = 1e-3;         ///< of its area at rest: thinner faces are no solution
   int bisections = 5;               ///< of the displacement back to rest; the smallest clean one is kept
   double candidate_reach = 0.25;    ///< h: motion until the candidate pairs are gathered anew
