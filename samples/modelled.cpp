@@ -18,24 +18,42 @@ double smooth_step(double x) {
   return t * t * (3 - 2 * t);
 }
 
-/// A torso with one arm, posed as by a skeleton: the arm swings down and inwards until the hand is in the belly.
+/// Turns what lies beyond a joint about it, blended over a short stretch as skin weights are. Nothing below the chest.
+void bend_at(Surface& surface, const Vec3& joint, const Vec3& along, const Vec3& axis, double degrees,
+             const std::vector<double>& rest_reach, const std::vector<double>& rest_height) {
+  for (std::size_t v = 0; v < rest_reach.size(); ++v) {
+    Eigen::Map<Vec3> p(&surface.positions[3 * v]);
+    const double weight = smooth_step((rest_reach[v] - joint.dot(along)) / 1.6 + 0.5) * smooth_step((rest_height[v] - 2) / 2);
+    if (weight == 0) continue;
+    p = joint + Eigen::AngleAxisd(weight * degrees * pi / 180, axis) * Vec3(p - joint);
+  }
+}
+
+/// A doll in T-pose, posed as by a skeleton: one arm hangs, the other is bent until the forearm is in the belly.
 Surface posed_limb(int resolution, const SampleValues& values) {
   std::vector<Block> blocks;
-  for (int y = 0; y < 5; ++y)
-    for (int x = -1; x < 1; ++x)
-      for (int z = -1; z < 1; ++z) blocks.push_back({x, y, z});
-  for (int x = 1; x < 5; ++x) blocks.push_back({x, 4, 0});
-  Surface surface = sample_blocks(blocks, std::max(2, resolution / 10), FaceKind::quads, 0.6);
-  const Vec3 shoulder(1.0, 4.4, 0.5);
-  const double swing = values["swing"] * pi / 180;
-  for (std::size_t v = 0; v < surface.positions.size(); v += 3) {
-    Eigen::Map<Vec3> p(&surface.positions[v]);
-    const double weight = smooth_step((p[0] - 0.9) / 1.2);
-    const Eigen::Matrix3d turn = (Eigen::AngleAxisd(-0.35 * weight, Vec3::UnitY()) *
-                                  Eigen::AngleAxisd(-swing * weight, Vec3::UnitZ()))
-                                     .toRotationMatrix();
-    p = shoulder + turn * (p - shoulder);
+  const auto add = [&](int x0, int x1, int y0, int y1) {
+    for (int x = x0; x < x1; ++x)
+      for (int y = y0; y < y1; ++y)
+        for (int z = -1; z < 1; ++z) blocks.push_back({x, y, z});
+  };
+  add(0, 5, 0, 6);                     // torso
+  add(0, 2, -6, 0), add(3, 5, -6, 0);  // legs
+  add(-6, 0, 4, 6), add(5, 11, 4, 6);  // arms
+  add(2, 3, 6, 7), add(1, 4, 7, 10);   // neck, head
+  Surface surface = sample_blocks(blocks, std::max(1, resolution / 17), FaceKind::quads, 0.62);
+  // Bends are weighted by where a vertex was at rest, outer joints first.
+  std::vector<double> right(surface.positions.size() / 3), left(right.size()), height(right.size());
+  for (std::size_t v = 0; v < right.size(); ++v) {
+    right[v] = surface.positions[3 * v];
+    left[v] = -right[v];
+    height[v] = surface.positions[3 * v + 1];
   }
+  const Vec3 x = Vec3::UnitX(), z = Vec3::UnitZ();
+  bend_at(surface, {7.8, 5, 0}, x, (-z + 0.15 * x).normalized(), values["elbow"], right, height);
+  bend_at(surface, {5.4, 5, 0}, x, -z, values["shoulder"], right, height);
+  bend_at(surface, {-0.4, 5, 0}, -x, z, 55, left, height);
+  for (double& coordinate : surface.positions) coordinate *= 0.1;
   return surface;
 }
 
@@ -90,9 +108,10 @@ Surface hair_cards(int resolution, const SampleValues& values) {
 std::vector<SampleMaker> modelled_samples() {
   return {
       {{"posed_limb",
-        "smooth body posed by a skeleton, its arm pressed into the torso: closed, genus 0, quads",
-        {{"swing", 118, 0, 150, "angle at the shoulder, in degrees"}}},
-       50,
+        "doll posed by a skeleton, its forearm pressed into the belly: closed, genus 0, quads",
+        {{"shoulder", 62, 0, 90, "angle at the shoulder, in degrees"},
+         {"elbow", 95, 0, 150, "angle at the elbow, in degrees"}}},
+       51,
        posed_limb},
       {{"overlapping_quads",
         "two cushions pushed into each other and a strap through both: quads",

@@ -25,7 +25,7 @@ Surface sample_grid(const ParameterGrid& grid, const std::function<Vec3(double u
       if (grid.keep &&
           !grid.keep(u.minimum + (i + 0.5 + u_shift) * u.step(), v.minimum + (j + 0.5 + v_shift) * v.step()))
         continue;
-      builder.add_cell(vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1), grid.faces,
+      builder.add_cell(vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1), vertex(i + 1, j), grid.faces,
                        (i + j) % 2 != 0);
     }
   return builder.take();

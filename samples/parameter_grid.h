@@ -29,7 +29,7 @@ struct ParameterGrid {
   std::function<bool(double u, double v)> keep = {};
 };
 
-/// The surface f over the grid. A mirrored u with a closed v moves the samples of v by half a step, whatever v.shift
+/// The surface f over the grid, its front where df/dv x df/du points. A mirrored u with a closed v moves the samples of v by half a step, whatever v.shift
 /// says, as the mirror image of a sample has to be a sample.
 Surface sample_grid(const ParameterGrid& grid, const std::function<Vec3(double u, double v)>& f);
 

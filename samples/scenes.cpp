@@ -66,12 +66,12 @@ Surface jellyfish(int resolution, const SampleValues& values) {
   const int tentacles = values.whole("tentacles");
   for (int k = 0; k < tentacles; ++k) {
     const auto id = static_cast<std::uint32_t>(k);
-    const double angle = 2 * pi * (k + 0.6 * hashed_unit(11, id)) / tentacles, start = 0.55 + 0.3 * hashed_unit(12, id);
+    const double angle = 2 * pi * (k + 0.6 * hashed_unit(11, id)) / tentacles, start = 0.6 + 0.3 * hashed_unit(12, id);
     const double swing = 0.35 + 0.3 * hashed_unit(13, id), phase = 2 * pi * hashed_unit(14, id);
     const Vec3 out(std::cos(angle), 0, std::sin(angle)), side(-std::sin(angle), 0, std::cos(angle));
-    // From inside the bell, whose wall most of them cross, down into the bundle.
+    // From inside the bells, whose walls some of them cross, down into the bundle.
     const auto centre = [=](double t) {
-      return Vec3(start * (1 - 0.5 * t) * out + Vec3(0, 0.75 - 2.6 * t, 0) +
+      return Vec3(start * (1 - 0.5 * t) * out + Vec3(0, 0.38 - 2.2 * t, 0) +
                   swing * t * (std::sin(5 * t + phase) * side + 0.6 * std::cos(4 * t + phase) * out));
     };
     builder.append(sample_tube({centre, 0, 1, false, [](double t) { return 0.085 - 0.05 * t; }, std::max(8, resolution / 2), 6,

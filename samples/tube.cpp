@@ -46,7 +46,7 @@ Surface sample_tube(const Tube& tube) {
   };
   for (int i = 0; i < tube.steps; ++i)
     for (int j = 0; j < tube.sides; ++j)
-      builder.add_cell(vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1), tube.faces,
+      builder.add_cell(vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1), vertex(i + 1, j), tube.faces,
                        (i + j) % 2 != 0);
   return builder.take();
 }

@@ -20,7 +20,7 @@ struct Tube {
 };
 
 /// Rings in the planes normal to the curve, carried along it without twist; what a closed curve turns the last ring
-/// against the first is spread over all rings. Open tubes end in two boundary rings.
+/// against the first is spread over all rings. The front is outside. Open tubes end in two boundary rings.
 Surface sample_tube(const Tube& tube);
 
 }  // namespace unsnarl

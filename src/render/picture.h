@@ -20,13 +20,13 @@ struct PictureOptions {
   bool inset = true;
 };
 
-/// Before and after side by side under one camera, which looks down on the surfaces at a three-quarter angle: the tallest
-/// axis up if the shape is taller than wide (else y up), the longest horizontal one to the right. Red faces show through
-/// what hides them as a tint.
+/// Before and after side by side under one camera, which looks down on the surfaces at a three-quarter angle: y up (z
+/// where they reach much further along z), the longer horizontal axis to the right. Red faces show through what hides
+/// them as a tint.
 ///
-/// before, after: valid polygon meshes; polygons are drawn as fans, faces with fewer than 3 corners are left out.
+/// before, after: valid polygon meshes; polygons are drawn as fans, faces with corners that are not finite left out.
 /// red_before, red_after: face ids of `before` and `after`, in any order.
-/// Throws std::invalid_argument for a size or a face id out of range. The result does not depend on the machine's threads.
+/// Throws std::invalid_argument for a size or a face id out of range. Deterministic.
 Image render_pair(const SurfaceView& before, std::span<const Index> red_before, const SurfaceView& after,
                   std::span<const Index> red_after, const PictureOptions& options = {});
 

@@ -1,0 +1,73 @@
+#include "render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "geometry/box.h"
+
+namespace unsnarl {
+
+Camera three_quarter_view(std::span<const double> positions, double aspect, double margin) {
+  Box box;
+  for (std::size_t k = 0; k + 2 < positions.size(); k += 3) {
+    const Vec3 p(positions[k], positions[k + 1], positions[k + 2]);
+    if (p.allFinite()) box.extend(p);
+  }
+  Camera camera;
+  if (!(box.lo[0] <= box.hi[0])) box = {Vec3::Zero(), Vec3::Ones()};
+  const Vec3 extent = box.hi - box.lo;
+
+  // A quarter more than both others is a standing figure in a z-up file; less could be a body of y up seen from its side.
+  const bool z_up = extent[2] > 1.25 * std::max(extent[0], extent[1]);
+  const Vec3 vertical = z_up ? Vec3::UnitZ() : Vec3::UnitY();
+  Vec3 across = Vec3::UnitX(), beside = z_up ? Vec3::UnitY() : Vec3::UnitZ();
+  if (beside.dot(extent) > 1.02 * across.dot(extent)) std::swap(across, beside);
+  const Vec3 viewer = across.cross(vertical);  // as z = x cross y
+
+  // Flat things are looked at from further above.
+  const double flatness = vertical.dot(extent) / std::max({extent[0], extent[1], extent[2], 1e-300});
+  const double elevation = (flatness < 0.35 ? 38 : 22) * std::numbers::pi / 180;
+  const double azimuth = -30 * std::numbers::pi / 180;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(azimuth, vertical).toRotationMatrix();
+  camera.right = turn * across;
+  const Vec3 level = turn * viewer;
+  camera.toward = std::cos(elevation) * level + std::sin(elevation) * vertical;
+  camera.up = camera.toward.cross(camera.right);
+
+  // The nearest eye from which every point p lies within the four planes of the view: with t the tangent of half the
+  // field of view and z along `toward`, |x - eye_x| <= t (eye_z - z).
+  camera.half_height = std::tan(13 * std::numbers::pi / 180);
+  const double ty = camera.half_height * (1 - 2 * margin), tx = camera.half_height * aspect * (1 - 2 * margin);
+  double left = -std::numeric_limits<double>::infinity(), right = left, below = left, above = left, nearest = left;
+  const Vec3 middle = box.center();
+  const auto include = [&](const Vec3& p) {
+    const Vec3 d = p - middle;
+    const double x = camera.right.dot(d), y = camera.up.dot(d), z = camera.toward.dot(d);
+    right = std::max(right, x + tx * z);
+    left = std::max(left, -x + tx * z);
+    above = std::max(above, y + ty * z);
+    below = std::max(below, -y + ty * z);
+    nearest = std::max(nearest, z);
+  };
+  bool any = false;
+  for (std::size_t k = 0; k + 2 < positions.size(); k += 3) {
+    const Vec3 p(positions[k], positions[k + 1], positions[k + 2]);
+    if (!p.allFinite()) continue;
+    include(p);
+    any = true;
+  }
+  if (!any) {
+    include(box.lo);
+    include(box.hi);
+  }
+  // A single point, or points on a line of sight, still need some distance.
+  const double least = nearest + std::max(0.05 * box.diagonal(), 1e-12 * (1 + middle.cwiseAbs().maxCoeff()));
+  const double distance = std::max({(left + right) / (2 * tx), (below + above) / (2 * ty), least});
+  camera.eye = middle + 0.5 * (right - left) * camera.right + 0.5 * (above - below) * camera.up + distance * camera.toward;
+  return camera;
+}
+
+}  // namespace unsnarl

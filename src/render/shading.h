@@ -1,0 +1,19 @@
+#pragma once
+
+#include "render/camera.h"
+#include "render/drawable.h"
+#include "render/image.h"
+
+namespace unsnarl {
+
+struct ShadingOptions {
+  int samples = 2;                  ///< per pixel and direction, [1, 4]
+  double wireframe_from = 7;        ///< median edge in pixels from which edges are drawn
+  double xray = 0.5;                ///< share of red over what hides a red face
+};
+
+/// The surface seen by the camera, on white: light from the upper left and from the right, front sides bluish and back
+/// sides sand-coloured, red faces vivid and shining through what hides them.
+Image shade(const Drawable& drawable, const Camera& camera, int width, int height, const ShadingOptions& options = {});
+
+}  // namespace unsnarl
