@@ -9,13 +9,13 @@
 
 #include "exit_code.h"
 #include "geometry/box.h"
+#include "intersecting_faces.h"
 #include "mesh/components.h"
 #include "mesh/union_find.h"
 #include "mesh_input.h"
 #include "repair/report_json.h"
 #include "staged_output.h"
 #include "unsnarl/version.h"
-#include "verification.h"
 
 namespace unsnarl::app {
 namespace {

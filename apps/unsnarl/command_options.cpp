@@ -1,6 +1,11 @@
 #include "command_options.h"
 
+#include <limits>
+
 namespace unsnarl::app {
+
+CLI::Validator one_of(std::vector<std::string> words) { return CLI::IsMember(std::move(words)).description(""); }
+CLI::Validator not_negative() { return CLI::Range(0.0, std::numeric_limits<double>::max()).description(""); }
 
 void add_mesh_options(CLI::App& command, MeshOptions& options) {
   command.add_option("IN", options.input, "Mesh file: obj, off, ply, stl, glb or gltf; '-' for standard input")
@@ -9,25 +14,23 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
       ->type_name("FORMAT");
   command
       .add_option("--goal", options.goal,
-                  "What counts as a self-intersection: 'all' pairs of faces that meet anywhere but where they are\n"
-                  "joined, or only the 'disjoint' ones, which share no vertex")
-      ->check(CLI::IsMember({"all", "disjoint"}))
-      ->type_name("all|disjoint")
-      ->capture_default_str();
+                  "What counts as a self-intersection: 'all' (default), pairs of faces that meet anywhere\n"
+                  "but where they are joined; or only the 'disjoint' ones of these, which share no vertex")
+      ->check(one_of({"all", "disjoint"}))
+      ->type_name("all|disjoint");
   command
       .add_option("--weld", options.weld,
-                  "Which vertices at equal positions count as one: those on 'seams' within a shell (texture seams,\n"
-                  "corners in STL), 'all', or 'none'. The file keeps them apart in any case")
-      ->check(CLI::IsMember({"none", "seams", "all"}))
-      ->type_name("none|seams|all")
-      ->capture_default_str();
+                  "Which vertices at equal positions count as one: those on 'seams' within a shell (default:\n"
+                  "texture seams, corners in STL), 'all', or 'none'. The file keeps them apart in any case")
+      ->check(one_of({"none", "seams", "all"}))
+      ->type_name("none|seams|all");
   command
       .add_option("--weld-tolerance", options.weld_tolerance,
                   "How far apart positions may be to count as equal, in the units of the mesh")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->type_name("LENGTH");
   command.add_option("--threads", options.threads, "Threads to use; 0: as many as the machine has")
-      ->check(CLI::Range(0, 1024))
+      ->check(CLI::Range(0, 1024).description(""))
       ->type_name("N");
   command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors");
 }

@@ -2,10 +2,15 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "unsnarl/repair.h"
 
 namespace unsnarl::app {
+
+/// Checks of values that say nothing in the help text, where the name of the type says it all.
+CLI::Validator one_of(std::vector<std::string> words);
+CLI::Validator not_negative();
 
 /// Options that `fix` and `check` share.
 struct MeshOptions {

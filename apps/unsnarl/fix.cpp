@@ -8,16 +8,20 @@
 #include <cstdio>
 #include <numeric>
 
+#include "contact/intersection_finder.h"
 #include "exit_code.h"
 #include "geometry/box.h"
+#include "intersecting_faces.h"
 #include "mesh_input.h"
 #include "progress.h"
 #include "render/picture.h"
 #include "render/png.h"
+#include "repair/measure.h"
+#include "repair/prepared_surface.h"
 #include "repair/report_json.h"
 #include "staged_output.h"
 #include "surface_files.h"
-#include "verification.h"
+#include "unsnarl/certify.h"
 
 namespace unsnarl::app {
 namespace {
@@ -101,6 +105,9 @@ RepairOptions repair_options(const FixOptions& options, const Document& document
   result.memory_limit_mb = options.memory_limit_mb;
   result.paper = options.paper;
   result.recover = !options.no_recover;
+  result.as_written = [&document](std::span<const double> positions, bool float32) {
+    return document.as_written(positions, float32);
+  };
   if (!options.fix_vertices.empty())
     result.fixed = read_vertex_flags(options.fix_vertices, document.surface().view().vertex_count());
   return result;
@@ -116,19 +123,22 @@ bool is_to_be_written(const RepairResult& result, const Surface& input, bool kee
 }
 
 /// What the file that was written holds, against what the status promises. Empty: the promise is kept.
-std::string broken_promise(const RepairResult& result, Goal goal, const Surface& input, const Surface& read_back,
-                           Verification& verification, const PairCounts& before) {
+std::string broken_promise(const RepairResult& result, const RepairOptions& options, const Surface& input,
+                           const Surface& read_back) {
   if (read_back.corners != input.corners || read_back.offsets != input.offsets ||
       read_back.positions.size() != input.positions.size())
     return "its faces are not those of the input";
-  if (const Index torn = verification.first_torn_vertex(read_back.positions); torn >= 0)
-    return fmt::format("vertex {} came off the vertex it was identified with", torn);
-  const PairCounts counts = count_by_class(verification.pairs(read_back.positions));
-  const std::size_t disjoint = counts[PairClass::disjoint];
-  if (result.status == Status::embedded && (goal == Goal::all ? counts.total() : disjoint) > 0)
-    return fmt::format("{} pairs of faces intersect in it", goal == Goal::all ? counts.total() : disjoint);
-  if (disjoint > before[PairClass::disjoint] || (goal == Goal::all && counts.total() > before.total()))
-    return fmt::format("more pairs of faces intersect in it than in the input: {} against {}", counts.total(),
+  const Certificate certificate = certify(input, read_back.positions, options.find);
+  if (!certificate.seams_closed) return "a seam of the input is open in it";
+  const PairCounts &after = certificate.pairs, &before = result.report.before;
+  const std::size_t disjoint = after[PairClass::disjoint];
+  const bool all = options.goal == Goal::all;
+  if (result.status == Status::embedded && (all ? after.total() : disjoint) > 0)
+    return fmt::format("{} pairs of faces intersect in it", all ? after.total() : disjoint);
+  if (result.status == Status::embedded && all && !certificate.embedded())
+    return fmt::format("{} faces have lost their area", certificate.new_zero_area_faces);
+  if (disjoint > before[PairClass::disjoint] || (all && after.total() > before.total()))
+    return fmt::format("more pairs of faces intersect in it than in the input: {} against {}", after.total(),
                        before.total());
   return {};
 }
@@ -142,8 +152,7 @@ class Fix {
         output_(checked_output(options)),
         display_(progress_style(options.progress, options.quiet)),
         document_(read_mesh(options.input, format_from_name(options.format))),
-        repair_options_(repair_options(options, document_)),
-        verification_(surface(), repair_options_.find) {
+        repair_options_(repair_options(options, document_)) {
     check_format_of_output(output_, document_);
     files_.before_repair.push_back({"read", clock_.seconds(), peak_memory_mb()});
   }
@@ -163,10 +172,8 @@ class Fix {
     interruption_.set_handler(nullptr);
     display_.clear();
 
-    before_ = verification_.pairs(surface().positions);
     const Stopwatch writing;
     if (is_to_be_written(result_, surface(), options_.keep_partial)) write_output();
-    staged_.reset();
     files_.after_repair.push_back({"write", writing.seconds(), peak_memory_mb()});
 
     const ExitCode exit_code = exit_code_of(result_.status);
@@ -186,51 +193,35 @@ class Fix {
     fmt::print(stderr, "{}\n", fmt::format(text, std::forward<Args>(args)...));
   }
 
-  /// Moved coordinates of text formats get the digits of the precision that the result holds in. Where the precision
-  /// was left open and the shorter digits break the certificate, the longer ones are tried.
   void write_output() {
-    const bool may_choose = !repair_options_.precision && !document_.stores_float32();
-    bool float32_digits =
-        repair_options_.precision ? *repair_options_.precision == Precision::float32 : result_.report.float32_embedded;
-    if (!is_stream(output_)) staged_ = std::make_unique<StagedOutput>(output_, interruption_);
-    std::string broken = write_and_verify(float32_digits);
-    if (!broken.empty() && may_choose && float32_digits) {
-      float32_digits = false;
-      broken = write_and_verify(float32_digits);
-    }
-    if (!broken.empty())
-      throw std::logic_error(fmt::format("the file written does not hold what was certified: {}. Nothing was written",
-                                         broken));
-    files_.digits = float32_digits ? "float32" : "float64";
-    if (staged_) {
-      refuse_to_overwrite_input_buffers();
-      staged_->commit();
+    const bool float32_digits = result_.report.precision == Precision::float32;
+    std::vector<OutputFile> files = document_.patched(result_.positions, float32_digits);
+    if (is_stream(output_)) {
+      if (files.size() > 1)
+        throw UsageError("this glTF keeps its geometry in other files, which cannot go to a stream; give -o FILE");
+      verify(Document::parse(files[0].bytes, document_.format()));
+      write_to_stream(output_, files[0].bytes);
     } else {
-      write_to_stream(output_, stream_bytes_);
+      StagedOutput staged(output_, interruption_);
+      staged.write(files);
+      refuse_to_overwrite_input_buffers(staged.targets());
+      verify(Document::read(staged.main_file(), document_.format()));
+      staged.commit();
     }
     files_.output = output_;
   }
 
-  std::string write_and_verify(bool float32_digits) {
-    std::vector<OutputFile> files = document_.patched(result_.positions, float32_digits);
-    const auto verified = [&](const Document& written) {
-      return broken_promise(result_, repair_options_.goal, surface(), written.surface(), verification_,
-                            count_by_class(before_));
-    };
-    if (staged_) {
-      staged_->write(files);
-      return verified(Document::read(staged_->main_file(), document_.format()));
-    }
-    if (files.size() > 1)
-      throw UsageError("this glTF keeps its geometry in other files, which cannot go to a stream; give -o FILE");
-    stream_bytes_ = files[0].bytes;
-    return verified(Document::parse(std::move(files[0].bytes), document_.format()));
+  /// The certificate is worth nothing if the file says something else.
+  void verify(const Document& written) const {
+    const std::string broken = broken_promise(result_, repair_options_, surface(), written.surface());
+    if (!broken.empty())
+      throw std::logic_error(
+          fmt::format("the file written does not hold what was certified: {}. It was removed", broken));
   }
 
   /// External buffers of a glTF keep their names, so beside the input they would replace the input's.
-  void refuse_to_overwrite_input_buffers() const {
+  void refuse_to_overwrite_input_buffers(const std::vector<fs::path>& targets) const {
     if (options_.in_place || options_.input == standard_stream) return;
-    const std::vector<fs::path> targets = staged_->targets();
     const fs::path main = fs::path(output_).parent_path(), source = fs::path(options_.input).parent_path();
     for (std::size_t i = 1; i < targets.size(); ++i)
       if (const fs::path own = source / targets[i].lexically_relative(main.empty() ? "." : main);
@@ -240,14 +231,17 @@ class Fix {
                                      targets[i].string()));
   }
 
-  std::vector<IntersectingPair> pairs_after() {
-    if (after_) return *after_;
-    return *(after_ = verification_.pairs(result_.positions));
-  }
-
   void write_pictures() {
+    if (options_.highlight.empty() && options_.picture.empty()) return;
+    const PreparedSurface prepared = prepare(surface(), repair_options_.find);
+    IntersectionFinder finder(prepared.triangles());
+    const auto pairs_at = [&](std::span<const double> positions) {
+      return pairs_of_faces(prepared, finder.find(prepared.gather(positions)));
+    };
+    const std::vector<IntersectingPair> pairs_before = pairs_at(surface().positions);
+    const std::vector<IntersectingPair> pairs_after = pairs_at(result_.positions);
     if (!options_.highlight.empty())
-      write_file(options_.highlight, highlight_file(surface(), result_.positions, before_, pairs_after()));
+      write_file(options_.highlight, highlight_file(surface(), result_.positions, pairs_before, pairs_after));
     if (!options_.picture.empty()) {
       PictureOptions picture;
       const auto label = [](const char* when, std::size_t pairs) {
@@ -255,12 +249,12 @@ class Fix {
                                            : pairs == 1 ? "1 intersecting pair of faces"
                                                         : fmt::format("{} intersecting pairs of faces", pairs));
       };
-      picture.before_label = label("before", before_.size());
-      picture.after_label = label("after", pairs_after().size());
+      picture.before_label = label("before", pairs_before.size());
+      picture.after_label = label("after", pairs_after.size());
       const SurfaceView before = surface();
       const SurfaceView after = {result_.positions, before.corners, before.offsets};
       write_file(options_.picture,
-                 encode_png(render_pair(before, faces_in(before_), after, faces_in(pairs_after()), picture)));
+                 encode_png(render_pair(before, faces_in(pairs_before), after, faces_in(pairs_after), picture)));
     }
   }
 
@@ -268,10 +262,9 @@ class Fix {
     if (options_.report.empty()) return;
     files_.input = options_.input;
     files_.format = to_string(document_.format());
-    if (files_.digits.empty()) files_.digits = "none";
     files_.vertices = surface().view().vertex_count();
     files_.faces = surface().view().face_count();
-    files_.triangulation = verification_.cut().describe();
+    files_.triangulation = triangulate(surface()).statistics.describe();
     files_.notes = document_.notes();
     files_.exit_code = exit_code;
     files_.seconds = clock_.seconds();
@@ -339,12 +332,7 @@ class Fix {
   ProgressDisplay display_;
   Document document_;
   RepairOptions repair_options_;
-  Verification verification_;
-  std::unique_ptr<StagedOutput> staged_;  // unset: the output is a stream
-  std::string stream_bytes_;
   RepairResult result_;
-  std::vector<IntersectingPair> before_;
-  std::optional<std::vector<IntersectingPair>> after_;
   ReportFiles files_;
 };
 
@@ -364,30 +352,29 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
   command
       .add_option("--max-displacement", options.max_displacement,
                   "How far any vertex may move, as a fraction of the bounding-box diagonal; 0: any distance")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->type_name("X")
       ->group(what);
   command
       .add_option("--min-gap", options.min_gap,
                   "Wanted gap between sheets, as a fraction of the diagonal; 0: just enough to be safe")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->type_name("X")
       ->group(what);
   command.add_flag("--absolute", options.absolute, "These two are lengths in the units of the mesh")->group(what);
   command
       .add_option("--precision", options.precision,
-                  "Number format in which the result must be free of self-intersections: 'float32' as most\n"
-                  "programs read it, 'float64', or 'auto': float32 where possible")
-      ->check(CLI::IsMember({"auto", "float32", "float64"}))
-      ->type_name("auto|float32|float64")
-      ->capture_default_str();
+                  "Number format in which the result must hold: 'float32' as most programs read it, 'float64',\n"
+                  "or 'auto' (default): float32 where the coordinates allow it")
+      ->check(one_of({"auto", "float32", "float64"}))
+      ->type_name("auto|float32|float64");
   const std::string limits = "Limits";
   command.add_option("--time-limit", options.time_limit_s, "Stop after this many seconds; 0: none")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->type_name("S")
       ->group(limits);
   command.add_option("--memory-limit", options.memory_limit_mb, "Stop when the program holds this many MB; 0: none")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->type_name("MB")
       ->group(limits);
   const std::string shown = "What is shown";
@@ -402,10 +389,9 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->group(shown);
   command
       .add_option("--progress", options.progress,
-                  "On standard error: a line on a terminal ('auto'), a JSON object a line, or 'none'")
-      ->check(CLI::IsMember({"auto", "json", "none"}))
+                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
+      ->check(one_of({"auto", "json", "none"}))
       ->type_name("auto|json|none")
-      ->capture_default_str()
       ->group(shown);
   const std::string research = "For research";
   command.add_flag("--paper", options.paper, "Repair as the paper does it, instead of region by region")->group(research);

@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "command_options.h"
 #include "exit_code.h"
 #include "mesh_input.h"
 #include "samples/samples.h"
@@ -21,8 +22,7 @@ std::string list_of_samples() {
   for (const Sample& sample : all_samples()) width = std::max(width, sample.name.size());
   std::string text;
   for (const Sample& sample : all_samples())
-    text += fmt::format("{:<{}}  {}{}\n", sample.name, width, sample.description,
-                        sample.embeddable ? "" : " (has no embedding)");
+    text += fmt::format("{:<{}}  {}\n", sample.name, width, sample.description);
   return text;
 }
 
@@ -61,15 +61,15 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
   command.add_option("--format", options.format, "obj, off or ply, where the name does not tell")->type_name("FORMAT");
   command
       .add_option("--resolution", options.resolution, "Sampling steps along the longest direction; 0: the sample's own")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 2000).description(""))
       ->type_name("N");
   command.add_option("--set", options.parameters, "Change a parameter; may be repeated")->type_name("NAME=VALUE");
   command.add_flag("--list", options.list, "List all samples; with NAME: describe that one and its parameters");
   command.footer(
       "Examples:\n"
       "  unsnarl sample --list\n"
-      "  unsnarl sample moebius_band --list\n"
-      "  unsnarl sample moebius_band -o band.obj --resolution 100");
+      "  unsnarl sample mobius_extended --list\n"
+      "  unsnarl sample mobius_extended -o band.obj --resolution 100");
 }
 
 int run_sample(const SampleOptions& options) {

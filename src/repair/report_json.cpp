@@ -1,9 +1,8 @@
 #include "repair/report_json.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 
+#include "repair/measure.h"
 #include "unsnarl/version.h"
 
 namespace unsnarl {
@@ -73,8 +72,7 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
                    {"triangulation", files.triangulation},
                    {"notes", files.notes}};
   json["output"] = {{"written", !files.output.empty()},
-                    {"path", files.output.empty() ? Json() : Json(files.output)},
-                    {"digits", files.digits}};
+                    {"path", files.output.empty() ? Json() : Json(files.output)}};
   json["options"] = options_json(options);
   json["topology"] = topology_json(r.topology);
   json["before"] = pair_counts_json(r.before);
@@ -94,6 +92,7 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
   json["volume_change_rel"] = r.volume_change_rel;
   json["area_change_rel"] = r.area_change_rel;
   json["float32_embedded"] = r.float32_embedded;
+  json["precision"] = to_string(r.precision);
   json["regions"] = Json::array();
   for (const RegionReport& region : r.regions)
     json["regions"].push_back({{"rung", region.rung},
@@ -105,16 +104,6 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
   json["seconds"] = files.seconds;
   json["peak_memory_mb"] = peak_memory_mb();
   return json;
-}
-
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-#ifdef __APPLE__
-  return static_cast<double>(usage.ru_maxrss) / (1 << 20);  // bytes there, kilobytes elsewhere
-#else
-  return static_cast<double>(usage.ru_maxrss) / (1 << 10);
-#endif
 }
 
 std::string_view to_string(Weld weld) {

@@ -14,9 +14,8 @@ inline constexpr int report_schema_version = 1;
 
 /// What a report says about the files around a repair.
 struct ReportFiles {
-  std::string input, output;        ///< paths; output empty: none written
+  std::string input, output;            ///< paths; output empty: none written
   std::string format;               ///< "obj", ...
-  std::string digits;               ///< "float32" or "float64": what moved coordinates were rounded to
   std::size_t vertices = 0, faces = 0;  ///< as the file counts them
   std::string triangulation;        ///< how the polygons were cut, in words
   std::vector<std::string> notes;   ///< what the reader remarked
@@ -31,9 +30,6 @@ nlohmann::ordered_json report_json(const RepairResult& result, const RepairOptio
 /// Parts that other reports share.
 nlohmann::ordered_json topology_json(const Topology& topology);
 nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
-
-/// Highest resident memory of this process so far, MB (1 MB = 2^20 bytes).
-double peak_memory_mb();
 
 std::string_view to_string(Weld weld);
 std::string_view to_string(Precision precision);
