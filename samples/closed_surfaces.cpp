@@ -95,7 +95,7 @@ std::vector<SampleMaker> closed_surface_samples() {
       {{"pretzel",
         "plate with holes rolled up until its handles run through each other: genus 2 or as told",
         {{"genus", 2, 1, 6, "number of holes", true},
-         {"bend", 410, 0, 600, "angle that the plate is rolled by, in degrees"}}},
+         {"bend", 410, 30, 600, "angle that the plate is rolled by, in degrees"}}},
        30,
        pretzel},
   };

@@ -21,11 +21,10 @@ void rasterise(std::span<const ScreenPoint> points, std::span<const Triangle> tr
     if (!(a.inverse_depth > 0 && b.inverse_depth > 0 && c.inverse_depth > 0)) continue;
     const float left = std::min({a.x, b.x, c.x}), right = std::max({a.x, b.x, c.x});
     const float top = std::min({a.y, b.y, c.y}), bottom = std::max({a.y, b.y, c.y});
-    // Written so that coordinates that are not numbers are left out, too.
-    if (!(right > 0 && left < static_cast<float>(buffer.width) && bottom > 0 && top < static_cast<float>(buffer.height)))
+    if (right <= 0 || left >= static_cast<float>(buffer.width) || bottom <= 0 || top >= static_cast<float>(buffer.height))
       continue;
     const double area = double(b.x - a.x) * (c.y - a.y) - double(b.y - a.y) * (c.x - a.x);
-    if (area == 0) continue;
+    if (area == 0 || !std::isfinite(area)) continue;
     const int x0 = static_cast<int>(std::max(0.0F, std::ceil(left - 0.5F)));
     const int y0 = static_cast<int>(std::max(0.0F, std::ceil(top - 0.5F)));
     const int x1 = static_cast<int>(std::min(static_cast<float>(buffer.width) - 1, std::floor(right - 0.5F)));

@@ -1,0 +1,171 @@
+#include "render/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace unsnarl {
+namespace {
+
+/// A grid of n x n quads in the plane z = height, over [-1, 1]^2.
+Surface plate(int n, double height = 0) {
+  Surface surface;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) surface.positions.insert(surface.positions.end(), {2.0 * i / n - 1, 2.0 * j / n - 1, height});
+  surface.offsets = {0};
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const int a = i * (n + 1) + j;
+      surface.corners.insert(surface.corners.end(), {a, a + n + 1, a + n + 2, a + 1});
+      surface.offsets.push_back(static_cast<Index>(surface.corners.size()));
+    }
+  return surface;
+}
+
+Surface together(const Surface& a, const Surface& b) {
+  Surface both = a;
+  const auto vertices = static_cast<Index>(a.positions.size() / 3), corners = static_cast<Index>(a.corners.size());
+  both.positions.insert(both.positions.end(), b.positions.begin(), b.positions.end());
+  for (Index v : b.corners) both.corners.push_back(v + vertices);
+  for (std::size_t k = 1; k < b.offsets.size(); ++k) both.offsets.push_back(b.offsets[k] + corners);
+  return both;
+}
+
+struct Counts {
+  std::size_t drawn = 0, vivid = 0, tinted = 0;
+};
+
+/// Pixels in columns [from, to) that are not white; strongly red; and reddish but pale.
+Counts count(const Image& image, int from, int to, int top = 0) {
+  Counts counts;
+  for (int y = top; y < image.height; ++y)
+    for (int x = from; x < to; ++x) {
+      const std::uint8_t* p = image.at(x, y);
+      counts.drawn += p[0] < 245 || p[1] < 245 || p[2] < 245 ? 1 : 0;
+      if (p[0] < 110 || p[0] < p[1] + 40 || p[0] < p[2] + 40) continue;
+      (p[1] < 90 ? counts.vivid : counts.tinted) += 1;
+    }
+  return counts;
+}
+
+PictureOptions small() {
+  PictureOptions options;
+  options.width = 400;
+  options.height = 200;
+  options.inset = false;
+  return options;
+}
+
+TEST(Picture, ShowsRedFacesOnTheSideThatTheyBelongTo) {
+  const Surface surface = plate(8);
+  std::vector<Index> red(10);
+  std::iota(red.begin(), red.end(), 20);
+  const Image image = render_pair(surface, red, surface, {}, small());
+  ASSERT_EQ(image.width, 400);
+  ASSERT_EQ(image.height, 200);
+  const Counts before = count(image, 0, 200), after = count(image, 201, 400);
+  EXPECT_GT(before.drawn, 3000U);
+  EXPECT_GT(after.drawn, 3000U);
+  EXPECT_GT(before.vivid, before.drawn / 20);  // 10 of 64 faces
+  EXPECT_EQ(after.vivid + after.tinted, 0U);
+}
+
+TEST(Picture, HiddenRedFacesShowThroughAsATint) {
+  // The second plate is hidden behind the first, as seen from in front and above.
+  const Surface surface = together(plate(8, 0), plate(8, -0.05));
+  const Image image = render_surface(surface, std::vector<Index>{64 + 27, 64 + 28, 64 + 35, 64 + 36}, small());
+  const Counts counts = count(image, 0, image.width);
+  EXPECT_GT(counts.tinted, 100U);
+  EXPECT_LT(counts.vivid, counts.tinted / 10);
+}
+
+TEST(Picture, BothStatesAreSeenByOneCamera) {
+  const Surface before = plate(4);
+  Surface after = before;
+  for (std::size_t k = 0; k < after.positions.size(); k += 3) after.positions[k] += 1.5;
+  const Image image = render_pair(before, {}, after, {}, small());
+  const auto middle = [&](int from, int to) {
+    double sum = 0, n = 0;
+    for (int y = 20; y < image.height; ++y)
+      for (int x = from; x < to; ++x)
+        if (image.at(x, y)[1] < 245) sum += x - from, ++n;
+    return sum / n;
+  };
+  EXPECT_GT(middle(201, 400), middle(0, 200) + 30);
+}
+
+TEST(Picture, IsTheSameOnEveryCall) {
+  const Surface surface = plate(20);
+  const std::vector<Index> red = {3, 4, 5};
+  PictureOptions options = small();
+  options.inset = true;
+  EXPECT_EQ(render_pair(surface, red, surface, {}, options).pixels, render_pair(surface, red, surface, {}, options).pixels);
+}
+
+TEST(Picture, MagnifiesSmallGroupsOfRedFaces) {
+  PictureOptions options = small();
+  options.width = 800;
+  options.height = 400;
+  const Surface surface = plate(80);
+  const std::vector<Index> red = {3240, 3241};
+  const Image plain = render_surface(surface, red, options);
+  options.inset = true;
+  const Image with_inset = render_surface(surface, red, options);
+  EXPECT_GT(count(with_inset, 0, 800).vivid, 4 * count(plain, 0, 800).vivid);
+}
+
+TEST(Picture, DrawsItsLabels) {
+  PictureOptions options = small();
+  options.before_label = options.after_label = "";
+  const Surface surface = plate(4);
+  const Image silent = render_pair(surface, {}, surface, {}, options);
+  options.before_label = "before 12 pairs";
+  const Image labelled = render_pair(surface, {}, surface, {}, options);
+  const auto ink = [](const Image& image) {
+    std::size_t dark = 0;
+    for (int y = 0; y < 18; ++y)
+      for (int x = 0; x < image.width; ++x) dark += image.at(x, y)[0] < 120 ? 1 : 0;
+    return dark;
+  };
+  EXPECT_GT(ink(labelled), ink(silent) + 50);
+}
+
+TEST(Picture, SurvivesDegenerateAndEmptySurfaces) {
+  const Surface empty;
+  EXPECT_EQ(count(render_surface(empty, {}, small()), 0, 400, 30).drawn, 0U);
+  Surface point{{1, 2, 3, 1, 2, 3, 1, 2, 3}, {0, 1, 2}, {}};
+  EXPECT_NO_THROW(render_surface(point, std::vector<Index>{0}, {}));
+  Surface line{{0, 0, 0, 1, 1, 1, 2, 2, 2}, {0, 1, 2}, {}};
+  EXPECT_NO_THROW(render_surface(line, std::vector<Index>{0}, {}));
+  Surface broken = plate(6);
+  broken.positions[7] = std::numeric_limits<double>::quiet_NaN();
+  broken.positions[30] = std::numeric_limits<double>::infinity();
+  EXPECT_GT(count(render_surface(broken, std::vector<Index>{0, 1, 2}, {}), 0, 1600, 60).drawn, 1000U);
+}
+
+TEST(Picture, DoesNotDependOnTheSizeOfTheSurface) {
+  const Surface surface = plate(8);
+  for (double scale : {1e-9, 1e9}) {
+    Surface scaled = surface;
+    for (double& c : scaled.positions) c *= scale;
+    const Counts a = count(render_surface(surface, std::vector<Index>{9}, small()), 0, 400);
+    const Counts b = count(render_surface(scaled, std::vector<Index>{9}, small()), 0, 400);
+    EXPECT_NEAR(static_cast<double>(a.drawn), static_cast<double>(b.drawn), 0.02 * static_cast<double>(a.drawn));
+    EXPECT_NEAR(static_cast<double>(a.vivid), static_cast<double>(b.vivid), 0.1 * static_cast<double>(a.vivid) + 2);
+  }
+}
+
+TEST(Picture, RefusesFacesAndSizesOutOfRange) {
+  const Surface surface = plate(2);
+  EXPECT_THROW(render_surface(surface, std::vector<Index>{4}, small()), std::invalid_argument);
+  EXPECT_THROW(render_surface(surface, std::vector<Index>{-1}, small()), std::invalid_argument);
+  PictureOptions options = small();
+  options.width = 10;
+  EXPECT_THROW(render_surface(surface, {}, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace unsnarl
