@@ -259,7 +259,7 @@ class Flow {
         result.clean = true;
         break;
       }
-      if (stall && !react(pairs.size())) break;
+      if (stall && (hopeless(result.pairs_left) || !react(pairs.size()))) break;
       if (!step()) break;
       unpack(x_);
       pairs = find(full_);
@@ -391,6 +391,11 @@ class Flow {
     return ++waited_ >= options_.stall_iterations;
   }
 
+  bool hopeless(std::size_t best) {
+    return ++stalls_ >= options_.hopeless_stalls &&
+           static_cast<double>(best) > options_.hopeless_share * static_cast<double>(initial_);
+  }
+
   // Grows the penalty where little is left, else the clusters. False: nothing more to try.
   bool react(std::size_t count) {
     reference_ = static_cast<double>(count);
@@ -433,7 +438,7 @@ class Flow {
   double value_ = 0;
   std::size_t initial_ = 0;
   double reference_ = std::numeric_limits<double>::infinity();
-  int waited_ = 0;
+  int waited_ = 0, stalls_ = 0;
   std::size_t finish_tried_ = std::numeric_limits<std::size_t>::max();  // pairs there were when finishing last failed
 };
 

@@ -2,24 +2,52 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
 #include "repair/conflict_regions.h"
+#include "repair/flow.h"
 #include "repair/local_solver.h"
 #include "repair/patch.h"
 
 namespace unsnarl {
 namespace {
 
-/// The default configuration: gentle first. Names: method, rings.
-constexpr LocalRung local_rungs[] = {
-    {"penalty-2", LocalMethod::penalty, 2, 0.1, 3, 30},
-    {"contour-2", LocalMethod::contour, 2, 0.1, 2, 40},
-    {"contour-4", LocalMethod::contour, 4, 0.1, 2, 60},
-    {"contour-8", LocalMethod::contour, 8, 0.3, 4, 60},
-    {"smoothing-4", LocalMethod::smoothing, 4, 0.1, 3, 60},
+/// One way to resolve a region: a local rung, which starts from where the surface is now, or a flow, from rest.
+struct Rung {
+  std::string_view name;
+  int rings;               ///< edges from the intersecting faces to the border of the free vertices
+  const LocalRung* local;  ///< or null
+  const FlowRung* flow;    ///< or null
 };
+
+constexpr int whole_component = std::numeric_limits<int>::max();
+
+constexpr LocalRung penalty = {LocalMethod::penalty, 0.1, 3, 30};
+constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
+constexpr LocalRung long_contour = {LocalMethod::contour, 0.3, 4, 60};
+constexpr LocalRung smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
+
+/// The default configuration: gentle first.
+std::vector<Rung> default_rungs() {
+  const std::span<const FlowRung> flows = default_flow_rungs();
+  auto flow_named = [&](std::string_view name) {
+    return &*std::find_if(flows.begin(), flows.end(), [&](const FlowRung& rung) { return rung.name == name; });
+  };
+  std::vector<Rung> rungs = {
+      {"penalty-2", 2, &penalty, nullptr},
+      {"contour-2", 2, &contour, nullptr},
+      {"contour-4", 4, &contour, nullptr},
+      {"contour-8", 8, &long_contour, nullptr},
+      {"smoothing-4", 4, &smoothing, nullptr},
+      {"flow-8", 8, nullptr, flow_named("flow 1b")},
+      {"flow-16", 16, nullptr, flow_named("flow 1b")},
+  };
+  for (const FlowRung& flow : flows)
+    if (flow.line_search) rungs.push_back({flow.name, whole_component, nullptr, &flow});
+  return rungs;
+}
 
 class Climb {
  public:
@@ -28,7 +56,7 @@ class Climb {
 
   LadderResult run() {
     pairs_ = current_pairs();
-    for (const LocalRung& rung : local_rungs) {
+    for (const Rung& rung : default_rungs()) {
       if (pairs_.empty() || stopped()) break;
       climb_one(rung);
       pairs_ = current_pairs();
@@ -46,7 +74,7 @@ class Climb {
     return pairs;
   }
 
-  void climb_one(const LocalRung& rung) {
+  void climb_one(const Rung& rung) {
     std::vector<ConflictRegion> regions = conflict_regions(scene_, pairs_);
     SceneIndex index(scene_);
     region_of_core_.assign(scene_.vertex_count(), -1);
@@ -79,20 +107,22 @@ class Climb {
     }
   }
 
-  void attempt(const ConflictRegion& region, const std::vector<Index>& free, const LocalRung& rung, SceneIndex& index) {
+  void attempt(const ConflictRegion& region, const std::vector<Index>& free, const Rung& rung, SceneIndex& index) {
     const auto begin = std::chrono::steady_clock::now();
     std::vector<Triangle> core_faces;
     for (const IntersectingPair& pair : region.pairs)
       for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
     const double h = mean_edge_length(scene_.rest, core_faces);
-    double reach = (rung.step * 8 + 1) * h;
+    double reach = 4 * h;
     for (int tries = 0; tries < 3; ++tries) {
       Patch patch = cut_patch(scene_, index, free, reach);
       patch.edge_length = h;
-      const LocalResult local = solve_locally(patch, rung, foreign_pairs(patch, region), {}, options_.stop);
-      if (!local.clean) return;
-      if (local.displacement > reach) {
-        reach = 2 * local.displacement;
+      const Positions start = patch.x;
+      int iterations = 0;
+      if (!solve(patch, rung, foreign_pairs(patch, region), iterations)) return;
+      const double displacement = (patch.x - start).leftCols(patch.free_count).colwise().norm().maxCoeff();
+      if (displacement > reach) {  // it may have met what the patch does not hold
+        reach = 2 * displacement;
         continue;
       }
       paste_patch(patch, scene_, index);
@@ -100,12 +130,26 @@ class Climb {
       report.rung = rung.name;
       report.faces = static_cast<std::size_t>(patch.active_count);
       report.pairs = region.pairs.size();
-      report.iterations = local.iterations;
+      report.iterations = iterations;
       report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       result_.regions.push_back(report);
       result_.moved.push_back(free);
       return;
     }
+  }
+
+  bool solve(Patch& patch, const Rung& rung, const std::vector<IntersectingPair>& foreign, int& iterations) const {
+    if (rung.local) {
+      const LocalResult result = solve_locally(patch, *rung.local, foreign, {}, options_.stop);
+      iterations += result.iterations;
+      if (result.clean) return true;
+    }
+    if (rung.flow) {
+      const FlowResult result = flow(patch, *rung.flow, options_.stop, foreign);
+      iterations += result.iterations;
+      if (result.clean) return true;
+    }
+    return false;
   }
 
   /// Pairs of active triangles that are not the region's: other regions' and those that cannot be resolved.

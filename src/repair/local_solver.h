@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <string_view>
 
 #include "repair/patch.h"
 #include "unsnarl/intersections.h"
@@ -17,9 +16,7 @@ enum class LocalMethod {
 
 /// One way to untangle a small patch. Lengths in units of the patch's h.
 struct LocalRung {
-  std::string_view name;
   LocalMethod method;
-  int rings;            ///< edges from the intersecting faces to the border of the free vertices
   double step;          ///< largest vertex motion of an iteration, h
   double locality;      ///< range of the direction's smoothing, h
   int max_iterations;
