@@ -1,0 +1,379 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/program.h"
+#include "unsnarl/document.h"
+#include "unsnarl/intersections.h"
+
+namespace unsnarl::cli {
+namespace {
+
+/// A cube of quads with unusual but legal writing, to see that every byte is kept.
+const std::string clean_cube =
+    "# a cube\r\nv 0 0 0\nv  1.000 0 0\nv 1 1 0 0.5\nv 0 1 0\nv 0 0 1e0\nv 1 0 1\nv 1 1 1\nv 0 1 +1\nvt 0 0\n"
+    "f 4/1 3/1 2/1 1/1\nf 5 6 7 8\nusemtl x\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+/// A tetrahedron, and a small one whose tip sticks into it.
+const std::string crossing =
+    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4 # top\nv 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
+    "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n";
+
+/// The edge of the first face runs through the second; only corners that do not matter are free.
+const std::string hopeless = "v 0 0 -1\nv 0 0 1\nv 5 0 0\nv 1 0 0\nv -1 1 0\nv -1 -1 0\nf 1 2 3\nf 4 5 6\n";
+
+std::size_t pairs_in(const std::string& path) { return find_intersections(Document::read(path).surface()).size(); }
+
+class Cli : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& bytes) {
+    write(folder / name, bytes);
+    return folder / name;
+  }
+  std::string sample(const std::string& name, const std::vector<std::string>& more = {}) {
+    const std::string path = folder / (name + ".obj");
+    std::vector<std::string> arguments = {"sample", name, "-o", path};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return path;
+  }
+  /// Runs and expects an exit code, a complaint that contains `words`, and no file but those that were there.
+  void expect_refusal(const std::vector<std::string>& arguments, int exit_code, const std::string& words) {
+    const auto before = folder.names();
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(folder.names(), before);
+  }
+  Folder folder;
+};
+
+TEST_F(Cli, HelpAndVersionGoToStandardOutput) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"fix", "--help"}, {"check", "--help"}, {"sample", "--help"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.out.find("Examples"), std::string::npos);
+    EXPECT_EQ(outcome.err, "");
+  }
+  const Outcome outcome = run({"--version"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out.rfind("unsnarl ", 0), 0u);
+}
+
+TEST_F(Cli, UsageErrorsExitWith2) {
+  const std::string in = file("in.obj", clean_cube);
+  expect_refusal({}, 2, "");
+  expect_refusal({"mend"}, 2, "fix, check or sample");
+  expect_refusal({"fix"}, 2, "IN");
+  expect_refusal({"fix", in}, 2, "-o");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--frobnicate"}, 2, "frobnicate");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--goal", "some"}, 2, "goal");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--time-limit", "-1"}, 2, "time-limit");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--in-place"}, 2, "--in-place");
+  expect_refusal({"fix", in, "-o", folder / "o.stl"}, 2, "keeps the format");
+  expect_refusal({"fix", in, "-o", in}, 2, "--in-place");
+  expect_refusal({"fix", in, "-o", folder.string() + "/./in.obj"}, 2, "--in-place");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--report", in}, 2, "the same");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--report", folder / "o.obj"}, 2, "the same");
+  expect_refusal({"fix", "-", "-o", folder / "o.obj"}, 2, "--format");
+  expect_refusal({"fix", "-", "--in-place", "--format", "obj"}, 2, "--in-place");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--format", "doc"}, 2, "doc");
+  expect_refusal({"sample"}, 2, "--list");
+  expect_refusal({"sample", "no_such_thing", "-o", folder / "o.obj"}, 2, "no_such_thing");
+  expect_refusal({"sample", "book", "-o", folder / "o.glb"}, 2, "glb");
+  expect_refusal({"sample", "book", "-o", folder / "o.obj", "--set", "pages"}, 2, "NAME=NUMBER");
+  EXPECT_EQ(contents(in), clean_cube);
+}
+
+TEST_F(Cli, InputsThatMakeNoSenseExitWith3) {
+  const std::string out = folder / "out.obj";
+  expect_refusal({"fix", folder / "missing.obj", "-o", out}, 3, "missing.obj");
+  expect_refusal({"check", folder / "missing.obj"}, 3, "missing.obj");
+  expect_refusal({"check", folder.string()}, 3, "");
+  const std::string wrong = file("wrong.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+  expect_refusal({"fix", wrong, "-o", out}, 3, "9");
+  expect_refusal({"fix", file("nan.obj", "v 0 0 nan\nf 1 1 1\n"), "-o", out}, 3, "1");
+  const std::string in = file("in.obj", crossing);
+  expect_refusal({"fix", in, "-o", out, "--fix-vertices", folder / "none.txt"}, 3, "none.txt");
+  expect_refusal({"fix", in, "-o", out, "--fix-vertices", file("ids.txt", "0 1\n8 # too large\n")}, 3, "ids.txt:2");
+  expect_refusal({"fix", in, "-o", out, "--fix-vertices", file("ids.txt", "0 -1\n")}, 3, "ids.txt:1");
+}
+
+TEST_F(Cli, OutputsThatCannotBeWrittenExitWith4) {
+  const std::string in = file("in.obj", crossing);
+  expect_refusal({"fix", in, "-o", folder / "no/such/folder/out.obj"}, 4, "no/such/folder");
+  fs::create_directory(folder / "taken.obj");
+  expect_refusal({"fix", in, "-o", folder / "taken.obj"}, 4, "is a folder");
+  expect_refusal({"fix", in, "-o", "/dev/full"}, 4, "/dev/full");
+  expect_refusal({"check", in, "--pairs", folder / "no/pairs.csv"}, 4, "pairs.csv");
+  const RunOptions to_full_disk = {.stdout_path = "/dev/full"};
+  EXPECT_EQ(run({"fix", in, "-o", "-"}, to_full_disk).exit_code, 4);
+  EXPECT_EQ(run({"check", in}, to_full_disk).exit_code, 4);
+  EXPECT_EQ(run({"sample", "book", "-o", "-"}, to_full_disk).exit_code, 4);
+}
+
+TEST_F(Cli, CleanInputComesBackByteForByte) {
+  const std::string in = file("in.obj", clean_cube), out = folder / "out.obj";
+  const Outcome outcome = run({"fix", in, "-o", out});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(contents(out), clean_cube);
+  EXPECT_EQ(contents(in), clean_cube);
+}
+
+TEST_F(Cli, RepairsAndKeepsEverythingElse) {
+  const std::string in = file("in.obj", crossing), out = folder / "out.obj";
+  EXPECT_GT(pairs_in(in), 0u);
+  const Outcome outcome = run({"fix", in, "-o", out});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("embedded"), std::string::npos);
+  EXPECT_EQ(pairs_in(out), 0u);
+  EXPECT_EQ(contents(in), crossing);
+  EXPECT_NE(contents(out).find("# top"), std::string::npos);
+  EXPECT_EQ(contents(out).substr(contents(out).find("f 1 3 2")), crossing.substr(crossing.find("f 1 3 2")));
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "out.obj"}));
+}
+
+TEST_F(Cli, QuietSaysNothing) {
+  const std::string in = file("in.obj", crossing);
+  const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  const Outcome check = run({"check", in, "--quiet"});
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_EQ(check.out + check.err, "");
+}
+
+TEST_F(Cli, InPlaceReplacesTheInputAndKeepsItsPermissions) {
+  const std::string in = file("in.obj", crossing);
+  fs::permissions(in, fs::perms(0640));
+  fs::create_symlink("in.obj", folder / "link.obj");
+  EXPECT_EQ(run({"fix", folder / "link.obj", "--in-place"}).exit_code, 0);
+  EXPECT_EQ(pairs_in(in), 0u);
+  EXPECT_EQ(fs::status(in).permissions(), fs::perms(0640));
+  EXPECT_TRUE(fs::is_symlink(folder / "link.obj"));
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "link.obj"}));
+}
+
+TEST_F(Cli, OutputIsReplacedOnlyBySuccess) {
+  const std::string in = file("in.obj", hopeless), out = file("out.obj", "precious");
+  const std::string ids = file("ids.txt", "0 1 3 4 5\n");
+  const Outcome outcome = run({"fix", in, "-o", out, "--fix-vertices", ids});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(contents(out), "precious");
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "out.obj", "ids.txt"}));
+}
+
+TEST_F(Cli, NothingBetterThanTheInputExitsWith1) {
+  const std::string in = file("in.obj", hopeless), out = folder / "out.obj", report = folder / "report.json";
+  const std::string ids = file("ids.txt", "0 1 # the edge\n3 4 5\n");
+  const Outcome outcome = run({"fix", in, "-o", out, "--fix-vertices", ids, "--report", report});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_FALSE(fs::exists(out));
+  const auto json = nlohmann::json::parse(contents(report));
+  EXPECT_EQ(json["exit_code"], 1);
+  EXPECT_EQ(json["output"]["written"], false);
+  EXPECT_EQ(json["options"]["fixed_vertices"], 5);
+  // With --keep-partial what was reached is written, and it is no worse.
+  EXPECT_EQ(run({"fix", in, "-o", out, "--fix-vertices", ids, "--keep-partial"}).exit_code, 1);
+  EXPECT_LE(pairs_in(out), pairs_in(in));
+}
+
+TEST_F(Cli, FixedVerticesKeepTheirTokens) {
+  const std::string in = file("in.obj", crossing), out = folder / "out.obj";
+  EXPECT_EQ(run({"fix", in, "-o", out, "--fix-vertices", file("ids.txt", "0 1 2 3")}).exit_code, 0);
+  const std::string fixed_part = crossing.substr(0, crossing.find("v 1.2"));
+  EXPECT_EQ(contents(out).substr(0, fixed_part.size()), fixed_part);
+  EXPECT_EQ(pairs_in(out), 0u);
+}
+
+TEST_F(Cli, LimitsExitWith5) {
+  const std::string in = file("in.obj", crossing), out = folder / "out.obj";
+  for (const std::vector<std::string>& limit :
+       {std::vector<std::string>{"--max-displacement", "1e-9"}, {"--max-displacement", "1e-8", "--absolute"},
+        {"--time-limit", "1e-9"}, {"--memory-limit", "0.001"}}) {
+    std::vector<std::string> arguments = {"fix", in, "-o", out};
+    arguments.insert(arguments.end(), limit.begin(), limit.end());
+    EXPECT_EQ(run(arguments).exit_code, 5) << limit[0];
+    EXPECT_FALSE(fs::exists(out));
+    arguments.push_back("--keep-partial");
+    EXPECT_EQ(run(arguments).exit_code, 5) << limit[0];
+    EXPECT_TRUE(fs::exists(out));
+    EXPECT_LE(pairs_in(out), pairs_in(in));
+    fs::remove(out);
+  }
+}
+
+TEST_F(Cli, InterruptedExitsWith6AndLeavesNothing) {
+  // Large enough to be at work when the signal comes, which is sent at the first sign of progress.
+  const std::string in = sample("crumpled_sheet", {"--resolution", "200"}), out = folder / "out.obj";
+  const auto before = folder.names();
+  const Outcome once = run({"fix", in, "-o", out, "--progress", "json"}, {.signal_after = {"fraction"}});
+  EXPECT_EQ(once.exit_code, 6) << once.err;
+  EXPECT_EQ(folder.names(), before);
+  const Outcome kept =
+      run({"fix", in, "-o", out, "--progress", "json", "--keep-partial"}, {.signal_after = {"fraction"}});
+  EXPECT_EQ(kept.exit_code, 6) << kept.err;
+  EXPECT_LE(pairs_in(out), pairs_in(in));
+  fs::remove(out);
+  const Outcome twice =
+      run({"fix", in, "-o", out, "--progress", "json"}, {.signal_after = {"fraction", "stopping"}});
+  EXPECT_EQ(twice.exit_code, 6) << twice.err;
+  EXPECT_EQ(folder.names(), before);
+}
+
+TEST_F(Cli, ObstructedExitsWith7) {
+  const std::string bottle = sample("klein_bottle"), out = folder / "out.obj";
+  const Outcome refused = run({"fix", bottle, "-o", out});
+  EXPECT_EQ(refused.exit_code, 7) << refused.err;
+  EXPECT_NE(refused.err.find("non-orientable"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out));
+
+  // With something else to repair the result is written, and only the obstruction is left.
+  const Surface surface = Document::read(bottle).surface();
+  std::ostringstream both;
+  both << contents(bottle);
+  for (int i = 0; i < 2; ++i)
+    both << "v 100 0 " << i << "\nv 104 0 " << i << "\nv 100 4 " << i << "\nv 101 1 " << i + 4 - 6 * i << "\n";
+  const auto n = static_cast<int>(surface.positions.size() / 3);
+  for (int i = 0; i < 2; ++i)
+    for (const auto& f : {std::array{1, 3, 2}, {1, 2, 4}, {2, 3, 4}, {3, 1, 4}})
+      both << "f " << n + 4 * i + f[0] << ' ' << n + 4 * i + f[1] << ' ' << n + 4 * i + f[2] << '\n';
+  const std::string in = file("both.obj", both.str());
+  ASSERT_GT(pairs_in(in), pairs_in(bottle));
+  EXPECT_EQ(run({"fix", in, "-o", out}).exit_code, 7);
+  ASSERT_TRUE(fs::exists(out));
+  EXPECT_EQ(pairs_in(out), pairs_in(bottle));
+}
+
+TEST_F(Cli, StandardInputAndOutput) {
+  const Outcome outcome = run({"fix", "-", "--format", "obj", "-o", "-"}, {.input = crossing});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  write(folder / "out.obj", outcome.out);
+  EXPECT_EQ(pairs_in(folder / "out.obj"), 0u);
+  EXPECT_EQ(run({"fix", "-", "--format", "obj", "-o", "-"}, {.input = clean_cube}).out, clean_cube);
+  EXPECT_EQ(run({"check", "-", "--format", "obj"}, {.input = crossing}).exit_code, 1);
+  EXPECT_EQ(run({"fix", "-", "--format", "obj", "-o", "-", "--report", "-"}, {.input = crossing}).exit_code, 2);
+}
+
+TEST_F(Cli, ReportPictureAndHighlight) {
+  const std::string in = file("in.obj", crossing), out = folder / "out.obj";
+  const Outcome outcome = run({"fix", in, "-o", out, "--report", folder / "r.json", "--picture", folder / "p.png",
+                               "--highlight", folder / "h.ply"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(contents(folder / "r.json"));
+  EXPECT_EQ(json["schema"], "unsnarl-report");
+  EXPECT_EQ(json["status"], "embedded");
+  EXPECT_EQ(json["before"]["total"], pairs_in(in));
+  EXPECT_EQ(json["after"]["total"], 0);
+  EXPECT_EQ(json["topology"]["components"], 2);
+  EXPECT_GT(json["displacement_max_rel"], 0);
+  EXPECT_EQ(json["input"]["triangulation"], "8 triangles as they are");
+  EXPECT_EQ(json["stages"].front()["name"], "read");
+  EXPECT_EQ(json["stages"].back()["name"], "write");
+  EXPECT_GT(json["peak_memory_mb"], 0);
+  EXPECT_EQ(contents(folder / "p.png").substr(1, 3), "PNG");
+  const Surface highlighted = Document::read(folder / "h.ply").surface();
+  EXPECT_EQ(highlighted.positions, Document::read(out).surface().positions);
+  EXPECT_EQ(highlighted.corners, Document::read(out).surface().corners);
+  EXPECT_NE(contents(folder / "h.ply").find("property int pairs_before"), std::string::npos);
+}
+
+TEST_F(Cli, ProgressAsJsonNeverGoesBack) {
+  const std::string in = file("in.obj", crossing);
+  const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--progress", "json", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  std::istringstream lines(outcome.err);
+  double last = 0;
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const auto json = nlohmann::json::parse(line);
+    EXPECT_GE(json["fraction"].get<double>(), last);
+    last = json["fraction"];
+  }
+  EXPECT_GT(count, 0);
+  EXPECT_EQ(last, 1);
+}
+
+TEST_F(Cli, SameBytesAtAnyThreadCount) {
+  const std::string in = file("in.obj", crossing);
+  std::set<std::string> results;
+  for (const char* threads : {"1", "2", "4"})
+    results.insert(run({"fix", in, "-o", "-", "--threads", threads}).out);
+  EXPECT_EQ(results.size(), 1u);
+}
+
+TEST_F(Cli, CheckCountsAndLocates) {
+  const std::string in = file("in.obj", crossing);
+  const Outcome text = run({"check", in, "--pairs", folder / "pairs.csv"});
+  EXPECT_EQ(text.exit_code, 1);
+  EXPECT_EQ(text.err, "");
+  EXPECT_NE(text.out.find("disjoint"), std::string::npos);
+  const Outcome outcome = run({"check", in, "--json"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["schema"], "unsnarl-check");
+  EXPECT_EQ(json["pairs"]["total"], pairs_in(in));
+  EXPECT_EQ(json["components"]["intersecting"], 2);
+  EXPECT_EQ(json["components"]["pairs_between"], pairs_in(in));
+  ASSERT_EQ(json["places"].size(), 1u);
+  EXPECT_EQ(json["places"][0]["pairs"], pairs_in(in));
+  EXPECT_EQ(json["topology"]["closed_components"], 2);
+  std::istringstream table(contents(folder / "pairs.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "face_a,face_b,class");
+  std::size_t rows = 0;
+  while (std::getline(table, line)) ++rows;
+  EXPECT_EQ(rows, pairs_in(in));
+
+  const Outcome clean = run({"check", file("clean.obj", clean_cube)});
+  EXPECT_EQ(clean.exit_code, 0);
+  EXPECT_NE(clean.out.find("no self-intersections"), std::string::npos);
+}
+
+TEST_F(Cli, CheckForTheGoalDisjointSeesNoOthers) {
+  // Two faces of one fan pass through each other at their common vertex only.
+  const std::string in = file(
+      "in.obj", "v 0 0 0\nv 2 -1 0\nv 2 1 0\nv 2 0 -1\nv 2 0 1\nf 1 2 3\nf 1 4 5\n");
+  EXPECT_EQ(run({"check", in}).exit_code, 1);
+  EXPECT_EQ(run({"check", in, "--goal", "disjoint"}).exit_code, 0);
+}
+
+TEST_F(Cli, WeldDecidesWhatTouchingMeans) {
+  // Two triangles with a common side, written with corners of their own.
+  const std::string in =
+      file("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 0\nv 1 0 0\nv 1 1 1\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_EQ(run({"check", in}).exit_code, 0);
+  EXPECT_EQ(run({"check", in, "--weld", "none"}).exit_code, 1);
+  const std::string near =
+      file("near.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -0.001 1 0\nv 0.999 0 0\nv 1 1 0\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_EQ(run({"check", near}).exit_code, 1);
+  EXPECT_EQ(run({"check", near, "--weld-tolerance", "0.01"}).exit_code, 0);
+}
+
+TEST_F(Cli, SamplesAreListedDescribedAndWritten) {
+  const Outcome list = run({"sample", "--list"});
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_NE(list.out.find("whitney_umbrella"), std::string::npos);
+  const Outcome one = run({"sample", "book", "--list"});
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_NE(one.out.find("--set"), std::string::npos);
+  const std::string obj = sample("book");
+  for (const std::string format : {"off", "ply"}) {
+    const std::string path = folder / ("book." + format);
+    EXPECT_EQ(run({"sample", "book", "-o", path}).exit_code, 0);
+    const Surface written = Document::read(path).surface(), expected = Document::read(obj).surface();
+    EXPECT_EQ(written.positions, expected.positions);
+    EXPECT_EQ(written.corners, expected.corners);
+  }
+  EXPECT_EQ(run({"sample", "book", "-o", "-"}).out, contents(obj));
+}
+
+}  // namespace
+}  // namespace unsnarl::cli

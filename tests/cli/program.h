@@ -1,0 +1,110 @@
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+/// Runs the program as its users do.
+namespace unsnarl::cli {
+
+namespace fs = std::filesystem;
+
+inline std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void write(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// A folder of its own, empty at first and removed at the end.
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "unsnarl-cli-XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string string() const { return path_.string(); }
+  /// Names of everything in it, hidden files included.
+  std::set<std::string> names() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(path_))
+      names.insert(entry.path().lexically_relative(path_).string());
+    return names;
+  }
+
+ private:
+  fs::path path_;
+};
+
+struct Outcome {
+  int exit_code = -1;  ///< negative: ended by that signal
+  std::string out, err;
+};
+
+struct RunOptions {
+  std::string input = {};        ///< for standard input
+  std::string stdout_path = {};  ///< where standard output goes instead of Outcome::out
+  /// A SIGINT is sent whenever the next of these has appeared on standard error.
+  std::vector<std::string> signal_after = {};
+};
+
+/// Runs the program with these arguments and waits for it.
+inline Outcome run(const std::vector<std::string>& arguments, const RunOptions& options = {}) {
+  const Folder streams;
+  write(streams / "in", options.input);
+  const std::string out_path = options.stdout_path.empty() ? streams / "out" : options.stdout_path;
+  const std::string err_path = streams / "err";
+  std::vector<std::string> words = {UNSNARL_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const int in = ::open((streams / "in").c_str(), O_RDONLY);
+    const int out = ::open(out_path.c_str(), O_WRONLY | O_CREAT, 0600);
+    const int err = ::open(err_path.c_str(), O_WRONLY | O_CREAT, 0600);
+    ::dup2(in, STDIN_FILENO);
+    ::dup2(out, STDOUT_FILENO);
+    ::dup2(err, STDERR_FILENO);
+    ::signal(SIGINT, SIG_DFL);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  int status = 0;
+  std::size_t sent = 0;
+  while (::waitpid(child, &status, sent < options.signal_after.size() ? WNOHANG : 0) != child) {
+    if (sent < options.signal_after.size() && contents(err_path).find(options.signal_after[sent]) != std::string::npos) {
+      ::kill(child, SIGINT);
+      ++sent;
+    }
+    ::usleep(2000);
+  }
+  Outcome outcome;
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  if (fs::is_regular_file(out_path)) outcome.out = contents(out_path);  // a device may never end
+  outcome.err = contents(err_path);
+  return outcome;
+}
+
+}  // namespace unsnarl::cli
