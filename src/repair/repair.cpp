@@ -73,6 +73,9 @@ class Repair {
     if (!(options_.min_gap_rel >= 0) || !(options_.max_displacement_rel >= 0) || !(options_.time_limit_s >= 0) ||
         !(options_.memory_limit_mb >= 0))
       throw std::invalid_argument("RepairOptions: gaps, displacements and limits must not be negative");
+    if (options_.find.threads < 0)
+      throw std::invalid_argument("RepairOptions::find.threads is " + std::to_string(options_.find.threads) +
+                                  "; give 0 for as many as the machine has, or their number");
   }
 
   // Phases, limits, progress.
@@ -152,7 +155,18 @@ class Repair {
   /// Pairs that exist only after rounding everything to float32, where float32 has to hold.
   std::vector<IntersectingPair> float32_conflicts(IntersectionFinder& finder, const Positions& x) const {
     if (!float32_) return {};
-    return blocking_pairs(finder.find(rounded_to_float32(x)), ignored_);
+    std::vector<IntersectingPair> conflicts = blocking_pairs(finder.find(rounded_to_float32(x)), ignored_);
+    std::erase_if(conflicts, [&](const IntersectingPair& pair) { return !can_be_parted(pair); });
+    return conflicts;
+  }
+  bool can_be_parted(const IntersectingPair& pair) const {
+    const std::vector<Index>& component_of = diagnosis_.components.component_of_triangle;
+    const Index component = component_of[pair.a];
+    if (component == component_of[pair.b] && diagnosis_.components.list[component].obstructed()) return false;
+    const auto can_move = [&](Index t) {
+      return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(), [&](Index v) { return !scene_.fixed[v]; });
+    };
+    return can_move(pair.a) || can_move(pair.b);
   }
   bool has_float32_conflict(IntersectionFinder& finder) const {
     return !float32_conflicts(finder, scene_.rest).empty();
