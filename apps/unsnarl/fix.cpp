@@ -394,7 +394,8 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->type_name("auto|json|none")
       ->group(shown);
   const std::string research = "For research";
-  command.add_flag("--paper", options.paper, "Repair as the paper does it, instead of region by region")->group(research);
+  command.add_flag("--paper", options.paper, "Repair as the paper does it, instead of region by region")
+      ->group(research);
   command.add_flag("--no-recover", options.no_recover, "Stop after untangling, without moving back toward the input")
       ->group(research);
   command.footer(

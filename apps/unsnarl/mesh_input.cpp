@@ -15,13 +15,15 @@ namespace unsnarl::app {
 std::optional<Format> format_from_name(const std::string& name) {
   if (name.empty()) return {};
   const std::optional<Format> format = format_from_extension(name);
-  if (!format) throw UsageError(fmt::format("--format {}: no such format; choose obj, off, ply, stl, glb or gltf", name));
+  if (!format)
+    throw UsageError(fmt::format("--format {}: no such format; choose obj, off, ply, stl, glb or gltf", name));
   return format;
 }
 
 Document read_mesh(const std::string& path, const std::optional<Format>& format) {
   if (path != standard_stream) return Document::read(path, format);
-  if (!format) throw UsageError("standard input has no extension to tell its format by: add --format obj (or off, ...)");
+  if (!format)
+    throw UsageError("standard input has no extension to tell its format by: add --format obj (or off, ...)");
   std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};
   if (std::cin.bad()) throw FileError("standard input: cannot read");
   return Document::parse(std::move(bytes), *format);

@@ -82,8 +82,9 @@ std::vector<Index> exact_classes(std::span<const double> positions) {
   for (std::size_t v = 0; v < n; ++v) {
     const double* p = &positions[3 * v];
     // Adding 0.0 turns -0.0 into 0.0, so that equal numbers have equal bits.
-    const std::uint64_t hash = hash_of(std::bit_cast<std::uint64_t>(p[0] + 0.0), std::bit_cast<std::uint64_t>(p[1] + 0.0),
-                                       std::bit_cast<std::uint64_t>(p[2] + 0.0));
+    const std::uint64_t hash =
+        hash_of(std::bit_cast<std::uint64_t>(p[0] + 0.0), std::bit_cast<std::uint64_t>(p[1] + 0.0),
+                std::bit_cast<std::uint64_t>(p[2] + 0.0));
     const Index found = table.find_or_add(hash, static_cast<Index>(first.size()), [&](Index id) {
       const double* q = &positions[3 * static_cast<std::size_t>(first[id])];
       return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];

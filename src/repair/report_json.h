@@ -24,7 +24,7 @@ struct ReportFiles {
   std::vector<StageReport> before_repair, after_repair;  ///< reading, writing
 };
 
-/// The report of `unsnarl fix`: keys are the names of the fields of RepairReport and of what it holds, units are theirs.
+/// The report of `unsnarl fix`: keys are the names of the fields of RepairReport and of what it holds; so are units.
 nlohmann::ordered_json report_json(const RepairResult& result, const RepairOptions& options, const ReportFiles& files);
 
 /// Parts that other reports share.

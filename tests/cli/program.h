@@ -94,7 +94,8 @@ inline Outcome run(const std::vector<std::string>& arguments, const RunOptions& 
   int status = 0;
   std::size_t sent = 0;
   while (::waitpid(child, &status, sent < options.signal_after.size() ? WNOHANG : 0) != child) {
-    if (sent < options.signal_after.size() && contents(err_path).find(options.signal_after[sent]) != std::string::npos) {
+    if (sent < options.signal_after.size() &&
+        contents(err_path).find(options.signal_after[sent]) != std::string::npos) {
       ::kill(child, SIGINT);
       ++sent;
     }
