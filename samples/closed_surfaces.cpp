@@ -13,7 +13,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// A sphere's steps along its equator are four sides of the cube that it is made from.
-int cube_divisions(int resolution) { return std::max(2, resolution / 4); }
+int cube_divisions(int resolution) {
+  return std::max(2, resolution / 4);
+}
 
 /// After L. Sacht, A. Jacobson, D. Panozzo, C. Schueller, O. Sorkine-Hornung: "Consistent Volumetric Discretizations
 /// Inside Self-Intersecting Surfaces" (2013): top and bottom of a disc are pushed through each other.

@@ -14,7 +14,9 @@ std::uint32_t mixed(std::uint32_t h) {
   return h ^ (h >> 16);
 }
 
-double fade(double t) { return t * t * t * (t * (6 * t - 15) + 10); }
+double fade(double t) {
+  return t * t * t * (t * (6 * t - 15) + 10);
+}
 
 }  // namespace
 

@@ -43,7 +43,8 @@ Surface MeshBuilder::take() {
   Index used = 0;
   for (std::size_t v = 0; v < renamed.size(); ++v) {
     if (renamed[v] < 0) continue;
-    for (std::size_t k = 0; k < 3; ++k) surface_.positions[3 * static_cast<std::size_t>(used) + k] = surface_.positions[3 * v + k];
+    for (std::size_t k = 0; k < 3; ++k)
+      surface_.positions[3 * static_cast<std::size_t>(used) + k] = surface_.positions[3 * v + k];
     renamed[v] = used++;
   }
   surface_.positions.resize(3 * static_cast<std::size_t>(used));

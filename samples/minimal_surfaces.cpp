@@ -11,8 +11,8 @@ constexpr double pi = std::numbers::pi;
 
 Surface enneper(int resolution, const SampleValues& values) {
   const double reach = values["reach"];
-  // A square rounded towards a disc, as its corners would fly far away; not quite symmetric, as the double curves lie on
-  // lines of symmetry.
+  // A square rounded towards a disc, as its corners would fly far away; not quite symmetric, as the double curves lie
+  // on lines of symmetry.
   return sample_grid({{-1, 1.01, resolution}, {-1.02, 1, resolution}}, [&](double s, double t) -> Vec3 {
     const double u = reach * s * std::sqrt(1 - 0.4 * t * t), v = reach * t * std::sqrt(1 - 0.4 * s * s);
     return Vec3(u - u * u * u / 3 + u * v * v, u * u - v * v, -v + v * v * v / 3 - v * u * u) / 2;
@@ -22,12 +22,13 @@ Surface enneper(int resolution, const SampleValues& values) {
 /// The points (u, v) and (-u, v + pi) are one: a Moebius band, with branch points where u = 0 and sin 2v = 0.
 Surface henneberg(int resolution, const SampleValues& values) {
   const double reach = values["reach"];
-  return sample_grid({{0.03, pi + 0.03, resolution, Seam::mirrored}, {-reach, reach, steps_for(2 * reach, resolution, 2.2, 9) | 1}},
-                     [](double v, double u) -> Vec3 {
-                       const double x = 2 * std::sinh(u) * std::cos(v) - 2.0 / 3 * std::sinh(3 * u) * std::cos(3 * v);
-                       const double z = 2 * std::sinh(u) * std::sin(v) + 2.0 / 3 * std::sinh(3 * u) * std::sin(3 * v);
-                       return Vec3(x, 2 * std::cosh(2 * u) * std::cos(2 * v), z) / 2;
-                     });
+  return sample_grid(
+      {{0.03, pi + 0.03, resolution, Seam::mirrored}, {-reach, reach, steps_for(2 * reach, resolution, 2.2, 9) | 1}},
+      [](double v, double u) -> Vec3 {
+        const double x = 2 * std::sinh(u) * std::cos(v) - 2.0 / 3 * std::sinh(3 * u) * std::cos(3 * v);
+        const double z = 2 * std::sinh(u) * std::sin(v) + 2.0 / 3 * std::sinh(3 * u) * std::sin(3 * v);
+        return Vec3(x, 2 * std::cosh(2 * u) * std::cos(2 * v), z) / 2;
+      });
 }
 
 Surface catalan(int resolution, const SampleValues& values) {
@@ -37,7 +38,8 @@ Surface catalan(int resolution, const SampleValues& values) {
                       FaceKind::quads},
                      [](double u, double v) -> Vec3 {
                        return Vec3(u - std::sin(u) * std::cosh(v), 1 - std::cos(u) * std::cosh(v),
-                                   4 * std::sin(u / 2) * std::sinh(v / 2)) / 3;
+                                   4 * std::sin(u / 2) * std::sinh(v / 2)) /
+                              3;
                      });
 }
 

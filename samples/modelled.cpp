@@ -23,7 +23,8 @@ void bend_at(Surface& surface, const Vec3& joint, const Vec3& along, const Vec3&
              const std::vector<double>& rest_reach, const std::vector<double>& rest_height) {
   for (std::size_t v = 0; v < rest_reach.size(); ++v) {
     Eigen::Map<Vec3> p(&surface.positions[3 * v]);
-    const double weight = smooth_step((rest_reach[v] - joint.dot(along)) / 1.6 + 0.5) * smooth_step((rest_height[v] - 2) / 2);
+    const double weight =
+        smooth_step((rest_reach[v] - joint.dot(along)) / 1.6 + 0.5) * smooth_step((rest_height[v] - 2) / 2);
     if (weight == 0) continue;
     p = joint + Eigen::AngleAxisd(weight * degrees * pi / 180, axis) * Vec3(p - joint);
   }
@@ -71,10 +72,9 @@ Surface overlapping_quads(int resolution, const SampleValues& values) {
   };
   cushion(Vec3::Zero(), 0.2);
   cushion({0.3, 0.9 * (1 - overlap), 0.1}, 0.9);
-  builder.append(sample_grid({{-1.5, 1.5, resolution}, {-0.25, 0.25, std::max(3, resolution / 6)}, FaceKind::quads},
-                             [](double u, double v) {
-                               return Vec3(u, 0.5 + 0.35 * std::cos(2.2 * u) + 0.1 * v, v + 0.15 * u);
-                             }));
+  builder.append(
+      sample_grid({{-1.5, 1.5, resolution}, {-0.25, 0.25, std::max(3, resolution / 6)}, FaceKind::quads},
+                  [](double u, double v) { return Vec3(u, 0.5 + 0.35 * std::cos(2.2 * u) + 0.1 * v, v + 0.15 * u); }));
   return builder.take();
 }
 
@@ -92,13 +92,13 @@ Surface hair_cards(int resolution, const SampleValues& values) {
     const Vec3 side = out.cross(Vec3(0.3, 1, 0.2)).normalized();
     const Vec3 fall = (Vec3(0, -1, 0) + 0.6 * out).normalized();
     const double curl = 0.25 * (hashed_unit(21, id) - 0.5), lift = 0.15 + 0.25 * hashed_unit(22, id);
-    builder.append(sample_grid(
-        {{0, 1.3, resolution / 2}, {-0.11, 0.11, 2}, k % 3 == 0 ? FaceKind::triangles : FaceKind::quads},
-        [&](double t, double w) {
-          const double bow = t * (1.3 - t);
-          return Vec3(0.97 * out.cwiseProduct(Vec3(0.85, 1.05, 0.95)) + bow * lift * out + 0.8 * t * fall + curl * t * t * side +
-                      w * (1 - 0.5 * t) * (side + 0.5 * curl * t * out));
-        }));
+    builder.append(
+        sample_grid({{0, 1.3, resolution / 2}, {-0.11, 0.11, 2}, k % 3 == 0 ? FaceKind::triangles : FaceKind::quads},
+                    [&](double t, double w) {
+                      const double bow = t * (1.3 - t);
+                      return Vec3(0.97 * out.cwiseProduct(Vec3(0.85, 1.05, 0.95)) + bow * lift * out + 0.8 * t * fall +
+                                  curl * t * t * side + w * (1 - 0.5 * t) * (side + 0.5 * curl * t * out));
+                    }));
   }
   return builder.take();
 }

@@ -17,8 +17,12 @@ Vec3 boy_map(const Vec3& direction) {
   return {p[0], -p[2], p[1]};
 }
 
-Vec3 cross_cap_map(const Vec3& d) { return {2 * d[0] * d[1], d[0] * d[0] - d[1] * d[1], 2 * d[1] * d[2]}; }
+Vec3 cross_cap_map(const Vec3& d) {
+  return {2 * d[0] * d[1], d[0] * d[0] - d[1] * d[1], 2 * d[1] * d[2]};
+}
 
-Vec3 roman_map(const Vec3& d) { return {2 * d[1] * d[2], 2 * d[2] * d[0], 2 * d[0] * d[1]}; }
+Vec3 roman_map(const Vec3& d) {
+  return {2 * d[1] * d[2], 2 * d[2] * d[0], 2 * d[0] * d[1]};
+}
 
 }  // namespace unsnarl

@@ -18,11 +18,12 @@ Surface punctured(const DirectionMap& f, int resolution, double hole_degrees) {
   // A generic turn: neither hole nor samples on the lines of symmetry of the map.
   const Eigen::Matrix3d turn =
       (Eigen::AngleAxisd(0.93, Vec3::UnitX()) * Eigen::AngleAxisd(0.51, Vec3::UnitZ())).toRotationMatrix();
-  return sample_grid({{0, pi, resolution, Seam::mirrored}, {-latitude, latitude, steps_for(2 * latitude, resolution, pi, 8)}},
-                     [&](double u, double v) {
-                       const Vec3 direction(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
-                       return f(turn * direction);
-                     });
+  return sample_grid(
+      {{0, pi, resolution, Seam::mirrored}, {-latitude, latitude, steps_for(2 * latitude, resolution, pi, 8)}},
+      [&](double u, double v) {
+        const Vec3 direction(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
+        return f(turn * direction);
+      });
 }
 
 SampleMaker punctured_sample(const char* name, const char* description, const DirectionMap& f) {
@@ -38,7 +39,8 @@ std::vector<SampleMaker> projective_plane_samples() {
       punctured_sample("boy_punctured",
                        "Boy's surface without a disc: non-orientable, a double curve with a triple point", boy_map),
       punctured_sample("cross_cap_punctured",
-                       "cross-cap without a disc: non-orientable, a double line between two pinch points", cross_cap_map),
+                       "cross-cap without a disc: non-orientable, a double line between two pinch points",
+                       cross_cap_map),
       punctured_sample("roman_punctured",
                        "Steiner's Roman surface without a disc: three double lines, a triple point, six pinch points",
                        roman_map),

@@ -17,9 +17,9 @@ constexpr int least_resolution = 8, greatest_resolution = 2000;
 const std::vector<SampleMaker>& makers() {
   static const std::vector<SampleMaker> all = [] {
     std::vector<SampleMaker> list;
-    for (auto family : {band_samples, cylinder_samples, sheet_samples, minimal_surface_samples, projective_plane_samples,
-                        klein_bottle_samples, tube_samples, closed_surface_samples, scene_samples, modelled_samples,
-                        obstructed_samples})
+    for (auto family : {band_samples, cylinder_samples, sheet_samples, minimal_surface_samples,
+                        projective_plane_samples, klein_bottle_samples, tube_samples, closed_surface_samples,
+                        scene_samples, modelled_samples, obstructed_samples})
       for (SampleMaker& maker : family()) list.push_back(std::move(maker));
     return list;
   }();
@@ -32,7 +32,8 @@ const SampleMaker& maker_named(std::string_view name) {
   if (found != makers().end()) return *found;
   std::vector<std::string> names;
   for (const SampleMaker& maker : makers()) names.push_back(maker.sample.name);
-  throw std::invalid_argument(fmt::format("no sample is called \"{}\"; choose one of: {}", name, fmt::join(names, ", ")));
+  throw std::invalid_argument(
+      fmt::format("no sample is called \"{}\"; choose one of: {}", name, fmt::join(names, ", ")));
 }
 
 SampleValues checked_values(const Sample& sample, const std::map<std::string, double>& given) {
@@ -46,10 +47,10 @@ SampleValues checked_values(const Sample& sample, const std::map<std::string, do
     const auto parameter = std::find_if(sample.parameters.begin(), sample.parameters.end(),
                                         [&](const SampleParameter& p) { return p.name == name; });
     if (parameter == sample.parameters.end())
-      throw std::invalid_argument(names.empty()
-                                      ? fmt::format("sample {} has no parameters, so \"{}\" cannot be set", sample.name, name)
-                                      : fmt::format("sample {} has no parameter \"{}\"; it has: {}", sample.name, name,
-                                                    fmt::join(names, ", ")));
+      throw std::invalid_argument(
+          names.empty() ? fmt::format("sample {} has no parameters, so \"{}\" cannot be set", sample.name, name)
+                        : fmt::format("sample {} has no parameter \"{}\"; it has: {}", sample.name, name,
+                                      fmt::join(names, ", ")));
     if (!(value >= parameter->minimum && value <= parameter->maximum))
       throw std::invalid_argument(fmt::format("parameter {} of sample {} is {}; give a value from {} to {}", name,
                                               sample.name, value, parameter->minimum, parameter->maximum));
@@ -75,8 +76,9 @@ std::span<const Sample> all_samples() {
 Surface make_sample(std::string_view name, int resolution, const std::map<std::string, double>& parameters) {
   const SampleMaker& maker = maker_named(name);
   if (resolution != 0 && (resolution < least_resolution || resolution > greatest_resolution))
-    throw std::invalid_argument(fmt::format("resolution is {}; give a value from {} to {}, or 0 for the sample's own ({})",
-                                            resolution, least_resolution, greatest_resolution, maker.default_resolution));
+    throw std::invalid_argument(
+        fmt::format("resolution is {}; give a value from {} to {}, or 0 for the sample's own ({})", resolution,
+                    least_resolution, greatest_resolution, maker.default_resolution));
   return maker.make(resolution == 0 ? maker.default_resolution : resolution, checked_values(maker.sample, parameters));
 }
 

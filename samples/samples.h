@@ -28,8 +28,8 @@ struct Sample {
   bool embeddable = true;
 };
 
-/// All samples in a fixed order: the first `analytic_sample_count` are analytic surfaces (the data set that appendix A of
-/// Minarčík, Liu, Crane, Li: "Untangling Surfaces via Shape and Mesh Repulsion" asks for), then shapes as modellers
+/// All samples in a fixed order: the first `analytic_sample_count` are analytic surfaces (the data set that appendix A
+/// of Minarčík, Liu, Crane, Li: "Untangling Surfaces via Shape and Mesh Repulsion" asks for), then shapes as modellers
 /// leave them, then obstructions.
 std::span<const Sample> all_samples();
 inline constexpr std::size_t analytic_sample_count = 32;

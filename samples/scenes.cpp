@@ -41,7 +41,8 @@ Surface linked_rings(int resolution, const SampleValues& values) {
                                 k % 2 == 0 ? FaceKind::quads : FaceKind::triangles},
                                [&](double u, double v) {
                                  const double r = 1 + tube * std::cos(v);
-                                 return Vec3(centre + turn * Vec3(r * std::cos(u), tube * std::sin(v), r * std::sin(u)));
+                                 return Vec3(centre +
+                                             turn * Vec3(r * std::cos(u), tube * std::sin(v), r * std::sin(u)));
                                }));
   }
   return builder.take();
@@ -58,7 +59,8 @@ Surface jellyfish(int resolution, const SampleValues& values) {
                                [&](double u, double v) {
                                  const double wave = ruffle * std::pow(v / 1.9, 4) * std::sin(7 * u);
                                  const double r = size * (std::sin(v) + wave);
-                                 return Vec3(r * std::cos(u), size * 0.8 * std::cos(v) - drop + 0.1 * wave, r * std::sin(u));
+                                 return Vec3(r * std::cos(u), size * 0.8 * std::cos(v) - drop + 0.1 * wave,
+                                             r * std::sin(u));
                                }));
   };
   bell(1.0, 0.13, 0);
@@ -74,8 +76,8 @@ Surface jellyfish(int resolution, const SampleValues& values) {
       return Vec3(start * (1 - 0.5 * t) * out + Vec3(0, 0.38 - 2.2 * t, 0) +
                   swing * t * (std::sin(5 * t + phase) * side + 0.6 * std::cos(4 * t + phase) * out));
     };
-    builder.append(sample_tube({centre, 0, 1, false, [](double t) { return 0.085 - 0.05 * t; }, std::max(8, resolution / 2), 6,
-                                k % 2 == 0 ? FaceKind::triangles : FaceKind::quads}));
+    builder.append(sample_tube({centre, 0, 1, false, [](double t) { return 0.085 - 0.05 * t; },
+                                std::max(8, resolution / 2), 6, k % 2 == 0 ? FaceKind::triangles : FaceKind::quads}));
   }
   return builder.take();
 }

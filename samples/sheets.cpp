@@ -50,8 +50,8 @@ Surface book(int resolution, const SampleValues& values) {
         const double s = double(j) / out, y = height * (double(i) / along - 0.5);
         // Fanned over a half turn, each page swinging with a phase of its own.
         const double own = hashed_unit(5, static_cast<std::uint32_t>(page));
-        const double angle = pi * (page + 0.5) / pages +
-                             swing * std::sin(pi * s) * std::sin(2.4 * y + 2 * pi * own) * (0.6 + 0.8 * own);
+        const double angle =
+            pi * (page + 0.5) / pages + swing * std::sin(pi * s) * std::sin(2.4 * y + 2 * pi * own) * (0.6 + 0.8 * own);
         next.push_back(builder.add_vertex(Vec3(s * std::cos(angle), y * (1 - 0.015 * page * s), s * std::sin(angle))));
       }
       for (int i = 0; i < along; ++i) builder.add_cell(column[i], next[i], next[i + 1], column[i + 1], FaceKind::quads);
@@ -66,8 +66,9 @@ Surface folded_sheet(int resolution, const SampleValues& values) {
   const double loop = values["loop"], slant = 0.12;
   const double half = std::sqrt(loop) * 1.5;
   const auto curve = [&](double t) { return Vec3(t * t * t - loop * t, t * t, 0); };
-  return sample_grid({{-half, 1.04 * half, resolution}, {-1, 1, steps_for(2, resolution, 4.5, 6)}, FaceKind::quads},
-                     [&](double t, double v) { return Vec3(curve(t) + Vec3(0.1 * std::sin(2 * v), 0, v + slant * t)); });
+  return sample_grid(
+      {{-half, 1.04 * half, resolution}, {-1, 1, steps_for(2, resolution, 4.5, 6)}, FaceKind::quads},
+      [&](double t, double v) { return Vec3(curve(t) + Vec3(0.1 * std::sin(2 * v), 0, v + slant * t)); });
 }
 
 /// The same with holes cut out of it: genus 0, several boundaries.
@@ -93,7 +94,8 @@ Surface spiral_sheet(int resolution, const SampleValues& values) {
   const double length = 2 * pi * turns;
   return sample_grid({{0, length, resolution}, {0, 1, steps_for(1, resolution, length * 0.65, 6)}, FaceKind::quads},
                      [&](double t, double v) {
-                       const double gap = 0.14, r = 0.35 + gap * t / (2 * pi) + wave * gap * std::sin(1.7 * t + 2.1 * v);
+                       const double gap = 0.14,
+                                    r = 0.35 + gap * t / (2 * pi) + wave * gap * std::sin(1.7 * t + 2.1 * v);
                        return Vec3(r * std::cos(t), v + 0.02 * std::sin(t), r * std::sin(t));
                      });
 }
@@ -112,10 +114,9 @@ Surface helicoid_overlapping(int resolution, const SampleValues& values) {
 /// The discriminant of quartics: two cuspidal edges and a double curve run into one point.
 Surface swallowtail(int resolution, const SampleValues& values) {
   const double reach = values["reach"];
-  return sample_grid({{-1, 0.7, steps_for(1.7, resolution, 2.4 * reach, 8)}, {-reach, 1.02 * reach, resolution}},
-                     [](double u, double v) {
-                       return Vec3(-2 * u * v - 4 * v * v * v, u, u * v * v + 3 * v * v * v * v);
-                     });
+  return sample_grid(
+      {{-1, 0.7, steps_for(1.7, resolution, 2.4 * reach, 8)}, {-reach, 1.02 * reach, resolution}},
+      [](double u, double v) { return Vec3(-2 * u * v - 4 * v * v * v, u, u * v * v + 3 * v * v * v * v); });
 }
 
 }  // namespace
@@ -136,8 +137,7 @@ std::vector<SampleMaker> sheet_samples() {
        crumpled_sheet},
       {{"book",
         "pages welded on one spine, running through each other: non-manifold",
-        {{"pages", 7, 3, 40, "number of pages", true},
-         {"swing", 0.7, 0, 3, "how far the pages swing, in radians"}}},
+        {{"pages", 7, 3, 40, "number of pages", true}, {"swing", 0.7, 0, 3, "how far the pages swing, in radians"}}},
        20,
        book},
       {{"folded_sheet",

@@ -10,8 +10,11 @@ namespace {
 
 using LatticePoint = std::array<int, 3>;
 
-/// Even spacing by angle rather than along the edge of the cube: cells then differ in area by less than a factor of two.
-double by_angle(int i, int n) { return std::tan((2.0 * i / n - 1) * std::numbers::pi / 4); }
+/// Even spacing by angle rather than along the edge of the cube: cells then differ in area by less than a factor of
+/// two.
+double by_angle(int i, int n) {
+  return std::tan((2.0 * i / n - 1) * std::numbers::pi / 4);
+}
 
 Vec3 direction_of(const LatticePoint& p, int n) {
   static const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.61, Vec3::UnitX()) * Eigen::AngleAxisd(0.37, Vec3::UnitY()) *
@@ -55,7 +58,9 @@ Surface sample_cube(int n, FaceKind faces, bool antipodes_are_one, const Directi
 
 }  // namespace
 
-Surface sample_sphere(int n, FaceKind faces, const DirectionMap& f) { return sample_cube(n, faces, false, f); }
+Surface sample_sphere(int n, FaceKind faces, const DirectionMap& f) {
+  return sample_cube(n, faces, false, f);
+}
 
 Surface sample_projective_plane(int n, FaceKind faces, const DirectionMap& f) {
   return sample_cube(n, faces, true, f);

@@ -41,9 +41,7 @@ Surface sample_tube(const Tube& tube) {
       builder.add_vertex(tube.centre(t) + tube.radius(t) * (std::cos(angle) * normal + std::sin(angle) * binormal));
     }
   }
-  const auto vertex = [&](int i, int j) {
-    return static_cast<Index>((i % rings) * tube.sides + j % tube.sides);
-  };
+  const auto vertex = [&](int i, int j) { return static_cast<Index>((i % rings) * tube.sides + j % tube.sides); };
   for (int i = 0; i < tube.steps; ++i)
     for (int j = 0; j < tube.sides; ++j)
       builder.add_cell(vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1), vertex(i + 1, j), tube.faces,

@@ -12,10 +12,10 @@ using SpaceCurve = std::function<Vec3(double t)>;
 struct Tube {
   SpaceCurve centre;
   double t_min = 0, t_max = 1;
-  bool closed = false;                   ///< the curve's ends meet and so do the tube's
+  bool closed = false;                     ///< the curve's ends meet and so do the tube's
   std::function<double(double t)> radius;  ///< > 0
-  int steps = 32;                        ///< along
-  int sides = 12;                        ///< around
+  int steps = 32;                          ///< along
+  int sides = 12;                          ///< around
   FaceKind faces = FaceKind::triangles;
 };
 

@@ -59,8 +59,8 @@ std::vector<float> ambient_occlusion(std::span<const Eigen::Vector3f> points, st
         const float height_above = normals[i].dot(d) - 0.02F * radius;
         if (height_above > 0) blocked += fade * height_above / std::sqrt(squared + 1e-4F * radius * radius);
       }
-      visible[i] = std::clamp(1 - static_cast<float>(2 * options.strength) * blocked / static_cast<float>(options.samples),
-                              0.0F, 1.0F);
+      visible[i] = std::clamp(
+          1 - static_cast<float>(2 * options.strength) * blocked / static_cast<float>(options.samples), 0.0F, 1.0F);
     }
   const float plane_distance = 0.25F * radius_tangent;
   blur(points, normals, width, height, 1, 0, plane_distance, visible, blurred);

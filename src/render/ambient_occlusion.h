@@ -20,6 +20,7 @@ struct AmbientOcclusionOptions {
 /// points: the surface point of each pixel in the camera's frame (x right, y up, z toward the eye, eye at 0), (0, 0, 0)
 /// where there is none; normals: unit, turned to the eye. pixel_tangent: size of a pixel at depth 1.
 std::vector<float> ambient_occlusion(std::span<const Eigen::Vector3f> points, std::span<const Eigen::Vector3f> normals,
-                                     int width, int height, double pixel_tangent, const AmbientOcclusionOptions& options);
+                                     int width, int height, double pixel_tangent,
+                                     const AmbientOcclusionOptions& options);
 
 }  // namespace unsnarl

@@ -20,7 +20,8 @@ Camera three_quarter_view(std::span<const double> positions, double aspect, doub
   if (!(box.lo[0] <= box.hi[0])) box = {Vec3::Zero(), Vec3::Ones()};
   const Vec3 extent = box.hi - box.lo;
 
-  // A quarter more than both others is a standing figure in a z-up file; less could be a body of y up seen from its side.
+  // A quarter more than both others is a standing figure in a z-up file; less could be a body of y up seen from its
+  // side.
   const bool z_up = extent[2] > 1.25 * std::max(extent[0], extent[1]);
   const Vec3 vertical = z_up ? Vec3::UnitZ() : Vec3::UnitY();
   Vec3 across = Vec3::UnitX(), beside = z_up ? Vec3::UnitY() : Vec3::UnitZ();
@@ -66,7 +67,8 @@ Camera three_quarter_view(std::span<const double> positions, double aspect, doub
   // A single point, or points on a line of sight, still need some distance.
   const double least = nearest + std::max(0.05 * box.diagonal(), 1e-12 * (1 + middle.cwiseAbs().maxCoeff()));
   const double distance = std::max({(left + right) / (2 * tx), (below + above) / (2 * ty), least});
-  camera.eye = middle + 0.5 * (right - left) * camera.right + 0.5 * (above - below) * camera.up + distance * camera.toward;
+  camera.eye =
+      middle + 0.5 * (right - left) * camera.right + 0.5 * (above - below) * camera.up + distance * camera.toward;
   return camera;
 }
 

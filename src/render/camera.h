@@ -10,15 +10,15 @@ namespace unsnarl {
 struct Camera {
   Vec3 right, up, toward;  ///< orthonormal; `toward` points from the scene to the eye
   Vec3 eye;
-  double half_height = 0.25;           ///< tangent of half the vertical field of view
-  double centre_x = 0, centre_y = 0;   ///< middle of the drawn part, in the units of half_height
+  double half_height = 0.25;          ///< tangent of half the vertical field of view
+  double centre_x = 0, centre_y = 0;  ///< middle of the drawn part, in the units of half_height
 
   /// Pixels (x right, y down) and depth (> 0 in front of the eye) in an image of this size.
   Vec3 project(const Vec3& p, double width, double height) const {
     const Vec3 d = p - eye;
     const double depth = -toward.dot(d), scale = 0.5 * height / half_height;
-    return {0.5 * width + scale * (right.dot(d) / depth - centre_x), 0.5 * height - scale * (up.dot(d) / depth - centre_y),
-            depth};
+    return {0.5 * width + scale * (right.dot(d) / depth - centre_x),
+            0.5 * height - scale * (up.dot(d) / depth - centre_y), depth};
   }
 };
 

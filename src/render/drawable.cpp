@@ -51,7 +51,8 @@ Drawable make_drawable(const SurfaceView& surface, std::span<const Index> red) {
     face_is_red[f] = 1;
   }
   for (std::size_t v = 0; v < surface.vertex_count(); ++v)
-    drawable.positions.emplace_back(surface.positions[3 * v], surface.positions[3 * v + 1], surface.positions[3 * v + 2]);
+    drawable.positions.emplace_back(surface.positions[3 * v], surface.positions[3 * v + 1],
+                                    surface.positions[3 * v + 2]);
   std::vector<double> lengths;
   for (std::size_t f = 0; f < faces; ++f) {
     const auto corners = surface.face(f);

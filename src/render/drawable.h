@@ -13,11 +13,11 @@ namespace unsnarl {
 /// A surface made ready for drawing.
 struct Drawable {
   std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;               ///< fans of the polygons; those with non-finite corners are left out
+  std::vector<Triangle> triangles;  ///< fans of the polygons; those with non-finite corners are left out
   std::vector<std::array<Eigen::Vector3f, 3>> normals;  ///< of the corners, smooth except across creases
-  std::vector<std::uint8_t> drawn_edges;         ///< bit k: the edge from corner k to k + 1 is an edge of the polygon
-  std::vector<std::uint8_t> red;                 ///< 1: highlighted
-  double median_edge = 0;                        ///< length of the polygons' edges
+  std::vector<std::uint8_t> drawn_edges;  ///< bit k: the edge from corner k to k + 1 is an edge of the polygon
+  std::vector<std::uint8_t> red;          ///< 1: highlighted
+  double median_edge = 0;                 ///< length of the polygons' edges
 };
 
 /// Throws std::invalid_argument where `red` names a face that the surface does not have.

@@ -89,8 +89,8 @@ struct Stroke {
   double x0, y0, x1, y1;
 };
 
-/// A letter as pen strokes: neighbouring dots are joined, diagonal ones where no other dot joins them already. That gives
-/// round, smooth letters at any size from a table of dots.
+/// A letter as pen strokes: neighbouring dots are joined, diagonal ones where no other dot joins them already. That
+/// gives round, smooth letters at any size from a table of dots.
 std::vector<Stroke> strokes_of(char letter) {
   std::vector<Stroke> strokes;
   const Glyph& glyph = glyph_of(letter);
@@ -100,7 +100,9 @@ std::vector<Stroke> strokes_of(char letter) {
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
       if (!dot(x, y)) continue;
-      const auto join = [&](int to_x, int to_y) { strokes.push_back({double(x), double(y), double(to_x), double(to_y)}); };
+      const auto join = [&](int to_x, int to_y) {
+        strokes.push_back({double(x), double(y), double(to_x), double(to_y)});
+      };
       join(x, y);
       if (dot(x + 1, y)) join(x + 1, y);
       if (dot(x, y + 1)) join(x, y + 1);
@@ -124,7 +126,8 @@ double text_width(std::string_view text, double size) {
   return dots * size / cap_height;
 }
 
-void draw_text(Image& image, std::string_view text, double x, double y, double size, const Colour& colour, double x_end) {
+void draw_text(Image& image, std::string_view text, double x, double y, double size, const Colour& colour,
+               double x_end) {
   constexpr double pen = 0.47;  // half the width of a stroke, in dots
   const double scale = size / cap_height;
   const int right = static_cast<int>(std::min<double>(image.width, x_end));
@@ -135,7 +138,8 @@ void draw_text(Image& image, std::string_view text, double x, double y, double s
     const std::vector<Stroke> strokes = strokes_of(letter);
     if (strokes.empty()) continue;
     for (int j = std::max(0, static_cast<int>(y - 1)); j < std::min<double>(image.height, y + rows * scale + 1); ++j)
-      for (int i = std::max(0, static_cast<int>(left - 1)); i < std::min<double>(right, left + columns * scale + 1); ++i) {
+      for (int i = std::max(0, static_cast<int>(left - 1)); i < std::min<double>(right, left + columns * scale + 1);
+           ++i) {
         const double u = (i + 0.5 - left) / scale - 0.5, v = (j + 0.5 - y) / scale - 0.5;
         double nearest = columns;
         for (const Stroke& s : strokes) nearest = std::min(nearest, distance_to(s, u, v));

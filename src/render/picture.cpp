@@ -37,7 +37,8 @@ struct Panel {
 void check_size(const PictureOptions& options) {
   for (int size : {options.width, options.height})
     if (size < 64 || size > 16384)
-      throw std::invalid_argument("a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
+      throw std::invalid_argument("a picture of " + std::to_string(options.width) + " x " +
+                                  std::to_string(options.height) +
                                   " pixels cannot be made; both must be from 64 to 16384");
 }
 
@@ -56,8 +57,7 @@ void outline(Image& image, Rectangle r, int line, const Colour& colour) {
 
 void paste(Image& image, const Image& part, int x, int y) {
   for (int j = 0; j < part.height && y + j < image.height; ++j)
-    for (int i = 0; i < part.width && x + i < image.width; ++i)
-      std::copy_n(part.at(i, j), 3, image.at(x + i, y + j));
+    for (int i = 0; i < part.width && x + i < image.width; ++i) std::copy_n(part.at(i, j), 3, image.at(x + i, y + j));
 }
 
 /// The part of the view worth magnifying: all red faces where they lie close together, else around the most of them.
@@ -68,9 +68,11 @@ std::optional<Window> worth_magnifying(const Drawable& drawable, const Camera& c
   for (std::size_t t = 0; t < drawable.triangles.size(); ++t) {
     if (drawable.red[t] == 0) continue;
     std::array<Vec3, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = camera.project(drawable.positions[drawable.triangles[t][k]], width, height);
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = camera.project(drawable.positions[drawable.triangles[t][k]], width, height);
     centres.push_back({(p[0][0] + p[1][0] + p[2][0]) / 3, (p[0][1] + p[1][1] + p[2][1]) / 3});
-    edges.push_back(std::max({(p[1] - p[0]).head<2>().norm(), (p[2] - p[1]).head<2>().norm(), (p[0] - p[2]).head<2>().norm()}));
+    edges.push_back(
+        std::max({(p[1] - p[0]).head<2>().norm(), (p[2] - p[1]).head<2>().norm(), (p[0] - p[2]).head<2>().norm()}));
   }
   if (centres.empty()) return {};
   std::nth_element(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2), edges.end());
@@ -83,7 +85,8 @@ std::optional<Window> worth_magnifying(const Drawable& drawable, const Camera& c
       low[k] = std::min(low[k], c[k]);
       high[k] = std::max(high[k], c[k]);
     }
-  Window window{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, std::max(high[0] - low[0], high[1] - low[1]) + 4 * edge};
+  Window window{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2,
+                std::max(high[0] - low[0], high[1] - low[1]) + 4 * edge};
   window.side = std::max(window.side, least);
   const double largest = 0.24 * height;  // a magnification of 1.5 at least
   if (window.side <= largest) return window;
@@ -95,8 +98,9 @@ std::optional<Window> worth_magnifying(const Drawable& drawable, const Camera& c
     return std::pair(static_cast<int>(std::floor(c[0] / cell)), static_cast<int>(std::floor(c[1] / cell)));
   };
   for (const auto& c : centres) ++counts[cell_of(c)];
-  const auto fullest = std::max_element(counts.begin(), counts.end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  const auto fullest = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+                         return a.second < b.second;
+                       })->first;
   window = {0, 0, largest};
   double members = 0;
   for (const auto& c : centres) {
@@ -157,8 +161,8 @@ void draw_label(Image& image, const std::string& label, int x, int x_end, double
 Image render_panels(std::vector<Panel> panels, const PictureOptions& options) {
   const int count = static_cast<int>(panels.size());
   const double letters = std::clamp(options.height / 40.0, 7.0, 40.0);
-  const bool two_lines = std::any_of(panels.begin(), panels.end(),
-                                     [](const Panel& p) { return p.label.find('\n') != std::string::npos; });
+  const bool two_lines =
+      std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return p.label.find('\n') != std::string::npos; });
   const int bar = static_cast<int>((two_lines ? 4 : 2.6) * letters);
   const int width = options.width / count, height = options.height - bar;
 
@@ -178,7 +182,8 @@ Image render_panels(std::vector<Panel> panels, const PictureOptions& options) {
     const int line = std::max(1, options.height / 600);
     const auto half = static_cast<int>(window->side / 2);
     for (std::size_t k = 0; k < views.size(); ++k) {
-      outline(views[k], {static_cast<int>(window->x) - half, static_cast<int>(window->y) - half, 2 * half, 2 * half}, line, ink);
+      outline(views[k], {static_cast<int>(window->x) - half, static_cast<int>(window->y) - half, 2 * half, 2 * half},
+              line, ink);
       paste(views[k], shade(panels[k].drawable, narrow, place.width, place.height), place.x, place.y);
       outline(views[k], place, line, ink);
     }

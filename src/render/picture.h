@@ -10,8 +10,8 @@
 namespace unsnarl {
 
 struct PictureOptions {
-  int width = 1600;   ///< pixels of the whole picture, [64, 16384]
-  int height = 800;   ///< pixels, [64, 16384]
+  int width = 1600;  ///< pixels of the whole picture, [64, 16384]
+  int height = 800;  ///< pixels, [64, 16384]
   /// Text above each half; '\n' starts a second, smaller line. Printable ASCII; what does not fit is cut off.
   std::string before_label = "before";
   std::string after_label = "after";

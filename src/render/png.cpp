@@ -10,14 +10,17 @@
 namespace unsnarl {
 
 std::string encode_png(const Image& image) {
-  if (image.width <= 0 || image.height <= 0) throw std::invalid_argument("cannot encode an image without pixels as PNG");
+  if (image.width <= 0 || image.height <= 0)
+    throw std::invalid_argument("cannot encode an image without pixels as PNG");
   png_image header;
   std::memset(&header, 0, sizeof header);
   header.version = PNG_IMAGE_VERSION;
   header.width = static_cast<png_uint_32>(image.width);
   header.height = static_cast<png_uint_32>(image.height);
   header.format = PNG_FORMAT_RGB;
-  const auto fail = [&] { throw std::runtime_error(std::string("libpng could not encode the picture: ") + header.message); };
+  const auto fail = [&] {
+    throw std::runtime_error(std::string("libpng could not encode the picture: ") + header.message);
+  };
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string bytes(size, '\0');
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr)) fail();

@@ -11,7 +11,8 @@ namespace unsnarl {
 /// libpng fails.
 std::string encode_png(const Image& image);
 
-/// Writes encode_png(image) to a temporary file beside `path`, then renames it. Throws std::runtime_error naming the path.
+/// Writes encode_png(image) to a temporary file beside `path`, then renames it. Throws std::runtime_error naming the
+/// path.
 void write_png(const Image& image, const std::filesystem::path& path);
 
 }  // namespace unsnarl

@@ -21,7 +21,8 @@ void rasterise(std::span<const ScreenPoint> points, std::span<const Triangle> tr
     if (!(a.inverse_depth > 0 && b.inverse_depth > 0 && c.inverse_depth > 0)) continue;
     const float left = std::min({a.x, b.x, c.x}), right = std::max({a.x, b.x, c.x});
     const float top = std::min({a.y, b.y, c.y}), bottom = std::max({a.y, b.y, c.y});
-    if (right <= 0 || left >= static_cast<float>(buffer.width) || bottom <= 0 || top >= static_cast<float>(buffer.height))
+    if (right <= 0 || left >= static_cast<float>(buffer.width) || bottom <= 0 ||
+        top >= static_cast<float>(buffer.height))
       continue;
     const double area = double(b.x - a.x) * (c.y - a.y) - double(b.y - a.y) * (c.x - a.x);
     if (area == 0 || !std::isfinite(area)) continue;

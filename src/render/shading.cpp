@@ -62,7 +62,8 @@ Linear lit(const Linear& colour, const Eigen::Vector3f& normal, const Eigen::Vec
   const float from_fill = std::max(0.0F, normal.dot(fill));
   const float from_above = 0.5F + 0.5F * normal[1];
   const float gloss = std::pow(std::max(0.0F, normal.dot((key + to_eye).normalized())), 40.0F);
-  const Linear light = Linear(1.0F, 0.97F, 0.92F) * (0.85F * from_key) + Linear(0.75F, 0.85F, 1.0F) * (0.22F * from_fill) +
+  const Linear light = Linear(1.0F, 0.97F, 0.92F) * (0.85F * from_key) +
+                       Linear(0.75F, 0.85F, 1.0F) * (0.22F * from_fill) +
                        Linear(0.9F, 0.95F, 1.0F) * (0.20F + 0.18F * from_above);
   return colour * light * (0.25F + 0.75F * sky) + 0.10F * gloss * sky;
 }
@@ -80,7 +81,8 @@ float outline(const View& view, int x, int y) {
     return i < 0 || j < 0 || i >= buffer.width || j >= buffer.height ? 0.0F : buffer.inverse_depth[buffer.at(i, j)];
   };
   const float here = at(x, y);
-  const float bend = std::max(std::abs(at(x - 1, y) + at(x + 1, y) - 2 * here), std::abs(at(x, y - 1) + at(x, y + 1) - 2 * here));
+  const float bend =
+      std::max(std::abs(at(x - 1, y) + at(x + 1, y) - 2 * here), std::abs(at(x, y - 1) + at(x, y + 1) - 2 * here));
   return std::clamp((bend / here - 0.004F) / 0.012F, 0.0F, 1.0F);
 }
 
@@ -112,15 +114,24 @@ std::vector<float> sky_of_pixels(const View& view) {
 }
 
 View make_view(const Drawable& drawable, const Camera& camera, int width, int height, int samples) {
-  View view{drawable, camera, samples, width, height, {}, {width * samples, height * samples}, {width * samples, height * samples}};
+  View view{drawable,
+            camera,
+            samples,
+            width,
+            height,
+            {},
+            {width * samples, height * samples},
+            {width * samples, height * samples}};
   view.points.reserve(drawable.positions.size());
   for (const Vec3& p : drawable.positions) {
     const Vec3 q = camera.project(p, width * samples, height * samples);
-    view.points.push_back({static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2] > 0 ? 1 / q[2] : 0)});
+    view.points.push_back(
+        {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2] > 0 ? 1 / q[2] : 0)});
   }
   // One over the depth relative to a typical one: 32-bit floats then hold for scenes of any size and place.
   float largest = 0;
-  for (const ScreenPoint& p : view.points) largest = std::isfinite(p.inverse_depth) ? std::max(largest, p.inverse_depth) : largest;
+  for (const ScreenPoint& p : view.points)
+    largest = std::isfinite(p.inverse_depth) ? std::max(largest, p.inverse_depth) : largest;
   if (largest > 0)
     for (ScreenPoint& p : view.points) p.inverse_depth /= largest;
   std::vector<Index> red, all(drawable.triangles.size());
@@ -182,7 +193,10 @@ Image shade(const Drawable& drawable, const Camera& camera, int width, int heigh
           if (!front) normal = -normal;
           const bool is_red = drawable.red[triangle] != 0;
           const float visible_sky = sky[std::size_t(y) * width + x];
-          Linear colour = lit(is_red ? material.red : front ? material.front : material.back, normal, to_eye, visible_sky);
+          Linear colour = lit(is_red  ? material.red
+                              : front ? material.front
+                                      : material.back,
+                              normal, to_eye, visible_sky);
           if (line_strength > 0) {
             const float away = distance_to_edges(corners, drawable.drawn_edges[triangle], i + 0.5F, j + 0.5F) / samples;
             const float cover = line_strength * std::clamp(0.9F - away, 0.0F, 1.0F);

@@ -7,9 +7,9 @@
 namespace unsnarl {
 
 struct ShadingOptions {
-  int samples = 2;                  ///< per pixel and direction, [1, 4]
-  double wireframe_from = 7;        ///< median edge in pixels from which edges are drawn
-  double xray = 0.5;                ///< share of red over what hides a red face
+  int samples = 2;            ///< per pixel and direction, [1, 4]
+  double wireframe_from = 7;  ///< median edge in pixels from which edges are drawn
+  double xray = 0.5;          ///< share of red over what hides a red face
 };
 
 /// The surface seen by the camera, on white: light from the upper left and from the right, front sides bluish and back

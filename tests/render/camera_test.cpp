@@ -17,7 +17,8 @@ std::vector<double> corners_of_box(double x, double y, double z) {
 }
 
 TEST(Camera, ShowsEverythingAndFillsTheImageOneWay) {
-  for (const auto& [x, y, z] : {std::array{1.0, 1.0, 1.0}, std::array{9.0, 1.0, 0.1}, std::array{0.1, 1.0, 20.0}, std::array{1.0, 30.0, 2.0}}) {
+  for (const auto& [x, y, z] :
+       {std::array{1.0, 1.0, 1.0}, std::array{9.0, 1.0, 0.1}, std::array{0.1, 1.0, 20.0}, std::array{1.0, 30.0, 2.0}}) {
     const std::vector<double> p = corners_of_box(x, y, z);
     const Camera camera = three_quarter_view(p, 1.5, 0.05);
     double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
@@ -36,7 +37,8 @@ TEST(Camera, ShowsEverythingAndFillsTheImageOneWay) {
 }
 
 TEST(Camera, FrameIsRightHandedAndLooksFromAbove) {
-  for (const auto& box : {corners_of_box(3, 1, 1), corners_of_box(1, 1, 3), corners_of_box(1, 3, 1), corners_of_box(1, 1.1, 1.2)}) {
+  for (const auto& box :
+       {corners_of_box(3, 1, 1), corners_of_box(1, 1, 3), corners_of_box(1, 3, 1), corners_of_box(1, 1.1, 1.2)}) {
     const Camera c = three_quarter_view(box, 1, 0);
     EXPECT_NEAR((c.right.cross(c.up) - c.toward).norm(), 0, 1e-12);
     EXPECT_NEAR(c.right.norm(), 1, 1e-12);

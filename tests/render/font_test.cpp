@@ -21,7 +21,9 @@ TEST(Font, EveryPrintableCharacterLooksDifferent) {
   EXPECT_EQ(pictures.size(), 95U);
 }
 
-TEST(Font, WhatCannotBePrintedIsABlank) { EXPECT_EQ(drawn("a\tb\xC3"), drawn("a b ")); }
+TEST(Font, WhatCannotBePrintedIsABlank) {
+  EXPECT_EQ(drawn("a\tb\xC3"), drawn("a b "));
+}
 
 TEST(Font, WidthIsThatOfWhatIsDrawn) {
   for (const std::string text : {"before", "123 pairs", "W"}) {

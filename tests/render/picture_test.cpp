@@ -14,7 +14,8 @@ namespace {
 Surface plate(int n, double height = 0) {
   Surface surface;
   for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) surface.positions.insert(surface.positions.end(), {2.0 * i / n - 1, 2.0 * j / n - 1, height});
+    for (int j = 0; j <= n; ++j)
+      surface.positions.insert(surface.positions.end(), {2.0 * i / n - 1, 2.0 * j / n - 1, height});
   surface.offsets = {0};
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
@@ -102,7 +103,8 @@ TEST(Picture, IsTheSameOnEveryCall) {
   const std::vector<Index> red = {3, 4, 5};
   PictureOptions options = small();
   options.inset = true;
-  EXPECT_EQ(render_pair(surface, red, surface, {}, options).pixels, render_pair(surface, red, surface, {}, options).pixels);
+  EXPECT_EQ(render_pair(surface, red, surface, {}, options).pixels,
+            render_pair(surface, red, surface, {}, options).pixels);
 }
 
 TEST(Picture, MagnifiesSmallGroupsOfRedFaces) {

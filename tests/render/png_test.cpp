@@ -51,7 +51,9 @@ TEST(Png, DecodesToTheSamePixels) {
   }
 }
 
-TEST(Png, RefusesAnEmptyImage) { EXPECT_THROW(encode_png(Image()), std::invalid_argument); }
+TEST(Png, RefusesAnEmptyImage) {
+  EXPECT_THROW(encode_png(Image()), std::invalid_argument);
+}
 
 TEST(Png, WritesTheFileAndNothingBesideIt) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "unsnarl_png_test";

@@ -9,8 +9,8 @@
 #include <set>
 #include <string>
 
-#include "geometry/predicates.h"
 #include "geometry/box.h"
+#include "geometry/predicates.h"
 #include "mesh/adjacency.h"
 #include "mesh/components.h"
 #include "mesh/identification.h"
@@ -28,7 +28,8 @@ struct Shape {
 
 std::ostream& operator<<(std::ostream& out, const Shape& s) {
   return out << s.components << " components, " << s.boundary_loops << " boundary loops, " << s.non_manifold_edges
-             << " non-manifold edges, orientable " << s.orientable << ", Euler characteristic " << s.euler_characteristic;
+             << " non-manifold edges, orientable " << s.orientable << ", Euler characteristic "
+             << s.euler_characteristic;
 }
 
 /// Boundary edges joined at their vertices.
@@ -133,7 +134,8 @@ bool edge_pierces(const Positions& x, const Triangle& a, const Triangle& b) {
 /// At least one pair, by a sweep along x.
 bool runs_through_itself(const Surface& surface) {
   const auto triangles = triangulate(surface).triangles;
-  const Positions x = Eigen::Map<const Positions>(surface.positions.data(), 3, static_cast<Index>(surface.view().vertex_count()));
+  const Positions x =
+      Eigen::Map<const Positions>(surface.positions.data(), 3, static_cast<Index>(surface.view().vertex_count()));
   std::vector<std::pair<double, Index>> order;
   std::vector<Box> boxes;
   for (const Triangle& t : triangles) {
@@ -204,7 +206,8 @@ TEST_P(EverySample, KeepsItsTopologyWhenRefined) {
 }
 
 TEST_P(EverySample, RunsThroughItself) {
-  if (GetParam() == "cylinder_inverted") return;  // it only touches itself: see TheInvertedCylinderCollapsesToExactlyOnePoint
+  if (GetParam() == "cylinder_inverted")
+    return;  // it only touches itself: see TheInvertedCylinderCollapsesToExactlyOnePoint
   EXPECT_TRUE(runs_through_itself(make_sample(GetParam())));
 }
 
@@ -216,8 +219,8 @@ TEST_P(EverySample, IsTheSameOnEveryCall) {
 }
 
 TEST_P(EverySample, TakesItsParametersToTheirBounds) {
-  const auto sample = std::find_if(all_samples().begin(), all_samples().end(),
-                                   [](const Sample& s) { return s.name == GetParam(); });
+  const auto sample =
+      std::find_if(all_samples().begin(), all_samples().end(), [](const Sample& s) { return s.name == GetParam(); });
   for (const SampleParameter& p : sample->parameters) {
     EXPECT_LE(p.minimum, p.value) << p.name;
     EXPECT_LE(p.value, p.maximum) << p.name;
@@ -233,13 +236,14 @@ TEST_P(EverySample, TakesItsParametersToTheirBounds) {
 }
 
 TEST_P(EverySample, SaysTruthfullyWhetherItCanBeEmbedded) {
-  const auto sample = std::find_if(all_samples().begin(), all_samples().end(),
-                                   [](const Sample& s) { return s.name == GetParam(); });
+  const auto sample =
+      std::find_if(all_samples().begin(), all_samples().end(), [](const Sample& s) { return s.name == GetParam(); });
   const auto triangles = triangulate(make_sample(GetParam())).triangles;
   Index vertices = 0;
   for (const Triangle& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
   const Components components = find_components(triangles, vertices, build_edges(triangles));
-  const bool obstructed = std::any_of(components.list.begin(), components.list.end(), [](const Component& c) { return c.obstructed(); });
+  const bool obstructed =
+      std::any_of(components.list.begin(), components.list.end(), [](const Component& c) { return c.obstructed(); });
   EXPECT_EQ(sample->embeddable, !obstructed);
 }
 
@@ -248,7 +252,8 @@ TEST_P(EverySample, HasNoAccidentalCoincidences) {
   std::set<std::array<double, 3>> places;
   std::size_t coincident = 0;
   for (std::size_t v = 0; v < surface.view().vertex_count(); ++v) {
-    const std::array<double, 3> p = {surface.positions[3 * v], surface.positions[3 * v + 1], surface.positions[3 * v + 2]};
+    const std::array<double, 3> p = {surface.positions[3 * v], surface.positions[3 * v + 1],
+                                     surface.positions[3 * v + 2]};
     coincident += places.insert(p).second ? 0 : 1;
   }
   // The one ring of the inverted cylinder is one point by its nature.
@@ -258,7 +263,8 @@ TEST_P(EverySample, HasNoAccidentalCoincidences) {
 TEST(Samples, AreAtLeastTwentySixAnalyticOnes) {
   EXPECT_GE(analytic_sample_count, 26U);
   ASSERT_GE(all_samples().size(), analytic_sample_count);
-  for (std::size_t k = 0; k < analytic_sample_count; ++k) EXPECT_TRUE(all_samples()[k].embeddable) << all_samples()[k].name;
+  for (std::size_t k = 0; k < analytic_sample_count; ++k)
+    EXPECT_TRUE(all_samples()[k].embeddable) << all_samples()[k].name;
   EXPECT_EQ(all_samples()[analytic_sample_count].name, "posed_limb") << "analytic ones come first";
   EXPECT_EQ(shapes().size(), all_samples().size());
 }
@@ -296,7 +302,9 @@ TEST(Samples, AreFacedOutwardsWhereTheyAreClosedAndEmbedded) {
   EXPECT_FALSE(runs_through_itself(tube));
   double volume = 0;
   for (const Triangle& t : triangulate(tube).triangles) {
-    const auto p = [&](Index v) { return Vec3(tube.positions[3 * v], tube.positions[3 * v + 1], tube.positions[3 * v + 2]); };
+    const auto p = [&](Index v) {
+      return Vec3(tube.positions[3 * v], tube.positions[3 * v + 1], tube.positions[3 * v + 2]);
+    };
     volume += p(t[0]).dot(p(t[1]).cross(p(t[2]))) / 6;
   }
   EXPECT_GT(volume, 0);
@@ -306,7 +314,8 @@ TEST(Samples, TheInvertedCylinderCollapsesToExactlyOnePoint) {
   const Surface surface = make_sample("cylinder_inverted", 24);
   std::size_t at_origin = 0;
   for (std::size_t v = 0; v < surface.view().vertex_count(); ++v)
-    at_origin += surface.positions[3 * v] == 0 && surface.positions[3 * v + 1] == 0 && surface.positions[3 * v + 2] == 0 ? 1 : 0;
+    at_origin +=
+        surface.positions[3 * v] == 0 && surface.positions[3 * v + 1] == 0 && surface.positions[3 * v + 2] == 0 ? 1 : 0;
   EXPECT_EQ(at_origin, 24U);
 }
 
