@@ -16,32 +16,11 @@ Edges edges_of(const Stencil& s, const Positions& x) {
   return e;
 }
 
-/// Cheap lower bound: false where the boxes of the two primitives are farther apart than `reach`.
-bool may_be_near(const Stencil& s, const Positions& x, double reach) {
-  for (int axis = 0; axis < 3; ++axis) {
-    double lo[2], hi[2];
-    const int first = s.kind == StencilKind::edge_edge ? 2 : 1;
-    lo[0] = hi[0] = x(axis, s.v[0]);
-    if (first == 2) {
-      lo[0] = std::min(lo[0], x(axis, s.v[1]));
-      hi[0] = std::max(hi[0], x(axis, s.v[1]));
-    }
-    lo[1] = hi[1] = x(axis, s.v[first]);
-    for (int i = first + 1; i < s.size(); ++i) {
-      lo[1] = std::min(lo[1], x(axis, s.v[i]));
-      hi[1] = std::max(hi[1], x(axis, s.v[i]));
-    }
-    if (lo[0] - hi[1] > reach || lo[1] - hi[0] > reach) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 double IpcBarrier::value(const Positions& x, std::span<const BarrierStencil> stencils) const {
   double sum = 0;
   for (const BarrierStencil& s : stencils) {
-    if (!may_be_near(s.stencil, x, s.activation)) continue;
     const double distance = std::sqrt(squared_distance(s.stencil, x));
     if (distance >= s.activation) continue;
     const double width = s.activation - s.separation;
@@ -58,7 +37,6 @@ double IpcBarrier::evaluate(const Positions& x, std::span<const BarrierStencil> 
   double sum = 0;
   for (std::size_t i = 0; i < stencils.size(); ++i) {
     const BarrierStencil& s = stencils[i];
-    if (!may_be_near(s.stencil, x, s.activation)) continue;
     BarrierContact contact;
     contact.closest = closest(s.stencil, x);
     if (contact.closest.distance >= s.activation) continue;

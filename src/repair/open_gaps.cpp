@@ -73,15 +73,17 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, EmbeddingGuard& guar
       const double length = p.col(v).norm();
       if (length > options.step_cap) p.col(v) *= options.step_cap / length;
     }
-    // Distances of the order of round-off tell CCD nothing; there only the exact guard watches.
+    // Distances of the order of round-off tell CCD nothing; there the exact guard watches.
+    bool doubtful = false;
     filter.clear();
     for (const ContactRule& rule : close) {
+      doubtful |= rule.distance <= direction_margin * roundoff;
       if (rule.distance > roundoff) filter.push_back({rule.stencil.stencil, rule.stencil.separation});
     }
     filter_displacements(filter, x, p, OnCollision::shorten);
     safe = x;
     x += p;
-    guard.roll_back(x, safe);
+    if (doubtful) guard.roll_back(x, safe);
   }
 }
 

@@ -117,6 +117,8 @@ class Recovery {
   /// Steps at one activation distance until converged or `steps` are used up.
   void steps_at(double activation, int steps, const RecoverOptions::Stop& stop);
   void gather(double activation, double margin);
+  /// Picks out of the list the stencils whose distance at x, bounded by the motion since it was gathered, may be below their activation.
+  void pick_near(const Positions& x);
   double energy(const Positions& x);
   /// Energy, gradient and the rank-one terms of the Hessian at x_.
   double linearise();
@@ -156,8 +158,10 @@ class Recovery {
   StepOperator operator_;
 
   std::vector<ContactRule> gathered_;
-  std::vector<BarrierStencil> stencils_;
-  std::vector<BarrierContact> contacts_;
+  std::vector<BarrierStencil> stencils_;  // parallel to gathered_
+  std::vector<BarrierStencil> near_;
+  std::vector<BarrierContact> contacts_;  // among near_
+  std::vector<double> travelled_, travel_;  // per vertex: since gathering, in the coming step
   double margin_ = 0;           // motion since the last gathering that the list allows
   Positions gathered_at_;
   double activation_ = 0;
@@ -306,6 +310,8 @@ void Recovery::gather(double activation, double margin) {
   activation_ = activation;
   margin_ = margin;
   gathered_at_ = x_;
+  travelled_.assign(moves_.size(), 0);
+  travel_.assign(moves_.size(), 0);
   rules_->gather(x_, activation + 2 * margin, moves_, gathered_);
   stencils_.clear();
   for (const ContactRule& rule : gathered_) {
@@ -316,7 +322,29 @@ void Recovery::gather(double activation, double margin) {
   }
 }
 
+/// Upper bound of the change of a stencil's distance when its vertices move by the given lengths.
+double approach(const Stencil& s, const std::vector<double>& lengths) {
+  switch (s.kind) {
+    case StencilKind::vertex_face:
+      return lengths[s.v[0]] + std::max({lengths[s.v[1]], lengths[s.v[2]], lengths[s.v[3]]});
+    case StencilKind::edge_edge:
+      return std::max(lengths[s.v[0]], lengths[s.v[1]]) + std::max(lengths[s.v[2]], lengths[s.v[3]]);
+    case StencilKind::vertex_edge: break;
+  }
+  return lengths[s.v[0]] + std::max(lengths[s.v[1]], lengths[s.v[2]]);
+}
+
+void Recovery::pick_near(const Positions& x) {
+  for (Index v : moving_) travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
+  near_.clear();
+  for (std::size_t k = 0; k < stencils_.size(); ++k) {
+    if (gathered_[k].distance - approach(stencils_[k].stencil, travelled_) < stencils_[k].activation)
+      near_.push_back(stencils_[k]);
+  }
+}
+
 double Recovery::energy(const Positions& x) {
+  pick_near(x);
   double pull = 0;
   for (Index v : moving_) pull += pull_.mass[v] * (x.col(v) - patch_.rest.col(v)).squaredNorm();
   double arap = 0;
@@ -328,7 +356,7 @@ double Recovery::energy(const Positions& x) {
   }
   const double arap_scale = options_.arap_length * options_.arap_length * h_ * h_;
   const double bending_scale = std::pow(options_.bending_length * h_, 4);
-  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending_scale * bending + barrier_.value(x, stencils_);
+  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending_scale * bending + barrier_.value(x, near_);
 }
 
 double Recovery::linearise() {
@@ -368,10 +396,11 @@ double Recovery::linearise() {
     term.stiffness = w;
     operator_.terms.push_back(term);
   }
-  const double contact = barrier_.evaluate(x_, stencils_, contacts_);
-  IpcBarrier::add_gradient(stencils_, contacts_, 1, gradient_);
+  pick_near(x_);
+  const double contact = barrier_.evaluate(x_, near_, contacts_);
+  IpcBarrier::add_gradient(near_, contacts_, 1, gradient_);
   for (const BarrierContact& c : contacts_) {
-    const Stencil& s = stencils_[c.stencil].stencil;
+    const Stencil& s = near_[c.stencil].stencil;
     term.g.setZero();
     term.slot = {-1, -1, -1, -1};
     for (int k = 0; k < s.size(); ++k) {
@@ -385,8 +414,15 @@ double Recovery::linearise() {
 }
 
 double Recovery::step_limit(const Positions& p) {
+  for (Index v : moving_) {
+    travelled_[v] = (x_.col(v) - gathered_at_.col(v)).norm();
+    travel_[v] = p.col(v).norm();
+  }
   double step = 1;
-  for (const BarrierStencil& s : stencils_) {
+  for (std::size_t k = 0; k < stencils_.size(); ++k) {
+    const BarrierStencil& s = stencils_[k];
+    const double left = gathered_[k].distance - approach(s.stencil, travelled_);
+    if (left - approach(s.stencil, travel_) > s.separation + rules_->options().roundoff) continue;
     step = std::min(step, time_of_impact({s.stencil, s.separation}, x_, p, options_.ccd));
   }
   return step;
@@ -480,18 +516,23 @@ RecoverResult Recovery::run() {
   safe_ = x_;
 
   const double least = options_.activation_gaps * min_gap_;
-  double activation = std::max(options_.activation * h_, least);
+  // Where little moved, little room is needed: a wide barrier would first push everything farther away.
+  const double start_motion = (start_ - patch_.rest).colwise().norm().maxCoeff();
+  double activation = std::max(std::min(options_.activation * h_, options_.activation_motion * start_motion), least);
   steps_at(activation, std::min(options_.first_steps, options_.max_steps), options_.coarse);
   check();
   snap();
-  for (int stage = 0; stage < options_.stages && !stopped(); ++stage) {
+  const double last_activation =
+      std::max(options_.activation * std::pow(options_.activation_factor, options_.stages - 1) * h_, least);
+  activation = std::max(activation, last_activation);
+  for (bool last = options_.stages == 0; !last && !stopped();) {
     release_contact_region();
     if (moving_.empty()) break;
-    const bool last = stage + 1 == options_.stages;
+    last = activation <= 1.001 * last_activation;
     steps_at(activation, options_.max_steps - result_.iterations, last ? options_.fine : options_.coarse);
-    check();
-    activation = std::max(activation * options_.activation_factor, least);
+    activation = std::max(activation * options_.activation_factor, last_activation);
   }
+  check();
   release_everything();
   snap();
 

@@ -23,7 +23,8 @@ struct RecoverOptions {
   double contact_force = 10;
 
   // Continuation: the barrier's activation distance starts at `activation` and shrinks.
-  double activation = 0.1;           ///< in h
+  double activation = 0.1;           ///< in h, at most
+  double activation_motion = 0.5;    ///< and at most this share of the largest displacement at the start
   double activation_factor = 0.2;    ///< from stage to stage
   int stages = 3;
   double activation_gaps = 3;        ///< the activation distance never falls below this many min_gap

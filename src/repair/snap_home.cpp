@@ -37,6 +37,7 @@ Index snap_home(Positions& x, const Positions& rest, std::span<const double> rea
       x.col(v) = rest.col(v);
       ++moved;
     }
+    if (moved == 0) break;
     moved -= guard.roll_back(x, safe);
     arrived += std::max(moved, Index{0});
     if (moved <= 0) break;
