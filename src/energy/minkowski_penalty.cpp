@@ -94,9 +94,34 @@ struct Plane {
 
 inline constexpr std::uint8_t no_hint = 255;
 
+// Whether candidate k alone shows the two apart by the margin; computes no other normal. Gives the depth there.
+bool still_separated(std::span<const Vec3> a, std::span<const Vec3> b, double margin, int k, double& depth) {
+  const int size_a = static_cast<int>(a.size()), size_b = static_cast<int>(b.size()), crosses = size_a * size_b;
+  const auto edge = [](std::span<const Vec3> p, int i) { return Vec3(p[i + 1 == static_cast<int>(p.size()) ? 0 : i + 1] - p[i]); };
+  Vec3 n;
+  if (k < 2) {
+    n = polygon_normal(k == 0 ? a : b);
+  } else if (k < 2 + crosses) {
+    n = edge(a, (k - 2) / size_b).cross(edge(b, (k - 2) % size_b));
+  } else if (k < 2 + crosses + size_a) {
+    n = polygon_normal(a).cross(edge(a, k - 2 - crosses));
+  } else if (k < 2 + crosses + size_a + size_b) {
+    n = polygon_normal(b).cross(edge(b, k - 2 - crosses - size_a));
+  } else {
+    return false;
+  }
+  const Interval pa = project(a, n), pb = project(b, n);
+  const double shorter = std::min(pb.hi - pa.lo, pa.hi - pb.lo);
+  if (!(shorter < 0)) return false;
+  depth = shorter / n.norm() + margin;
+  return depth <= 0;
+}
+
 // The candidate normal of least depth. depth <= 0 or infinite: nothing to penalise.
 Candidate least_depth(std::span<const Vec3> a, std::span<const Vec3> b, double margin, std::uint8_t* hint) {
   Candidate best;
+  if (hint && still_separated(a, b, margin, *hint, best.depth)) return best;
+  best = {};
   const Plane plane(a, b);
   const int crosses = plane.size_a * plane.size_b;
   const int count = 2 + crosses + (margin > 0 ? plane.size_a + plane.size_b : 0);
@@ -124,8 +149,6 @@ Candidate least_depth(std::span<const Vec3> a, std::span<const Vec3> b, double m
     return squared <= 0 || offer(a, b, n, squared, margin, of_a ? Kind::in_plane_a : Kind::in_plane_b, of_a ? edge : 0,
                                  of_a ? 0 : edge, best);
   };
-  if (hint && *hint < count && !consider(*hint)) return best;
-  best = {};  // so that which of equals wins does not depend on the hint
   for (int k = 0; k < count; ++k) {
     if (consider(k)) continue;
     if (hint) *hint = static_cast<std::uint8_t>(k);

@@ -42,6 +42,9 @@ struct FlowRung {
   double hot_range = 4;            ///< bandwidths: only clusters this close to an intersecting face interact
   double max_spacing_rel = 0.06;   ///< of the diagonal: how coarse the clusters may get on stalls
   double minkowski_growth = 3;     ///< factor on a stall with few pairs left
+  /// Stalls after which the rung gives up where it has taken away next to nothing. Gentle rungs do nothing at all to a deep
+  /// immersion: 96 iterations and 3 s each without this.
+  int hopeless_stalls = 3;
 };
 
 /// Constants that all rungs share.
@@ -58,6 +61,7 @@ struct FlowOptions {
   int memory = 8;                   ///< of L-BFGS
   int stall_iterations = 12;        ///< without ...
   double stall_drop = 0.15;         ///< ... this relative drop of the number of pairs: something must change
+  double hopeless_share = 0.8;      ///< of the pairs: a rung that never got below by its last allowed stall gives up
   double few_pairs = 0.1;           ///< of the initial number: then the penalty grows, else the clusters
   double spacing_growth = 1.6;
   double largest_minkowski = 1000;  ///< lambda_minkowski grows no further
