@@ -22,7 +22,8 @@ struct ContactRule {
 struct ContactRuleOptions {
   double min_gap = 0;             ///< wanted distance, a length
   double neighbour_share = 0.25;  ///< of the rest distance, that neighbours keep at least where it is below min_gap
-  double reach_share = 0.5;       ///< of the rest distance, that the barrier reaches: a rest shape without contact has no energy
+  /// Of the rest distance, that the barrier reaches: below 1, so that a rest shape without contact has no energy.
+  double reach_share = 0.5;
   double reach_gaps = 3;          ///< and at least this many min_gap for what is no neighbour
   double altitude_share = 0.25;   ///< of its rest altitude, below which a face's own barrier sets in
   double altitude_floor = 0.05;   ///< of its rest altitude, that a face keeps at least
@@ -31,15 +32,17 @@ struct ContactRuleOptions {
 
 /// Gathers the close stencils of a patch with their rules.
 ///
-/// The separation is min_gap. Neighbours (primitives of triangles that share a vertex) that are closer at rest need only keep a share
-/// of their rest distance, unless their triangles intersect at rest. A stencil without distance at rest whose triangles do not
-/// intersect there (around zero-area faces) has no rule. One that is closer than its separation now may not come closer than half.
+/// The separation is min_gap. Neighbours (primitives of triangles that share a vertex) that are closer at rest need only
+/// keep a share of their rest distance, unless their triangles intersect at rest. A stencil without distance at rest
+/// whose triangles do not intersect there (around zero-area faces) has no rule. One that is closer than its separation
+/// now may not come closer than half its distance.
 class ContactRules {
  public:
   /// in_conflict: per triangle, whether it intersects another one at rest. The patch must outlive this.
   ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options);
 
-  /// Rules for all stencils with a moving vertex that are closer than `radius` at x (own altitudes: than their reach + radius).
+  /// Rules for all stencils with a moving vertex that are closer than `radius` at x (own altitudes: than their reach
+  /// and `radius` together).
   void gather(const Positions& x, double radius, std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
 
   const ContactCandidates& candidates() const { return candidates_; }

@@ -10,6 +10,7 @@
 #include "repair/flow.h"
 #include "repair/local_solver.h"
 #include "repair/patch.h"
+#include "repair/waves.h"
 
 namespace unsnarl {
 namespace {
@@ -21,6 +22,9 @@ struct Rung {
   const LocalRung* local;  ///< or null
   const FlowRung* flow;    ///< or null
 };
+
+/// Obstacles are taken in this many h around a region; regions that move farther are tried again with more.
+constexpr double first_reach = 4;
 
 constexpr int whole_component = std::numeric_limits<int>::max();
 
@@ -52,7 +56,7 @@ std::vector<Rung> default_rungs() {
 class Climb {
  public:
   Climb(Scene& scene, std::span<const IntersectingPair> ignored, const LadderOptions& options)
-      : scene_(scene), ignored_(ignored), options_(options), finder_(scene.triangles), is_free_(scene.vertex_count(), 0) {}
+      : scene_(scene), ignored_(ignored), options_(options), finder_(scene.triangles) {}
 
   LadderResult run() {
     pairs_ = current_pairs();
@@ -74,68 +78,102 @@ class Climb {
     return pairs;
   }
 
+  /// A region about to be tried on a rung.
+  struct Attempt {
+    ConflictRegion region;
+    std::vector<Index> free;
+    double edge_length = 0;
+    double reach = 0;   // how far around the patch obstacles are taken in
+    Patch patch;
+    Positions start;
+    int iterations = 0;
+    double seconds = 0;
+    bool clean = false;
+  };
+
   void climb_one(const Rung& rung) {
-    std::vector<ConflictRegion> regions = conflict_regions(scene_, pairs_);
+    std::vector<Attempt> attempts = gather_attempts(rung);
     SceneIndex index(scene_);
-    region_of_core_.assign(scene_.vertex_count(), -1);
+    // A second round for those that moved farther than their obstacles reach.
+    for (int round = 0; round < 3 && !attempts.empty() && !stopped(); ++round) {
+      std::vector<Box> boxes;
+      for (const Attempt& attempt : attempts) boxes.push_back(patch_box(scene_, attempt.free, 2 * attempt.reach));
+      std::vector<Attempt> again;
+      run_in_waves(
+          boxes, [&](std::size_t i) { run(attempts[i], rung, index); },
+          [&](std::size_t i) {
+            Attempt& attempt = attempts[i];
+            if (!attempt.clean) return;
+            const double moved =
+                (attempt.patch.x - attempt.start).leftCols(attempt.patch.free_count).colwise().norm().maxCoeff();
+            if (moved > attempt.reach) {
+              attempt.reach = 2 * moved;
+              again.push_back(std::move(attempt));
+              return;
+            }
+            paste_patch(attempt.patch, scene_, index);
+            report(attempt, rung);
+          });
+      attempts = std::move(again);
+    }
+  }
+
+  /// The regions there are now, each with its free vertices; one whose free vertices reach another's core takes it in.
+  std::vector<Attempt> gather_attempts(const Rung& rung) const {
+    const std::vector<ConflictRegion> regions = conflict_regions(scene_, pairs_);
+    std::vector<Index> region_of_core(scene_.vertex_count(), -1);
     for (std::size_t r = 0; r < regions.size(); ++r)
-      for (Index v : regions[r].core) region_of_core_[v] = static_cast<Index>(r);
-    std::vector<std::uint8_t> done(regions.size(), 0);
+      for (Index v : regions[r].core) region_of_core[v] = static_cast<Index>(r);
+    std::vector<std::uint8_t> taken(regions.size(), 0);
+    std::vector<Attempt> attempts;
     for (std::size_t r = 0; r < regions.size(); ++r) {
-      if (stopped()) return;
-      if (done[r]) continue;
-      ConflictRegion region = regions[r];
-      done[r] = 1;
-      // A region whose free vertices reach another's core takes it in.
-      std::vector<Index> free = dilate(scene_, region.core, rung.rings);
+      if (taken[r]) continue;
+      taken[r] = 1;
+      Attempt attempt;
+      ConflictRegion& region = attempt.region = regions[r];
       for (bool grown = true; grown;) {
         grown = false;
-        for (Index v : free) {
-          const Index other = region_of_core_[v];
-          if (other < 0 || done[other]) continue;
-          done[other] = 1;
+        attempt.free = dilate(scene_, region.core, rung.rings);
+        for (Index v : attempt.free) {
+          const Index other = region_of_core[v];
+          if (other < 0 || taken[other]) continue;
+          taken[other] = 1;
           grown = true;
           region.core.insert(region.core.end(), regions[other].core.begin(), regions[other].core.end());
           region.pairs.insert(region.pairs.end(), regions[other].pairs.begin(), regions[other].pairs.end());
         }
-        if (!grown) break;
         std::sort(region.core.begin(), region.core.end());
         std::sort(region.pairs.begin(), region.pairs.end());
-        free = dilate(scene_, region.core, rung.rings);
       }
-      attempt(region, free, rung, index);
+      std::vector<Triangle> core_faces;
+      for (const IntersectingPair& pair : region.pairs)
+        for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
+      attempt.edge_length = mean_edge_length(scene_.rest, core_faces);
+      attempt.reach = first_reach * attempt.edge_length;
+      attempts.push_back(std::move(attempt));
     }
+    return attempts;
   }
 
-  void attempt(const ConflictRegion& region, const std::vector<Index>& free, const Rung& rung, SceneIndex& index) {
+  void run(Attempt& attempt, const Rung& rung, const SceneIndex& index) const {
+    if (stopped()) return;
     const auto begin = std::chrono::steady_clock::now();
-    std::vector<Triangle> core_faces;
-    for (const IntersectingPair& pair : region.pairs)
-      for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
-    const double h = mean_edge_length(scene_.rest, core_faces);
-    double reach = 4 * h;
-    for (int tries = 0; tries < 3; ++tries) {
-      Patch patch = cut_patch(scene_, index, free, reach);
-      patch.edge_length = h;
-      const Positions start = patch.x;
-      int iterations = 0;
-      if (!solve(patch, rung, foreign_pairs(patch, region), iterations)) return;
-      const double displacement = (patch.x - start).leftCols(patch.free_count).colwise().norm().maxCoeff();
-      if (displacement > reach) {  // it may have met what the patch does not hold
-        reach = 2 * displacement;
-        continue;
-      }
-      paste_patch(patch, scene_, index);
-      RegionReport report;
-      report.rung = rung.name;
-      report.faces = static_cast<std::size_t>(patch.active_count);
-      report.pairs = region.pairs.size();
-      report.iterations = iterations;
-      report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      result_.regions.push_back(report);
-      result_.moved.push_back(free);
-      return;
-    }
+    attempt.patch = cut_patch(scene_, index, attempt.free, attempt.reach);
+    attempt.patch.edge_length = attempt.edge_length;
+    attempt.start = attempt.patch.x;
+    attempt.clean = solve(attempt.patch, rung, foreign_pairs(attempt.patch, attempt.region), attempt.iterations);
+    attempt.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  void report(Attempt& attempt, const Rung& rung) {
+    RegionReport report;
+    report.rung = rung.name;
+    report.faces = static_cast<std::size_t>(attempt.patch.active_count);
+    report.pairs = attempt.region.pairs.size();
+    report.iterations = attempt.iterations;
+    report.seconds = attempt.seconds;
+    result_.regions.push_back(report);
+    result_.moved.push_back(std::move(attempt.free));
   }
 
   bool solve(Patch& patch, const Rung& rung, const std::vector<IntersectingPair>& foreign, int& iterations) const {
@@ -168,8 +206,6 @@ class Climb {
   std::span<const IntersectingPair> ignored_;
   const LadderOptions& options_;
   IntersectionFinder finder_;
-  std::vector<std::uint8_t> is_free_;
-  std::vector<Index> region_of_core_;
   std::vector<IntersectingPair> pairs_;
   LadderResult result_;
 };

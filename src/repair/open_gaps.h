@@ -21,7 +21,8 @@ struct OpenGapsResult {
 
 /// Pushes apart, position by position, all stencils that are closer than the target: along the line between the
 /// closest points, or, where round-off hides it, along the normal on the side that the exact orientation predicate
-/// says. Every round goes through the vertex-wise CCD filter and, where a gap is of the order of round-off, the exact guard.
+/// says. Every round goes through the vertex-wise CCD filter and, where a gap is of the order of round-off, the exact
+/// guard.
 OpenGapsResult open_gaps(Positions& x, ContactRules& rules, EmbeddingGuard& guard, std::span<const std::uint8_t> moves,
                          const OpenGapsOptions& options);
 

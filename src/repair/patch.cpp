@@ -48,15 +48,21 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
 
   // One query for every few active triangles near each other would do; one for each is simple and was never the
   // bottleneck.
-  std::vector<Index> near;
+  std::vector<Index> near, found;
+  std::vector<std::uint8_t> is_near(scene.triangle_count(), 0);
   for (Index k = 0; k < patch.active_count; ++k) {
     const Triangle& t = scene.triangles[patch.faces[k]];
     Box box = box_of(scene.x, t);
     box.extend(box_of(scene.rest, t));
-    index.query(box.inflated(reach), near);
-    if (near.size() > 16 * (patch.faces.size() + 1024)) sort_unique(near);
+    found.clear();
+    index.query(box.inflated(reach), found);
+    for (Index other : found)
+      if (!is_near[other]) {
+        is_near[other] = 1;
+        near.push_back(other);
+      }
   }
-  sort_unique(near);
+  std::sort(near.begin(), near.end());
   std::vector<Index> obstacles;
   std::set_difference(near.begin(), near.end(), patch.faces.begin(), patch.faces.end(), std::back_inserter(obstacles));
   patch.faces.insert(patch.faces.end(), obstacles.begin(), obstacles.end());
@@ -88,6 +94,16 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
     patch.rest.col(k) = (is_free ? scene.rest : scene.x).col(patch.vertices[k]);
   }
   return patch;
+}
+
+Box patch_box(const Scene& scene, std::span<const Index> free_vertices, double reach) {
+  Box box;
+  for (Index v : free_vertices)
+    for (Index t : scene.triangles_of_vertex[v]) {
+      box.extend(box_of(scene.x, scene.triangles[t]));
+      box.extend(box_of(scene.rest, scene.triangles[t]));
+    }
+  return box.inflated(reach);
 }
 
 void paste_patch(const Patch& patch, Scene& scene, SceneIndex& index) {

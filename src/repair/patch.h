@@ -45,6 +45,9 @@ class SceneIndex {
 /// length) of the box of an active triangle. `edge_length` is left to the caller.
 Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach);
 
+/// Box of everything cut_patch could take in with this reach.
+Box patch_box(const Scene& scene, std::span<const Index> free_vertices, double reach);
+
 /// Takes the free vertices' positions over into the scene.
 void paste_patch(const Patch& patch, Scene& scene, SceneIndex& index);
 

@@ -117,7 +117,7 @@ class Recovery {
   /// Steps at one activation distance until converged or `steps` are used up.
   void steps_at(double activation, int steps, const RecoverOptions::Stop& stop);
   void gather(double activation, double margin);
-  /// Picks out of the list the stencils whose distance at x, bounded by the motion since it was gathered, may be below their activation.
+  /// Picks out of the list the stencils that may be active at x, by bounds of the motion since it was gathered.
   void pick_near(const Positions& x);
   double energy(const Positions& x);
   /// Energy, gradient and the rank-one terms of the Hessian at x_.
@@ -211,7 +211,8 @@ Recovery::Recovery(Patch& patch, const RecoverOptions& options, const std::funct
   for (Index v = 0; v < patch.free_count; ++v) {
     double sum = 0;
     for (Index w : neighbours_[v]) sum += (patch.rest.col(w) - patch.rest.col(v)).norm();
-    if (neighbours_[v].size() > 0) snap_reach_[v] = options.snap_reach * sum / static_cast<double>(neighbours_[v].size());
+    const auto count = static_cast<double>(neighbours_[v].size());
+    if (count > 0) snap_reach_[v] = options.snap_reach * sum / count;
   }
   gradient_.resize(3, n);
   step_.resize(3, n);
@@ -272,7 +273,8 @@ void Recovery::release_contact_region() {
 void Recovery::build_operator() {
   // Hessian of pull and of a share of ARAP with the rotations held: a scalar matrix with the pattern of the mesh.
   const Index n = static_cast<Index>(moving_.size());
-  const double arap = options_.rotation_damping * options_.arap_length * options_.arap_length * h_ * h_ * arap_.weight();
+  const double arap_scale = options_.arap_length * options_.arap_length * h_ * h_;
+  const double arap = options_.rotation_damping * arap_scale * arap_.weight();
   operator_.mass.resize(n);
   operator_.row_begin.assign(n + 1, 0);
   operator_.column.clear();

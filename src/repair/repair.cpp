@@ -1,6 +1,7 @@
 #include "unsnarl/repair.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -19,6 +20,7 @@
 #include "repair/rounding.h"
 #include "repair/scene.h"
 #include "repair/threads.h"
+#include "repair/waves.h"
 
 namespace unsnarl {
 namespace {
@@ -28,6 +30,8 @@ namespace {
 constexpr double gap_units = 8;
 /// float32 is asked for only where that gap is at most this share of an edge; else coordinates are too coarse for it.
 constexpr double largest_gap_of_edge = 0.05;
+/// Obstacles are taken in this many h around a region: it hardly leaves the space between start and input.
+constexpr double recovery_reach = 2;
 /// Rounding, repair of what rounding brought, and again.
 constexpr int rounding_rounds = 4;
 
@@ -98,15 +102,20 @@ class Repair {
   std::function<bool()> stopper() {
     return [this] { return stopped(); };
   }
+  /// Safe from any thread.
   bool stopped() {
-    if (!stop_reason_) {
-      if (context_.is_cancelled()) stop_reason_ = Status::cancelled;
+    if (stop_reason_ == no_stop) {
+      if (context_.is_cancelled()) stop_reason_ = static_cast<int>(Status::cancelled);
       else if (options_.time_limit_s > 0 && seconds_since(begin_) > options_.time_limit_s)
-        stop_reason_ = Status::time_limit;
+        stop_reason_ = static_cast<int>(Status::time_limit);
       else if (options_.memory_limit_mb > 0 && resident_memory_mb() > options_.memory_limit_mb)
-        stop_reason_ = Status::memory_limit;
+        stop_reason_ = static_cast<int>(Status::memory_limit);
     }
-    return stop_reason_.has_value();
+    return stop_reason_ != no_stop;
+  }
+  Status stopped_or(Status status) const {
+    const int reason = stop_reason_;
+    return reason == no_stop ? status : static_cast<Status>(reason);
   }
   void report_progress(double fraction, std::size_t pairs_left) {
     if (!context_.on_progress) return;
@@ -188,7 +197,7 @@ class Repair {
       regions.insert(regions.end(), climbed.regions.begin(), climbed.regions.end());
       if (options_.recover) {
         start("recover");
-        for (const std::vector<Index>& free : merged(std::move(climbed.moved))) recover_region(free);
+        recover_regions(merged(std::move(climbed.moved)));
       }
       start("certify");
       report_progress(0.9, climbed.left.size());
@@ -231,20 +240,33 @@ class Repair {
     return result;
   }
 
-  void recover_region(const std::vector<Index>& free) {
+  void recover_regions(const std::vector<std::vector<Index>>& regions) {
     SceneIndex index(scene_);
-    std::vector<Triangle> faces;
-    for (Index v : free)
-      for (Index t : scene_.triangles_of_vertex[v]) faces.push_back(scene_.triangles[t]);
-    const double h = mean_edge_length(scene_.rest, faces);
-    Patch patch = cut_patch(scene_, index, free, 2 * h);
-    patch.edge_length = h;
-    RecoverOptions recovery = options_.paper ? RecoverOptions::paper() : RecoverOptions{};
-    recovery.min_gap = wanted_gap(free);
-    const RecoverResult recovered = recover(patch, recovery, stopper());
-    if (std::isfinite(recovered.min_gap) && recovered.min_gap > 0)
-      smallest_gap_ = std::min(smallest_gap_, recovered.min_gap);
-    paste_patch(patch, scene_, index);
+    std::vector<double> edge_length(regions.size()), gap(regions.size());
+    std::vector<Box> boxes(regions.size());
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      std::vector<Triangle> faces;
+      for (Index v : regions[r])
+        for (Index t : scene_.triangles_of_vertex[v]) faces.push_back(scene_.triangles[t]);
+      edge_length[r] = mean_edge_length(scene_.rest, faces);
+      boxes[r] = patch_box(scene_, regions[r], recovery_reach * edge_length[r]);
+    }
+    std::vector<Patch> patches(regions.size());
+    run_in_waves(
+        boxes,
+        [&](std::size_t r) {
+          if (stopped()) return;
+          patches[r] = cut_patch(scene_, index, regions[r], recovery_reach * edge_length[r]);
+          patches[r].edge_length = edge_length[r];
+          RecoverOptions recovery = options_.paper ? RecoverOptions::paper() : RecoverOptions{};
+          recovery.min_gap = wanted_gap(regions[r]);
+          gap[r] = recover(patches[r], recovery, stopper()).min_gap;
+        },
+        [&](std::size_t r) {
+          if (std::isfinite(gap[r]) && gap[r] > 0) smallest_gap_ = std::min(smallest_gap_, gap[r]);
+          paste_patch(patches[r], scene_, index);
+          patches[r] = {};
+        });
   }
 
   // The end.
@@ -258,7 +280,7 @@ class Repair {
     const bool worse = after.total() > before.total() || after[PairClass::disjoint] > before[PairClass::disjoint];
     if (worse) {
       report.after = report.before;
-      result_.status = stop_reason_.value_or(Status::no_progress);
+      result_.status = stopped_or(Status::no_progress);
     } else {
       result_.positions = prepared_.scatter(surface_.positions, scene_.x);
       report.after = count_by_class(pairs_of_faces(prepared_, left));
@@ -269,7 +291,7 @@ class Repair {
         result_.status = Status::embedded;
       else
         result_.status = options_.goal == Goal::disjoint && after[PairClass::disjoint] == 0 ? Status::embedded : Status::obstructed;
-      if (!blocking.empty() && stop_reason_) result_.status = *stop_reason_;
+      if (!blocking.empty()) result_.status = stopped_or(result_.status);
     }
     report.float32_embedded = finder.find(rounded_to_float32(worse ? scene_.rest : scene_.x)).empty();
     measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
@@ -293,7 +315,8 @@ class Repair {
   bool float32_ = false;
   double largest_coordinate_ = 0;
   double smallest_gap_ = std::numeric_limits<double>::infinity();
-  std::optional<Status> stop_reason_;
+  static constexpr int no_stop = -1;
+  std::atomic<int> stop_reason_{no_stop};
   std::string_view phase_;
   Clock::time_point begin_ = Clock::now(), phase_begin_ = begin_;
   Context::Progress progress_;

@@ -8,10 +8,11 @@
 
 namespace unsnarl {
 
-/// Sends vertices straight to their rest positions where nothing is in the way; those that arrive are bit-exactly there.
+/// Sends vertices straight to their rest positions where nothing is in the way; those that arrive are bit-exactly
+/// there.
 ///
 /// A vertex v tries where moves[v] and 0 < |x - rest| <= reach[v]. One whose stencil would come closer than its
-/// separation on the way stays where it is. Then the exact guard has its say. Returns the number of vertices that arrived.
+/// separation on the way stays where it is. Then the exact guard has its say. Returns how many arrived.
 Index snap_home(Positions& x, const Positions& rest, std::span<const double> reach, ContactRules& rules,
                 EmbeddingGuard& guard, std::span<const std::uint8_t> moves, int rounds = 3);
 
