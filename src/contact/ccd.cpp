@@ -7,8 +7,12 @@ namespace unsnarl {
 namespace {
 
 /// Number of leading vertices that form the first primitive.
-int first_primitive_size(StencilKind kind) { return kind == StencilKind::edge_edge ? 2 : 1; }
-int stencil_size(StencilKind kind) { return kind == StencilKind::vertex_edge ? 3 : 4; }
+int first_primitive_size(StencilKind kind) {
+  return kind == StencilKind::edge_edge ? 2 : 1;
+}
+int stencil_size(StencilKind kind) {
+  return kind == StencilKind::vertex_edge ? 3 : 4;
+}
 
 /// Upper bound of the speed at which the two primitives approach; removes the common motion from p first.
 double approach_speed(StencilKind kind, std::array<Vec3, 4>& p) {

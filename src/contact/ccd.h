@@ -19,8 +19,8 @@ struct CcdOptions {
 
 /// Conservative time of impact of two primitives whose vertices move from x to x + p at constant velocity.
 ///
-/// Additive CCD (Li, Kaufman, Jiang: Codimensional Incremental Potential Contact, §5.2): advances by lower bounds of the
-/// time to contact. Guarantees: the result t is in (0, 1]; for all times in [0, t] the distance stays above
+/// Additive CCD (Li, Kaufman, Jiang: Codimensional Incremental Potential Contact, §5.2): advances by lower bounds of
+/// the time to contact. Guarantees: the result t is in (0, 1]; for all times in [0, t] the distance stays above
 /// `separation`, up to the round-off of a distance (a few units in the last place of the coordinates), so `separation`
 /// must be well above it.
 /// \pre the distance at x is above separation >= 0.

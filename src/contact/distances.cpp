@@ -126,9 +126,12 @@ Nearest nearest_vertex_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
 Nearest nearest(const Stencil& stencil, const Positions& x) {
   const auto& v = stencil.v;
   switch (stencil.kind) {
-    case StencilKind::vertex_face: return nearest_vertex_face(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
-    case StencilKind::edge_edge: return nearest_edge_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
-    case StencilKind::vertex_edge: break;
+    case StencilKind::vertex_face:
+      return nearest_vertex_face(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
+    case StencilKind::edge_edge:
+      return nearest_edge_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
+    case StencilKind::vertex_edge:
+      break;
   }
   return nearest_vertex_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]));
 }
@@ -141,19 +144,28 @@ Closest closest_vertex_face(const Vec3& p, const Vec3& a, const Vec3& b, const V
 Closest closest_edge_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return finish(nearest_edge_edge(a, b, c, d));
 }
-Closest closest_vertex_edge(const Vec3& p, const Vec3& a, const Vec3& b) { return finish(nearest_vertex_edge(p, a, b)); }
+Closest closest_vertex_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
+  return finish(nearest_vertex_edge(p, a, b));
+}
 
-Closest closest(const Stencil& stencil, const Positions& x) { return finish(nearest(stencil, x)); }
+Closest closest(const Stencil& stencil, const Positions& x) {
+  return finish(nearest(stencil, x));
+}
 
 double squared_distance(StencilKind kind, const std::array<Vec3, 4>& x) {
   switch (kind) {
-    case StencilKind::vertex_face: return nearest_vertex_face(x[0], x[1], x[2], x[3]).squared_distance;
-    case StencilKind::edge_edge: return nearest_edge_edge(x[0], x[1], x[2], x[3]).squared_distance;
-    case StencilKind::vertex_edge: break;
+    case StencilKind::vertex_face:
+      return nearest_vertex_face(x[0], x[1], x[2], x[3]).squared_distance;
+    case StencilKind::edge_edge:
+      return nearest_edge_edge(x[0], x[1], x[2], x[3]).squared_distance;
+    case StencilKind::vertex_edge:
+      break;
   }
   return nearest_vertex_edge(x[0], x[1], x[2]).squared_distance;
 }
 
-double squared_distance(const Stencil& stencil, const Positions& x) { return nearest(stencil, x).squared_distance; }
+double squared_distance(const Stencil& stencil, const Positions& x) {
+  return nearest(stencil, x).squared_distance;
+}
 
 }  // namespace unsnarl

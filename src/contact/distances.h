@@ -27,8 +27,8 @@ struct Stencil {
 /// from the closest point of the second primitive to that of the first, and `distance` is its length. Because the
 /// closest points are optimal, the gradient of the distance is weights[i] * direction for each vertex i.
 struct Closest {
-  double distance = 0;                       ///< not squared
-  Vec3 direction = Vec3::Zero();             ///< unit vector; zero where distance is zero
+  double distance = 0;            ///< not squared
+  Vec3 direction = Vec3::Zero();  ///< unit vector; zero where distance is zero
   std::array<double, 4> weights = {0, 0, 0, 0};
 };
 

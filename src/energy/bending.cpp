@@ -70,7 +70,8 @@ Bending::Bending(const Positions& rest, const Positions& start, std::span<const 
     const double height_rel = height / options.edge_length;
     const double weight =
         std::min(3 * length * length / (area1 + area2), options.stiffness_cap * height_rel * height_rel);
-    const double at_start = hinge_angle(start.col(hinge[0]), start.col(hinge[1]), start.col(hinge[2]), start.col(hinge[3]));
+    const double at_start =
+        hinge_angle(start.col(hinge[0]), start.col(hinge[1]), start.col(hinge[2]), start.col(hinge[3]));
     double angle = hinge_angle(x0, x1, x2, x3);
     angle += turn * std::round((at_start - angle) / turn);
     hinges_.push_back(hinge);

@@ -9,8 +9,8 @@
 
 namespace unsnarl {
 
-/// The barrier of Incremental Potential Contact (Li et al. 2020, eq. 6) in the ratio y = distance / activation distance:
-/// B(y) = -(y - 1)^2 ln y for 0 < y < 1, zero from 1 on, infinite at 0 and below.
+/// The barrier of Incremental Potential Contact (Li et al. 2020, eq. 6) in the ratio y of distance to activation
+/// distance: B(y) = -(y - 1)^2 ln y for 0 < y < 1, zero from 1 on, infinite at 0 and below.
 inline double barrier(double y) {
   if (y >= 1) return 0;
   if (!(y > 0)) return std::numeric_limits<double>::infinity();
@@ -46,10 +46,10 @@ struct BarrierStencil {
 
 /// What one active stencil contributes to the derivatives.
 struct BarrierContact {
-  Index stencil = 0;                 ///< position in the list
+  Index stencil = 0;  ///< position in the list
   Closest closest;
-  double force = 0;                  ///< derivative of the energy in the distance, <= 0
-  double stiffness = 0;              ///< its second derivative: the Hessian's Gauss-Newton part is stiffness (w n)(w n)^T
+  double force = 0;      ///< derivative of the energy in the distance, <= 0
+  double stiffness = 0;  ///< its second: the Hessian's Gauss-Newton part is stiffness (w n)(w n)^T
   bool mollified = false;
   Eigen::Matrix<double, 3, 2> twist;  ///< mollified: derivative through |u x v|^2 in the edge vectors u and v
 };

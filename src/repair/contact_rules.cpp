@@ -42,7 +42,8 @@ void ContactRules::gather(const Positions& x, double radius, std::span<const std
     } else if (!neighbours && conflict) {
       rule.reach = std::numeric_limits<double>::infinity();
     }
-    rule.stencil.separation = std::min(separation, 0.5 * rule.distance);
+    rule.closed = !(rule.distance > separation);
+    rule.stencil.separation = rule.closed ? 0.5 * rule.distance : separation;
     if (s.kind == StencilKind::edge_edge) {
       const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();
       const double v2 = (patch_.rest.col(s.v[3]) - patch_.rest.col(s.v[2])).squaredNorm();
@@ -63,7 +64,9 @@ void ContactRules::gather(const Positions& x, double radius, std::span<const std
       rule.distance = std::sqrt(squared_distance(s, x));
       if (rule.distance > rule.reach + radius || !(rule.distance > 0)) continue;
       rule.stencil.stencil = s;
-      rule.stencil.separation = std::min(options_.altitude_floor * rule.rest_distance, 0.5 * rule.distance);
+      const double floor = options_.altitude_floor * rule.rest_distance;
+      rule.closed = !(rule.distance > floor);
+      rule.stencil.separation = rule.closed ? 0.5 * rule.distance : floor;
       rule.own_altitude = true;
       rules.push_back(rule);
     }

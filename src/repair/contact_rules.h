@@ -12,10 +12,11 @@ namespace unsnarl {
 
 /// How close the primitives of a stencil may come, and how far its barrier may reach.
 struct ContactRule {
-  BarrierStencil stencil;     ///< separation; activation is set per stage, mollifier
-  double reach = 0;           ///< the activation distance never exceeds this
+  BarrierStencil stencil;  ///< separation; activation is set per stage, mollifier
+  double reach = 0;        ///< the activation distance never exceeds this
   double rest_distance = 0;
   double distance = 0;        ///< when gathered
+  bool closed = false;        ///< closer than it should be; its separation is half its distance
   bool own_altitude = false;  ///< a corner of a face against the opposite edge: keeps the face from being squeezed
 };
 
@@ -24,18 +25,18 @@ struct ContactRuleOptions {
   double neighbour_share = 0.25;  ///< of the rest distance, that neighbours keep at least where it is below min_gap
   /// Of the rest distance, that the barrier reaches: below 1, so that a rest shape without contact has no energy.
   double reach_share = 0.5;
-  double reach_gaps = 3;          ///< and at least this many min_gap for what is no neighbour
-  double altitude_share = 0.25;   ///< of its rest altitude, below which a face's own barrier sets in
-  double altitude_floor = 0.05;   ///< of its rest altitude, that a face keeps at least
-  double roundoff = 0;            ///< length below which computed distances mean nothing
+  double reach_gaps = 3;         ///< and at least this many min_gap for what is no neighbour
+  double altitude_share = 0.25;  ///< of its rest altitude, below which a face's own barrier sets in
+  double altitude_floor = 0.05;  ///< of its rest altitude, that a face keeps at least
+  double roundoff = 0;           ///< length below which computed distances mean nothing
 };
 
 /// Gathers the close stencils of a patch with their rules.
 ///
-/// The separation is min_gap. Neighbours (primitives of triangles that share a vertex) that are closer at rest need only
-/// keep a share of their rest distance, unless their triangles intersect at rest. A stencil without distance at rest
-/// whose triangles do not intersect there (around zero-area faces) has no rule. One that is closer than its separation
-/// now may not come closer than half its distance.
+/// The separation is min_gap. Neighbours (primitives of triangles that share a vertex) that are closer at rest need
+/// only keep a share of their rest distance, unless their triangles intersect at rest. A stencil without distance at
+/// rest whose triangles do not intersect there (around zero-area faces) has no rule. One that is closer than its
+/// separation now may not come closer than half its distance.
 class ContactRules {
  public:
   /// in_conflict: per triangle, whether it intersects another one at rest. The patch must outlive this.

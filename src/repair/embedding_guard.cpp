@@ -11,9 +11,8 @@ std::vector<IntersectingPair> EmbeddingGuard::new_pairs(const Positions& x) {
   std::vector<IntersectingPair> pairs = finder_.find(x);
   if (tolerated_.empty()) return pairs;
   const auto known = [&](const IntersectingPair& p) {
-    return std::binary_search(tolerated_.begin(), tolerated_.end(), p, [](const auto& a, const auto& b) {
-      return a.a != b.a ? a.a < b.a : a.b < b.b;
-    });
+    return std::binary_search(tolerated_.begin(), tolerated_.end(), p,
+                              [](const auto& a, const auto& b) { return a.a != b.a ? a.a < b.a : a.b < b.b; });
   };
   std::erase_if(pairs, known);
   return pairs;

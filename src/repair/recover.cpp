@@ -151,18 +151,18 @@ class Recovery {
   IndexLists neighbours_;
   std::vector<double> snap_reach_;
 
-  std::vector<std::uint8_t> moves_;  // per vertex
-  std::vector<Index> moving_;        // slot -> vertex
-  std::vector<Index> slot_;          // vertex -> slot or -1
+  std::vector<std::uint8_t> moves_;        // per vertex
+  std::vector<Index> moving_;              // slot -> vertex
+  std::vector<Index> slot_;                // vertex -> slot or -1
   std::vector<Index> triangles_, hinges_;  // with a moving vertex
   StepOperator operator_;
 
   std::vector<ContactRule> gathered_;
   std::vector<BarrierStencil> stencils_;  // parallel to gathered_
   std::vector<BarrierStencil> near_;
-  std::vector<BarrierContact> contacts_;  // among near_
+  std::vector<BarrierContact> contacts_;    // among near_
   std::vector<double> travelled_, travel_;  // per vertex: since gathering, in the coming step
-  double margin_ = 0;           // motion since the last gathering that the list allows
+  double margin_ = 0;                       // motion since the last gathering that the list allows
   Positions gathered_at_;
   double activation_ = 0;
 
@@ -331,7 +331,8 @@ double approach(const Stencil& s, const std::vector<double>& lengths) {
       return lengths[s.v[0]] + std::max({lengths[s.v[1]], lengths[s.v[2]], lengths[s.v[3]]});
     case StencilKind::edge_edge:
       return std::max(lengths[s.v[0]], lengths[s.v[1]]) + std::max(lengths[s.v[2]], lengths[s.v[3]]);
-    case StencilKind::vertex_edge: break;
+    case StencilKind::vertex_edge:
+      break;
   }
   return lengths[s.v[0]] + std::max(lengths[s.v[1]], lengths[s.v[2]]);
 }
@@ -504,7 +505,7 @@ double Recovery::measure_gap() {
   for (const ContactRule& rule : gathered_) {
     if (rule.own_altitude) continue;
     gap = std::min(gap, rule.distance);
-    if (rule.stencil.separation >= 0.5 * rule.distance) ++result_.closed;
+    result_.closed += rule.closed;
   }
   return gap;
 }

@@ -43,11 +43,11 @@ TEST(Ccd, VertexFallsOnFace) {
 
 TEST(Ccd, NoImpactIsAFullStep) {
   const Four x = {Vec3(0.25, 0.25, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {Vec3(0, 0, 5), zero, zero, zero}, 0), 1);      // away
-  EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {Vec3(0, 0, -0.5), zero, zero, zero}, 0), 1);   // too short
-  EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {zero, zero, zero, zero}, 0), 1);               // at rest
+  EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {Vec3(0, 0, 5), zero, zero, zero}, 0), 1);     // away
+  EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {Vec3(0, 0, -0.5), zero, zero, zero}, 0), 1);  // too short
+  EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {zero, zero, zero, zero}, 0), 1);              // at rest
   const Vec3 all(0, 0, -9);
-  EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {all, all, all, all}, 0), 1);                   // together
+  EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {all, all, all, all}, 0), 1);  // together
 }
 
 TEST(Ccd, ParallelEdgesMeet) {

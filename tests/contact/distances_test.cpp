@@ -113,20 +113,20 @@ TEST(Distances, AgreeWithSamplingOnTinyLatticesWhereDegenerateCasesRule) {
 
 TEST(Distances, KnownPlaces) {
   const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
-  EXPECT_DOUBLE_EQ(closest_vertex_face({0.25, 0.25, 0.5}, a, b, c).distance, 0.5);   // over the interior
-  EXPECT_DOUBLE_EQ(closest_vertex_face({0.5, -2, 0}, a, b, c).distance, 2);          // beside an edge
-  EXPECT_DOUBLE_EQ(closest_vertex_face({-3, -4, 0}, a, b, c).distance, 5);           // beside a corner
-  EXPECT_DOUBLE_EQ(closest_vertex_face({0, 0, 7}, a, b, c).distance, 7);             // above a corner
-  EXPECT_DOUBLE_EQ(closest_vertex_face({0.5, 0, 1}, a, b, c).distance, 1);           // above an edge
-  EXPECT_EQ(closest_vertex_face({0.25, 0.25, 0}, a, b, c).distance, 0);              // in it
+  EXPECT_DOUBLE_EQ(closest_vertex_face({0.25, 0.25, 0.5}, a, b, c).distance, 0.5);      // over the interior
+  EXPECT_DOUBLE_EQ(closest_vertex_face({0.5, -2, 0}, a, b, c).distance, 2);             // beside an edge
+  EXPECT_DOUBLE_EQ(closest_vertex_face({-3, -4, 0}, a, b, c).distance, 5);              // beside a corner
+  EXPECT_DOUBLE_EQ(closest_vertex_face({0, 0, 7}, a, b, c).distance, 7);                // above a corner
+  EXPECT_DOUBLE_EQ(closest_vertex_face({0.5, 0, 1}, a, b, c).distance, 1);              // above an edge
+  EXPECT_EQ(closest_vertex_face({0.25, 0.25, 0}, a, b, c).distance, 0);                 // in it
   EXPECT_DOUBLE_EQ(closest_vertex_face({0.5, 2, 0}, a, b, Vec3(2, 0, 0)).distance, 2);  // a face without area
-  EXPECT_DOUBLE_EQ(closest_vertex_face({3, 4, 0}, a, a, a).distance, 5);             // a face that is a point
+  EXPECT_DOUBLE_EQ(closest_vertex_face({3, 4, 0}, a, a, a).distance, 5);                // a face that is a point
   EXPECT_DOUBLE_EQ(closest_edge_edge(a, b, {0.5, -1, 3}, {0.5, 1, 3}).distance, 3);
-  EXPECT_DOUBLE_EQ(closest_edge_edge(a, b, {0.25, 2, 0}, {3, 2, 0}).distance, 2);    // parallel, overlapping
-  EXPECT_DOUBLE_EQ(closest_edge_edge(a, b, {4, 4, 0}, {9, 4, 0}).distance, 5);       // parallel, apart
-  EXPECT_DOUBLE_EQ(closest_edge_edge(a, b, {3, 0, 0}, {4, 0, 0}).distance, 2);       // on one line
-  EXPECT_EQ(closest_edge_edge(a, b, {0.5, -1, 0}, {0.5, 1, 0}).distance, 0);         // crossing
-  EXPECT_DOUBLE_EQ(closest_edge_edge(a, a, {3, 4, 0}, {3, 4, 0}).distance, 5);       // two points
+  EXPECT_DOUBLE_EQ(closest_edge_edge(a, b, {0.25, 2, 0}, {3, 2, 0}).distance, 2);  // parallel, overlapping
+  EXPECT_DOUBLE_EQ(closest_edge_edge(a, b, {4, 4, 0}, {9, 4, 0}).distance, 5);     // parallel, apart
+  EXPECT_DOUBLE_EQ(closest_edge_edge(a, b, {3, 0, 0}, {4, 0, 0}).distance, 2);     // on one line
+  EXPECT_EQ(closest_edge_edge(a, b, {0.5, -1, 0}, {0.5, 1, 0}).distance, 0);       // crossing
+  EXPECT_DOUBLE_EQ(closest_edge_edge(a, a, {3, 4, 0}, {3, 4, 0}).distance, 5);     // two points
 }
 
 TEST(Distances, TinyGapsKeepTheirDigitsFarFromTheOrigin) {

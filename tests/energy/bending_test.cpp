@@ -20,7 +20,9 @@ Positions bent(double angle) {
   return x;
 }
 
-double angle_of(const Positions& x) { return hinge_angle(x.col(0), x.col(1), x.col(2), x.col(3)); }
+double angle_of(const Positions& x) {
+  return hinge_angle(x.col(0), x.col(1), x.col(2), x.col(3));
+}
 
 TEST(Bending, AngleIsSignedAndReachesBothSides) {
   EXPECT_NEAR(angle_of(bent(0)), 0, 1e-15);

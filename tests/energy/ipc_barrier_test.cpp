@@ -32,7 +32,8 @@ TEST(IpcBarrier, MollifierIsSmooth) {
   EXPECT_EQ(mollifier(0.1, 0.1), 1);
   EXPECT_EQ(mollifier(0.2, 0.1), 1);
   EXPECT_NEAR(mollifier_derivative(0.1 - 1e-9, 0.1), 0, 1e-6);
-  EXPECT_NEAR((mollifier(0.05 + 1e-6, 0.1) - mollifier(0.05 - 1e-6, 0.1)) / 2e-6, mollifier_derivative(0.05, 0.1), 1e-8);
+  const double difference = (mollifier(0.05 + 1e-6, 0.1) - mollifier(0.05 - 1e-6, 0.1)) / 2e-6;
+  EXPECT_NEAR(difference, mollifier_derivative(0.05, 0.1), 1e-8);
 }
 
 BarrierStencil stencil(StencilKind kind, double separation, double activation, double mollifier_threshold = 0) {

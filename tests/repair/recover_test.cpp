@@ -12,7 +12,7 @@
 namespace unsnarl {
 namespace {
 
-/// A triangulated grid of n x n vertices per sheet, border fixed, everything else free; positions are set by the caller.
+/// A triangulated grid of n x n vertices per sheet, border fixed, all else free; positions are set by the caller.
 struct Sheets {
   int n;
   Patch patch;
@@ -150,6 +150,18 @@ TEST(Recover, CrossingSheetsEndAgainstEachOther) {
     EXPECT_GT(home, patch.free_count * 8 / 10);
     for (Index v = patch.free_count; v < patch.x.cols(); ++v) EXPECT_EQ(patch.x.col(v), start.col(v));
   }
+}
+
+TEST(Recover, AGapNearTheWantedOneIsKept) {
+  // The final activation distance is forced down to the wanted gap: contacts end between one and two gaps apart, and
+  // lists gathered there must not allow for less.
+  Patch patch = crossing_bumps(12, 0.8, 0.1);
+  RecoverOptions options = with_gap(0.02);
+  options.activation_gaps = 1.5;
+  recover(patch, options);
+  recover(patch, options);
+  EXPECT_GE(gap_of(patch, 1), 0.02);
+  EXPECT_LT(gap_of(patch, 1), 0.04);
 }
 
 TEST(Recover, EmbeddedRestIsReachedExactly) {
