@@ -1,0 +1,120 @@
+#include "repair/contact_rules.h"
+
+#include <gtest/gtest.h>
+
+namespace unsnarl {
+namespace {
+
+/// A fixed face in the plane z = 0 and a small free one above it, the nearest corner (vertex 0) at `height`; at rest at
+/// `rest_height`.
+Patch face_over_face(double height, double rest_height) {
+  Patch patch;
+  patch.free_count = 3;
+  patch.active_count = 1;
+  patch.triangles = {{0, 1, 2}, {3, 4, 5}};
+  patch.x.resize(3, 6);
+  patch.x << 0, 1, 0, -9, 9, 0,  //
+      0, 0, 1, -9, -9, 9,        //
+      height, 5, 5, 0, 0, 0;
+  patch.rest = patch.x;
+  patch.rest(2, 0) = rest_height;
+  patch.edge_length = 1;
+  return patch;
+}
+
+ContactRule rule_of_vertex_0(const Patch& patch, std::vector<std::uint8_t> in_conflict) {
+  ContactRuleOptions options;
+  options.min_gap = 0.01;
+  options.roundoff = 1e-13;
+  ContactRules rules(patch, std::move(in_conflict), options);
+  const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
+  std::vector<ContactRule> found;
+  rules.gather(patch.x, 1, moves, found);
+  for (const ContactRule& rule : found) {
+    if (rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}}) return rule;
+  }
+  ADD_FAILURE() << "the vertex over the face has no rule";
+  return {};
+}
+
+TEST(ContactRules, AGapOnceWideEnoughNeverMayShrinkBelowTheWantedOne) {
+  const ContactRule rule = rule_of_vertex_0(face_over_face(0.015, 0.5), {0, 0});
+  EXPECT_FALSE(rule.closed);
+  EXPECT_EQ(rule.stencil.separation, 0.01);
+}
+
+TEST(ContactRules, AClosedGapMayNotCloseFartherThanHalf) {
+  const ContactRule rule = rule_of_vertex_0(face_over_face(0.004, 0.5), {0, 0});
+  EXPECT_TRUE(rule.closed);
+  EXPECT_DOUBLE_EQ(rule.stencil.separation, 0.002);
+}
+
+TEST(ContactRules, TheBarrierLeavesARestShapeWithoutConflictAlone) {
+  const ContactRule thin = rule_of_vertex_0(face_over_face(0.2, 0.2), {0, 0});
+  EXPECT_DOUBLE_EQ(thin.reach, 0.1);
+  EXPECT_DOUBLE_EQ(thin.rest_distance, 0.2);
+  const ContactRule thinner = rule_of_vertex_0(face_over_face(0.2, 0.001), {0, 0});
+  EXPECT_DOUBLE_EQ(thinner.reach, 0.03);  // the wanted gap comes first
+  const ContactRule crossing = rule_of_vertex_0(face_over_face(0.2, 0.001), {1, 1});
+  EXPECT_TRUE(std::isinf(crossing.reach));
+}
+
+/// Two faces over the edge (0, 1); vertex 3 folded back over the first, `height` above it at rest.
+Patch folded_pair(double height) {
+  Patch patch;
+  patch.free_count = 4;
+  patch.active_count = 2;
+  patch.triangles = {{0, 1, 2}, {1, 0, 3}};
+  patch.x.resize(3, 4);
+  patch.x << 0, 1, 0.5, 0.5,  //
+      0, 0, 1, 0.5,           //
+      0, 0, 0, 0.2;
+  patch.rest = patch.x;
+  patch.rest(2, 3) = height;
+  patch.edge_length = 1;
+  return patch;
+}
+
+std::vector<ContactRule> rules_of(const Patch& patch, std::vector<std::uint8_t> in_conflict) {
+  ContactRuleOptions options;
+  options.min_gap = 0.01;
+  options.roundoff = 1e-13;
+  ContactRules rules(patch, std::move(in_conflict), options);
+  std::vector<ContactRule> found;
+  rules.gather(patch.x, 1, std::vector<std::uint8_t>(4, 1), found);
+  std::erase_if(found, [](const ContactRule& rule) { return rule.stencil.stencil.kind != StencilKind::vertex_face; });
+  return found;
+}
+
+TEST(ContactRules, NeighboursKeepAShareOfTheirRestDistance) {
+  const std::vector<ContactRule> rules = rules_of(folded_pair(0.004), {0, 0});
+  ASSERT_EQ(rules.size(), 2u);
+  for (const ContactRule& rule : rules) {
+    EXPECT_LE(rule.stencil.separation, 0.01);
+    EXPECT_DOUBLE_EQ(rule.reach, 0.5 * rule.rest_distance);
+    if (rule.stencil.stencil.v[0] == 3) {
+      EXPECT_NEAR(rule.stencil.separation, 0.001, 1e-12);
+    }
+  }
+}
+
+TEST(ContactRules, FlatFoldsWantAGapOnlyWhereTheyAreInConflict) {
+  for (const ContactRule& rule : rules_of(folded_pair(0), {1, 1})) EXPECT_GT(rule.stencil.separation, 0.009);
+  // Without an intersection at rest (zero-area faces) a distance of zero is legitimate: no rule.
+  for (const ContactRule& rule : rules_of(folded_pair(0), {0, 0})) EXPECT_NE(rule.stencil.stencil.v[0], 3);
+}
+
+TEST(ContactRules, FacesGuardTheirOwnAltitudes) {
+  Patch patch = face_over_face(3, 3);
+  patch.x.col(0) = 0.5 * (patch.x.col(1) + patch.x.col(2)) + Vec3(0, 0, 0.02);  // squeezed
+  ContactRules rules(patch, {0, 0}, {});
+  const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
+  std::vector<ContactRule> found;
+  rules.gather(patch.x, 0.01, moves, found);
+  int altitudes = 0;
+  for (const ContactRule& rule : found) altitudes += rule.own_altitude;
+  EXPECT_GE(altitudes, 1);
+}
+
+}  // namespace
+}  // namespace unsnarl
