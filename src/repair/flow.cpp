@@ -373,17 +373,19 @@ class Flow {
     }
     finish_tried_ = count;
     std::sort(ignored.begin(), ignored.end());
-    patch_.x.leftCols(n_) = x.leftCols(n_);
-    const LocalRung rung{LocalMethod::contour, options_.finish_step, options_.finish_locality,
-                         options_.finish_iterations};
     LocalOptions local;
     local.jitter = 0;
     local.bisections = 0;
     local.area_floor = options_.area_floor;
-    if (!solve_locally(patch_, rung, ignored, local, stop_).clean) return false;
-    if (has_squeezed_face(patch_, patch_.rest, patch_.x, options_.area_floor)) return false;
-    x.leftCols(n_) = patch_.x.leftCols(n_);
-    return true;
+    for (const double locality : options_.finish_localities) {
+      patch_.x.leftCols(n_) = x.leftCols(n_);
+      const LocalRung rung{LocalMethod::contour, options_.finish_step, locality, options_.finish_iterations};
+      if (!solve_locally(patch_, rung, ignored, local, stop_).clean) continue;
+      if (has_squeezed_face(patch_, patch_.rest, patch_.x, options_.area_floor)) continue;
+      x.leftCols(n_) = patch_.x.leftCols(n_);
+      return true;
+    }
+    return false;
   }
 
   // No sufficient drop of the number of pairs for some iterations.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -64,7 +65,7 @@ struct FlowOptions {
   double hopeless_share = 0.8;      ///< of the pairs: a rung that never got below by its last allowed stall gives up
   double few_pairs = 0.1;           ///< of the initial number: then the penalty grows, else the clusters
   double spacing_growth = 1.6;
-  double largest_minkowski = 1000;  ///< lambda_minkowski grows no further
+  double largest_minkowski = 100;   ///< the rung ends where it would have to grow further: from there on sheets only lock
   /// From this share of the initial pairs on (and from few_finish pairs on), the local contour method tries to take away
   /// the rest: it clears in a few steps what the flow would still chase after 100 iterations. Again when they have halved.
   double finish_share = 0.05;
@@ -72,7 +73,7 @@ struct FlowOptions {
   std::size_t few_finish = 12;      ///< pairs
   int finish_iterations = 25;       ///< of the contour method; it needs 4 or never gets there
   double finish_step = 0.3;         ///< h
-  double finish_locality = 8;       ///< h
+  std::array<double, 3> finish_localities = {8, 4, 16};  ///< h, in this order
   double area_floor = 1e-3;         ///< of its area at rest: thinner faces are no solution
   int bisections = 5;               ///< of the displacement back to rest; the smallest clean one is kept
   double candidate_reach = 0.25;    ///< h: motion until the candidate pairs are gathered anew
