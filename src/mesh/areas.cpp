@@ -1,5 +1,9 @@
 #include "mesh/areas.h"
 
+#include <algorithm>
+
+#include "geometry/predicates.h"
+
 namespace unsnarl {
 
 Vec3 triangle_normal(const Positions& x, const Triangle& t) {
@@ -18,6 +22,15 @@ double total_area(const Positions& x, std::span<const Triangle> triangles) {
   double sum = 0;
   for (const Triangle& t : triangles) sum += triangle_area(x, t);
   return sum;
+}
+
+std::size_t count_lost_areas(const Positions& rest, const Positions& x, std::span<const Triangle> triangles) {
+  auto has_no_area = [](const Positions& y, const Triangle& t) {
+    return collinear(Vec3(y.col(t[0])), Vec3(y.col(t[1])), Vec3(y.col(t[2])));
+  };
+  return static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+    return has_no_area(x, t) && !has_no_area(rest, t);
+  }));
 }
 
 double signed_volume(const Positions& x, std::span<const Triangle> triangles) {

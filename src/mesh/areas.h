@@ -20,6 +20,9 @@ std::vector<double> triangle_areas(const Positions& x, std::span<const Triangle>
 /// Sum of the areas of all triangles.
 double total_area(const Positions& x, std::span<const Triangle> triangles);
 
+/// Number of triangles that have exactly no area at x, but had some at rest.
+std::size_t count_lost_areas(const Positions& rest, const Positions& x, std::span<const Triangle> triangles);
+
 /// Signed volume enclosed by the triangles, positive where their normals point outward. Meaningful for closed oriented
 /// sets only; taken about the first vertex, so that distance from the origin costs no digits.
 double signed_volume(const Positions& x, std::span<const Triangle> triangles);

@@ -5,20 +5,12 @@
 #include <string>
 
 #include "contact/intersection_finder.h"
-#include "geometry/predicates.h"
+#include "mesh/areas.h"
 #include "repair/prepared_surface.h"
 #include "repair/rounding.h"
 #include "repair/threads.h"
 
 namespace unsnarl {
-namespace {
-
-bool has_no_area(const Positions& x, const Triangle& t) {
-  return collinear(Vec3(x.col(t[0])), Vec3(x.col(t[1])), Vec3(x.col(t[2])));
-}
-
-}  // namespace
-
 Certificate certify(const SurfaceView& input, std::span<const double> positions, const FindOptions& options) {
   if (positions.size() != input.positions.size())
     throw std::invalid_argument("there are " + std::to_string(positions.size() / 3) + " positions for a surface of " +
@@ -33,8 +25,7 @@ Certificate certify(const SurfaceView& input, std::span<const double> positions,
   const std::vector<Index>& id = prepared.identification.vertex_of;
   for (std::size_t v = 0; v < id.size() && options.weld_tolerance == 0; ++v)
     for (int k = 0; k < 3; ++k) certificate.seams_closed &= positions[3 * v + k] == x(k, id[v]);
-  for (const Triangle& t : prepared.triangles())
-    if (has_no_area(x, t) && !has_no_area(prepared.rest, t)) ++certificate.new_zero_area_faces;
+  certificate.new_zero_area_faces = count_lost_areas(prepared.rest, x, prepared.triangles());
   IntersectionFinder finder(prepared.triangles());
   const auto pairs = finder.find(x);
   certificate.triangle_pairs = pairs.size();

@@ -203,7 +203,8 @@ class Repair {
       report_progress(0.9, climbed.left.size());
       scene_.x = as_written(scene_.x);
       const std::vector<IntersectingPair> conflicts = float32_conflicts(finder, scene_.x);
-      const bool clean = conflicts.empty() && blocking_pairs(finder.find(scene_.x), ignored_).empty();
+      const bool clean = conflicts.empty() && blocking_pairs(finder.find(scene_.x), ignored_).empty() &&
+                         lost_areas() == 0;
       if (clean || !climbed.left.empty()) break;
       const Positions rounded = rounded_to_float32(scene_.x);
       for (const IntersectingPair& pair : conflicts)
@@ -269,6 +270,8 @@ class Repair {
         });
   }
 
+  std::size_t lost_areas() const { return count_lost_areas(scene_.rest, scene_.x, scene_.triangles); }
+
   // The end.
 
   void finish(IntersectionFinder& finder) {
@@ -285,7 +288,7 @@ class Repair {
       result_.positions = prepared_.scatter(surface_.positions, scene_.x);
       report.after = count_by_class(pairs_of_faces(prepared_, left));
       const std::vector<IntersectingPair> blocking = blocking_pairs(left, ignored_);
-      if (!blocking.empty())
+      if (!blocking.empty() || lost_areas() > 0)
         result_.status = after.total() < before.total() ? Status::reduced : Status::no_progress;
       else if (left.empty())
         result_.status = Status::embedded;
