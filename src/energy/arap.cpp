@@ -1,8 +1,8 @@
 #include "energy/arap.h"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,9 +100,8 @@ Arap::Arap(std::span<const Triangle> triangles, const Positions& rest, Index fre
       halves.push_back({std::min(i, j), std::max(i, j), weight});
     }
   }
-  std::stable_sort(halves.begin(), halves.end(), [](const WeightedEdge& a, const WeightedEdge& b) {
-    return a.i != b.i ? a.i < b.i : a.j < b.j;
-  });
+  std::stable_sort(halves.begin(), halves.end(),
+                   [](const WeightedEdge& a, const WeightedEdge& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
   for (const WeightedEdge& half : halves) {
     if (edges_.empty() || edges_.back().i != half.i || edges_.back().j != half.j) {
       edges_.push_back(half);

@@ -90,8 +90,8 @@ std::vector<GlobalBandwidth> global_bandwidths(std::span<const BandwidthPair> pa
 
 namespace {
 
-// Both local models: `accumulate(pair, squared, top_i, bottom_i, top_j, bottom_j)` adds one pair's share, and the wanted
-// eps_i^2 is top / bottom.
+// Both local models: `accumulate(pair, squared, top_i, bottom_i, top_j, bottom_j)` adds one pair's share, and the
+// wanted eps_i^2 is top / bottom.
 template <class Accumulate>
 LocalBandwidthReport iterate(std::span<const BandwidthPair> pairs, std::vector<double>& squared,
                              const BandwidthOptions& options, Accumulate&& accumulate) {

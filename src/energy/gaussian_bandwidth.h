@@ -21,7 +21,7 @@ struct BandwidthOptions {
   double tolerance = 1e-10;  ///< relative change of eps^2 at which a fixed point counts as reached
   double smallest = 0;       ///< length: bandwidths are kept within [smallest, largest]
   double largest = 0;        ///< length; 0: the largest distance among the pairs
-  int starts = 9;            ///< of the global iteration, evenly spaced in log eps between the least and largest distance
+  int starts = 9;  ///< of the global iteration, evenly spaced in log eps between the least and largest distance
 };
 
 /// E_G for one global bandwidth: sum of a_ij eps^-p exp(-r_ij^2 / eps^2).
@@ -29,12 +29,13 @@ double global_contact_energy(std::span<const BandwidthPair> pairs, double epsilo
 
 struct GlobalBandwidth {
   double epsilon = 0;
-  double energy = 0;      ///< E_G there
-  bool clamped = false;   ///< stands at an end of [smallest, largest]: not stationary
+  double energy = 0;     ///< E_G there
+  bool clamped = false;  ///< stands at an end of [smallest, largest]: not stationary
 };
-/// Local maxima of E_G over one global bandwidth (paper §3.1.3, App. B.1), found from several starts, highest energy first;
-/// stable fixed points of eps^2 = 2 M2 / (p M0). Empty without pairs.
-std::vector<GlobalBandwidth> global_bandwidths(std::span<const BandwidthPair> pairs, const BandwidthOptions& options = {});
+/// Local maxima of E_G over one global bandwidth (paper §3.1.3, App. B.1), found from several starts, highest energy
+/// first; stable fixed points of eps^2 = 2 M2 / (p M0). Empty without pairs.
+std::vector<GlobalBandwidth> global_bandwidths(std::span<const BandwidthPair> pairs,
+                                               const BandwidthOptions& options = {});
 
 struct LocalBandwidthReport {
   int iterations = 0;

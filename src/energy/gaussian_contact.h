@@ -25,9 +25,9 @@ class GaussianContact {
     double weight = 0;  ///< a_ij >= 0
   };
 
-  std::vector<Pair> pairs;                 ///< unordered pairs that interact, each once
-  std::vector<double> squared_bandwidth;   ///< eps_i^2 > 0, length squared, one a point
-  double exponent = Dim == 2 ? 1 : 2;      ///< p: the dimension of the shape, 1 for curves, 2 for surfaces
+  std::vector<Pair> pairs;                ///< unordered pairs that interact, each once
+  std::vector<double> squared_bandwidth;  ///< eps_i^2 > 0, length squared, one a point
+  double exponent = Dim == 2 ? 1 : 2;     ///< p: the dimension of the shape, 1 for curves, 2 for surfaces
 
   /// Returns weight * E_G and adds weight * its gradient.
   double value_and_gradient(const Points& x, Points& gradient, double weight = 1) const {
@@ -50,8 +50,11 @@ class GaussianContact {
 template <int Dim>
 std::vector<std::array<Index, 2>> pairs_within(const Eigen::Matrix<double, Dim, Eigen::Dynamic>& x, double cutoff);
 
-extern template std::vector<std::array<Index, 2>> pairs_within<2>(const Eigen::Matrix<double, 2, Eigen::Dynamic>&, double);
-extern template std::vector<std::array<Index, 2>> pairs_within<3>(const Eigen::Matrix<double, 3, Eigen::Dynamic>&, double);
-extern template std::vector<std::array<Index, 2>> pairs_within<4>(const Eigen::Matrix<double, 4, Eigen::Dynamic>&, double);
+extern template std::vector<std::array<Index, 2>> pairs_within<2>(const Eigen::Matrix<double, 2, Eigen::Dynamic>&,
+                                                                  double);
+extern template std::vector<std::array<Index, 2>> pairs_within<3>(const Eigen::Matrix<double, 3, Eigen::Dynamic>&,
+                                                                  double);
+extern template std::vector<std::array<Index, 2>> pairs_within<4>(const Eigen::Matrix<double, 4, Eigen::Dynamic>&,
+                                                                  double);
 
 }  // namespace unsnarl

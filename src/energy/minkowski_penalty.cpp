@@ -80,7 +80,11 @@ struct Plane {
   int size_a, size_b;
 
   Plane(std::span<const Vec3> a_in, std::span<const Vec3> b_in)
-      : a(a_in), b(b_in), normal_a(polygon_normal(a)), normal_b(polygon_normal(b)), size_a(static_cast<int>(a.size())),
+      : a(a_in),
+        b(b_in),
+        normal_a(polygon_normal(a)),
+        normal_b(polygon_normal(b)),
+        size_a(static_cast<int>(a.size())),
         size_b(static_cast<int>(b.size())) {
     const double extent_a = squared_extent(a), extent_b = squared_extent(b);
     if (normal_a.squaredNorm() <= parallel_squared_sine * extent_a * extent_a) normal_a.setZero();
@@ -97,7 +101,9 @@ inline constexpr std::uint8_t no_hint = 255;
 // Whether candidate k alone shows the two apart by the margin; computes no other normal. Gives the depth there.
 bool still_separated(std::span<const Vec3> a, std::span<const Vec3> b, double margin, int k, double& depth) {
   const int size_a = static_cast<int>(a.size()), size_b = static_cast<int>(b.size()), crosses = size_a * size_b;
-  const auto edge = [](std::span<const Vec3> p, int i) { return Vec3(p[i + 1 == static_cast<int>(p.size()) ? 0 : i + 1] - p[i]); };
+  const auto edge = [](std::span<const Vec3> p, int i) {
+    return Vec3(p[i + 1 == static_cast<int>(p.size()) ? 0 : i + 1] - p[i]);
+  };
   Vec3 n;
   if (k < 2) {
     n = polygon_normal(k == 0 ? a : b);
@@ -168,7 +174,9 @@ int extreme(std::span<const Vec3> p, const Vec3& n, double sign) {
   return best;
 }
 
-double bounded(double t) { return std::clamp(t, -max_extrapolation, 1 + max_extrapolation); }
+double bounded(double t) {
+  return std::clamp(t, -max_extrapolation, 1 + max_extrapolation);
+}
 
 // Weights of the point of the polygon's plane below q, on the triangle of the fan that comes closest to holding it.
 void foot_on_face(std::span<const Vec3> p, const Vec3& q, std::span<double> weight) {
@@ -312,8 +320,8 @@ PolygonPenetration polygon_penetration(std::span<const Vec3> a, std::span<const 
   return result;
 }
 
-Penetration one_vertex_penetration(const std::array<Vec3, 3>& a, int shared_a, const std::array<Vec3, 3>& b, int shared_b,
-                                   double trim, double margin, std::uint8_t* hint) {
+Penetration one_vertex_penetration(const std::array<Vec3, 3>& a, int shared_a, const std::array<Vec3, 3>& b,
+                                   int shared_b, double trim, double margin, std::uint8_t* hint) {
   const auto trimmed = [trim](const std::array<Vec3, 3>& t, int shared) {
     std::array<Vec3, 3> result = t;
     result[shared] = (1 - trim) * t[shared] + (0.5 * trim) * (t[(shared + 1) % 3] + t[(shared + 2) % 3]);
@@ -333,8 +341,8 @@ Penetration one_vertex_penetration(const std::array<Vec3, 3>& a, int shared_a, c
   return result;
 }
 
-Penetration fold_penetration(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q, double margin, double max_slope,
-                             int flat_side) {
+Penetration fold_penetration(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q, double margin,
+                             double max_slope, int flat_side) {
   Penetration result;
   const Vec3 e = v - u;
   const double ee = e.squaredNorm();

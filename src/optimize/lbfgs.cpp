@@ -83,8 +83,10 @@ LbfgsResult minimize_lbfgs(const Objective& objective, Eigen::VectorXd& x, const
       const LineSearchResult found = backtrack(objective, d, search, x, value, gradient);
       result.evaluations += found.evaluations;
       moved = found.step > 0;
-      if (moved && !found.sufficient) lbfgs.clear();
-      else if (moved) lbfgs.remember(x - old_x, gradient - old_gradient);
+      if (moved && !found.sufficient)
+        lbfgs.clear();
+      else if (moved)
+        lbfgs.remember(x - old_x, gradient - old_gradient);
       if (!moved && steepest) {
         result.status = LbfgsStatus::no_step;
         return result;

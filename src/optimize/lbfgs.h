@@ -21,9 +21,9 @@ class Lbfgs {
 
   /// d = -H gradient. Falls back to d = -H0 gradient, and forgets all steps, where that is not a descent direction.
   void direction(const Eigen::VectorXd& gradient, Eigen::VectorXd& d);
-  /// The step that was taken and the change of the gradient along it. A step without positive curvature is not remembered,
-  /// and the older ones are forgotten: they describe a valley that was left, and without a Wolfe condition their short
-  /// steps would go on for ever (Rosenbrock from the usual start: 674 iterations instead of 41).
+  /// The step that was taken and the change of the gradient along it. A step without positive curvature is not
+  /// remembered, and the older ones are forgotten: they describe a valley that was left, and without a Wolfe condition
+  /// their short steps would go on for ever (Rosenbrock from the usual start: 674 iterations instead of 41).
   void remember(const Eigen::VectorXd& step, const Eigen::VectorXd& gradient_change);
   void clear() { steps_.clear(); }
   int size() const { return static_cast<int>(steps_.size()); }
@@ -39,11 +39,11 @@ class Lbfgs {
 };
 
 struct LbfgsOptions {
-  int memory = 8;            ///< steps kept
+  int memory = 8;  ///< steps kept
   int max_iterations = 1000;
   double gradient_tolerance = 0;  ///< stop when |gradient| is no larger
   LineSearchOptions line_search;
-  int block = 3;             ///< entries of x that belong together (one vertex)
+  int block = 3;  ///< entries of x that belong together (one vertex)
   /// Length: no block moves farther in one step. Infinite: no cap.
   double max_motion = std::numeric_limits<double>::infinity();
 };

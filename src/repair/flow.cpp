@@ -23,24 +23,54 @@
 namespace unsnarl {
 namespace {
 
-// A ladder of restarts solved 49 of 50 tuning meshes and 16 of 18 others; one run with shrinking locality only 33 of 50.
-// The last three are for deep immersions: figure-8 torus 8 % mean displacement in 50 iterations, spindle torus 10 % in 27,
-// Whitney umbrella 16 % in 70. Weaker Gaussian weights (1 instead of 3) leave the first two half done.
+// A ladder of restarts solved 49 of 50 tuning meshes and 16 of 18 others; one run with shrinking locality only 33
+// of 50. The last three are for deep immersions: figure-8 torus 8 % mean displacement in 50 iterations, spindle torus
+// 10 % in 27, Whitney umbrella 16 % in 70. Weaker Gaussian weights (1 instead of 3) leave the first two half done.
 constexpr std::array<FlowRung, 8> rungs{{
-    {.name = "flow -1", .max_iterations = 40, .locality = 1000, .weights = FlowWeights::none, .lambda_minkowski = 3,
+    {.name = "flow -1",
+     .max_iterations = 40,
+     .locality = 1000,
+     .weights = FlowWeights::none,
+     .lambda_minkowski = 3,
      .line_search = false},
-    {.name = "flow 0", .max_iterations = 40, .locality = 1000, .lambda_minkowski = 3, .adaptive_bandwidth = false,
+    {.name = "flow 0",
+     .max_iterations = 40,
+     .locality = 1000,
+     .lambda_minkowski = 3,
+     .adaptive_bandwidth = false,
      .hot_range = 2},
     {.name = "flow 1", .max_iterations = 120, .locality = 100, .lambda_minkowski = 1, .margin = 0.01},
     {.name = "flow 1b", .max_iterations = 200, .locality = 30, .lambda_minkowski = 0.5},
-    {.name = "flow 2", .max_iterations = 150, .locality = 10, .ratio = 1.1, .lambda_minkowski = 1,
+    {.name = "flow 2",
+     .max_iterations = 150,
+     .locality = 10,
+     .ratio = 1.1,
+     .lambda_minkowski = 1,
      .max_spacing_rel = 0.12},
-    {.name = "flow 3", .max_iterations = 200, .locality = 10, .ratio = 1.1, .lambda_gaussian = 3, .lambda_minkowski = 0.3,
-     .max_spacing_rel = 0.25, .hopeless_stalls = 6},
-    {.name = "flow 3b", .max_iterations = 200, .locality = 1, .ratio = 1.1, .lambda_gaussian = 3, .lambda_minkowski = 0.3,
-     .max_spacing_rel = 0.25, .hopeless_stalls = 6},
-    {.name = "flow 4", .max_iterations = 300, .locality = 1, .weights = FlowWeights::adjacency, .lambda_minkowski = 0.3,
-     .adaptive_bandwidth = false, .max_spacing_rel = 0.25, .hopeless_stalls = 6},
+    {.name = "flow 3",
+     .max_iterations = 200,
+     .locality = 10,
+     .ratio = 1.1,
+     .lambda_gaussian = 3,
+     .lambda_minkowski = 0.3,
+     .max_spacing_rel = 0.25,
+     .hopeless_stalls = 6},
+    {.name = "flow 3b",
+     .max_iterations = 200,
+     .locality = 1,
+     .ratio = 1.1,
+     .lambda_gaussian = 3,
+     .lambda_minkowski = 0.3,
+     .max_spacing_rel = 0.25,
+     .hopeless_stalls = 6},
+    {.name = "flow 4",
+     .max_iterations = 300,
+     .locality = 1,
+     .weights = FlowWeights::adjacency,
+     .lambda_minkowski = 0.3,
+     .adaptive_bandwidth = false,
+     .max_spacing_rel = 0.25,
+     .hopeless_stalls = 6},
 }};
 
 double smoothstep(double t) {
@@ -129,7 +159,9 @@ class LaplacianMetric {
 class ShapeRepulsion {
  public:
   ShapeRepulsion(const Patch& patch, const FlowRung& rung, const FlowOptions& options, double spacing)
-      : patch_(patch), rung_(rung), options_(options),
+      : patch_(patch),
+        rung_(rung),
+        options_(options),
         samples_(patch.triangles, patch.rest, patch.free_count, spacing) {
     const double start = options.start_bandwidth * spacing;
     gaussian_.squared_bandwidth.assign(samples_.size(), start * start);
@@ -213,15 +245,22 @@ class ShapeRepulsion {
 
 class Flow {
  public:
-  Flow(Patch& patch, const FlowRung& rung, const std::function<bool()>& stop, std::span<const IntersectingPair> tolerated,
-       const FlowOptions& options)
-      : patch_(patch), rung_(rung), stop_(stop), tolerated_(tolerated), options_(options), n_(patch.free_count),
-        h_(patch.edge_length), finder_(patch.triangles, patch.active_count),
+  Flow(Patch& patch, const FlowRung& rung, const std::function<bool()>& stop,
+       std::span<const IntersectingPair> tolerated, const FlowOptions& options)
+      : patch_(patch),
+        rung_(rung),
+        stop_(stop),
+        tolerated_(tolerated),
+        options_(options),
+        n_(patch.free_count),
+        h_(patch.edge_length),
+        finder_(patch.triangles, patch.active_count),
         active_(patch.triangles.data(), static_cast<std::size_t>(patch.active_count)),
         arap_(active_, patch.rest, patch.free_count),
         metric_(patch, arap_, rung.lambda_arap, rung.locality),
         penalty_(patch.triangles, {.margin = rung.margin * h_, .vertex_trim = options.vertex_trim}),
-        candidates_(patch, rung.margin * h_, options.candidate_reach * h_), lambda_minkowski_(rung.lambda_minkowski),
+        candidates_(patch, rung.margin * h_, options.candidate_reach * h_),
+        lambda_minkowski_(rung.lambda_minkowski),
         lbfgs_(options.memory, [this](const Eigen::VectorXd& v, Eigen::VectorXd& out) { metric_.apply(v, out); }) {
     Box box;
     for (const Triangle& t : active_) box.extend(box_of(patch.rest, t));
@@ -343,8 +382,8 @@ class Flow {
     search.accept_step = std::min(search.first_step, options_.accept_motion * h_ / fastest);
     const Eigen::VectorXd old_x = x_, old_gradient = gradient_;
     const LineSearchResult found = backtrack(
-        [this](const Eigen::VectorXd& y, Eigen::VectorXd& g) { return objective(y, g); }, d, search, x_, value_, gradient_,
-        [this](const Eigen::VectorXd&) { return penalty_.overlaps() == 0 && find(full_).empty(); });
+        [this](const Eigen::VectorXd& y, Eigen::VectorXd& g) { return objective(y, g); }, d, search, x_, value_,
+        gradient_, [this](const Eigen::VectorXd&) { return penalty_.overlaps() == 0 && find(full_).empty(); });
     if (!(found.step > 0)) return false;
     if (found.sufficient) {
       lbfgs_.remember(x_ - old_x, gradient_ - old_gradient);
@@ -451,7 +490,9 @@ class Flow {
 
 }  // namespace
 
-std::span<const FlowRung> default_flow_rungs() { return rungs; }
+std::span<const FlowRung> default_flow_rungs() {
+  return rungs;
+}
 
 FlowResult flow(Patch& patch, const FlowRung& rung, const std::function<bool()>& stop,
                 std::span<const IntersectingPair> tolerated, const FlowOptions& options) {

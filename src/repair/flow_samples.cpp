@@ -175,7 +175,8 @@ double FlowSamples::geodesic(Index i, Index j, double limit) {
 
 bool FlowSamples::adjacent(Index i, Index j) const {
   const auto begin = neighbours_.begin() + offsets_[i], end = neighbours_.begin() + offsets_[i + 1];
-  const auto it = std::lower_bound(begin, end, j, [](const Neighbour& n, Index cluster) { return n.cluster < cluster; });
+  const auto it =
+      std::lower_bound(begin, end, j, [](const Neighbour& n, Index cluster) { return n.cluster < cluster; });
   return it != end && it->cluster == j;
 }
 

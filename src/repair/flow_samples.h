@@ -7,13 +7,13 @@
 
 namespace unsnarl {
 
-/// A coarse cloud of points that stands for a surface: Poisson-disk clusters of its vertices. A shape-level force between
-/// clusters is spread back over their vertices. (An evaluation of the Gaussian energy takes 0.1 ms instead of the 10 to
-/// 100 ms of the sum over all vertices.)
+/// A coarse cloud of points that stands for a surface: Poisson-disk clusters of its vertices. A shape-level force
+/// between clusters is spread back over their vertices. (An evaluation of the Gaussian energy takes 0.1 ms instead of
+/// the 10 to 100 ms of the sum over all vertices.)
 class FlowSamples {
  public:
-  /// Clusters of radius `spacing` (length, > 0), measured along the edges of `triangles` at rest. Vertices that no triangle
-  /// uses belong to none. Vertices from `free_count` on are clustered apart: they never move.
+  /// Clusters of radius `spacing` (length, > 0), measured along the edges of `triangles` at rest. Vertices that no
+  /// triangle uses belong to none. Vertices from `free_count` on are clustered apart: they never move.
   FlowSamples(std::span<const Triangle> triangles, const Positions& rest, Index free_count, double spacing);
 
   Index size() const { return static_cast<Index>(areas_.size()); }

@@ -20,12 +20,18 @@ namespace {
 class PaperUntangle {
  public:
   PaperUntangle(Patch& patch, const PaperOptions& options)
-      : patch_(patch), options_(options), n_(patch.free_count), triangles_(patch.triangles),
+      : patch_(patch),
+        options_(options),
+        n_(patch.free_count),
+        triangles_(patch.triangles),
         scale_(1 / (patch.rest.rowwise().maxCoeff() - patch.rest.rowwise().minCoeff()).maxCoeff()),
-        full_(scaled_start(patch, scale_)), rest_(full_), edge_(mean_edge_length(rest_, triangles_)),
+        full_(scaled_start(patch, scale_)),
+        rest_(full_),
+        edge_(mean_edge_length(rest_, triangles_)),
         neighbours_(vertex_neighbours(build_edges(triangles_).edges, static_cast<Index>(rest_.cols()))),
         arap_(active(), rest_, n_, {.weights = ArapWeights::cotangent}),
-        penalty_(triangles_, {.one_vertex = false, .folded = false}), finder_(triangles_, patch.active_count) {
+        penalty_(triangles_, {.one_vertex = false, .folded = false}),
+        finder_(triangles_, patch.active_count) {
     const double start = options.start_bandwidth * edge_;
     gaussian_.squared_bandwidth.assign(rest_.cols(), start * start);
   }
@@ -101,7 +107,8 @@ class PaperUntangle {
   std::vector<BandwidthPair> bandwidth_pairs() const {
     std::vector<BandwidthPair> pairs;
     pairs.reserve(gaussian_.pairs.size());
-    for (const auto& [i, j, w] : gaussian_.pairs) pairs.push_back({i, j, (full_.col(i) - full_.col(j)).squaredNorm(), w});
+    for (const auto& [i, j, w] : gaussian_.pairs)
+      pairs.push_back({i, j, (full_.col(i) - full_.col(j)).squaredNorm(), w});
     return pairs;
   }
 
@@ -160,7 +167,8 @@ class PaperUntangle {
     bvh_.build(boxes_);
     penalty_.pairs.clear();
     bvh_.self_pairs([&](Index a, Index b) {
-      if (a < patch_.active_count || b < patch_.active_count) penalty_.pairs.push_back({std::min(a, b), std::max(a, b)});
+      if (a < patch_.active_count || b < patch_.active_count)
+        penalty_.pairs.push_back({std::min(a, b), std::max(a, b)});
     });
     Positions sum = Positions::Zero(3, full_.cols());
     const double value = gaussian_.value_and_gradient(full_, sum, options_.lambda_gaussian) +

@@ -10,7 +10,9 @@
 namespace unsnarl {
 namespace {
 
-double uniform(std::mt19937& generator) { return static_cast<double>(generator()) / 4294967295.0 * 2 - 1; }
+double uniform(std::mt19937& generator) {
+  return static_cast<double>(generator()) / 4294967295.0 * 2 - 1;
+}
 
 struct Grid {
   std::vector<Triangle> triangles;
@@ -51,7 +53,7 @@ TEST(ClosestRotation, AgreesWithTheSingularValueDecomposition) {
   for (int trial = 0; trial < 2000; ++trial) {
     Eigen::Matrix3d s;
     for (int i = 0; i < 9; ++i) s(i) = uniform(generator);
-    if (trial % 4 == 1) s.col(2) = s.col(0) + s.col(1);                      // flat stars: rank 2
+    if (trial % 4 == 1) s.col(2) = s.col(0) + s.col(1);                       // flat stars: rank 2
     if (trial % 4 == 2) s = s * Eigen::Vector3d(1, 1e-3, 1e-6).asDiagonal();  // slivers
     if (trial % 4 == 3) s *= 1e-9;
     const Eigen::Matrix3d r = closest_rotation(s);

@@ -8,7 +8,9 @@
 namespace unsnarl {
 namespace {
 
-double uniform(std::mt19937& generator) { return static_cast<double>(generator()) / 4294967295.0; }
+double uniform(std::mt19937& generator) {
+  return static_cast<double>(generator()) / 4294967295.0;
+}
 
 std::vector<BandwidthPair> random_pairs(Index n, std::mt19937& generator) {
   Positions x(3, n);

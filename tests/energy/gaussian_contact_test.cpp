@@ -8,7 +8,9 @@
 namespace unsnarl {
 namespace {
 
-double uniform(std::mt19937& generator) { return static_cast<double>(generator()) / 4294967295.0 * 2 - 1; }
+double uniform(std::mt19937& generator) {
+  return static_cast<double>(generator()) / 4294967295.0 * 2 - 1;
+}
 
 template <int Dim>
 struct Sample {

@@ -16,7 +16,9 @@ double parabola(const Eigen::VectorXd& x, Eigen::VectorXd& g) {
 struct State {
   Eigen::VectorXd x, gradient;
   double value;
-  explicit State(const Objective& f, double at) : x(Eigen::VectorXd::Constant(1, at)), gradient(1) { value = f(x, gradient); }
+  explicit State(const Objective& f, double at) : x(Eigen::VectorXd::Constant(1, at)), gradient(1) {
+    value = f(x, gradient);
+  }
 };
 
 TEST(LineSearch, HalvesUntilTheDecreaseSuffices) {
@@ -46,7 +48,8 @@ TEST(LineSearch, TakesTheLastStepWhereToldTo) {
   State s(parabola, 1);
   LineSearchOptions options;
   options.accept_step = 0.1;
-  const LineSearchResult result = backtrack(parabola, Eigen::VectorXd::Constant(1, 1), options, s.x, s.value, s.gradient);
+  const LineSearchResult result =
+      backtrack(parabola, Eigen::VectorXd::Constant(1, 1), options, s.x, s.value, s.gradient);
   EXPECT_EQ(result.step, 0.125);
   EXPECT_FALSE(result.sufficient);
   EXPECT_EQ(s.x[0], 1.125);
@@ -55,7 +58,8 @@ TEST(LineSearch, TakesTheLastStepWhereToldTo) {
 TEST(LineSearch, TakesWhatTheCallerAccepts) {
   State s(parabola, 1);
   const auto accept = [](const Eigen::VectorXd& x) { return x[0] > 1.2 && x[0] < 1.6; };
-  const LineSearchResult result = backtrack(parabola, Eigen::VectorXd::Constant(1, 1), {}, s.x, s.value, s.gradient, accept);
+  const LineSearchResult result =
+      backtrack(parabola, Eigen::VectorXd::Constant(1, 1), {}, s.x, s.value, s.gradient, accept);
   EXPECT_EQ(result.step, 0.5);
   EXPECT_TRUE(result.sufficient);
 }

@@ -36,7 +36,8 @@ Shape grid(Index m, Index n, bool close_u, bool close_v, const std::function<Vec
   Shape shape;
   const Index rows = close_u ? m : m + 1, columns = close_v ? n : n + 1;
   for (Index i = 0; i < rows; ++i) {
-    for (Index j = 0; j < columns; ++j) shape.points.push_back(f(static_cast<double>(i) / m, static_cast<double>(j) / n));
+    for (Index j = 0; j < columns; ++j)
+      shape.points.push_back(f(static_cast<double>(i) / m, static_cast<double>(j) / n));
   }
   for (Index i = 0; i < m; ++i) {
     for (Index j = 0; j < n; ++j) {
@@ -236,9 +237,8 @@ TEST(Flow, SeparatesCoincidentSheets) {
 
 TEST(Flow, OpensFoldsAndOneVertexCrossings) {
   // A strip folded back flat onto itself.
-  Patch fold = patch_of(grid(8, 4, false, false, [](double u, double v) {
-    return Vec3(u < 0.5 ? u : 1 - u, 0.5 * v, 0);
-  }));
+  Patch fold =
+      patch_of(grid(8, 4, false, false, [](double u, double v) { return Vec3(u < 0.5 ? u : 1 - u, 0.5 * v, 0); }));
   expect_untangled(fold, 0.1, 1.2);
   // One vertex of a flat fan pulled across its neighbours.
   Shape fan;
@@ -316,9 +316,8 @@ TEST(FlowSamples, MeansAndSpreadAreTransposes) {
 
 TEST(FlowSamples, GeodesicsFollowTheSurface) {
   // A cylinder of radius 1: half-way round is pi along the surface and 2 through space. A sphere apart is out of reach.
-  Shape shape = grid(12, 40, false, true, [](double u, double v) {
-    return Vec3(std::cos(tau * v), std::sin(tau * v), 2 * u);
-  });
+  Shape shape =
+      grid(12, 40, false, true, [](double u, double v) { return Vec3(std::cos(tau * v), std::sin(tau * v), 2 * u); });
   shape.add(sphere(Vec3(0, 0, 1), 0.2, 6));
   const Patch patch = patch_of(shape);
   FlowSamples samples(patch.triangles, patch.rest, patch.free_count, 0.3);
@@ -335,7 +334,8 @@ TEST(FlowSamples, GeodesicsFollowTheSurface) {
       }
       EXPECT_GE(d, 0.95 * (points.col(i) - points.col(j)).norm());
       if (points.col(i).head<2>().norm() < 0.5) continue;
-      const double angle = std::acos(std::clamp(points.col(i).head<2>().normalized().dot(points.col(j).head<2>().normalized()), -1.0, 1.0));
+      const double angle = std::acos(
+          std::clamp(points.col(i).head<2>().normalized().dot(points.col(j).head<2>().normalized()), -1.0, 1.0));
       const double exact = std::hypot(angle, points(2, i) - points(2, j));
       EXPECT_LE(d, 1.5 * exact + 0.1);  // a third of the spacing
       if (samples.adjacent(i, j)) {
@@ -366,8 +366,10 @@ TEST_P(PaperUntangleTest, PartsTwoSpheres) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllModels, PaperUntangleTest,
-                         testing::Values(std::pair{BandwidthScope::global, false}, std::pair{BandwidthScope::global, true},
-                                         std::pair{BandwidthScope::local, false}, std::pair{BandwidthScope::local, true}));
+                         testing::Values(std::pair{BandwidthScope::global, false},
+                                         std::pair{BandwidthScope::global, true},
+                                         std::pair{BandwidthScope::local, false},
+                                         std::pair{BandwidthScope::local, true}));
 
 TEST(PaperUntangle, DoesNotDependOnTheUnit) {
   Patch small = patch_of(limb_and_sheet()), large = small;
