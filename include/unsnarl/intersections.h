@@ -42,7 +42,7 @@ struct PairCounts {
 /// Which vertices count as one. Decided on the input; never changes the file.
 enum class Weld : std::uint8_t {
   none,   ///< every vertex by itself
-  seams,  ///< vertices at exactly equal positions along the seams of one shell (UV seams, STL corners, split normals)
+  seams,  ///< vertices at exactly equal positions within one shell (UV seams, STL corners, split normals)
   all,    ///< all vertices at exactly equal positions
 };
 

@@ -1,5 +1,7 @@
 #include "contact/contact_candidates.h"
 
+#include "geometry/parallel_lists.h"
+
 namespace unsnarl {
 namespace {
 
@@ -39,7 +41,6 @@ ContactCandidates::ContactCandidates(std::span<const Triangle> triangles, Index 
 
 void ContactCandidates::gather(const Positions& x, double radius, std::span<const std::uint8_t> moves,
                                std::vector<Stencil>& stencils) {
-  stencils.clear();
   for (std::size_t t = 0; t < triangles_.size(); ++t) boxes_[t] = box_of(x, triangles_[t]).inflated(0.5 * radius);
   if (built_) {
     bvh_.refit(boxes_);
@@ -53,12 +54,16 @@ void ContactCandidates::gather(const Positions& x, double radius, std::span<cons
     const Triangle& f = triangles_[t];
     moving_[t] = moves[f[0]] || moves[f[1]] || moves[f[2]];
   }
-  for (Index t = 0; t < static_cast<Index>(triangles_.size()); ++t) {
-    if (!moving_[t]) continue;
-    bvh_.query(boxes_[t], [&](Index other) {
-      if (other > t || (other < t && !moving_[other])) gather_pair(x, radius, moves, t, other, stencils);
-    });
-  }
+  constexpr Index chunk = 256;  // triangles a task
+  gather_in_chunks(static_cast<Index>(triangles_.size()), chunk, stencils,
+                   [&](Index begin, Index end, std::vector<Stencil>& list) {
+                     for (Index t = begin; t < end; ++t) {
+                       if (!moving_[t]) continue;
+                       bvh_.query(boxes_[t], [&](Index other) {
+                         if (other > t || (other < t && !moving_[other])) gather_pair(x, radius, moves, t, other, list);
+                       });
+                     }
+                   });
 }
 
 void ContactCandidates::gather_pair(const Positions& x, double radius, std::span<const std::uint8_t> moves, Index a,

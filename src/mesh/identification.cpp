@@ -428,7 +428,13 @@ class SeamGluing {
       if (coincident_set_[f] >= 0)
         for (Index v : surface_.face(f)) coincident_at_.push_back({v, {coincident_set_[f], static_cast<Index>(f)}});
     std::sort(coincident_at_.begin(), coincident_at_.end());
-    glue_equal_vertices(on_boundary_, [&](Index v) { return shells_.find(v); });
+    // The inner ends of edges without length are left to step (d), which tells pinches apart.
+    std::vector<std::uint8_t> chosen(surface_.vertex_count(), 1);
+    for_each_side([&](Index, Index a, Index b) {
+      if (a == b || class_of_[a] != class_of_[b]) return;
+      for (Index v : {a, b}) chosen[v] = on_boundary_[v];
+    });
+    glue_equal_vertices(chosen, [&](Index v) { return shells_.find(v); });
   }
 
   /// Glues the chosen vertices that have equal positions and lie in one group.

@@ -27,13 +27,13 @@ struct Identification {
 ///      the two faces have equal corners (coincident sheets, as of two-sided hair cards, stay apart). Where more than
 ///      two edges meet, edges of one shell find their partners first, opposite directions before equal ones; what no
 ///      pairing settles is glued together;
-///  (c) boundary vertices of one shell at equal positions become one, again unless coincident faces would collapse;
+///  (c) vertices of one shell at equal positions become one, again unless coincident faces would collapse;
 ///  (d) so do the ends of edges of length zero, where the edges in that point form no loop (a loop is a pinch: the
 ///      cross-section of a tube that collapsed);
 ///  (e) if no vertex has two faces, ids say nothing about what is connected (STL): vertices still on a boundary become
 ///      one wherever their positions are equal, since parts that were sampled differently along a common border
 ///      meet in single vertices only.
-/// Other vertices are never glued: pinches, double curves through mesh points, and solids that touch stay as they are.
+/// Solids that touch, coincident sheets and collapsed cross-sections stay as they are.
 ///
 /// Precondition: valid ids, finite coordinates (see require_valid).
 Identification identify(const SurfaceView& surface, Weld weld = Weld::seams, double tolerance = 0);

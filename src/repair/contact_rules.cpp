@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/parallel_lists.h"
+
 namespace unsnarl {
 
 ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options)
@@ -14,10 +16,16 @@ ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conf
 
 void ContactRules::gather(const Positions& x, double radius, std::span<const std::uint8_t> moves,
                           std::vector<ContactRule>& rules) {
-  constexpr double mollifier_sin2 = 1e-3;  // as in IPC
-  rules.clear();
   candidates_.gather(x, radius, moves, stencils_);
-  for (const Stencil& s : stencils_) {
+  constexpr Index chunk = 1024;  // stencils a task
+  gather_in_chunks(static_cast<Index>(stencils_.size()), chunk, rules,
+                   [&](Index begin, Index end, std::vector<ContactRule>& list) { add_contacts(x, begin, end, list); });
+  add_altitudes(x, radius, moves, rules);
+}
+
+void ContactRules::add_contacts(const Positions& x, Index begin, Index end, std::vector<ContactRule>& rules) const {
+  constexpr double mollifier_sin2 = 1e-3;  // as in IPC
+  for (const Stencil& s : std::span(stencils_).subspan(begin, end - begin)) {
     ContactRule rule;
     rule.stencil.stencil = s;
     rule.distance = std::sqrt(squared_distance(s, x));
@@ -51,6 +59,10 @@ void ContactRules::gather(const Positions& x, double radius, std::span<const std
     }
     rules.push_back(rule);
   }
+}
+
+void ContactRules::add_altitudes(const Positions& x, double radius, std::span<const std::uint8_t> moves,
+                                 std::vector<ContactRule>& rules) const {
   for (Index t = 0; t < patch_.active_count; ++t) {
     const Triangle& f = patch_.triangles[t];
     if (!moves[f[0]] && !moves[f[1]] && !moves[f[2]]) continue;

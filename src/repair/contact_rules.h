@@ -50,6 +50,12 @@ class ContactRules {
   const ContactRuleOptions& options() const { return options_; }
 
  private:
+  /// Rules of stencils_[begin, end).
+  void add_contacts(const Positions& x, Index begin, Index end, std::vector<ContactRule>& rules) const;
+  /// Each moving triangle's corners against their opposite edges.
+  void add_altitudes(const Positions& x, double radius, std::span<const std::uint8_t> moves,
+                     std::vector<ContactRule>& rules) const;
+
   const Patch& patch_;
   std::vector<std::uint8_t> in_conflict_;
   ContactRuleOptions options_;

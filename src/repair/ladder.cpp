@@ -32,6 +32,7 @@ constexpr LocalRung penalty = {LocalMethod::penalty, 0.1, 3, 30};
 constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
 constexpr LocalRung long_contour = {LocalMethod::contour, 0.3, 4, 60};
 constexpr LocalRung smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
+constexpr LocalRung wide_smoothing = {LocalMethod::smoothing, 0.1, 8, 100};
 
 /// The default configuration: gentle first.
 std::vector<Rung> default_rungs() {
@@ -46,6 +47,7 @@ std::vector<Rung> default_rungs() {
       {"contour-8", 8, &long_contour, nullptr},
       {"smoothing-4", 4, &smoothing, nullptr},
       {"flow-8", 8, nullptr, flow_named("flow 1b")},
+      {"smoothing-8", 8, &wide_smoothing, nullptr},
       {"flow-16", 16, nullptr, flow_named("flow 1b")},
   };
   for (const FlowRung& flow : flows)

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "geometry/types.h"
+
+namespace unsnarl {
+
+/// Builds a list in parallel that does not depend on the number of threads: `append(begin, end, list)` adds what the
+/// indices [begin, end) contribute, chunk by chunk; the chunks are joined in order. `out` is replaced.
+template <class Item, class Append>
+void gather_in_chunks(Index count, Index chunk, std::vector<Item>& out, Append&& append) {
+  out.clear();
+  if (count <= chunk) {
+    append(Index{0}, count, out);
+    return;
+  }
+  std::vector<std::vector<Item>> lists((count + chunk - 1) / chunk);
+  oneapi::tbb::parallel_for(std::size_t{0}, lists.size(), [&](std::size_t k) {
+    const Index begin = static_cast<Index>(k) * chunk;
+    append(begin, std::min(count, begin + chunk), lists[k]);
+  });
+  std::size_t size = 0;
+  for (const auto& list : lists) size += list.size();
+  out.reserve(size);
+  for (const auto& list : lists) out.insert(out.end(), list.begin(), list.end());
+}
+
+}  // namespace unsnarl
