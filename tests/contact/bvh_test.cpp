@@ -1,0 +1,135 @@
+#include "contact/bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
+#include <string>
+
+namespace unsnarl {
+namespace {
+
+using Pairs = std::vector<std::pair<Index, Index>>;
+
+std::vector<Box> random_boxes(Index n, double size, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  const auto unit = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
+  std::vector<Box> boxes(n);
+  for (Box& box : boxes) {
+    const Vec3 p(unit(), unit(), unit());
+    box.extend(p);
+    box.extend(Vec3(p + size * Vec3(unit(), unit(), unit())));
+  }
+  return boxes;
+}
+
+// Sorted by x, so that large sets are compared in little time too.
+Pairs brute_pairs(const std::vector<Box>& boxes) {
+  std::vector<Index> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Index i, Index j) { return boxes[i].lo[0] < boxes[j].lo[0]; });
+  Pairs pairs;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (std::size_t l = k + 1; l < order.size() && boxes[order[l]].lo[0] <= boxes[order[k]].hi[0]; ++l)
+      if (boxes[order[k]].overlaps(boxes[order[l]])) pairs.push_back(std::minmax(order[k], order[l]));
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+Pairs self_pairs(const Bvh& bvh) {
+  Pairs pairs;
+  bvh.self_pairs([&](Index i, Index j) { pairs.push_back(std::minmax(i, j)); });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+Pairs parallel_pairs(const Bvh& bvh) {
+  std::vector<Pairs> found(bvh.task_count());
+  bvh.self_pairs_parallel([&](Index task, Index i, Index j) { found[task].push_back(std::minmax(i, j)); });
+  Pairs pairs;
+  for (const Pairs& list : found) pairs.insert(pairs.end(), list.begin(), list.end());
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+// Around the sizes of leaves (4), of tasks (4096) and of the parallel build (20000).
+TEST(Bvh, finds_each_overlapping_pair_once) {
+  for (const Index n : {0, 1, 2, 3, 4, 5, 8, 9, 100, 1000, 4095, 4096, 4097, 8193, 20001}) {
+    const std::vector<Box> boxes = random_boxes(n, 1.5 / std::cbrt(n + 1.0), static_cast<unsigned>(n));
+    const Bvh bvh(boxes);
+    EXPECT_EQ(bvh.size(), n);
+    const Pairs expected = brute_pairs(boxes);
+    EXPECT_TRUE(self_pairs(bvh) == expected) << n << " boxes";
+    EXPECT_TRUE(parallel_pairs(bvh) == expected) << n << " boxes in " << bvh.task_count() << " tasks";
+    if (n > 100) {
+      EXPECT_FALSE(expected.empty());
+    }
+  }
+}
+
+TEST(Bvh, tasks_are_the_same_on_every_run) {
+  const std::vector<Box> boxes = random_boxes(9000, 0.05, 3);
+  const auto lists = [&] {
+    const Bvh bvh(boxes);
+    std::vector<Pairs> found(bvh.task_count());
+    bvh.self_pairs_parallel([&](Index task, Index i, Index j) { found[task].push_back({i, j}); });
+    return found;
+  };
+  const auto first = lists();
+  EXPECT_GT(first.size(), 2u);
+  EXPECT_TRUE(lists() == first);
+}
+
+TEST(Bvh, queries) {
+  const std::vector<Box> boxes = random_boxes(700, 0.1, 4), queries = random_boxes(200, 0.3, 5);
+  const Bvh bvh(boxes);
+  for (const Box& query : queries) {
+    std::vector<Index> found, expected;
+    bvh.query(query, [&](Index i) { found.push_back(i); });
+    for (Index i = 0; i < bvh.size(); ++i)
+      if (boxes[i].overlaps(query)) expected.push_back(i);
+    std::sort(found.begin(), found.end());
+    ASSERT_EQ(found, expected);
+  }
+  bvh.query(Box(), [](Index) { ADD_FAILURE() << "an empty box overlaps nothing"; });
+  Bvh().query(boxes[0], [](Index) { ADD_FAILURE() << "there is nothing to find"; });
+}
+
+TEST(Bvh, refitted_to_other_boxes_it_finds_their_pairs) {
+  for (const Index n : {1, 5, 300, 5000}) {
+    Bvh bvh(random_boxes(n, 0.1, 6));
+    for (unsigned round = 0; round < 3; ++round) {
+      const std::vector<Box> moved = random_boxes(n, 0.07, 7 + round);
+      bvh.refit(moved);
+      EXPECT_TRUE(self_pairs(bvh) == brute_pairs(moved));
+      EXPECT_TRUE(parallel_pairs(bvh) == brute_pairs(moved));
+    }
+  }
+}
+
+TEST(Bvh, boxes_that_touch_overlap) {
+  std::vector<Box> boxes(2);
+  boxes[0].extend(Vec3(0, 0, 0));
+  boxes[0].extend(Vec3(1, 1, 1));
+  boxes[1].extend(Vec3(1, 1, 1));
+  EXPECT_EQ(self_pairs(Bvh(boxes)).size(), 1u);
+  boxes[1].lo = boxes[1].hi = Vec3(1, 1, std::nextafter(1.0, 2.0));
+  EXPECT_TRUE(self_pairs(Bvh(boxes)).empty());
+}
+
+// All at one place, all on one line: the order of the tree has nothing to go by.
+TEST(Bvh, degenerate_layouts) {
+  std::vector<Box> same(300), line(300);
+  for (Index i = 0; i < 300; ++i) {
+    same[i].extend(Vec3(1, 2, 3));
+    line[i].extend(Vec3(0.5 * i, 7, 7));
+    line[i].extend(Vec3(0.5 * i + 0.6, 7, 7));
+  }
+  EXPECT_EQ(self_pairs(Bvh(same)).size(), 300u * 299 / 2);
+  EXPECT_TRUE(self_pairs(Bvh(line)) == brute_pairs(line));
+}
+
+}  // namespace
+}  // namespace unsnarl
