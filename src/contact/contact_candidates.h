@@ -22,42 +22,16 @@ class ContactCandidates {
   /// order that is a function of the arguments alone. `moves` has one entry a vertex.
   void gather(const Positions& x, double radius, std::span<const std::uint8_t> moves, std::vector<Stencil>& stencils);
 
-  /// Whether a triangle at the one primitive shares a vertex with a triangle at the other.
+  /// Whether a triangle at the one primitive shares a vertex with a triangle at the other. For listed stencils.
   bool are_neighbours(const Stencil& stencil) const;
 
   const EdgeTable& edges() const { return edges_; }
   const IndexLists& triangles_of_vertex() const { return triangles_of_vertex_; }
 
-  /// The triangles at the first (second) primitive, in fixed order: visit(Index triangle).
-  template <class Visit>
-  void triangles_at_first(const Stencil& s, Visit&& visit) const {
-    if (s.kind == StencilKind::edge_edge) {
-      triangles_at_edge(s.v[0], s.v[1], visit);
-    } else {
-      for (Index t : triangles_of_vertex_[s.v[0]]) visit(t);
-    }
-  }
-  template <class Visit>
-  void triangles_at_second(const Stencil& s, Visit&& visit) const {
-    if (s.kind == StencilKind::edge_edge) {
-      triangles_at_edge(s.v[2], s.v[3], visit);
-    } else {
-      for (Index t : triangles_of_vertex_[s.v[1]]) {
-        if (has_corner(t, s.v[2]) && (s.kind == StencilKind::vertex_edge || has_corner(t, s.v[3]))) visit(t);
-      }
-    }
-  }
-
  private:
   bool has_corner(Index t, Index v) const {
     const Triangle& f = triangles_[t];
     return f[0] == v || f[1] == v || f[2] == v;
-  }
-  template <class Visit>
-  void triangles_at_edge(Index a, Index b, Visit&& visit) const {
-    for (Index t : triangles_of_vertex_[a]) {
-      if (has_corner(t, b)) visit(t);
-    }
   }
   void gather_pair(const Positions& x, double radius, std::span<const std::uint8_t> moves, Index a, Index b,
                    std::vector<Stencil>& stencils) const;
@@ -65,10 +39,15 @@ class ContactCandidates {
   std::span<const Triangle> triangles_;
   EdgeTable edges_;
   IndexLists triangles_of_vertex_;
+  IndexLists around_vertex_;  // the corners of the triangles at each vertex, itself among them; ascending
+  IndexLists around_edge_;    // the same of each edge
   // Every vertex and edge is looked after by its first triangle, so that a stencil is listed once.
   std::vector<std::uint8_t> owned_corners_;  // bit k: corner k; bit 3 + k: edge k of the triangle
   std::vector<std::uint8_t> moving_;         // per triangle: has a moving vertex
   std::vector<Box> boxes_;
+  std::vector<Vec3> edge_middle_;     // as of the last gathering
+  std::vector<double> edge_radius_;
+  std::vector<Vec3> normal_;          // of the triangles, unit (or zero)
   Bvh bvh_;
   bool built_ = false;
 };

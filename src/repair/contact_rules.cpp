@@ -12,18 +12,27 @@ ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conf
     : patch_(patch),
       in_conflict_(std::move(in_conflict)),
       options_(options),
-      candidates_(patch.triangles, static_cast<Index>(patch.rest.cols())) {}
+      candidates_(patch.triangles, static_cast<Index>(patch.rest.cols())),
+      vertex_in_conflict_(patch.rest.cols(), 0),
+      edge_in_conflict_(candidates_.edges().edges.size(), 0) {
+  for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
+    if (!in_conflict_[t]) continue;
+    for (Index v : patch.triangles[t]) vertex_in_conflict_[v] = 1;
+    for (Index e : candidates_.edges().edges_of_triangle[t])
+      if (e >= 0) edge_in_conflict_[e] = 1;
+  }
+}
 
 void ContactRules::gather(const Positions& x, double radius, std::span<const std::uint8_t> moves,
                           std::vector<ContactRule>& rules) {
   candidates_.gather(x, radius, moves, stencils_);
   constexpr Index chunk = 1024;  // stencils a task
   gather_in_chunks(static_cast<Index>(stencils_.size()), chunk, rules,
-                   [&](Index begin, Index end, std::vector<ContactRule>& list) { add_contacts(x, begin, end, list); });
+                   [&](Index begin, Index end, std::vector<ContactRule>& list) { add_contacts(x, radius, begin, end, list); });
   add_altitudes(x, radius, moves, rules);
 }
 
-void ContactRules::add_contacts(const Positions& x, Index begin, Index end, std::vector<ContactRule>& rules) const {
+void ContactRules::add_contacts(const Positions& x, double radius, Index begin, Index end, std::vector<ContactRule>& rules) const {
   constexpr double mollifier_sin2 = 1e-3;  // as in IPC
   for (const Stencil& s : std::span(stencils_).subspan(begin, end - begin)) {
     ContactRule rule;
@@ -31,16 +40,16 @@ void ContactRules::add_contacts(const Positions& x, Index begin, Index end, std:
     rule.distance = std::sqrt(squared_distance(s, x));
     if (!(rule.distance > 0)) continue;
     rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
-    bool conflict = false;
-    candidates_.triangles_at_first(s, [&](Index t) { conflict |= in_conflict_[t] != 0; });
-    bool second = false;
-    candidates_.triangles_at_second(s, [&](Index t) { second |= in_conflict_[t] != 0; });
+    const auto [first, second] = s.primitives;
+    const bool is_edge = s.kind == StencilKind::edge_edge;
+    const bool first_in_conflict = (is_edge ? edge_in_conflict_[first] : vertex_in_conflict_[first]) != 0;
+    const bool second_in_conflict = (is_edge ? edge_in_conflict_[second] : in_conflict_[second]) != 0;
     const bool neighbours = candidates_.are_neighbours(s);
-    if (neighbours) {
-      conflict = conflict && second;
-      if (!conflict && rule.rest_distance <= options_.roundoff) continue;
-    } else {
-      conflict = conflict || second;
+    const bool conflict =
+        neighbours ? first_in_conflict && second_in_conflict : first_in_conflict || second_in_conflict;
+    if (neighbours && !conflict) {
+      if (rule.rest_distance <= options_.roundoff) continue;
+      if (rule.distance > options_.reach_share * rule.rest_distance + radius) continue;
     }
     double separation = options_.min_gap;
     rule.reach = std::max(options_.reach_share * rule.rest_distance, options_.reach_gaps * options_.min_gap);

@@ -51,7 +51,7 @@ class ContactRules {
 
  private:
   /// Rules of stencils_[begin, end).
-  void add_contacts(const Positions& x, Index begin, Index end, std::vector<ContactRule>& rules) const;
+  void add_contacts(const Positions& x, double radius, Index begin, Index end, std::vector<ContactRule>& rules) const;
   /// Each moving triangle's corners against their opposite edges.
   void add_altitudes(const Positions& x, double radius, std::span<const std::uint8_t> moves,
                      std::vector<ContactRule>& rules) const;
@@ -60,6 +60,7 @@ class ContactRules {
   std::vector<std::uint8_t> in_conflict_;
   ContactRuleOptions options_;
   ContactCandidates candidates_;
+  std::vector<std::uint8_t> vertex_in_conflict_, edge_in_conflict_;  // some triangle there is
   std::vector<Stencil> stencils_;
 };
 

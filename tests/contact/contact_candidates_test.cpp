@@ -120,10 +120,10 @@ TEST(ContactCandidates, KnowNeighbours) {
   //  0---1 4---6
   const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}};
   ContactCandidates candidates(triangles, 7);
-  EXPECT_TRUE(candidates.are_neighbours({StencilKind::vertex_face, {3, 0, 1, 2}}));
-  EXPECT_FALSE(candidates.are_neighbours({StencilKind::vertex_face, {4, 0, 1, 2}}));
-  EXPECT_TRUE(candidates.are_neighbours({StencilKind::edge_edge, {0, 1, 2, 3}}));
-  EXPECT_FALSE(candidates.are_neighbours({StencilKind::edge_edge, {1, 2, 4, 5}}));
+  EXPECT_TRUE(candidates.are_neighbours({StencilKind::vertex_face, {3, 0, 1, 2}, {3, 0}}));
+  EXPECT_FALSE(candidates.are_neighbours({StencilKind::vertex_face, {4, 0, 1, 2}, {4, 0}}));
+  EXPECT_TRUE(candidates.are_neighbours({StencilKind::edge_edge, {0, 1, 2, 3}, {0, 4}}));
+  EXPECT_FALSE(candidates.are_neighbours({StencilKind::edge_edge, {1, 2, 4, 5}, {3, 5}}));
 }
 
 }  // namespace
