@@ -46,7 +46,7 @@ struct RecoverOptions {
     int window = 1;
   };
   Stop coarse = {1e-2, 4};        ///< before the last stage: it only has to come near
-  Stop fine = {1e-3, 8};          ///< in the last
+  Stop fine = {3e-3, 6};          ///< in the last
   double stop_motion = 1e-3;      ///< or when the Newton step moves no vertex farther than this, in h ...
   double stop_activation = 0.05;  ///< ... or than this share of the activation distance
   double step_cap = 0.5;          ///< longest motion of a vertex in a step, in h
@@ -54,7 +54,7 @@ struct RecoverOptions {
   double margin_max = 0.25;
   double margin_reuse = 0.1;  ///< lists for steps longer than this, in h, are gathered for one step only
   double armijo = 1e-4;
-  PcgOptions solver = {1e-2, 100};
+  PcgOptions solver = {3e-2, 60};
   /// Share of ARAP's Hessian with the rotations held; the rest is Gauss-Newton. Steps on six patches: 1: 27 to 65,
   /// 0.3: 20 to 59, 0.1: 17 to 60, 0: 15 to 61 with more PCG iterations on rough sheets.
   double rotation_damping = 0.1;
