@@ -51,14 +51,16 @@ class ParityForest {
 struct Incidence {
   Index edge, face, other, pair;
   auto key() const { return std::pair(edge, face); }
-  bool operator<(const Incidence& o) const {
-    return key() != o.key() ? key() < o.key() : other < o.other;
-  }
+  bool operator<(const Incidence& o) const { return key() != o.key() ? key() < o.key() : other < o.other; }
 };
 
-TrianglePoints points(const Positions& x, const Triangle& t) { return {x.col(t[0]), x.col(t[1]), x.col(t[2])}; }
+TrianglePoints points(const Positions& x, const Triangle& t) {
+  return {x.col(t[0]), x.col(t[1]), x.col(t[2])};
+}
 
-bool has(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
+bool has(const Triangle& t, Index v) {
+  return t[0] == v || t[1] == v || t[2] == v;
+}
 
 /// Unit direction of the curve in face `other` from the crossing inwards, within the plane of the pierced face.
 Vec3 curve_direction(const Positions& x, const Triangle& other, const Edge& edge, const Vec3& pierced_normal) {
@@ -132,18 +134,20 @@ Contours trace_contours(const Positions& x, std::span<const Triangle> triangles,
 
     Vec3 curve = Vec3::Zero();
     for (std::size_t k = begin; k < end; ++k) curve += curve_direction(x, triangles[incidences[k].other], edge, normal);
-    // Sliding by D moves the crossing by D - (D.n)/(e.n) e within the face's plane.
+    // Sliding the edge by D over the resting face moves the crossing by D - (D.n)/(e.n) e; sliding the face by -D under
+    // the resting edge, by -(D.n)/(e.n) e. Neither sheet rests: the mean of both counts, here twice.
     const double steepness = e.dot(normal);
     const double floor = 1e-3;  // keeps the quotient finite; the limit below decides
-    crossing.direction =
-        curve - normal * (e.dot(curve) / (std::abs(steepness) > floor ? steepness : std::copysign(floor, steepness)));
+    crossing.direction = curve - normal * (2 * e.dot(curve) /
+                                           (std::abs(steepness) > floor ? steepness : std::copysign(floor, steepness)));
     const double size = crossing.direction.norm();
     if (size > direction_limit) crossing.direction *= direction_limit / size;
 
     for (std::size_t k = begin; k < end; ++k) {
       has_crossing[incidences[k].pair] = 1;
       // The pierced face keeps its side from pair to pair.
-      const bool first_is_a = pairs[incidences[begin].pair].a == face_id, this_is_a = pairs[incidences[k].pair].a == face_id;
+      const bool first_is_a = pairs[incidences[begin].pair].a == face_id,
+                 this_is_a = pairs[incidences[k].pair].a == face_id;
       forest.join(incidences[begin].pair, incidences[k].pair, first_is_a == this_is_a ? 1 : -1);
     }
     pair_of_crossing.push_back(incidences[begin].pair);

@@ -1,0 +1,96 @@
+#include "repair/ladder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "repair/shapes.h"
+
+namespace unsnarl {
+namespace {
+
+using shapes::Shape;
+
+TEST(Ladder, clears_a_crossing_and_says_how) {
+  const Shape shape = shapes::crossing_bumps(14, 0.3);
+  Scene scene = shapes::scene_of(shape);
+  std::vector<std::size_t> left;
+  LadderOptions options;
+  options.on_progress = [&](std::size_t pairs) { left.push_back(pairs); };
+  const LadderResult result = climb_ladder(scene, {}, options);
+  EXPECT_TRUE(result.left.empty());
+  EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
+  ASSERT_EQ(result.regions.size(), 1u);
+  EXPECT_EQ(result.regions[0].pairs, shapes::pairs_of(shape).size());
+  EXPECT_FALSE(result.regions[0].rung.empty());
+  EXPECT_GT(result.regions[0].faces, 0u);
+  ASSERT_GE(left.size(), 2u);
+  EXPECT_EQ(left.front(), shapes::pairs_of(shape).size());
+  EXPECT_EQ(left.back(), 0u);
+  // Nothing moved but what is said to have been free.
+  ASSERT_EQ(result.moved.size(), 1u);
+  for (Index v = 0; v < scene.vertex_count(); ++v) {
+    EXPECT_TRUE(scene.x.col(v) == scene.rest.col(v) ||
+                std::binary_search(result.moved[0].begin(), result.moved[0].end(), v));
+  }
+  EXPECT_TRUE(scene.rest == shape.positions());
+}
+
+TEST(Ladder, nothing_to_do_moves_nothing) {
+  Scene scene = shapes::scene_of(shapes::bumpy_sheet(5, 0.5));
+  const LadderResult result = climb_ladder(scene, {}, {});
+  EXPECT_TRUE(result.regions.empty());
+  EXPECT_TRUE(result.left.empty());
+  EXPECT_TRUE(scene.x == scene.rest);
+}
+
+TEST(Ladder, regions_apart_do_not_feel_each_other) {
+  const Shape shallow = shapes::crossing_bumps(12, 0.2), deeper = shapes::crossing_bumps(12, 0.8);
+  Scene alone = shapes::scene_of(shallow);
+  climb_ladder(alone, {}, {});
+  Scene both = shapes::scene_of(Shape(shallow).add(deeper, {60, 0, 0}));
+  const LadderResult result = climb_ladder(both, {}, {});
+  EXPECT_TRUE(result.left.empty());
+  EXPECT_EQ(result.regions.size(), 2u);
+  EXPECT_TRUE(both.x.leftCols(alone.x.cols()) == alone.x);
+}
+
+TEST(Ladder, ignored_pairs_are_let_be) {
+  const Shape shape = Shape(shapes::crossing_bumps(12, 0.2)).add(shapes::crossed_squares(), {60, 0, 0});
+  const Index squares = static_cast<Index>(shapes::crossing_bumps(12, 0.2).triangles.size());
+  std::vector<IntersectingPair> ignored;
+  for (const IntersectingPair& pair : shapes::pairs_of(shape))
+    if (pair.a >= squares) ignored.push_back(pair);
+  ASSERT_FALSE(ignored.empty());
+  Scene scene = shapes::scene_of(shape);
+  const LadderResult result = climb_ladder(scene, ignored, {});
+  EXPECT_TRUE(result.left.empty());
+  EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles) == ignored);
+  EXPECT_TRUE(scene.x.rightCols(8) == scene.rest.rightCols(8));
+}
+
+TEST(Ladder, fixed_vertices_stay) {
+  const Shape shape = shapes::crossing_bumps(12, 0.3);
+  std::vector<std::uint8_t> fixed(shape.points.size(), 0);
+  std::fill(fixed.begin(), fixed.begin() + static_cast<std::ptrdiff_t>(fixed.size() / 2),
+            std::uint8_t{1});  // a whole sheet
+  Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
+  const LadderResult result = climb_ladder(scene, {}, {});
+  EXPECT_TRUE(result.left.empty());
+  const Index half = scene.vertex_count() / 2;
+  EXPECT_TRUE(scene.x.leftCols(half) == scene.rest.leftCols(half));
+  EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
+}
+
+TEST(Ladder, stopping_leaves_the_rest_as_it_is) {
+  Scene scene = shapes::scene_of(shapes::crossing_bumps(12, 0.3));
+  LadderOptions options;
+  options.stop = [] { return true; };
+  const LadderResult result = climb_ladder(scene, {}, options);
+  EXPECT_TRUE(result.left == shapes::pairs_at(scene.rest, scene.triangles));
+  EXPECT_TRUE(result.moved.empty());
+  EXPECT_TRUE(scene.x == scene.rest);
+}
+
+}  // namespace
+}  // namespace unsnarl
