@@ -17,6 +17,7 @@
 #include "geometry/box.h"
 #include "mesh/areas.h"
 #include "optimize/lbfgs.h"
+#include "repair/flow_recession.h"
 #include "repair/flow_samples.h"
 #include "repair/local_solver.h"
 
@@ -26,7 +27,7 @@ namespace {
 // A ladder of restarts solved 49 of 50 tuning meshes and 16 of 18 others; one run with shrinking locality only 33
 // of 50. The last three are for deep immersions: figure-8 torus 8 % mean displacement in 50 iterations, spindle torus
 // 10 % in 27, Whitney umbrella 16 % in 70. Weaker Gaussian weights (1 instead of 3) leave the first two half done.
-constexpr std::array<FlowRung, 8> rungs{{
+constexpr std::array<FlowRung, 9> rungs{{
     {.name = "flow -1",
      .max_iterations = 40,
      .locality = 1000,
@@ -71,6 +72,7 @@ constexpr std::array<FlowRung, 8> rungs{{
      .adaptive_bandwidth = false,
      .max_spacing_rel = 0.25,
      .hopeless_stalls = 6},
+    {.name = "recession", .recedes = true},
 }};
 
 double smoothstep(double t) {
@@ -267,7 +269,10 @@ class Flow {
     diagonal_ = box.diagonal();
   }
 
-  FlowResult run() {
+  FlowResult run() { return rung_.recedes ? run_recession() : run_flow(); }
+
+ private:
+  FlowResult run_flow() {
     FlowResult result;
     result.rung = rung_.name;
     patch_.x.leftCols(n_) = patch_.rest.leftCols(n_);
@@ -325,7 +330,35 @@ class Flow {
     return result;
   }
 
- private:
+  FlowResult run_recession() {
+    FlowResult result;
+    result.rung = rung_.name;
+    patch_.x.leftCols(n_) = patch_.rest.leftCols(n_);
+    result.pairs_left = find(patch_.x).size();
+    result.clean = result.pairs_left == 0;
+    if (result.clean || n_ == 0 || !(h_ > 0)) return result;
+    const Recession recession(active_, patch_.rest, n_);
+    if (!recession.possible()) return result;
+    full_ = best_ = patch_.x;
+    LocalRung contour{LocalMethod::contour,
+                      std::max(options_.finish_step, options_.recession_step_rel * diagonal_ / h_), 0,
+                      options_.recession_iterations};
+    for (const double locality_rel : options_.recession_localities_rel) {
+      contour.locality = std::max(4.0, locality_rel * diagonal_ / h_);
+      for (const double share : options_.recession_shares) {
+        if (stop_ && stop_()) break;
+        recession.positions(share, full_);
+        if (!solve_contours(full_, contour, options_.jitter, &result.iterations)) continue;
+        result.clean = true;
+        result.pairs_left = 0;
+        patch_.x = full_;
+        return result;
+      }
+    }
+    patch_.x = best_;
+    return result;
+  }
+
   std::vector<IntersectingPair> find(const Positions& x) {
     std::vector<IntersectingPair> pairs = blocking_pairs(finder_.find(x), tolerated_);
     std::erase_if(pairs, [](const IntersectingPair& pair) { return pair.kind == PairClass::duplicate; });
@@ -401,30 +434,30 @@ class Flow {
 
   // The contour method from x on; x is the result where it is clean, else unchanged.
   bool finish(Positions& x) {
-    std::vector<IntersectingPair> ignored(tolerated_.begin(), tolerated_.end());
-    std::size_t count = 0;
-    for (const IntersectingPair& pair : blocking_pairs(finder_.find(x), tolerated_)) {
-      if (pair.kind == PairClass::duplicate) {
-        ignored.push_back(pair);
-      } else {
-        ++count;
-      }
-    }
-    finish_tried_ = count;
-    std::sort(ignored.begin(), ignored.end());
-    LocalOptions local;
-    local.jitter = 0;
-    local.bisections = 0;
-    local.area_floor = options_.area_floor;
+    finish_tried_ = find(x).size();
     for (const double locality : options_.finish_localities) {
-      patch_.x.leftCols(n_) = x.leftCols(n_);
       const LocalRung rung{LocalMethod::contour, options_.finish_step, locality, options_.finish_iterations};
-      if (!solve_locally(patch_, rung, ignored, local, stop_).clean) continue;
-      if (has_squeezed_face(patch_, patch_.rest, patch_.x, options_.area_floor)) continue;
-      x.leftCols(n_) = patch_.x.leftCols(n_);
-      return true;
+      if (solve_contours(x, rung, 0, nullptr)) return true;
     }
     return false;
+  }
+
+  bool solve_contours(Positions& x, const LocalRung& rung, double jitter, int* iterations) {
+    std::vector<IntersectingPair> ignored(tolerated_.begin(), tolerated_.end());
+    for (const IntersectingPair& pair : blocking_pairs(finder_.find(x), tolerated_)) {
+      if (pair.kind == PairClass::duplicate) ignored.push_back(pair);
+    }
+    std::sort(ignored.begin(), ignored.end());
+    LocalOptions local;
+    local.jitter = jitter;
+    local.bisections = 0;
+    local.area_floor = options_.area_floor;
+    patch_.x.leftCols(n_) = x.leftCols(n_);
+    const LocalResult result = solve_locally(patch_, rung, ignored, local, stop_);
+    if (iterations) *iterations += result.iterations;
+    if (!result.clean || has_squeezed_face(patch_, patch_.rest, patch_.x, options_.area_floor)) return false;
+    x.leftCols(n_) = patch_.x.leftCols(n_);
+    return true;
   }
 
   // No sufficient drop of the number of pairs for some iterations.

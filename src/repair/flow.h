@@ -47,6 +47,9 @@ struct FlowRung {
   /// Stalls after which the rung gives up where it has taken away next to nothing. Gentle rungs do nothing at all to a
   /// deep immersion: 96 iterations and 3 s each without this.
   int hopeless_stalls = 3;
+  /// Instead of all this: the boundary recedes along the surface (Recession), then the contour method. For surfaces
+  /// that nothing short of moving the boundary through them can part: punctured projective planes and Klein bottles.
+  bool recedes = false;
 };
 
 /// Constants that all rungs share.
@@ -77,7 +80,15 @@ struct FlowOptions {
   int finish_iterations = 25;   ///< of the contour method; it needs 4 or never gets there
   double finish_step = 0.3;     ///< h
   std::array<double, 3> finish_localities = {8, 4, 16};  ///< h, in this order
-  double area_floor = 1e-3;                              ///< of its area at rest: thinner faces are no solution
+  /// Shares of the way to the spine that a receding boundary is tried at, in this order. First clean for a punctured
+  /// Boy's surface 0.3, Klein bottle 0.5, Roman surface 0.5, cross-cap 0.7, a patch of Henneberg's surface 0.8.
+  std::array<double, 7> recession_shares = {0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+  int recession_iterations = 120;  ///< of the contour method; the last ones to succeed needed 111
+  double recession_step_rel =
+      0.009;  ///< of the diagonal, at least finish_step: fine meshes must go as far as coarse ones
+  /// Of the diagonal, at least 4 h. All shares are tried with the first before the second.
+  std::array<double, 2> recession_localities_rel = {0.12, 0.5};
+  double area_floor = 1e-3;       ///< of its area at rest: thinner faces are no solution
   int bisections = 5;             ///< of the displacement back to rest; the smallest clean one is kept
   double candidate_reach = 0.25;  ///< h: motion until the candidate pairs are gathered anew
 };
