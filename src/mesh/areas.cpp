@@ -1,6 +1,7 @@
 #include "mesh/areas.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/predicates.h"
 
@@ -50,6 +51,13 @@ double mean_edge_length(const Positions& x, std::span<const Triangle> triangles)
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) sum += (x.col(t[k]) - x.col(t[(k + 1) % 3])).norm();
   return sum / (3.0 * static_cast<double>(triangles.size()));
+}
+
+double mean_equilateral_side(const Positions& x, std::span<const Triangle> triangles) {
+  constexpr double side_per_root_area = 1.5196713713031853;  // 2 / 3^(1/4)
+  double sum = 0;
+  for (const Triangle& t : triangles) sum += std::sqrt(triangle_area(x, t));
+  return triangles.empty() ? 0 : side_per_root_area * sum / static_cast<double>(triangles.size());
 }
 
 }  // namespace unsnarl

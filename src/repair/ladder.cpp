@@ -150,7 +150,7 @@ class Climb {
       std::vector<Triangle> core_faces;
       for (const IntersectingPair& pair : region.pairs)
         for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
-      attempt.edge_length = mean_edge_length(scene_.rest, core_faces);
+      attempt.edge_length = mean_equilateral_side(scene_.rest, core_faces);
       attempt.reach = first_reach * attempt.edge_length;
       attempts.push_back(std::move(attempt));
     }

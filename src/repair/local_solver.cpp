@@ -141,6 +141,18 @@ double jitter_of(Index v, int k) {
   return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
 }
 
+void add_jitter(const Patch& patch, std::span<const Edge> edges, double share, Positions& x) {
+  std::vector<double> reach(patch.free_count, patch.edge_length);
+  for (const auto& [u, v] : edges) {
+    const double length = (patch.x.col(u) - patch.x.col(v)).norm();
+    if (!(length > 0)) continue;
+    for (Index end : {u, v})
+      if (end < patch.free_count) reach[end] = std::min(reach[end], length);
+  }
+  for (Index v = 0; v < patch.free_count; ++v)
+    for (int k = 0; k < 3; ++k) x(k, v) += share * reach[v] * jitter_of(v, k);
+}
+
 std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs,
                                              std::span<const IntersectingPair> tolerated) {
   std::erase_if(pairs, [&](const IntersectingPair& pair) {
@@ -191,8 +203,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
   Arap arap(std::span(patch.triangles).first(patch.active_count), patch.rest, n);
 
   Positions x = start;
-  for (Index v = 0; v < n; ++v)
-    for (int k = 0; k < 3; ++k) x(k, v) += options.jitter * h * jitter_of(v, k);
+  add_jitter(patch, edges.edges, options.jitter, x);
 
   LocalMethod method = rung.method;
   std::size_t initial_pairs = 0;

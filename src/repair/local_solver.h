@@ -24,7 +24,7 @@ struct LocalRung {
 
 struct LocalOptions {
   double margin = 0.03;        ///< h: the penalty acts until the faces are this far apart; 28 iterations against 61 without
-  double jitter = 1e-3;        ///< h: breaks symmetry (coincident sheets, exact folds)
+  double jitter = 1e-3;        ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
   double area_floor = 1e-3;    ///< a face thinner than this share of its area at the start is not accepted
   int bisections = 5;          ///< of the displacement back to the start; the smallest clean one is kept
 };
@@ -42,6 +42,9 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
 
 /// Unit-free pseudo-random number in [-1, 1], the same everywhere, for vertex `v`, coordinate `k`.
 double jitter_of(Index v, int k);
+
+/// Moves the free vertices of x at random by up to `share` of the shortest edge (at patch.x) at each, or of h if shorter.
+void add_jitter(const Patch& patch, std::span<const Edge> edges, double share, Positions& x);
 
 /// Pairs of the patch's active triangles that are not tolerated.
 std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs,
