@@ -28,6 +28,7 @@ constexpr double first_reach = 4;
 
 constexpr int whole_component = std::numeric_limits<int>::max();
 
+constexpr LocalRung shallow = {LocalMethod::shallow, 0.1, 1, 20};
 constexpr LocalRung penalty = {LocalMethod::penalty, 0.1, 3, 30};
 constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
 constexpr LocalRung long_contour = {LocalMethod::contour, 0.3, 4, 60};
@@ -41,6 +42,7 @@ std::vector<Rung> default_rungs() {
     return &*std::find_if(flows.begin(), flows.end(), [&](const FlowRung& rung) { return rung.name == name; });
   };
   std::vector<Rung> rungs = {
+      {"shallow-0", 0, &shallow, nullptr},
       {"penalty-2", 2, &penalty, nullptr},
       {"contour-2", 2, &contour, nullptr},
       {"contour-4", 4, &contour, nullptr},

@@ -60,6 +60,17 @@ class PenaltyForce {
   PenaltyForce(const Patch& patch, double margin)
       : patch_(patch), margin_(margin), penalty_(patch.triangles, {.margin = margin}), tree_(patch.triangles) {}
 
+  void set_margin(double margin) {
+    margin_ = margin;
+    penalty_ = MinkowskiPenalty(patch_.triangles, {.margin = margin});
+  }
+  /// Depth of the deepest of these pairs, margin included.
+  double deepest(const Positions& x, std::span<const IntersectingPair> pairs) const {
+    double deepest = 0;
+    for (const IntersectingPair& pair : pairs) deepest = std::max(deepest, penalty_.evaluate(x, pair.a, pair.b).depth);
+    return deepest;
+  }
+
   void add(const Positions& x, double weight, Positions& force) {
     tree_.update(x, 0.5 * margin_);
     std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
@@ -203,7 +214,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
   Arap arap(std::span(patch.triangles).first(patch.active_count), patch.rest, n);
 
   Positions x = start;
-  add_jitter(patch, edges.edges, options.jitter, x);
+  if (rung.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.jitter, x);
 
   LocalMethod method = rung.method;
   std::size_t initial_pairs = 0;
@@ -224,7 +235,13 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
       continue;
     }
     Positions force = Positions::Zero(3, x.cols());
-    if (method == LocalMethod::penalty) {
+    double limit = rung.step * h;
+    if (method == LocalMethod::shallow) {
+      const double deepest = penalty.deepest(x, pairs);
+      if (result.iterations == 0) penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
+      limit = std::min(limit, options.shallow_step * deepest);
+      penalty.add(x, 1, force);
+    } else if (method == LocalMethod::penalty) {
       penalty.add(x, h, force);
       arap.value_and_gradient(x, force, -1);
     } else {
@@ -233,8 +250,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     Eigen::MatrixX3d direction = metric.solve(force, n);
     const double size = direction.rowwise().norm().maxCoeff();
     if (!(size > 0) || !std::isfinite(size)) break;
-    const double limit = rung.step * h;
-    if (method == LocalMethod::contour || size > limit) direction *= limit / size;
+    if (method != LocalMethod::penalty || size > limit) direction *= limit / size;
     x.leftCols(n) += direction.transpose();
   }
   if (result.clean && has_squeezed_face(patch, start, x, options.area_floor)) result.clean = false;

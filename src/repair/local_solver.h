@@ -9,7 +9,8 @@ namespace unsnarl {
 
 /// How a local rung finds its direction.
 enum class LocalMethod {
-  penalty,    ///< gradient of the Minkowski penalty (paper §3.2) + ARAP
+  shallow,    ///< gradient of the Minkowski penalty (paper §3.2), steps and margin as small as the overlaps
+  penalty,    ///< the same + ARAP, steps and margin in h
   contour,    ///< one direction for each intersection curve, its two sheets pushed apart along it
   smoothing,  ///< implicit smoothing until few crossings are left, then `penalty`
 };
@@ -26,6 +27,8 @@ struct LocalOptions {
   double margin = 0.03;        ///< h: the penalty acts until the faces are this far apart; 28 iterations against 61 without
   double jitter = 1e-3;        ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
   double area_floor = 1e-3;    ///< a face thinner than this share of its area at the start is not accepted
+  double shallow_margin = 0.5; ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
+  double shallow_step = 1;     ///< of the deepest overlap: its steps
   int bisections = 5;          ///< of the displacement back to the start; the smallest clean one is kept
 };
 

@@ -161,12 +161,19 @@ class Repair {
         if (x(k, v) != scene_.rest(k, v)) rounded(k, v) = static_cast<double>(static_cast<float>(x(k, v)));
     return rounded;
   }
-  /// Pairs that exist only after rounding everything to float32, where float32 has to hold.
+  /// Pairs that exist only after rounding everything to float32, where float32 has to hold: everywhere if asked for,
+  /// else where something was repaired.
   std::vector<IntersectingPair> float32_conflicts(IntersectionFinder& finder, const Positions& x) const {
     if (!float32_) return {};
     std::vector<IntersectingPair> conflicts = blocking_pairs(finder.find(rounded_to_float32(x)), ignored_);
-    std::erase_if(conflicts, [&](const IntersectingPair& pair) { return !can_be_parted(pair); });
+    std::erase_if(conflicts, [&](const IntersectingPair& pair) {
+      return !can_be_parted(pair) || (!options_.precision && !has_moved(pair.a, x) && !has_moved(pair.b, x));
+    });
     return conflicts;
+  }
+  bool has_moved(Index t, const Positions& x) const {
+    const auto moved = [&](Index v) { return x.col(v) != scene_.rest.col(v); };
+    return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(), moved);
   }
   bool can_be_parted(const IntersectingPair& pair) const {
     const std::vector<Index>& component_of = diagnosis_.components.component_of_triangle;

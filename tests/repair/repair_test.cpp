@@ -309,6 +309,14 @@ TEST(Repair, sheets_that_only_rounding_brings_together_are_parted) {
   EXPECT_TRUE(judged(surface, as_float32(result.positions)).empty());
   options.precision = Precision::float64;
   EXPECT_TRUE(repair(surface, options).positions == surface.positions);
+  // Nobody asked for float32: what is embedded comes back, alone and beside something to repair.
+  const RepairResult unasked = repair(surface);
+  EXPECT_EQ(unasked.status, Status::embedded);
+  EXPECT_TRUE(unasked.positions == surface.positions);
+  EXPECT_FALSE(unasked.report.float32_embedded);
+  const RepairResult beside = repair(Shape(shape).add(shapes::crossing_bumps(8, 0.3), {30, 0, 0}).surface());
+  EXPECT_EQ(beside.status, Status::embedded);
+  EXPECT_TRUE(std::equal(surface.positions.begin(), surface.positions.end(), beside.positions.begin()));
 }
 
 // Least distance between vertices of one sheet and faces of the other, by brute force.
