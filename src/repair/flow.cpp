@@ -340,11 +340,9 @@ class Flow {
     const Recession recession(active_, patch_.rest, n_);
     if (!recession.possible()) return result;
     full_ = best_ = patch_.x;
-    LocalRung contour{LocalMethod::contour,
-                      std::max(options_.finish_step, options_.recession_step_rel * diagonal_ / h_), 0,
-                      options_.recession_iterations};
-    for (const double locality_rel : options_.recession_localities_rel) {
-      contour.locality = std::max(4.0, locality_rel * diagonal_ / h_);
+    for (const auto& [step_rel, locality_rel] : options_.recession_strides) {
+      const LocalRung contour{LocalMethod::contour, std::max(options_.finish_step, step_rel * diagonal_ / h_),
+                              std::max(4.0, locality_rel * diagonal_ / h_), options_.recession_iterations};
       for (const double share : options_.recession_shares) {
         if (stop_ && stop_()) break;
         recession.positions(share, full_);

@@ -84,10 +84,12 @@ struct FlowOptions {
   /// Boy's surface 0.3, Klein bottle 0.5, Roman surface 0.5, cross-cap 0.7, a patch of Henneberg's surface 0.8.
   std::array<double, 7> recession_shares = {0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
   int recession_iterations = 120;  ///< of the contour method; the last ones to succeed needed 111
-  double recession_step_rel =
-      0.009;  ///< of the diagonal, at least finish_step: fine meshes must go as far as coarse ones
-  /// Of the diagonal, at least 4 h. All shares are tried with the first before the second.
-  std::array<double, 2> recession_localities_rel = {0.12, 0.5};
+  /// Step and locality of that method, of the diagonal, at least finish_step and 4 h: fine meshes must go as far as
+  /// coarse ones. All shares are tried with the first before the second, which a figure-eight Klein bottle needs.
+  struct Stride {
+    double step_rel, locality_rel;
+  };
+  std::array<Stride, 2> recession_strides = {{{0.009, 0.12}, {0.02, 0.28}}};
   double area_floor = 1e-3;       ///< of its area at rest: thinner faces are no solution
   int bisections = 5;             ///< of the displacement back to rest; the smallest clean one is kept
   double candidate_reach = 0.25;  ///< h: motion until the candidate pairs are gathered anew

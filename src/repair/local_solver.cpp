@@ -240,7 +240,11 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
       const double deepest = penalty.deepest(x, pairs);
       if (result.iterations == 0) penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
       limit = std::min(limit, options.shallow_step * deepest);
-      penalty.add(x, 1, force);
+      // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.
+      if (result.iterations % 2 == 0)
+        penalty.add(x, 1, force);
+      else
+        add_contour_force(patch, x, edges, pairs, penalty.penalty(), force);
     } else if (method == LocalMethod::penalty) {
       penalty.add(x, h, force);
       arap.value_and_gradient(x, force, -1);

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <stdexcept>
+#include <random>
 
 #include "mesh/triangulation.h"
 #include "oracle/intersections_oracle.h"
@@ -388,6 +388,52 @@ TEST(Repair, too_large_a_displacement_is_said) {
   EXPECT_EQ(repair(surface, options).status, Status::displacement_exceeded);
   options.max_displacement_rel = 0.5;
   EXPECT_EQ(repair(surface, options).status, Status::embedded);
+}
+
+// Soups on lattices of tiny integers: zero-area faces, repeated corners, duplicates, faces in touch and in one plane.
+TEST(Repair, soups_are_never_made_worse) {
+  const auto disjoint = [](const std::vector<IntersectingPair>& pairs) {
+    return std::count_if(pairs.begin(), pairs.end(), [](const auto& p) { return p.kind == PairClass::disjoint; });
+  };
+  std::map<Status, int> seen;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    Surface soup;
+    const int vertices = 4 + below(20), faces = 2 + below(14), lattice = 2 + below(6);
+    for (int k = 0; k < 3 * vertices; ++k)
+      soup.positions.push_back(below(lattice) + (seed % 2 ? 0.001 * below(1000) : 0));
+    for (int k = 0; k < 3 * faces; ++k) soup.corners.push_back(below(vertices));
+    RepairOptions options;
+    options.find.weld = Weld::none;
+    if (seed % 3 == 0) {
+      for (int v = 0; v < vertices; ++v) options.fixed.push_back(below(3) == 0);
+    }
+    const std::vector<Triangle> cut = triangulate(soup).triangles;
+    const auto before = oracle::intersections_by_cgal(soup.positions, cut);
+    const RepairResult result = repair(soup, options);
+    const auto after = oracle::intersections_by_cgal(result.positions, cut);
+    ++seen[result.status];
+    EXPECT_LE(after.size(), before.size());
+    EXPECT_LE(disjoint(after), disjoint(before));
+    EXPECT_EQ(result.report.before.total(), before.size());
+    EXPECT_EQ(result.report.after.total(), after.size());
+    const Certificate certificate = certify(soup, result.positions, options.find);
+    EXPECT_EQ(certificate.triangle_pairs, after.size());
+    if (result.status == Status::embedded) {
+      EXPECT_TRUE(certificate.embedded());
+    }
+    if (result.status == Status::obstructed) {
+      EXPECT_FALSE(result.report.obstructions.empty());
+    }
+    for (std::size_t v = 0; v < options.fixed.size(); ++v) {
+      EXPECT_TRUE(!options.fixed[v] ||
+                  std::equal(&soup.positions[3 * v], &soup.positions[3 * v] + 3, &result.positions[3 * v]));
+    }
+  }
+  EXPECT_GT(seen[Status::embedded], 20);
+  EXPECT_GT(seen[Status::obstructed], 3);
 }
 
 TEST(Repair, nothing_in_nothing_out) {
