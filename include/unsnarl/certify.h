@@ -11,11 +11,11 @@ namespace unsnarl {
 /// What an exact check of given positions found. Vertices are identified and polygons cut by the *input*, so vertices
 /// that have come to coincide since intersect.
 struct Certificate {
-  PairCounts pairs;                      ///< intersecting pairs of faces
-  PairCounts pairs_float32;              ///< the same after rounding all positions to float32
-  std::size_t triangle_pairs = 0;        ///< intersecting pairs of the triangles that the faces are cut into
-  std::size_t new_zero_area_faces = 0;   ///< triangles without area that had some in the input
-  bool seams_closed = true;              ///< vertices that count as one are at one position
+  PairCounts pairs;                     ///< intersecting pairs of faces
+  PairCounts pairs_float32;             ///< the same after rounding all positions to float32
+  std::size_t triangle_pairs = 0;       ///< intersecting pairs of the triangles that the faces are cut into
+  std::size_t new_zero_area_faces = 0;  ///< triangles without area that had some in the input
+  bool seams_closed = true;             ///< vertices that count as one are at one position
 
   /// The promise: no two faces meet anywhere but in the hull of the vertices they share.
   bool embedded() const { return pairs.total() == 0 && new_zero_area_faces == 0 && seams_closed; }

@@ -18,8 +18,8 @@ enum class PairClass : std::uint8_t {
   degenerate,  ///< at least one of them has zero area
 };
 inline constexpr std::size_t pair_class_count = 5;
-inline constexpr std::array<std::string_view, pair_class_count> pair_class_names = {
-    "disjoint", "one_vertex", "folded", "duplicate", "degenerate"};
+inline constexpr std::array<std::string_view, pair_class_count> pair_class_names = {"disjoint", "one_vertex", "folded",
+                                                                                    "duplicate", "degenerate"};
 
 /// Two intersecting faces, a < b. Touching counts as intersecting.
 struct IntersectingPair {

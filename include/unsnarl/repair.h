@@ -57,20 +57,20 @@ class Context {
 };
 
 struct RepairOptions {
-  FindOptions find;                     ///< identification of vertices, threads
+  FindOptions find;  ///< identification of vertices, threads
   Goal goal = Goal::all;
   /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it, else float64.
   std::optional<Precision> precision;
   /// The positions that a reader of the file to be written will see, given those to be written and whether float32
   /// digits are enough. Unset: rounded to `precision`. The result is certified as it returns them.
   std::function<std::vector<double>(std::span<const double> positions, bool float32)> as_written;
-  std::vector<std::uint8_t> fixed;      ///< one flag a vertex, nonzero: must not move. Empty: all may move
-  double min_gap_rel = 0;               ///< wanted gap between sheets / bounding-box diagonal; 0: a few float32 units
-  double max_displacement_rel = 0;      ///< allowed displacement / bounding-box diagonal; 0: any
-  double time_limit_s = 0;              ///< wall-clock seconds; 0: none
-  double memory_limit_mb = 0;           ///< resident memory, MB; 0: none
-  bool recover = true;                  ///< false: stop after untangling (for research)
-  bool paper = false;                   ///< the configuration of the paper instead of the regional ladder
+  std::vector<std::uint8_t> fixed;  ///< one flag a vertex, nonzero: must not move. Empty: all may move
+  double min_gap_rel = 0;           ///< wanted gap between sheets / bounding-box diagonal; 0: a few float32 units
+  double max_displacement_rel = 0;  ///< allowed displacement / bounding-box diagonal; 0: any
+  double time_limit_s = 0;          ///< wall-clock seconds; 0: none
+  double memory_limit_mb = 0;       ///< resident memory, MB; 0: none
+  bool recover = true;              ///< false: stop after untangling (for research)
+  bool paper = false;               ///< the configuration of the paper instead of the regional ladder
 };
 
 /// Something that no motion of the vertices can resolve.
@@ -96,9 +96,9 @@ struct Topology {
 
 /// One conflict region and how it was resolved.
 struct RegionReport {
-  std::string rung;            ///< name of the rung that resolved it; "none" where all failed
-  std::size_t faces = 0;       ///< faces that were free to move
-  std::size_t pairs = 0;       ///< intersecting pairs it started with
+  std::string rung;       ///< name of the rung that resolved it; "none" where all failed
+  std::size_t faces = 0;  ///< faces that were free to move
+  std::size_t pairs = 0;  ///< intersecting pairs it started with
   int iterations = 0;
   double seconds = 0;
 };
@@ -106,23 +106,23 @@ struct RegionReport {
 struct StageReport {
   std::string name;
   double seconds = 0;
-  double peak_memory_mb = 0;   ///< peak resident memory of the process at the end of the stage
+  double peak_memory_mb = 0;  ///< peak resident memory of the process at the end of the stage
 };
 
 struct RepairReport {
   Topology topology;
   PairCounts before, after;
   std::vector<Obstruction> obstructions;
-  double diagonal = 0;                                   ///< of the input's bounding box; unit of every *_rel
+  double diagonal = 0;  ///< of the input's bounding box; unit of every *_rel
   double displacement_mean_rel = 0, displacement_rms_rel = 0, displacement_max_rel = 0;
-  double untouched_share = 1;                            ///< share of vertices that are bit-identical to the input
-  std::size_t turned_triangles = 0;                      ///< normals turned by more than 90 degrees
-  std::size_t turned_triangles_without_conflict = 0;     ///< of these: not in an intersecting pair of the input
-  double min_gap_rel = 0;                                ///< smallest gap met while contacts were watched; 0: not watched
-  double volume_change_rel = 0;                          ///< signed volume of closed components, after / before - 1
+  double untouched_share = 1;                         ///< share of vertices that are bit-identical to the input
+  std::size_t turned_triangles = 0;                   ///< normals turned by more than 90 degrees
+  std::size_t turned_triangles_without_conflict = 0;  ///< of these: not in an intersecting pair of the input
+  double min_gap_rel = 0;                             ///< smallest gap met while contacts were watched; 0: not watched
+  double volume_change_rel = 0;                       ///< signed volume of closed components, after / before - 1
   double area_change_rel = 0;
-  bool float32_embedded = false;                         ///< holds after rounding all positions to float32
-  Precision precision = Precision::float64;              ///< the format in which the result was made to hold
+  bool float32_embedded = false;             ///< holds after rounding all positions to float32
+  Precision precision = Precision::float64;  ///< the format in which the result was made to hold
   std::vector<RegionReport> regions;
   std::vector<StageReport> stages;
 };

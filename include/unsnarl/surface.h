@@ -21,8 +21,7 @@ struct SurfaceView {
   std::size_t vertex_count() const { return positions.size() / 3; }
   std::size_t face_count() const { return offsets.empty() ? corners.size() / 3 : offsets.size() - 1; }
   std::span<const std::int32_t> face(std::size_t f) const {
-    return offsets.empty() ? corners.subspan(3 * f, 3)
-                           : corners.subspan(offsets[f], offsets[f + 1] - offsets[f]);
+    return offsets.empty() ? corners.subspan(3 * f, 3) : corners.subspan(offsets[f], offsets[f + 1] - offsets[f]);
   }
 };
 

@@ -45,9 +45,9 @@ class ContactCandidates {
   std::vector<std::uint8_t> owned_corners_;  // bit k: corner k; bit 3 + k: edge k of the triangle
   std::vector<std::uint8_t> moving_;         // per triangle: has a moving vertex
   std::vector<Box> boxes_;
-  std::vector<Vec3> edge_middle_;     // as of the last gathering
+  std::vector<Vec3> edge_middle_;  // as of the last gathering
   std::vector<double> edge_radius_;
-  std::vector<Vec3> normal_;          // of the triangles, unit (or zero)
+  std::vector<Vec3> normal_;  // of the triangles, unit (or zero)
   Bvh bvh_;
   bool built_ = false;
 };

@@ -1,8 +1,8 @@
 #include "contact/face_tree.h"
 
-#include <Eigen/Eigenvalues>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 

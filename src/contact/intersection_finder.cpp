@@ -12,7 +12,9 @@ TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {
   return {x.col(t[first]), x.col(t[(first + 1) % 3]), x.col(t[(first + 2) % 3])};
 }
 
-bool uses_a_vertex_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+bool uses_a_vertex_twice(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
 
 }  // namespace
 

@@ -8,7 +8,9 @@ namespace unsnarl::detail {
 namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Kernel::Point_3 point(const Vec3& p) { return {p[0], p[1], p[2]}; }
+Kernel::Point_3 point(const Vec3& p) {
+  return {p[0], p[1], p[2]};
+}
 }  // namespace
 
 Sign orient3d_by_kernel(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

@@ -16,7 +16,9 @@ TwoTerms two_sum(double a, double b) {
   const double value = a + b, b_virtual = value - a;
   return {value, (a - (value - b_virtual)) + (b - b_virtual)};
 }
-TwoTerms two_difference(double a, double b) { return two_sum(a, -b); }
+TwoTerms two_difference(double a, double b) {
+  return two_sum(a, -b);
+}
 
 TwoTerms two_product(double a, double b) {
   auto split = [](double v) {  // Dekker

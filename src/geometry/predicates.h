@@ -21,10 +21,13 @@ inline constexpr double half_ulp = 1.1102230246251565e-16;  // 2^-53
 inline constexpr double orient3d_bound = (7.0 + 56.0 * half_ulp) * half_ulp;
 inline constexpr double orient2d_bound = (3.0 + 16.0 * half_ulp) * half_ulp;
 inline constexpr double underflow_guard = 1e-280;  // below it products may underflow and the bounds do not hold
-inline Sign sign_of(double value) { return (value > 0) - (value < 0); }
+inline Sign sign_of(double value) {
+  return (value > 0) - (value < 0);
+}
 }  // namespace detail
 
-/// Sign of det(b - a, c - a, d - a): +1 where d sees a, b, c counter-clockwise from the side that (b-a)x(c-a) points to.
+/// Sign of det(b - a, c - a, d - a): +1 where d sees a, b, c counter-clockwise from the side that (b-a)x(c-a) points
+/// to.
 inline Sign orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double adx = a[0] - d[0], ady = a[1] - d[1], adz = a[2] - d[2];
   const double bdx = b[0] - d[0], bdy = b[1] - d[1], bdz = b[2] - d[2];
@@ -65,7 +68,9 @@ inline Sign orient2d_dropping(int axis, const Vec3& a, const Vec3& b, const Vec3
 int projection_axis(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// True where the three points lie on one line (or coincide).
-inline bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) { return projection_axis(a, b, c) < 0; }
+inline bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return projection_axis(a, b, c) < 0;
+}
 
 /// Order of positions by x, then y, then z. Along a line it is the order along the line.
 inline bool lexicographic_less(const Vec3& a, const Vec3& b) {

@@ -7,10 +7,14 @@
 namespace unsnarl {
 namespace {
 
-Sign side_of(const TrianglePoints& t, const Vec3& p) { return orient3d(t[0], t[1], t[2], p); }
+Sign side_of(const TrianglePoints& t, const Vec3& p) {
+  return orient3d(t[0], t[1], t[2], p);
+}
 
 /// Both strictly on the same side.
-bool same_side(Sign s, Sign t) { return s * t > 0; }
+bool same_side(Sign s, Sign t) {
+  return s * t > 0;
+}
 
 /// p in the closed segment ab, all three known to be collinear.
 bool between(const Vec3& a, const Vec3& b, const Vec3& p) {
@@ -76,7 +80,9 @@ bool maybe_degenerate(const std::array<Sign, 3>& sides_of_others, const Triangle
   return sides_of_others == std::array<Sign, 3>{0, 0, 0} && collinear(t[0], t[1], t[2]);
 }
 
-bool point_on_segment(const Extent& s, const Vec3& p) { return collinear(s.lo, s.hi, p) && between(s.lo, s.hi, p); }
+bool point_on_segment(const Extent& s, const Vec3& p) {
+  return collinear(s.lo, s.hi, p) && between(s.lo, s.hi, p);
+}
 
 bool segments_meet(const Extent& s, const Extent& t) {
   if (s.is_point()) return point_on_segment(t, s.lo);

@@ -26,7 +26,8 @@ Meeting triangles_meet_beyond_vertex(const TrianglePoints& a, const TrianglePoin
 Meeting triangles_fold_flat(const TrianglePoints& a, const TrianglePoints& b);
 
 /// The general case, for pairs with at least one degenerate triangle, which is the segment or the point that it is:
-/// do they meet outside the hull of the corners they share? `shared_a[k]` is the corner of b that corner k of a is, or -1.
+/// do they meet outside the hull of the corners they share? `shared_a[k]` is the corner of b that corner k of a is, or
+/// -1.
 bool degenerate_triangles_meet(const TrianglePoints& a, const TrianglePoints& b, const std::array<int, 3>& shared_a);
 
 }  // namespace unsnarl

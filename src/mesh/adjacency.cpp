@@ -19,9 +19,7 @@ struct HalfEdge {
 }  // namespace
 
 IndexLists triangles_of_vertices(std::span<const Triangle> triangles, Index vertex_count) {
-  const auto is_repeated = [](const Triangle& t, int k) {
-    return (k > 0 && t[k] == t[0]) || (k > 1 && t[k] == t[1]);
-  };
+  const auto is_repeated = [](const Triangle& t, int k) { return (k > 0 && t[k] == t[0]) || (k > 1 && t[k] == t[1]); };
   IndexLists lists;
   lists.offsets.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
   for (const Triangle& t : triangles)

@@ -23,9 +23,9 @@ IndexLists triangles_of_vertices(std::span<const Triangle> triangles, Index vert
 
 /// The undirected edges of a set of triangles (degenerate ones, with a repeated vertex, contribute their real edges).
 struct EdgeTable {
-  std::vector<Edge> edges;                            ///< sorted
+  std::vector<Edge> edges;                              ///< sorted
   std::vector<std::array<Index, 3>> edges_of_triangle;  ///< edge k joins corners k and k + 1; -1 where they are equal
-  IndexLists triangles_of_edge;                       ///< ascending
+  IndexLists triangles_of_edge;                         ///< ascending
 };
 EdgeTable build_edges(std::span<const Triangle> triangles);
 

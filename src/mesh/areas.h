@@ -12,7 +12,9 @@ inline Vec3 area_vector(const Positions& x, const Triangle& t) {
   const Vec3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
   return (b - a).cross(c - a);
 }
-inline double triangle_area(const Positions& x, const Triangle& t) { return 0.5 * area_vector(x, t).norm(); }
+inline double triangle_area(const Positions& x, const Triangle& t) {
+  return 0.5 * area_vector(x, t).norm();
+}
 /// Unit normal; zero where the triangle has no area.
 Vec3 triangle_normal(const Positions& x, const Triangle& t);
 
@@ -30,8 +32,8 @@ double signed_volume(const Positions& x, std::span<const Triangle> triangles);
 /// Mean length of the sides of the triangles (an edge of two triangles counts twice); 0 without triangles.
 double mean_edge_length(const Positions& x, std::span<const Triangle> triangles);
 
-/// Mean side of the equilateral triangles with the same areas; 0 without triangles. Unlike the mean edge it is small for
-/// needles, whose length says nothing about how close their neighbours are.
+/// Mean side of the equilateral triangles with the same areas; 0 without triangles. Unlike the mean edge it is small
+/// for needles, whose length says nothing about how close their neighbours are.
 double mean_equilateral_side(const Positions& x, std::span<const Triangle> triangles);
 
 }  // namespace unsnarl

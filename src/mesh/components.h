@@ -30,9 +30,9 @@ struct Component {
 };
 
 struct Components {
-  std::vector<Component> list;               ///< in the order of their first triangles
+  std::vector<Component> list;  ///< in the order of their first triangles
   std::vector<Index> component_of_triangle;
-  std::vector<Index> component_of_vertex;    ///< -1: unused vertex
+  std::vector<Index> component_of_vertex;  ///< -1: unused vertex
   Index count() const { return static_cast<Index>(list.size()); }
 };
 

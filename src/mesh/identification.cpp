@@ -117,8 +117,8 @@ std::vector<Index> tolerant_classes(std::span<const double> positions, double to
   IdTable table(first.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
     cells[i] = cell_of(static_cast<Index>(i));
-    const Index head = table.find_or_add(hash_cell(cells[i]), static_cast<Index>(i),
-                                         [&](Index id) { return cells[id] == cells[i]; });
+    const Index head =
+        table.find_or_add(hash_cell(cells[i]), static_cast<Index>(i), [&](Index id) { return cells[id] == cells[i]; });
     if (head >= 0) {
       next_in_cell[i] = next_in_cell[head];
       next_in_cell[head] = static_cast<Index>(i);
@@ -477,7 +477,7 @@ class SeamGluing {
       for (; i < vertices.size() && vertices[i][1] == piece.vertex; ++i) {
         const Index v = vertices[i][2];
         for (auto it = std::lower_bound(coincident_at_.begin(), coincident_at_.end(), v,
-                                        [](const auto& entry, Index w) { return entry.first < w; });
+                                        [](const auto&entry, Index w) { return entry.first < w; });
              it != coincident_at_.end() && it->first == v; ++it)
           piece.faces.push_back(it->second);
       }
@@ -576,10 +576,10 @@ class SeamGluing {
   UnionFind shells_, glued_;
   std::vector<std::uint8_t> on_boundary_;  // by vertex
   std::vector<BoundaryEdge> edges_;
-  std::vector<Index> coincident_set_;        // by face; -1 where no other face has equal corners
+  std::vector<Index> coincident_set_;                              // by face; -1 where no other face has equal corners
   std::vector<std::pair<Index, CoincidentCorner>> coincident_at_;  // by vertex, sorted; nearly always empty
-  std::vector<std::array<Index, 2>> groups_;  // [begin, end) of edges at one place, two or more
-  std::vector<std::uint8_t> settled_;         // by edge
+  std::vector<std::array<Index, 2>> groups_;                       // [begin, end) of edges at one place, two or more
+  std::vector<std::uint8_t> settled_;                              // by edge
 };
 
 Identification from_classes(std::vector<Index> vertex_of) {
@@ -606,8 +606,10 @@ Identification identify(const SurfaceView& surface, Weld weld, double tolerance)
       std::iota(own.begin(), own.end(), Index{0});
       return from_classes(std::move(own));
     }
-    case Weld::all: return from_classes(position_classes(surface.positions, tolerance));
-    case Weld::seams: break;
+    case Weld::all:
+      return from_classes(position_classes(surface.positions, tolerance));
+    case Weld::seams:
+      break;
   }
   UnionFind glued = SeamGluing(surface, position_classes(surface.positions, tolerance)).run();
   return from_classes(dense(glued, n));

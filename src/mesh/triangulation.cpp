@@ -15,7 +15,9 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 
 /// Summed from the left: near-ties are decided by rounding, and independent checkers must decide them alike.
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vec3& a, const Vec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// Cuts polygons one after another, keeping its memory.
 class PolygonCutter {

@@ -25,7 +25,8 @@ std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const
   UnionFind sets(static_cast<Index>(around.size()));
   for (Index v : core)
     for (Index u : scene.neighbours[v]) sets.unite(local(v), local(u));
-  for (const IntersectingPair& pair : pairs) sets.unite(local(scene.triangles[pair.a][0]), local(scene.triangles[pair.b][0]));
+  for (const IntersectingPair& pair : pairs)
+    sets.unite(local(scene.triangles[pair.a][0]), local(scene.triangles[pair.b][0]));
 
   std::vector<ConflictRegion> regions;
   std::vector<Index> region_of_root(around.size(), -1);

@@ -52,8 +52,7 @@ Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, 
   for (const IntersectingPair& pair : result.pairs) {
     const Index component = component_of[pair.a];
     const bool both_fixed = all_fixed(triangles[pair.a], fixed) && all_fixed(triangles[pair.b], fixed);
-    const bool non_orientable =
-        component == component_of[pair.b] && result.components.list[component].obstructed();
+    const bool non_orientable = component == component_of[pair.b] && result.components.list[component].obstructed();
     if (both_fixed) fixed_faces.insert(fixed_faces.end(), {polygon[pair.a], polygon[pair.b]});
     if (both_fixed || non_orientable || pair.kind == PairClass::duplicate) result.obstructed.push_back(pair);
   }

@@ -13,9 +13,9 @@ namespace unsnarl {
 struct Diagnosis {
   Topology topology;
   Components components;
-  std::vector<IntersectingPair> pairs;        ///< of triangles, sorted
+  std::vector<IntersectingPair> pairs;  ///< of triangles, sorted
   std::vector<Obstruction> obstructions;
-  std::vector<IntersectingPair> obstructed;   ///< those pairs that no motion can resolve; a subset of `pairs`, sorted
+  std::vector<IntersectingPair> obstructed;  ///< those pairs that no motion can resolve; a subset of `pairs`, sorted
 };
 
 /// `fixed`: one flag an identified vertex; empty: none.

@@ -35,7 +35,7 @@ double cotangent(const Positions& x, const Triangle& t, int corner) {
 }  // namespace
 
 Recession::Recession(std::span<const Triangle> triangles, const Positions& rest, Index free_count,
-                     const RecessionOptions& options)
+                     std::span<const Index> avoided, const RecessionOptions& options)
     : triangles_(triangles),
       rest_(rest),
       options_(options),
@@ -64,6 +64,7 @@ Recession::Recession(std::span<const Triangle> triangles, const Positions& rest,
       front.push_back(w);
     }
   }
+  on_spine_ = find_spine(reached, is_boundary, avoided);
   solve_field(reached, is_boundary);
   if (!possible_) return;
 
@@ -96,7 +97,8 @@ Recession::Recession(std::span<const Triangle> triangles, const Positions& rest,
 }
 
 // Takes away triangles at a free edge, and edges at a free vertex, those nearest the boundary first.
-std::vector<char> Recession::find_spine(const std::vector<char>& reached, const std::vector<char>& is_boundary) const {
+std::vector<char> Recession::find_spine(const std::vector<char>& reached, const std::vector<char>& is_boundary,
+                                       std::span<const Index> avoided) const {
   const Index n = static_cast<Index>(rest_.cols());
   const Index edge_count = static_cast<Index>(edges_.edges.size());
   std::vector<std::vector<Index>> edges_of(n);
@@ -113,6 +115,10 @@ std::vector<char> Recession::find_spine(const std::vector<char>& reached, const 
       distance[v] = 0;
       front.emplace(0.0, v);
     }
+  }
+  for (const Index v : avoided) {
+    distance[v] = 0;
+    front.emplace(0.0, v);
   }
   while (!front.empty()) {
     const auto [d, v] = front.top();
@@ -186,7 +192,6 @@ std::vector<char> Recession::find_spine(const std::vector<char>& reached, const 
 
 void Recession::solve_field(const std::vector<char>& reached, const std::vector<char>& is_boundary) {
   const Index n = static_cast<Index>(rest_.cols());
-  on_spine_ = find_spine(reached, is_boundary);
   std::vector<Index> row(n, -1);
   Index rows = 0;
   for (Index v = 0; v < n; ++v) {

@@ -31,9 +31,11 @@ struct RecessionOptions {
 /// its spine is a collar of the boundary, where such a psi has no critical point, so that no two ways part.
 class Recession {
  public:
-  /// Vertices from `free_count` on stand still, and so do components without a boundary edge of two free vertices.
+  /// Vertices from `free_count` on stand still, and so do components without a boundary edge of two free vertices. The
+  /// spine keeps away from the vertices `avoided` as from the boundary: those of intersecting faces, where it may not
+  /// cross double curves more often than it must.
   Recession(std::span<const Triangle> triangles, const Positions& rest, Index free_count,
-            const RecessionOptions& options = {});
+            std::span<const Index> avoided = {}, const RecessionOptions& options = {});
 
   /// False: nothing can recede.
   bool possible() const { return possible_; }
@@ -47,7 +49,8 @@ class Recession {
     Index triangle;
     Vec3 weights;
   };
-  std::vector<char> find_spine(const std::vector<char>& reached, const std::vector<char>& is_boundary) const;
+  std::vector<char> find_spine(const std::vector<char>& reached, const std::vector<char>& is_boundary,
+                               std::span<const Index> avoided) const;
   void solve_field(const std::vector<char>& reached, const std::vector<char>& is_boundary);
   void smooth_field(const std::vector<Vec3>& gradients);
   void smooth_fan(Index vertex, std::span<const Index> fan, bool closed, const std::vector<Vec3>& gradients);

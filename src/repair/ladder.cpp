@@ -87,7 +87,7 @@ class Climb {
     ConflictRegion region;
     std::vector<Index> free;
     double edge_length = 0;
-    double reach = 0;   // how far around the patch obstacles are taken in
+    double reach = 0;  // how far around the patch obstacles are taken in
     Patch patch;
     Positions start;
     int iterations = 0;

@@ -17,9 +17,9 @@ struct LadderOptions {
 };
 
 struct LadderResult {
-  std::vector<RegionReport> regions;       ///< resolved ones, and last the ones that no rung resolved
-  std::vector<std::vector<Index>> moved;   ///< vertices freed for each resolved region, for recovery
-  std::vector<IntersectingPair> left;      ///< pairs of triangles that remain
+  std::vector<RegionReport> regions;      ///< resolved ones, and last the ones that no rung resolved
+  std::vector<std::vector<Index>> moved;  ///< vertices freed for each resolved region, for recovery
+  std::vector<IntersectingPair> left;     ///< pairs of triangles that remain
 };
 
 /// Untangles the scene region by region: every conflict region climbs from gentle local rungs to the flow of its whole

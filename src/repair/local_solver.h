@@ -18,18 +18,18 @@ enum class LocalMethod {
 /// One way to untangle a small patch. Lengths in units of the patch's h.
 struct LocalRung {
   LocalMethod method;
-  double step;          ///< largest vertex motion of an iteration, h
-  double locality;      ///< range of the direction's smoothing, h
+  double step;      ///< largest vertex motion of an iteration, h
+  double locality;  ///< range of the direction's smoothing, h
   int max_iterations;
 };
 
 struct LocalOptions {
-  double margin = 0.03;        ///< h: the penalty acts until the faces are this far apart; 28 iterations against 61 without
-  double jitter = 1e-3;        ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
-  double area_floor = 1e-3;    ///< a face thinner than this share of its area at the start is not accepted
-  double shallow_margin = 0.5; ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
-  double shallow_step = 1;     ///< of the deepest overlap: its steps
-  int bisections = 5;          ///< of the displacement back to the start; the smallest clean one is kept
+  double margin = 0.03;  ///< h: the penalty acts until the faces are this far apart; 28 iterations against 61 without
+  double jitter = 1e-3;  ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
+  double area_floor = 1e-3;     ///< a face thinner than this share of its area at the start is not accepted
+  double shallow_margin = 0.5;  ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
+  double shallow_step = 1;      ///< of the deepest overlap: its steps
+  int bisections = 5;           ///< of the displacement back to the start; the smallest clean one is kept
 };
 
 struct LocalResult {
@@ -39,14 +39,16 @@ struct LocalResult {
 };
 
 /// Tries to move the patch's free vertices, from patch.x on, until no active triangle intersects another, except in the
-/// `tolerated` pairs (of patch triangles, sorted): those of other regions nearby. On success patch.x is the result; else it is what it was.
+/// `tolerated` pairs (of patch triangles, sorted): those of other regions nearby. On success patch.x is the result;
+/// else it is what it was.
 LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const IntersectingPair> tolerated = {},
                           const LocalOptions& options = {}, const std::function<bool()>& stop = {});
 
 /// Unit-free pseudo-random number in [-1, 1], the same everywhere, for vertex `v`, coordinate `k`.
 double jitter_of(Index v, int k);
 
-/// Moves the free vertices of x at random by up to `share` of the shortest edge (at patch.x) at each, or of h if shorter.
+/// Moves the free vertices of x at random by up to `share` of the shortest edge (at patch.x) at each, or of h if
+/// shorter.
 void add_jitter(const Patch& patch, std::span<const Edge> edges, double share, Positions& x);
 
 /// Pairs of the patch's active triangles that are not tolerated.

@@ -14,6 +14,7 @@
 #include "repair/ladder.h"
 #include "repair/local_solver.h"
 #include "repair/measure.h"
+#include "repair/paper_untangle.h"
 #include "repair/patch.h"
 #include "repair/prepared_surface.h"
 #include "repair/recover.h"
@@ -72,8 +73,8 @@ class Repair {
  private:
   void check_options() const {
     if (!options_.fixed.empty() && options_.fixed.size() != surface_.vertex_count())
-      throw std::invalid_argument("RepairOptions::fixed has " + std::to_string(options_.fixed.size()) +
-                                  " flags for " + std::to_string(surface_.vertex_count()) + " vertices");
+      throw std::invalid_argument("RepairOptions::fixed has " + std::to_string(options_.fixed.size()) + " flags for " +
+                                  std::to_string(surface_.vertex_count()) + " vertices");
     if (!(options_.min_gap_rel >= 0) || !(options_.max_displacement_rel >= 0) || !(options_.time_limit_s >= 0) ||
         !(options_.memory_limit_mb >= 0))
       throw std::invalid_argument("RepairOptions: gaps, displacements and limits must not be negative");
@@ -105,7 +106,8 @@ class Repair {
   /// Safe from any thread.
   bool stopped() {
     if (stop_reason_ == no_stop) {
-      if (context_.is_cancelled()) stop_reason_ = static_cast<int>(Status::cancelled);
+      if (context_.is_cancelled())
+        stop_reason_ = static_cast<int>(Status::cancelled);
       else if (options_.time_limit_s > 0 && seconds_since(begin_) > options_.time_limit_s)
         stop_reason_ = static_cast<int>(Status::time_limit);
       else if (options_.memory_limit_mb > 0 && resident_memory_mb() > options_.memory_limit_mb)
@@ -134,8 +136,8 @@ class Repair {
     std::vector<Triangle> conflict;
     for (const IntersectingPair& pair : diagnosis_.pairs)
       for (Index t : {pair.a, pair.b}) conflict.push_back(scene_.triangles[t]);
-    float32_ = gap_units * float32_unit(largest_coordinate_) <=
-               largest_gap_of_edge * mean_edge_length(scene_.rest, conflict);
+    float32_ =
+        gap_units * float32_unit(largest_coordinate_) <= largest_gap_of_edge * mean_edge_length(scene_.rest, conflict);
   }
   /// Absolute gap wanted between sheets around these vertices. Local, so that distant parts change nothing.
   double wanted_gap(const std::vector<Index>& vertices) const {
@@ -180,7 +182,8 @@ class Repair {
     const Index component = component_of[pair.a];
     if (component == component_of[pair.b] && diagnosis_.components.list[component].obstructed()) return false;
     const auto can_move = [&](Index t) {
-      return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(), [&](Index v) { return !scene_.fixed[v]; });
+      return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(),
+                         [&](Index v) { return !scene_.fixed[v]; });
     };
     return can_move(pair.a) || can_move(pair.b);
   }
@@ -193,13 +196,7 @@ class Repair {
   void work(IntersectionFinder& finder) {
     for (int round = 0; round < rounding_rounds && !stopped(); ++round) {
       start("untangle");
-      LadderOptions ladder;
-      ladder.stop = stopper();
-      ladder.on_progress = [this](std::size_t left) {
-        const double all = static_cast<double>(std::max<std::size_t>(1, diagnosis_.pairs.size()));
-        report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
-      };
-      LadderResult climbed = climb_ladder(scene_, ignored_, ladder);
+      LadderResult climbed = options_.paper ? untangle_as_in_the_paper(finder) : untangle();
       auto& regions = result_.report.regions;
       regions.insert(regions.end(), climbed.regions.begin(), climbed.regions.end());
       if (options_.recover) {
@@ -210,8 +207,8 @@ class Repair {
       report_progress(0.9, climbed.left.size());
       scene_.x = as_written(scene_.x);
       const std::vector<IntersectingPair> conflicts = float32_conflicts(finder, scene_.x);
-      const bool clean = conflicts.empty() && blocking_pairs(finder.find(scene_.x), ignored_).empty() &&
-                         lost_areas() == 0;
+      const bool clean =
+          conflicts.empty() && blocking_pairs(finder.find(scene_.x), ignored_).empty() && lost_areas() == 0;
       if (clean || !climbed.left.empty()) break;
       const Positions rounded = rounded_to_float32(scene_.x);
       for (const IntersectingPair& pair : conflicts)
@@ -219,6 +216,39 @@ class Repair {
           for (Index v : scene_.triangles[t])
             if (!scene_.fixed[v]) scene_.x.col(v) = rounded.col(v);
     }
+  }
+
+  LadderResult untangle() {
+    LadderOptions ladder;
+    ladder.stop = stopper();
+    ladder.on_progress = [this](std::size_t left) {
+      const double all = static_cast<double>(std::max<std::size_t>(1, diagnosis_.pairs.size()));
+      report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
+    };
+    return climb_ladder(scene_, ignored_, ladder);
+  }
+
+  /// The whole scene as one patch, until no disjoint pair is left.
+  LadderResult untangle_as_in_the_paper(IntersectionFinder& finder) {
+    std::vector<Index> free;
+    for (Index v = 0; v < scene_.vertex_count(); ++v)
+      if (!scene_.fixed[v] && !scene_.triangles_of_vertex[v].empty()) free.push_back(v);
+    SceneIndex index(scene_);
+    Patch patch = cut_patch(scene_, index, free, 0);
+    patch.edge_length = mean_edge_length(scene_.rest, scene_.triangles);
+    const PaperResult untangled = paper_untangle(patch, {}, stopper());
+    paste_patch(patch, scene_, index);
+    LadderResult result;
+    RegionReport report;
+    report.rung = "paper";
+    report.faces = static_cast<std::size_t>(patch.active_count);
+    report.pairs = diagnosis_.pairs.size();
+    report.iterations = untangled.iterations;
+    report.seconds = seconds_since(phase_begin_);
+    result.regions.push_back(report);
+    result.moved.push_back(std::move(free));
+    result.left = blocking_pairs(finder.find(scene_.x), ignored_);
+    return result;
   }
 
   /// Sets of free vertices that overlap become one.
@@ -300,7 +330,8 @@ class Repair {
       else if (left.empty())
         result_.status = Status::embedded;
       else
-        result_.status = options_.goal == Goal::disjoint && after[PairClass::disjoint] == 0 ? Status::embedded : Status::obstructed;
+        result_.status =
+            options_.goal == Goal::disjoint && after[PairClass::disjoint] == 0 ? Status::embedded : Status::obstructed;
       if (!blocking.empty()) result_.status = stopped_or(result_.status);
     }
     report.float32_embedded = finder.find(rounded_to_float32(worse ? scene_.rest : scene_.x)).empty();
@@ -336,23 +367,34 @@ class Repair {
 
 std::string_view to_string(Status status) {
   switch (status) {
-    case Status::embedded: return "embedded";
-    case Status::reduced: return "reduced";
-    case Status::no_progress: return "no_progress";
-    case Status::obstructed: return "obstructed";
-    case Status::time_limit: return "time_limit";
-    case Status::memory_limit: return "memory_limit";
-    case Status::displacement_exceeded: return "displacement_exceeded";
-    case Status::cancelled: return "cancelled";
+    case Status::embedded:
+      return "embedded";
+    case Status::reduced:
+      return "reduced";
+    case Status::no_progress:
+      return "no_progress";
+    case Status::obstructed:
+      return "obstructed";
+    case Status::time_limit:
+      return "time_limit";
+    case Status::memory_limit:
+      return "memory_limit";
+    case Status::displacement_exceeded:
+      return "displacement_exceeded";
+    case Status::cancelled:
+      return "cancelled";
   }
   return "unknown";
 }
 
 std::string_view to_string(Obstruction::Kind kind) {
   switch (kind) {
-    case Obstruction::Kind::closed_non_orientable: return "closed_non_orientable";
-    case Obstruction::Kind::duplicate_faces: return "duplicate_faces";
-    case Obstruction::Kind::fixed_faces: return "fixed_faces";
+    case Obstruction::Kind::closed_non_orientable:
+      return "closed_non_orientable";
+    case Obstruction::Kind::duplicate_faces:
+      return "duplicate_faces";
+    case Obstruction::Kind::fixed_faces:
+      return "fixed_faces";
   }
   return "unknown";
 }

@@ -10,12 +10,12 @@ namespace unsnarl {
 
 /// The whole surface as the solvers see it: identified vertices, triangles, where they were and where they are.
 struct Scene {
-  Positions rest;                        ///< the input
-  Positions x;                           ///< now
+  Positions rest;  ///< the input
+  Positions x;     ///< now
   std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> fixed;       ///< one flag a vertex
+  std::vector<std::uint8_t> fixed;  ///< one flag a vertex
   IndexLists triangles_of_vertex;
-  IndexLists neighbours;                 ///< of vertices, by edges
+  IndexLists neighbours;  ///< of vertices, by edges
 
   Index vertex_count() const { return static_cast<Index>(rest.cols()); }
   Index triangle_count() const { return static_cast<Index>(triangles.size()); }

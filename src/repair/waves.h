@@ -10,9 +10,10 @@
 
 namespace unsnarl {
 
-/// Runs work on items that may disturb each other where their boxes overlap: in waves of items that do not, each wave in
-/// parallel by `work(i)`, followed by `finish(i)` for its items in order on the calling thread. Of two items that overlap
-/// the earlier one is finished before the later begins; so the result is that of one after the other, at any thread count.
+/// Runs work on items that may disturb each other where their boxes overlap: in waves of items that do not, each wave
+/// in parallel by `work(i)`, followed by `finish(i)` for its items in order on the calling thread. Of two items that
+/// overlap the earlier one is finished before the later begins; so the result is that of one after the other, at any
+/// thread count.
 template <class Work, class Finish>
 void run_in_waves(std::span<const Box> boxes, Work&& work, Finish&& finish) {
   const std::size_t n = boxes.size();

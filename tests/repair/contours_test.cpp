@@ -22,6 +22,9 @@ struct TwoSheets {
 
   TwoSheets(const Shape& a, const Shape& b) : shape(a), first_vertices(static_cast<Index>(a.points.size())) {
     shape.add(b);
+    // Triangles in no order, so that either sheet may hold the first of a pair.
+    const std::vector<Triangle> ordered = shape.triangles;
+    for (std::size_t k = 0; k < ordered.size(); ++k) shape.triangles[k] = ordered[k * 7919 % ordered.size()];
     edges = build_edges(shape.triangles);
   }
   bool on_first(const Crossing& c) const { return edges.edges[c.edge][0] < first_vertices; }

@@ -113,6 +113,8 @@ TEST(Diagnose, intersecting_faces_with_all_vertices_fixed) {
   EXPECT_EQ(all.obstructions[0].faces, faces);
   for (std::size_t v = 4; v < 8; ++v) fixed[v] = 0;  // one of the two may move
   EXPECT_TRUE(diagnosis_of(shape.surface(), fixed).obstructions.empty());
+  fixed[4] = fixed[5] = 1;  // in part
+  EXPECT_TRUE(diagnosis_of(shape.surface(), fixed).obstructions.empty());
 }
 
 TEST(Diagnose, counts_what_is_odd_about_a_mesh) {

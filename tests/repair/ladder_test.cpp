@@ -36,6 +36,19 @@ TEST(Ladder, clears_a_crossing_and_says_how) {
   EXPECT_TRUE(scene.rest == shape.positions());
 }
 
+// Too deep for the gentle rungs: those that failed are not reported, and leave no trace.
+TEST(Ladder, a_region_climbs_until_a_rung_resolves_it) {
+  const Shape shape = shapes::crossing_bumps(14, 1.6);
+  Scene scene = shapes::scene_of(shape), shallow = shapes::scene_of(shapes::crossing_bumps(14, 0.3));
+  const LadderResult result = climb_ladder(scene, {}, {}), gentle = climb_ladder(shallow, {}, {});
+  EXPECT_TRUE(result.left.empty());
+  ASSERT_EQ(result.regions.size(), 1u);
+  ASSERT_EQ(gentle.regions.size(), 1u);
+  EXPECT_NE(result.regions[0].rung, gentle.regions[0].rung);
+  EXPECT_EQ(result.regions[0].pairs, shapes::pairs_of(shape).size());
+  EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
+}
+
 TEST(Ladder, nothing_to_do_moves_nothing) {
   Scene scene = shapes::scene_of(shapes::bumpy_sheet(5, 0.5));
   const LadderResult result = climb_ladder(scene, {}, {});
