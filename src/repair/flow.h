@@ -85,7 +85,7 @@ struct FlowOptions {
   std::array<double, 7> recession_shares = {0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
   int recession_iterations = 120;  ///< of the contour method; the last ones to succeed needed 111
   /// Step and locality of that method, of the diagonal, at least finish_step and 4 h: fine meshes must go as far as
-  /// coarse ones. All shares are tried with the first before the second, which a figure-eight Klein bottle needs.
+  /// coarse ones. All shares are tried with the first before the second.
   struct Stride {
     double step_rel, locality_rel;
   };
