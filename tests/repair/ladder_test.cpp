@@ -38,7 +38,7 @@ TEST(Ladder, clears_a_crossing_and_says_how) {
 
 // Too deep for the gentle rungs: those that failed are not reported, and leave no trace.
 TEST(Ladder, a_region_climbs_until_a_rung_resolves_it) {
-  const Shape shape = shapes::crossing_bumps(14, 1.6);
+  const Shape shape = shapes::crossing_bumps(14, 3.5);
   Scene scene = shapes::scene_of(shape), shallow = shapes::scene_of(shapes::crossing_bumps(14, 0.3));
   const LadderResult result = climb_ladder(scene, {}, {}), gentle = climb_ladder(shallow, {}, {});
   EXPECT_TRUE(result.left.empty());
