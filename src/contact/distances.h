@@ -18,7 +18,8 @@ enum class StencilKind : std::uint8_t {
 struct Stencil {
   StencilKind kind = StencilKind::vertex_face;
   std::array<Index, 4> v = {-1, -1, -1, -1};
-  /// Ids of the two primitives where ContactCandidates listed it: the vertex or edge, and the triangle or edge; else -1.
+  /// Ids of the two primitives where ContactCandidates listed it: the vertex or edge, and the triangle or edge; else
+  /// -1.
   std::array<Index, 2> primitives = {-1, -1};
 
   int size() const { return kind == StencilKind::vertex_edge ? 3 : 4; }
