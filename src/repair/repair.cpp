@@ -130,14 +130,17 @@ class Repair {
   // Precision.
 
   void choose_precision() {
-    largest_coordinate_ = scene_.rest.size() > 0 ? scene_.rest.cwiseAbs().maxCoeff() : 0;
     float32_ = options_.precision != Precision::float64;
     if (options_.precision || diagnosis_.pairs.empty()) return;
+    // By the conflicts alone: parts far away that have none change nothing.
     std::vector<Triangle> conflict;
+    double largest = 0;
     for (const IntersectingPair& pair : diagnosis_.pairs)
-      for (Index t : {pair.a, pair.b}) conflict.push_back(scene_.triangles[t]);
-    float32_ =
-        gap_units * float32_unit(largest_coordinate_) <= largest_gap_of_edge * mean_edge_length(scene_.rest, conflict);
+      for (Index t : {pair.a, pair.b}) {
+        conflict.push_back(scene_.triangles[t]);
+        for (Index v : conflict.back()) largest = std::max(largest, scene_.rest.col(v).cwiseAbs().maxCoeff());
+      }
+    float32_ = gap_units * float32_unit(largest) <= largest_gap_of_edge * mean_edge_length(scene_.rest, conflict);
   }
   /// Absolute gap wanted between sheets around these vertices. Local, so that distant parts change nothing.
   double wanted_gap(const std::vector<Index>& vertices) const {
@@ -354,7 +357,6 @@ class Repair {
   std::vector<IntersectingPair> ignored_;
   Scene scene_;
   bool float32_ = false;
-  double largest_coordinate_ = 0;
   double smallest_gap_ = std::numeric_limits<double>::infinity();
   static constexpr int no_stop = -1;
   std::atomic<int> stop_reason_{no_stop};

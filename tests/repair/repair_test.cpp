@@ -294,6 +294,14 @@ TEST(Repair, float32_is_made_to_hold_where_coordinates_allow_it) {
   EXPECT_TRUE(judged(near.surface(), asked.positions).empty());
 }
 
+TEST(Repair, a_part_far_away_does_not_change_the_precision) {
+  const Shape tangle = shapes::crossing_bumps(10, 0.3);
+  const RepairResult alone = repair(tangle.surface());
+  const RepairResult together = repair(Shape(tangle).add(shapes::bumpy_sheet(3, 0), {1e6, 0, 0}).surface());
+  EXPECT_EQ(together.report.precision, alone.report.precision);
+  EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), together.positions.begin()));
+}
+
 // Embedded in double, touching in float32: opened unless float64 is all that is asked for.
 TEST(Repair, sheets_that_only_rounding_brings_together_are_parted) {
   Shape shape = shapes::bumpy_sheet(4, 0);
