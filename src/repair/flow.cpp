@@ -42,6 +42,7 @@ constexpr std::array<FlowRung, 9> rungs{{
      .hot_range = 2},
     {.name = "flow 1", .max_iterations = 120, .locality = 100, .lambda_minkowski = 1, .margin = 0.01},
     {.name = "flow 1b", .max_iterations = 200, .locality = 30, .lambda_minkowski = 0.5},
+    {.name = "recession", .recedes = true},
     {.name = "flow 2",
      .max_iterations = 150,
      .locality = 10,
@@ -72,7 +73,6 @@ constexpr std::array<FlowRung, 9> rungs{{
      .adaptive_bandwidth = false,
      .max_spacing_rel = 0.25,
      .hopeless_stalls = 6},
-    {.name = "recession", .recedes = true},
 }};
 
 double smoothstep(double t) {
@@ -340,6 +340,7 @@ class Flow {
     const Recession recession(active_, patch_.rest, n_);
     if (!recession.possible()) return result;
     full_ = best_ = patch_.x;
+    // Recovery does not get far from faces squeezed to slivers: they are the answer only where nothing better comes.
     for (const auto& [step_rel, locality_rel] : options_.recession_strides) {
       const LocalRung contour{LocalMethod::contour, std::max(options_.finish_step, step_rel * diagonal_ / h_),
                               std::max(4.0, locality_rel * diagonal_ / h_), options_.recession_iterations};
@@ -347,8 +348,10 @@ class Flow {
         if (stop_ && stop_()) break;
         recession.positions(share, full_);
         if (!solve_contours(full_, contour, options_.jitter, &result.iterations)) continue;
+        if (!result.clean) best_ = full_;
         result.clean = true;
         result.pairs_left = 0;
+        if (has_squeezed_face(patch_, patch_.rest, full_, options_.recession_area)) continue;
         patch_.x = full_;
         return result;
       }

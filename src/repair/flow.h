@@ -90,6 +90,7 @@ struct FlowOptions {
     double step_rel, locality_rel;
   };
   std::array<Stride, 2> recession_strides = {{{0.009, 0.12}, {0.02, 0.28}}};
+  double recession_area = 0.02;   ///< of its area at rest: with thinner faces than this, further shares are tried
   double area_floor = 1e-3;       ///< of its area at rest: thinner faces are no solution
   int bisections = 5;             ///< of the displacement back to rest; the smallest clean one is kept
   double candidate_reach = 0.25;  ///< h: motion until the candidate pairs are gathered anew
