@@ -33,7 +33,7 @@ constexpr LocalRung penalty = {LocalMethod::penalty, 0.1, 3, 30};
 constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
 constexpr LocalRung long_contour = {LocalMethod::contour, 0.3, 4, 60};
 constexpr LocalRung smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
-constexpr LocalRung wide_smoothing = {LocalMethod::smoothing, 0.1, 8, 100};
+constexpr LocalRung wide_smoothing = {LocalMethod::smoothing, 0.1, 5, 100};
 
 /// The default configuration: gentle first.
 std::vector<Rung> default_rungs() {

@@ -257,7 +257,13 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     if (method != LocalMethod::penalty || size > limit) direction *= limit / size;
     x.leftCols(n) += direction.transpose();
   }
-  if (result.clean && has_squeezed_face(patch, start, x, options.area_floor)) result.clean = false;
+  // Too far: somewhat back there may be room for the faces.
+  constexpr int parts = 16;
+  const Positions whole = x;
+  for (int part = parts - 1; result.clean && has_squeezed_face(patch, start, x, options.area_floor); --part) {
+    x.leftCols(n) = start.leftCols(n) + (static_cast<double>(part) / parts) * (whole - start).leftCols(n);
+    result.clean = part > 0 && blocking_pairs(finder.find(x), tolerated).empty();
+  }
   if (!result.clean) return result;
   patch.x = x;
   shrink_displacement(patch, start, options.bisections, is_clean);
