@@ -69,6 +69,12 @@ class Climb {
       climb_one(rung);
       pairs_ = current_pairs();
     }
+    for (const ConflictRegion& region : conflict_regions(scene_, pairs_)) {
+      RegionReport unresolved;
+      unresolved.rung = "none";
+      unresolved.pairs = region.pairs.size();
+      result_.regions.push_back(unresolved);
+    }
     result_.left = pairs_;
     return std::move(result_);
   }
