@@ -4,8 +4,12 @@
 
 namespace unsnarl::app {
 
-CLI::Validator one_of(std::vector<std::string> words) { return CLI::IsMember(std::move(words)).description(""); }
-CLI::Validator not_negative() { return CLI::Range(0.0, std::numeric_limits<double>::max()).description(""); }
+CLI::Validator one_of(std::vector<std::string> words) {
+  return CLI::IsMember(std::move(words)).description("");
+}
+CLI::Validator not_negative() {
+  return CLI::Range(0.0, std::numeric_limits<double>::max()).description("");
+}
 
 void add_mesh_options(CLI::App& command, MeshOptions& options) {
   command.add_option("IN", options.input, "Mesh file: obj, off, ply, stl, glb or gltf; '-' for standard input")
@@ -20,7 +24,7 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
       ->type_name("all|disjoint");
   command
       .add_option("--weld", options.weld,
-                  "Which vertices at equal positions count as one: those on 'seams' within a shell (default:\n"
+                  "Which vertices at equal positions count as one: 'seams', those within one shell (default:\n"
                   "texture seams, corners in STL), 'all', or 'none'. The file keeps them apart in any case")
       ->check(one_of({"none", "seams", "all"}))
       ->type_name("none|seams|all");

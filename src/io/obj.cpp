@@ -2,36 +2,17 @@
 // on.
 #include <fmt/format.h>
 
-#include "io/mesh_file.h"
+#include "io/coordinate_text_file.h"
 #include "io/surface_builder.h"
 #include "io/text_scanner.h"
-#include "io/token_edits.h"
 
 namespace unsnarl {
 namespace {
 
-class ObjFile final : public MeshFile {
- public:
-  std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const override {
-    TokenEdits edits;
-    edit_coordinates(edits, bytes, begins, surface.positions, positions, precision(float32_digits));
-    return {{{}, edits.apply(bytes)}};
-  }
-  std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const override {
-    return coordinates_as_written(surface.positions, positions, precision(float32_digits));
-  }
-
-  std::vector<std::size_t> begins;  ///< where the token of each coordinate starts, 3 a vertex
-
- private:
-  static TextPrecision precision(bool float32_digits) {
-    return float32_digits ? TextPrecision::float_digits : TextPrecision::double_digits;
-  }
-};
-
 class ObjParser {
  public:
-  explicit ObjParser(ObjFile& file) : file_(file), text_(file.bytes, {.hash_comments = true, .continuation = true}) {}
+  explicit ObjParser(CoordinateTextFile& file)
+      : file_(file), text_(file.bytes, {.hash_comments = true, .continuation = true}) {}
 
   void parse() {
     if (file_.bytes.empty()) throw FileError("the file is empty; an OBJ file needs 'v' and 'f' lines");
@@ -120,7 +101,7 @@ class ObjParser {
     materials_.finish(faces_.count(), file_.labels);
   }
 
-  ObjFile& file_;
+  CoordinateTextFile& file_;
   TextScanner text_;
   FaceCollector faces_{file_.surface};
   LabelCollector objects_{"object"}, groups_{"group"}, materials_{"material"};
@@ -133,7 +114,7 @@ class ObjParser {
 }  // namespace
 
 std::unique_ptr<MeshFile> parse_obj(std::string bytes) {
-  auto file = std::make_unique<ObjFile>();
+  auto file = std::make_unique<CoordinateTextFile>();
   file->bytes = std::move(bytes);
   ObjParser(*file).parse();
   return file;

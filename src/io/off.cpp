@@ -1,36 +1,16 @@
 // Object File Format (Geomview): OFF with optional ST, C and N prefixes, as text.
 #include <fmt/format.h>
 
-#include "io/mesh_file.h"
+#include "io/coordinate_text_file.h"
 #include "io/surface_builder.h"
 #include "io/text_scanner.h"
-#include "io/token_edits.h"
 
 namespace unsnarl {
 namespace {
 
-class OffFile final : public MeshFile {
- public:
-  std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const override {
-    TokenEdits edits;
-    edit_coordinates(edits, bytes, begins, surface.positions, positions, precision(float32_digits));
-    return {{{}, edits.apply(bytes)}};
-  }
-  std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const override {
-    return coordinates_as_written(surface.positions, positions, precision(float32_digits));
-  }
-
-  std::vector<std::size_t> begins;  ///< where the token of each coordinate starts, 3 a vertex
-
- private:
-  static TextPrecision precision(bool float32_digits) {
-    return float32_digits ? TextPrecision::float_digits : TextPrecision::double_digits;
-  }
-};
-
 class OffParser {
  public:
-  explicit OffParser(OffFile& file) : file_(file), text_(file.bytes, {.hash_comments = true}) {}
+  explicit OffParser(CoordinateTextFile& file) : file_(file), text_(file.bytes, {.hash_comments = true}) {}
 
   void parse() {
     if (file_.bytes.empty()) throw FileError("the file is empty; an OFF file starts with 'OFF'");
@@ -173,7 +153,7 @@ class OffParser {
     if (!faces_.add(face_)) text_.fail("more face corners than 32-bit ids can count; split the mesh", start);
   }
 
-  OffFile& file_;
+  CoordinateTextFile& file_;
   TextScanner text_;
   FaceCollector faces_{file_.surface};
   std::vector<std::int32_t> face_;
@@ -185,7 +165,7 @@ class OffParser {
 }  // namespace
 
 std::unique_ptr<MeshFile> parse_off(std::string bytes) {
-  auto file = std::make_unique<OffFile>();
+  auto file = std::make_unique<CoordinateTextFile>();
   file->bytes = std::move(bytes);
   OffParser(*file).parse();
   return file;

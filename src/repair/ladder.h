@@ -10,8 +10,6 @@
 namespace unsnarl {
 
 struct LadderOptions {
-  /// Free vertices' share of their components from which on local rungs are skipped. They fail there and cost seconds.
-  double whole_component_share = 0.6;
   std::function<bool()> stop;
   std::function<void(std::size_t pairs_left)> on_progress;
 };

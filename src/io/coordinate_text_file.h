@@ -1,0 +1,28 @@
+#pragma once
+
+#include "io/mesh_file.h"
+#include "io/token_edits.h"
+
+namespace unsnarl {
+
+/// A text file in which every coordinate of a position is a token of its own (OBJ, OFF): moved ones are replaced.
+class CoordinateTextFile final : public MeshFile {
+ public:
+  std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const override {
+    TokenEdits edits;
+    edit_coordinates(edits, bytes, begins, surface.positions, positions, precision(float32_digits));
+    return {{{}, edits.apply(bytes)}};
+  }
+  std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const override {
+    return coordinates_as_written(surface.positions, positions, precision(float32_digits));
+  }
+
+  std::vector<std::size_t> begins;  ///< where the token of each coordinate starts, 3 a vertex
+
+ private:
+  static TextPrecision precision(bool float32_digits) {
+    return float32_digits ? TextPrecision::float_digits : TextPrecision::double_digits;
+  }
+};
+
+}  // namespace unsnarl
