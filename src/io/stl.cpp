@@ -78,6 +78,10 @@ class BinaryStlFile final : public StlFile {
       throw FileError(fmt::format("{} facets are more than 32-bit ids can count; split the mesh", count));
     }
     const std::size_t extra = bytes.size() - header_size - count * facet_size;
+    if (count == 0 && extra >= facet_size) {
+      throw FileError(fmt::format(
+          "the header promises no facets, but {} bytes follow it; the file is damaged or no STL file", extra));
+    }
     if (extra > 0) notes.push_back(fmt::format("{} bytes after the last facet are kept as they are.", extra));
     surface.positions.resize(9 * count);
     for (std::size_t i = 0; i < surface.positions.size(); ++i) {

@@ -245,6 +245,18 @@ TEST(Gltf, PositionsThatAreNormalsTooCannotMove) {
   EXPECT_THROW(document.patched(moved, false), FileError);
 }
 
+TEST(Gltf, PositionsThatAreIndicesTooCannotMove) {
+  const std::string text = replaced(json_text(), R"("byteOffset":48,"byteLength":24)", R"("byteLength":24)");
+  const Document document = Document::parse(glb(text, buffer_bytes(std::vector<float>(12, 0.0f))), Format::glb);
+  ASSERT_EQ(document.notes().size(), 1u);
+  std::vector<double> moved = document.surface().positions;
+  EXPECT_NO_THROW(document.patched(moved, false));
+  moved[0] = 3;
+  EXPECT_THROW(document.patched(moved, false), FileError);
+  // Right behind the positions is where they usually are.
+  EXPECT_TRUE(Document::parse(plain, Format::glb).notes().empty());
+}
+
 class GltfFolder : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -109,6 +109,7 @@ TEST(Stl, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("hello", Format::stl, "neither text that starts with 'solid' nor binary");
   EXPECT_PARSE_ERROR(binary("x", two_facets).substr(0, 140), Format::stl,
                      "promises 2 facets, but the file ends within facet 2");
+  EXPECT_PARSE_ERROR(binary("x", {}) + std::string(60, 'x'), Format::stl, "promises no facets, but 60 bytes follow");
   EXPECT_PARSE_ERROR(ascii.substr(0, 100), Format::stl, "line ");
   EXPECT_PARSE_ERROR(replaced(ascii, "vertex 0 1 0", "vertex 0 1"), Format::stl,
                      "line 6: vertex 3 has fewer than three");
