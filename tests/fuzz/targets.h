@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+/// What is fuzzed. A target takes any bytes and ends the process, with a message, where a promise is broken; libFuzzer
+/// runs them on bytes that it makes up (libfuzzer_main.cpp), the tests on bytes that are kept (replay_main.cpp).
+namespace unsnarl::fuzz {
+
+using Bytes = std::span<const std::uint8_t>;
+
+/// A file of this format: read or refused; and what was read keeps the promises of Document.
+void obj(Bytes bytes);
+void off(Bytes bytes);
+void ply(Bytes bytes);
+void stl(Bytes bytes);
+void gltf(Bytes bytes);  ///< also GLB: whatever starts with 'glTF'
+/// A small mesh on a lattice: the pairs found are those that brute force finds.
+void intersections(Bytes bytes);
+/// A small mesh on a lattice: what `repair` returns is what it promises.
+void repair(Bytes bytes);
+
+struct Target {
+  std::string_view name;
+  void (*run)(Bytes bytes);
+};
+inline constexpr std::array<Target, 7> targets = {{{"obj", obj},
+                                                   {"off", off},
+                                                   {"ply", ply},
+                                                   {"stl", stl},
+                                                   {"gltf", gltf},
+                                                   {"intersections", intersections},
+                                                   {"repair", repair}}};
+
+}  // namespace unsnarl::fuzz
