@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <set>
 
 #include "exit_code.h"
@@ -15,6 +14,7 @@
 #include "mesh_input.h"
 #include "repair/report_json.h"
 #include "staged_output.h"
+#include "standard_streams.h"
 #include "unsnarl/version.h"
 
 namespace unsnarl::app {
@@ -214,18 +214,18 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
       "Exit codes: 0 none found, 1 found, 2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 70 internal error.");
 }
 
-int run_check(const CheckOptions& options) {
+int run_check(const CheckOptions& options, Interruption& interruption) {
   const Document document = read_mesh(options.input, format_from_name(options.format));
   const Findings found = examine(document.surface(), options.find());
   if (!options.pairs.empty()) {
     if (options.pairs == standard_stream || (options.input != standard_stream && options.pairs == options.input))
       throw UsageError("--pairs needs a file of its own");
-    write_atomically(options.pairs, pairs_table(found.pairs));
+    write_file(options.pairs, pairs_table(found.pairs), interruption);
   }
   if (options.json) {
     write_to_stream(standard_stream, as_json(found, options, document).dump(2) + "\n");
   } else if (!options.quiet) {
-    for (const std::string& note : document.notes()) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& note : document.notes()) tell("note: " + note + "\n");
     write_to_stream(standard_stream, as_text(found, options, document));
   }
   const std::size_t that_count =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "command_options.h"
+#include "interruption.h"
 
 namespace unsnarl::app {
 
@@ -12,6 +13,6 @@ void add_check_options(CLI::App& command, CheckOptions& options);
 
 /// Counts and locates self-intersections, on standard output. Returns the exit code.
 /// Throws FileError, WriteError, UsageError.
-int run_check(const CheckOptions& options);
+int run_check(const CheckOptions& options, Interruption& interruption);
 
 }  // namespace unsnarl::app

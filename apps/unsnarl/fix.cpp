@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "contact/intersection_finder.h"
@@ -20,6 +19,7 @@
 #include "repair/prepared_surface.h"
 #include "repair/report_json.h"
 #include "staged_output.h"
+#include "standard_streams.h"
 #include "surface_files.h"
 #include "unsnarl/certify.h"
 
@@ -166,7 +166,7 @@ class Fix {
     context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
     interruption_.set_handler([&] {
       context.cancel();
-      if (!options_.quiet) fmt::print(stderr, "\nstopping; once more to end at once\n");
+      if (!options_.quiet) tell("\nstopping; once more to end at once\n");
     });
     result_ = repair(surface(), repair_options_, &context);
     interruption_.set_handler(nullptr);
@@ -190,7 +190,7 @@ class Fix {
   void say(fmt::format_string<Args...> text, Args&&... args) {
     if (options_.quiet) return;
     display_.clear();
-    fmt::print(stderr, "{}\n", fmt::format(text, std::forward<Args>(args)...));
+    tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
   }
 
   void write_output() {
@@ -241,7 +241,8 @@ class Fix {
     const std::vector<IntersectingPair> pairs_before = pairs_at(surface().positions);
     const std::vector<IntersectingPair> pairs_after = pairs_at(result_.positions);
     if (!options_.highlight.empty())
-      write_file(options_.highlight, highlight_file(surface(), result_.positions, pairs_before, pairs_after));
+      write_file(options_.highlight, highlight_file(surface(), result_.positions, pairs_before, pairs_after),
+                 interruption_);
     if (!options_.picture.empty()) {
       PictureOptions picture;
       const auto label = [](const char* when, std::size_t pairs) {
@@ -254,7 +255,8 @@ class Fix {
       const SurfaceView before = surface();
       const SurfaceView after = {result_.positions, before.corners, before.offsets};
       write_file(options_.picture,
-                 encode_png(render_pair(before, faces_in(pairs_before), after, faces_in(pairs_after), picture)));
+                 encode_png(render_pair(before, faces_in(pairs_before), after, faces_in(pairs_after), picture)),
+                 interruption_);
     }
   }
 
@@ -268,12 +270,7 @@ class Fix {
     files_.notes = document_.notes();
     files_.exit_code = exit_code;
     files_.seconds = clock_.seconds();
-    write_file(options_.report, report_json(result_, repair_options_, files_).dump(2) + "\n");
-  }
-
-  static void write_file(const std::string& path, std::string_view bytes) {
-    if (path == standard_stream) return write_to_stream(path, bytes);
-    write_atomically(path, bytes);
+    write_file(options_.report, report_json(result_, repair_options_, files_).dump(2) + "\n", interruption_);
   }
 
   void summarise() {

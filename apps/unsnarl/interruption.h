@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 
 namespace unsnarl::app {
 
@@ -20,12 +19,11 @@ class Interruption {
 
   /// Empty: the next signal ends the process.
   void set_handler(std::function<void()> on_first);
-  /// The folder to remove when the process ends in the middle; empty: none.
-  void set_temporary_folder(std::filesystem::path folder);
-
- private:
-  struct State;
-  std::shared_ptr<State> state_;
+  /// Runs an action that must not be torn apart; a signal waits until it is done. The action may change the folder
+  /// that is removed when the process ends in the middle; empty: none.
+  void hold_off(const std::function<void(std::filesystem::path& temporary_folder)>& action);
+  /// Removes the temporary folder and ends the process at once.
+  [[noreturn]] static void end_process(int exit_code);
 };
 
 }  // namespace unsnarl::app

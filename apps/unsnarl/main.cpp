@@ -2,24 +2,27 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <exception>
 #include <iostream>
 #include <new>
 #include <optional>
+#include <string_view>
+#include <system_error>
 
 #include "check.h"
 #include "exit_code.h"
 #include "fix.h"
 #include "interruption.h"
 #include "sample.h"
+#include "standard_streams.h"
 #include "unsnarl/document.h"
 #include "unsnarl/version.h"
 
 namespace unsnarl::app {
 namespace {
 
-int complain(ExitCode code, const char* what) {
-  fmt::print(stderr, "unsnarl: {}\n", what);
+ExitCode complain(ExitCode code, std::string_view what) {
+  tell(fmt::format("unsnarl: {}\n", what));
   return code;
 }
 
@@ -57,13 +60,21 @@ int run(int argc, char** argv) {
       return complain(exit_usage, "say what to do: fix, check or sample; 'unsnarl --help' explains");
     return program.exit(e, std::cout, std::cerr) == 0 ? exit_embedded : exit_usage;
   }
+  std::optional<tbb::global_control> limit;
+  if (const int threads = *fix_command ? fix.threads : check.threads; threads > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  if (*fix_command) return run_fix(fix, interruption);
+  if (*check_command) return run_check(check, interruption);
+  return run_sample(sample, interruption);
+}
+
+/// TBB says it in words only.
+bool is_about_threads(const std::exception& e) { return std::string_view(e.what()).starts_with("pthread_create"); }
+
+/// Every error ends here: says the reason of the one that is being handled, returns its exit code.
+ExitCode explain_error() {
   try {
-    std::optional<tbb::global_control> limit;
-    if (const int threads = *fix_command ? fix.threads : check.threads; threads > 0)
-      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    if (*fix_command) return run_fix(fix, interruption);
-    if (*check_command) return run_check(check);
-    return run_sample(sample);
+    throw;
   } catch (const UsageError& e) {
     return complain(exit_usage, e.what());
   } catch (const FileError& e) {
@@ -73,11 +84,28 @@ int run(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return complain(exit_limit, "not enough memory");
   } catch (const std::exception& e) {
-    return complain(exit_internal_error, fmt::format("internal error: {}. Please report it", e.what()).c_str());
+    const auto* const system = dynamic_cast<const std::system_error*>(&e);
+    if (is_about_threads(e) || (system && system->code() == std::errc::resource_unavailable_try_again))
+      return complain(exit_limit, "not enough memory to start threads; --threads 1 needs the least");
+    return complain(exit_internal_error, fmt::format("internal error: {}. Please report it", e.what()));
   }
+}
+
+/// Where an error finds no way out (in a thread that has just run out of memory, say).
+[[noreturn]] void explain_and_end() {
+  Interruption::end_process(std::current_exception() ? explain_error() : exit_internal_error);
 }
 
 }  // namespace
 }  // namespace unsnarl::app
 
-int main(int argc, char** argv) { return unsnarl::app::run(argc, argv); }
+int main(int argc, char** argv) {
+  using namespace unsnarl::app;
+  open_missing_streams();
+  std::set_terminate(explain_and_end);
+  try {
+    return run(argc, argv);
+  } catch (...) {
+    return explain_error();
+  }
+}

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "exit_code.h"
+#include "standard_streams.h"
 
 namespace unsnarl::app {
 
@@ -25,22 +25,20 @@ void ProgressDisplay::show(const Context::Progress& progress) {
                                            {"phase", progress.phase},
                                            {"pairs_left", progress.pairs_left},
                                            {"displacement_rel", progress.displacement_rel}};
-      fmt::print(stderr, "{}\n", json.dump());
+      tell(json.dump() + "\n");
       break;
     }
     case ProgressStyle::line:
-      fmt::print(stderr, "\r\x1b[K{:<9} {:3.0f} %   {} intersecting pairs left   moved up to {:.2g} % of the diagonal",
-                 progress.phase, 100 * progress.fraction, progress.pairs_left, 100 * progress.displacement_rel);
+      tell(fmt::format("\r\x1b[K{:<9} {:3.0f} %   {} intersecting pairs left   moved up to {:.2g} % of the diagonal",
+                       progress.phase, 100 * progress.fraction, progress.pairs_left, 100 * progress.displacement_rel));
       line_shown_ = true;
       break;
   }
-  std::fflush(stderr);
 }
 
 void ProgressDisplay::clear() {
   if (!line_shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  tell("\r\x1b[K");
   line_shown_ = false;
 }
 

@@ -12,6 +12,7 @@
 #include "mesh_input.h"
 #include "samples/samples.h"
 #include "staged_output.h"
+#include "standard_streams.h"
 #include "surface_files.h"
 
 namespace unsnarl::app {
@@ -72,7 +73,7 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
       "  unsnarl sample mobius_extended -o band.obj --resolution 100");
 }
 
-int run_sample(const SampleOptions& options) {
+int run_sample(const SampleOptions& options, Interruption& interruption) {
   if (options.list) {
     write_to_stream(standard_stream, options.name.empty() ? list_of_samples() : description_of(options.name));
     return exit_embedded;
@@ -89,10 +90,7 @@ int run_sample(const SampleOptions& options) {
   } catch (const std::invalid_argument& e) {
     throw UsageError(e.what());
   }
-  if (options.output == standard_stream)
-    write_to_stream(options.output, bytes);
-  else
-    write_atomically(options.output, bytes);
+  write_file(options.output, bytes, interruption);
   return exit_embedded;
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "interruption.h"
+
 namespace unsnarl::app {
 
 struct SampleOptions {
@@ -16,6 +18,6 @@ void add_sample_options(CLI::App& command, SampleOptions& options);
 
 /// Writes one of the built-in self-intersecting surfaces, or lists them. Returns the exit code.
 /// Throws WriteError, UsageError.
-int run_sample(const SampleOptions& options);
+int run_sample(const SampleOptions& options, Interruption& interruption);
 
 }  // namespace unsnarl::app

@@ -8,9 +8,8 @@
 
 #include <cerrno>
 #include <cstring>
-#include <iostream>
 
-#include "mesh_input.h"
+#include "standard_streams.h"
 
 namespace unsnarl::app {
 namespace {
@@ -42,18 +41,24 @@ StagedOutput::StagedOutput(const fs::path& target, Interruption& interruption)
   std::error_code ignored;
   if (fs::is_directory(target_, ignored))
     throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()));
+  // Renaming would get past the protection of the old file.
+  if (fs::exists(target_, ignored) && ::access(target_.c_str(), W_OK) != 0)
+    throw WriteError(fmt::format("{}: is write-protected: {}", target.string(), std::strerror(errno)));
   std::string pattern = (folder_of(target_) / ".unsnarl-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr)
-    throw WriteError(fmt::format("{}: cannot create files in the folder {}: {}", target.string(),
-                                 folder_of(target_).string(), std::strerror(errno)));
-  folder_ = pattern;
-  interruption_.set_temporary_folder(folder_);
+  interruption_.hold_off([&](fs::path& temporary_folder) {
+    if (::mkdtemp(pattern.data()) == nullptr)
+      throw WriteError(fmt::format("{}: cannot create files in the folder {}: {}", target.string(),
+                                   folder_of(target_).string(), std::strerror(errno)));
+    temporary_folder = folder_ = pattern;
+  });
 }
 
 StagedOutput::~StagedOutput() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-  interruption_.set_temporary_folder({});
+  interruption_.hold_off([&](fs::path& temporary_folder) {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+    temporary_folder.clear();
+  });
 }
 
 void StagedOutput::write(const std::vector<OutputFile>& files) {
@@ -62,7 +67,8 @@ void StagedOutput::write(const std::vector<OutputFile>& files) {
     const fs::path name = file.name.empty() ? target_.filename() : file.name;
     const fs::path staged = folder_ / name;
     std::error_code error;
-    fs::create_directories(staged.parent_path(), error);
+    // An interruption removes folder_, which must not be made anew.
+    if (name.has_parent_path()) fs::create_directories(staged.parent_path(), error);
     try {
       write_atomically(staged, file.bytes);
     } catch (const WriteError& e) {
@@ -80,6 +86,11 @@ std::vector<fs::path> StagedOutput::targets() const {
 }
 
 void StagedOutput::commit() {
+  // Either all files of a glTF are the new ones, or none is.
+  interruption_.hold_off([&](fs::path&) { rename_all(); });
+}
+
+void StagedOutput::rename_all() const {
   for (std::size_t i = names_.size(); i-- > 0;) {
     const fs::path from = folder_ / names_[i], to = folder_of(target_) / names_[i];
     std::error_code error;
@@ -92,17 +103,9 @@ void StagedOutput::commit() {
   flush_folder(folder_of(target_));
 }
 
-bool is_stream(const std::string& path) {
-  if (path == standard_stream) return true;
-  struct stat status {};
-  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-}
-
-void write_to_stream(const std::string& path, std::string_view bytes) {
-  if (path != standard_stream) return write_atomically(path, bytes);
-  std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  std::cout.flush();
-  if (!std::cout) throw WriteError("standard output: cannot write; its reader has gone, or the disk is full");
+void write_file(const std::string& path, std::string_view bytes, Interruption& interruption) {
+  if (is_stream(path)) return write_to_stream(path, bytes);  // may wait for a reader; an interruption ends that
+  interruption.hold_off([&](fs::path&) { write_atomically(path, bytes); });
 }
 
 }  // namespace unsnarl::app

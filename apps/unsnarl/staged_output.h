@@ -13,7 +13,7 @@ namespace unsnarl::app {
 /// renamed into place by commit(). Whatever happens before that, nothing is left behind.
 class StagedOutput {
  public:
-  /// Throws WriteError where the folder of `target` is missing or cannot be written to.
+  /// Throws WriteError where the folder of `target` is missing or, like an existing target, must not be written to.
   StagedOutput(const std::filesystem::path& target, Interruption& interruption);
   ~StagedOutput();
   StagedOutput(const StagedOutput&) = delete;
@@ -29,15 +29,15 @@ class StagedOutput {
   void commit();
 
  private:
+  void rename_all() const;
+
   std::filesystem::path target_;  // links followed
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> names_;  // relative to both folders, the main file first
   Interruption& interruption_;
 };
 
-/// Standard output, a device or a pipe: there is nothing to rename, nor to read back.
-bool is_stream(const std::string& path);
-/// Throws WriteError.
-void write_to_stream(const std::string& path, std::string_view bytes);
+/// A file of its own, whole or not at all; or a stream. Throws WriteError.
+void write_file(const std::string& path, std::string_view bytes, Interruption& interruption);
 
 }  // namespace unsnarl::app

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <set>
 #include <string>
@@ -63,8 +64,11 @@ struct Outcome {
 struct RunOptions {
   std::string input = {};        ///< for standard input
   std::string stdout_path = {};  ///< where standard output goes instead of Outcome::out
-  /// A SIGINT is sent whenever the next of these has appeared on standard error.
+  /// The signal is sent whenever the next of these has appeared on standard error.
   std::vector<std::string> signal_after = {};
+  int signal = SIGINT;
+  int signal_after_us = -1;             ///< microseconds after the start, instead of a word; negative: never
+  std::function<void()> in_child = {};  ///< called before the program starts, with its streams in place
 };
 
 /// Runs the program with these arguments and waits for it.
@@ -88,15 +92,20 @@ inline Outcome run(const std::vector<std::string>& arguments, const RunOptions& 
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
     ::signal(SIGINT, SIG_DFL);
+    if (options.in_child) options.in_child();
     ::execv(argv[0], argv.data());
     ::_exit(127);
+  }
+  if (options.signal_after_us >= 0) {
+    ::usleep(static_cast<useconds_t>(options.signal_after_us));
+    ::kill(child, options.signal);
   }
   int status = 0;
   std::size_t sent = 0;
   while (::waitpid(child, &status, sent < options.signal_after.size() ? WNOHANG : 0) != child) {
     if (sent < options.signal_after.size() &&
         contents(err_path).find(options.signal_after[sent]) != std::string::npos) {
-      ::kill(child, SIGINT);
+      ::kill(child, options.signal);
       ++sent;
     }
     ::usleep(2000);

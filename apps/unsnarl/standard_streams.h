@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace unsnarl::app {
+
+/// Opens /dev/null in place of standard streams that were closed at the start. Else a file opened later would take
+/// their number, and what is meant for a person would end up in it.
+void open_missing_streams();
+
+/// To standard error. Where that is closed or full there is nobody to tell, which is no error.
+void tell(std::string_view text);
+
+/// Standard output, a device or a pipe: there is nothing to rename, nor to read back.
+bool is_stream(const std::string& path);
+/// Throws WriteError.
+void write_to_stream(const std::string& path, std::string_view bytes);
+
+}  // namespace unsnarl::app

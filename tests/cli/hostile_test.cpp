@@ -1,0 +1,250 @@
+// Broken files, broken devices, too little memory, and being killed at any moment: the program ends with an exit code
+// and a reason, the target is the old file or the complete new one, and nothing else is left behind.
+#include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+#include <array>
+#include <thread>
+
+#include "cli/program.h"
+#include "unsnarl/document.h"
+#include "unsnarl/intersections.h"
+
+namespace unsnarl::cli {
+namespace {
+
+/// A tetrahedron, and a small one whose tip sticks into it.
+const std::string crossing =
+    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nv 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
+    "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n";
+
+constexpr std::array<const char*, 6> formats = {"obj", "off", "ply", "stl", "glb", "gltf"};
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool memory_can_be_limited = false;  // the shadow memory takes terabytes of addresses
+#else
+constexpr bool memory_can_be_limited = true;
+#endif
+
+/// For RunOptions::in_child.
+std::function<void()> with_limit(int resource, rlim_t limit) {
+  return [=] {
+    const rlimit both = {limit, limit};
+    ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
+  };
+}
+
+/// Permissions count for us too, even if we are root.
+void respect_permissions() {
+  constexpr unsigned long dac_override = 1;  // CAP_DAC_OVERRIDE of <linux/capability.h>
+  ::prctl(PR_CAPBSET_DROP, dac_override, 0, 0, 0);
+}
+
+/// Many bytes in a fixed order, the same on every machine.
+std::string random_bytes(std::size_t size) {
+  std::string bytes;
+  std::uint64_t state = 1;
+  while (bytes.size() < size) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    bytes += static_cast<char>(state >> 56);
+  }
+  return bytes;
+}
+
+class Hostile : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& bytes) {
+    write(folder / name, bytes);
+    return folder / name;
+  }
+  std::string sample(const std::string& name, const std::string& resolution) {
+    const std::string path = folder / (name + ".obj");
+    EXPECT_EQ(run({"sample", name, "-o", path, "--resolution", resolution}).exit_code, 0);
+    return path;
+  }
+  Folder folder;
+};
+
+std::string repeated(const std::string& part, std::size_t size) {
+  std::string bytes;
+  while (bytes.size() < size) bytes += part;
+  return bytes;
+}
+
+TEST_F(Hostile, AbsurdCountsAreRefusedAndAskForNoMemory) {
+  const std::string ply_header =
+      "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string list =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty list uint float w\n"
+      "property float x\nproperty float y\nproperty float z\nend_header\n";
+  const std::string faces =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 4294967295\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const std::string gltf =
+      R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"data:;base64,AAAAAA=="}],
+          "bufferViews":[{"buffer":0,"byteLength":4}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+          "accessors":[{"bufferView":0,"componentType":5126,"count":4000000000,"type":"VEC3"}]})";
+  const std::string glb = std::string("glTF\2\0\0\0\xFF\xFF\xFF\xFF", 12) + std::string(
+                                                                                "\xFF\xFF\xFF\xFF"
+                                                                                "JSON",
+                                                                                8);
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"vertices.ply", ply_header + "0 0 0\n"},
+      {"list.ply", list + std::string("\xFF\xFF\xFF\xFF", 4) + std::string(20, '\0')},
+      {"faces.ply", faces},
+      {"vertices.off", "OFF\n4294967295 1 0\n0 0 0\n"},
+      {"faces.off", "OFF\n1 4294967295 0\n0 0 0\n3 0 0 0\n"},
+      {"corners.off", "OFF\n1 1 0\n0 0 0\n4294967295 0 0 0\n"},
+      {"facets.stl", std::string(80, 'x') + std::string(4, '\xFF') + std::string(100, '\0')},
+      {"none.stl", std::string(1000, '\0')},
+      {"vertex.obj", "v 0 0 0\nf 1 4294967295 1\n"},
+      {"relative.obj", "v 0 0 0\nf -1 -4294967295 -1\n"},
+      {"count.gltf", gltf},
+      {"length.glb", glb}};
+  for (const auto& [name, bytes] : files) {
+    RunOptions options;
+    if (memory_can_be_limited) options.in_child = with_limit(RLIMIT_AS, rlim_t{1} << 30);
+    const Outcome outcome = run({"check", file(name, bytes), "--threads", "1"}, options);
+    EXPECT_EQ(outcome.exit_code, 3) << name << ": " << outcome.err;
+    EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(Hostile, GarbageIsRefusedInEveryFormat) {
+  constexpr std::size_t size = 1 << 18;
+  const std::vector<std::string> kinds = {random_bytes(size),         std::string(size, '\0'),   std::string(size, ' '),
+                                          std::string(size, '\n'),    std::string(size, '9'),    repeated("f 1 ", size),
+                                          repeated("{\"a\":[", size), repeated("\xFF\xFE", size)};
+  for (const char* format : formats) {
+    const std::string path = folder / ("garbage." + std::string(format));
+    for (const std::string& bytes : kinds)
+      for (const char* prefix : {"", "OFF\n", "ply\n", "solid\n", "glTF\2"}) {
+        write(path, prefix + bytes);
+        const Outcome outcome = run({"check", path});
+        EXPECT_EQ(outcome.exit_code, 3) << format << " " << prefix << bytes.substr(0, 10) << ": " << outcome.err;
+        EXPECT_LT(outcome.err.size(), 400u);
+      }
+  }
+}
+
+TEST_F(Hostile, FoldersAndPipesAsInputsAreRefusedAtOnce) {
+  for (const char* format : formats) {
+    const std::string directory = folder / ("d." + std::string(format)), pipe = folder / ("p." + std::string(format));
+    fs::create_directory(directory);
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_EQ(run({"check", directory}).exit_code, 3);
+    const Outcome outcome = run({"check", pipe});  // nobody will ever write to it
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_NE(outcome.err.find("not a regular file"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(Hostile, APipeAsOutputGetsTheWholeFile) {
+  const std::string in = file("in.obj", crossing), out = folder / "out.obj";
+  EXPECT_EQ(run({"fix", in, "-o", out}).exit_code, 0);
+  const std::string pipe = folder / "pipe.obj";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::string received;
+  std::thread reader([&] { received = contents(pipe); });
+  EXPECT_EQ(run({"fix", in, "-o", pipe}).exit_code, 0);
+  reader.join();
+  EXPECT_EQ(received, contents(out));
+}
+
+TEST_F(Hostile, AFullDiskKeepsTheOldFile) {
+  const std::string in = file("in.obj", crossing), out = file("out.obj", "precious");
+  const auto before = folder.names();
+  for (const rlim_t room : {0, 1, 100}) {
+    const Outcome outcome = run({"fix", in, "-o", out, "--quiet"}, {.in_child = with_limit(RLIMIT_FSIZE, room)});
+    EXPECT_EQ(outcome.exit_code, 4) << room;
+    EXPECT_EQ(contents(out), "precious");
+    EXPECT_EQ(folder.names(), before);
+  }
+}
+
+TEST_F(Hostile, WriteProtectionIsRespected) {
+  const std::string in = file("in.obj", crossing), out = file("out.obj", "precious");
+  const RunOptions options = {.in_child = respect_permissions};
+  fs::permissions(out, fs::perms(0444));
+  for (const auto& arguments :
+       {std::vector<std::string>{"fix", in, "-o", out}, {"fix", in, "-o", folder / "new.obj", "--report", out}}) {
+    const Outcome outcome = run(arguments, options);
+    EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find("write-protected"), std::string::npos) << outcome.err;
+    EXPECT_EQ(contents(out), "precious");
+  }
+  const std::string locked = folder / "locked";
+  fs::create_directory(locked);
+  fs::permissions(locked, fs::perms(0555));
+  EXPECT_EQ(run({"fix", in, "-o", locked + "/out.obj"}, options).exit_code, 4);
+  EXPECT_TRUE(fs::is_empty(locked));
+  const std::string secret = file("secret.obj", crossing);
+  fs::permissions(secret, fs::perms(0444));
+  EXPECT_EQ(run({"fix", secret, "--in-place"}, options).exit_code, 4);
+  EXPECT_EQ(contents(secret), crossing);
+}
+
+TEST_F(Hostile, StandardStreamsMayBeClosedOrFull) {
+  const std::string in = file("in.obj", crossing), expected = folder / "expected.obj", out = folder / "out.obj";
+  ASSERT_EQ(run({"fix", in, "-o", expected}).exit_code, 0);
+  const std::array<std::function<void()>, 4> streams = {
+      [] { ::close(STDIN_FILENO), ::close(STDOUT_FILENO), ::close(STDERR_FILENO); }, [] { ::close(STDERR_FILENO); },
+      [] { ::close(STDOUT_FILENO); }, [] { ::dup2(::open("/dev/full", O_WRONLY), STDERR_FILENO); }};
+  for (const auto& prepare : streams) {
+    EXPECT_EQ(run({"fix", in, "-o", out, "--progress", "json"}, {.in_child = prepare}).exit_code, 0);
+    EXPECT_EQ(contents(out), contents(expected));
+    EXPECT_EQ(run({"fix", folder / "missing.obj", "-o", out}, {.in_child = prepare}).exit_code, 3);
+    fs::remove(out);
+  }
+  EXPECT_EQ(contents(in), crossing);
+}
+
+TEST_F(Hostile, KilledAtAnyMomentTheTargetIsTheOldFileOrTheNewOne) {
+  const std::string in = sample("folded_sheet", "20"), out = folder / "out.obj", report = folder / "report.json";
+  const std::string input = contents(in), old = "precious";
+  ASSERT_EQ(run({"fix", in, "-o", out}).exit_code, 0);
+  const std::string complete = contents(out);
+  const auto expect_whole = [&](const RunOptions& options) {
+    write(out, old);
+    const Outcome outcome = run({"fix", in, "-o", out, "--report", report, "--progress", "json"}, options);
+    const bool is_polite = options.signal != SIGKILL;
+    const bool has_ended_well = outcome.exit_code == 0 || outcome.exit_code == 6;
+    EXPECT_TRUE(has_ended_well || outcome.exit_code == -options.signal) << outcome.exit_code << outcome.err;
+    EXPECT_TRUE(contents(out) == old || contents(out) == complete);
+    EXPECT_TRUE(outcome.exit_code != 0 || contents(out) == complete);
+    EXPECT_EQ(contents(in), input);
+    for (const std::string& name : folder.names()) {
+      const bool is_ours = name == "out.obj" || name == "report.json" || name == fs::path(in).filename();
+      EXPECT_TRUE(is_ours || !is_polite) << "left behind: " << name;
+      if (!is_ours) fs::remove_all(folder / name);
+    }
+    fs::remove(report);
+  };
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    for (const char* phase : {"untangle", "certify", "\"fraction\":1"})
+      expect_whole({.signal_after = {phase}, .signal = signal});
+    for (int us = 0; us < 200'000; us = us * 2 + 500) expect_whole({.signal = signal, .signal_after_us = us});
+  }
+}
+
+TEST_F(Hostile, TooLittleMemoryIsNoCrash) {
+  if (!memory_can_be_limited) GTEST_SKIP() << "the sanitizer needs all addresses";
+  const std::string in = sample("folded_sheet", "30"), out = file("out.obj", "precious");
+  const auto before = folder.names();
+  bool ran_out = false;
+  for (rlim_t mb = 16; mb <= 60; mb += mb < 40 ? 2 : 10) {
+    const RunOptions options = {.in_child = with_limit(RLIMIT_AS, mb << 20)};
+    if (run({"--version"}, options).exit_code == 127) continue;  // not even the shared libraries find room
+    const Outcome outcome = run({"fix", in, "-o", out, "--threads", "2", "--quiet"}, options);
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 5) << mb << " MB: " << outcome.exit_code << outcome.err;
+    ran_out |= outcome.err.find("memory") != std::string::npos;
+    EXPECT_EQ(folder.names(), before);
+  }
+  EXPECT_TRUE(ran_out);
+}
+
+}  // namespace
+}  // namespace unsnarl::cli
