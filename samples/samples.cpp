@@ -45,7 +45,7 @@ SampleValues checked_values(const Sample& sample, const std::map<std::string, do
   }
   for (const auto& [name, value] : given) {
     const auto parameter = std::find_if(sample.parameters.begin(), sample.parameters.end(),
-                                        [&](const SampleParameter& p) { return p.name == name; });
+                                        [&wanted = name](const SampleParameter& p) { return p.name == wanted; });
     if (parameter == sample.parameters.end())
       throw std::invalid_argument(
           names.empty() ? fmt::format("sample {} has no parameters, so \"{}\" cannot be set", sample.name, name)
