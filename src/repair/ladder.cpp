@@ -188,9 +188,14 @@ class Climb {
 
   bool solve(Patch& patch, const Rung& rung, const std::vector<IntersectingPair>& foreign, int& iterations) const {
     if (rung.local) {
-      const LocalResult result = solve_locally(patch, *rung.local, foreign, {}, options_.stop);
-      iterations += result.iterations;
-      if (result.clean) return true;
+      // Pockets that are inside out have to turn, and what surrounds them may have to: then nothing is kept.
+      for (const bool keep_sides : {true, false}) {
+        LocalOptions local;
+        local.keep_sides = keep_sides;
+        const LocalResult result = solve_locally(patch, *rung.local, foreign, local, options_.stop);
+        iterations += result.iterations;
+        if (result.clean) return true;
+      }
     }
     if (rung.flow) {
       const FlowResult result = flow(patch, *rung.flow, options_.stop, foreign);

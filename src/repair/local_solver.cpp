@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <tuple>
 
 #include "contact/intersection_finder.h"
 #include "energy/arap.h"
 #include "energy/minkowski_penalty.h"
 #include "repair/contours.h"
+#include "repair/turn_guard.h"
 
 namespace unsnarl {
 namespace {
@@ -118,6 +120,12 @@ void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& 
   }
 }
 
+std::vector<std::uint8_t> in_conflict(const Patch& patch, std::span<const IntersectingPair> pairs) {
+  std::vector<std::uint8_t> result(patch.triangles.size(), 0);
+  for (const IntersectingPair& pair : pairs) result[pair.a] = result[pair.b] = 1;
+  return result;
+}
+
 /// x <- (M + range^2 L)^-1 M x with the border held: rounds off everything smaller than the range.
 void smooth(const Patch& patch, const Metric& metric, double range, Positions& x) {
   const Index n = patch.free_count;
@@ -213,6 +221,9 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
   PenaltyForce penalty(patch, options.margin * h);
   Arap arap(std::span(patch.triangles).first(patch.active_count), patch.rest, n);
 
+  std::optional<TurnGuard> guard;
+  if (options.keep_sides) guard.emplace(patch, in_conflict(patch, finder.find(start)));
+
   Positions x = start;
   if (rung.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.jitter, x);
 
@@ -256,6 +267,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     if (!(size > 0) || !std::isfinite(size)) break;
     if (method != LocalMethod::penalty || size > limit) direction *= limit / size;
     x.leftCols(n) += direction.transpose();
+    if (guard) guard->project(x);
   }
   // Too far: somewhat back there may be room for the faces.
   constexpr int parts = 16;

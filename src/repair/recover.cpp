@@ -8,6 +8,7 @@
 #include "energy/arap_triangle.h"
 #include "energy/bending.h"
 #include "energy/ipc_barrier.h"
+#include "energy/orientation_barrier.h"
 #include "energy/quadratic_pull.h"
 #include "mesh/areas.h"
 #include "repair/contact_rules.h"
@@ -148,6 +149,7 @@ class Recovery {
   Bending bending_;
   QuadraticPull pull_;
   IpcBarrier barrier_;
+  OrientationBarrier orientation_;
   IndexLists neighbours_;
   std::vector<double> snap_reach_;
 
@@ -206,6 +208,10 @@ Recovery::Recovery(Patch& patch, const RecoverOptions& options, const std::funct
   for (Index v = 0; v < patch.free_count; ++v) mass += pull_.mass[v];
   mass /= std::max<Index>(patch.free_count, 1);
   barrier_ = IpcBarrier(options.contact_force * mass * h_);
+  OrientationBarrier::Options orientation;
+  orientation.scale = options.contact_force * mass * h_;
+  orientation.activation = options.turn_activation;
+  orientation_ = OrientationBarrier(patch.rest, patch.x, active, orientation);
 
   snap_reach_.assign(n, 0);
   for (Index v = 0; v < patch.free_count; ++v) {
@@ -351,7 +357,11 @@ double Recovery::energy(const Positions& x) {
   double pull = 0;
   for (Index v : moving_) pull += pull_.mass[v] * (x.col(v) - patch_.rest.col(v)).squaredNorm();
   double arap = 0;
-  for (Index t : triangles_) arap += arap_.triangle_energy(x, t, nullptr);
+  double orientation = 0;
+  for (Index t : triangles_) {
+    arap += arap_.triangle_energy(x, t, nullptr);
+    orientation += orientation_.value(x, t);
+  }
   double bending = 0;
   for (Index e : hinges_) {
     const double r = bending_.residual(x, e, nullptr);
@@ -359,7 +369,8 @@ double Recovery::energy(const Positions& x) {
   }
   const double arap_scale = options_.arap_length * options_.arap_length * h_ * h_;
   const double bending_scale = std::pow(options_.bending_length * h_, 4);
-  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending_scale * bending + barrier_.value(x, near_);
+  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending_scale * bending + orientation +
+         barrier_.value(x, near_);
 }
 
 double Recovery::linearise() {
@@ -399,6 +410,22 @@ double Recovery::linearise() {
     term.stiffness = w;
     operator_.terms.push_back(term);
   }
+  double orientation = 0;
+  OrientationBarrier::Term kept;
+  for (Index t : triangles_) {
+    if (!orientation_.evaluate(x_, t, kept)) continue;
+    orientation += kept.value;
+    term.slot[3] = -1;
+    term.g.col(3).setZero();
+    for (int k = 0; k < 3; ++k) {
+      const Index v = arap_.triangle(t)[k];
+      gradient_.col(v) += kept.force * kept.gradient.col(k);
+      term.slot[k] = slot_[v];
+      term.g.col(k) = kept.gradient.col(k);
+    }
+    term.stiffness = kept.stiffness;
+    operator_.terms.push_back(term);
+  }
   pick_near(x_);
   const double contact = barrier_.evaluate(x_, near_, contacts_);
   IpcBarrier::add_gradient(near_, contacts_, 1, gradient_);
@@ -413,7 +440,7 @@ double Recovery::linearise() {
     term.stiffness = c.stiffness;
     operator_.terms.push_back(term);
   }
-  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending + contact;
+  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending + orientation + contact;
 }
 
 double Recovery::step_limit(const Positions& p) {
@@ -433,6 +460,7 @@ double Recovery::step_limit(const Positions& p) {
 
 void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop& stop) {
   if (moving_.empty()) return;
+  orientation_.update(x_);
   gather(activation, options_.margin_min * h_);
   double current = linearise();
   std::vector<double> history = {current};

@@ -1,0 +1,66 @@
+#include "repair/turn_guard.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh/areas.h"
+
+namespace unsnarl {
+namespace {
+
+/// A strip of four triangles between two fixed lines, its middle vertex (0) free.
+Patch fan() {
+  Patch patch;
+  patch.free_count = 1;
+  patch.active_count = 4;
+  patch.rest.resize(3, 5);
+  patch.rest << 0, -1, 1, 1, -1,  //
+      0, -1, -1, 1, 1,            //
+      0, 0, 0, 0, 0;
+  patch.x = patch.rest;
+  patch.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  patch.edge_length = 1;
+  return patch;
+}
+
+int turned(const Patch& patch, const Positions& x) {
+  int count = 0;
+  for (const Triangle& t : patch.triangles) count += area_vector(patch.rest, t).dot(area_vector(x, t)) <= 0;
+  return count;
+}
+
+TEST(TurnGuard, PushesAFaceBackOverItsEdge) {
+  const Patch patch = fan();
+  const TurnGuard guard(patch, std::vector<std::uint8_t>(4, 0));
+  Positions x = patch.x;
+  x.col(0) = Vec3(0.2, -1.5, 0.1);
+  ASSERT_EQ(turned(patch, x), 1);
+  guard.project(x);
+  EXPECT_EQ(turned(patch, x), 0);
+  EXPECT_NEAR(x(1, 0), -0.9, 1e-12);  // just as far as the share of its area asks for
+  EXPECT_EQ(x(2, 0), 0.1);
+  EXPECT_EQ(x.rightCols(4), patch.x.rightCols(4));
+}
+
+TEST(TurnGuard, LeavesAloneWhatMayTurnAndWhatHasRoom) {
+  const Patch patch = fan();
+  Positions x = patch.x;
+  x.col(0) = Vec3(0.2, -1.5, 0.1);
+  const Positions before = x;
+  TurnGuard(patch, std::vector<std::uint8_t>{1, 0, 0, 0}).project(x);
+  EXPECT_EQ(x, before);
+  x.col(0) = Vec3(0.2, -0.5, 0.4);
+  const Positions inside = x;
+  TurnGuard(patch, std::vector<std::uint8_t>(4, 0)).project(x);
+  EXPECT_EQ(x, inside);
+}
+
+TEST(TurnGuard, DoesNotAskOfAFaceWhatItDidNotHaveAtTheStart) {
+  Patch patch = fan();
+  patch.x.col(0) = Vec3(0, -1.2, 0);  // turned over when it is given
+  Positions x = patch.x;
+  TurnGuard(patch, std::vector<std::uint8_t>(4, 0)).project(x);
+  EXPECT_EQ(x, patch.x);
+}
+
+}  // namespace
+}  // namespace unsnarl
