@@ -9,7 +9,6 @@
 
 #include "contact/intersection_finder.h"
 #include "exit_code.h"
-#include "geometry/box.h"
 #include "intersecting_faces.h"
 #include "mesh_input.h"
 #include "progress.h"
@@ -76,13 +75,6 @@ void check_format_of_output(const std::string& output, const Document& document)
   if (format && *format != document.format())
     throw UsageError(fmt::format("{}: the result keeps the format of the input, {}; name it *.{}", output,
                                  to_string(document.format()), to_string(document.format())));
-}
-
-double diagonal_of(const Surface& surface) {
-  Box box;
-  for (std::size_t i = 0; i + 2 < surface.positions.size(); i += 3)
-    box.extend(Vec3(surface.positions[i], surface.positions[i + 1], surface.positions[i + 2]));
-  return surface.positions.empty() ? 0 : box.diagonal();
 }
 
 RepairOptions repair_options(const FixOptions& options, const Document& document) {

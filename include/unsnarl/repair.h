@@ -41,8 +41,8 @@ class Context {
   struct Progress {
     double fraction = 0;          ///< in [0, 1], never decreases
     std::string_view phase;       ///< "diagnose", "untangle", "recover", "certify"
-    std::size_t pairs_left = 0;   ///< intersecting pairs at this moment
-    double displacement_rel = 0;  ///< largest displacement so far / bounding-box diagonal
+    std::size_t pairs_left = 0;   ///< intersecting pairs of triangles at this moment
+    double displacement_rel = 0;  ///< largest displacement at this moment / bounding-box diagonal
   };
 
   /// Safe to call from any thread and from a signal handler.

@@ -16,9 +16,6 @@ namespace {
 void measure_displacement(std::span<const double> before, std::span<const double> after, RepairReport& report) {
   const std::size_t n = before.size() / 3;
   if (n == 0) return;
-  Box box;
-  for (std::size_t v = 0; v < n; ++v) box.extend(Vec3(before[3 * v], before[3 * v + 1], before[3 * v + 2]));
-  report.diagonal = box.diagonal();
   double sum = 0, squares = 0, largest = 0;
   std::size_t untouched = 0;
   for (std::size_t v = 0; v < n; ++v) {
@@ -58,8 +55,16 @@ double volume_change(const PreparedSurface& prepared, const Components& componen
 
 }  // namespace
 
+double diagonal_of(const SurfaceView& surface) {
+  const std::span<const double> x = surface.positions;
+  Box box;
+  for (std::size_t i = 0; i + 2 < x.size(); i += 3) box.extend(Vec3(x[i], x[i + 1], x[i + 2]));
+  return x.empty() ? 0 : box.diagonal();
+}
+
 void measure_change(const SurfaceView& surface, const PreparedSurface& prepared, const Diagnosis& diagnosis,
                     std::span<const double> positions, RepairReport& report) {
+  report.diagonal = diagonal_of(surface);
   measure_displacement(surface.positions, positions, report);
   const Positions x = prepared.gather(positions);
   const std::span<const Triangle> triangles = prepared.triangles();

@@ -45,6 +45,7 @@ class Repair {
     check_options();
     start("diagnose");
     prepared_ = prepare(surface_, options_.find);
+    diagonal_ = diagonal_of(surface_);
     std::vector<std::uint8_t> fixed(prepared_.identification.count, 0);
     for (std::size_t v = 0; v < options_.fixed.size(); ++v)
       if (options_.fixed[v]) fixed[prepared_.identification.vertex_of[v]] = 1;
@@ -124,7 +125,12 @@ class Repair {
     progress_.fraction = std::max(progress_.fraction, fraction);
     progress_.phase = phase_;
     progress_.pairs_left = pairs_left;
+    if (diagonal_ > 0) progress_.displacement_rel = largest_displacement() / diagonal_;
     context_.on_progress(progress_);
+  }
+
+  double largest_displacement() const {
+    return scene_.vertex_count() > 0 ? (scene_.x - scene_.rest).colwise().norm().maxCoeff() : 0;
   }
 
   // Precision.
@@ -146,14 +152,8 @@ class Repair {
   double wanted_gap(const std::vector<Index>& vertices) const {
     double largest = 0;
     for (Index v : vertices) largest = std::max(largest, scene_.rest.col(v).cwiseAbs().maxCoeff());
-    const double unit = float32_ ? float32_unit(largest) : float64_unit(largest);
-    double gap = gap_units * unit;
-    if (options_.min_gap_rel > 0) {
-      Box box;
-      for (Index v = 0; v < scene_.vertex_count(); ++v) box.extend(Vec3(scene_.rest.col(v)));
-      gap = std::max(gap, options_.min_gap_rel * box.diagonal());
-    }
-    return gap;
+    const double gap = gap_units * (float32_ ? float32_unit(largest) : float64_unit(largest));
+    return std::max(gap, options_.min_gap_rel * diagonal_);
   }
   /// The state as it will be read back from the file.
   Positions as_written(const Positions& x) const {
@@ -353,6 +353,7 @@ class Repair {
   ThreadLimit threads_;
   RepairResult result_;
   PreparedSurface prepared_;
+  double diagonal_ = 0;
   Diagnosis diagnosis_;
   std::vector<IntersectingPair> ignored_;
   Scene scene_;

@@ -228,7 +228,7 @@ TEST(Repair, progress_goes_forward_through_the_phases) {
   std::vector<Context::Progress> seen;
   context.on_progress = [&](const Context::Progress& progress) { seen.push_back(progress); };
   const Surface surface = shapes::crossing_bumps(12, 0.4).surface();
-  repair(surface, {}, &context);
+  const RepairResult result = repair(surface, {}, &context);
   ASSERT_GE(seen.size(), 3u);
   for (std::size_t k = 1; k < seen.size(); ++k) EXPECT_GE(seen[k].fraction, seen[k - 1].fraction);
   EXPECT_EQ(seen.back().fraction, 1);
@@ -236,6 +236,9 @@ TEST(Repair, progress_goes_forward_through_the_phases) {
   EXPECT_EQ(seen.back().phase, "certify");
   EXPECT_EQ(seen.front().phase, "untangle");
   EXPECT_GT(seen.front().pairs_left, 0u);
+  EXPECT_EQ(seen.front().displacement_rel, 0);
+  EXPECT_NEAR(seen.back().displacement_rel, result.report.displacement_max_rel, 1e-12);
+  EXPECT_GT(seen.back().displacement_rel, 0);
 }
 
 TEST(Repair, the_stages_are_timed) {
