@@ -65,14 +65,15 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
   json["version"] = version;
   json["status"] = to_string(result.status);
   json["exit_code"] = files.exit_code;
-  json["input"] = {{"path", files.input},
-                   {"format", files.format},
+  const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+  json["input"] = {{"path", text_or_null(files.input)},
+                   {"format", text_or_null(files.format)},
                    {"vertices", files.vertices},
                    {"faces", files.faces},
                    {"triangulation", files.triangulation},
                    {"notes", files.notes}};
   json["output"] = {{"written", !files.output.empty()},
-                    {"path", files.output.empty() ? Json() : Json(files.output)}};
+                    {"path", text_or_null(files.output)}};
   json["options"] = options_json(options);
   json["topology"] = topology_json(r.topology);
   json["before"] = pair_counts_json(r.before);

@@ -14,8 +14,8 @@ inline constexpr int report_schema_version = 1;
 
 /// What a report says about the files around a repair.
 struct ReportFiles {
-  std::string input, output;            ///< paths; output empty: none written
-  std::string format;               ///< "obj", ...
+  std::string input, output;            ///< paths; empty: arrays were given, none was written
+  std::string format;                   ///< of the input: "obj", ...
   std::size_t vertices = 0, faces = 0;  ///< as the file counts them
   std::string triangulation;        ///< how the polygons were cut, in words
   std::vector<std::string> notes;   ///< what the reader remarked
