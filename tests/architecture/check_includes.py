@@ -67,7 +67,7 @@ def check_layers(project):
 
 
 def check_gpl(project):
-    for folder in ("include", "src", "samples", "apps"):
+    for folder in ("include", "src", "samples", "apps", "python"):
         for path in sources(project / folder):
             for number, included in includes(path):
                 if not included.startswith("CGAL/"):

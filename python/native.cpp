@@ -1,0 +1,207 @@
+// The module unsnarl._native: flat arrays in, flat arrays out. Python around it (unsnarl/*.py) has the shapes, the
+// types and the documentation.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <initializer_list>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "apps/unsnarl/exit_code.h"
+#include "mesh/triangulation.h"
+#include "repair/measure.h"
+#include "repair/report_json.h"
+#include "unsnarl/certify.h"
+#include "unsnarl/intersections.h"
+#include "unsnarl/repair.h"
+#include "unsnarl/version.h"
+
+namespace py = pybind11;
+
+namespace unsnarl::python {
+namespace {
+
+template <class T>
+using Array = py::array_t<T, py::array::c_style>;
+
+template <class T>
+std::span<const T> span_of(const Array<T>& array) {
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+template <class T>
+Array<T> array_of(const std::vector<T>& values) {
+  return Array<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+/// The one of `choices` that is called `name`.
+template <class Enum>
+Enum named(const char* option, const std::string& name, std::initializer_list<Enum> choices) {
+  std::string all;
+  for (const Enum choice : choices) {
+    if (to_string(choice) == name) return choice;
+    all += (all.empty() ? "'" : ", '") + std::string(to_string(choice)) + "'";
+  }
+  throw std::invalid_argument(std::string(option) + " is '" + name + "'; choose one of " + all);
+}
+
+FindOptions find_options(const std::string& weld, double weld_tolerance, int threads) {
+  return {named("weld", weld, {Weld::none, Weld::seams, Weld::all}), weld_tolerance, threads};
+}
+
+/// Repairs on a thread of its own, so that this one can serve Python meanwhile: it lets other Python threads run, hands
+/// out progress and heeds Ctrl-C. What is raised there cancels the repair and is raised again once that has stopped.
+RepairResult repair_while_serving_python(const SurfaceView& surface, const RepairOptions& options,
+                                         const py::object& progress) {
+  constexpr std::chrono::milliseconds signal_interval{50};
+  Context context;
+  std::mutex mutex;  // guards the next three
+  std::condition_variable changed;
+  std::deque<Context::Progress> reports;
+  bool done = false;
+
+  if (!progress.is_none())
+    context.on_progress = [&](const Context::Progress& report) {
+      const std::lock_guard lock(mutex);
+      reports.push_back(report);
+      changed.notify_one();
+    };
+  RepairResult result;
+  std::exception_ptr failure, raised;
+  std::thread worker([&] {
+    try {
+      result = repair(surface, options, &context);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    done = true;
+    changed.notify_one();
+  });
+  for (bool running = true; running;) {
+    std::deque<Context::Progress> news;
+    {
+      const py::gil_scoped_release others_may_run;
+      std::unique_lock lock(mutex);
+      changed.wait_for(lock, signal_interval, [&] { return done || !reports.empty(); });
+      news.swap(reports);
+      running = !done;
+    }
+    if (raised) continue;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      for (const Context::Progress& report : news)
+        progress(report.fraction, std::string(report.phase), report.pairs_left, report.displacement_rel);
+    } catch (...) {
+      raised = std::current_exception();
+      context.cancel();
+    }
+  }
+  worker.join();
+  if (raised) std::rethrow_exception(raised);
+  if (failure) std::rethrow_exception(failure);
+  return result;
+}
+
+py::tuple py_find_intersections(const Array<double>& positions, const Array<std::int32_t>& corners,
+                                const Array<std::int32_t>& offsets, const std::string& weld, double weld_tolerance,
+                                int threads) {
+  const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
+  const FindOptions options = find_options(weld, weld_tolerance, threads);
+  std::vector<IntersectingPair> pairs;
+  {
+    const py::gil_scoped_release others_may_run;
+    pairs = find_intersections(surface, options);
+  }
+  const auto count = static_cast<py::ssize_t>(pairs.size());
+  Array<std::int32_t> faces({count, py::ssize_t{2}});
+  Array<std::uint8_t> kinds(count);
+  for (py::ssize_t i = 0; i < count; ++i) {
+    faces.mutable_at(i, 0) = pairs[i].a;
+    faces.mutable_at(i, 1) = pairs[i].b;
+    kinds.mutable_at(i) = static_cast<std::uint8_t>(pairs[i].kind);
+  }
+  return py::make_tuple(faces, kinds);
+}
+
+py::dict py_certify(const Array<double>& positions, const Array<std::int32_t>& corners,
+                    const Array<std::int32_t>& offsets, const Array<double>& moved, const std::string& weld,
+                    double weld_tolerance, int threads) {
+  const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
+  const FindOptions options = find_options(weld, weld_tolerance, threads);
+  Certificate certificate;
+  {
+    const py::gil_scoped_release others_may_run;
+    certificate = certify(surface, span_of(moved), options);
+  }
+  py::dict result;
+  result["embedded"] = certificate.embedded();
+  result["float32_embedded"] = certificate.float32_embedded();
+  result["pairs"] = certificate.pairs.by_class;
+  result["pairs_float32"] = certificate.pairs_float32.by_class;
+  result["new_zero_area_faces"] = certificate.new_zero_area_faces;
+  result["seams_closed"] = certificate.seams_closed;
+  return result;
+}
+
+py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& corners,
+                    const Array<std::int32_t>& offsets, const Array<std::uint8_t>& fixed, const std::string& goal,
+                    const std::string& precision, double min_gap, double max_displacement, bool absolute,
+                    double time_limit, double memory_limit, bool recover, bool paper, const std::string& weld,
+                    double weld_tolerance, int threads, const py::object& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
+  RepairOptions options;
+  options.find = find_options(weld, weld_tolerance, threads);
+  options.goal = named("goal", goal, {Goal::all, Goal::disjoint});
+  if (precision != "auto") options.precision = named("precision", precision, {Precision::float32, Precision::float64});
+  const double diagonal = absolute ? diagonal_of(surface) : 1;
+  const double unit = diagonal > 0 ? 1 / diagonal : 1;
+  options.min_gap_rel = min_gap * unit;
+  options.max_displacement_rel = max_displacement * unit;
+  options.time_limit_s = time_limit;
+  options.memory_limit_mb = memory_limit;
+  options.recover = recover;
+  options.paper = paper;
+  options.fixed.assign(fixed.data(), fixed.data() + fixed.size());
+
+  const RepairResult result = repair_while_serving_python(surface, options, progress);
+  ReportFiles files;
+  files.vertices = surface.vertex_count();
+  files.faces = surface.face_count();
+  files.triangulation = triangulate(surface).statistics.describe();
+  files.exit_code = app::exit_code_of(result.status);
+  files.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return py::make_tuple(array_of(result.positions), std::string(to_string(result.status)),
+                        report_json(result, options, files).dump());
+}
+
+}  // namespace
+}  // namespace unsnarl::python
+
+PYBIND11_MODULE(_native, module) {
+  using namespace unsnarl;
+  using namespace unsnarl::python;
+  module.attr("version") = std::string(version);
+  py::tuple kinds(pair_class_count);
+  for (std::size_t i = 0; i < pair_class_count; ++i) kinds[i] = std::string(pair_class_names[i]);
+  module.attr("pair_kinds") = kinds;
+  const auto array = [](const char* name) { return py::arg(name).noconvert(); };
+  module.def("find_intersections", &py_find_intersections, array("positions"), array("corners"), array("offsets"),
+             py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("threads"));
+  module.def("certify", &py_certify, array("positions"), array("corners"), array("offsets"), array("moved"),
+             py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("threads"));
+  module.def("repair", &py_repair, array("positions"), array("corners"), array("offsets"), array("fixed"),
+             py::kw_only(), py::arg("goal"), py::arg("precision"), py::arg("min_gap"), py::arg("max_displacement"),
+             py::arg("absolute"), py::arg("time_limit"), py::arg("memory_limit"), py::arg("recover"), py::arg("paper"),
+             py::arg("weld"), py::arg("weld_tolerance"), py::arg("threads"), py::arg("progress"));
+}

@@ -1,0 +1,37 @@
+"""Takes the self-intersections out of surface meshes, moving vertices only.
+
+    import unsnarl
+
+    pairs = unsnarl.find_intersections(V, F)      # which faces meet where they should not
+    result = unsnarl.repair(V, F)                 # the same mesh, moved as little as possible
+    if result.status == "embedded":
+        V = result.V
+
+Everything takes arrays (``V``, ``F``) or a mesh of meshio, trimesh or pyvista in their place.
+
+``V``
+    Positions, shape (n, 3), of any real dtype and memory order. Computed with as float64.
+``F``
+    Faces by 0-based vertex ids of any integer dtype: (m, 3) triangles, (m, 4) quads, (m, k) polygons; or a tuple
+    ``(corners, offsets)`` for polygons of mixed sizes, where face f has the vertices
+    ``corners[offsets[f]:offsets[f + 1]]``.
+
+What is passed in is never changed. Arguments that make no sense raise ValueError or TypeError; a mesh that could not be
+untangled raises nothing, its ``Result.status`` says so.
+"""
+
+from ._certify import Certificate, certify
+from ._intersections import Intersections, find_intersections
+from ._native import version as __version__
+from ._repair import Progress, Result, Status, repair
+
+__all__ = [
+    "Certificate",
+    "Intersections",
+    "Progress",
+    "Result",
+    "Status",
+    "certify",
+    "find_intersections",
+    "repair",
+]

@@ -1,0 +1,158 @@
+"""Arguments as users give them, made into the flat arrays and numbers of the compiled module, or refused."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+# What the compiled module counts with.
+_LARGEST_ID = np.iinfo(np.int32).max
+
+
+class Surface(NamedTuple):
+    """A polygon mesh as flat arrays of its own, which nobody else can change meanwhile."""
+
+    positions: NDArray[np.float64]  # 3 n
+    corners: NDArray[np.int32]  # vertex ids, face after face
+    offsets: NDArray[np.int32]  # m + 1; empty: all faces are triangles
+
+
+def surface_of(V: Any, F: Any) -> Surface:
+    """The mesh of positions V (n, 3) and faces F (m, k), or (corners, offsets)."""
+    positions = positions_of(V)
+    if isinstance(F, tuple) and len(F) == 2:
+        return Surface(positions, *_polygons(F[0], F[1]))
+    faces = _ids(F, "F")
+    if faces.size == 0:
+        faces = faces.reshape(0, 3)
+    if faces.ndim != 2 or faces.shape[1] < 3:
+        raise ValueError(
+            f"F has shape {faces.shape}; give (m, 3) triangles, (m, 4) quads, or a tuple (corners, offsets)"
+        )
+    count, size = faces.shape
+    if size == 3:
+        offsets = np.empty(0, np.int32)
+    else:
+        offsets = _narrowed(np.arange(count + 1, dtype=np.int64) * size, "the number of corners in F")
+    return Surface(positions, _narrowed(faces, "F").ravel(), offsets)
+
+
+def positions_of(V: Any, name: str = "V") -> NDArray[np.float64]:
+    """A flat copy of positions (n, 3)."""
+    positions = _array(V, name)
+    if positions.dtype.kind not in "fiu":
+        raise TypeError(f"{name} has dtype {positions.dtype}; positions are real numbers")
+    if positions.size == 0:
+        positions = positions.reshape(0, 3)
+    if positions.ndim != 2 or positions.shape[1] != 3:
+        transposed = positions.ndim == 2 and positions.shape[0] == 3
+        raise ValueError(
+            f"{name} has shape {positions.shape}; give (n, 3), x y z of each vertex"
+            + (f" (that is {name}.T)" if transposed else "")
+        )
+    return np.array(positions, dtype=np.float64, order="C", copy=True).ravel()
+
+
+def vertex_flags(fixed: Any, vertex_count: int) -> NDArray[np.uint8]:
+    """One flag a vertex, from a mask (n,) of bool or from vertex ids; empty where nothing is fixed."""
+    if fixed is None:
+        return np.empty(0, np.uint8)
+    given = _array(fixed, "fixed")
+    if given.size == 0:
+        return np.empty(0, np.uint8)
+    if given.ndim != 1:
+        raise ValueError(f"fixed has shape {given.shape}; give a mask ({vertex_count},) of bool, or a list of ids")
+    if given.dtype == np.bool_:
+        if given.size != vertex_count:
+            raise ValueError(f"fixed has {given.size} flags, but there are {vertex_count} vertices")
+        return given.astype(np.uint8)
+    ids = _ids(given, "fixed")
+    wrong = np.flatnonzero((ids < 0) | (ids >= vertex_count))
+    if wrong.size > 0:
+        raise ValueError(
+            f"fixed[{wrong[0]}] is {ids[wrong[0]]}, but there are {vertex_count} vertices (counted from 0)"
+        )
+    if ids.size == vertex_count > 2 and ids.max() <= 1:
+        raise ValueError("fixed holds a 0 or 1 for each vertex: give a mask as bool, as in fixed.astype(bool)")
+    flags = np.zeros(vertex_count, np.uint8)
+    flags[ids] = 1
+    return flags
+
+
+def not_negative(name: str, value: Any) -> float:
+    """A finite number from 0 on."""
+    number = _float(name, value)
+    if not 0 <= number < np.inf:
+        raise ValueError(f"{name} is {value!r}; give a number from 0 on")
+    return number
+
+
+def thread_count(value: Any) -> int:
+    try:
+        count = operator.index(value)
+    except TypeError:
+        raise TypeError(f"threads is {value!r}; give a whole number, 0 for as many as the machine has") from None
+    if not 0 <= count <= _LARGEST_ID:
+        raise ValueError(f"threads is {count}; give 0 for as many as the machine has, or their number")
+    return count
+
+
+def name(option: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{option} is {value!r}; give its name, a string")
+    return value
+
+
+def _polygons(corners: Any, offsets: Any) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    corners, offsets = _ids(corners, "corners"), _ids(offsets, "offsets")
+    for array, what in ((corners, "corners"), (offsets, "offsets")):
+        if array.ndim != 1:
+            raise ValueError(f"{what} has shape {array.shape}; of a tuple (corners, offsets), both are flat")
+    if offsets.size == 0 or offsets[0] != 0 or offsets[-1] != corners.size:
+        ends = f"from {offsets[0]} to {offsets[-1]}" if offsets.size > 0 else "over nothing"
+        raise ValueError(
+            f"offsets run {ends}; give them from 0 to {corners.size}, the number of corners: "
+            "face f is corners[offsets[f]:offsets[f + 1]]"
+        )
+    sizes = np.diff(offsets.astype(np.int64))
+    wrong = np.flatnonzero(sizes < 3)
+    if wrong.size > 0:
+        face = wrong[0]
+        raise ValueError(
+            f"face {face} runs from offset {offsets[face]} to {offsets[face + 1]}; a face has at least 3 corners"
+        )
+    return _narrowed(corners, "corners"), _narrowed(offsets, "offsets")
+
+
+def _ids(values: Any, name: str) -> NDArray[Any]:
+    ids = _array(values, name)
+    if ids.size == 0:
+        return ids.astype(np.int32)  # [] is an array of floats to numpy
+    if ids.dtype.kind not in "iu":
+        raise TypeError(f"{name} has dtype {ids.dtype}; vertex ids are integers")
+    return ids
+
+
+def _array(values: Any, name: str) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except ValueError:  # rows of different lengths
+        hint = "; polygons of mixed sizes are a tuple (corners, offsets)" if name == "F" else ""
+        raise ValueError(f"{name} has rows of different lengths{hint}") from None
+
+
+def _narrowed(ids: NDArray[Any], name: str) -> NDArray[np.int32]:
+    """A contiguous copy in the type of the compiled module. Negative ids are left to its own complaint."""
+    if ids.size > 0 and (ids.max() > _LARGEST_ID or ids.min() < -_LARGEST_ID):
+        raise ValueError(f"{name} holds {ids.max()}; ids up to {_LARGEST_ID} can be counted")
+    return np.array(ids, dtype=np.int32, order="C", copy=True)
+
+
+def _float(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {value!r}; give a number") from None

@@ -1,0 +1,43 @@
+"""Exact check of moved positions."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from . import _native
+from ._arguments import name, not_negative, positions_of, surface_of, thread_count
+from ._meshes import opened
+
+
+class Certificate(NamedTuple):
+    """What an exact check of given positions found."""
+
+    embedded: bool  #: no two faces meet, none has lost its area, no seam has opened
+    float32_embedded: bool  #: no two faces meet after rounding all positions to float32
+    pairs: dict[str, int]  #: intersecting pairs of faces by kind, see Intersections.kinds
+    pairs_float32: dict[str, int]  #: the same after rounding to float32
+    new_zero_area_faces: int  #: triangles without area that had some in the input
+    seams_closed: bool  #: vertices that count as one are at one position
+
+
+def certify(
+    V: Any, F: Any, moved: Any, *, weld: str = "seams", weld_tolerance: float = 0.0, threads: int = 0
+) -> Certificate:
+    """Decides exactly whether the positions `moved` (n, 3) embed the faces of the mesh (V, F).
+
+    Which vertices count as one and how polygons are cut is decided on V, so vertices that have come to coincide since
+    intersect; find_intersections(moved, F) would take them for one.
+
+    V and F (None where V is a mesh), weld, weld_tolerance, threads and errors: as for find_intersections.
+    """
+    V, F, _ = opened(V, F)
+    found = _native.certify(
+        *surface_of(V, F),
+        positions_of(moved, "moved"),
+        weld=name("weld", weld),
+        weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
+        threads=thread_count(threads),
+    )
+    for counts in ("pairs", "pairs_float32"):
+        found[counts] = dict(zip(_native.pair_kinds, found[counts]))
+    return Certificate(**found)

@@ -1,0 +1,78 @@
+"""Which faces of a mesh meet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._arguments import name, not_negative, surface_of, thread_count
+from ._meshes import opened
+
+
+@dataclass(frozen=True)
+class Intersections:
+    """Intersecting pairs of faces; ``len(...)`` is their number, so that none is false."""
+
+    #: (k, 2) int32, face ids a < b, sorted. A polygon that meets itself has a == b.
+    pairs: NDArray[np.int32]
+    #: (k,) str, how the two are related: "disjoint" (they share no vertex), "one_vertex" (they share one and meet
+    #: elsewhere too), "folded" (they share an edge and overlap flat), "duplicate" (they have the same three vertices),
+    #: "degenerate" (one of them has no area).
+    kinds: NDArray[np.str_]
+
+    def __len__(self) -> int:
+        return len(self.pairs)
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{count} {kind}" for kind, count in self.counts.items() if count > 0)
+        return f"Intersections({counts or 'none'})"
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of pairs of each kind, those that do not occur included."""
+        return {kind: int(np.count_nonzero(self.kinds == kind)) for kind in _native.pair_kinds}
+
+    @property
+    def faces(self) -> NDArray[np.int32]:
+        """Ids of the faces that occur in some pair, each once, ascending."""
+        return np.unique(self.pairs)
+
+
+def find_intersections(
+    V: Any, F: Any = None, *, weld: str = "seams", weld_tolerance: float = 0.0, threads: int = 0
+) -> Intersections:
+    """All pairs of faces that meet anywhere but in the hull of the vertices they share. Touching counts.
+
+    Decided exactly, over every pair. Other Python threads run meanwhile.
+
+    Parameters
+    ----------
+    V, F
+        Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh or pyvista
+        alone. See the documentation of the package.
+    weld
+        Which vertices count as one: "none"; "seams", those at exactly equal positions within one shell (UV seams, split
+        normals); "all" at exactly equal positions.
+    weld_tolerance
+        Length in the units of V: vertices this close count as equal. 0: only exactly equal ones.
+    threads
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    ValueError, TypeError
+        An array has another shape or dtype, a coordinate is not finite, a face uses a vertex that does not exist, an
+        option is out of range. The message says which and where.
+    """
+    V, F, _ = opened(V, F)
+    pairs, kinds = _native.find_intersections(
+        *surface_of(V, F),
+        weld=name("weld", weld),
+        weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
+        threads=thread_count(threads),
+    )
+    return Intersections(pairs, np.array(_native.pair_kinds)[kinds])

@@ -1,0 +1,48 @@
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+version: str
+pair_kinds: tuple[str, ...]
+
+def find_intersections(
+    positions: NDArray[np.float64],
+    corners: NDArray[np.int32],
+    offsets: NDArray[np.int32],
+    *,
+    weld: str,
+    weld_tolerance: float,
+    threads: int,
+) -> tuple[NDArray[np.int32], NDArray[np.uint8]]: ...
+def certify(
+    positions: NDArray[np.float64],
+    corners: NDArray[np.int32],
+    offsets: NDArray[np.int32],
+    moved: NDArray[np.float64],
+    *,
+    weld: str,
+    weld_tolerance: float,
+    threads: int,
+) -> dict[str, Any]: ...
+def repair(
+    positions: NDArray[np.float64],
+    corners: NDArray[np.int32],
+    offsets: NDArray[np.int32],
+    fixed: NDArray[np.uint8],
+    *,
+    goal: str,
+    precision: str,
+    min_gap: float,
+    max_displacement: float,
+    absolute: bool,
+    time_limit: float,
+    memory_limit: float,
+    recover: bool,
+    paper: bool,
+    weld: str,
+    weld_tolerance: float,
+    threads: int,
+    progress: Callable[[float, str, int, float], object] | None,
+) -> tuple[NDArray[np.float64], str, str]: ...

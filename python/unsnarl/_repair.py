@@ -1,0 +1,160 @@
+"""Repair of a mesh."""
+
+from __future__ import annotations
+
+import enum
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._arguments import name, not_negative, surface_of, thread_count, vertex_flags
+from ._meshes import opened
+
+
+class Status(str, enum.Enum):
+    """How a repair ended; equal to its name, as in ``result.status == "embedded"``."""
+
+    embedded = "embedded"  #: no two faces meet anywhere but in the hull of the vertices they share
+    reduced = "reduced"  #: fewer intersecting pairs than the input, but not none
+    no_progress = "no_progress"  #: nothing better than the input was found; V is the input's
+    obstructed = "obstructed"  #: all repaired but what no motion can resolve, see report["obstructions"]
+    time_limit = "time_limit"  #: stopped by time_limit
+    memory_limit = "memory_limit"  #: stopped by memory_limit
+    displacement_exceeded = "displacement_exceeded"  #: some vertex had to move further than max_displacement
+    cancelled = "cancelled"  #: not seen from Python, where what cancels is raised
+
+    __str__ = str.__str__
+
+
+class Progress(NamedTuple):
+    """How far a repair has come."""
+
+    fraction: float  #: in [0, 1], never decreases
+    phase: str  #: "diagnose", "untangle", "recover", "certify"
+    pairs_left: int  #: intersecting pairs of triangles at this moment
+    displacement_rel: float  #: largest displacement at this moment / bounding-box diagonal
+
+
+@dataclass(frozen=True, repr=False)
+class Result:
+    """What a repair came to."""
+
+    #: (n, 3), vertex order of the input. float32 where the input is and precision is not "float64", else float64.
+    #: What did not have to move is bit-identical. Never has more intersecting pairs than the input.
+    V: NDArray[Any]
+    #: Only "embedded" promises a surface without self-intersections.
+    status: Status
+    #: The document that the command line writes with --report, see docs/report.md.
+    report: dict[str, Any]
+    #: Where a mesh was given: a copy of it, of its own type, at the new positions. Else None.
+    mesh: Any = None
+
+    def __repr__(self) -> str:
+        before, after = self.report["before"]["total"], self.report["after"]["total"]
+        return (
+            f"Result({self.status}: {before} intersecting pairs before, {after} after; "
+            f"moved by {self.report['displacement_max_rel']:.2g} of the diagonal at most)"
+        )
+
+
+def repair(
+    V: Any,
+    F: Any = None,
+    fixed: Any = None,
+    *,
+    goal: str = "all",
+    precision: str = "auto",
+    min_gap: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: str = "seams",
+    weld_tolerance: float = 0.0,
+    threads: int = 0,
+    recover: bool = True,
+    paper: bool = False,
+    progress: Callable[[Progress], object] | None = None,
+) -> Result:
+    """Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
+
+    The result is that of ``unsnarl fix`` on a file of the same numbers, bit for bit, at any number of threads (time
+    limits aside); where it writes the short digits of float32 numbers as text, V holds those numbers.
+
+    Other Python threads run meanwhile. Ctrl-C, or an exception in `progress`, cancels and is raised.
+
+    Parameters
+    ----------
+    V, F
+        Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh or pyvista
+        alone, as in ``repair(mesh, fixed=ids)``. See the documentation of the package.
+    fixed
+        Vertices that must not move: a mask (n,) of bool, or their ids. None: all may move.
+    goal
+        "all": no intersecting pair of any kind. "disjoint": none of faces that share no vertex.
+    precision
+        Number format in which the result must hold: "float32", "float64", or "auto": float32 where V is, or where
+        conflicts lie on coordinates coarse enough for it.
+    min_gap
+        Wanted gap between sheets, as a fraction of the bounding-box diagonal. 0: just enough to be safe.
+    max_displacement
+        How far any vertex may move, as a fraction of the diagonal. 0: any distance.
+    absolute
+        min_gap and max_displacement are lengths in the units of V.
+    time_limit
+        Seconds after which to stop. 0: none.
+    memory_limit
+        MB that the whole process may hold. 0: no limit.
+    weld, weld_tolerance, threads
+        As for find_intersections.
+    recover
+        False: stop after untangling, without moving back toward the input (for research).
+    paper
+        The configuration of the paper instead of the regional one (for research).
+    progress
+        Called with a Progress now and then, from the thread that called repair. What it returns is ignored.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As for find_intersections. A mesh that could not be untangled raises nothing: see Result.status.
+    """
+    V, F, moved_to = opened(V, F)
+    surface = surface_of(V, F)
+    dtype = np.asarray(V).dtype
+    is_float32 = dtype.kind == "f" and dtype.itemsize == 4
+    precision = name("precision", precision)
+    if is_float32 and precision == "auto":
+        precision = "float32"
+    positions, status, report = _native.repair(
+        *surface,
+        vertex_flags(fixed, len(surface.positions) // 3),
+        goal=name("goal", goal),
+        precision=precision,
+        min_gap=not_negative("min_gap", min_gap),
+        max_displacement=not_negative("max_displacement", max_displacement),
+        absolute=bool(absolute),
+        time_limit=not_negative("time_limit", time_limit),
+        memory_limit=not_negative("memory_limit", memory_limit),
+        recover=bool(recover),
+        paper=bool(paper),
+        weld=name("weld", weld),
+        weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
+        threads=thread_count(threads),
+        progress=None if progress is None else _callback(progress),
+    )
+    moved = positions.reshape(-1, 3)
+    if is_float32 and precision == "float32":
+        moved = moved.astype(dtype)
+    return Result(moved, Status(status), json.loads(report), moved_to(moved) if moved_to else None)
+
+
+def _callback(progress: Callable[[Progress], object]) -> Callable[..., object]:
+    if not callable(progress):
+        raise TypeError(f"progress is {progress!r}; give a function that takes a Progress")
+    return lambda *values: progress(Progress(*values))
