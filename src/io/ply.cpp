@@ -3,104 +3,18 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "io/byte_order.h"
 #include "io/mesh_file.h"
+#include "io/ply_header.h"
 #include "io/surface_builder.h"
 #include "io/text_scanner.h"
 #include "io/token_edits.h"
 
 namespace unsnarl {
 namespace {
-
-enum class Scalar : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-std::optional<Scalar> scalar_by_name(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Scalar>, 16> names = {{{"char", Scalar::int8},
-                                                                          {"int8", Scalar::int8},
-                                                                          {"uchar", Scalar::uint8},
-                                                                          {"uint8", Scalar::uint8},
-                                                                          {"short", Scalar::int16},
-                                                                          {"int16", Scalar::int16},
-                                                                          {"ushort", Scalar::uint16},
-                                                                          {"uint16", Scalar::uint16},
-                                                                          {"int", Scalar::int32},
-                                                                          {"int32", Scalar::int32},
-                                                                          {"uint", Scalar::uint32},
-                                                                          {"uint32", Scalar::uint32},
-                                                                          {"float", Scalar::float32},
-                                                                          {"float32", Scalar::float32},
-                                                                          {"double", Scalar::float64},
-                                                                          {"float64", Scalar::float64}}};
-  for (const auto& [known, type] : names) {
-    if (known == name) return type;
-  }
-  return std::nullopt;
-}
-
-std::size_t size_of(Scalar type) {
-  constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return sizes[static_cast<std::size_t>(type)];
-}
-
-bool is_integer(Scalar type) {
-  return type != Scalar::float32 && type != Scalar::float64;
-}
-
-double load_scalar(const char* from, Scalar type, std::endian order) {
-  switch (type) {
-    case Scalar::int8:
-      return load<std::int8_t>(from, order);
-    case Scalar::uint8:
-      return load<std::uint8_t>(from, order);
-    case Scalar::int16:
-      return load<std::int16_t>(from, order);
-    case Scalar::uint16:
-      return load<std::uint16_t>(from, order);
-    case Scalar::int32:
-      return load<std::int32_t>(from, order);
-    case Scalar::uint32:
-      return load<std::uint32_t>(from, order);
-    case Scalar::float32:
-      return load<float>(from, order);
-    case Scalar::float64:
-      break;
-  }
-  return load<double>(from, order);
-}
-
-struct Property {
-  std::string name;
-  Scalar type = Scalar::float32;
-  std::optional<Scalar> count_type;  ///< set: a list
-};
-
-struct Element {
-  std::string name;
-  std::size_t count = 0;
-  std::vector<Property> properties;
-
-  std::optional<std::size_t> find(std::string_view property) const {
-    for (std::size_t i = 0; i < properties.size(); ++i) {
-      if (properties[i].name == property) return i;
-    }
-    return std::nullopt;
-  }
-  /// Bytes that every record takes at least (lists being empty).
-  std::size_t smallest_record() const {
-    std::size_t size = 0;
-    for (const Property& p : properties) size += size_of(p.count_type.value_or(p.type));
-    return size;
-  }
-};
-
-struct Header {
-  bool ascii = false;
-  std::endian order = std::endian::little;
-  std::vector<Element> elements;
-  std::size_t size = 0;  ///< bytes, including the end of its last line
-};
 
 class PlyFile final : public MeshFile {
  public:
@@ -117,7 +31,7 @@ class PlyFile final : public MeshFile {
     std::string result = bytes;
     for (std::size_t i = 0; i < old.size(); ++i) {
       if (written[i] == old[i]) continue;
-      if (types[i % 3] == Scalar::float32) {
+      if (types[i % 3] == PlyScalar::float32) {
         store(result.data() + begin(i), static_cast<float>(written[i]), order);
       } else {
         store(result.data() + begin(i), written[i], order);
@@ -147,127 +61,26 @@ class PlyFile final : public MeshFile {
 
   bool ascii = false;
   std::endian order = std::endian::little;
-  std::array<Scalar, 3> types{};    ///< of x, y, z
-  std::vector<std::size_t> begins;  ///< where each coordinate starts; empty where all records are of one size:
+  std::array<PlyScalar, 3> types{};  ///< of x, y, z
+  std::vector<std::size_t> begins;   ///< where each coordinate starts; empty where all records are of one size:
   std::size_t first = 0, stride = 0;
   std::array<std::size_t, 3> within{};
 
  private:
   TextPrecision precision(std::size_t i, bool float32_digits) const {
-    if (types[i % 3] == Scalar::float32) return TextPrecision::stored_float;
+    if (types[i % 3] == PlyScalar::float32) return TextPrecision::stored_float;
     // In binary a double holds the float itself; only digits need the detour through text.
     if (float32_digits) return ascii ? TextPrecision::float_digits : TextPrecision::stored_float;
     return TextPrecision::double_digits;
   }
 };
 
-class HeaderParser {
- public:
-  explicit HeaderParser(std::string_view text) : text_(text), lines_(text, {}) {}
-
-  Header parse() {
-    if (text_.empty()) throw FileError("the file is empty; a PLY file starts with 'ply'");
-    if (next_word() != "ply" || !at_line_end()) throw FileError("line 1: 'ply' missing; check that it is a PLY file");
-    // In a binary file the byte after the last line could be anything, so its end looks like that of the first line.
-    const bool crlf = text_.substr(lines_.offset()).starts_with("\r\n");
-    lines_.next_line();
-    bool has_format = false;
-    for (;;) {
-      if (lines_.at_end()) lines_.fail("the file ends within the header ('end_header' missing); it is cut short");
-      line_ = lines_.offset();
-      const std::string_view word = next_word();
-      if (word == "end_header") {
-        finish(crlf);
-        break;
-      }
-      if (word == "format") {
-        format();
-        has_format = true;
-      } else if (word == "element") {
-        element();
-      } else if (word == "property") {
-        property();
-      } else if (word != "comment" && word != "obj_info" && !word.empty()) {
-        lines_.fail(fmt::format("{} is not a PLY header line", in_quotes(word)), line_);
-      }
-      lines_.next_line();
-    }
-    if (!has_format) lines_.fail("the header has no 'format' line", line_);
-    return std::move(header_);
-  }
-
- private:
-  std::string_view next_word() {
-    lines_.skip_blanks();
-    return lines_.token();
-  }
-  bool at_line_end() { return !lines_.skip_blanks(); }
-
-  void format() {
-    const std::string_view name = next_word();
-    header_.ascii = name == "ascii";
-    header_.order = name == "binary_big_endian" ? std::endian::big : std::endian::little;
-    if (!header_.ascii && name != "binary_little_endian" && name != "binary_big_endian") {
-      lines_.fail(fmt::format("unknown format {}; ascii, binary_little_endian or binary_big_endian is possible",
-                              in_quotes(name)),
-                  line_);
-    }
-  }
-  void element() {
-    Element result;
-    result.name = next_word();
-    lines_.skip_blanks();
-    std::int64_t count = 0;
-    if (!lines_.integer(count) || count < 0) lines_.fail("an element line is 'element NAME COUNT'", line_);
-    result.count = static_cast<std::size_t>(count);
-    header_.elements.push_back(std::move(result));
-  }
-  Scalar scalar() {
-    const std::string_view name = next_word();
-    const std::optional<Scalar> type = scalar_by_name(name);
-    if (!type) lines_.fail(fmt::format("unknown property type {}", in_quotes(name)), line_);
-    return *type;
-  }
-  void property() {
-    if (header_.elements.empty()) lines_.fail("a property before the first element", line_);
-    Property result;
-    lines_.skip_blanks();
-    if (lines_.peek() == "list") {
-      lines_.token();
-      result.count_type = scalar();
-      if (!is_integer(*result.count_type)) lines_.fail("the length of a list must have an integer type", line_);
-    }
-    result.type = scalar();
-    result.name = next_word();
-    header_.elements.back().properties.push_back(std::move(result));
-  }
-  void finish(bool crlf) {
-    lines_.skip_blanks();
-    const std::size_t end = lines_.offset();
-    const std::string_view rest = text_.substr(end);
-    if (rest.empty()) {
-      header_.size = end;
-    } else if (rest[0] == '\n') {
-      header_.size = end + 1;
-    } else if (rest[0] == '\r') {
-      header_.size = end + (crlf && rest.starts_with("\r\n") ? 2 : 1);
-    } else {
-      lines_.fail("'end_header' is not alone on its line", line_);
-    }
-  }
-
-  std::string_view text_;
-  TextScanner lines_;
-  Header header_;
-  std::size_t line_ = 0;
-};
-
 /// What a body is read from; AsciiSource and BinarySource look the same to the parser below.
 class AsciiSource {
  public:
-  AsciiSource(std::string_view bytes, const Header& header) : text_(bytes, {}) { text_.seek(header.size); }
+  AsciiSource(std::string_view bytes, const PlyHeader& header) : text_(bytes, {}) { text_.seek(header.size); }
 
-  static constexpr std::size_t least_bytes(const Element& element) { return 2 * element.properties.size(); }
+  static constexpr std::size_t least_bytes(const PlyElement& element) { return 2 * element.properties.size(); }
   /// The last token needs no white space after it.
   std::size_t remaining() const { return text_.remaining() + 1; }
   std::size_t offset() const { return text_.offset(); }
@@ -278,16 +91,16 @@ class AsciiSource {
     if (!text_.skip_space()) fail_at_end();
     return text_.offset();
   }
-  void skip(Scalar) {
+  void skip(PlyScalar) {
     to_next_value();
     text_.token();
   }
-  double coordinate(Scalar type, std::size_t vertex) {
+  double coordinate(PlyScalar type, std::size_t vertex) {
     to_next_value();
-    return type == Scalar::float32 ? static_cast<double>(text_.coordinate<float>(vertex))
-                                   : text_.coordinate<double>(vertex);
+    return type == PlyScalar::float32 ? static_cast<double>(text_.coordinate<float>(vertex))
+                                      : text_.coordinate<double>(vertex);
   }
-  std::int64_t whole_number(Scalar) {
+  std::int64_t whole_number(PlyScalar) {
     to_next_value();
     std::int64_t value = 0;
     if (text_.integer(value)) return value;
@@ -305,9 +118,10 @@ class AsciiSource {
 
 class BinarySource {
  public:
-  BinarySource(std::string_view bytes, const Header& header) : bytes_(bytes), at_(header.size), order_(header.order) {}
+  BinarySource(std::string_view bytes, const PlyHeader& header)
+      : bytes_(bytes), at_(header.size), order_(header.order) {}
 
-  static std::size_t least_bytes(const Element& element) { return element.smallest_record(); }
+  static std::size_t least_bytes(const PlyElement& element) { return element.smallest_record(); }
   std::size_t remaining() const { return bytes_.size() - at_; }
   std::size_t offset() const { return at_; }
   void seek(std::size_t offset) { at_ = offset; }
@@ -316,18 +130,18 @@ class BinarySource {
   }
 
   std::size_t to_next_value() const { return at_; }
-  void skip(Scalar type, std::size_t count = 1) {
+  void skip(PlyScalar type, std::size_t count = 1) {
     if (count > remaining() / size_of(type)) {
       fail("the file ends before all elements were read; it is cut short");
     }
     at_ += count * size_of(type);
   }
-  double value(Scalar type) {
+  double value(PlyScalar type) {
     const std::size_t start = at_;
     skip(type);
     return load_scalar(bytes_.data() + start, type, order_);
   }
-  double coordinate(Scalar type, std::size_t vertex) {
+  double coordinate(PlyScalar type, std::size_t vertex) {
     const double result = value(type);
     if (!std::isfinite(result)) {
       at_ -= size_of(type);
@@ -335,7 +149,7 @@ class BinarySource {
     }
     return result;
   }
-  std::int64_t whole_number(Scalar type) {
+  std::int64_t whole_number(PlyScalar type) {
     const double result = value(type);
     if (!(std::abs(result) < 1e15) || result != std::floor(result)) {
       at_ -= size_of(type);
@@ -353,12 +167,12 @@ class BinarySource {
 template <class Source>
 class BodyParser {
  public:
-  BodyParser(PlyFile& file, const Header& header) : file_(file), header_(header), source_(file.bytes, header) {}
+  BodyParser(PlyFile& file, const PlyHeader& header) : file_(file), header_(header), source_(file.bytes, header) {}
 
   void parse() {
-    const Element* vertices = nullptr;
-    const Element* faces = nullptr;
-    for (const Element& element : header_.elements) {
+    const PlyElement* vertices = nullptr;
+    const PlyElement* faces = nullptr;
+    for (const PlyElement& element : header_.elements) {
       if (element.name == "tristrips") {
         throw FileError(
             "the faces are stored as triangle strips ('element tristrips'), which is not supported; "
@@ -369,7 +183,7 @@ class BodyParser {
     }
     if (vertices == nullptr) throw FileError("the header has no 'element vertex'; a mesh needs vertices");
     vertex_count_ = vertices->count;
-    for (const Element& element : header_.elements) {
+    for (const PlyElement& element : header_.elements) {
       check_count(element);
       if (&element == vertices) {
         read_vertices(element);
@@ -383,7 +197,7 @@ class BodyParser {
   }
 
  private:
-  void check_count(const Element& element) const {
+  void check_count(const PlyElement& element) const {
     const std::size_t least = Source::least_bytes(element);
     if (least > 0 && element.count > source_.remaining() / least) {
       source_.fail(
@@ -398,7 +212,7 @@ class BodyParser {
   }
 
   /// The length of the list at this place, which has to fit into the file.
-  std::size_t list_length(const Property& property) {
+  std::size_t list_length(const PlyProperty& property) {
     const std::size_t start = source_.to_next_value();
     const std::int64_t length = source_.whole_number(*property.count_type);
     if (length < 0 || static_cast<std::uint64_t>(length) > source_.remaining()) {
@@ -407,15 +221,15 @@ class BodyParser {
     }
     return static_cast<std::size_t>(length);
   }
-  void skip_property(const Property& property) {
+  void skip_property(const PlyProperty& property) {
     const std::size_t length = property.count_type ? list_length(property) : 1;
     for (std::size_t i = 0; i < length; ++i) source_.skip(property.type);
   }
-  void skip_record(const Element& element) {
-    for (const Property& property : element.properties) skip_property(property);
+  void skip_record(const PlyElement& element) {
+    for (const PlyProperty& property : element.properties) skip_property(property);
   }
 
-  void read_vertices(const Element& element) {
+  void read_vertices(const PlyElement& element) {
     std::array<std::size_t, 3> xyz{};
     bool fixed_size = !header_.ascii;
     for (int k = 0; k < 3; ++k) {
@@ -427,7 +241,7 @@ class BodyParser {
       xyz[k] = *found;
       file_.types[k] = element.properties[*found].type;
     }
-    for (const Property& property : element.properties) fixed_size &= !property.count_type;
+    for (const PlyProperty& property : element.properties) fixed_size &= !property.count_type;
     note_types();
 
     file_.surface.positions.resize(3 * element.count);
@@ -458,8 +272,8 @@ class BodyParser {
   void note_types() {
     file_.stores_float32 = true;
     bool integers = false;
-    for (const Scalar type : file_.types) {
-      file_.stores_float32 &= type == Scalar::float32;
+    for (const PlyScalar type : file_.types) {
+      file_.stores_float32 &= type == PlyScalar::float32;
       integers |= is_integer(type);
     }
     if (integers)
@@ -467,7 +281,7 @@ class BodyParser {
           "The positions are stored as integers, which cannot hold a repaired mesh; convert them first.");
   }
 
-  void read_faces(const Element& element) {
+  void read_faces(const PlyElement& element) {
     std::optional<std::size_t> corners = element.find("vertex_indices");
     if (!corners) corners = element.find("vertex_index");
     if (element.count > 0 && (!corners || !element.properties[*corners].count_type)) {
@@ -477,7 +291,7 @@ class BodyParser {
     std::vector<std::int32_t> face;
     for (std::size_t f = 0; f < element.count; ++f) {
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
-        const Property& property = element.properties[p];
+        const PlyProperty& property = element.properties[p];
         if (p != *corners) {
           skip_property(property);
           continue;
@@ -501,7 +315,7 @@ class BodyParser {
   }
 
   PlyFile& file_;
-  const Header& header_;
+  const PlyHeader& header_;
   Source source_;
   FaceCollector faces_{file_.surface};
   std::size_t vertex_count_ = 0;
@@ -512,7 +326,7 @@ class BodyParser {
 std::unique_ptr<MeshFile> parse_ply(std::string bytes) {
   auto file = std::make_unique<PlyFile>();
   file->bytes = std::move(bytes);
-  const Header header = HeaderParser(file->bytes).parse();
+  const PlyHeader header = parse_ply_header(file->bytes);
   file->ascii = header.ascii;
   file->order = header.order;
   if (header.ascii) {
