@@ -34,5 +34,46 @@ TEST(Document, CanBeMoved) {
   EXPECT_EQ(patched_bytes(other, other.surface().positions), triangle);
 }
 
+/// The same triangle and quad (STL: triangle) in every text format.
+const std::vector<std::pair<Format, std::string>> texts = {
+    {Format::obj, "# a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1.5 0\nf 1 2 3\nf -4 -3 -2 -1\n"},
+    {Format::off, "OFF # a\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1.5 0\n3 0 1 2\n4 0 1 2 3\n"},
+    {Format::ply,
+     "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+     "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+     "0 0 0\n1 0 0\n1 1 0\n0 1.5 0\n3 0 1 2\n4 0 1 2 3\n"},
+    {Format::stl,
+     "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1.5 0\nendloop\nendfacet\n"
+     "endsolid\n"}};
+
+std::string with_line_ends(const std::string& text, const std::string& line_end) {
+  std::string result;
+  for (const char c : text) result += c == '\n' ? line_end : std::string(1, c);
+  return result;
+}
+
+TEST(Document, LineEndsAndAMissingLastOneDoNotMatter) {
+  for (const auto& [format, text] : texts) {
+    const Surface expected = Document::parse(text, format).surface();
+    for (const char* line_end : {"\n", "\r\n", "\r"})
+      for (const bool is_last_missing : {false, true}) {
+        std::string bytes = with_line_ends(is_last_missing ? text.substr(0, text.size() - 1) : text, line_end);
+        const Document document = Document::parse(bytes, format);
+        EXPECT_EQ(document.surface().positions, expected.positions) << to_string(format);
+        EXPECT_EQ(document.surface().corners, expected.corners) << to_string(format);
+        check_patching(bytes, format);
+      }
+  }
+}
+
+TEST(Document, CoordinatesThatAreNotFiniteAreRefusedByPlace) {
+  for (const auto& [format, text] : texts)
+    for (const char* word : {"nan", "NaN", "-nan", "inf", "-inf", "Infinity", "1e999", "-1e999", "1e99999999999"}) {
+      const std::string error = parse_error(replaced(text, "1.5", word), format);
+      EXPECT_NE(error.find("line "), std::string::npos) << to_string(format) << " " << word << ": " << error;
+      EXPECT_NE(error.find(word), std::string::npos) << to_string(format) << " " << word << ": " << error;
+    }
+}
+
 }  // namespace
 }  // namespace unsnarl
