@@ -21,6 +21,7 @@
 #include "standard_streams.h"
 #include "surface_files.h"
 #include "unsnarl/certify.h"
+#include "view_page.h"
 
 namespace unsnarl::app {
 namespace {
@@ -54,7 +55,7 @@ std::string checked_output(const FixOptions& options) {
   if (!from_stream && !options.in_place) paths.emplace_back("the input", options.input);
   paths.emplace_back(options.in_place ? "the input" : "-o", options.in_place ? options.input : options.output);
   for (const auto& [name, path] : {std::pair{"--report", options.report}, {"--highlight", options.highlight},
-                                   {"--picture", options.picture}})
+                                   {"--picture", options.picture}, {"--view", options.view}})
     if (!path.empty()) paths.emplace_back(name, path);
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -150,6 +151,7 @@ class Fix {
   }
 
   int run() {
+    if (!options_.view.empty()) require_viewer();
     for (const std::string& note : document_.notes()) say("note: {}", note);
     // A folder that is missing or must not be written to is found now rather than after the work.
     if (!is_stream(output_)) StagedOutput(output_, interruption_);
@@ -171,6 +173,7 @@ class Fix {
     const ExitCode exit_code = exit_code_of(result_.status);
     write_pictures();
     write_report(exit_code);
+    write_view();
     summarise();
     return exit_code;
   }
@@ -253,7 +256,7 @@ class Fix {
   }
 
   void write_report(ExitCode exit_code) {
-    if (options_.report.empty()) return;
+    if (options_.report.empty() && options_.view.empty()) return;
     files_.input = options_.input;
     files_.format = to_string(document_.format());
     files_.vertices = surface().view().vertex_count();
@@ -262,7 +265,22 @@ class Fix {
     files_.notes = document_.notes();
     files_.exit_code = exit_code;
     files_.seconds = clock_.seconds();
-    write_file(options_.report, report_json(result_, repair_options_, files_).dump(2) + "\n", interruption_);
+    if (!options_.report.empty()) write_file(options_.report, report().dump(2) + "\n", interruption_);
+  }
+
+  nlohmann::ordered_json report() const { return report_json(result_, repair_options_, files_); }
+
+  void write_view() {
+    if (options_.view.empty()) return;
+    PageSource source;
+    source.input_name = page_name(options_.input);
+    source.output_name = files_.output.empty() ? "" : page_name(files_.output);
+    source.before = surface();
+    source.after = result_.positions;
+    source.find = repair_options_.find;
+    source.goal = repair_options_.goal;
+    source.report = report();
+    write_file(options_.view, view_page(source), interruption_);
   }
 
   void summarise() {
@@ -372,6 +390,9 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->group(shown);
   command.add_option("--picture", options.picture, "Write a picture, before and after, intersecting faces in red")
       ->type_name("FILE.png")
+      ->group(shown);
+  command.add_option("--view", options.view, "Write a page to look at: before, after, displacement (see unsnarl view)")
+      ->type_name("PAGE.html")
       ->group(shown);
   command.add_option("--highlight", options.highlight, "Write a PLY in which intersecting faces are coloured")
       ->type_name("FILE.ply")

@@ -15,7 +15,7 @@ struct FixOptions : MeshOptions {
   bool absolute = false;
   std::string fix_vertices;
   bool paper = false, no_recover = false;
-  std::string report, highlight, picture;
+  std::string report, highlight, picture, view;
   std::string progress = "auto";
 };
 void add_fix_options(CLI::App& command, FixOptions& options);

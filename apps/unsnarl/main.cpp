@@ -17,6 +17,7 @@
 #include "standard_streams.h"
 #include "unsnarl/document.h"
 #include "unsnarl/version.h"
+#include "view.h"
 
 namespace unsnarl::app {
 namespace {
@@ -38,11 +39,14 @@ int run(int argc, char** argv) {
   FixOptions fix;
   CheckOptions check;
   SampleOptions sample;
+  ViewOptions view;
   CLI::App* const fix_command = program.add_subcommand("fix", "Repair a mesh");
   CLI::App* const check_command = program.add_subcommand("check", "Count and locate the self-intersections of a mesh");
+  CLI::App* const view_command = program.add_subcommand("view", "Write a page to look at a mesh, before and after");
   CLI::App* const sample_command = program.add_subcommand("sample", "Make a self-intersecting surface to play with");
   add_fix_options(*fix_command, fix);
   add_check_options(*check_command, check);
+  add_view_options(*view_command, view);
   add_sample_options(*sample_command, sample);
   program.footer(
       "Examples:\n"
@@ -57,14 +61,15 @@ int run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0 && program.get_subcommands().empty())
-      return complain(exit_usage, "say what to do: fix, check or sample; 'unsnarl --help' explains");
+      return complain(exit_usage, "say what to do: fix, check, view or sample; 'unsnarl --help' explains");
     return program.exit(e, std::cout, std::cerr) == 0 ? exit_embedded : exit_usage;
   }
   std::optional<tbb::global_control> limit;
-  if (const int threads = *fix_command ? fix.threads : check.threads; threads > 0)
+  if (const int threads = *fix_command ? fix.threads : *view_command ? view.threads : check.threads; threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   if (*fix_command) return run_fix(fix, interruption);
   if (*check_command) return run_check(check, interruption);
+  if (*view_command) return run_view(view, interruption);
   return run_sample(sample, interruption);
 }
 

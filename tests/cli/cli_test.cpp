@@ -53,7 +53,8 @@ class Cli : public ::testing::Test {
 
 TEST_F(Cli, HelpAndVersionGoToStandardOutput) {
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"fix", "--help"}, {"check", "--help"}, {"sample", "--help"}}) {
+       {std::vector<std::string>{"--help"}, {"fix", "--help"}, {"check", "--help"}, {"view", "--help"},
+        {"sample", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.out.find("Examples"), std::string::npos);
@@ -67,7 +68,7 @@ TEST_F(Cli, HelpAndVersionGoToStandardOutput) {
 TEST_F(Cli, UsageErrorsExitWith2) {
   const std::string in = file("in.obj", clean_cube);
   expect_refusal({}, 2, "");
-  expect_refusal({"mend"}, 2, "fix, check or sample");
+  expect_refusal({"mend"}, 2, "fix, check, view or sample");
   expect_refusal({"fix"}, 2, "IN");
   expect_refusal({"fix", in}, 2, "-o");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--frobnicate"}, 2, "frobnicate");

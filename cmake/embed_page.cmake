@@ -1,0 +1,18 @@
+# Makes a C++ source of a page: cmake -DPAGE=... -DSOURCE=... -P this. Without PAGE: of an empty one.
+set(text "")
+if(PAGE)
+  file(READ ${PAGE} text)
+  string(FIND "${text}" ")unsnarl_page\"" clash)
+  if(NOT clash EQUAL -1)
+    message(FATAL_ERROR "${PAGE} contains what ends the string literal")
+  endif()
+endif()
+file(WRITE ${SOURCE} "#include \"viewer_template.h\"
+
+#include <string_view>
+
+std::string_view unsnarl::app::viewer_template() {
+  using namespace std::string_view_literals;
+  return R\"unsnarl_page(${text})unsnarl_page\"sv;
+}
+")

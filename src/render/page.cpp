@@ -1,0 +1,172 @@
+#include "render/page.h"
+
+#include <bit>
+#include <stdexcept>
+#include <type_traits>
+
+#include "geometry/box.h"
+#include "mesh/triangulation.h"
+#include "render/camera.h"
+#include "render/packed_words.h"
+#include "unsnarl/version.h"
+
+namespace unsnarl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Raised whenever an older page could not be read any more; page and data are written together.
+constexpr int page_schema_version = 1;
+constexpr std::string_view place_for_data = "<!--unsnarl-data-->";
+
+/// From the units of the file to those of the page.
+class Frame {
+ public:
+  explicit Frame(std::span<const double> positions) {
+    Box box;
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
+      box.extend(Vec3(positions[i], positions[i + 1], positions[i + 2]));
+    if (!positions.empty()) {
+      centre_ = box.center();
+      diagonal_ = box.diagonal();
+    }
+  }
+  const Vec3& centre() const { return centre_; }
+  double diagonal() const { return diagonal_; }
+  double unit() const { return diagonal_ > 0 ? diagonal_ : 1; }
+
+  void append(const Vec3& p, std::vector<float>& to) const {
+    const Vec3 q = (p - centre_) / unit();
+    for (int k = 0; k < 3; ++k) to.push_back(static_cast<float>(q[k]));
+  }
+  std::vector<float> of(std::span<const double> positions) const {
+    std::vector<float> result;
+    result.reserve(positions.size());
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
+      append(Vec3(positions[i], positions[i + 1], positions[i + 2]), result);
+    return result;
+  }
+
+ private:
+  Vec3 centre_ = Vec3::Zero();
+  double diagonal_ = 0;
+};
+
+/// The elements of the page that hold the data, one after another.
+class DataElements {
+ public:
+  void add_json(std::string_view id, const Json& json) {
+    // Names may hold any bytes, and "</script>" too.
+    std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
+    html_ += element("application/json", id, "", text);
+  }
+  template <class Word>
+  void add_words(std::string_view id, const std::vector<Word>& words, std::size_t stride) {
+    add(id, std::is_same_v<Word, float> ? "float" : "int", words.size(),
+        " data-stride=\"" + std::to_string(stride) + '"',
+        pack_words(std::span<const Word>(words), {.stride = stride, .like = {}}));
+  }
+  void add_words_like(std::string_view id, const std::vector<float>& words, std::string_view like_id,
+                      const std::vector<float>& like) {
+    std::vector<std::uint32_t> bits(like.size());
+    for (std::size_t i = 0; i < like.size(); ++i) bits[i] = std::bit_cast<std::uint32_t>(like[i]);
+    add(id, "float", words.size(), " data-like=\"" + std::string(like_id) + '"',
+        pack_words(std::span<const float>(words), {.stride = 0, .like = bits}));
+  }
+  const std::string& html() const { return html_; }
+
+ private:
+  static std::string element(std::string_view type, std::string_view id, const std::string& attributes,
+                             const std::string& text) {
+    return "<script type=\"" + std::string(type) + "\" id=\"" + std::string(id) + '"' + attributes + '>' + text +
+           "</script>\n";
+  }
+  void add(std::string_view id, const std::string& kind, std::size_t count, const std::string& prediction,
+           const std::string& text) {
+    html_ += element("text/plain", id,
+                     " data-kind=\"" + kind + "\" data-count=\"" + std::to_string(count) + '"' + prediction, text);
+  }
+  std::string html_;
+};
+
+Json as_json(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+void add_faces(const SurfaceView& surface, DataElements& elements) {
+  const std::vector<Index> corners(surface.corners.begin(), surface.corners.end());
+  if (surface.offsets.empty()) return elements.add_words("corners", corners, 3);
+  std::vector<Index> sizes;
+  for (std::size_t f = 0; f < surface.face_count(); ++f) sizes.push_back(static_cast<Index>(surface.face(f).size()));
+  elements.add_words("corners", corners, sizes.empty() ? 3 : static_cast<std::size_t>(sizes[0]));
+  elements.add_words("sizes", sizes, 1);
+  const Triangulation cut = triangulate(surface);
+  std::vector<Index> triangles;
+  for (const Triangle& t : cut.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  elements.add_words("triangles", triangles, 6);
+  elements.add_words("triangle_faces", cut.polygon, 1);
+}
+
+void add_conflicts(const std::string& suffix, const PageState& state, const Frame& frame, DataElements& elements) {
+  std::vector<Index> pairs;
+  for (const IntersectingPair& pair : state.pairs)
+    pairs.insert(pairs.end(), {pair.a, pair.b, static_cast<Index>(pair.kind)});
+  elements.add_words("pairs_" + suffix, pairs, 3);
+  std::vector<float> curves;
+  for (const auto& segment : state.curves)
+    for (const Vec3& end : segment) frame.append(end, curves);
+  elements.add_words("curves_" + suffix, curves, 3);
+}
+
+/// Lengths of the motions, in units of the diagonal.
+std::vector<float> displacements(std::span<const double> before, std::span<const double> after, double unit) {
+  std::vector<float> result;
+  for (std::size_t i = 0; i + 2 < before.size(); i += 3) {
+    const Vec3 d(after[i] - before[i], after[i + 1] - before[i + 1], after[i + 2] - before[i + 2]);
+    result.push_back(static_cast<float>(d.norm() / unit));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string make_page(std::string_view page_template, const PageContent& content) {
+  const std::size_t place = page_template.find(place_for_data);
+  if (place == std::string_view::npos) throw std::invalid_argument("the template of the page has no place for data");
+  const SurfaceView& surface = content.faces;
+  const Frame frame(content.before.positions);
+  const Camera camera = three_quarter_view(content.before.positions, 1, 0.1);
+
+  DataElements elements;
+  elements.add_json("scene", {{"schema", "unsnarl-page"},
+                              {"schema_version", page_schema_version},
+                              {"version", version},
+                              {"input", content.input_name},
+                              {"output", content.output_name},
+                              {"vertices", surface.vertex_count()},
+                              {"faces", surface.face_count()},
+                              {"centre", as_json(frame.centre())},
+                              {"diagonal", frame.diagonal()},
+                              {"camera", {{"toward", as_json(camera.toward)}, {"up", as_json(camera.up)}}},
+                              {"pair_classes", pair_class_names},
+                              {"report", content.report}});
+  const std::vector<float> before = frame.of(content.before.positions);
+  elements.add_words("positions_before", before, 3);
+  add_faces(surface, elements);
+  add_conflicts("before", content.before, frame, elements);
+  if (content.after) {
+    elements.add_words_like("positions_after", frame.of(content.after->positions), "positions_before", before);
+    elements.add_words("displacement", displacements(content.before.positions, content.after->positions, frame.unit()),
+                       1);
+    add_conflicts("after", *content.after, frame, elements);
+  }
+  std::string page;
+  page.reserve(page_template.size() + elements.html().size());
+  page += page_template.substr(0, place);
+  page += elements.html();
+  page += page_template.substr(place + place_for_data.size());
+  return page;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "cli/program.h"
+
+namespace unsnarl::cli {
+namespace {
+
+const std::string crossing = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 1 9 0\nf 1 2 3\nf 4 5 6\n";
+
+class View : public ::testing::Test {
+ protected:
+  View() { write(in, crossing); }
+  std::string complaint(std::vector<std::string> arguments, int exit_code) {
+    const auto before = folder.names();
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_EQ(folder.names(), before);
+    return outcome.err;
+  }
+  Folder folder;
+  const std::string in = folder / "in.obj", page = folder / "page.html";
+};
+
+#if UNSNARL_VIEWER
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(View, WritesOnePageThatNeedsNothingElse) {
+  const Outcome outcome = run({"view", in, "-o", page});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string html = contents(page);
+  EXPECT_TRUE(html.starts_with("<!doctype html>"));
+  EXPECT_TRUE(contains(html, "\"input\":\"in.obj\""));
+  EXPECT_TRUE(contains(html, "The MIT License"));
+  EXPECT_FALSE(contains(html, "<script src"));
+  EXPECT_FALSE(contains(html, "<link rel=\"stylesheet\""));
+  EXPECT_FALSE(contains(html, "id=\"positions_after\""));
+  EXPECT_TRUE(contains(outcome.err, "page.html"));
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "page.html"}));
+}
+
+TEST_F(View, ShowsARepairWithItsReport) {
+  const std::string out = folder / "out.obj", report = folder / "report.json";
+  ASSERT_EQ(run({"fix", in, "-o", out, "--report", report, "--view", page}).exit_code, 0);
+  EXPECT_TRUE(contains(contents(page), "\"status\":\"embedded\""));
+  EXPECT_TRUE(contains(contents(page), "id=\"positions_after\""));
+  ASSERT_EQ(run({"view", in, out, "--report", report, "-o", page}).exit_code, 0);
+  EXPECT_TRUE(contains(contents(page), "\"status\":\"embedded\""));
+  EXPECT_TRUE(contains(contents(page), "\"output\":\"out.obj\""));
+}
+
+TEST_F(View, TheSamePageAtAnyNumberOfThreads) {
+  ASSERT_EQ(run({"view", in, in, "-o", page, "--threads", "1"}).exit_code, 0);
+  const std::string first = contents(page);
+  ASSERT_EQ(run({"view", in, in, "-o", page, "--threads", "3"}).exit_code, 0);
+  EXPECT_EQ(contents(page), first);
+}
+
+TEST_F(View, RefusesWhatMakesNoSense) {
+  const std::string other = folder / "other.obj", text = folder / "text.json";
+  write(other, crossing + "f 1 2 4\n");
+  write(text, "{}");
+  EXPECT_TRUE(contains(complaint({"view", in}, 2), "-o"));
+  EXPECT_TRUE(contains(complaint({"view", in, "-o", in}, 2), "overwrite"));
+  EXPECT_TRUE(contains(complaint({"view", in, other, "-o", page}, 3), "not those of"));
+  EXPECT_TRUE(contains(complaint({"view", in, "--report", text, "-o", page}, 3), "no"));
+  EXPECT_TRUE(contains(complaint({"view", folder / "absent.obj", "-o", page}, 3), "absent.obj"));
+  EXPECT_TRUE(contains(complaint({"view", in, "-o", folder / "absent/page.html"}, 4), "absent"));
+  EXPECT_TRUE(contains(complaint({"fix", in, "-o", folder / "out.obj", "--view", in}, 2), "the same"));
+}
+
+#else
+
+TEST_F(View, SaysThatThisBuildHasNone) {
+  EXPECT_NE(complaint({"view", in, "-o", page}, 2).find("npm ci"), std::string::npos);
+  EXPECT_NE(complaint({"fix", in, "-o", folder / "out.obj", "--view", page}, 2).find("no viewer"), std::string::npos);
+}
+
+#endif
+
+}  // namespace
+}  // namespace unsnarl::cli

@@ -1,0 +1,108 @@
+#include "render/page.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "render/packed_words.h"
+
+namespace unsnarl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string page_template = "<body>$&<!--unsnarl-data--></body>";
+
+/// A quad and a triangle, around (11, 21, 31) with a diagonal of 2.
+const Surface surface = {
+    {10, 20, 31, 12, 20, 31, 12, 22, 31, 10, 22, 31, 11, 21, 31}, {0, 1, 2, 3, 0, 1, 4}, {0, 4, 7}};
+
+PageContent content_of(const Surface& surface) {
+  PageContent content;
+  content.faces = surface;
+  content.before.positions = surface.positions;
+  return content;
+}
+
+/// What stands between the tags of the element with this id; empty: there is none.
+std::string text_of(const std::string& page, const std::string& id) {
+  const std::size_t at = page.find(" id=\"" + id + '"');
+  if (at == std::string::npos) return {};
+  const std::size_t begin = page.find('>', at) + 1;
+  return page.substr(begin, page.find("</script>", begin) - begin);
+}
+
+template <class Word>
+std::string packed(const std::vector<Word>& words, std::size_t stride) {
+  return pack_words(std::span<const Word>(words), {.stride = stride, .like = {}});
+}
+
+TEST(Page, IsTheTemplateWithTheDataInItsPlace) {
+  const std::string page = make_page(page_template, content_of(surface));
+  EXPECT_EQ(page.rfind("<body>$&<script", 0), 0u);
+  EXPECT_EQ(page.substr(page.size() - 17), "</script>\n</body>");
+  EXPECT_EQ(page.find("<!--unsnarl-data-->"), std::string::npos);
+  EXPECT_THROW(make_page("<body></body>", content_of(surface)), std::invalid_argument);
+}
+
+TEST(Page, NamesCannotLeaveTheirElement) {
+  PageContent content = content_of(surface);
+  content.input_name = "</script><script>alert(1)</script><!-- \xff\xfe \" \\ \n";
+  content.report = {{"note", "</SCRIPT>"}};
+  const std::string page = make_page(page_template, content);
+  const std::string text = text_of(page, "scene");
+  EXPECT_EQ(text.find('<'), std::string::npos);
+  const Json scene = Json::parse(text);
+  EXPECT_EQ(scene["input"].get<std::string>().rfind("</script><script>alert(1)</script><!-- ", 0), 0u);
+  EXPECT_EQ(scene["report"]["note"], "</SCRIPT>");
+}
+
+TEST(Page, PositionsAreRelativeToTheMiddleInUnitsOfTheDiagonal) {
+  const std::string page = make_page(page_template, content_of(surface));
+  const float a = static_cast<float>(-1 / std::sqrt(8.0));
+  EXPECT_EQ(text_of(page, "positions_before"), packed<float>({a, a, 0, -a, a, 0, -a, -a, 0, a, -a, 0, 0, 0, 0}, 3));
+  const Json scene = Json::parse(text_of(page, "scene"));
+  EXPECT_EQ(scene["diagonal"], std::sqrt(8.0));
+  EXPECT_EQ(scene["centre"], Json({11, 21, 31}));
+}
+
+TEST(Page, PolygonsComeWithTheTrianglesThatDrawThem) {
+  const std::string page = make_page(page_template, content_of(surface));
+  EXPECT_EQ(text_of(page, "corners"), packed<Index>({0, 1, 2, 3, 0, 1, 4}, 4));
+  EXPECT_EQ(text_of(page, "sizes"), packed<Index>({4, 3}, 1));
+  EXPECT_EQ(text_of(page, "triangles"), packed<Index>({0, 1, 2, 0, 2, 3, 0, 1, 4}, 6));
+  EXPECT_EQ(text_of(page, "triangle_faces"), packed<Index>({0, 0, 1}, 1));
+  const std::string plain = make_page(page_template, content_of({surface.positions, {0, 1, 2}, {}}));
+  EXPECT_EQ(text_of(plain, "sizes"), "");
+  EXPECT_EQ(text_of(plain, "triangles"), "");
+}
+
+TEST(Page, DisplacementComesFromDoubles) {
+  PageContent content = content_of(surface);
+  std::vector<double> moved = surface.positions;
+  moved[0] += 1e-12;  // far below what a float of the position holds
+  content.after = PageState{moved, {}, {}};
+  const std::string page = make_page(page_template, content);
+  EXPECT_EQ(text_of(page, "displacement"),
+            packed<float>({static_cast<float>((moved[0] - 10) / std::sqrt(8.0)), 0, 0, 0, 0}, 1));
+  EXPECT_NE(text_of(page, "positions_after"), "");
+  EXPECT_EQ(text_of(make_page(page_template, content_of(surface)), "positions_after"), "");
+}
+
+TEST(Page, PairsAndCurvesOfBothStates) {
+  PageContent content = content_of(surface);
+  const std::vector<IntersectingPair> pairs = {{0, 1, PairClass::one_vertex}};
+  content.before.pairs = pairs;
+  content.before.curves = {{Vec3(11, 21, 31), Vec3(11, 21, 31 + std::sqrt(8.0))}};
+  const std::string page = make_page(page_template, content);
+  EXPECT_EQ(text_of(page, "pairs_before"), packed<Index>({0, 1, 1}, 3));
+  EXPECT_EQ(text_of(page, "curves_before"), packed<float>({0, 0, 0, 0, 0, 1}, 3));
+}
+
+TEST(Page, AnEmptyMeshHasAPage) {
+  EXPECT_NE(make_page(page_template, content_of({})).find("\"vertices\":0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace unsnarl

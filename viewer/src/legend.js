@@ -1,0 +1,23 @@
+import { element } from './element.js';
+import { percent, short } from './numbers.js';
+
+/** Displacement up to which the scale reaches: of every vertex, or of all but the furthest hundredth of those that moved. */
+export function heatRanges(displacement) {
+  const moved = displacement.filter((d) => d > 0).sort();
+  if (moved.length === 0) return { all: 1, most: 1 };
+  return { all: moved[moved.length - 1], most: moved[Math.floor(0.99 * (moved.length - 1))] };
+}
+
+/** The colour scale of displacement; a click changes its range. */
+export function fillLegend(node, full, range, diagonal, onChange) {
+  const ticks = [0, 0.25, 0.5, 0.75, 1];
+  node.replaceChildren(
+    element('h3', {}, 'Displacement', element('small', {}, ' of the diagonal')),
+    element('div', { class: 'scale' }),
+    element('div', { class: 'ticks' }, ticks.map((share) => element('span', {},
+      share === 0 ? '0' : percent(share * full)))),
+    element('div', { class: 'foot' },
+      element('span', {}, `${short(full * diagonal)} in the file's units`),
+      element('button', { onclick: onChange, title: 'Change the range of the scale (R)' },
+        range === 'all' ? 'full range' : 'up to the 99th percentile')));
+}

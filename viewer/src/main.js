@@ -1,0 +1,18 @@
+import './style.css';
+import { listenToKeys } from './keyboard.js';
+import { readPage } from './page_data.js';
+import { Viewer } from './viewer.js';
+
+try {
+  const began = performance.now();
+  const viewer = new Viewer(await readPage(document));
+  listenToKeys(viewer);
+  viewer.loadSeconds = (performance.now() - began) / 1000;
+  window.unsnarl = viewer;  // for the console
+} catch (error) {
+  const failure = document.getElementById('failure');
+  failure.hidden = false;
+  failure.textContent = /webgl/i.test(error.message)
+    ? 'This browser cannot draw: WebGL is switched off or missing.' : `This page cannot be shown: ${error.message}`;
+  console.error(error);
+}

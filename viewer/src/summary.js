@@ -1,0 +1,89 @@
+import { element } from './element.js';
+import { count, duration, percent, plural, short } from './numbers.js';
+
+/** What each status of a report means: [words, mood]. */
+const statuses = {
+  embedded: ['Embedded', 'good'],
+  reduced: ['Self-intersections left', 'bad'],
+  no_progress: ['No progress', 'bad'],
+  obstructed: ['Obstructed', 'fair'],
+  time_limit: ['Time limit reached', 'fair'],
+  memory_limit: ['Memory limit reached', 'fair'],
+  displacement_exceeded: ['Displacement exceeded', 'fair'],
+  cancelled: ['Interrupted', 'fair'],
+};
+
+/** The mesh in one phrase, and its mood: by the report, or by the pairs that are left. */
+export function statusOf({ report }, before, after) {
+  if (report && statuses[report.status]) return statuses[report.status];
+  const shown = after ?? before;
+  return shown.count === 0 ? ['No self-intersections', 'good']
+    : [plural(shown.count, 'intersecting pair', 'intersecting pairs'), 'bad'];
+}
+
+const className = (name) => name.replace('_', '-');
+
+function pairsTable(before, after) {
+  const rows = before.classNames.map((name, k) => [name, before.countByClass[k], after?.countByClass[k] ?? 0]);
+  const row = (head, a, b, kind) => element('tr', { class: kind },
+    element('th', { scope: 'row' }, head), element('td', { class: a ? 'some' : 'none' }, count(a)),
+    after ? element('td', { class: b ? 'some' : 'none' }, count(b)) : null);
+  return element('table', {},
+    element('thead', {}, element('tr', {}, element('th', {}), element('th', { scope: 'col' }, after ? 'before' : 'pairs'),
+      after ? element('th', { scope: 'col' }, 'after') : null)),
+    element('tbody', {}, rows.map(([name, a, b]) => row(className(name), a, b, a + b ? '' : 'empty')),
+      row('all', before.count, after?.count ?? 0, 'total')));
+}
+
+function facts(list) {
+  return element('dl', {}, list.filter(Boolean).flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+}
+
+function motion(page) {
+  const { displacement, scene } = page;
+  let moved = 0, sum = 0, most = 0;
+  for (const d of displacement) {
+    if (d > 0) moved += 1;
+    sum += d;
+    most = Math.max(most, d);
+  }
+  const length = (share) => `${percent(share)} (${short(share * scene.diagonal)})`;
+  return facts([
+    ['vertices moved', `${count(moved)} of ${count(scene.vertices)} (${percent(moved / Math.max(1, scene.vertices))})`],
+    ['furthest', length(most)],
+    ['on average', length(sum / Math.max(1, scene.vertices))],
+  ]);
+}
+
+function reportFacts(report) {
+  const gap = report.min_gap_rel > 0 ? percent(report.min_gap_rel) : null;
+  const regions = report.regions?.length ?? 0;
+  return facts([
+    regions ? ['conflict regions', count(regions)] : null,
+    gap ? ['smallest gap met', gap] : null,
+    ['area', `${percent(report.area_change_rel)} change`],
+    report.volume_change_rel ? ['volume', `${percent(report.volume_change_rel)} change`] : null,
+    report.turned_triangles ? ['normals turned', plural(report.turned_triangles, 'triangle', 'triangles')] : null,
+    ['holds in 32 bits', report.float32_embedded ? 'yes' : 'no'],
+    ['time', duration(report.seconds)],
+  ]);
+}
+
+/** The sections of the panel that stay as they are. */
+export function summary(page, before, after) {
+  const { scene } = page;
+  const { report } = scene;
+  const section = (title, ...content) => element('section', {}, element('h2', {}, title), ...content);
+  return [
+    section('Intersecting pairs of faces', pairsTable(before, after),
+      ...(report?.obstructions ?? []).map(({ message }) => element('p', { class: 'note' }, `Cannot be resolved: ${message}`))),
+    page.displacement ? section('Motion, in the diagonal (in units of the file)', motion(page)) : null,
+    report ? section('Report', reportFacts(report)) : null,
+    section('Mesh', facts([
+      ['vertices', count(scene.vertices)],
+      ['faces', count(scene.faces)],
+      ['diagonal', short(scene.diagonal)],
+      report?.topology ? ['components', count(report.topology.components)] : null,
+    ])),
+  ].filter(Boolean);
+}

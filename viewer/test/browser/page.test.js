@@ -1,0 +1,195 @@
+// Opens a page that the program wrote, from the disk, in a real browser without a display.
+// Environment: UNSNARL_PROGRAM, the program; CHROMIUM, the browser.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const program = process.env.UNSNARL_PROGRAM;
+const folder = mkdtempSync(join(tmpdir(), 'unsnarl-page-'));
+const at = (name) => join(folder, name);
+const unsnarl = (...args) => execFileSync(program, args, { stdio: ['ignore', 'pipe', 'pipe'] });
+/** The name of the input must not end the element that holds it, nor become one. */
+const input = 'limb <b>"&amp; $& .obj';
+
+let browser;
+let page;
+const complaints = [];
+
+async function open(name) {
+  await page.goto(pathToFileURL(at(name)).href);
+  await page.waitForFunction(() => window.unsnarl || !document.getElementById('failure').hidden);
+  assert.equal(await page.locator('#failure').isVisible(), false, await page.locator('#failure').textContent());
+}
+
+/** Of the canvas as it is now: the share of its pixels that something is drawn on, of red ones, and a digest. */
+function pixels() {
+  return page.evaluate(() => {
+    const copy = window.unsnarl.stage.snapshot();
+    const { data } = copy.getContext('2d').getImageData(0, 0, copy.width, copy.height);
+    let drawn = 0, red = 0, digest = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] > 128) drawn += 1;
+      if (data[i + 3] > 128 && data[i] > 120 && data[i + 1] < 0.55 * data[i]) red += 1;
+      digest = Math.imul(digest, 31) + data[i] * 65536 + data[i + 1] * 256 + data[i + 2] | 0;
+    }
+    return { drawn: drawn * 4 / data.length, red: red * 4 / data.length, digest };
+  });
+}
+
+before(async () => {
+  unsnarl('sample', 'posed_limb', '-o', at(input), '--resolution', '40');
+  unsnarl('fix', at(input), '-o', at('fixed.obj'), '--view', at('page.html'), '--quiet');
+  unsnarl('view', at(input), '-o', at('alone.html'), '--quiet');
+  browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM,
+    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+      '--disable-component-update', '--disable-sync', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  });
+  page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('console', (message) => {
+    // The browser's own remark on reading pixels back, which only this test does.
+    if (['error', 'warning'].includes(message.type()) && !message.text().includes('GPU stall due to ReadPixels'))
+      complaints.push(message.text());
+  });
+  page.on('request', (request) => {
+    if (/^(https?|wss?):/.test(request.url())) complaints.push(`asks the network for ${request.url()}`);
+  });
+}, { timeout: 120000 });
+
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+test('before and after are drawn side by side, intersections in red', async () => {
+  await open('page.html');
+  assert.equal(await page.locator('#file-name').textContent(), `${input} → fixed.obj`);
+  const { drawn, red } = await pixels();
+  assert.ok(drawn > 0.05 && drawn < 0.9, `${drawn} of the canvas is drawn on`);
+  assert.ok(red > 0.0003, `${red} of the canvas is red`);
+  assert.match(await page.locator('#caption-first').textContent(), /before\d+ intersecting pair/);
+  assert.match(await page.locator('#caption-second').textContent(), /afterno self-intersections/);
+  assert.equal(await page.locator('#status').textContent(), 'Embedded');
+});
+
+test('the slider moves the surface', async () => {
+  await page.keyboard.press('3');
+  const start = await pixels();
+  await page.locator('#slider').fill('0.5');
+  const middle = await pixels();
+  await page.locator('#slider').fill('1');
+  const end = await pixels();
+  assert.notEqual(start.digest, middle.digest);
+  assert.notEqual(middle.digest, end.digest);
+  assert.ok(start.red > 0 && end.red === 0, `red: ${start.red}, then ${end.red}`);
+});
+
+test('the divider is dragged between both', async () => {
+  await page.keyboard.press('2');
+  const stage = await page.locator('#stage').boundingBox();
+  const redWithDividerAt = async (share) => {
+    const { x, y, width, height } = await page.locator('#divider').boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(stage.x + share * stage.width, y + height / 2, { steps: 3 });
+    await page.mouse.up();
+    return (await pixels()).red;
+  };
+  assert.equal(await redWithDividerAt(0.02), 0);
+  assert.ok(await redWithDividerAt(0.98) > 0.0003);
+});
+
+test('the camera turns by dragging', async () => {
+  await page.keyboard.press('1');
+  const still = await pixels();
+  await page.mouse.move(200, 400);
+  await page.mouse.down();
+  await page.mouse.move(300, 430, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForFunction((draws) => window.unsnarl.stage.draws > draws, await page.evaluate(() => window.unsnarl.stage.draws));
+  assert.notEqual((await pixels()).digest, still.digest);
+  await page.keyboard.press('f');
+});
+
+test('quads have the edges of quads', async () => {
+  const { edges, quads } = await page.evaluate(() => ({
+    edges: window.unsnarl.surface.edges.geometry.index.count / 2,
+    quads: window.unsnarl.page.sizes.filter((size) => size === 4).length,
+  }));
+  assert.ok(quads > 100);
+  assert.ok(edges < 2.2 * quads, `${edges} edges of ${quads} quads`);
+});
+
+test('displacement has colours and a legend', async () => {
+  const before = await pixels();
+  await page.keyboard.press('d');
+  assert.notEqual((await pixels()).digest, before.digest);
+  assert.ok(await page.locator('#legend').isVisible());
+  assert.match(await page.locator('#legend .ticks').textContent(), /%/);
+  await page.keyboard.press('c');
+});
+
+test('a picked face shows its ids and what it meets', async () => {
+  await page.keyboard.press('n');
+  const face = Number(await page.locator('#picked-face').textContent());
+  const known = await page.evaluate((f) => ({
+    vertices: [...window.unsnarl.faces.of(f)].join(', '),
+    partners: window.unsnarl.before.partners(f).map((p) => String(p.face)),
+  }), face);
+  assert.equal(await page.locator('#picked-vertices').textContent(), known.vertices);
+  assert.ok(known.partners.length > 0);
+  assert.match(await page.locator('#selection').textContent(), /disjoint/);
+  assert.deepEqual(await page.locator('#selection .partners').first().locator('button').allTextContents(), known.partners);
+  await page.locator('#selection button').first().click();
+  assert.equal(await page.locator('#picked-face').textContent(), known.partners[0]);
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('#picked-face').count(), 0);
+});
+
+test('a click on the surface picks the face under it', async () => {
+  await page.keyboard.press('f');
+  const spot = await page.evaluate(() => {
+    // The middle of a vertex that nothing can hide: the one nearest to the eye.
+    const { page: data, stage } = window.unsnarl;
+    stage.draw();
+    const { positions } = data.before;
+    const p = stage.camera.position.clone();
+    let best = null;
+    for (let i = 0; i < positions.length; i += 3) {
+      p.fromArray(positions, i);
+      const distance = p.distanceTo(stage.camera.position);
+      if (best === null || distance < best.distance) best = { distance, at: p.clone().project(stage.camera), vertex: i / 3 };
+    }
+    const box = stage.canvas.getBoundingClientRect();
+    return { x: box.left + (best.at.x + 1) / 4 * box.width, y: box.top + (1 - best.at.y) / 2 * box.height, vertex: best.vertex };
+  });
+  await page.mouse.click(spot.x, spot.y);
+  const vertices = (await page.locator('#picked-vertices').textContent()).split(', ').map(Number);
+  assert.ok(vertices.includes(spot.vertex), `${vertices} should hold ${spot.vertex}`);
+});
+
+test('light and dark, and help', async () => {
+  const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
+  const first = await theme();
+  await page.keyboard.press('t');
+  assert.notEqual(await theme(), first);
+  await page.keyboard.press('?');
+  assert.ok(await page.locator('#help').isVisible());
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('#help').isVisible(), false);
+});
+
+test('one mesh alone', async () => {
+  await open('alone.html');
+  const { drawn, red } = await pixels();
+  assert.ok(drawn > 0.05 && red > 0.0003, `drawn ${drawn}, red ${red}`);
+  assert.equal(await page.locator('#layout').isVisible(), false);
+});
+
+test('the browser had nothing to complain about', () => assert.deepEqual(complaints, []));

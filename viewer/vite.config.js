@@ -1,0 +1,14 @@
+import { defineConfig } from 'vite';
+import { inlinePage } from './inline_page.js';
+
+export default defineConfig({
+  plugins: [inlinePage()],
+  build: {
+    assetsInlineLimit: Number.MAX_SAFE_INTEGER,
+    cssCodeSplit: false,
+    modulePreload: false,
+    emptyOutDir: true,
+    target: 'es2022',
+    chunkSizeWarningLimit: 2000,
+  },
+});
