@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "geometry/types.h"
@@ -35,14 +34,7 @@ struct Identification {
 ///      meet in single vertices only.
 /// Solids that touch, coincident sheets and collapsed cross-sections stay as they are.
 ///
-/// Precondition: valid ids, finite coordinates (see require_valid).
+/// Precondition: valid ids, finite coordinates (see mesh/validity.h).
 Identification identify(const SurfaceView& surface, Weld weld = Weld::seams, double tolerance = 0);
-
-/// Class of each vertex by position alone, in the order of first occurrence; what Weld::all glues.
-std::vector<Index> position_classes(std::span<const double> positions, double tolerance = 0);
-
-/// Throws std::invalid_argument naming the first corner that names no vertex, offset that is out of order, or
-/// coordinate that is not finite.
-void require_valid(const SurfaceView& surface);
 
 }  // namespace unsnarl

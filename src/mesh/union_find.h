@@ -30,6 +30,17 @@ class UnionFind {
     return true;
   }
 
+  /// The set of each member, numbered in the order of first occurrence.
+  std::vector<Index> dense_ids() {
+    std::vector<Index> id(parent_.size(), -1);
+    Index count = 0;
+    for (std::size_t i = 0; i < id.size(); ++i) {
+      const Index root = find(static_cast<Index>(i));
+      id[i] = root == static_cast<Index>(i) ? count++ : id[root];
+    }
+    return id;
+  }
+
  private:
   std::vector<Index> parent_;
 };

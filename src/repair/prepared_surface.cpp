@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "mesh/validity.h"
+
 namespace unsnarl {
 
 Positions PreparedSurface::gather(std::span<const double> positions) const {

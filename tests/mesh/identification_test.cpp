@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <stdexcept>
-
 #include "mesh/shapes.h"
 
 namespace unsnarl {
@@ -229,41 +226,6 @@ TEST(Identification, ToleranceWorksAcrossCellsAndFarFromTheOrigin) {
 }
 
 TEST(Identification, NothingIn) { EXPECT_EQ(count_of(Surface{}), 0); }
-
-std::string complaint(const Surface& s) {
-  try {
-    require_valid(s);
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return {};
-}
-
-TEST(RequireValid, SaysWhatIsWrongAndWhere) {
-  EXPECT_EQ(complaint(cube()), "");
-  Surface s = cube();
-  s.corners[5] = 8;
-  EXPECT_NE(complaint(s).find("face 1 uses vertex 8, but there are 8"), std::string::npos) << complaint(s);
-  s = cube();
-  s.corners[0] = -1;
-  EXPECT_NE(complaint(s), "");
-  s = cube();
-  s.positions[4] = std::numeric_limits<double>::infinity();
-  EXPECT_NE(complaint(s).find("vertex 1 "), std::string::npos);
-  s = cube();
-  s.offsets[2] = 99;
-  EXPECT_NE(complaint(s), "");
-  s = cube();
-  s.offsets.back() = 3;
-  EXPECT_NE(complaint(s), "");
-  s = cube();
-  s.offsets.clear();
-  s.corners.resize(4);
-  EXPECT_NE(complaint(s), "");
-  s = cube();
-  s.positions.pop_back();
-  EXPECT_NE(complaint(s), "");
-}
 
 }  // namespace
 }  // namespace unsnarl

@@ -13,8 +13,8 @@
 #include "geometry/predicates.h"
 #include "mesh/adjacency.h"
 #include "mesh/components.h"
-#include "mesh/identification.h"
 #include "mesh/triangulation.h"
+#include "mesh/validity.h"
 
 namespace unsnarl {
 namespace {

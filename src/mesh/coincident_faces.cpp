@@ -1,0 +1,44 @@
+#include "mesh/coincident_faces.h"
+
+#include <algorithm>
+
+#include "mesh/id_table.h"
+
+namespace unsnarl {
+
+CoincidentFaces::CoincidentFaces(const SurfaceView& surface, std::span<const Index> class_of)
+    : set_of_(surface.face_count(), -1) {
+  const auto corner_classes = [&](std::size_t f) {
+    std::vector<Index> classes;
+    for (Index v : surface.face(f)) classes.push_back(class_of[v]);
+    std::sort(classes.begin(), classes.end());
+    classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
+    return classes;
+  };
+  IdTable table(surface.face_count());
+  Index sets = 0;
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    const std::vector<Index> classes = corner_classes(f);
+    if (classes.size() < 3) continue;  // collapsed: it lies in an edge or a point of its neighbours anyway
+    std::uint64_t hash = 0;
+    for (Index c : classes) hash = mixed(hash + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(c + 1));
+    const Index other =
+        table.find_or_add(hash, static_cast<Index>(f), [&](Index g) { return corner_classes(g) == classes; });
+    if (other < 0) continue;
+    if (set_of_[other] < 0) set_of_[other] = sets++;
+    set_of_[f] = set_of_[other];
+  }
+  for (std::size_t f = 0; sets > 0 && f < surface.face_count(); ++f)
+    if (set_of_[f] >= 0)
+      for (Index v : surface.face(f)) corners_.push_back({v, set_of_[f], static_cast<Index>(f)});
+  std::sort(corners_.begin(), corners_.end());
+}
+
+std::span<const CoincidentFaces::Corner> CoincidentFaces::corners_at(Index vertex) const {
+  const auto before = [](const Corner& corner, Index v) { return corner.vertex < v; };
+  const auto first = std::lower_bound(corners_.begin(), corners_.end(), vertex, before);
+  const auto last = std::lower_bound(first, corners_.end(), vertex + 1, before);
+  return {first, last};
+}
+
+}  // namespace unsnarl
