@@ -376,5 +376,31 @@ TEST_F(Cli, SamplesAreListedDescribedAndWritten) {
   EXPECT_EQ(run({"sample", "book", "-o", "-"}).out, contents(obj));
 }
 
+// What was written is verified by run().
+TEST_F(Cli, EverySampleEndsAsTheExitCodeSays) {
+  std::istringstream list(run({"sample", "--list"}).out);
+  int samples = 0, left = 0;
+  for (std::string line; std::getline(list, line);) {
+    const std::string name = line.substr(0, line.find(' '));
+    if (name.empty()) continue;
+    SCOPED_TRACE(name);
+    const std::string in = sample(name, {"--resolution", "10"}), out = folder / "out.obj";
+    const Outcome outcome = run({"fix", in, "-o", out, "--keep-partial", "--quiet"});
+    ++samples;
+    if (name == "klein_bottle" || name == "boy_surface") {
+      EXPECT_EQ(outcome.exit_code, 7);
+    } else if (outcome.exit_code == 0) {
+      EXPECT_EQ(pairs_in(out), 0u);
+    } else {
+      EXPECT_EQ(outcome.exit_code, 1);
+      EXPECT_GT(pairs_in(out), 0u);
+      ++left;
+    }
+    fs::remove(out);
+  }
+  EXPECT_GT(samples, 30);
+  EXPECT_LE(left, 3) << "so coarse, a few keep crossings";
+}
+
 }  // namespace
 }  // namespace unsnarl::cli

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/verification.h"
+
 /// Runs the program as its users do.
 namespace unsnarl::cli {
 
@@ -71,10 +73,12 @@ struct RunOptions {
   std::function<void()> in_child = {};  ///< called before the program starts, with its streams in place
 };
 
-/// Runs the program with these arguments and waits for it.
+/// Runs the program with these arguments and waits for it. What `fix` writes is verified by other code than its own.
 inline Outcome run(const std::vector<std::string>& arguments, const RunOptions& options = {}) {
   const Folder streams;
   write(streams / "in", options.input);
+  const Folder judged;
+  const Verification verification(arguments, judged.string(), options.input);
   const std::string out_path = options.stdout_path.empty() ? streams / "out" : options.stdout_path;
   const std::string err_path = streams / "err";
   std::vector<std::string> words = {UNSNARL_PROGRAM};
@@ -114,6 +118,7 @@ inline Outcome run(const std::vector<std::string>& arguments, const RunOptions& 
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   if (fs::is_regular_file(out_path)) outcome.out = contents(out_path);  // a device may never end
   outcome.err = contents(err_path);
+  verification.judge(outcome.exit_code, outcome.out);
   return outcome;
 }
 

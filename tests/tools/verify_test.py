@@ -1,0 +1,272 @@
+#!/usr/bin/env python3
+"""tools/verify.py accepts what is right and names what is not. Every check is broken here in turn."""
+import contextlib
+import io
+import itertools
+import json
+import os
+import random
+import struct
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'tools'))
+import verify  # noqa: E402
+from verification.identification import identify  # noqa: E402
+from verification.intersections import Detector, meet_outside_hull  # noqa: E402
+from verification.mesh import Mesh  # noqa: E402
+from verification.triangulation import cut  # noqa: E402
+
+# A tetrahedron whose tip is stuck in a triangle, and the same with the tip drawn back.
+OBJ = (b'# two parts\nv 0 0 0\nv 4 0 0 # kept\nv 0 4.0 0\nv 1 1 %s\nv 0 0 -3\nv 3 0 -3\nv 0 3 -3\n'
+       b'vt 0 0\nusemtl x\nf 1 2 3\nf 4 5/1 6\nf 4 6 7\nf 4 7 5\nf 5 7 6\n')
+STUCK, DRAWN_BACK = OBJ % b'1', OBJ % b'-1'
+
+
+class VerifyTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, name, content):
+        path = os.path.join(self.folder.name, name)
+        with open(path, 'wb') as file:
+            file.write(content)
+        return path
+
+    def run_on(self, before, after, extension='obj', *options):
+        """(exit code, names of the checks that do not hold, all that was said)."""
+        paths = self.file('in.' + extension, before), self.file('out.' + extension, after)
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            try:
+                code = verify.main([*paths, *options])
+            except SystemExit as usage:
+                code = usage.code
+        said = said.getvalue()
+        return code, [line.split()[1] for line in said.splitlines() if line.startswith('BROKEN')], said
+
+    def expect(self, broken, before, after, extension='obj', *options):
+        code, names, said = self.run_on(before, after, extension, *options)
+        self.assertEqual(names, broken, said)
+        self.assertEqual(code, 1 if broken else 0, said)
+
+    # What is right.
+
+    def test_accepts_a_repair(self):
+        self.expect([], STUCK, DRAWN_BACK)
+        self.expect([], STUCK, DRAWN_BACK, 'obj', '--float32')
+        self.expect([], STUCK, DRAWN_BACK, 'obj', '--fixed', self.file('ids', b'0 1 # the triangle\n2'))
+
+    def test_says_only_what_is_broken_when_quiet(self):
+        self.assertEqual(self.run_on(STUCK, DRAWN_BACK, 'obj', '--quiet')[2], '')
+        self.assertIn('BROKEN', self.run_on(STUCK, STUCK, 'obj', '--quiet')[2])
+
+    def test_accepts_partial_results_that_are_no_worse(self):
+        self.expect([], STUCK, STUCK, 'obj', '--no-worse')
+        self.expect(['embedded'], DRAWN_BACK, STUCK, 'obj', '--no-worse')
+
+    # What is not.
+
+    def test_intersections(self):
+        self.expect(['embedded'], STUCK, STUCK)
+        self.expect(['embedded'], STUCK, OBJ % b'0')  # touches
+
+    def test_other_faces(self):
+        self.expect(['faces'], STUCK, DRAWN_BACK.replace(b'f 1 2 3', b'f 1 3 2'))
+        self.expect(['faces'], STUCK, DRAWN_BACK.replace(b'f 5 7 6\n', b''))
+        self.expect(['faces'], STUCK, DRAWN_BACK.replace(b'vt', b'v 9 9 9\nvt'))
+
+    def test_other_bytes(self):
+        for old, new in ((b'# two', b'# 2'), (b'vt 0 0', b'vt 0 1'), (b'usemtl x', b'usemtl y'), (b'5/1', b'5/2'),
+                         (b'v 0 0 0\n', b'v 0 0 0\r\n'), (b'# kept', b'# Kept'), (b'v 4 0', b'v  4 0')):
+            self.expect(['file'], STUCK, DRAWN_BACK.replace(old, new, 1))
+
+    def test_a_coordinate_written_anew_without_need(self):
+        self.expect(['file'], STUCK, DRAWN_BACK.replace(b'4.0', b'4'))
+
+    def test_fixed_vertices(self):
+        self.expect(['fixed'], STUCK, DRAWN_BACK, 'obj', '--fixed', self.file('ids', b'0 3'))
+
+    def test_rounding_to_float32(self):
+        lid = b'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 %s\nv 0.2 0.2 1\nv 0.3 0.2 1\nf 1 2 3\nf 4 5 6\n'
+        high, close = lid % b'0.5', lid % b'1e-60'
+        self.expect([], close, close)
+        self.expect(['float32'], high, close, 'obj', '--float32')
+
+    def test_lost_area(self):
+        flat = b'v 0 0 0\nv 1 0 0\nv %s 0\nf 1 2 3\n'
+        self.expect(['areas'], flat % b'0 1', flat % b'2 0')
+        self.expect([], flat % b'2 0', flat % b'2 0')
+
+    def test_torn_seams(self):
+        # Two triangles with a common side, each with corners of its own.
+        sheet = b'v 0 0 0\nv 1 0 0\nv 0 1 0\nv %s 1 0\nv 1 0 0\nv 1 1 1\nf 1 2 3\nf 4 5 6\n'
+        self.expect([], sheet % b'0', sheet % b'0')
+        self.expect(['embedded'], sheet % b'0', sheet % b'0', 'obj', '--weld', 'none')
+        self.expect(['seams'], sheet % b'0', sheet % b'0.1')
+
+    def test_every_class(self):
+        def pair(*points, faces='f 1 2 3\nf 4 5 6\n'):
+            return (''.join('v %s %s %s\n' % p for p in points) + faces).encode()
+        one_vertex = pair((0, 0, 0), (2, -1, 0), (2, 1, 0), (2, 0, -1), (2.1, 0, 1), faces='f 1 2 3\nf 1 4 5\n')
+        folded = pair((0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), faces='f 1 2 3\nf 1 2 4\n')
+        apart = pair((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), faces='f 1 2 3\nf 1 2 4\n')
+        duplicate = pair((0, 0, 0), (1, 0, 0), (0, 1, 0), faces='f 1 2 3\nf 3 2 1\n')
+        degenerate = pair((0, 0, 0), (1, 0, 0), (0, 1, 0), (.2, .2, -1), (.2, .2, 1), (.2, .2, 3))
+        coplanar = pair((0, 0, 0), (2, 0, 0), (0, 2, 0), (.5, .5, 0), (1, .5, 0), (.5, 3, 0))
+        for mesh, name in ((one_vertex, '1 one_vertex'), (folded, '1 folded'), (duplicate, '1 duplicate'),
+                           (degenerate, '1 degenerate'), (coplanar, '1 disjoint')):
+            code, broken, said = self.run_on(mesh, mesh)
+            self.assertEqual((code, broken), (1, ['embedded']), said)
+            self.assertIn('faces: ' + name, said)
+        self.expect([], apart, apart)
+        self.expect([], one_vertex, one_vertex, 'obj', '--goal', 'disjoint')
+
+    def test_polygons_are_cut_as_the_input_is(self):
+        # A dart: cut along its other diagonal. In the second state the first one would be taken.
+        dart = [(0., 0., 0.), (4., 4., 0.), (0., 1., 0.), (-4., 4., 0.)]
+        self.assertEqual(cut((3, 0, 1, 2), dart), [(0, 1, 2), (0, 2, 3)])
+        self.assertEqual(cut((0, 1, 2, 3), dart), [(0, 1, 2), (0, 2, 3)])
+        square = [(0., 0., 0.), (4., 0., 0.), (4., 4., 0.), (0., 4., 0.)]
+        self.assertEqual(cut((3, 0, 1, 2), square), [(3, 0, 1), (3, 1, 2)])
+        ell = [(0., 0., 0.), (2., 0., 0.), (2., 1., 0.), (1., 1., 0.), (1., 2., 0.), (0., 2., 0.)]
+        area = sum(abs((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2
+                   for a, b, c in ([ell[v] for v in t] for t in cut(tuple(range(6)), ell)))
+        self.assertEqual(area, 3)
+
+    def test_unreadable_files_and_senseless_arguments(self):
+        self.assertEqual(self.run_on(STUCK, b'v 1 2\n')[0], 3)
+        self.assertEqual(self.run_on(STUCK, b'v 1 2 x\n')[0], 3)
+        self.assertEqual(self.run_on(STUCK, b'v 1 2 nan\n')[0], 3)
+        self.assertEqual(self.run_on(b'f 1 2 3\n', b'f 1 2 3\n')[0], 3)
+        self.assertEqual(self.run_on(b'', b'', 'ply')[0], 3)
+        self.assertEqual(self.run_on(STUCK, STUCK, 'doc')[0], 3)
+        self.assertEqual(self.run_on(STUCK, STUCK, 'obj', '--fixed', self.file('ids', b'7'))[0], 3)
+        self.assertEqual(self.run_on(STUCK, STUCK, 'obj', '--weld', 'some')[0], 2)
+
+    # Other formats.
+
+    def test_off(self):
+        for layout in (b'OFF\n# c\n6 2 0\n%s\n3 0 1 2 9 9 9\n3 3 4 5\n', b'OFF6 2\n%s 3 0 1 2 3 3 4 5'):
+            points = b'0 0 0\n2 0 0\n0 2 0\n.5 .5 %s\n.5 1 3\n1 .5 3'
+            bad, good = layout % (points % b'-1'), layout % (points % b'1')
+            self.expect([], bad, good, 'off')
+            self.expect(['embedded'], bad, bad, 'off')
+            self.expect(['faces'], bad, good.replace(b'3 3 4 5', b'3 3 5 4'), 'off')
+
+    def test_ply(self):
+        points = [(0, 0, 0), (2, 0, 0), (0, 2, 0), (.5, .5, -1), (.5, 1, 3), (1, .5, 3)]
+
+        def ply(form, tip, colour=7):
+            header = (f'ply\nformat {form} 1.0\nelement vertex 6\nproperty uchar red\nproperty float x\nproperty float y\n'
+                      'property double z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n').encode()
+            at = points[:3] + [(.5, .5, tip)] + points[4:]
+            if form == 'ascii':
+                return header + ''.join(f'{colour} {x} {y} {z}\n' for x, y, z in at).encode() + b'3 0 1 2\n3 3 4 5\n'
+            order = '>' if 'big' in form else '<'
+            return (header + b''.join(struct.pack(order + 'Bffd', colour, *p) for p in at) +
+                    struct.pack(order + 'B3iB3i', 3, 0, 1, 2, 3, 3, 4, 5))
+        for form in ('ascii', 'binary_little_endian', 'binary_big_endian'):
+            self.expect([], ply(form, -1), ply(form, 1), 'ply')
+            self.expect(['embedded'], ply(form, -1), ply(form, -2), 'ply')
+            self.expect(['file'], ply(form, -1), ply(form, 1, 8), 'ply')
+
+    def test_stl(self):
+        def facets(tip):
+            return [((0, 0, 1), [(0, 0, 0), (2, 0, 0), (0, 2, 0)]), (None, [(.5, .5, tip), (.5, 1, 3), (1, .5, 3)])]
+
+        def normal(tip):
+            a, b, c = facets(tip)[1][1]
+            u, v = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)]
+            n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+            return tuple(k / sum(q * q for q in n)**.5 for k in n)
+
+        def text(tip, n=None):
+            lines = ['solid s']
+            for stored, corners in facets(tip):
+                lines += ['facet normal %s %s %s' % (stored or n or normal(tip)), 'outer loop']
+                lines += ['vertex %s %s %s' % p for p in corners] + ['endloop', 'endfacet']
+            return '\n'.join(lines + ['endsolid s\n']).encode()
+
+        def binary(tip, n=None):
+            return bytes(80) + struct.pack('<I', 2) + b''.join(
+                struct.pack('<12fH', *(stored or n or normal(tip)), *itertools.chain(*corners), 5)
+                for stored, corners in facets(tip))
+        for stl in (text, binary):
+            self.expect([], stl(-1), stl(1), 'stl')
+            self.expect(['embedded'], stl(-1), stl(-2), 'stl')
+            self.expect(['file'], stl(-1), stl(1, (0, 0, 1)), 'stl')
+            self.expect([], stl(-1, (0, 0, 0)), stl(1, (0, 0, 0)), 'stl')
+        self.expect(['file'], binary(-1), binary(1)[:-1] + b'x', 'stl')
+
+    def test_glb(self):
+        def glb(tip, low=None, name='n', colour=b'\1\2\3\4'):
+            points = [(0, 0, 0), (2, 0, 0), (0, 2, 0), (.5, .5, tip), (.5, 1, 3), (1, .5, 3)]
+            data = b''.join(struct.pack('<3f', *p) for p in points) + struct.pack('<6H', *range(6)) + colour
+            lo, hi = [min(p[k] for p in points) for k in range(3)], [max(p[k] for p in points) for k in range(3)]
+            root = {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}],
+                    'nodes': [{'mesh': 0, 'name': name, 'translation': [1, 2, 3], 'rotation': [0, 0.6, 0, 0.8]}],
+                    'meshes': [{'primitives': [{'attributes': {'POSITION': 0}, 'indices': 1}]}],
+                    'buffers': [{'byteLength': len(data)}], 'bufferViews': [
+                        {'buffer': 0, 'byteLength': 72}, {'buffer': 0, 'byteOffset': 72, 'byteLength': 12}],
+                    'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 6, 'type': 'VEC3', 'min': low or lo,
+                                   'max': hi}, {'bufferView': 1, 'componentType': 5123, 'count': 6, 'type': 'SCALAR'}]}
+            text = json.dumps(root).encode()
+            text += b' ' * (-len(text) % 4)
+            return (struct.pack('<4sII', b'glTF', 2, 28 + len(text) + len(data)) + struct.pack('<I4s', len(text), b'JSON') +
+                    text + struct.pack('<I4s', len(data), b'BIN\0') + data)
+        self.expect([], glb(-1), glb(1), 'glb')
+        self.expect(['embedded'], glb(-1), glb(-2), 'glb')
+        self.expect(['file'], glb(-1), glb(1, low=[0, 0, -1]), 'glb')
+        self.expect(['file'], glb(-1), glb(1, name='m'), 'glb')
+        self.expect(['file'], glb(-1), glb(1, colour=b'\1\2\3\5'), 'glb')
+
+    # The geometry.
+
+    def test_quick_proofs_agree_with_the_definition(self):
+        """On a small lattice, where everything that can touch does."""
+        chance = random.Random(1)
+        met = apart = 0
+        for _ in range(3000):
+            size = chance.choice((2, 3, 5))
+            points = [tuple(chance.randrange(size) for _ in range(3)) for _ in range(6)]
+            shared = chance.randrange(3)
+            triangles = [(0, 1, 2), tuple(range(shared)) + tuple(range(3, 6 - shared))]
+            detector = Detector(points, triangles)
+            literally = meet_outside_hull(*([points[v] for v in t] for t in triangles), [points[v] for v in range(shared)])
+            backwards = meet_outside_hull(*([points[v] for v in t] for t in triangles[::-1]),
+                                          [points[v] for v in range(shared)])
+            self.assertEqual(literally, backwards, (points, shared))
+            self.assertEqual(detector.kind(0, 1) is not None, literally, (points, shared))
+            met += literally
+            apart += not literally
+        self.assertGreater(min(met, apart), 500)
+
+    def test_the_broad_phase_misses_nothing(self):
+        chance = random.Random(2)
+        points = [tuple(chance.randrange(40) for _ in range(3)) for _ in range(240)]
+        triangles = [tuple(chance.sample(range(240), 3)) for _ in range(120)]
+        detector = Detector(points, triangles)
+        expected = [(i, j, detector.kind(i, j)) for i in range(120) for j in range(i + 1, 120)]
+        self.assertEqual(detector.find(), [pair for pair in expected if pair[2]])
+
+    def test_identification(self):
+        def vertices_of(faces, positions, weld='seams', tolerance=0):
+            mesh = Mesh()
+            mesh.positions, mesh.faces = positions, faces
+            return len(set(identify(mesh, weld, tolerance)))
+        square = [(0., 0., 0.), (1., 0., 0.), (1., 1., 0.), (0., 1., 0.)]
+        soup = [square[v] for v in (0, 1, 2, 0, 2, 3)]
+        self.assertEqual(vertices_of([(0, 1, 2), (3, 4, 5)], soup), 4)
+        self.assertEqual(vertices_of([(0, 1, 2), (3, 4, 5)], soup, 'none'), 6)
+        self.assertEqual(vertices_of([(0, 1, 2, 3), (7, 6, 5, 4)], square + square), 8)  # coincident sheets
+        self.assertEqual(vertices_of([(0, 1, 2, 3), (7, 6, 5, 4)], square + square, 'all'), 4)
+        near = soup[:3] + [(x + 1e-3, y, z) for x, y, z in soup[3:]]
+        self.assertEqual(vertices_of([(0, 1, 2), (3, 4, 5)], near), 6)
+        self.assertEqual(vertices_of([(0, 1, 2), (3, 4, 5)], near, 'seams', 0.01), 4)
+
+
+if __name__ == '__main__':
+    unittest.main()

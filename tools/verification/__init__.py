@@ -1,0 +1,1 @@
+"""An independent check of repaired meshes; see tools/verify.py."""
