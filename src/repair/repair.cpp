@@ -10,6 +10,7 @@
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
 #include "repair/conflict_regions.h"
+#include "repair/cuts.h"
 #include "repair/diagnose.h"
 #include "repair/ladder.h"
 #include "repair/local_solver.h"
@@ -35,6 +36,8 @@ constexpr double largest_gap_of_edge = 0.05;
 constexpr double recovery_reach = 2;
 /// Rounding, repair of what rounding brought, and again.
 constexpr int rounding_rounds = 4;
+/// Times that polygons are cut anew from where their vertices came to lie.
+constexpr int most_cuts = 6;
 
 class Repair {
  public:
@@ -64,9 +67,12 @@ class Repair {
           ignored_.push_back(pair);
     }
     scene_ = make_scene(prepared_.rest, prepared_.triangulation.triangles, std::move(fixed));
-    IntersectionFinder finder(scene_.triangles);
+    IntersectionFinder finder(prepared_.triangulation.triangles);
     choose_precision();
-    if (ignored_.size() < diagnosis_.pairs.size() || has_float32_conflict(finder)) work(finder);
+    if (ignored_.size() < diagnosis_.pairs.size() || has_float32_conflict(finder)) {
+      work(finder);
+      settle_cut(finder);
+    }
     finish(finder);
     return std::move(result_);
   }
@@ -210,15 +216,47 @@ class Repair {
       report_progress(0.9, climbed.left.size());
       scene_.x = as_written(scene_.x);
       const std::vector<IntersectingPair> conflicts = float32_conflicts(finder, scene_.x);
-      const bool clean =
-          conflicts.empty() && blocking_pairs(finder.find(scene_.x), ignored_).empty() && lost_areas() == 0;
-      if (clean || !climbed.left.empty()) break;
+      if ((conflicts.empty() && is_resolved(finder)) || !climbed.left.empty()) break;
       const Positions rounded = rounded_to_float32(scene_.x);
       for (const IntersectingPair& pair : conflicts)
         for (Index t : {pair.a, pair.b})
           for (Index v : scene_.triangles[t])
             if (!scene_.fixed[v]) scene_.x.col(v) = rounded.col(v);
     }
+  }
+
+  /// Whoever reads the result, a second run among them, cuts its polygons by its own positions. Where that cut
+  /// intersects, work goes on until all cuts met hold.
+  void settle_cut(IntersectionFinder& finder) {
+    if (surface_.offsets.empty() || !is_resolved(finder)) return;
+    Triangulation cuts = prepared_.triangulation;
+    for (int round = 0; round < most_cuts && !stopped(); ++round) {
+      const std::vector<double> positions = prepared_.scatter(surface_.positions, scene_.x);
+      const std::size_t known = cuts.triangles.size(), regions = result_.report.regions.size();
+      const std::vector<IntersectingPair> strangers = add_cut(
+          cuts, triangulate({positions, surface_.corners, surface_.offsets}, prepared_.identification.vertex_of));
+      if (cuts.triangles.size() == known) return;
+      ignored_.insert(ignored_.end(), strangers.begin(), strangers.end());
+      for (std::size_t t = known; t < cuts.triangles.size(); ++t)
+        diagnosis_.components.component_of_triangle.push_back(
+            diagnosis_.components.component_of_vertex[cuts.triangles[t][0]]);
+      const Positions before = scene_.x;
+      scene_ = make_scene(prepared_.rest, cuts.triangles, std::move(scene_.fixed));
+      scene_.x = before;
+      IntersectionFinder finder_of_all(scene_.triangles);
+      for (const IntersectingPair& pair : finder_of_all.find(scene_.x))
+        if (pair.kind == PairClass::duplicate) ignored_.push_back(pair);  // no motion parts them
+      std::sort(ignored_.begin(), ignored_.end());
+      if (is_resolved(finder_of_all)) return;
+      work(finder_of_all);
+      if (is_resolved(finder_of_all)) continue;
+      scene_.x = before;
+      result_.report.regions.resize(regions);
+      return;
+    }
+  }
+  bool is_resolved(IntersectionFinder& finder) const {
+    return blocking_pairs(finder.find(scene_.x), ignored_).empty() && lost_areas() == 0;
   }
 
   LadderResult untangle() {
@@ -310,7 +348,9 @@ class Repair {
         });
   }
 
-  std::size_t lost_areas() const { return count_lost_areas(scene_.rest, scene_.x, scene_.triangles); }
+  std::size_t lost_areas() const {
+    return count_lost_areas(prepared_.rest, scene_.x, prepared_.triangulation.triangles);
+  }
 
   // The end.
 

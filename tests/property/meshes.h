@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -110,6 +112,26 @@ inline Surface klein_bottle() {
         p[2] = std::sin(a / 2) * std::sin(b) + std::cos(a / 2) * std::sin(2 * b);
       },
       true);
+  return surface;
+}
+
+/// Quads and pentagons, mostly neither flat nor convex, each with some corners of its own and some of others.
+inline Surface polygon_soup(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto below = [&](unsigned n) { return static_cast<std::int32_t>(random() % n); };
+  Surface surface;
+  const std::int32_t vertices = 8 + below(10), faces = 3 + below(4);
+  for (std::int32_t k = 0; k < 3 * vertices; ++k) surface.positions.push_back(0.001 * below(4000));
+  surface.offsets = {0};
+  for (std::int32_t f = 0; f < faces; ++f) {
+    Ids face;
+    while (face.size() < 4 + f % 2u)
+      if (const std::int32_t v = below(static_cast<unsigned>(vertices));
+          std::find(face.begin(), face.end(), v) == face.end())
+        face.push_back(v);
+    surface.corners.insert(surface.corners.end(), face.begin(), face.end());
+    surface.offsets.push_back(static_cast<std::int32_t>(surface.corners.size()));
+  }
   return surface;
 }
 
