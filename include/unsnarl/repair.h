@@ -96,7 +96,7 @@ struct Topology {
 
 /// One conflict region and how it was resolved.
 struct RegionReport {
-  std::string rung;       ///< name of the rung that resolved it; "none" where all failed
+  std::string rung;       ///< name of the rung that resolved it, or these pairs of it; "none" where all failed
   std::size_t faces = 0;  ///< faces that were free to move
   std::size_t pairs = 0;  ///< intersecting pairs it started with
   int iterations = 0;

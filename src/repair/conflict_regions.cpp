@@ -1,17 +1,34 @@
 #include "repair/conflict_regions.h"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
+#include <utility>
 
 #include "mesh/union_find.h"
 
 namespace unsnarl {
 
-std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const IntersectingPair> pairs) {
+namespace {
+
+bool is_hub(const Scene& scene, Index v, std::size_t hub_valence) {
+  return scene.neighbours[v].size() > hub_valence;
+}
+
+}  // namespace
+
+std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const IntersectingPair> pairs,
+                                             std::size_t hub_valence) {
+  const auto is_inner = [&](Index v) { return !is_hub(scene, v, hub_valence); };
+  const auto inner_vertex = [&](Index t) {
+    const Triangle& corners = scene.triangles[t];
+    const auto it = std::find_if(corners.begin(), corners.end(), is_inner);
+    return it == corners.end() ? Index{-1} : *it;
+  };
   // Only the vertices at and around the pairs are numbered, so that the cost follows the conflicts, not the surface.
   std::vector<Index> core;
   for (const IntersectingPair& pair : pairs)
-    for (Index t : {pair.a, pair.b}) core.insert(core.end(), scene.triangles[t].begin(), scene.triangles[t].end());
+    for (Index t : {pair.a, pair.b})
+      std::copy_if(scene.triangles[t].begin(), scene.triangles[t].end(), std::back_inserter(core), is_inner);
   std::sort(core.begin(), core.end());
   core.erase(std::unique(core.begin(), core.end()), core.end());
   std::vector<Index> around = core;
@@ -24,9 +41,15 @@ std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const
 
   UnionFind sets(static_cast<Index>(around.size()));
   for (Index v : core)
-    for (Index u : scene.neighbours[v]) sets.unite(local(v), local(u));
-  for (const IntersectingPair& pair : pairs)
-    sets.unite(local(scene.triangles[pair.a][0]), local(scene.triangles[pair.b][0]));
+    for (Index u : scene.neighbours[v])
+      if (is_inner(u)) sets.unite(local(v), local(u));
+  std::vector<std::pair<Index, IntersectingPair>> placed;
+  for (const IntersectingPair& pair : pairs) {
+    const Index a = inner_vertex(pair.a), b = inner_vertex(pair.b);
+    if (a < 0 || b < 0) continue;
+    sets.unite(local(a), local(b));
+    placed.emplace_back(local(a), pair);
+  }
 
   std::vector<ConflictRegion> regions;
   std::vector<Index> region_of_root(around.size(), -1);
@@ -38,12 +61,12 @@ std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const
     }
     regions[region_of_root[root]].core.push_back(v);
   }
-  for (const IntersectingPair& pair : pairs)
-    regions[region_of_root[sets.find(local(scene.triangles[pair.a][0]))]].pairs.push_back(pair);
+  for (const auto& [v, pair] : placed) regions[region_of_root[sets.find(v)]].pairs.push_back(pair);
+  std::erase_if(regions, [](const ConflictRegion& region) { return region.pairs.empty(); });
   return regions;
 }
 
-std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, int rings) {
+std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, int rings, std::size_t hub_valence) {
   std::vector<Index> all(vertices.begin(), vertices.end()), front = all;
   for (int ring = 0; ring < rings && !front.empty(); ++ring) {
     std::vector<Index> next;
@@ -51,6 +74,7 @@ std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, i
     std::sort(next.begin(), next.end());
     next.erase(std::unique(next.begin(), next.end()), next.end());
     front.clear();
+    std::erase_if(next, [&](Index v) { return is_hub(scene, v, hub_valence); });
     std::set_difference(next.begin(), next.end(), all.begin(), all.end(), std::back_inserter(front));
     const auto middle = all.insert(all.end(), front.begin(), front.end());
     std::inplace_merge(all.begin(), middle, all.end());

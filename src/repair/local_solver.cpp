@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -232,14 +233,25 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
   auto is_clean = [&](const Positions& y) {
     return blocking_pairs(finder.find(y), tolerated).empty() && !has_squeezed_face(patch, start, y, options.area_floor);
   };
-  for (; result.iterations <= rung.max_iterations; ++result.iterations) {
+  double reference = std::numeric_limits<double>::infinity();  // pairs at the last progress
+  int waited = 0;                                              // iterations since
+  for (;; ++result.iterations, ++waited) {
     if (stop && stop()) break;
+    if (waited >= (result.iterations > rung.max_iterations ? options.patience : options.despair)) break;
     const std::vector<IntersectingPair> pairs = blocking_pairs(finder.find(x), tolerated);
     if (pairs.empty()) {
       result.clean = true;
       break;
     }
-    if (result.iterations == 0) initial_pairs = pairs.size();
+    if (result.iterations == 0) result.pairs_left = initial_pairs = pairs.size();
+    if (static_cast<double>(pairs.size()) <= (1 - options.progress) * reference) {
+      reference = static_cast<double>(pairs.size());
+      waited = 0;
+    }
+    if (pairs.size() < result.pairs_left && !has_squeezed_face(patch, start, x, options.area_floor)) {
+      result.pairs_left = pairs.size();
+      patch.x = x;
+    }
     if (method == LocalMethod::smoothing) {
       smooth(patch, metric, rung.locality * h, x);
       if (pairs.size() * 5 <= initial_pairs) method = LocalMethod::penalty;
@@ -277,6 +289,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     result.clean = part > 0 && blocking_pairs(finder.find(x), tolerated).empty();
   }
   if (!result.clean) return result;
+  result.pairs_left = 0;
   patch.x = x;
   shrink_displacement(patch, start, options.bisections, is_clean);
   result.displacement = (patch.x - start).leftCols(n).colwise().norm().maxCoeff();

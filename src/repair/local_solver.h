@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "repair/patch.h"
 #include "unsnarl/intersections.h"
@@ -18,9 +19,9 @@ enum class LocalMethod {
 /// One way to untangle a small patch. Lengths in units of the patch's h.
 struct LocalRung {
   LocalMethod method;
-  double step;      ///< largest vertex motion of an iteration, h
-  double locality;  ///< range of the direction's smoothing, h
-  int max_iterations;
+  double step;         ///< largest vertex motion of an iteration, h
+  double locality;     ///< range of the direction's smoothing, h
+  int max_iterations;  ///< beyond which it goes on only as long as it makes progress
 };
 
 struct LocalOptions {
@@ -30,18 +31,26 @@ struct LocalOptions {
   double shallow_margin = 0.5;  ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
   double shallow_step = 1;      ///< of the deepest overlap: its steps
   bool keep_sides = true;       ///< faces that intersect nothing at the start are kept from turning over (TurnGuard)
-  int bisections = 5;           ///< of the displacement back to the start; the smallest clean one is kept
+  /// Progress is when the number of pairs falls by this share ...
+  double progress = 0.1;
+  int patience = 12;   ///< ... within so many iterations: what a rung needs that to go on beyond its iterations,
+  int despair = 30;    ///< or within so many: else it is left early
+  int bisections = 5;  ///< of the displacement back to the start; the smallest clean one is kept
 };
+
+/// Of pairs: the solver did not get so far.
+constexpr std::size_t not_counted = std::numeric_limits<std::size_t>::max();
 
 struct LocalResult {
   bool clean = false;
   int iterations = 0;
-  double displacement = 0;  ///< largest vertex motion, length
+  std::size_t pairs_left = not_counted;  ///< in patch.x
+  double displacement = 0;               ///< largest vertex motion, length
 };
 
 /// Tries to move the patch's free vertices, from patch.x on, until no active triangle intersects another, except in the
-/// `tolerated` pairs (of patch triangles, sorted): those of other regions nearby. On success patch.x is the result;
-/// else it is what it was.
+/// `tolerated` pairs (of patch triangles, sorted): those of other regions nearby. Where it
+/// fails, patch.x is the state with the fewest pairs.
 LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const IntersectingPair> tolerated = {},
                           const LocalOptions& options = {}, const std::function<bool()>& stop = {});
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "repair/shapes.h"
 
@@ -83,6 +84,40 @@ TEST(Dilate, leaves_fixed_vertices_out_but_goes_past_them) {
   scene.fixed[20] = scene.fixed[22] = scene.fixed[23] = 1;
   const std::vector<Index> start = {20, 21};
   EXPECT_EQ(dilate(scene, start, 2), (std::vector<Index>{16, 17, 18, 19, 21, 24, 25}));
+}
+
+// A fan of needles around vertex 0, two of them far apart pierced.
+shapes::Shape pierced_fan() {
+  constexpr int spokes = 120;
+  shapes::Shape shape;
+  shape.points.push_back({0, 0, 0});
+  for (int k = 0; k < spokes; ++k) {
+    const double angle = 2 * M_PI * k / spokes;
+    shape.points.push_back({100 * std::cos(angle), 100 * std::sin(angle), 0});
+    shape.triangles.push_back({0, k + 1, (k + 1) % spokes + 1});
+  }
+  for (const int k : {10, 70}) {
+    const Vec3 foot = (shape.points[0] + shape.points[k + 1] + shape.points[k + 2]) / 3;
+    shapes::Shape needle;
+    needle.points = {foot - Vec3(0, 0, 1), foot + Vec3(0, 0, 1), foot + Vec3(0.01, 0, 1)};
+    needle.triangles = {{0, 1, 2}};
+    shape.add(needle);
+  }
+  return shape;
+}
+
+TEST(ConflictRegions, hubs_do_not_join_them) {
+  const shapes::Shape shape = pierced_fan();
+  const Scene scene = shapes::scene_of(shape);
+  const auto pairs = shapes::pairs_of(shape);
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_EQ(conflict_regions(scene, pairs).size(), 1u);
+  const auto regions = conflict_regions(scene, pairs, 50);
+  ASSERT_EQ(regions.size(), 2u);
+  EXPECT_EQ(regions[0].core, (std::vector<Index>{11, 12, 121, 122, 123}));
+  EXPECT_EQ(regions[0].pairs.size(), 1u);
+  EXPECT_EQ(dilate(scene, regions[0].core, 2).size(), 121u + 3u);
+  EXPECT_EQ(dilate(scene, regions[0].core, 1, 50), (std::vector<Index>{10, 11, 12, 13, 121, 122, 123}));
 }
 
 }  // namespace

@@ -95,6 +95,28 @@ TEST(Ladder, fixed_vertices_stay) {
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
 }
 
+// One pair of faces cannot move: all around it is cleared all the same.
+TEST(Ladder, what_cannot_be_resolved_keeps_what_was_gained) {
+  const Shape shape = shapes::crossing_bumps(12, 0.3);
+  const auto pairs = shapes::pairs_of(shape);
+  std::vector<std::uint8_t> fixed(shape.points.size(), 0);
+  for (const Index t : {pairs[0].a, pairs[0].b})
+    for (const Index v : shape.triangles[t]) fixed[v] = 1;
+  Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
+  const LadderResult result = climb_ladder(scene, {}, {});
+  EXPECT_FALSE(result.left.empty());
+  EXPECT_LT(2 * result.left.size(), pairs.size());
+  EXPECT_TRUE(result.left == shapes::pairs_at(scene.x, scene.triangles));
+  EXPECT_TRUE(scene.rest == shape.positions());
+  EXPECT_EQ(result.regions.back().rung, "none");
+  std::vector<Index> moved;
+  for (const auto& vertices : result.moved) moved.insert(moved.end(), vertices.begin(), vertices.end());
+  for (Index v = 0; v < scene.vertex_count(); ++v) {
+    const bool is_at_rest = scene.x.col(v) == scene.rest.col(v);
+    EXPECT_TRUE(is_at_rest || (!fixed[v] && std::count(moved.begin(), moved.end(), v) > 0)) << v;
+  }
+}
+
 TEST(Ladder, stopping_leaves_the_rest_as_it_is) {
   Scene scene = shapes::scene_of(shapes::crossing_bumps(12, 0.3));
   LadderOptions options;
