@@ -11,7 +11,7 @@ const hasAny = (values) => values.some((v) => Number.isFinite(v));
 function regionCharts(region) {
   const charts = [];
   const pairs = numbers(region.pairs);
-  if (hasAny(pairs)) charts.push(chart('Intersecting pairs', [{ name: 'pairs', values: pairs, colour: 0 }]));
+  if (pairs.some((n) => n > 0)) charts.push(chart('Intersecting pairs', [{ name: 'pairs', values: pairs, colour: 0 }]));
   const energies = Object.entries(region.energy ?? {}).map(([name, values]) => ({ name, values: numbers(values) }))
     .filter(({ values }) => hasAny(values)).map((s, i) => ({ ...s, colour: i + 1 }));
   if (energies.length) charts.push(chart('Energy', energies));

@@ -15,7 +15,7 @@ export function fillLegend(node, full, range, diagonal, onChange) {
     element('h3', {}, 'Displacement', element('small', {}, ' of the diagonal')),
     element('div', { class: 'scale' }),
     element('div', { class: 'ticks' }, ticks.map((share) => element('span', {},
-      share === 0 ? '0' : percent(share * full)))),
+      share === 0 ? '0' : percent(share * share * full)))),
     element('div', { class: 'foot' },
       element('span', {}, `${short(full * diagonal)} in the file's units`),
       element('button', { onclick: onChange, title: 'Change the range of the scale (R)' },

@@ -37,6 +37,7 @@ const surfaceFragment = /* glsl */ `
 
   vec3 toLinear(vec3 c) { return pow(c, vec3(2.2)); }
 
+  // Most motions are small beside the largest: the scale goes with the square root, as do the ticks of the legend.
   vec3 heatColour(float share) {
     float at = clamp(share, 0.0, 1.0) * 4.0;
     vec3 result = heatStops[0];
@@ -57,7 +58,7 @@ const surfaceFragment = /* glsl */ `
   }
 
   void main() {
-    vec3 base = toLinear(heated ? heatColour(heatHere / heatFull) : colour);
+    vec3 base = toLinear(heated ? heatColour(sqrt(heatHere / heatFull)) : colour);
     vec3 result = base;
     if (lit) {
       vec3 n = shadingNormal();

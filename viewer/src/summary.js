@@ -77,7 +77,7 @@ export function summary(page, before, after) {
   return [
     section('Intersecting pairs of faces', pairsTable(before, after),
       ...(report?.obstructions ?? []).map(({ message }) => element('p', { class: 'note' }, `Cannot be resolved: ${message}`))),
-    page.displacement ? section('Motion, in the diagonal (in units of the file)', motion(page)) : null,
+    page.displacement ? section('Motion: share of the diagonal (length)', motion(page)) : null,
     report ? section('Report', reportFacts(report)) : null,
     section('Mesh', facts([
       ['vertices', count(scene.vertices)],
