@@ -1,6 +1,6 @@
 # Installs the built project under a fresh prefix, then configures, builds and runs a consumer that knows only the prefix.
 # cmake -DBUILD_DIR=... -DCONSUMER_DIR=... -DWORK_DIR=... -DCXX_COMPILER=... -DCXX_FLAGS=... -DBUILD_TYPE=...
-#       -DGENERATOR=... -P this
+#       -DGENERATOR=... -DMAN_PAGE=PATH_BELOW_PREFIX_OR_NOTHING -P this
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   message("${output}")
@@ -16,3 +16,6 @@ run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G ${GENERATOR} -DC
     -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer)
+if(MAN_PAGE AND NOT EXISTS ${WORK_DIR}/prefix/${MAN_PAGE})
+  message(FATAL_ERROR "the man page was not installed to ${MAN_PAGE}")
+endif()
