@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 
@@ -10,7 +11,7 @@ namespace unsnarl {
 namespace {
 
 constexpr Index parallel_threshold = 20000;  // boxes; below it starting the tasks costs more than they save
-constexpr Index task_size = 4096;            // boxes below the node of a task: some hundred tasks at 1M boxes
+constexpr Index task_size = 1024;            // boxes below the node of a task: a patch of some thousand has several
 
 /// Spreads the low 21 bits of v to every third bit.
 std::uint64_t spread_bits(std::uint64_t v) {
@@ -36,6 +37,7 @@ void Bvh::build(std::span<const Box> boxes) {
   tasks_.clear();
   order_.resize(n);
   boxes_.resize(n);
+  watched_.assign(static_cast<std::size_t>(n), 1);
   if (n == 0) return;
   Box bounds;
   for (const Box& box : boxes) bounds.extend(box.center());
@@ -66,7 +68,7 @@ void Bvh::build(std::span<const Box> boxes) {
 
 Index Bvh::build_node(Index begin, Index end) {
   const Index id = static_cast<Index>(nodes_.size());
-  nodes_.push_back({{}, begin, end, 0});
+  nodes_.push_back({{}, begin, end, 0, true});
   if (end - begin > leaf_size) {
     const Index middle = begin + (end - begin) / 2;
     const Index left = build_node(begin, middle);
@@ -78,6 +80,20 @@ Index Bvh::build_node(Index begin, Index end) {
   }
   if (id == 0 && end <= task_size) tasks_.emplace_back(0, 0);
   return id;
+}
+
+void Bvh::watch(std::span<const std::uint8_t> watched) {
+  assert(watched.size() == order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) watched_[k] = watched[order_[k]];
+  for (std::size_t id = nodes_.size(); id-- > 0;) {
+    Node& node = nodes_[id];
+    if (node.right == 0) {
+      node.watched = std::find_if(watched_.begin() + node.begin, watched_.begin() + node.end,
+                                  [](std::uint8_t w) { return w != 0; }) != watched_.begin() + node.end;
+    } else {
+      node.watched = nodes_[id + 1].watched || nodes_[node.right].watched;
+    }
+  }
 }
 
 void Bvh::refit(std::span<const Box> boxes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,13 +20,17 @@ class Bvh {
   /// Same number of boxes as at the last build, moved. The tree's shape is kept.
   void refit(std::span<const Box> boxes);
 
+  /// From now on self_pairs() visits only pairs of which at least one box is watched (one flag a box); until the next
+  /// build. Where few are, most of the tree is skipped.
+  void watch(std::span<const std::uint8_t> watched);
+
   Index size() const { return static_cast<Index>(order_.size()); }
 
   /// Calls visit(Index) for every box that overlaps `box`, in the order of the tree (a function of the boxes alone).
   template <class Visit>
   void query(const Box& box, Visit&& visit) const;
 
-  /// Calls visit(i, j), i != j, once for every unordered pair of boxes that overlap; order of (i, j) within a pair
+  /// Calls visit(i, j), i != j, once for every unordered pair of (watched) boxes that overlap; order of (i, j) within a pair
   /// and among pairs is a function of the boxes alone.
   template <class Visit>
   void self_pairs(Visit&& visit) const;
@@ -42,6 +47,7 @@ class Bvh {
     Box box;
     Index begin = 0, end = 0;  // boxes order_[begin, end) below it
     Index right = 0;           // left child is the next node; 0: a leaf
+    bool watched = true;       // a box below it is
   };
   Index build_node(Index begin, Index end);
   template <class Visit>
@@ -52,6 +58,7 @@ class Bvh {
   std::vector<Node> nodes_;
   std::vector<Index> order_;  // leaf position -> box id
   std::vector<Box> boxes_;    // in leaf order
+  std::vector<std::uint8_t> watched_;  // in leaf order
   std::vector<std::pair<Index, Index>> tasks_;
 };
 

@@ -29,12 +29,12 @@ void Bvh::query(const Box& box, Visit&& visit) const {
 template <class Visit>
 void Bvh::pairs_between(Index a, Index b, Visit& visit) const {
   const Node &node_a = nodes_[a], &node_b = nodes_[b];
-  if (!node_a.box.overlaps(node_b.box)) return;
+  if (!(node_a.watched || node_b.watched) || !node_a.box.overlaps(node_b.box)) return;
   if (node_a.right == 0 && node_b.right == 0) {
     for (Index i = node_a.begin; i < node_a.end; ++i) {
       if (!boxes_[i].overlaps(node_b.box)) continue;
       for (Index j = node_b.begin; j < node_b.end; ++j)
-        if (boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
+        if ((watched_[i] || watched_[j]) && boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
     }
   } else if (node_b.right == 0 || (node_a.right != 0 && node_a.end - node_a.begin >= node_b.end - node_b.begin)) {
     pairs_between(a + 1, b, visit);
@@ -48,10 +48,11 @@ void Bvh::pairs_between(Index a, Index b, Visit& visit) const {
 template <class Visit>
 void Bvh::pairs_within(Index id, Visit& visit) const {
   const Node& node = nodes_[id];
+  if (!node.watched) return;
   if (node.right == 0) {
     for (Index i = node.begin; i < node.end; ++i)
       for (Index j = i + 1; j < node.end; ++j)
-        if (boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
+        if ((watched_[i] || watched_[j]) && boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
     return;
   }
   pairs_within(id + 1, visit);

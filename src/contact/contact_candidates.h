@@ -10,6 +10,13 @@
 
 namespace unsnarl {
 
+/// A stencil and how far apart its primitives are.
+struct NearStencil {
+  Stencil stencil;
+  double distance = 0;
+  friend bool operator==(const NearStencil& s, const NearStencil& t) = default;
+};
+
 /// Lists the stencils of a triangle mesh that are close together: every vertex against every triangle it is not a
 /// corner of, every edge against every edge it shares no end point with. Stencils between triangles that share a vertex
 /// or an edge are among them; they keep neighbours from folding through each other.
@@ -18,9 +25,12 @@ class ContactCandidates {
   /// The triangles may include obstacles; vertices without a triangle take part in nothing. The span must outlive this.
   ContactCandidates(std::span<const Triangle> triangles, Index vertex_count);
 
-  /// All stencils with at least one vertex v with moves[v] != 0 whose primitives are at most `radius` apart at x, in an
-  /// order that is a function of the arguments alone. `moves` has one entry a vertex.
-  void gather(const Positions& x, double radius, std::span<const std::uint8_t> moves, std::vector<Stencil>& stencils);
+  /// All stencils with at least one vertex v with moves[v] != 0 whose primitives are at x, or may come while every
+  /// vertex v goes as far as allowance[v], at most `radius` apart: those whose distance less approach() is that small.
+  /// `moves` and `allowance` have one entry a vertex. Parallel; the order is a function of the arguments, and of those
+  /// of the first call, alone.
+  void gather(const Positions& x, double radius, std::span<const double> allowance,
+              std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils);
 
   /// Whether a triangle at the one primitive shares a vertex with a triangle at the other. For listed stencils.
   bool are_neighbours(const Stencil& stencil) const;
@@ -33,8 +43,8 @@ class ContactCandidates {
     const Triangle& f = triangles_[t];
     return f[0] == v || f[1] == v || f[2] == v;
   }
-  void gather_pair(const Positions& x, double radius, std::span<const std::uint8_t> moves, Index a, Index b,
-                   std::vector<Stencil>& stencils) const;
+  void gather_pair(const Positions& x, double radius, std::span<const double> allowance,
+                   std::span<const std::uint8_t> moves, Index a, Index b, std::vector<NearStencil>& stencils) const;
 
   std::span<const Triangle> triangles_;
   EdgeTable edges_;

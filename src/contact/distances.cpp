@@ -152,6 +152,18 @@ Closest closest(const Stencil& stencil, const Positions& x) {
   return finish(nearest(stencil, x));
 }
 
+double approach(const Stencil& s, std::span<const double> lengths) {
+  switch (s.kind) {
+    case StencilKind::vertex_face:
+      return lengths[s.v[0]] + std::max({lengths[s.v[1]], lengths[s.v[2]], lengths[s.v[3]]});
+    case StencilKind::edge_edge:
+      return std::max(lengths[s.v[0]], lengths[s.v[1]]) + std::max(lengths[s.v[2]], lengths[s.v[3]]);
+    case StencilKind::vertex_edge:
+      break;
+  }
+  return lengths[s.v[0]] + std::max(lengths[s.v[1]], lengths[s.v[2]]);
+}
+
 double squared_distance(StencilKind kind, const std::array<Vec3, 4>& x) {
   switch (kind) {
     case StencilKind::vertex_face:

@@ -63,10 +63,15 @@ void FaceTree::update(const Positions& x, double margin) {
     update_range({0, n});
   else
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<Index>(0, n, grain), update_range);
-  if (is_new)
-    bvh_.build(boxes_);
-  else
+  if (!is_new) {
     bvh_.refit(boxes_);
+    return;
+  }
+  bvh_.build(boxes_);
+  if (active_count_ == n) return;
+  std::vector<std::uint8_t> active(static_cast<std::size_t>(n), 0);
+  std::fill(active.begin(), active.begin() + active_count_, std::uint8_t{1});
+  bvh_.watch(active);
 }
 
 }  // namespace unsnarl

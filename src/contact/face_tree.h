@@ -14,7 +14,11 @@ namespace unsnarl {
 class FaceTree {
  public:
   /// The span must outlive the tree.
-  explicit FaceTree(std::span<const Triangle> triangles) : triangles_(triangles) {}
+  explicit FaceTree(std::span<const Triangle> triangles)
+      : FaceTree(triangles, static_cast<Index>(triangles.size())) {}
+  /// Pairs of two triangles >= active_count are left out.
+  FaceTree(std::span<const Triangle> triangles, Index active_count)
+      : triangles_(triangles), active_count_(active_count) {}
 
   /// Takes over the positions; every box is inflated by `margin`.
   void update(const Positions& x, double margin = 0);
@@ -31,6 +35,7 @@ class FaceTree {
   void choose_frame(const Positions& x);
 
   std::span<const Triangle> triangles_;
+  Index active_count_;
   bool is_turned_ = false;
   Eigen::Matrix3d frame_ = Eigen::Matrix3d::Identity();  // rows: the axes of the boxes
   std::vector<Box> boxes_;

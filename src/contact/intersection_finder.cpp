@@ -60,13 +60,12 @@ IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles)
     : IntersectionFinder(triangles, static_cast<Index>(triangles.size())) {}
 
 IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Index active_count)
-    : triangles_(triangles), active_count_(active_count), tree_(triangles) {}
+    : triangles_(triangles), tree_(triangles, active_count) {}
 
 std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
   tree_.update(x);
   std::vector<std::vector<IntersectingPair>> found(tree_.task_count());
   tree_.self_pairs([&](Index task, Index i, Index j) {
-    if (i >= active_count_) return;  // i < j
     PairClass kind;
     if (intersects(x, triangles_[i], triangles_[j], kind)) found[task].push_back({i, j, kind});
   });
@@ -80,7 +79,7 @@ bool IntersectionFinder::any(const Positions& x) {
   tree_.update(x);
   std::atomic<bool> hit{false};
   tree_.self_pairs([&](Index, Index i, Index j) {
-    if (i >= active_count_ || hit.load(std::memory_order_relaxed)) return;
+    if (hit.load(std::memory_order_relaxed)) return;
     PairClass kind;
     if (intersects(x, triangles_[i], triangles_[j], kind)) hit.store(true, std::memory_order_relaxed);
   });

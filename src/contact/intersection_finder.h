@@ -26,7 +26,6 @@ class IntersectionFinder {
 
  private:
   std::span<const Triangle> triangles_;
-  Index active_count_;
   FaceTree tree_;
 };
 

@@ -54,14 +54,16 @@ Eigen::Matrix<double, 3, 2> ArapTriangle::fitted_rotation(const Eigen::Matrix3d&
   return Eigen::Matrix<double, 3, 2>::Zero();
 }
 
-double ArapTriangle::triangle_energy(const Positions& x, Index t, Eigen::Matrix3d* forces) const {
+Eigen::Matrix3d ArapTriangle::edges(const Positions& x, Index t) const {
   const Triangle& f = triangles_[t];
   Eigen::Matrix3d e;
   for (int k = 0; k < 3; ++k) e.col(k) = x.col(f[(k + 1) % 3]) - x.col(f[k]);
+  return e;
+}
+
+double ArapTriangle::triangle_energy(const Positions& x, Index t) const {
+  Eigen::Matrix3d e = edges(x, t);
   e -= fitted_rotation(e, t) * rest_edges_[t];
-  if (forces) {
-    for (int k = 0; k < 3; ++k) forces->col(k) = weight_ * (e.col((k + 2) % 3) - e.col(k));
-  }
   return 0.5 * weight_ * e.squaredNorm();
 }
 
@@ -74,17 +76,16 @@ constexpr double coefficient_a[3] = {-combine_a, 2 * combine_a, -combine_a};
 constexpr double coefficient_b[3] = {-combine_b, 0, combine_b};
 }  // namespace
 
-ArapTriangle::Strain ArapTriangle::strain(const Positions& x, Index t) const {
-  const Triangle& f = triangles_[t];
-  Eigen::Matrix3d e;
-  for (int k = 0; k < 3; ++k) e.col(k) = x.col(f[(k + 1) % 3]) - x.col(f[k]);
-  Strain strain;
-  strain.rotation = fitted_rotation(e, t);
+double ArapTriangle::linearise(const Positions& x, Index t, Eigen::Matrix3d& forces, Strain& strain) const {
+  Eigen::Matrix3d e = edges(x, t);
   const Eigen::Matrix<double, 2, 3>& e0 = rest_edges_[t];
+  strain.rotation = fitted_rotation(e, t);
   const Eigen::Vector2d a = combine_a * (e0.col(0) - e0.col(1));
   const Eigen::Vector2d b = (e0.col(0) + e0.col(1) - 2 * e0.col(2)) * (combine_a / std::numbers::sqrt3);
   strain.turn = Eigen::Vector4d(-a[1], a[0], -b[1], b[0]).normalized();
-  return strain;
+  e -= strain.rotation * e0;
+  for (int k = 0; k < 3; ++k) forces.col(k) = weight_ * (e.col((k + 2) % 3) - e.col(k));
+  return 0.5 * weight_ * e.squaredNorm();
 }
 
 Eigen::Matrix3d ArapTriangle::Strain::apply(const Eigen::Matrix3d& v) const {
@@ -109,15 +110,16 @@ Eigen::Matrix3d ArapTriangle::Strain::block(int k) const {
 
 double ArapTriangle::value(const Positions& x) const {
   double sum = 0;
-  for (Index t = 0; t < size(); ++t) sum += triangle_energy(x, t, nullptr);
+  for (Index t = 0; t < size(); ++t) sum += triangle_energy(x, t);
   return sum;
 }
 
 double ArapTriangle::value_and_gradient(const Positions& x, double scale, Positions& g) const {
   double sum = 0;
   Eigen::Matrix3d forces;
+  Strain strain;
   for (Index t = 0; t < size(); ++t) {
-    sum += triangle_energy(x, t, &forces);
+    sum += linearise(x, t, forces, strain);
     for (int k = 0; k < 3; ++k) g.col(triangles_[t][k]) += scale * forces.col(k);
   }
   return sum;

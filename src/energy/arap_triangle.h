@@ -28,8 +28,7 @@ class ArapTriangle {
   double value(const Positions& x) const;
   /// Adds `scale` times the gradient to g.
   double value_and_gradient(const Positions& x, double scale, Positions& g) const;
-  /// Energy of triangle t and, where `forces` is not null, its derivatives in the three corners.
-  double triangle_energy(const Positions& x, Index t, Eigen::Matrix3d* forces) const;
+  double triangle_energy(const Positions& x, Index t) const;
 
   /// Gauss-Newton part of the Hessian of one triangle: the strains in its plane. Motions of the three corners along the
   /// normal and turns in the plane cost nothing, as at rest.
@@ -43,9 +42,11 @@ class ArapTriangle {
     Eigen::Matrix<double, 3, 2> rotation;  // of the rest frame
     Eigen::Vector4d turn;                  // unit: the infinitesimal turn in the plane, in the coordinates below
   };
-  Strain strain(const Positions& x, Index t) const;
+  /// Energy of triangle t, its derivatives in the three corners, and its strain.
+  double linearise(const Positions& x, Index t, Eigen::Matrix3d& forces, Strain& strain) const;
 
  private:
+  Eigen::Matrix3d edges(const Positions& x, Index t) const;
   Eigen::Matrix<double, 3, 2> fitted_rotation(const Eigen::Matrix3d& edges, Index t) const;
 
   std::vector<Triangle> triangles_;

@@ -9,6 +9,16 @@
 
 namespace unsnarl {
 
+/// Replaces `out` by the lists, one after the other.
+template <class Item>
+void join_lists(const std::vector<std::vector<Item>>& lists, std::vector<Item>& out) {
+  out.clear();
+  std::size_t size = 0;
+  for (const auto& list : lists) size += list.size();
+  out.reserve(size);
+  for (const auto& list : lists) out.insert(out.end(), list.begin(), list.end());
+}
+
 /// Builds a list in parallel that does not depend on the number of threads: `append(begin, end, list)` adds what the
 /// indices [begin, end) contribute, chunk by chunk; the chunks are joined in order. `out` is replaced.
 template <class Item, class Append>
@@ -23,10 +33,7 @@ void gather_in_chunks(Index count, Index chunk, std::vector<Item>& out, Append&&
     const Index begin = static_cast<Index>(k) * chunk;
     append(begin, std::min(count, begin + chunk), lists[k]);
   });
-  std::size_t size = 0;
-  for (const auto& list : lists) size += list.size();
-  out.reserve(size);
-  for (const auto& list : lists) out.insert(out.end(), list.begin(), list.end());
+  join_lists(lists, out);
 }
 
 }  // namespace unsnarl

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/parallel_sums.h"
+
 namespace unsnarl {
 
 struct PcgOptions {
@@ -22,39 +24,51 @@ class BlockJacobiPcg {
   template <class Apply>
   int solve(Apply&& apply, std::span<const Eigen::Matrix3d> inverse_blocks, const Eigen::Matrix3Xd& b,
             Eigen::Matrix3Xd& x, const PcgOptions& options) {
-    const Eigen::Index n = b.cols();
+    const Index n = static_cast<Index>(b.cols());
     for (Eigen::Matrix3Xd* w : {&r_, &z_, &p_, &ap_}) w->resize(3, n);
     x.setZero(3, n);
     r_ = b;
-    precondition(inverse_blocks);
+    double rz = step(inverse_blocks, 0, x);
     p_ = z_;
-    double rz = dot(r_, z_);
     const double stop = options.relative_tolerance * options.relative_tolerance * rz;
     if (!(rz > 0)) return 0;
     for (int k = 0; k < options.max_iterations; ++k) {
       apply(p_, ap_);
-      const double curvature = dot(p_, ap_);
+      const double curvature = sum_in_chunks(n, chunk, [&](Index begin, Index end) {
+        return p_.middleCols(begin, end - begin).cwiseProduct(ap_.middleCols(begin, end - begin)).sum();
+      });
       if (!(curvature > 0)) {
         if (k == 0) x = z_;
         return k;
       }
-      const double alpha = rz / curvature;
-      x += alpha * p_;
-      r_ -= alpha * ap_;
-      precondition(inverse_blocks);
-      const double next = dot(r_, z_);
+      const double next = step(inverse_blocks, rz / curvature, x);
       if (!(next > stop)) return k + 1;
-      p_ = z_ + (next / rz) * p_;
+      const double beta = next / rz;
+      for_chunks(n, chunk, [&](Index begin, Index end) {
+        auto p = p_.middleCols(begin, end - begin);
+        p = z_.middleCols(begin, end - begin) + beta * p;
+      });
       rz = next;
     }
     return options.max_iterations;
   }
 
  private:
-  static double dot(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) { return a.cwiseProduct(b).sum(); }
-  void precondition(std::span<const Eigen::Matrix3d> inverse_blocks) {
-    for (Eigen::Index i = 0; i < r_.cols(); ++i) z_.col(i).noalias() = inverse_blocks[i] * r_.col(i);
+  static constexpr Index chunk = 2048;  // columns a task
+
+  /// Goes alpha along p_, preconditions the residual there and returns its square in that metric.
+  double step(std::span<const Eigen::Matrix3d> inverse_blocks, double alpha, Eigen::Matrix3Xd& x) {
+    return sum_in_chunks(static_cast<Index>(r_.cols()), chunk, [&](Index begin, Index end) {
+      const Index width = end - begin;
+      if (alpha > 0) {
+        x.middleCols(begin, width) += alpha * p_.middleCols(begin, width);
+        r_.middleCols(begin, width) -= alpha * ap_.middleCols(begin, width);
+      }
+      for (Index i = begin; i < end; ++i) z_.col(i).noalias() = inverse_blocks[i] * r_.col(i);
+      return r_.middleCols(begin, width).cwiseProduct(z_.middleCols(begin, width)).sum();
+    });
   }
+
   Eigen::Matrix3Xd r_, z_, p_, ap_;
 };
 

@@ -7,6 +7,12 @@
 #include "geometry/parallel_lists.h"
 
 namespace unsnarl {
+namespace {
+
+/// The barrier sets in at this many separations at least.
+constexpr double least_activation = 1.5;
+
+}  // namespace
 
 ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options)
     : patch_(patch),
@@ -23,56 +29,63 @@ ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conf
   }
 }
 
-void ContactRules::gather(const Positions& x, double radius, std::span<const std::uint8_t> moves,
-                          std::vector<ContactRule>& rules) {
-  candidates_.gather(x, radius, moves, stencils_);
-  constexpr Index chunk = 1024;  // stencils a task
+void ContactRules::gather(const Positions& x, double activation, std::span<const double> allowance,
+                          std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
+  candidates_.gather(x, activation, allowance, moves, stencils_);
+  constexpr Index chunk = 1024;  // stencils or triangles a task
   gather_in_chunks(static_cast<Index>(stencils_.size()), chunk, rules,
-                   [&](Index begin, Index end, std::vector<ContactRule>& list) { add_contacts(x, radius, begin, end, list); });
-  add_altitudes(x, radius, moves, rules);
+                   [&](Index begin, Index end, std::vector<ContactRule>& list) {
+                     for (Index k = begin; k < end; ++k) {
+                       ContactRule rule;
+                       if (rule_of(stencils_[k], activation, allowance, rule)) list.push_back(rule);
+                     }
+                   });
+  gather_in_chunks(patch_.active_count, chunk, altitudes_,
+                   [&](Index begin, Index end, std::vector<ContactRule>& list) {
+                     add_altitudes(x, allowance, moves, begin, end, list);
+                   });
+  rules.insert(rules.end(), altitudes_.begin(), altitudes_.end());
 }
 
-void ContactRules::add_contacts(const Positions& x, double radius, Index begin, Index end, std::vector<ContactRule>& rules) const {
+bool ContactRules::rule_of(const NearStencil& near, double activation, std::span<const double> allowance,
+                           ContactRule& rule) const {
   constexpr double mollifier_sin2 = 1e-3;  // as in IPC
-  for (const Stencil& s : std::span(stencils_).subspan(begin, end - begin)) {
-    ContactRule rule;
-    rule.stencil.stencil = s;
-    rule.distance = std::sqrt(squared_distance(s, x));
-    if (!(rule.distance > 0)) continue;
-    rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
-    const auto [first, second] = s.primitives;
-    const bool is_edge = s.kind == StencilKind::edge_edge;
-    const bool first_in_conflict = (is_edge ? edge_in_conflict_[first] : vertex_in_conflict_[first]) != 0;
-    const bool second_in_conflict = (is_edge ? edge_in_conflict_[second] : in_conflict_[second]) != 0;
-    const bool neighbours = candidates_.are_neighbours(s);
-    const bool conflict =
-        neighbours ? first_in_conflict && second_in_conflict : first_in_conflict || second_in_conflict;
-    if (neighbours && !conflict) {
-      if (rule.rest_distance <= options_.roundoff) continue;
-      if (rule.distance > options_.reach_share * rule.rest_distance + radius) continue;
-    }
-    double separation = options_.min_gap;
-    rule.reach = std::max(options_.reach_share * rule.rest_distance, options_.reach_gaps * options_.min_gap);
-    if (neighbours && !conflict) {
-      separation = std::min(separation, options_.neighbour_share * rule.rest_distance);
-      rule.reach = options_.reach_share * rule.rest_distance;
-    } else if (!neighbours && conflict) {
-      rule.reach = std::numeric_limits<double>::infinity();
-    }
-    rule.closed = !(rule.distance > separation);
-    rule.stencil.separation = rule.closed ? 0.5 * rule.distance : separation;
-    if (s.kind == StencilKind::edge_edge) {
-      const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();
-      const double v2 = (patch_.rest.col(s.v[3]) - patch_.rest.col(s.v[2])).squaredNorm();
-      rule.stencil.mollifier_threshold = mollifier_sin2 * u2 * v2;
-    }
-    rules.push_back(rule);
+  const Stencil& s = near.stencil;
+  if (!(near.distance > 0)) return false;
+  rule.stencil.stencil = s;
+  rule.distance = near.distance;
+  rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
+  const auto [first, second] = s.primitives;
+  const bool is_edge = s.kind == StencilKind::edge_edge;
+  const bool first_in_conflict = (is_edge ? edge_in_conflict_[first] : vertex_in_conflict_[first]) != 0;
+  const bool second_in_conflict = (is_edge ? edge_in_conflict_[second] : in_conflict_[second]) != 0;
+  const bool neighbours = candidates_.are_neighbours(s);
+  const bool conflict = neighbours ? first_in_conflict && second_in_conflict : first_in_conflict || second_in_conflict;
+  double separation = options_.min_gap;
+  rule.reach = std::max(options_.reach_share * rule.rest_distance, options_.reach_gaps * options_.min_gap);
+  if (neighbours && !conflict) {
+    if (rule.rest_distance <= options_.roundoff) return false;
+    separation = std::min(separation, options_.neighbour_share * rule.rest_distance);
+    rule.reach = options_.reach_share * rule.rest_distance;
+  } else if (!neighbours && conflict) {
+    rule.reach = std::numeric_limits<double>::infinity();
   }
+  rule.closed = !(rule.distance > separation);
+  rule.stencil.separation = rule.closed ? 0.5 * rule.distance : separation;
+  rule.stencil.activation = std::max(std::min(activation, rule.reach), least_activation * rule.stencil.separation);
+  if (rule.distance > rule.stencil.activation + approach(s, allowance)) return false;
+  if (s.kind == StencilKind::edge_edge) {
+    const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();
+    const double v2 = (patch_.rest.col(s.v[3]) - patch_.rest.col(s.v[2])).squaredNorm();
+    rule.stencil.mollifier_threshold = mollifier_sin2 * u2 * v2;
+  }
+  return true;
 }
 
-void ContactRules::add_altitudes(const Positions& x, double radius, std::span<const std::uint8_t> moves,
+void ContactRules::add_altitudes(const Positions& x, std::span<const double> allowance,
+                                 std::span<const std::uint8_t> moves, Index begin, Index end,
                                  std::vector<ContactRule>& rules) const {
-  for (Index t = 0; t < patch_.active_count; ++t) {
+  for (Index t = begin; t < end; ++t) {
     const Triangle& f = patch_.triangles[t];
     if (!moves[f[0]] && !moves[f[1]] && !moves[f[2]]) continue;
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
@@ -83,11 +96,12 @@ void ContactRules::add_altitudes(const Positions& x, double radius, std::span<co
       if (rule.rest_distance <= options_.roundoff) continue;  // without area at rest: it may stay so
       rule.reach = options_.altitude_share * rule.rest_distance;
       rule.distance = std::sqrt(squared_distance(s, x));
-      if (rule.distance > rule.reach + radius || !(rule.distance > 0)) continue;
+      if (rule.distance > rule.reach + approach(s, allowance) || !(rule.distance > 0)) continue;
       rule.stencil.stencil = s;
       const double floor = options_.altitude_floor * rule.rest_distance;
       rule.closed = !(rule.distance > floor);
       rule.stencil.separation = rule.closed ? 0.5 * rule.distance : floor;
+      rule.stencil.activation = std::max(rule.reach, least_activation * rule.stencil.separation);
       rule.own_altitude = true;
       rules.push_back(rule);
     }

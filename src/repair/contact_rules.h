@@ -12,8 +12,8 @@ namespace unsnarl {
 
 /// How close the primitives of a stencil may come, and how far its barrier may reach.
 struct ContactRule {
-  BarrierStencil stencil;  ///< separation; activation is set per stage, mollifier
-  double reach = 0;        ///< the activation distance never exceeds this
+  BarrierStencil stencil;
+  double reach = 0;  ///< the activation distance never exceeds this
   double rest_distance = 0;
   double distance = 0;        ///< when gathered
   bool closed = false;        ///< closer than it should be; its separation is half its distance
@@ -42,26 +42,29 @@ class ContactRules {
   /// in_conflict: per triangle, whether it intersects another one at rest. The patch must outlive this.
   ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options);
 
-  /// Rules for all stencils with a moving vertex that are closer than `radius` at x (own altitudes: than their reach
-  /// and `radius` together).
-  void gather(const Positions& x, double radius, std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
+  /// Rules for all stencils with a moving vertex that are, or may come while every vertex v goes as far as
+  /// allowance[v], closer than `activation` and their reach (own altitudes: than their reach). That is their activation distance,
+  /// but for some that is closer to their separation.
+  void gather(const Positions& x, double activation, std::span<const double> allowance,
+              std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
 
   const ContactCandidates& candidates() const { return candidates_; }
   const ContactRuleOptions& options() const { return options_; }
 
  private:
-  /// Rules of stencils_[begin, end).
-  void add_contacts(const Positions& x, double radius, Index begin, Index end, std::vector<ContactRule>& rules) const;
-  /// Each moving triangle's corners against their opposite edges.
-  void add_altitudes(const Positions& x, double radius, std::span<const std::uint8_t> moves,
-                     std::vector<ContactRule>& rules) const;
+  /// Rule of a stencil; false where there is none or it cannot come that close.
+  bool rule_of(const NearStencil& near, double activation, std::span<const double> allowance, ContactRule& rule) const;
+  /// The corners of triangles [begin, end) that move against their opposite edges.
+  void add_altitudes(const Positions& x, std::span<const double> allowance, std::span<const std::uint8_t> moves,
+                     Index begin, Index end, std::vector<ContactRule>& rules) const;
 
   const Patch& patch_;
   std::vector<std::uint8_t> in_conflict_;
   ContactRuleOptions options_;
   ContactCandidates candidates_;
   std::vector<std::uint8_t> vertex_in_conflict_, edge_in_conflict_;  // some triangle there is
-  std::vector<Stencil> stencils_;
+  std::vector<NearStencil> stencils_;
+  std::vector<ContactRule> altitudes_;
 };
 
 }  // namespace unsnarl

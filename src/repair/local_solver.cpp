@@ -61,7 +61,10 @@ class Metric {
 class PenaltyForce {
  public:
   PenaltyForce(const Patch& patch, double margin)
-      : patch_(patch), margin_(margin), penalty_(patch.triangles, {.margin = margin}), tree_(patch.triangles) {}
+      : patch_(patch),
+        margin_(margin),
+        penalty_(patch.triangles, {.margin = margin}),
+        tree_(patch.triangles, patch.active_count) {}
 
   void set_margin(double margin) {
     margin_ = margin;
@@ -77,9 +80,7 @@ class PenaltyForce {
   void add(const Positions& x, double weight, Positions& force) {
     tree_.update(x, 0.5 * margin_);
     std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
-    tree_.self_pairs([&](Index task, Index a, Index b) {
-      if (a < patch_.active_count) found[task].push_back({a, b});
-    });
+    tree_.self_pairs([&](Index task, Index a, Index b) { found[task].push_back({a, b}); });
     penalty_.pairs.clear();
     for (const auto& list : found) penalty_.pairs.insert(penalty_.pairs.end(), list.begin(), list.end());
     std::sort(penalty_.pairs.begin(), penalty_.pairs.end());

@@ -37,11 +37,12 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, EmbeddingGuard& guar
   std::vector<ContactRule> close;
   std::vector<SeparatedStencil> filter;
   std::vector<int> pushes(static_cast<std::size_t>(x.cols()));
+  std::vector<double> allowance(pushes.size());
+  for (std::size_t v = 0; v < allowance.size(); ++v) allowance[v] = moves[v] ? options.step_cap : 0;
   Positions p(3, x.cols());
   Positions safe;
   for (;; ++result.rounds) {
-    const double radius = options.target + 2 * options.step_cap;
-    rules.gather(x, radius, moves, close);
+    rules.gather(x, options.target, allowance, moves, close);
     p.setZero();
     std::fill(pushes.begin(), pushes.end(), 0);
     result.still_closed = 0;

@@ -10,6 +10,7 @@
 #include "energy/ipc_barrier.h"
 #include "energy/orientation_barrier.h"
 #include "energy/quadratic_pull.h"
+#include "geometry/parallel_sums.h"
 #include "mesh/areas.h"
 #include "repair/contact_rules.h"
 #include "repair/embedding_guard.h"
@@ -18,6 +19,8 @@
 
 namespace unsnarl {
 namespace {
+
+constexpr Index chunk = 1024;  // vertices, triangles or hinges a task
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
@@ -41,36 +44,49 @@ struct StepOperator {
   double shift = 0;  // times the mass
   std::vector<double> mass;
 
+  mutable ScatteredSum scattered;
+
   void apply(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const {
     const Index n = static_cast<Index>(mass.size());
-    for (Index i = 0; i < n; ++i) {
-      Vec3 sum = (shift * mass[i]) * v.col(i);
-      for (Index k = row_begin[i]; k < row_begin[i + 1]; ++k) sum += entry[k] * v.col(column[k]);
-      result.col(i) = sum;
-    }
+    for_chunks(n, chunk, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; ++i) {
+        Vec3 sum = (shift * mass[i]) * v.col(i);
+        for (Index k = row_begin[i]; k < row_begin[i + 1]; ++k) sum += entry[k] * v.col(column[k]);
+        result.col(i) = sum;
+      }
+    });
+    // One range for both, so that one sum over the parts does.
+    const Index strain_count = static_cast<Index>(strains.size());
+    const Index count = strain_count + static_cast<Index>(terms.size());
+    scattered(count, 2 * chunk, result, [&](Index begin, Index end, Eigen::Matrix3Xd& out) {
+      for (Index k = begin; k < std::min(end, strain_count); ++k) add_strain(strains[k], v, out);
+      for (Index k = std::max(begin, strain_count); k < end; ++k) add_term(terms[k - strain_count], v, out);
+    });
+  }
+
+  static void add_strain(const Strained& t, const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) {
     Eigen::Matrix3d corners;
-    for (const Strained& t : strains) {
-      for (int k = 0; k < 3; ++k) {
-        if (t.slot[k] >= 0) {
-          corners.col(k) = t.stiffness * v.col(t.slot[k]);
-        } else {
-          corners.col(k).setZero();
-        }
-      }
-      corners = t.strain.apply(corners);
-      for (int k = 0; k < 3; ++k) {
-        if (t.slot[k] >= 0) result.col(t.slot[k]) += corners.col(k);
+    for (int k = 0; k < 3; ++k) {
+      if (t.slot[k] >= 0) {
+        corners.col(k) = t.stiffness * v.col(t.slot[k]);
+      } else {
+        corners.col(k).setZero();
       }
     }
-    for (const RankOne& t : terms) {
-      double dot = 0;
-      for (int k = 0; k < 4; ++k) {
-        if (t.slot[k] >= 0) dot += t.g.col(k).dot(v.col(t.slot[k]));
-      }
-      dot *= t.stiffness;
-      for (int k = 0; k < 4; ++k) {
-        if (t.slot[k] >= 0) result.col(t.slot[k]) += dot * t.g.col(k);
-      }
+    corners = t.strain.apply(corners);
+    for (int k = 0; k < 3; ++k) {
+      if (t.slot[k] >= 0) result.col(t.slot[k]) += corners.col(k);
+    }
+  }
+
+  static void add_term(const RankOne& t, const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) {
+    double dot = 0;
+    for (int k = 0; k < 4; ++k) {
+      if (t.slot[k] >= 0) dot += t.g.col(k).dot(v.col(t.slot[k]));
+    }
+    dot *= t.stiffness;
+    for (int k = 0; k < 4; ++k) {
+      if (t.slot[k] >= 0) result.col(t.slot[k]) += dot * t.g.col(k);
     }
   }
 
@@ -94,14 +110,17 @@ struct StepOperator {
         if (t.slot[k] >= 0) blocks[t.slot[k]].noalias() += t.stiffness * t.g.col(k) * t.g.col(k).transpose();
       }
     }
-    for (Eigen::Matrix3d& block : blocks) {
-      if (diagonal_only) {
-        block = Vec3(block.diagonal().cwiseInverse()).asDiagonal();
-      } else {
-        const Eigen::Matrix3d inverse = block.inverse();
-        block = 0.5 * (inverse + inverse.transpose());
+    for_chunks(n, chunk, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; ++i) {
+        Eigen::Matrix3d& block = blocks[i];
+        if (diagonal_only) {
+          block = Vec3(block.diagonal().cwiseInverse()).asDiagonal();
+        } else {
+          const Eigen::Matrix3d inverse = block.inverse();
+          block = 0.5 * (inverse + inverse.transpose());
+        }
       }
-    }
+    });
   }
 };
 
@@ -117,13 +136,17 @@ class Recovery {
   void build_operator();
   /// Steps at one activation distance until converged or `steps` are used up.
   void steps_at(double activation, int steps, const RecoverOptions::Stop& stop);
-  void gather(double activation, double margin);
+  /// Lists the stencils that may be active while no vertex goes farther than its allowance.
+  void gather(double activation);
+  /// Whether the list holds for these steps too; updates travelled_ and travel_.
+  bool list_allows(const Positions& p);
   /// Picks out of the list the stencils that may be active at x, by bounds of the motion since it was gathered.
   void pick_near(const Positions& x);
   double energy(const Positions& x);
   /// Energy, gradient and the rank-one terms of the Hessian at x_.
   double linearise();
-  double step_limit(const Positions& p);
+  /// Stencils that may collide in the coming step.
+  void pick_in_the_way();
   void snap();
   void check();
   double measure_gap();
@@ -160,15 +183,17 @@ class Recovery {
   StepOperator operator_;
 
   std::vector<ContactRule> gathered_;
-  std::vector<BarrierStencil> stencils_;  // parallel to gathered_
   std::vector<BarrierStencil> near_;
   std::vector<BarrierContact> contacts_;    // among near_
+  std::vector<double> energies_;            // of triangles_ and hinges_
   std::vector<double> travelled_, travel_;  // per vertex: since gathering, in the coming step
-  double margin_ = 0;                       // motion since the last gathering that the list allows
+  std::vector<double> allowance_;           // per vertex: motion since the last gathering that the list allows
+  std::vector<SeparatedStencil> in_the_way_;
   Positions gathered_at_;
   double activation_ = 0;
 
-  Positions gradient_, step_, trial_;
+  Positions gradient_, step_, shortened_, trial_;
+  ScatteredSum scattered_;
   Eigen::Matrix3Xd rhs_, solution_;
   std::vector<Eigen::Matrix3d> blocks_;
   BlockJacobiPcg pcg_;
@@ -245,7 +270,7 @@ void Recovery::set_moving(const std::vector<std::uint8_t>& moves) {
     if (moves_[f[0]] || moves_[f[1]] || moves_[f[2]] || moves_[f[3]]) hinges_.push_back(e);
   }
   build_operator();
-  margin_ = 0;
+  allowance_.assign(moves_.size(), 0);
 }
 
 void Recovery::release_everything() {
@@ -314,63 +339,67 @@ void Recovery::build_operator() {
   operator_.shift = options_.time_step > 0 ? 1 / options_.time_step : 0;
 }
 
-void Recovery::gather(double activation, double margin) {
+void Recovery::gather(double activation) {
   activation_ = activation;
-  margin_ = margin;
   gathered_at_ = x_;
   travelled_.assign(moves_.size(), 0);
   travel_.assign(moves_.size(), 0);
-  rules_->gather(x_, activation + 2 * margin, moves_, gathered_);
-  stencils_.clear();
-  for (const ContactRule& rule : gathered_) {
-    BarrierStencil s = rule.stencil;
-    s.activation = rule.own_altitude ? rule.reach : std::min(activation, rule.reach);
-    s.activation = std::max(s.activation, 1.5 * s.separation);
-    stencils_.push_back(s);
-  }
+  rules_->gather(x_, activation, allowance_, moves_, gathered_);
 }
 
-/// Upper bound of the change of a stencil's distance when its vertices move by the given lengths.
-double approach(const Stencil& s, const std::vector<double>& lengths) {
-  switch (s.kind) {
-    case StencilKind::vertex_face:
-      return lengths[s.v[0]] + std::max({lengths[s.v[1]], lengths[s.v[2]], lengths[s.v[3]]});
-    case StencilKind::edge_edge:
-      return std::max(lengths[s.v[0]], lengths[s.v[1]]) + std::max(lengths[s.v[2]], lengths[s.v[3]]);
-    case StencilKind::vertex_edge:
-      break;
+bool Recovery::list_allows(const Positions& p) {
+  bool allows = true;
+  for (Index v : moving_) {
+    travelled_[v] = (x_.col(v) - gathered_at_.col(v)).norm();
+    travel_[v] = p.col(v).norm();
+    allows &= travelled_[v] + travel_[v] <= allowance_[v];
   }
-  return lengths[s.v[0]] + std::max(lengths[s.v[1]], lengths[s.v[2]]);
+  return allows;
 }
 
 void Recovery::pick_near(const Positions& x) {
   for (Index v : moving_) travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
   near_.clear();
-  for (std::size_t k = 0; k < stencils_.size(); ++k) {
-    if (gathered_[k].distance - approach(stencils_[k].stencil, travelled_) < stencils_[k].activation)
-      near_.push_back(stencils_[k]);
+  for (const ContactRule& rule : gathered_) {
+    if (rule.distance - approach(rule.stencil.stencil, travelled_) < rule.stencil.activation)
+      near_.push_back(rule.stencil);
   }
 }
 
 double Recovery::energy(const Positions& x) {
   pick_near(x);
-  double pull = 0;
-  for (Index v : moving_) pull += pull_.mass[v] * (x.col(v) - patch_.rest.col(v)).squaredNorm();
-  double arap = 0;
-  double orientation = 0;
-  for (Index t : triangles_) {
-    arap += arap_.triangle_energy(x, t, nullptr);
-    orientation += orientation_.value(x, t);
-  }
-  double bending = 0;
-  for (Index e : hinges_) {
-    const double r = bending_.residual(x, e, nullptr);
-    bending += bending_.weight(e) * r * r;
-  }
+  const double pull = sum_in_chunks(static_cast<Index>(moving_.size()), chunk, [&](Index begin, Index end) {
+    double sum = 0;
+    for (Index i = begin; i < end; ++i) {
+      const Index v = moving_[i];
+      sum += pull_.mass[v] * (x.col(v) - patch_.rest.col(v)).squaredNorm();
+    }
+    return sum;
+  });
+  const double arap = sum_in_chunks(static_cast<Index>(triangles_.size()), chunk, [&](Index begin, Index end) {
+    double sum = 0;
+    for (Index i = begin; i < end; ++i) sum += arap_.triangle_energy(x, triangles_[i]);
+    return sum;
+  });
+  const double orientation = sum_in_chunks(static_cast<Index>(triangles_.size()), chunk, [&](Index begin, Index end) {
+    double sum = 0;
+    for (Index i = begin; i < end; ++i) sum += orientation_.value(x, triangles_[i]);
+    return sum;
+  });
+  const double bending = sum_in_chunks(static_cast<Index>(hinges_.size()), chunk, [&](Index begin, Index end) {
+    double sum = 0;
+    for (Index i = begin; i < end; ++i) {
+      const double r = bending_.residual(x, hinges_[i], nullptr);
+      sum += bending_.weight(hinges_[i]) * r * r;
+    }
+    return sum;
+  });
+  const double contact = sum_in_chunks(static_cast<Index>(near_.size()), chunk, [&](Index begin, Index end) {
+    return barrier_.value(x, std::span(near_).subspan(begin, end - begin));
+  });
   const double arap_scale = options_.arap_length * options_.arap_length * h_ * h_;
   const double bending_scale = std::pow(options_.bending_length * h_, 4);
-  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending_scale * bending + orientation +
-         barrier_.value(x, near_);
+  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending_scale * bending + orientation + contact;
 }
 
 double Recovery::linearise() {
@@ -382,36 +411,45 @@ double Recovery::linearise() {
     gradient_.col(v) += options_.pull * pull_.mass[v] * d;
   }
   const double arap_scale = options_.arap_length * options_.arap_length * h_ * h_;
-  double arap = 0;
-  Eigen::Matrix3d forces;
-  operator_.strains.clear();
-  StepOperator::Strained strained;
-  strained.stiffness = (1 - options_.rotation_damping) * arap_scale * arap_.weight();
-  for (Index t : triangles_) {
-    arap += arap_.triangle_energy(x_, t, &forces);
-    strained.strain = arap_.strain(x_, t);
-    for (int k = 0; k < 3; ++k) strained.slot[k] = slot_[arap_.triangle(t)[k]];
-    if (options_.rotation_damping < 1) operator_.strains.push_back(strained);
-    for (int k = 0; k < 3; ++k) gradient_.col(arap_.triangle(t)[k]) += arap_scale * forces.col(k);
-  }
-  operator_.terms.clear();
+  const double stiffness = (1 - options_.rotation_damping) * arap_scale * arap_.weight();
   const double bending_scale = std::pow(options_.bending_length * h_, 4);
-  double bending = 0;
-  StepOperator::RankOne term;
-  for (Index e : hinges_) {
-    const double r = bending_.residual(x_, e, &term.g);
-    const double w = bending_scale * bending_.weight(e);
-    bending += w * r * r;
-    const Hinge& hinge = bending_.hinge(e);
-    for (int k = 0; k < 4; ++k) {
-      gradient_.col(hinge[k]) += w * r * term.g.col(k);
-      term.slot[k] = slot_[hinge[k]];
+  const Index triangle_count = static_cast<Index>(triangles_.size());
+  const Index hinge_count = static_cast<Index>(hinges_.size());
+  operator_.strains.resize(options_.rotation_damping < 1 ? triangles_.size() : 0);
+  operator_.terms.resize(hinges_.size());
+  energies_.resize(triangles_.size() + hinges_.size());
+  scattered_(triangle_count + hinge_count, chunk, gradient_, [&](Index begin, Index end, Positions& gradient) {
+    Eigen::Matrix3d forces;
+    for (Index i = begin; i < std::min(end, triangle_count); ++i) {
+      const Index t = triangles_[i];
+      StepOperator::Strained strained;
+      energies_[i] = arap_scale * arap_.linearise(x_, t, forces, strained.strain);
+      strained.stiffness = stiffness;
+      for (int k = 0; k < 3; ++k) {
+        const Index v = arap_.triangle(t)[k];
+        strained.slot[k] = slot_[v];
+        gradient.col(v) += arap_scale * forces.col(k);
+      }
+      if (!operator_.strains.empty()) operator_.strains[i] = strained;
     }
-    term.stiffness = w;
-    operator_.terms.push_back(term);
-  }
+    for (Index i = std::max(begin, triangle_count); i < end; ++i) {
+      const Index e = hinges_[i - triangle_count];
+      StepOperator::RankOne& term = operator_.terms[i - triangle_count];
+      const double r = bending_.residual(x_, e, &term.g);
+      term.stiffness = bending_scale * bending_.weight(e);
+      energies_[i] = 0.5 * term.stiffness * r * r;
+      for (int k = 0; k < 4; ++k) {
+        const Index v = bending_.hinge(e)[k];
+        gradient.col(v) += term.stiffness * r * term.g.col(k);
+        term.slot[k] = slot_[v];
+      }
+    }
+  });
+  double elastic = 0;
+  for (const double e : energies_) elastic += e;
   double orientation = 0;
   OrientationBarrier::Term kept;
+  StepOperator::RankOne term;
   for (Index t : triangles_) {
     if (!orientation_.evaluate(x_, t, kept)) continue;
     orientation += kept.value;
@@ -440,31 +478,24 @@ double Recovery::linearise() {
     term.stiffness = c.stiffness;
     operator_.terms.push_back(term);
   }
-  return 0.5 * options_.pull * pull + arap_scale * arap + 0.5 * bending + orientation + contact;
+  return 0.5 * options_.pull * pull + elastic + orientation + contact;
 }
 
-double Recovery::step_limit(const Positions& p) {
-  for (Index v : moving_) {
-    travelled_[v] = (x_.col(v) - gathered_at_.col(v)).norm();
-    travel_[v] = p.col(v).norm();
+void Recovery::pick_in_the_way() {
+  in_the_way_.clear();
+  for (const ContactRule& rule : gathered_) {
+    const BarrierStencil& s = rule.stencil;
+    const double left = rule.distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
+    if (left <= s.separation + rules_->options().roundoff) in_the_way_.push_back({s.stencil, s.separation});
   }
-  double step = 1;
-  for (std::size_t k = 0; k < stencils_.size(); ++k) {
-    const BarrierStencil& s = stencils_[k];
-    const double left = gathered_[k].distance - approach(s.stencil, travelled_);
-    if (left - approach(s.stencil, travel_) > s.separation + rules_->options().roundoff) continue;
-    step = std::min(step, time_of_impact({s.stencil, s.separation}, x_, p, options_.ccd));
-  }
-  return step;
 }
 
 void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop& stop) {
   if (moving_.empty()) return;
   orientation_.update(x_);
-  gather(activation, options_.margin_min * h_);
+  gather(activation);
   double current = linearise();
   std::vector<double> history = {current};
-  int short_steps = 0;
   for (int count = 0; count < steps && !stopped(); ++count) {
     const Index n = static_cast<Index>(moving_.size());
     rhs_.resize(3, n);
@@ -474,36 +505,33 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
                                             solution_, options_.solver);
     ++result_.iterations;
     const double longest = std::sqrt(solution_.colwise().squaredNorm().maxCoeff());
-    const double slope = -rhs_.cwiseProduct(solution_).sum();
-    if (!(longest > 0) || !(slope < 0)) break;
+    if (!(longest > 0) || !(rhs_.cwiseProduct(solution_).sum() > 0)) break;
 
     const double wanted = std::min(longest, options_.step_cap * h_);
-    double moved = 0;
-    for (Index v : moving_) moved = std::max(moved, (x_.col(v) - gathered_at_.col(v)).norm());
-    if (moved + wanted > margin_ && (moved > 0 || margin_ < options_.margin_max * h_)) {
-      const double margin = wanted > options_.margin_reuse * h_ ? wanted : 2 * wanted;
-      gather(activation, std::clamp(margin, options_.margin_min * h_, options_.margin_max * h_));
-      moved = 0;
-    }
-    const double scale = std::min(1.0, std::min(wanted, margin_ - moved) / longest);
     step_.setZero();
-    for (Index i = 0; i < n; ++i) step_.col(moving_[i]) = scale * solution_.col(i);
-
-    double alpha = step_limit(step_);
-    const bool limited = alpha < 1;
-    double next = current;
+    for (Index i = 0; i < n; ++i) step_.col(moving_[i]) = (wanted / longest) * solution_.col(i);
+    if (!list_allows(step_)) {
+      const bool reuse = wanted <= options_.margin_reuse * h_;
+      for (Index v : moving_)
+        allowance_[v] = reuse ? travel_[v] + std::max(travel_[v], options_.margin_min * h_) : travel_[v];
+      gather(activation);
+      list_allows(step_);
+    }
+    pick_in_the_way();
+    // Whoever would collide goes as far as that allows, everyone else all the way.
     bool accepted = false;
-    for (int halving = 0; halving < 40; ++halving, alpha *= 0.5) {
-      trial_ = x_ + alpha * step_;
+    double alpha = 1;
+    double next = current;
+    for (int halving = 0; halving < 40 && !accepted; ++halving, alpha *= 0.5) {
+      shortened_ = alpha * step_;
+      filter_displacements(in_the_way_, x_, shortened_, OnCollision::shorten, options_.ccd);
+      const double slope = gradient_.cwiseProduct(shortened_).sum();
+      trial_ = x_ + shortened_;
       next = energy(trial_);
-      if (next <= current + options_.armijo * alpha * scale * slope) {
-        accepted = true;
-        break;
-      }
+      accepted = slope < 0 && next <= current + options_.armijo * slope;
     }
     if (!accepted) break;
     x_.swap(trial_);
-    short_steps = limited && alpha < 0.1 ? short_steps + 1 : 0;
     current = linearise();
     history.push_back(current);
     if (longest < std::max(options_.stop_motion * h_, options_.stop_activation * activation)) break;
@@ -527,7 +555,8 @@ void Recovery::check() {
 
 double Recovery::measure_gap() {
   release_everything();
-  rules_->gather(x_, std::max(4 * min_gap_, 2 * activation_), moves_, gathered_);
+  allowance_.assign(moves_.size(), std::max(2 * min_gap_, activation_));
+  rules_->gather(x_, 0, allowance_, moves_, gathered_);
   double gap = std::numeric_limits<double>::infinity();
   result_.closed = 0;
   for (const ContactRule& rule : gathered_) {

@@ -53,8 +53,7 @@ struct RecoverOptions {
   double stop_motion = 1e-3;      ///< or when the Newton step moves no vertex farther than this, in h ...
   double stop_activation = 0.05;  ///< ... or than this share of the activation distance
   double step_cap = 0.5;          ///< longest motion of a vertex in a step, in h
-  double margin_min = 0.02;       ///< least and largest motion, in h, that a list of close stencils allows for
-  double margin_max = 0.25;
+  double margin_min = 0.02;       ///< least motion beyond the step, in h, that a list of close stencils allows for
   double margin_reuse = 0.1;  ///< lists for steps longer than this, in h, are gathered for one step only
   double armijo = 1e-4;
   PcgOptions solver = {3e-2, 60};

@@ -47,12 +47,13 @@ Soup random_soup(std::uint64_t seed, Index vertices, int count) {
   return soup;
 }
 
-std::set<Key> brute_force(const Soup& soup, double radius, const std::vector<std::uint8_t>& moves) {
+std::set<Key> brute_force(const Soup& soup, double radius, const std::vector<double>& allowance,
+                          const std::vector<std::uint8_t>& moves) {
   std::set<Key> result;
   const auto add = [&](const Stencil& s) {
     bool moving = false;
     for (Index v : s.v) moving |= moves[v] != 0;
-    if (moving && closest(s, soup.x).distance <= radius) result.insert(key_of(s));
+    if (moving && closest(s, soup.x).distance <= radius + approach(s, allowance)) result.insert(key_of(s));
   };
   std::set<Index> used;
   for (const Triangle& f : soup.triangles) used.insert(f.begin(), f.end());
@@ -78,39 +79,49 @@ TEST(ContactCandidates, AgreeWithBruteForce) {
     for (Index v = 0; v < 25; ++v) moves[v] = seed % 3 == 0 || v % 4 == 0;
     ContactCandidates candidates(soup.triangles, 25);
     for (double radius : {0.02, 0.2}) {
-      std::vector<Stencil> found;
-      candidates.gather(soup.x, radius, moves, found);
-      std::set<Key> keys;
-      for (const Stencil& s : found) keys.insert(key_of(s));
-      EXPECT_EQ(keys, brute_force(soup, radius, moves)) << "seed " << seed << " radius " << radius;
+      // None, everyone as far, everyone else.
+      for (int kind = 0; kind < 3; ++kind) {
+        std::vector<double> allowance(25);
+        for (Index v = 0; v < 25; ++v) allowance[v] = kind == 0 ? 0 : kind == 1 ? 0.05 : 0.01 * ((v * 7) % 11);
+        std::vector<NearStencil> found;
+        candidates.gather(soup.x, radius, allowance, moves, found);
+        std::set<Key> keys;
+        for (const NearStencil& s : found) {
+          keys.insert(key_of(s.stencil));
+          EXPECT_DOUBLE_EQ(s.distance, closest(s.stencil, soup.x).distance);
+        }
+        EXPECT_EQ(keys, brute_force(soup, radius, allowance, moves)) << "seed " << seed << " radius " << radius;
+      }
     }
   }
 }
 
 TEST(ContactCandidates, ListNothingTwiceWhereNoTriangleIs) {
   Soup soup = random_soup(5, 200, 150);
-  std::vector<std::uint8_t> moves(200, 1);
+  const std::vector<std::uint8_t> moves(200, 1);
+  const std::vector<double> none(200, 0);
   ContactCandidates candidates(soup.triangles, 200);
-  std::vector<Stencil> found;
-  candidates.gather(soup.x, 0.1, moves, found);
+  std::vector<NearStencil> found;
+  candidates.gather(soup.x, 0.1, none, moves, found);
   std::set<Key> keys;
-  for (const Stencil& s : found) keys.insert(key_of(s));
+  for (const NearStencil& s : found) keys.insert(key_of(s.stencil));
   EXPECT_EQ(keys.size(), found.size());
 }
 
 TEST(ContactCandidates, FollowMotionAndRepeatThemselves) {
   Soup soup = random_soup(6, 30, 30);
-  std::vector<std::uint8_t> moves(30, 1);
+  const std::vector<std::uint8_t> moves(30, 1);
+  const std::vector<double> none(30, 0);
   ContactCandidates candidates(soup.triangles, 30);
-  std::vector<Stencil> first, again;
-  candidates.gather(soup.x, 0.1, moves, first);
+  std::vector<NearStencil> first, again;
+  candidates.gather(soup.x, 0.1, none, moves, first);
   soup.x = soup.x.colwise().reverse().eval();
-  candidates.gather(soup.x, 0.05, moves, again);
+  candidates.gather(soup.x, 0.05, none, moves, again);
   std::set<Key> keys;
-  for (const Stencil& s : again) keys.insert(key_of(s));
-  EXPECT_EQ(keys, brute_force(soup, 0.05, moves));
-  std::vector<Stencil> repeated;
-  candidates.gather(soup.x, 0.05, moves, repeated);
+  for (const NearStencil& s : again) keys.insert(key_of(s.stencil));
+  EXPECT_EQ(keys, brute_force(soup, 0.05, none, moves));
+  std::vector<NearStencil> repeated;
+  candidates.gather(soup.x, 0.05, none, moves, repeated);
   EXPECT_EQ(again, repeated);
 }
 

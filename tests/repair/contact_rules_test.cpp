@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace unsnarl {
 namespace {
 
@@ -29,7 +31,7 @@ ContactRule rule_of_vertex_0(const Patch& patch, std::vector<std::uint8_t> in_co
   ContactRules rules(patch, std::move(in_conflict), options);
   const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
   std::vector<ContactRule> found;
-  rules.gather(patch.x, 1, moves, found);
+  rules.gather(patch.x, 1, std::vector<double>(6, 1), moves, found);
   for (const ContactRule& rule : found) {
     if (rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}}) return rule;
   }
@@ -81,7 +83,7 @@ std::vector<ContactRule> rules_of(const Patch& patch, std::vector<std::uint8_t> 
   options.roundoff = 1e-13;
   ContactRules rules(patch, std::move(in_conflict), options);
   std::vector<ContactRule> found;
-  rules.gather(patch.x, 1, std::vector<std::uint8_t>(4, 1), found);
+  rules.gather(patch.x, 1, std::vector<double>(4, 1), std::vector<std::uint8_t>(4, 1), found);
   std::erase_if(found, [](const ContactRule& rule) { return rule.stencil.stencil.kind != StencilKind::vertex_face; });
   return found;
 }
@@ -104,13 +106,32 @@ TEST(ContactRules, FlatFoldsWantAGapOnlyWhereTheyAreInConflict) {
   for (const ContactRule& rule : rules_of(folded_pair(0), {0, 0})) EXPECT_NE(rule.stencil.stencil.v[0], 3);
 }
 
+TEST(ContactRules, ListWhatMayComeNearByMovingAsFarAsAllowed) {
+  // Vertex 0 is 0.2 over the face, as at rest: its reach is 0.1, so that with the face it must approach by 0.1.
+  const Patch patch = face_over_face(0.2, 0.2);
+  const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
+  const auto is_listed = [&](double room) {
+    ContactRuleOptions options;
+    options.min_gap = 0.01;
+    ContactRules rules(patch, {0, 0}, options);
+    std::vector<ContactRule> found;
+    rules.gather(patch.x, 1, std::vector<double>{room, 0, 0, 0, 0, 0}, moves, found);
+    return std::any_of(found.begin(), found.end(), [](const ContactRule& rule) {
+      return rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}};
+    });
+  };
+  EXPECT_FALSE(is_listed(0));
+  EXPECT_FALSE(is_listed(0.09));
+  EXPECT_TRUE(is_listed(0.11));
+}
+
 TEST(ContactRules, FacesGuardTheirOwnAltitudes) {
   Patch patch = face_over_face(3, 3);
   patch.x.col(0) = 0.5 * (patch.x.col(1) + patch.x.col(2)) + Vec3(0, 0, 0.02);  // squeezed
   ContactRules rules(patch, {0, 0}, {});
   const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
   std::vector<ContactRule> found;
-  rules.gather(patch.x, 0.01, moves, found);
+  rules.gather(patch.x, 0.01, std::vector<double>(6, 0), moves, found);
   int altitudes = 0;
   for (const ContactRule& rule : found) altitudes += rule.own_altitude;
   EXPECT_GE(altitudes, 1);

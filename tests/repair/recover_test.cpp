@@ -92,11 +92,11 @@ double gap_of(const Patch& patch, double radius) {
   ContactCandidates candidates(patch.triangles, static_cast<Index>(patch.x.cols()));
   std::vector<std::uint8_t> moves(static_cast<std::size_t>(patch.x.cols()), 0);
   std::fill(moves.begin(), moves.begin() + patch.free_count, std::uint8_t{1});
-  std::vector<Stencil> stencils;
-  candidates.gather(patch.x, radius, moves, stencils);
+  std::vector<NearStencil> stencils;
+  candidates.gather(patch.x, radius, std::vector<double>(moves.size(), 0), moves, stencils);
   double gap = radius;
-  for (const Stencil& s : stencils) {
-    if (!candidates.are_neighbours(s)) gap = std::min(gap, closest(s, patch.x).distance);
+  for (const NearStencil& s : stencils) {
+    if (!candidates.are_neighbours(s.stencil)) gap = std::min(gap, s.distance);
   }
   return gap;
 }
