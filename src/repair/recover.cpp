@@ -520,7 +520,7 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
     pick_in_the_way();
     // Whoever would collide goes as far as that allows, everyone else all the way.
     bool accepted = false;
-    double alpha = 1;
+    double alpha = options_.shorten_all ? largest_step(in_the_way_, x_, step_, options_.ccd) : 1;
     double next = current;
     for (int halving = 0; halving < 40 && !accepted; ++halving, alpha *= 0.5) {
       shortened_ = alpha * step_;
@@ -616,6 +616,7 @@ RecoverOptions RecoverOptions::paper() {
   options.stop_motion = options.stop_activation = 0;
   options.solver = {1e-6, 2000};
   options.scalar_jacobi = true;
+  options.shorten_all = true;
   options.time_step = 1;
   return options;
 }

@@ -53,8 +53,11 @@ struct RecoverOptions {
   double stop_motion = 1e-3;      ///< or when the Newton step moves no vertex farther than this, in h ...
   double stop_activation = 0.05;  ///< ... or than this share of the activation distance
   double step_cap = 0.5;          ///< longest motion of a vertex in a step, in h
-  double margin_min = 0.02;       ///< least motion beyond the step, in h, that a list of close stencils allows for
-  double margin_reuse = 0.1;  ///< lists for steps longer than this, in h, are gathered for one step only
+  bool shorten_all = false;       ///< a collision shortens the step of every vertex, not only of those that collide
+  // A list of close stencils allows each vertex its step and as much again, this at least, in h; where the longest step
+  // exceeds margin_reuse, in h, its step alone: lists with more room took longer to gather than they lasted.
+  double margin_min = 0.02;
+  double margin_reuse = 0.1;
   double armijo = 1e-4;
   PcgOptions solver = {3e-2, 60};
   /// Share of ARAP's Hessian with the rotations held; the rest is Gauss-Newton. Steps on six patches: 1: 27 to 65,
@@ -91,9 +94,10 @@ struct RecoverResult {
 /// Open gaps, a few steps, send home what can go home, steps on what cannot, send home again.
 /// \pre patch.x has no intersecting pair with an active triangle, in any class. Pairs that are there are kept out of
 /// the way and never become more.
-/// Guarantees: no new pair; no face turns over against its rest shape (those that were are pulled back); stencils keep the distance `min_gap` once they have it (neighbours that are closer at rest
-/// keep a share of their rest distance); free vertices that can go home are bit-exactly at rest. Single-threaded but
-/// for the exact check, deterministic. `stop` is asked once a step; what was reached by then is kept.
+/// Guarantees: no new pair; no face turns over against its rest shape (those that were are pulled back); stencils keep
+/// the distance `min_gap` once they have it (neighbours that are closer at rest keep a share of their rest distance);
+/// free vertices that can go home are bit-exactly at rest; the same bytes at any number of threads. `stop` is asked once
+/// a step; what was reached by then is kept.
 RecoverResult recover(Patch& patch, const RecoverOptions& options = {}, const std::function<bool()>& stop = {});
 
 }  // namespace unsnarl

@@ -54,9 +54,9 @@ Pairs parallel_pairs(const Bvh& bvh) {
   return pairs;
 }
 
-// Around the sizes of leaves (4), of tasks (4096) and of the parallel build (20000).
+// Around the sizes of leaves (4), of tasks (1024) and of the parallel build (20000).
 TEST(Bvh, finds_each_overlapping_pair_once) {
-  for (const Index n : {0, 1, 2, 3, 4, 5, 8, 9, 100, 1000, 4095, 4096, 4097, 8193, 20001}) {
+  for (const Index n : {0, 1, 2, 3, 4, 5, 8, 9, 100, 1000, 1023, 1024, 1025, 4097, 20001}) {
     const std::vector<Box> boxes = random_boxes(n, 1.5 / std::cbrt(n + 1.0), static_cast<unsigned>(n));
     const Bvh bvh(boxes);
     EXPECT_EQ(bvh.size(), n);
@@ -105,6 +105,23 @@ TEST(Bvh, refitted_to_other_boxes_it_finds_their_pairs) {
       bvh.refit(moved);
       EXPECT_TRUE(self_pairs(bvh) == brute_pairs(moved));
       EXPECT_TRUE(parallel_pairs(bvh) == brute_pairs(moved));
+    }
+  }
+}
+
+TEST(Bvh, visits_only_pairs_of_which_a_box_is_watched) {
+  for (const Index n : {1, 5, 300, 5000}) {
+    const std::vector<Box> boxes = random_boxes(n, 0.1, 9);
+    const Pairs all = brute_pairs(boxes);
+    Bvh bvh(boxes);
+    for (const Index every : {1, 7, 1000000}) {  // all, some, and but the first none
+      std::vector<std::uint8_t> watched(boxes.size(), 0);
+      for (Index i = 0; i < n; i += every) watched[i] = 1;
+      bvh.watch(watched);
+      Pairs expected = all;
+      std::erase_if(expected, [&](const auto& pair) { return !watched[pair.first] && !watched[pair.second]; });
+      EXPECT_TRUE(self_pairs(bvh) == expected);
+      EXPECT_TRUE(parallel_pairs(bvh) == expected);
     }
   }
 }
