@@ -30,7 +30,7 @@ class Bvh {
   template <class Visit>
   void query(const Box& box, Visit&& visit) const;
 
-  /// Calls visit(i, j), i != j, once for every unordered pair of (watched) boxes that overlap; order of (i, j) within a pair
+  /// Calls visit(i, j), i != j, once for every unordered pair of (watched) boxes that overlap; order within a pair
   /// and among pairs is a function of the boxes alone.
   template <class Visit>
   void self_pairs(Visit&& visit) const;

@@ -43,8 +43,8 @@ class ContactRules {
   ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options);
 
   /// Rules for all stencils with a moving vertex that are, or may come while every vertex v goes as far as
-  /// allowance[v], closer than `activation` and their reach (own altitudes: than their reach). That is their activation distance,
-  /// but for some that is closer to their separation.
+  /// allowance[v], closer than `activation` and their reach (own altitudes: than their reach): that is their activation
+  /// distance, unless it is too close to their separation.
   void gather(const Positions& x, double activation, std::span<const double> allowance,
               std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
 
