@@ -24,6 +24,7 @@ Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, 
   const std::span<const Triangle> triangles = prepared.triangles();
   const std::vector<Index>& polygon = prepared.triangulation.polygon;
   const EdgeTable edges = build_edges(triangles);
+  result.edge_count = edges.edges.size();
   result.components = find_components(triangles, prepared.identification.count, edges);
   result.topology =
       describe_topology(surface, prepared.identification, prepared.triangulation, edges, result.components);

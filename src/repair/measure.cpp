@@ -3,10 +3,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
+#include "energy/minkowski_penalty.h"
 #include "geometry/box.h"
 #include "mesh/areas.h"
 
@@ -53,6 +56,50 @@ double volume_change(const PreparedSurface& prepared, const Components& componen
   return worst;
 }
 
+/// Largest penetration depth among the pairs that share no vertex and that motion can part. For every direction n, the
+/// triangles overlap by at least their depth along n, and where all vertices move by at most d, by at least depth - 2 d
+/// afterwards: an embedded result has d > depth / 2.
+double deepest_overlap(const PreparedSurface& prepared, const Diagnosis& diagnosis) {
+  const std::span<const Triangle> triangles = prepared.triangles();
+  const auto corners = [&](Index t) {
+    return std::array<Vec3, 3>{prepared.rest.col(triangles[t][0]), prepared.rest.col(triangles[t][1]),
+                               prepared.rest.col(triangles[t][2])};
+  };
+  double deepest = 0;
+  for (const IntersectingPair& pair : diagnosis.pairs)
+    if (pair.kind == PairClass::disjoint &&
+        !std::binary_search(diagnosis.obstructed.begin(), diagnosis.obstructed.end(), pair))
+      deepest = std::max(deepest, triangle_penetration(corners(pair.a), corners(pair.b), 0).depth);
+  return std::isfinite(deepest) ? deepest : 0;
+}
+
+void measure_stretch(const PreparedSurface& prepared, std::size_t edge_count, const Positions& x,
+                     RepairReport& report) {
+  const auto moved = [&](Index v) { return x.col(v) != prepared.rest.col(v); };
+  std::vector<Edge> edges;  // those with a moved end; all others keep their length
+  for (const Triangle& t : prepared.triangles())
+    for (int k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(t[k], t[(k + 1) % 3]);
+      if (a != b && (moved(a) || moved(b))) edges.push_back({a, b});
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<double> stretch;
+  stretch.reserve(edges.size());
+  for (const auto& [a, b] : edges) {
+    const double before = (prepared.rest.col(a) - prepared.rest.col(b)).norm(), after = (x.col(a) - x.col(b)).norm();
+    if (before > 0)
+      stretch.push_back(after > 0 ? std::max(after / before, before / after) : std::numeric_limits<double>::infinity());
+  }
+  report.edge_stretch_max = stretch.empty() ? 1 : *std::max_element(stretch.begin(), stretch.end());
+  report.edge_stretch_p999 = 1;
+  const std::size_t above = edge_count / 1000;  // as many may be stretched more
+  if (above >= stretch.size()) return;
+  const auto place = stretch.begin() + static_cast<std::ptrdiff_t>(above);
+  std::nth_element(stretch.begin(), place, stretch.end(), std::greater<>());
+  report.edge_stretch_p999 = *place;
+}
+
 }  // namespace
 
 double diagonal_of(const SurfaceView& surface) {
@@ -78,6 +125,9 @@ void measure_change(const SurfaceView& surface, const PreparedSurface& prepared,
   }
   report.volume_change_rel = volume_change(prepared, diagnosis.components, x);
   const double area = total_area(prepared.rest, triangles);
+  report.displacement_lower_bound_rel =
+      report.diagonal > 0 ? 0.5 * deepest_overlap(prepared, diagnosis) / report.diagonal : 0;
+  measure_stretch(prepared, diagnosis.edge_count, x, report);
   report.area_change_rel = area > 0 ? total_area(x, triangles) / area - 1 : 0;
 }
 

@@ -86,12 +86,15 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
   json["displacement_mean_rel"] = r.displacement_mean_rel;
   json["displacement_rms_rel"] = r.displacement_rms_rel;
   json["displacement_max_rel"] = r.displacement_max_rel;
+  json["displacement_lower_bound_rel"] = r.displacement_lower_bound_rel;
   json["untouched_share"] = r.untouched_share;
   json["turned_triangles"] = r.turned_triangles;
   json["turned_triangles_without_conflict"] = r.turned_triangles_without_conflict;
   json["min_gap_rel"] = r.min_gap_rel;
   json["volume_change_rel"] = r.volume_change_rel;
   json["area_change_rel"] = r.area_change_rel;
+  json["edge_stretch_max"] = r.edge_stretch_max;
+  json["edge_stretch_p999"] = r.edge_stretch_p999;
   json["float32_embedded"] = r.float32_embedded;
   json["precision"] = to_string(r.precision);
   json["regions"] = Json::array();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "repair/shapes.h"
 
 namespace unsnarl {
@@ -31,6 +33,9 @@ TEST(Measure, nothing_moved) {
   EXPECT_EQ(report.turned_triangles, 0u);
   EXPECT_EQ(report.volume_change_rel, 0);
   EXPECT_EQ(report.area_change_rel, 0);
+  EXPECT_EQ(report.edge_stretch_max, 1);
+  EXPECT_EQ(report.edge_stretch_p999, 1);
+  EXPECT_EQ(report.displacement_lower_bound_rel, 0);
 }
 
 TEST(Measure, displacement_relative_to_the_diagonal) {
@@ -68,6 +73,39 @@ TEST(Measure, turned_triangles_and_whether_they_had_to) {
   report = measured(surface, positions);
   EXPECT_EQ(report.turned_triangles, 4u);
   EXPECT_LE(report.turned_triangles_without_conflict, 3u);
+}
+
+TEST(Measure, edge_stretch_counts_both_ways) {
+  const Surface surface = cube();
+  std::vector<double> wide = surface.positions, narrow = surface.positions;
+  for (std::size_t v = 0; v < 8; ++v) wide[3 * v] *= 4, narrow[3 * v] *= 0.25;
+  for (const auto& positions : {wide, narrow}) {
+    EXPECT_DOUBLE_EQ(measured(surface, positions).edge_stretch_max, 4);
+    EXPECT_DOUBLE_EQ(measured(surface, positions).edge_stretch_p999, 4) << "19 edges: none may be left out";
+  }
+  for (int k = 0; k < 3; ++k) narrow[k] = narrow[3 + k];  // vertex 0 onto vertex 1
+  EXPECT_EQ(measured(surface, narrow).edge_stretch_max, std::numeric_limits<double>::infinity());
+}
+
+TEST(Measure, one_needle_does_not_decide_the_percentile) {
+  const Surface surface = shapes::bumpy_sheet(30, 0).surface();  // 2760 edges, 2 of them at the corner 30
+  std::vector<double> moved = surface.positions;
+  moved[3 * 30] -= 9;
+  const RepairReport report = measured(surface, moved);
+  EXPECT_GT(report.edge_stretch_max, 5);
+  EXPECT_EQ(report.edge_stretch_p999, 1);
+}
+
+TEST(Measure, lower_bound_is_half_the_deepest_overlap) {
+  // A triangle in the plane z = 0 and one through its middle that reaches 0.2 below it.
+  const Surface surface = shapes::Shape{{{-3, -3, 0}, {3, -3, 0}, {0, 5, 0}, {-0.5, 0, -0.2}, {0.5, 0, -0.2}, {0, 0, 3}},
+                                        {{0, 1, 2}, {3, 4, 5}}}
+                              .surface();
+  const RepairReport report = measured(surface, surface.positions);
+  EXPECT_NEAR(report.displacement_lower_bound_rel * report.diagonal, 0.1, 1e-12);
+  const RepairResult repaired = repair(surface);
+  ASSERT_EQ(repaired.status, Status::embedded);
+  EXPECT_GE(repaired.report.displacement_max_rel, report.displacement_lower_bound_rel);
 }
 
 TEST(Measure, memory) {
