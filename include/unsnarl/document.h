@@ -72,6 +72,10 @@ class Document {
   /// The file holds 32-bit floats (STL, glTF, PLY with float positions), so `float32_digits` makes no difference.
   bool stores_float32() const;
 
+  /// From now on patched() also turns the stored vertex normals of what moved (OBJ vn, PLY nx ny nz, glTF NORMAL) as the faces around
+  /// them turn, and rounds them to float32. False: this format, or this file, stores none that could be updated.
+  bool recompute_normals();
+
   /// The files to write, the main file first; then the external buffers of a glTF.
   /// positions: as many as in surface(), finite. float32_digits: in text, moved coordinates are rounded to float32 and
   /// written with the fewest digits that give that float back; otherwise with the fewest that give the double back.

@@ -104,6 +104,11 @@ bool Document::stores_float32() const {
   return file_->stores_float32;
 }
 
+bool Document::recompute_normals() {
+  file_->recompute_normals = true;
+  return file_->has_vertex_normals();
+}
+
 std::vector<OutputFile> Document::patched(std::span<const double> positions, bool float32_digits) const {
   check_positions(file_->surface, positions);
   return file_->patched(positions, float32_digits);

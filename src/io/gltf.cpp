@@ -88,8 +88,20 @@ class GltfParser {
           file_.accessors[p.positions] = accessor;
           order_.push_back(p.positions);
         }
+        find_normals(json["attributes"], file_.accessors[p.positions]);
         primitives_.push_back(p);
       }
+    }
+  }
+
+  /// Normals may be compressed or missing: they need not follow what moves.
+  void find_normals(const Value& attributes, GltfPositions& accessor) const {
+    if (accessor.normals || !attributes["NORMAL"]) return;
+    try {
+      const AccessorLayout normals = accessors_.positions(member_index(attributes, "NORMAL", 0, "NORMAL"), "NORMAL");
+      if (normals.count == accessor.layout.count) accessor.normals = normals;
+    } catch (const FileError&) {
+      return;
     }
   }
 

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 #include "io/byte_order.h"
 #include "io/token_edits.h"
+#include "io/vertex_normals.h"
 
 namespace unsnarl {
 namespace {
@@ -76,11 +79,51 @@ std::vector<OutputFile> GltfFile::patched(std::span<const double> positions, boo
       }
     }
   }
+  if (recompute_normals && !changed.empty()) turn_normals(positions, changed);
   std::vector<TextEdit> edits;
   for (const auto& [id, accessor] : accessors) {
     if (block_changed[accessor.block]) update_bounds(accessor, changed.at(accessor.layout.buffer), edits);
   }
   return buffers.rebuilt(bytes, container, std::move(edits), std::move(changed));
+}
+
+bool GltfFile::has_vertex_normals() const {
+  return std::any_of(accessors.begin(), accessors.end(), [](const auto& a) { return a.second.normals.has_value(); });
+}
+
+void GltfFile::turn_normals(std::span<const double> positions, std::map<std::size_t, std::string>& changed) const {
+  std::vector<double> before(positions.size()), after(positions.size()), normals(positions.size());
+  for (const GltfBlock& block : blocks) {
+    for (std::size_t v = block.first_vertex; v < block.first_vertex + block.layout.count; ++v) {
+      const Local old = stored(block, v), moved = wanted(block, v, positions);
+      std::copy(old.begin(), old.end(), before.begin() + static_cast<std::ptrdiff_t>(3 * v));
+      std::copy(moved.begin(), moved.end(), after.begin() + static_cast<std::ptrdiff_t>(3 * v));
+    }
+  }
+  // A vertex that two accessors share has the normal of the first one; that of the other stays.
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> buffer_of(positions.size() / 3, none), offset_of_normal(positions.size() / 3);
+  for (const auto& [id, accessor] : accessors) {
+    for (std::size_t i = 0; accessor.normals && i < accessor.layout.count; ++i) {
+      const std::size_t v = blocks[accessor.block].first_vertex + accessor.first_in_block + i;
+      if (buffer_of[v] != none) continue;
+      buffer_of[v] = accessor.normals->buffer;
+      offset_of_normal[v] = accessor.normals->start + i * accessor.normals->stride;
+      const Local normal = load_position(buffers.data(buffer_of[v]), offset_of_normal[v]);
+      std::copy(normal.begin(), normal.end(), normals.begin() + static_cast<std::ptrdiff_t>(3 * v));
+    }
+  }
+  const std::vector<double> turned =
+      turned_normals({before, surface.corners, surface.offsets}, after, normals, surface.corners);
+  for (std::size_t v = 0; v < buffer_of.size(); ++v) {
+    if (buffer_of[v] == none) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto value = static_cast<float>(turned[3 * v + k]);
+      if (!(value != static_cast<float>(normals[3 * v + k])) || !std::isfinite(value)) continue;
+      std::string& data = changed.try_emplace(buffer_of[v], buffers.data(buffer_of[v])).first->second;
+      store(data.data() + offset_of_normal[v] + 4 * k, value, std::endian::little);
+    }
+  }
 }
 
 void GltfFile::update_bounds(const GltfPositions& accessor, std::string_view data, std::vector<TextEdit>& edits) const {

@@ -26,6 +26,7 @@ struct GltfPositions {
   AccessorLayout layout;
   std::size_t block = 0, first_in_block = 0;
   JsonText::Value json;
+  std::optional<AccessorLayout> normals;  ///< of the first primitive that has some; as many as positions
 };
 
 /// A parsed glTF or GLB: which bytes of its buffers are the positions, and how new ones get there.
@@ -33,6 +34,7 @@ class GltfFile final : public MeshFile {
  public:
   std::vector<OutputFile> patched(std::span<const double> positions, bool) const override;
   std::vector<double> as_written(std::span<const double> positions, bool) const override;
+  bool has_vertex_normals() const override;
 
   std::optional<JsonText> json;
   GltfContainer container;
@@ -50,6 +52,8 @@ class GltfFile final : public MeshFile {
   Local stored(const GltfBlock& block, std::size_t vertex) const;
   /// What to store for a vertex that should be at positions[3 vertex ...]; the stored numbers where it did not move.
   Local wanted(const GltfBlock& block, std::size_t vertex, std::span<const double> positions) const;
+  /// Turns stored normals with the faces around them, in the space of their meshes.
+  void turn_normals(std::span<const double> positions, std::map<std::size_t, std::string>& changed) const;
   void update_bounds(const GltfPositions& accessor, std::string_view data, std::vector<TextEdit>& edits) const;
 };
 

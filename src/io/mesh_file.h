@@ -21,11 +21,15 @@ class MeshFile {
   virtual std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const = 0;
   virtual std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const = 0;
 
+  /// Does the file store vertex normals that patched() can update?
+  virtual bool has_vertex_normals() const { return false; }
+
   std::string bytes;  ///< the main file as it was read
   Surface surface;
   std::vector<FaceLabels> labels;
   std::vector<std::string> notes;
   bool stores_float32 = false;
+  bool recompute_normals = false;  ///< patched() updates stored vertex normals too
 };
 
 std::unique_ptr<MeshFile> parse_obj(std::string bytes);

@@ -2,6 +2,9 @@
 // on.
 #include <fmt/format.h>
 
+#include <array>
+#include <limits>
+
 #include "io/coordinate_text_file.h"
 #include "io/surface_builder.h"
 #include "io/text_scanner.h"
@@ -21,6 +24,8 @@ class ObjParser {
       const std::string_view keyword = text_.token();
       if (keyword == "v") {
         vertex();
+      } else if (keyword == "vn") {
+        normal();
       } else if (keyword == "f" || keyword == "fo") {
         face(start);
       } else if (keyword == "o") {
@@ -57,8 +62,34 @@ class ObjParser {
     text_.next_line();
   }
 
+  /// One that is no three numbers is passed on as it is.
+  void normal() {
+    std::array<double, 3> value{};
+    std::array<std::size_t, 3> begins{};
+    bool is_good = true;
+    for (int k = 0; k < 3; ++k) {
+      is_good &= text_.skip_blanks();
+      begins[k] = text_.offset();
+      is_good = is_good && text_.number(value[k]) == TextScanner::Number::ok;
+    }
+    if (!is_good) value = {};
+    file_.normals.insert(file_.normals.end(), value.begin(), value.end());
+    file_.normal_begins.insert(file_.normal_begins.end(), begins.begin(), begins.end());
+    text_.next_line();
+  }
+  /// The normal that a corner names after its vertex ("/vt/vn" or "//vn"); -1: none that is known by now.
+  std::int32_t normal_of(std::string_view rest) const {
+    const std::size_t second = rest.find('/', 1);
+    std::int64_t id = 0;
+    if (second == std::string_view::npos || !TextScanner(rest.substr(second + 1), {}).integer(id)) return -1;
+    const auto known = static_cast<std::int64_t>(file_.normals.size() / 3);
+    id = id > 0 ? id - 1 : known + id;
+    return id >= 0 && id < std::numeric_limits<std::int32_t>::max() ? static_cast<std::int32_t>(id) : -1;
+  }
+
   void face(std::size_t start) {
     face_.clear();
+    face_normals_.clear();
     ++faces_in_file_;
     while (text_.skip_blanks()) {
       const std::size_t corner_start = text_.offset();
@@ -67,7 +98,7 @@ class ObjParser {
         text_.fail(fmt::format("corner {} of face {} is not a vertex number; write f 1 2 3 or f 1/1/1 2/2/2 3/3/3",
                                in_quotes(text_.peek()), faces_in_file_));
       }
-      text_.token();  // texture and normal ids
+      face_normals_.push_back(normal_of(text_.token()));
       const auto known = static_cast<std::int64_t>(vertex_count());
       const std::int64_t id = v > 0 ? v - 1 : known + v;
       if (v == 0 || id < 0 || id >= std::numeric_limits<std::int32_t>::max()) {
@@ -85,6 +116,8 @@ class ObjParser {
     }
     text_.next_line();
     if (!faces_.add(face_)) text_.fail("more face corners than 32-bit ids can count; split the mesh", start);
+    if (face_.size() >= 3)
+      file_.normal_of_corner.insert(file_.normal_of_corner.end(), face_normals_.begin(), face_normals_.end());
   }
 
   void finish() {
@@ -95,6 +128,9 @@ class ObjParser {
       text_.fail(fmt::format("face {} uses vertex {}, but the file has {} vertices", largest_face_, largest_id_ + 1, n),
                  largest_start_);
     }
+    const auto normals = static_cast<std::int32_t>(file_.normals.size() / 3);
+    for (std::int32_t& n : file_.normal_of_corner)
+      if (n >= normals) n = -1;
     faces_.note_ignored(file_.notes);
     objects_.finish(faces_.count(), file_.labels);
     groups_.finish(faces_.count(), file_.labels);
@@ -105,7 +141,7 @@ class ObjParser {
   TextScanner text_;
   FaceCollector faces_{file_.surface};
   LabelCollector objects_{"object"}, groups_{"group"}, materials_{"material"};
-  std::vector<std::int32_t> face_;
+  std::vector<std::int32_t> face_, face_normals_;
   std::size_t faces_in_file_ = 0;
   std::int64_t largest_id_ = -1;
   std::size_t largest_face_ = 0, largest_start_ = 0;

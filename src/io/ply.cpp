@@ -1,6 +1,7 @@
 // Stanford PLY: ASCII, binary little and big endian; any elements and properties beside the positions.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -12,6 +13,7 @@
 #include "io/surface_builder.h"
 #include "io/text_scanner.h"
 #include "io/token_edits.h"
+#include "io/vertex_normals.h"
 
 namespace unsnarl {
 namespace {
@@ -21,10 +23,18 @@ class PlyFile final : public MeshFile {
   std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const override {
     const std::vector<double>& old = surface.positions;
     const std::vector<double> written = as_written(positions, float32_digits);
+    const std::vector<double> turned =
+        recompute_normals ? turned_normals(surface, written, normals, normal_of_corner()) : normals;
     if (ascii) {
       TokenEdits edits;
       for (std::size_t i = 0; i < old.size(); ++i) {
         if (written[i] != old[i]) edits.replace_number(bytes, begin(i), positions[i], precision(i, float32_digits));
+      }
+      for (std::size_t i = 0; i < normals.size(); ++i) {
+        const bool is_float = normal_types[i % 3] == PlyScalar::float32;
+        const TextPrecision digits = is_float ? TextPrecision::stored_float : TextPrecision::float_digits;
+        if (value_as_written(turned[i], digits) != normals[i])
+          edits.replace_number(bytes, normal_begins[i], turned[i], digits);
       }
       return {{{}, edits.apply(bytes)}};
     }
@@ -37,8 +47,18 @@ class PlyFile final : public MeshFile {
         store(result.data() + begin(i), written[i], order);
       }
     }
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const auto value = static_cast<float>(turned[i]);
+      if (turned[i] == normals[i] || value == normals[i]) continue;
+      if (normal_types[i % 3] == PlyScalar::float32) {
+        store(result.data() + normal_begins[i], value, order);
+      } else {
+        store(result.data() + normal_begins[i], static_cast<double>(value), order);
+      }
+    }
     return {{{}, std::move(result)}};
   }
+  bool has_vertex_normals() const override { return !normals.empty(); }
 
   std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const override {
     std::vector<double> result = surface.positions;
@@ -62,7 +82,10 @@ class PlyFile final : public MeshFile {
   bool ascii = false;
   std::endian order = std::endian::little;
   std::array<PlyScalar, 3> types{};  ///< of x, y, z
-  std::vector<std::size_t> begins;   ///< where each coordinate starts; empty where all records are of one size:
+  std::array<PlyScalar, 3> normal_types{};
+  std::vector<double> normals;  ///< 3 a vertex; empty: none, or not as floating-point numbers
+  std::vector<std::size_t> normal_begins;
+  std::vector<std::size_t> begins;  ///< where each coordinate starts; empty where all records are of one size:
   std::size_t first = 0, stride = 0;
   std::array<std::size_t, 3> within{};
 
@@ -73,6 +96,8 @@ class PlyFile final : public MeshFile {
     if (float32_digits) return ascii ? TextPrecision::float_digits : TextPrecision::stored_float;
     return TextPrecision::double_digits;
   }
+  /// A vertex has one normal.
+  std::span<const std::int32_t> normal_of_corner() const { return surface.corners; }
 };
 
 /// What a body is read from; AsciiSource and BinarySource look the same to the parser below.
@@ -99,6 +124,18 @@ class AsciiSource {
     to_next_value();
     return type == PlyScalar::float32 ? static_cast<double>(text_.coordinate<float>(vertex))
                                       : text_.coordinate<double>(vertex);
+  }
+  /// Whatever it is; 0 where it is no finite number.
+  double number(PlyScalar type) {
+    to_next_value();
+    double value = 0;
+    float single = 0;
+    const TextScanner::Number read = type == PlyScalar::float32 ? text_.number(single) : text_.number(value);
+    if (read != TextScanner::Number::ok) {
+      text_.token();
+      return 0;
+    }
+    return type == PlyScalar::float32 ? static_cast<double>(single) : value;
   }
   std::int64_t whole_number(PlyScalar) {
     to_next_value();
@@ -140,6 +177,10 @@ class BinarySource {
     const std::size_t start = at_;
     skip(type);
     return load_scalar(bytes_.data() + start, type, order_);
+  }
+  double number(PlyScalar type) {
+    const double result = value(type);
+    return std::isfinite(result) ? result : 0;
   }
   double coordinate(PlyScalar type, std::size_t vertex) {
     const double result = value(type);
@@ -243,6 +284,9 @@ class BodyParser {
     }
     for (const PlyProperty& property : element.properties) fixed_size &= !property.count_type;
     note_types();
+    const std::array<std::size_t, 3> normal = find_normal(element);
+    const bool has_normals = normal[0] < element.properties.size();
+    if (has_normals) file_.normals.reserve(3 * element.count);
 
     file_.surface.positions.resize(3 * element.count);
     if (fixed_size) {
@@ -254,6 +298,11 @@ class BodyParser {
     for (std::size_t v = 0; v < element.count; ++v) {
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const auto k = static_cast<std::size_t>(std::find(xyz.begin(), xyz.end(), p) - xyz.begin());
+        if (has_normals && std::find(normal.begin(), normal.end(), p) != normal.end()) {
+          file_.normal_begins.push_back(source_.to_next_value());
+          file_.normals.push_back(source_.number(element.properties[p].type));
+          continue;
+        }
         if (k == 3) {
           skip_property(element.properties[p]);
           continue;
@@ -267,6 +316,20 @@ class BodyParser {
         file_.surface.positions[3 * v + k] = source_.coordinate(file_.types[k], v);
       }
     }
+  }
+
+  /// Places of nx, ny and nz, if all three are there in this order and floating-point; else past the end.
+  std::array<std::size_t, 3> find_normal(const PlyElement& element) {
+    std::array<std::size_t, 3> places{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::optional<std::size_t> found = element.find({"nxnynz" + 2 * k, 2});
+      const bool is_usable = found && !element.properties[*found].count_type &&
+                             !is_integer(element.properties[*found].type) && (k == 0 || *found > places[k - 1]);
+      places[k] = is_usable ? *found : element.properties.size();
+      if (is_usable) file_.normal_types[k] = element.properties[*found].type;
+    }
+    if (std::max(places[1], places[2]) == element.properties.size()) places.fill(element.properties.size());
+    return places;
   }
 
   void note_types() {

@@ -124,6 +124,34 @@ TEST(Gltf, DataUriChangesOnlyWhereItMust) {
   EXPECT_EQ(patched_bytes(document, moved), replaced(text, base64(buffer_bytes()), base64(buffer_bytes(positions))));
 }
 
+TEST(Gltf, NormalsFollowWhereAskedTo) {
+  EXPECT_FALSE(Document::parse(plain, Format::glb).recompute_normals());
+  // A triangle in a node that is moved, mirrored and stretched, and a vertex of no face.
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+      R"("nodes":[{"mesh":0,"translation":[10,0,0],"scale":[2,4,-2]}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"NORMAL":1,"POSITION":0},"indices":2}]}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+      R"({"bufferView":0,"byteOffset":48,"componentType":5126,"count":4,"type":"VEC3"},)"
+      R"({"bufferView":0,"byteOffset":96,"componentType":5125,"count":3,"type":"SCALAR"}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":108}],"buffers":[{"byteLength":108}]})";
+  const auto buffer = [](float lift, float y, float z) {
+    std::string bytes;
+    for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, lift, 9.f, 9.f, 9.f}) put(bytes, x);
+    for (int v = 0; v < 3; ++v)
+      for (const float x : {0.f, y, z}) put(bytes, x);
+    for (const float x : {0.f, 0.f, 1.f}) put(bytes, x);
+    for (const int i : {0, 1, 2}) put(bytes, static_cast<std::uint32_t>(i));
+    return bytes;
+  };
+  Document document = Document::parse(glb(json, buffer(0, 0, 1)), Format::glb);
+  const std::vector<double> lifted = Document::parse(glb(json, buffer(1, 0, 1)), Format::glb).surface().positions;
+  EXPECT_EQ(patched_bytes(document, lifted), glb(json, buffer(1, 0, 1)));
+  EXPECT_TRUE(document.recompute_normals());
+  EXPECT_EQ(patched_bytes(document, lifted), glb(json, buffer(1, -0.70710677f, 0.70710677f)));
+  EXPECT_EQ(patched_bytes(document, document.surface().positions), glb(json, buffer(0, 0, 1)));
+}
+
 TEST(Gltf, NodesPlaceTheirMeshes) {
   const Document document = Document::parse(glb(json_text(moved_node), buffer_bytes()), Format::glb);
   const std::vector<double>& x = document.surface().positions;
