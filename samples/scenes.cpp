@@ -82,6 +82,26 @@ Surface jellyfish(int resolution, const SampleValues& values) {
   return builder.take();
 }
 
+/// Paper §4.2 repairs such scenes around what must not move: a post, and balls through it and through their neighbours.
+Surface anchored_balls(int resolution, const SampleValues& values) {
+  const int count = values.whole("count"), steps = std::max(2, resolution / 4);
+  const double radius = 0.5, post = 0.35;
+  MeshBuilder builder;
+  builder.append(sample_sphere(steps, FaceKind::triangles, [&](const Vec3& d) {
+    return Vec3(post * d[0], 1.3 * d[1], post * d[2]);
+  }));
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * pi * k / count, height = 0.11 * (k % 3 - 1);
+    const double width = std::sqrt(1 - std::pow(height / 1.3, 2)) * post;  // of the post at this height
+    const Vec3 out(std::cos(angle), 0, std::sin(angle));
+    const Vec3 centre = (width + radius - values["depth"]) * out + Vec3(0, height, 0);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3 + 1.1 * k, Vec3(2, 1, 3).normalized()).toRotationMatrix();
+    builder.append(sample_sphere(steps, FaceKind::triangles,
+                                 [&](const Vec3& d) { return Vec3(centre + radius * (turn * d)); }));
+  }
+  return builder.take();
+}
+
 }  // namespace
 
 std::vector<SampleMaker> scene_samples() {
@@ -103,6 +123,13 @@ std::vector<SampleMaker> scene_samples() {
         {{"tentacles", 10, 1, 60, "number of tentacles", true}}},
        56,
        jellyfish},
+      {{"anchored_balls",
+        "scene to repair around a fixed part: balls through a post, the group 'anchor', and through each other",
+        {{"count", 5, 1, 6, "number of balls", true}, {"depth", 0.12, 0.01, 0.3, "how far they stick in the post"}},
+        true,
+        {"anchor", "ball"}},
+       28,
+       anchored_balls},
   };
 }
 

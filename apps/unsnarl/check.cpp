@@ -22,11 +22,20 @@ namespace {
 
 constexpr int check_schema_version = 1;
 constexpr std::size_t places_in_text = 10;  // the JSON has all of them
+constexpr std::size_t components_in_text = 20;
 
 /// A group of intersecting faces that hang together, by pairs or by vertices.
 struct Place {
   std::size_t pairs = 0;
   std::vector<Index> faces;
+  Box box;
+};
+
+/// A component; its number in the list is what --fix-component takes.
+struct ComponentFindings {
+  Index first_face = 0;
+  std::size_t faces = 0;
+  std::size_t pairs_within = 0, pairs_with_others = 0;
   Box box;
 };
 
@@ -37,11 +46,19 @@ struct Findings {
   std::vector<Index> faces;  // in any pair
   std::vector<Place> places;  // most pairs first
   Topology topology;
+  std::vector<ComponentFindings> components;
   std::size_t obstructed_components = 0;
   std::size_t intersecting_components = 0;
   std::size_t pairs_within_components = 0;
   std::string triangulation;
 };
+
+void extend_by_face(Box& box, const SurfaceView& surface, Index f) {
+  for (const Index v : surface.face(f)) {
+    const double* p = &surface.positions[3 * static_cast<std::size_t>(v)];
+    box.extend(Vec3(p[0], p[1], p[2]));
+  }
+}
 
 std::vector<Place> find_places(const SurfaceView& surface, const Identification& identification,
                                const std::vector<IntersectingPair>& pairs, const std::vector<Index>& faces) {
@@ -63,10 +80,7 @@ std::vector<Place> find_places(const SurfaceView& surface, const Identification&
       places.emplace_back();
     }
     places[place].faces.push_back(f);
-    for (Index v : surface.face(f)) {
-      const double* p = &surface.positions[3 * static_cast<std::size_t>(v)];
-      places[place].box.extend(Vec3(p[0], p[1], p[2]));
-    }
+    extend_by_face(places[place].box, surface, f);
   }
   for (const IntersectingPair& pair : pairs) ++places[place_of[sets.find(pair.a)]].pairs;
   std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.pairs > b.pairs; });
@@ -91,10 +105,20 @@ Findings examine(const SurfaceView& surface, const FindOptions& options) {
   const auto component_of = [&](Index f) {
     return components.component_of_vertex[identification.vertex_of[surface.face(f)[0]]];
   };
+  found.components.resize(components.list.size());
+  for (Index f = static_cast<Index>(surface.face_count()); f-- > 0;) {
+    if (component_of(f) < 0) continue;
+    ComponentFindings& component = found.components[component_of(f)];
+    component.first_face = f;
+    ++component.faces;
+    extend_by_face(component.box, surface, f);
+  }
   for (const IntersectingPair& pair : found.pairs) {
     const Index a = component_of(pair.a), b = component_of(pair.b);
     involved.insert({a, b});
     found.pairs_within_components += a == b;
+    for (const Index c : {a, b}) found.components[c].pairs_with_others += a != b;
+    if (a == b) ++found.components[a].pairs_within;
   }
   found.intersecting_components = involved.size();
   found.places = find_places(surface, identification, found.pairs, found.faces);
@@ -122,7 +146,15 @@ nlohmann::ordered_json as_json(const Findings& found, const CheckOptions& option
                         {"intersecting", found.intersecting_components},
                         {"pairs_within", found.pairs_within_components},
                         {"pairs_between", found.pairs.size() - found.pairs_within_components},
-                        {"closed_non_orientable", found.obstructed_components}};
+                        {"closed_non_orientable", found.obstructed_components},
+                        {"list", nlohmann::ordered_json::array()}};
+  for (const ComponentFindings& component : found.components)
+    json["components"]["list"].push_back({{"first_face", component.first_face},
+                                          {"faces", component.faces},
+                                          {"pairs_within", component.pairs_within},
+                                          {"pairs_with_others", component.pairs_with_others},
+                                          {"min", {component.box.lo[0], component.box.lo[1], component.box.lo[2]}},
+                                          {"max", {component.box.hi[0], component.box.hi[1], component.box.hi[2]}}});
   json["topology"] = topology_json(found.topology);
   json["places"] = nlohmann::ordered_json::array();
   for (const Place& place : found.places)
@@ -136,6 +168,11 @@ nlohmann::ordered_json as_json(const Findings& found, const CheckOptions& option
 
 std::string counted(std::size_t number, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
+std::string extent(const Box& box) {
+  return fmt::format("x {:.4g} to {:.4g}, y {:.4g} to {:.4g}, z {:.4g} to {:.4g}", box.lo[0], box.hi[0], box.lo[1],
+                     box.hi[1], box.lo[2], box.hi[2]);
 }
 
 std::string as_text(const Findings& found, const CheckOptions& options, const Document& document) {
@@ -161,6 +198,14 @@ std::string as_text(const Findings& found, const CheckOptions& options, const Do
   defect(t.unused_vertices, "vertex of no face", "vertices of no face");
   defect(found.obstructed_components, "closed non-orientable component, which has no embedding in space",
          "closed non-orientable components, which have no embedding in space");
+  if (found.components.size() > 1)
+    for (std::size_t i = 0; i < std::min(found.components.size(), components_in_text); ++i) {
+      const ComponentFindings& c = found.components[i];
+      line(fmt::format("  component {:<3} {:>6} {:<5} {:>5} pairs within {:>5} with others; {}", i, c.faces,
+                       c.faces == 1 ? "face" : "faces", c.pairs_within, c.pairs_with_others, extent(c.box)));
+    }
+  if (found.components.size() > components_in_text)
+    line(fmt::format("  and {} more (--json lists all)", found.components.size() - components_in_text));
   if (found.pairs.empty()) {
     line("no self-intersections");
     return text;
@@ -175,10 +220,8 @@ std::string as_text(const Findings& found, const CheckOptions& options, const Do
   line(counted(found.places.size(), "place:", "places:"));
   for (std::size_t i = 0; i < std::min(found.places.size(), places_in_text); ++i) {
     const Place& place = found.places[i];
-    line(fmt::format("  {:>5} {:<5} {:>5} {:<5} x {:.4g} to {:.4g}, y {:.4g} to {:.4g}, z {:.4g} to {:.4g}",
-                     place.pairs, place.pairs == 1 ? "pair" : "pairs", place.faces.size(),
-                     place.faces.size() == 1 ? "face" : "faces", place.box.lo[0], place.box.hi[0], place.box.lo[1],
-                     place.box.hi[1], place.box.lo[2], place.box.hi[2]));
+    line(fmt::format("  {:>5} {:<5} {:>5} {:<5} {}", place.pairs, place.pairs == 1 ? "pair" : "pairs",
+                     place.faces.size(), place.faces.size() == 1 ? "face" : "faces", extent(place.box)));
   }
   if (found.places.size() > places_in_text)
     line(fmt::format("  and {} more (--json lists all)", found.places.size() - places_in_text));

@@ -33,6 +33,9 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
                   "How far apart positions may be to count as equal, in the units of the mesh")
       ->check(not_negative())
       ->type_name("LENGTH");
+  command.add_flag("--both-diagonals", options.both_diagonals,
+                   "Quads may be cut along either diagonal by who reads the file: faces intersect where they do for\n"
+                   "any choice. Else a quad counts as cut from its first corner (or its second, if that folds)");
   command.add_option("--threads", options.threads, "Threads to use; 0: as many as the machine has")
       ->check(CLI::Range(0, 1024).description(""))
       ->type_name("N");
@@ -43,6 +46,7 @@ FindOptions MeshOptions::find() const {
   FindOptions result;
   result.weld = weld == "none" ? Weld::none : weld == "all" ? Weld::all : Weld::seams;
   result.weld_tolerance = weld_tolerance;
+  result.both_diagonals = both_diagonals;
   result.threads = threads;
   return result;
 }

@@ -17,6 +17,7 @@ struct MeshOptions {
   std::string input, format;
   std::string goal = "all", weld = "seams";
   double weld_tolerance = 0;
+  bool both_diagonals = false;
   int threads = 0;
   bool quiet = false;
 

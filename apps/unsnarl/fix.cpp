@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <numeric>
+#include <new>
 
-#include "contact/intersection_finder.h"
 #include "exit_code.h"
+#include "fix_summary.h"
 #include "intersecting_faces.h"
+#include "memory_guard.h"
 #include "mesh_input.h"
 #include "progress.h"
 #include "render/picture.h"
 #include "render/png.h"
+#include "repair/face_pairs.h"
 #include "repair/measure.h"
 #include "repair/prepared_surface.h"
 #include "repair/report_json.h"
@@ -78,34 +79,6 @@ void check_format_of_output(const std::string& output, const Document& document)
                                  to_string(document.format()), to_string(document.format())));
 }
 
-RepairOptions repair_options(const FixOptions& options, const Document& document) {
-  RepairOptions result;
-  result.find = options.find();
-  result.goal = options.goal_wanted();
-  if (options.precision == "float32") result.precision = Precision::float32;
-  if (options.precision == "float64") result.precision = Precision::float64;
-  if (document.stores_float32()) {
-    if (result.precision == Precision::float64)
-      throw UsageError(fmt::format("--precision float64: this {} file stores 32-bit numbers; leave the option out",
-                                   to_string(document.format())));
-    result.precision = Precision::float32;
-  }
-  const double diagonal = diagonal_of(document.surface());
-  const double unit = options.absolute && diagonal > 0 ? 1 / diagonal : 1;
-  result.max_displacement_rel = options.max_displacement * unit;
-  result.min_gap_rel = options.min_gap * unit;
-  result.time_limit_s = options.time_limit_s;
-  result.memory_limit_mb = options.memory_limit_mb;
-  result.paper = options.paper;
-  result.recover = !options.no_recover;
-  result.as_written = [&document](std::span<const double> positions, bool float32) {
-    return document.as_written(positions, float32);
-  };
-  if (!options.fix_vertices.empty())
-    result.fixed = read_vertex_flags(options.fix_vertices, document.surface().view().vertex_count());
-  return result;
-}
-
 bool is_to_be_written(const RepairResult& result, const Surface& input, bool keep_partial) {
   switch (result.status) {
     case Status::embedded: return true;
@@ -144,9 +117,18 @@ class Fix {
         interruption_(interruption),
         output_(checked_output(options)),
         display_(progress_style(options.progress, options.quiet)),
+        memory_guard_(options.memory_limit_mb),
         document_(read_mesh(options.input, format_from_name(options.format))),
         repair_options_(repair_options(options, document_)) {
     check_format_of_output(output_, document_);
+    if (options.recompute_normals && !document_.recompute_normals())
+      say("note: --recompute-normals: there are no vertex normals in this {} file that could be updated",
+          to_string(document_.format()));
+    files_.input = options_.input;
+    files_.format = to_string(document_.format());
+    files_.vertices = surface().view().vertex_count();
+    files_.faces = surface().view().face_count();
+    files_.notes = document_.notes();
     files_.before_repair.push_back({"read", clock_.seconds(), peak_memory_mb()});
   }
 
@@ -172,9 +154,14 @@ class Fix {
 
     const ExitCode exit_code = exit_code_of(result_.status);
     write_pictures();
-    write_report(exit_code);
+    files_.exit_code = exit_code;
+    files_.seconds = clock_.seconds();
+    write_report();
     write_view();
-    summarise();
+    if (!options_.quiet) {
+      display_.clear();
+      tell(fix_summary(result_, repair_options_, files_));
+    }
     return exit_code;
   }
 
@@ -229,10 +216,8 @@ class Fix {
   void write_pictures() {
     if (options_.highlight.empty() && options_.picture.empty()) return;
     const PreparedSurface prepared = prepare(surface(), repair_options_.find);
-    IntersectionFinder finder(prepared.triangles());
-    const auto pairs_at = [&](std::span<const double> positions) {
-      return pairs_of_faces(prepared, finder.find(prepared.gather(positions)));
-    };
+    FacePairFinder finder(prepared);
+    const auto pairs_at = [&](std::span<const double> positions) { return finder.find(prepared.gather(positions)); };
     const std::vector<IntersectingPair> pairs_before = pairs_at(surface().positions);
     const std::vector<IntersectingPair> pairs_after = pairs_at(result_.positions);
     if (!options_.highlight.empty())
@@ -255,16 +240,9 @@ class Fix {
     }
   }
 
-  void write_report(ExitCode exit_code) {
+  void write_report() {
     if (options_.report.empty() && options_.view.empty()) return;
-    files_.input = options_.input;
-    files_.format = to_string(document_.format());
-    files_.vertices = surface().view().vertex_count();
-    files_.faces = surface().view().face_count();
     files_.triangulation = triangulate(surface()).statistics.describe();
-    files_.notes = document_.notes();
-    files_.exit_code = exit_code;
-    files_.seconds = clock_.seconds();
     if (!options_.report.empty()) write_file(options_.report, report().dump(2) + "\n", interruption_);
   }
 
@@ -283,60 +261,12 @@ class Fix {
     write_file(options_.view, view_page(source), interruption_);
   }
 
-  void summarise() {
-    const RepairReport& r = result_.report;
-    const auto counts = [](const PairCounts& pairs) {
-      if (pairs.total() == 0) return std::string("none");
-      std::string text;
-      for (std::size_t i = 0; i < pair_class_count; ++i)
-        if (pairs.by_class[i] > 0)
-          text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], pair_class_names[i]);
-      return text;
-    };
-    say("{}: {} vertices, {} faces, {} component{}", options_.input == standard_stream ? "mesh" : options_.input,
-        surface().view().vertex_count(), surface().view().face_count(), r.topology.components,
-        r.topology.components == 1 ? "" : "s");
-    say("  intersecting pairs before: {}", counts(r.before));
-    say("  intersecting pairs after:  {}", counts(r.after));
-    if (result_.positions != surface().positions)
-      say("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
-          100 * (1 - r.untouched_share), 100 * r.displacement_max_rel, 100 * r.displacement_mean_rel);
-    for (const Obstruction& obstruction : r.obstructions) say("  cannot be resolved: {}", obstruction.message);
-    say("  {}{}; {:.2f} s, {:.0f} MB", explanation(), float32_remark(), clock_.seconds(), peak_memory_mb());
-    if (!files_.output.empty())
-      say("  {}", output_ == standard_stream ? "written to standard output" : "wrote " + output_);
-    else if (result_.status != Status::obstructed)
-      say("  nothing written; --keep-partial writes what was reached");
-    else
-      say("  nothing written, since nothing else was to be repaired");
-  }
-
-  std::string explanation() const {
-    switch (result_.status) {
-      case Status::embedded:
-        return repair_options_.goal == Goal::all ? "embedded: no self-intersection is left"
-                                                 : "no faces that share no vertex intersect any more";
-      case Status::reduced: return "reduced: some self-intersections are left";
-      case Status::no_progress: return "no progress: nothing better than the input was found";
-      case Status::obstructed: return "obstructed: only what no motion of the vertices can resolve is left";
-      case Status::time_limit: return "stopped at the time limit";
-      case Status::memory_limit: return "stopped at the memory limit";
-      case Status::displacement_exceeded: return "displacement exceeded: a vertex had to move further than allowed";
-      case Status::cancelled: return "interrupted";
-    }
-    return "unknown status";
-  }
-
-  std::string float32_remark() const {
-    if (result_.status != Status::embedded || result_.report.float32_embedded) return "";
-    return " (in double precision; readers that round to 32 bits may see some)";
-  }
-
   Stopwatch clock_;
   const FixOptions& options_;
   Interruption& interruption_;
   std::string output_;
   ProgressDisplay display_;
+  MemoryGuard memory_guard_;
   Document document_;
   RepairOptions repair_options_;
   RepairResult result_;
@@ -345,78 +275,15 @@ class Fix {
 
 }  // namespace
 
-void add_fix_options(CLI::App& command, FixOptions& options) {
-  add_mesh_options(command, options);
-  command.add_option("-o,--output", options.output, "Where the repaired mesh goes; '-' for standard output")
-      ->type_name("OUT");
-  command.add_flag("--in-place", options.in_place, "Overwrite IN with the repaired mesh");
-  command.add_flag("--keep-partial", options.keep_partial,
-                   "Write the result also where self-intersections are left or a limit was reached");
-  const std::string what = "What may move";
-  command.add_option("--fix-vertices", options.fix_vertices, "File with the 0-based ids of vertices that must not move")
-      ->type_name("FILE")
-      ->group(what);
-  command
-      .add_option("--max-displacement", options.max_displacement,
-                  "How far any vertex may move, as a fraction of the bounding-box diagonal; 0: any distance")
-      ->check(not_negative())
-      ->type_name("X")
-      ->group(what);
-  command
-      .add_option("--min-gap", options.min_gap,
-                  "Wanted gap between sheets, as a fraction of the diagonal; 0: just enough to be safe")
-      ->check(not_negative())
-      ->type_name("X")
-      ->group(what);
-  command.add_flag("--absolute", options.absolute, "These two are lengths in the units of the mesh")->group(what);
-  command
-      .add_option("--precision", options.precision,
-                  "Number format in which the result must hold: 'float32' as most programs read it, 'float64',\n"
-                  "or 'auto' (default): float32 where the coordinates allow it")
-      ->check(one_of({"auto", "float32", "float64"}))
-      ->type_name("auto|float32|float64");
-  const std::string limits = "Limits";
-  command.add_option("--time-limit", options.time_limit_s, "Stop after this many seconds; 0: none")
-      ->check(not_negative())
-      ->type_name("S")
-      ->group(limits);
-  command.add_option("--memory-limit", options.memory_limit_mb, "Stop when the program holds this many MB; 0: none")
-      ->check(not_negative())
-      ->type_name("MB")
-      ->group(limits);
-  const std::string shown = "What is shown";
-  command.add_option("--report", options.report, "Write a JSON report: counts, displacement, regions, seconds, ...")
-      ->type_name("FILE")
-      ->group(shown);
-  command.add_option("--picture", options.picture, "Write a picture, before and after, intersecting faces in red")
-      ->type_name("FILE.png")
-      ->group(shown);
-  command.add_option("--view", options.view, "Write a page to look at: before, after, displacement (see unsnarl view)")
-      ->type_name("PAGE.html")
-      ->group(shown);
-  command.add_option("--highlight", options.highlight, "Write a PLY in which intersecting faces are coloured")
-      ->type_name("FILE.ply")
-      ->group(shown);
-  command
-      .add_option("--progress", options.progress,
-                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
-      ->check(one_of({"auto", "json", "none"}))
-      ->type_name("auto|json|none")
-      ->group(shown);
-  const std::string research = "For research";
-  command.add_flag("--paper", options.paper, "Repair as the paper does it, instead of region by region")
-      ->group(research);
-  command.add_flag("--no-recover", options.no_recover, "Stop after untangling, without moving back toward the input")
-      ->group(research);
-  command.footer(
-      "Examples:\n"
-      "  unsnarl fix hand.obj -o hand_fixed.obj\n"
-      "  unsnarl fix scan.ply -o fixed.ply --picture fixed.png --report fixed.json\n"
-      "  unsnarl fix body.glb --in-place --max-displacement 0.01 --fix-vertices seam.txt\n\n"
-      "Exit codes: 0 embedded, 1 self-intersections left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
-      "6 interrupted, 7 all repaired but what no motion can resolve, 70 internal error.");
+int run_fix(const FixOptions& options, Interruption& interruption) {
+  try {
+    return Fix(options, interruption).run();
+  } catch (const std::bad_alloc&) {
+    if (options.memory_limit_mb <= 0) throw;
+    tell(fmt::format("unsnarl: {} MB are not enough to read, examine and write this mesh; raise --memory-limit\n",
+                     options.memory_limit_mb));
+    return exit_limit;
+  }
 }
-
-int run_fix(const FixOptions& options, Interruption& interruption) { return Fix(options, interruption).run(); }
 
 }  // namespace unsnarl::app

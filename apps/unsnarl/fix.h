@@ -2,6 +2,8 @@
 
 #include "command_options.h"
 #include "interruption.h"
+#include "unsnarl/document.h"
+#include "unsnarl/parts.h"
 
 namespace unsnarl::app {
 
@@ -14,11 +16,18 @@ struct FixOptions : MeshOptions {
   double max_displacement = 0, min_gap = 0;  ///< fractions of the diagonal, or lengths if `absolute`
   bool absolute = false;
   std::string fix_vertices;
+  bool fix_boundary = false;
+  bool each = false, together = false;
+  Parts fix, only;  ///< held still; worked on, all else held still (empty: everything is worked on)
+  bool recompute_normals = false;
   bool paper = false, no_recover = false;
   std::string report, highlight, picture, view;
   std::string progress = "auto";
 };
 void add_fix_options(CLI::App& command, FixOptions& options);
+
+/// What the options mean for this mesh. Lives no longer than `document`. Throws UsageError, FileError.
+RepairOptions repair_options(const FixOptions& options, const Document& document);
 
 /// Reads, repairs, writes to a temporary file, reads it back, certifies what was read, renames. Returns the exit code.
 /// Throws FileError, WriteError, UsageError.

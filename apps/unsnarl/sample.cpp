@@ -86,7 +86,9 @@ int run_sample(const SampleOptions& options, Interruption& interruption) {
   std::string bytes;
   try {
     const Surface surface = make_sample(options.name, options.resolution, parsed(options.parameters));
-    bytes = surface_file(surface, *format, fmt::format("unsnarl sample {}", options.name));
+    const auto sample = std::find_if(all_samples().begin(), all_samples().end(),
+                                     [&](const Sample& s) { return s.name == options.name; });
+    bytes = surface_file(surface, *format, fmt::format("unsnarl sample {}", options.name), sample->groups);
   } catch (const std::invalid_argument& e) {
     throw UsageError(e.what());
   }

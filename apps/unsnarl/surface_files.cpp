@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "exit_code.h"
+#include "unsnarl/parts.h"
 
 namespace unsnarl::app {
 namespace {
@@ -50,13 +51,18 @@ std::vector<std::int32_t> pairs_of_faces(const std::vector<IntersectingPair>& pa
 
 }  // namespace
 
-std::string surface_file(const SurfaceView& surface, Format format, const std::string& comment) {
+std::string surface_file(const SurfaceView& surface, Format format, const std::string& comment,
+                         const std::vector<std::string>& groups) {
   std::string text;
+  const std::vector<std::int32_t> components =
+      groups.empty() ? std::vector<std::int32_t>{} : component_of_faces(surface);
   switch (format) {
     case Format::obj:
       text = "# " + comment + "\n";
       append_positions(text, surface.positions, "v ");
       for (std::size_t f = 0; f < surface.face_count(); ++f) {
+        if (!groups.empty() && (f == 0 || components[f] != components[f - 1]))
+          text += "g " + groups[std::min(static_cast<std::size_t>(components[f]), groups.size() - 1)] + "\n";
         text += 'f';
         for (Index v : surface.face(f)) fmt::format_to(std::back_inserter(text), " {}", v + 1);
         text += '\n';

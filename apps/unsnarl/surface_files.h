@@ -11,8 +11,10 @@
 namespace unsnarl::app {
 
 /// A new file with nothing but the surface; coordinates with the fewest digits that give the double back.
-/// Formats: obj, off, ply (ASCII, double). Throws UsageError for others.
-std::string surface_file(const SurfaceView& surface, Format format, const std::string& comment);
+/// groups: names of the components in the order of their first faces, the last for all further ones; only OBJ keeps
+/// them. Formats: obj, off, ply (ASCII, double). Throws UsageError for others.
+std::string surface_file(const SurfaceView& surface, Format format, const std::string& comment,
+                         const std::vector<std::string>& groups = {});
 
 /// A binary PLY for looking at: the surface at `positions`, faces coloured red where they intersect, orange where they
 /// did before, grey elsewhere; and the number of pairs that each face is in, before and after, as face properties.

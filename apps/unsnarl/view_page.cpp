@@ -35,7 +35,7 @@ std::string view_page(const PageSource& source) {
     std::vector<IntersectingPair> of_triangles = finder.find(x);
     if (source.goal == Goal::disjoint)
       std::erase_if(of_triangles, [](const IntersectingPair& pair) { return pair.kind != PairClass::disjoint; });
-    pairs = pairs_of_faces(prepared, of_triangles);
+    pairs = pairs_of_faces(prepared.triangulation.polygon, of_triangles);
     return PageState{positions, pairs, intersection_segments(x, prepared.triangles(), of_triangles)};
   };
   PageContent content;

@@ -49,7 +49,10 @@ enum class Weld : std::uint8_t {
 struct FindOptions {
   Weld weld = Weld::seams;
   double weld_tolerance = 0;  ///< length, in the units of the positions: vertices this close count as equal. >= 0
-  int threads = 0;            ///< 0: as many as the machine has
+  /// Quads have two diagonals: count two faces as intersecting where they do for any choice of them (a diagonal that
+  /// folds its quad left out). Readers of the file may choose either.
+  bool both_diagonals = false;
+  int threads = 0;  ///< 0: as many as the machine has
 };
 
 /// All pairs of faces that intersect, sorted by (a, b), decided by exact predicates. Ids are those of the given faces

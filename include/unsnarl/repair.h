@@ -21,7 +21,7 @@ enum class Status : std::uint8_t {
   obstructed,             ///< everything else repaired; only the listed obstructions remain
   time_limit,             ///< stopped by RepairOptions::time_limit_s
   memory_limit,           ///< stopped by RepairOptions::memory_limit_mb
-  displacement_exceeded,  ///< repaired, but some vertex had to move further than allowed
+  displacement_exceeded,  ///< some self-intersections are left, since resolving them moves a vertex too far
   cancelled,              ///< stopped by Context::cancel
 };
 std::string_view to_string(Status status);
@@ -64,21 +64,26 @@ struct RepairOptions {
   /// The positions that a reader of the file to be written will see, given those to be written and whether float32
   /// digits are enough. Unset: rounded to `precision`. The result is certified as it returns them.
   std::function<std::vector<double>(std::span<const double> positions, bool float32)> as_written;
-  std::vector<std::uint8_t> fixed;  ///< one flag a vertex, nonzero: must not move. Empty: all may move
+  /// One flag a vertex, nonzero: must not move, nor those identified with it. Empty: all may move.
+  std::vector<std::uint8_t> fixed;
+  bool each_component = false;      ///< repair every component as if alone; what runs through others may do so still
   double min_gap_rel = 0;           ///< wanted gap between sheets / bounding-box diagonal; 0: a few float32 units
-  double max_displacement_rel = 0;  ///< allowed displacement / bounding-box diagonal; 0: any
+  double max_displacement_rel = 0;  ///< no vertex moves farther / bounding-box diagonal; 0: any
   double time_limit_s = 0;          ///< wall-clock seconds; 0: none
-  double memory_limit_mb = 0;       ///< resident memory, MB; 0: none
+  /// MB (10^6 bytes) of resident memory, looked at all the time; 0: none. To be sure that it is never passed, limit
+  /// the process too: an allocation that fails ends the work with Status::memory_limit and what was reached.
+  double memory_limit_mb = 0;
   bool recover = true;              ///< false: stop after untangling (for research)
   bool paper = false;               ///< the configuration of the paper instead of the regional ladder
 };
 
-/// Something that no motion of the vertices can resolve.
+/// Something that no motion of the vertices can resolve, or that the options forbid to.
 struct Obstruction {
   enum class Kind : std::uint8_t {
     closed_non_orientable,  ///< a closed non-orientable component has no embedding in space
     duplicate_faces,        ///< several faces on the same three vertices
-    fixed_faces,            ///< two intersecting faces with all vertices fixed
+    fixed_faces,            ///< intersecting faces with all vertices fixed
+    between_components,     ///< faces of different components, which RepairOptions::each_component leaves
   };
   Kind kind;
   std::vector<std::int32_t> faces;  ///< the faces concerned (input ids); a whole component is named by its first face
@@ -101,6 +106,13 @@ struct RegionReport {
   std::size_t pairs = 0;  ///< intersecting pairs it started with
   int iterations = 0;
   double seconds = 0;
+};
+
+/// A component with self-intersections of its own, before or after.
+struct ComponentReport {
+  std::size_t component = 0;  ///< number in the order of the first faces (see component_of_faces)
+  std::int32_t first_face = 0;
+  std::size_t pairs_before = 0, pairs_after = 0;  ///< intersecting pairs of its faces among each other
 };
 
 struct StageReport {
@@ -131,6 +143,7 @@ struct RepairReport {
   bool float32_embedded = false;             ///< holds after rounding all positions to float32
   Precision precision = Precision::float64;  ///< the format in which the result was made to hold
   std::vector<RegionReport> regions;
+  std::vector<ComponentReport> components;
   std::vector<StageReport> stages;
 };
 
@@ -142,7 +155,8 @@ struct RepairResult {
 
 /// Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
 ///
-/// Never returns positions with more intersecting pairs than the input. The same input and options give the same
+/// Nothing is lost where memory runs out on the way; std::bad_alloc is thrown only if there is not even enough to find
+/// the input's intersections. Never returns positions with more intersecting pairs than the input. The same input and options give the same
 /// bytes at any thread count (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an

@@ -37,9 +37,8 @@ std::vector<double> turned_normals(const SurfaceView& before, std::span<const do
   std::size_t corner = 0;
   for (std::size_t f = 0; f < before.face_count(); ++f) {
     const std::span<const std::int32_t> face = before.face(f);
-    const bool moved = std::any_of(face.begin(), face.end(), [&](std::int32_t v) {
-      return vertex(before.positions, v) != vertex(after, v);
-    });
+    const bool moved = std::any_of(face.begin(), face.end(),
+                                   [&](std::int32_t v) { return vertex(before.positions, v) != vertex(after, v); });
     const Vector3d area_before = area_vector(before.positions, face), area_after = area_vector(after, face);
     for (const std::int32_t v : face) {
       const std::int32_t n = normal_of_corner[corner++];

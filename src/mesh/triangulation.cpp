@@ -41,6 +41,17 @@ class PolygonCutter {
     }
   }
 
+  /// The same for the other diagonal of a quad, if neither folds.
+  template <class Emit>
+  void cut_otherwise(std::span<const Index> corners, Emit&& emit) {
+    if (corners.size() != 4) return;
+    const Index a = corners[0], b = corners[1], c = corners[2], d = corners[3];
+    find_mean_normal(corners);
+    if (std::min({side(a, b, c), side(a, c, d), side(b, c, d), side(b, d, a)}) <= 0) return;
+    emit(b, c, d);
+    emit(b, d, a);
+  }
+
  private:
   Vec3 position(Index v) const {
     const double* p = &surface_.positions[3 * static_cast<std::size_t>(v)];
@@ -183,6 +194,19 @@ Triangulation triangulate(const SurfaceView& surface, std::span<const Index> ver
     result.polygon.insert(result.polygon.end(), block.polygon.begin(), block.polygon.end());
     add(result.statistics, block.statistics);
   }
+  return result;
+}
+
+Triangulation triangulate_otherwise(const SurfaceView& surface, std::span<const Index> vertex_of) {
+  Triangulation result;
+  PolygonCutter cutter(surface, result.statistics);
+  for (std::size_t f = 0; f < surface.face_count(); ++f)
+    cutter.cut_otherwise(surface.face(f), [&](Index a, Index b, Index c) {
+      const Triangle t = vertex_of.empty() ? Triangle{a, b, c} : Triangle{vertex_of[a], vertex_of[b], vertex_of[c]};
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
+      result.triangles.push_back(t);
+      result.polygon.push_back(static_cast<Index>(f));
+    });
   return result;
 }
 

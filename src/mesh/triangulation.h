@@ -39,4 +39,8 @@ struct Triangulation {
 /// Precondition: valid ids, finite coordinates. The result does not depend on the number of threads.
 Triangulation triangulate(const SurfaceView& surface, std::span<const Index> vertex_of = {});
 
+/// The other way to cut the quads that can be cut either way: along the diagonal from the second corner, where neither
+/// diagonal folds. Same precondition; statistics stay empty.
+Triangulation triangulate_otherwise(const SurfaceView& surface, std::span<const Index> vertex_of = {});
+
 }  // namespace unsnarl

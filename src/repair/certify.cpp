@@ -6,6 +6,7 @@
 
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
+#include "repair/face_pairs.h"
 #include "repair/prepared_surface.h"
 #include "repair/rounding.h"
 #include "repair/threads.h"
@@ -26,19 +27,17 @@ Certificate certify(const SurfaceView& input, std::span<const double> positions,
   for (std::size_t v = 0; v < id.size() && options.weld_tolerance == 0; ++v)
     for (int k = 0; k < 3; ++k) certificate.seams_closed &= positions[3 * v + k] == x(k, id[v]);
   certificate.new_zero_area_faces = count_lost_areas(prepared.rest, x, prepared.triangles());
-  IntersectionFinder finder(prepared.triangles());
-  const auto pairs = finder.find(x);
-  certificate.triangle_pairs = pairs.size();
-  certificate.pairs = count_by_class(pairs_of_faces(prepared, pairs));
-  certificate.pairs_float32 = count_by_class(pairs_of_faces(prepared, finder.find(rounded_to_float32(x))));
+  certificate.triangle_pairs = IntersectionFinder(prepared.triangles()).find(x).size();
+  FacePairFinder finder(prepared);
+  certificate.pairs = count_by_class(finder.find(x));
+  certificate.pairs_float32 = count_by_class(finder.find(rounded_to_float32(x)));
   return certificate;
 }
 
 std::vector<IntersectingPair> find_intersections(const SurfaceView& surface, const FindOptions& options) {
   const ThreadLimit threads(options.threads);
   const PreparedSurface prepared = prepare(surface, options);
-  IntersectionFinder finder(prepared.triangles());
-  return pairs_of_faces(prepared, finder.find(prepared.rest));
+  return FacePairFinder(prepared).find(prepared.rest);
 }
 
 }  // namespace unsnarl

@@ -83,4 +83,30 @@ std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, i
   return all;
 }
 
+std::vector<std::vector<Index>> merge_overlapping(std::vector<std::vector<Index>> sets, Index vertex_count) {
+  std::vector<Index> owner(vertex_count, -1);
+  std::vector<std::vector<Index>> result;
+  for (std::vector<Index>& set : sets) {
+    std::vector<Index> overlapped;
+    for (Index v : set)
+      if (owner[v] >= 0) overlapped.push_back(owner[v]);
+    std::sort(overlapped.begin(), overlapped.end());
+    overlapped.erase(std::unique(overlapped.begin(), overlapped.end()), overlapped.end());
+    const Index target = overlapped.empty() ? static_cast<Index>(result.size()) : overlapped.front();
+    if (overlapped.empty()) result.emplace_back();
+    for (std::size_t k = 1; k < overlapped.size(); ++k) {
+      set.insert(set.end(), result[overlapped[k]].begin(), result[overlapped[k]].end());
+      result[overlapped[k]].clear();
+    }
+    result[target].insert(result[target].end(), set.begin(), set.end());
+    for (Index v : result[target]) owner[v] = target;
+  }
+  std::erase_if(result, [](const auto& set) { return set.empty(); });
+  for (auto& set : result) {
+    std::sort(set.begin(), set.end());
+    set.erase(std::unique(set.begin(), set.end()), set.end());
+  }
+  return result;
+}
+
 }  // namespace unsnarl

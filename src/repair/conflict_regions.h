@@ -29,4 +29,7 @@ std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const
 std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, int rings,
                           std::size_t hub_valence = no_hubs);
 
+/// Sets of vertices that overlap become one; each ascending.
+std::vector<std::vector<Index>> merge_overlapping(std::vector<std::vector<Index>> sets, Index vertex_count);
+
 }  // namespace unsnarl

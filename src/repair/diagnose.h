@@ -19,6 +19,10 @@ struct Diagnosis {
   std::vector<IntersectingPair> obstructed;  ///< those pairs that no motion can resolve; a subset of `pairs`, sorted
 };
 
+inline bool are_of_two_components(const Components& components, const IntersectingPair& pair) {
+  return components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b];
+}
+
 /// `fixed`: one flag an identified vertex; empty: none.
 Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed);
 

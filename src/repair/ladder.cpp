@@ -5,6 +5,7 @@
 #include <chrono>
 #include <iterator>
 #include <limits>
+#include <set>
 
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
@@ -150,6 +151,7 @@ class Climb {
     double seconds = 0;
     bool clean = false;
     std::size_t pairs_left = not_counted;
+    bool rejected = false;  // clean, but not accepted
   };
 
   /// Where a rung that failed had the fewest pairs.
@@ -164,7 +166,7 @@ class Climb {
   enum class GainKind { large, any };
 
   void keep_gain(Attempt& attempt, const Rung& rung) {
-    if (attempt.pairs_left >= attempt.region.pairs.size()) return;
+    if (options_.accept || attempt.pairs_left >= attempt.region.pairs.size()) return;
     const Index n = attempt.patch.free_count;
     RegionReport report = report_of(attempt, rung);
     report.pairs -= attempt.pairs_left;
@@ -251,6 +253,10 @@ class Climb {
           boxes, [&](std::size_t i) { run(attempts[i], rung, index); },
           [&](std::size_t i) {
             Attempt& attempt = attempts[i];
+            if (attempt.rejected) {
+              rejected_.insert(attempt.region.core.begin(), attempt.region.core.end());
+              return;
+            }
             if (!attempt.clean) return keep_gain(attempt, rung);
             const double moved =
                 (attempt.patch.x - attempt.start).leftCols(attempt.patch.free_count).colwise().norm().maxCoeff();
@@ -276,6 +282,11 @@ class Climb {
     std::vector<std::uint8_t> taken(regions.size(), 0);
     std::vector<Attempt> attempts;
     for (std::size_t r = 0; r < regions.size(); ++r) {
+      // What is not accepted of a part will hardly be of the whole.
+      const auto was_rejected = [&](Index v) { return rejected_.count(v) > 0; };
+      if (rung.rings == whole_component &&
+          std::any_of(regions[r].core.begin(), regions[r].core.end(), was_rejected))
+        continue;
       if (taken[r]) continue;
       taken[r] = 1;
       Attempt attempt;
@@ -311,6 +322,7 @@ class Climb {
     attempt.patch.edge_length = attempt.edge_length;
     attempt.start = attempt.patch.x;
     solve(attempt, rung, foreign_pairs(attempt.patch, attempt.region));
+    attempt.rejected = attempt.clean && options_.accept && !options_.accept(attempt.patch);
     attempt.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
@@ -360,6 +372,7 @@ class Climb {
   std::vector<IntersectingPair> pairs_;
   std::vector<Gain> gains_;
   bool has_taken_gains_ = false;
+  std::set<Index> rejected_;  // vertices of regions that were resolved in a way that was not accepted
   LadderResult result_;
 };
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "repair/patch.h"
 #include "repair/scene.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/repair.h"
@@ -12,6 +13,9 @@ namespace unsnarl {
 struct LadderOptions {
   std::function<bool()> stop;
   std::function<void(std::size_t pairs_left)> on_progress;
+  /// Asked about a patch that a rung resolved (from any thread); may improve it. False: the region climbs on.
+  /// Regions that are not resolved then stay where they are.
+  std::function<bool(Patch& patch)> accept;
 };
 
 struct LadderResult {

@@ -6,8 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
+#include <string>
 #include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "energy/minkowski_penalty.h"
 #include "geometry/box.h"
@@ -129,6 +135,49 @@ void measure_change(const SurfaceView& surface, const PreparedSurface& prepared,
       report.diagonal > 0 ? 0.5 * deepest_overlap(prepared, diagnosis) / report.diagonal : 0;
   measure_stretch(prepared, diagnosis.edge_count, x, report);
   report.area_change_rel = area > 0 ? total_area(x, triangles) / area - 1 : 0;
+}
+
+void measure_components(const PreparedSurface& prepared, const Diagnosis& diagnosis,
+                        const std::vector<IntersectingPair>& left, RepairReport& report) {
+  const Components& known = diagnosis.components;
+  std::vector<ComponentReport> components(known.list.size());
+  const auto count = [&](const std::vector<IntersectingPair>& pairs, std::size_t ComponentReport::* counter) {
+    std::vector<std::vector<IntersectingPair>> own(components.size());
+    for (const IntersectingPair& pair : pairs)
+      if (!are_of_two_components(known, pair)) own[known.component_of_triangle[pair.a]].push_back(pair);
+    for (std::size_t c = 0; c < own.size(); ++c)
+      components[c].*counter = pairs_of_faces(prepared.triangulation.polygon, own[c]).size();
+  };
+  count(diagnosis.pairs, &ComponentReport::pairs_before);
+  count(left, &ComponentReport::pairs_after);
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    if (components[c].pairs_before + components[c].pairs_after == 0) continue;
+    components[c].component = c;
+    components[c].first_face = prepared.triangulation.polygon[known.list[c].first_triangle];
+    report.components.push_back(components[c]);
+  }
+}
+
+void name_pairs_between_components(const PreparedSurface& prepared, const Diagnosis& diagnosis,
+                                   const std::vector<IntersectingPair>& left, RepairReport& report) {
+  std::vector<IntersectingPair> between;
+  for (const IntersectingPair& pair : left)
+    if (are_of_two_components(diagnosis.components, pair)) between.push_back(pair);
+  if (between.empty()) return;
+  between = pairs_of_faces(prepared.triangulation.polygon, between);
+  Obstruction obstruction{Obstruction::Kind::between_components, {}, {}};
+  for (const IntersectingPair& pair : between) obstruction.faces.insert(obstruction.faces.end(), {pair.a, pair.b});
+  std::sort(obstruction.faces.begin(), obstruction.faces.end());
+  obstruction.faces.erase(std::unique(obstruction.faces.begin(), obstruction.faces.end()), obstruction.faces.end());
+  obstruction.message = std::to_string(between.size()) +
+                        " pairs of faces of different components intersect: each component was repaired by itself";
+  report.obstructions.push_back(std::move(obstruction));
+}
+
+void release_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 double resident_memory_mb() {

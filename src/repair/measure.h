@@ -16,6 +16,15 @@ double diagonal_of(const SurfaceView& surface);
 void measure_change(const SurfaceView& surface, const PreparedSurface& prepared, const Diagnosis& diagnosis,
                     std::span<const double> positions, RepairReport& report);
 
+/// Fills the list of components: those with pairs (of triangles) of their own in the input or in `left`.
+void measure_components(const PreparedSurface& prepared, const Diagnosis& diagnosis,
+                        const std::vector<IntersectingPair>& left, RepairReport& report);
+/// Adds the obstruction that the pairs in `left` between two components are, if there are any.
+void name_pairs_between_components(const PreparedSurface& prepared, const Diagnosis& diagnosis,
+                                   const std::vector<IntersectingPair>& left, RepairReport& report);
+
+/// Gives memory that is not in use back to the system, as far as the allocator can.
+void release_free_memory();
 /// Resident memory of this process, MB: now, and the most so far.
 double resident_memory_mb();
 double peak_memory_mb();

@@ -29,12 +29,13 @@ PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options) 
   PreparedSurface prepared;
   prepared.identification = identify(surface, options.weld, options.weld_tolerance);
   prepared.triangulation = triangulate(surface, prepared.identification.vertex_of);
+  if (options.both_diagonals)
+    prepared.otherwise = triangulate_otherwise(surface, prepared.identification.vertex_of);
   prepared.rest = prepared.gather(surface.positions);
   return prepared;
 }
 
-std::vector<IntersectingPair> pairs_of_faces(const PreparedSurface& prepared, std::span<const IntersectingPair> pairs) {
-  const std::vector<Index>& polygon = prepared.triangulation.polygon;
+std::vector<IntersectingPair> pairs_of_faces(std::span<const Index> polygon, std::span<const IntersectingPair> pairs) {
   std::vector<IntersectingPair> faces;
   faces.reserve(pairs.size());
   for (const IntersectingPair& pair : pairs) {

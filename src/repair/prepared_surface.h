@@ -17,6 +17,7 @@ namespace unsnarl {
 struct PreparedSurface {
   Identification identification;
   Triangulation triangulation;
+  Triangulation otherwise;  ///< quads along their other diagonals; empty unless FindOptions::both_diagonals
   Positions rest;  ///< of identified vertices
 
   std::span<const Triangle> triangles() const { return triangulation.triangles; }
@@ -29,7 +30,8 @@ struct PreparedSurface {
 /// Throws std::invalid_argument where the surface makes no sense (see require_valid).
 PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options);
 
-/// Pairs of triangles -> pairs of the faces they were cut from, each once, in the class of its first occurrence.
-std::vector<IntersectingPair> pairs_of_faces(const PreparedSurface& prepared, std::span<const IntersectingPair> pairs);
+/// Pairs of triangles -> pairs of the faces they were cut from (`polygon`, of each triangle), sorted, each once, in the
+/// class of its first occurrence.
+std::vector<IntersectingPair> pairs_of_faces(std::span<const Index> polygon, std::span<const IntersectingPair> pairs);
 
 }  // namespace unsnarl

@@ -4,14 +4,20 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <new>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
 #include "repair/conflict_regions.h"
 #include "repair/cuts.h"
 #include "repair/diagnose.h"
+#include "repair/face_pairs.h"
+#include "repair/judge.h"
 #include "repair/ladder.h"
 #include "repair/local_solver.h"
 #include "repair/measure.h"
@@ -21,6 +27,7 @@
 #include "repair/recover.h"
 #include "repair/rounding.h"
 #include "repair/scene.h"
+#include "repair/send_home.h"
 #include "repair/threads.h"
 #include "repair/waves.h"
 
@@ -55,25 +62,27 @@ class Repair {
     diagnosis_ = diagnose(surface_, prepared_, fixed);
     result_.report.topology = diagnosis_.topology;
     result_.report.obstructions = diagnosis_.obstructions;
-    result_.report.before = count_by_class(pairs_of_faces(prepared_, diagnosis_.pairs));
+    judge_.emplace(prepared_, diagnosis_, options_);
+    result_.report.before = result_.report.after = judge_->pairs_at(prepared_.rest).faces;
     result_.positions.assign(surface_.positions.begin(), surface_.positions.end());
-
-    ignored_ = diagnosis_.obstructed;
-    if (options_.goal == Goal::disjoint) {
-      ignored_.clear();
-      for (const IntersectingPair& pair : diagnosis_.pairs)
-        if (pair.kind != PairClass::disjoint ||
-            std::binary_search(diagnosis_.obstructed.begin(), diagnosis_.obstructed.end(), pair))
-          ignored_.push_back(pair);
+    reached_ = prepared_.rest;
+    try {
+      if (options_.each_component)
+        work_on_each_component(fixed);
+      else
+        work_on_everything(std::move(fixed));
+    } catch (const std::bad_alloc&) {
+      run_out_of_memory();
     }
-    scene_ = make_scene(prepared_.rest, prepared_.triangulation.triangles, std::move(fixed));
-    IntersectionFinder finder(prepared_.triangulation.triangles);
-    choose_precision();
-    if (ignored_.size() < diagnosis_.pairs.size() || has_float32_conflict(finder)) {
-      work(finder);
-      settle_cut(finder);
+    scene_ = {};
+    try {
+      finish();
+    } catch (const std::bad_alloc&) {  // the result cannot be examined, so it is none
+      run_out_of_memory();
+      result_.positions.assign(surface_.positions.begin(), surface_.positions.end());
+      result_.report.after = result_.report.before;
+      result_.status = Status::memory_limit;
     }
-    finish(finder);
     return std::move(result_);
   }
 
@@ -88,6 +97,82 @@ class Repair {
     if (options_.find.threads < 0)
       throw std::invalid_argument("RepairOptions::find.threads is " + std::to_string(options_.find.threads) +
                                   "; give 0 for as many as the machine has, or their number");
+  }
+
+  // What is worked on: everything at once, or one component after the other.
+
+  void work_on_everything(std::vector<std::uint8_t> fixed) {
+    cut_ = prepared_.triangulation;
+    scene_ = make_scene(prepared_.rest, cut_.triangles, std::move(fixed));
+    pairs_ = diagnosis_.pairs;
+    component_of_ = diagnosis_.components.component_of_triangle;
+    for (const IntersectingPair& pair : pairs_)
+      if (judge_->is_set_aside(pair)) ignored_.push_back(pair);
+    work_on_scene();
+  }
+
+  void work_on_each_component(const std::vector<std::uint8_t>& fixed) {
+    const std::vector<Index>& component_of = diagnosis_.components.component_of_triangle;
+    const Index count = diagnosis_.components.count();
+    std::vector<std::vector<Index>> members(count);
+    std::vector<std::vector<IntersectingPair>> pairs(count);
+    std::vector<Index> number(component_of.size());  // of each triangle in its component
+    for (Index t = 0; t < static_cast<Index>(component_of.size()); ++t) {
+      number[t] = static_cast<Index>(members[component_of[t]].size());
+      members[component_of[t]].push_back(t);
+    }
+    for (const IntersectingPair& pair : diagnosis_.pairs)
+      if (component_of[pair.a] == component_of[pair.b]) pairs[component_of[pair.a]].push_back(pair);
+    bool float32 = true;
+    for (Index c = 0; c < count; ++c) {
+      // One without conflict is as it should be, unless rounding is asked to be looked at too.
+      const bool is_of_interest = !pairs[c].empty() || options_.precision == Precision::float32;
+      if (!is_of_interest || diagnosis_.components.list[c].obstructed() || stopped()) continue;
+      component_of_.assign(members[c].size(), c);
+      cut_ = of_part(prepared_.triangulation);
+      scene_ = make_scene(prepared_.rest, cut_.triangles, fixed);
+      pairs_.clear();
+      ignored_.clear();
+      for (const IntersectingPair& pair : pairs[c]) {
+        pairs_.push_back({number[pair.a], number[pair.b], pair.kind});
+        if (judge_->is_set_aside(pair)) ignored_.push_back(pairs_.back());
+      }
+      work_on_scene();
+      float32 &= float32_;
+    }
+    float32_ = float32 && options_.precision != Precision::float64;
+  }
+
+  /// What a cut of all polygons has of the part that is worked on.
+  Triangulation of_part(const Triangulation& cut) const {
+    if (!options_.each_component) return cut;
+    Triangulation part;
+    for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
+      if (diagnosis_.components.component_of_vertex[cut.triangles[t][0]] != component_of_.front()) continue;
+      part.triangles.push_back(cut.triangles[t]);
+      part.polygon.push_back(cut.polygon[t]);
+    }
+    return part;
+  }
+
+  void work_on_scene() {
+    choose_precision();
+    IntersectionFinder finder(cut_.triangles);
+    const bool other_diagonals_matter = !prepared_.otherwise.triangles.empty();
+    if (ignored_.size() == pairs_.size() && !has_float32_conflict(finder) && !other_diagonals_matter) return;
+    try {
+      work(finder);
+      settle_cut(finder);
+    } catch (const std::bad_alloc&) {
+      run_out_of_memory();
+    }
+    if (options_.max_displacement_rel > 0 &&
+        send_home_what_is_too_far(scene_, merge_overlapping(std::move(moved_), scene_.vertex_count()),
+                                  options_.max_displacement_rel * diagonal_, pairs_, finder))
+      displacement_is_exceeded_ = true;
+    moved_.clear();
+    for (Index v = 0; v < scene_.vertex_count(); ++v)
+      if (!scene_.triangles_of_vertex[v].empty()) reached_.col(v) = scene_.x.col(v);
   }
 
   // Phases, limits, progress.
@@ -122,6 +207,11 @@ class Repair {
     }
     return stop_reason_ != no_stop;
   }
+  /// What was at work is gone; what was reached is still there.
+  void run_out_of_memory() {
+    stop_reason_ = static_cast<int>(Status::memory_limit);
+    release_free_memory();
+  }
   Status stopped_or(Status status) const {
     const int reason = stop_reason_;
     return reason == no_stop ? status : static_cast<Status>(reason);
@@ -136,18 +226,19 @@ class Repair {
   }
 
   double largest_displacement() const {
-    return scene_.vertex_count() > 0 ? (scene_.x - scene_.rest).colwise().norm().maxCoeff() : 0;
+    const Positions& x = scene_.vertex_count() > 0 ? scene_.x : reached_;
+    return x.cols() > 0 ? (x - prepared_.rest).colwise().norm().maxCoeff() : 0;
   }
 
   // Precision.
 
   void choose_precision() {
     float32_ = options_.precision != Precision::float64;
-    if (options_.precision || diagnosis_.pairs.empty()) return;
+    if (options_.precision || pairs_.empty()) return;
     // By the conflicts alone: parts far away that have none change nothing.
     std::vector<Triangle> conflict;
     double largest = 0;
-    for (const IntersectingPair& pair : diagnosis_.pairs)
+    for (const IntersectingPair& pair : pairs_)
       for (Index t : {pair.a, pair.b}) {
         conflict.push_back(scene_.triangles[t]);
         for (Index v : conflict.back()) largest = std::max(largest, scene_.rest.col(v).cwiseAbs().maxCoeff());
@@ -187,9 +278,8 @@ class Repair {
     return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(), moved);
   }
   bool can_be_parted(const IntersectingPair& pair) const {
-    const std::vector<Index>& component_of = diagnosis_.components.component_of_triangle;
-    const Index component = component_of[pair.a];
-    if (component == component_of[pair.b] && diagnosis_.components.list[component].obstructed()) return false;
+    const Index component = component_of_[pair.a];
+    if (component == component_of_[pair.b] && diagnosis_.components.list[component].obstructed()) return false;
     const auto can_move = [&](Index t) {
       return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(),
                          [&](Index v) { return !scene_.fixed[v]; });
@@ -210,8 +300,10 @@ class Repair {
       regions.insert(regions.end(), climbed.regions.begin(), climbed.regions.end());
       if (options_.recover) {
         start("recover");
-        recover_regions(merged(std::move(climbed.moved)));
+        report_progress(0.7, climbed.left.size());
+        recover_regions(merge_overlapping(climbed.moved, scene_.vertex_count()));
       }
+      moved_.insert(moved_.end(), climbed.moved.begin(), climbed.moved.end());
       start("certify");
       report_progress(0.9, climbed.left.size());
       scene_.x = as_written(scene_.x);
@@ -226,20 +318,22 @@ class Repair {
   }
 
   /// Whoever reads the result, a second run among them, cuts its polygons by its own positions. Where that cut
-  /// intersects, work goes on until all cuts met hold.
+  /// intersects, work goes on until all cuts met hold; quads along either diagonal, if both count.
   void settle_cut(IntersectionFinder& finder) {
     if (surface_.offsets.empty() || !is_resolved(finder)) return;
-    Triangulation cuts = prepared_.triangulation;
+    Triangulation cuts = cut_;
     for (int round = 0; round < most_cuts && !stopped(); ++round) {
       const std::vector<double> positions = prepared_.scatter(surface_.positions, scene_.x);
       const std::size_t known = cuts.triangles.size(), regions = result_.report.regions.size();
-      const std::vector<IntersectingPair> strangers = add_cut(
-          cuts, triangulate({positions, surface_.corners, surface_.offsets}, prepared_.identification.vertex_of));
+      const Triangulation by_result =
+          triangulate({positions, surface_.corners, surface_.offsets}, prepared_.identification.vertex_of);
+      for (const Triangulation* cut : std::initializer_list<const Triangulation*>{&by_result, &prepared_.otherwise}) {
+        const std::vector<IntersectingPair> strangers = add_cut(cuts, of_part(*cut));
+        ignored_.insert(ignored_.end(), strangers.begin(), strangers.end());
+      }
       if (cuts.triangles.size() == known) return;
-      ignored_.insert(ignored_.end(), strangers.begin(), strangers.end());
       for (std::size_t t = known; t < cuts.triangles.size(); ++t)
-        diagnosis_.components.component_of_triangle.push_back(
-            diagnosis_.components.component_of_vertex[cuts.triangles[t][0]]);
+        component_of_.push_back(diagnosis_.components.component_of_vertex[cuts.triangles[t][0]]);
       const Positions before = scene_.x;
       scene_ = make_scene(prepared_.rest, cuts.triangles, std::move(scene_.fixed));
       scene_.x = before;
@@ -262,8 +356,9 @@ class Repair {
   LadderResult untangle() {
     LadderOptions ladder;
     ladder.stop = stopper();
+    if (options_.max_displacement_rel > 0) ladder.accept = [this](Patch& patch) { return stays_near(patch); };
     ladder.on_progress = [this](std::size_t left) {
-      const double all = static_cast<double>(std::max<std::size_t>(1, diagnosis_.pairs.size()));
+      const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
       report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
     };
     return climb_ladder(scene_, ignored_, ladder);
@@ -283,39 +378,12 @@ class Repair {
     RegionReport report;
     report.rung = "paper";
     report.faces = static_cast<std::size_t>(patch.active_count);
-    report.pairs = diagnosis_.pairs.size();
+    report.pairs = pairs_.size();
     report.iterations = untangled.iterations;
     report.seconds = seconds_since(phase_begin_);
     result.regions.push_back(report);
     result.moved.push_back(std::move(free));
     result.left = blocking_pairs(finder.find(scene_.x), ignored_);
-    return result;
-  }
-
-  /// Sets of free vertices that overlap become one.
-  std::vector<std::vector<Index>> merged(std::vector<std::vector<Index>> sets) const {
-    std::vector<Index> owner(scene_.vertex_count(), -1);
-    std::vector<std::vector<Index>> result;
-    for (std::vector<Index>& set : sets) {
-      std::vector<Index> overlapped;
-      for (Index v : set)
-        if (owner[v] >= 0) overlapped.push_back(owner[v]);
-      std::sort(overlapped.begin(), overlapped.end());
-      overlapped.erase(std::unique(overlapped.begin(), overlapped.end()), overlapped.end());
-      const Index target = overlapped.empty() ? static_cast<Index>(result.size()) : overlapped.front();
-      if (overlapped.empty()) result.emplace_back();
-      for (std::size_t k = 1; k < overlapped.size(); ++k) {
-        set.insert(set.end(), result[overlapped[k]].begin(), result[overlapped[k]].end());
-        result[overlapped[k]].clear();
-      }
-      result[target].insert(result[target].end(), set.begin(), set.end());
-      for (Index v : result[target]) owner[v] = target;
-    }
-    std::erase_if(result, [](const auto& set) { return set.empty(); });
-    for (auto& set : result) {
-      std::sort(set.begin(), set.end());
-      set.erase(std::unique(set.begin(), set.end()), set.end());
-    }
     return result;
   }
 
@@ -352,39 +420,73 @@ class Repair {
     return count_lost_areas(prepared_.rest, scene_.x, prepared_.triangulation.triangles);
   }
 
+  // The limit of displacement.
+
+  /// Is a patch that a rung resolved within the limit, at least once it has recovered?
+  bool stays_near(Patch& patch) {
+    const auto is_near = [&] {
+      for (Index v = 0; v < patch.free_count; ++v)
+        if ((patch.x.col(v) - prepared_.rest.col(patch.vertices[v])).norm() >
+            options_.max_displacement_rel * diagonal_)
+          return false;
+      return true;
+    };
+    if (is_near()) return true;
+    if (options_.recover) {
+      RecoverOptions recovery;
+      recovery.min_gap = wanted_gap(
+          {patch.vertices.begin(), patch.vertices.begin() + static_cast<std::ptrdiff_t>(patch.free_count)});
+      recover(patch, recovery, stopper());
+      if (is_near()) return true;
+    }
+    displacement_is_exceeded_ = true;
+    return false;
+  }
   // The end.
 
-  void finish(IntersectionFinder& finder) {
+  /// Components that were repaired as if alone may run into each other: takes them over one by one, without those that
+  /// make it worse.
+  void take_over_what_makes_nothing_worse() {
+    const Positions wanted = std::exchange(reached_, prepared_.rest);
+    const std::vector<Index>& component_of = diagnosis_.components.component_of_vertex;
+    std::vector<std::vector<Index>> vertices(diagnosis_.components.count());
+    for (Index v = 0; v < wanted.cols(); ++v)
+      if (component_of[v] >= 0 && wanted.col(v) != prepared_.rest.col(v)) vertices[component_of[v]].push_back(v);
+    for (const std::vector<Index>& component : vertices) {
+      if (component.empty()) continue;
+      for (Index v : component) reached_.col(v) = wanted.col(v);
+      if (!judge_->is_worse(judge_->pairs_at(reached_))) continue;
+      for (Index v : component) reached_.col(v) = prepared_.rest.col(v);
+    }
+  }
+
+  void finish() {
     start("certify");
-    const std::vector<IntersectingPair> left = finder.find(scene_.x);
-    const PairCounts before = count_by_class(diagnosis_.pairs), after = count_by_class(left);
     RepairReport& report = result_.report;
     report.precision = float32_ ? Precision::float32 : Precision::float64;
-    const bool worse = after.total() > before.total() || after[PairClass::disjoint] > before[PairClass::disjoint];
-    if (worse) {
-      report.after = report.before;
-      result_.status = stopped_or(Status::no_progress);
-    } else {
-      result_.positions = prepared_.scatter(surface_.positions, scene_.x);
-      report.after = count_by_class(pairs_of_faces(prepared_, left));
-      const std::vector<IntersectingPair> blocking = blocking_pairs(left, ignored_);
-      if (!blocking.empty() || lost_areas() > 0)
-        result_.status = after.total() < before.total() ? Status::reduced : Status::no_progress;
-      else if (left.empty())
-        result_.status = Status::embedded;
+    Judge::Pairs left = judge_->pairs_at(reached_);
+    if (judge_->is_worse(left)) {
+      if (options_.each_component)
+        take_over_what_makes_nothing_worse();
       else
-        result_.status =
-            options_.goal == Goal::disjoint && after[PairClass::disjoint] == 0 ? Status::embedded : Status::obstructed;
-      if (!blocking.empty()) result_.status = stopped_or(result_.status);
+        reached_ = prepared_.rest;
+      left = judge_->pairs_at(reached_);
     }
-    report.float32_embedded = finder.find(rounded_to_float32(worse ? scene_.rest : scene_.x)).empty();
+    result_.positions = prepared_.scatter(surface_.positions, reached_);
+    report.after = left.faces;
+    result_.status = judge_->status(left, reached_);
+    if (result_.status == Status::reduced || result_.status == Status::no_progress)
+      result_.status = stopped_or(displacement_is_exceeded_ ? Status::displacement_exceeded : result_.status);
+    report.float32_embedded = judge_->pairs_at(rounded_to_float32(reached_)).faces.total() == 0;
     measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
     report.min_gap_rel = std::isfinite(smallest_gap_) && report.diagonal > 0 ? smallest_gap_ / report.diagonal : 0;
     if (options_.max_displacement_rel > 0 && report.displacement_max_rel > options_.max_displacement_rel)
       result_.status = Status::displacement_exceeded;
+    measure_components(prepared_, diagnosis_, left.triangles, report);
+    if (options_.each_component) name_pairs_between_components(prepared_, diagnosis_, left.triangles, report);
     end_stage();
     phase_ = "certify";
-    report_progress(1, left.size());
+    report_progress(1, left.triangles.size());
   }
 
   const SurfaceView surface_;
@@ -395,8 +497,15 @@ class Repair {
   PreparedSurface prepared_;
   double diagonal_ = 0;
   Diagnosis diagnosis_;
-  std::vector<IntersectingPair> ignored_;
-  Scene scene_;
+  std::optional<Judge> judge_;
+  // What is worked on at the moment; ids of pairs are those of its triangles.
+  Triangulation cut_;  // of the polygons, as the input has them
+  Scene scene_;        // of these triangles, and of others that polygons may be cut into
+  std::vector<IntersectingPair> pairs_, ignored_;
+  std::vector<Index> component_of_;        // of its triangles
+  std::vector<std::vector<Index>> moved_;  // what regions freed, where the displacement is limited
+  std::atomic<bool> displacement_is_exceeded_{false};
+  Positions reached_;  // of all vertices
   bool float32_ = false;
   double smallest_gap_ = std::numeric_limits<double>::infinity();
   static constexpr int no_stop = -1;
@@ -407,40 +516,6 @@ class Repair {
 };
 
 }  // namespace
-
-std::string_view to_string(Status status) {
-  switch (status) {
-    case Status::embedded:
-      return "embedded";
-    case Status::reduced:
-      return "reduced";
-    case Status::no_progress:
-      return "no_progress";
-    case Status::obstructed:
-      return "obstructed";
-    case Status::time_limit:
-      return "time_limit";
-    case Status::memory_limit:
-      return "memory_limit";
-    case Status::displacement_exceeded:
-      return "displacement_exceeded";
-    case Status::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
-}
-
-std::string_view to_string(Obstruction::Kind kind) {
-  switch (kind) {
-    case Obstruction::Kind::closed_non_orientable:
-      return "closed_non_orientable";
-    case Obstruction::Kind::duplicate_faces:
-      return "duplicate_faces";
-    case Obstruction::Kind::fixed_faces:
-      return "fixed_faces";
-  }
-  return "unknown";
-}
 
 RepairResult repair(const SurfaceView& surface, const RepairOptions& options, Context* context) {
   Context own;

@@ -17,6 +17,8 @@ Json options_json(const RepairOptions& options) {
           {"threads", options.find.threads},
           {"precision", options.precision ? Json(to_string(*options.precision)) : Json("automatic")},
           {"fixed_vertices", std::count_if(options.fixed.begin(), options.fixed.end(), [](auto f) { return f != 0; })},
+          {"each_component", options.each_component},
+          {"both_diagonals", options.find.both_diagonals},
           {"min_gap_rel", options.min_gap_rel},
           {"max_displacement_rel", options.max_displacement_rel},
           {"time_limit_s", options.time_limit_s},
@@ -104,10 +106,52 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
                                {"pairs", region.pairs},
                                {"iterations", region.iterations},
                                {"seconds", region.seconds}});
+  json["components"] = Json::array();
+  for (const ComponentReport& component : r.components)
+    json["components"].push_back({{"component", component.component},
+                                  {"first_face", component.first_face},
+                                  {"pairs_before", component.pairs_before},
+                                  {"pairs_after", component.pairs_after}});
   json["stages"] = stages_json(result, files);
   json["seconds"] = files.seconds;
   json["peak_memory_mb"] = peak_memory_mb();
   return json;
+}
+
+std::string_view to_string(Status status) {
+  switch (status) {
+    case Status::embedded:
+      return "embedded";
+    case Status::reduced:
+      return "reduced";
+    case Status::no_progress:
+      return "no_progress";
+    case Status::obstructed:
+      return "obstructed";
+    case Status::time_limit:
+      return "time_limit";
+    case Status::memory_limit:
+      return "memory_limit";
+    case Status::displacement_exceeded:
+      return "displacement_exceeded";
+    case Status::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(Obstruction::Kind kind) {
+  switch (kind) {
+    case Obstruction::Kind::closed_non_orientable:
+      return "closed_non_orientable";
+    case Obstruction::Kind::duplicate_faces:
+      return "duplicate_faces";
+    case Obstruction::Kind::fixed_faces:
+      return "fixed_faces";
+    case Obstruction::Kind::between_components:
+      return "between_components";
+  }
+  return "unknown";
 }
 
 std::string_view to_string(Weld weld) {

@@ -61,7 +61,7 @@ TEST(PreparedSurface, pairs_of_triangles_become_pairs_of_faces) {
                                                {3, 4, PairClass::disjoint}};
   const std::vector<IntersectingPair> expected = {
       {0, 0, PairClass::folded}, {0, 1, PairClass::disjoint}, {1, 2, PairClass::disjoint}};
-  EXPECT_TRUE(pairs_of_faces(prepared, pairs) == expected);
+  EXPECT_TRUE(pairs_of_faces(prepared.triangulation.polygon, pairs) == expected);
 }
 
 TEST(PreparedSurface, senseless_input_is_refused) {

@@ -107,6 +107,7 @@ const std::map<std::string, Shape>& shapes() {
       {"intersecting_spheres", {3, 0, 0, orientable, 6}},
       {"linked_rings", {3, 0, 0, orientable, 0}},
       {"jellyfish", {12, 24, 0, orientable, 0}},
+      {"anchored_balls", {6, 0, 0, orientable, 12}},
       {"posed_limb", {1, 0, 0, orientable, 2}},
       {"overlapping_quads", {3, 1, 0, orientable, 5}},
       {"hair_cards", {61, 60, 0, orientable, 62}},

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include "exit_code.h"
+#include "fix.h"
+#include "mesh_input.h"
+#include "repair/measure.h"
+
+namespace unsnarl::app {
+namespace {
+
+/// One flag a vertex; empty: all may move.
+std::vector<std::uint8_t> fixed_vertices(const FixOptions& options, const Document& document) {
+  const SurfaceView surface = document.surface();
+  const FindOptions find = options.find();
+  std::vector<std::uint8_t> fixed;
+  const auto add = [&fixed](std::vector<std::uint8_t> more) {
+    if (fixed.empty()) fixed.resize(more.size(), 0);
+    for (std::size_t v = 0; v < more.size(); ++v) fixed[v] |= more[v];
+  };
+  try {
+    if (!options.fix_vertices.empty()) add(read_vertex_flags(options.fix_vertices, surface.vertex_count()));
+    if (!options.fix.empty())
+      add(vertices_of_faces(surface, faces_in_parts(surface, document.face_labels(), options.fix, find)));
+    if (!options.only.empty()) {
+      // Nothing else may change, so a vertex that a face outside uses too stays.
+      std::vector<std::uint8_t> outside = faces_in_parts(surface, document.face_labels(), options.only, find);
+      for (std::uint8_t& face : outside) face = !face;
+      add(vertices_of_faces(surface, outside));
+    }
+  } catch (const UnknownPart& e) {
+    throw UsageError(e.what());
+  }
+  if (options.fix_boundary) add(boundary_vertices(surface, find));
+  return fixed;
+}
+
+void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const std::string& what,
+               const std::string& group) {
+  const auto named = [&](const std::string& name, auto& list, const std::string& of, const char* type) {
+    // One value each time: more would swallow the name of the input.
+    command.add_option(prefix + name, list, what + of)->type_name(type)->group(group)->allow_extra_args(false);
+  };
+  named("group", parts.groups, "faces of this group (OBJ g; glTF: mesh); may be repeated", "NAME");
+  named("object", parts.objects, "faces of this object (OBJ o, STL solid; glTF: node); may be repeated", "NAME");
+  named("material", parts.materials, "faces of this material; may be repeated", "NAME");
+  named("component", parts.components, "component of this number, as 'unsnarl check' lists them; may be repeated", "N");
+}
+
+}  // namespace
+
+void add_fix_options(CLI::App& command, FixOptions& options) {
+  add_mesh_options(command, options);
+  command.add_option("-o,--output", options.output, "Where the repaired mesh goes; '-' for standard output")
+      ->type_name("OUT");
+  command.add_flag("--in-place", options.in_place, "Overwrite IN with the repaired mesh");
+  command.add_flag("--keep-partial", options.keep_partial,
+                   "Write the result also where self-intersections are left or a limit was reached");
+  command.add_flag("--recompute-normals", options.recompute_normals,
+                   "Turn stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved; else they stay as\n"
+                   "they are. Facet normals in STL always follow");
+  const std::string what = "What may move";
+  command.add_option("--fix-vertices", options.fix_vertices, "File with the 0-based ids of vertices that must not move")
+      ->type_name("FILE")
+      ->group(what);
+  add_parts(command, "--fix-", options.fix, "Do not move the ", what);
+  command.add_flag("--fix-boundary", options.fix_boundary, "Do not move vertices on a boundary")->group(what);
+  CLI::Option* each = command.add_flag(
+      "--each", options.each,
+      "Repair every component as if it were alone. Where two run through each other they may go on\n"
+      "doing so: this is reported as 'obstructed' (exit code 7), and the result is written");
+  command.add_flag("--together", options.together, "Repair the scene: components too are parted (default)")
+      ->excludes(each)
+      ->group(what);
+  each->group(what);
+  add_parts(command, "--only-", options.only, "Leave all as it is but the ", what);
+  command
+      .add_option("--max-displacement", options.max_displacement,
+                  "How far any vertex may move, as a fraction of the bounding-box diagonal; 0: any distance.\n"
+                  "Intersections that this cannot resolve are left")
+      ->check(not_negative())
+      ->type_name("X")
+      ->group(what);
+  command
+      .add_option("--min-gap", options.min_gap,
+                  "Wanted gap between sheets, as a fraction of the diagonal; 0: just enough to be safe")
+      ->check(not_negative())
+      ->type_name("X")
+      ->group(what);
+  command.add_flag("--absolute", options.absolute, "These two are lengths in the units of the mesh")->group(what);
+  command
+      .add_option("--precision", options.precision,
+                  "Number format in which the result must hold: 'float32' as most programs read it, 'float64',\n"
+                  "or 'auto' (default): float32 where the coordinates allow it")
+      ->check(one_of({"auto", "float32", "float64"}))
+      ->type_name("auto|float32|float64");
+  const std::string limits = "Limits";
+  command.add_option("--time-limit", options.time_limit_s, "Stop after this many seconds; 0: none")
+      ->check(not_negative())
+      ->type_name("S")
+      ->group(limits);
+  command.add_option("--memory-limit", options.memory_limit_mb, "Stop before the program holds more than this many MB; 0: none")
+      ->check(not_negative())
+      ->type_name("MB")
+      ->group(limits);
+  const std::string shown = "What is shown";
+  command.add_option("--report", options.report, "Write a JSON report: counts, displacement, regions, seconds, ...")
+      ->type_name("FILE")
+      ->group(shown);
+  command.add_option("--picture", options.picture, "Write a picture, before and after, intersecting faces in red")
+      ->type_name("FILE.png")
+      ->group(shown);
+  command.add_option("--view", options.view, "Write a page to look at: before, after, displacement (see unsnarl view)")
+      ->type_name("PAGE.html")
+      ->group(shown);
+  command.add_option("--highlight", options.highlight, "Write a PLY in which intersecting faces are coloured")
+      ->type_name("FILE.ply")
+      ->group(shown);
+  command
+      .add_option("--progress", options.progress,
+                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
+      ->check(one_of({"auto", "json", "none"}))
+      ->type_name("auto|json|none")
+      ->group(shown);
+  const std::string research = "For research";
+  command.add_flag("--paper", options.paper, "Repair as the paper does it, instead of region by region")
+      ->group(research);
+  command.add_flag("--no-recover", options.no_recover, "Stop after untangling, without moving back toward the input")
+      ->group(research);
+  command.footer(
+      "Examples:\n"
+      "  unsnarl fix hand.obj -o hand_fixed.obj\n"
+      "  unsnarl fix scan.ply -o fixed.ply --picture fixed.png --report fixed.json\n"
+      "  unsnarl fix body.glb --in-place --max-displacement 0.01 --fix-vertices seam.txt\n"
+      "  unsnarl fix scene.obj -o out.obj --fix-group anchor --fix-boundary\n\n"
+      "Exit codes: 0 embedded, 1 self-intersections left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
+      "6 interrupted, 7 all repaired but what no allowed motion can resolve, 70 internal error.\n"
+      "With --only-... and --each, 0 still means that nothing in the whole file intersects; where only what they leave\n"
+      "out does, the result is written and the exit code is 7.");
+}
+
+RepairOptions repair_options(const FixOptions& options, const Document& document) {
+  RepairOptions result;
+  result.find = options.find();
+  result.goal = options.goal_wanted();
+  if (options.precision == "float32") result.precision = Precision::float32;
+  if (options.precision == "float64") result.precision = Precision::float64;
+  if (document.stores_float32()) {
+    if (result.precision == Precision::float64)
+      throw UsageError(fmt::format("--precision float64: this {} file stores 32-bit numbers; leave the option out",
+                                   to_string(document.format())));
+    result.precision = Precision::float32;
+  }
+  const double diagonal = diagonal_of(document.surface());
+  const double unit = options.absolute && diagonal > 0 ? 1 / diagonal : 1;
+  result.max_displacement_rel = options.max_displacement * unit;
+  result.min_gap_rel = options.min_gap * unit;
+  result.time_limit_s = options.time_limit_s;
+  result.memory_limit_mb = options.memory_limit_mb;
+  result.paper = options.paper;
+  result.recover = !options.no_recover;
+  result.as_written = [&document](std::span<const double> positions, bool float32) {
+    return document.as_written(positions, float32);
+  };
+  result.fixed = fixed_vertices(options, document);
+  result.each_component = options.each;
+  return result;
+}
+
+}  // namespace unsnarl::app

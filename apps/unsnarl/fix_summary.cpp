@@ -1,0 +1,77 @@
+#include "fix_summary.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "mesh_input.h"
+#include "repair/measure.h"
+
+namespace unsnarl::app {
+namespace {
+
+std::string in_words(const PairCounts& pairs) {
+  if (pairs.total() == 0) return "none";
+  std::string text;
+  for (std::size_t i = 0; i < pair_class_count; ++i)
+    if (pairs.by_class[i] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], pair_class_names[i]);
+  return text;
+}
+
+std::string_view explanation(Status status, Goal goal) {
+  switch (status) {
+    case Status::embedded:
+      return goal == Goal::all ? "embedded: no self-intersection is left"
+                               : "no faces that share no vertex intersect any more";
+    case Status::reduced:
+      return "reduced: some self-intersections are left";
+    case Status::no_progress:
+      return "no progress: nothing better than the input was found";
+    case Status::obstructed:
+      return "obstructed: what is left no motion that is allowed can resolve";
+    case Status::time_limit:
+      return "stopped at the time limit";
+    case Status::memory_limit:
+      return "stopped at the memory limit";
+    case Status::displacement_exceeded:
+      return "displacement exceeded: what is left needs a vertex to move farther than allowed";
+    case Status::cancelled:
+      return "interrupted";
+  }
+  return "unknown status";
+}
+
+std::string_view float32_remark(const RepairResult& result) {
+  if (result.status != Status::embedded || result.report.float32_embedded) return "";
+  return " (in double precision; readers that round to 32 bits may see some)";
+}
+
+std::string fate_of_output(Status status, const std::string& output) {
+  if (output == standard_stream) return "written to standard output";
+  if (!output.empty()) return "wrote " + output;
+  return status == Status::obstructed ? "nothing written, since nothing else was to be repaired"
+                                      : "nothing written; --keep-partial writes what was reached";
+}
+
+}  // namespace
+
+std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
+  const RepairReport& r = result.report;
+  std::string text;
+  const auto line = [&text](const std::string& words) { text += words + "\n"; };
+  line(fmt::format("{}: {} vertices, {} faces, {} component{}", files.input == standard_stream ? "mesh" : files.input,
+                   files.vertices, files.faces, r.topology.components, r.topology.components == 1 ? "" : "s"));
+  line(fmt::format("  intersecting pairs before: {}", in_words(r.before)));
+  line(fmt::format("  intersecting pairs after:  {}", in_words(r.after)));
+  if (r.untouched_share < 1)
+    line(fmt::format("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
+                     100 * (1 - r.untouched_share), 100 * r.displacement_max_rel, 100 * r.displacement_mean_rel));
+  for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
+  line(fmt::format("  {}{}; {:.2f} s, {:.0f} MB", explanation(result.status, options.goal), float32_remark(result),
+                   files.seconds, peak_memory_mb()));
+  line("  " + fate_of_output(result.status, files.output));
+  return text;
+}
+
+}  // namespace unsnarl::app

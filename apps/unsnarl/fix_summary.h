@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "repair/report_json.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl::app {
+
+/// What `fix` tells a person at the end, several lines.
+std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files);
+
+}  // namespace unsnarl::app

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "unsnarl/document.h"
+#include "unsnarl/intersections.h"
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+/// Parts of a mesh, by the names that its file gives to faces, or by connectivity. Together: any of them.
+struct Parts {
+  std::vector<std::string> groups = {};       ///< OBJ "g": the whole line or one of its words; glTF: meshes
+  std::vector<std::string> objects = {};      ///< OBJ "o", STL solids; glTF: nodes
+  std::vector<std::string> materials = {};    ///< OBJ "usemtl", glTF materials
+  std::vector<std::int32_t> components = {};  ///< ids of component_of_faces()
+
+  bool empty() const { return groups.empty() && objects.empty() && materials.empty() && components.empty(); }
+};
+
+/// A part was asked for that the mesh does not have. The message lists the ones that it has.
+class UnknownPart : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Component of each face (faces joined by a shared vertex, after identification), numbered from 0 in the order of
+/// their first faces, as `unsnarl check` lists them; -1 for a face without any triangle. Throws as
+/// find_intersections does.
+std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const FindOptions& options = {});
+
+/// One flag a face: belongs to one of the parts. Throws UnknownPart.
+std::vector<std::uint8_t> faces_in_parts(const SurfaceView& surface, std::span<const FaceLabels> labels,
+                                         const Parts& parts, const FindOptions& options = {});
+
+/// One flag a vertex: a flagged face uses it.
+std::vector<std::uint8_t> vertices_of_faces(const SurfaceView& surface, std::span<const std::uint8_t> faces);
+
+/// One flag a vertex: it lies on an edge of one face only, after identification, so that seams do not count.
+std::vector<std::uint8_t> boundary_vertices(const SurfaceView& surface, const FindOptions& options = {});
+
+}  // namespace unsnarl

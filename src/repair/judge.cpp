@@ -1,0 +1,51 @@
+#include "repair/judge.h"
+
+#include <algorithm>
+
+#include "mesh/areas.h"
+
+namespace unsnarl {
+
+Judge::Judge(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options)
+    : prepared_(prepared), diagnosis_(diagnosis), options_(options), finder_(prepared.triangles()) {
+  if (!prepared.otherwise.triangles.empty()) any_cut_.emplace(prepared);
+  before_ = pairs_at(prepared.rest);
+}
+
+Judge::Pairs Judge::pairs_at(const Positions& x) {
+  Pairs pairs;
+  pairs.triangles = x == prepared_.rest ? diagnosis_.pairs : finder_.find(x);
+  const std::vector<IntersectingPair> faces = pairs_of_faces(prepared_.triangulation.polygon, pairs.triangles);
+  pairs.faces = count_by_class(any_cut_ ? any_cut_->find(x) : faces);
+  pairs.by_other_diagonals = pairs.faces.total() > faces.size();
+  return pairs;
+}
+
+bool Judge::is_set_aside(const IntersectingPair& pair) const {
+  return (options_.goal == Goal::disjoint && pair.kind != PairClass::disjoint) ||
+         (options_.each_component && are_of_two_components(diagnosis_.components, pair)) ||
+         std::binary_search(diagnosis_.obstructed.begin(), diagnosis_.obstructed.end(), pair);
+}
+
+bool Judge::is_worse(const Pairs& pairs) const {
+  const auto is_more = [](const PairCounts& a, const PairCounts& b) {
+    return a.total() > b.total() || a[PairClass::disjoint] > b[PairClass::disjoint];
+  };
+  return is_more(count_by_class(pairs.triangles), count_by_class(before_.triangles)) ||
+         is_more(pairs.faces, before_.faces);
+}
+
+Status Judge::status(const Pairs& pairs, const Positions& x) const {
+  // A pair of the input may be set aside; one that is new counts, unless it is between components that do not.
+  const auto is_fine = [&](const IntersectingPair& pair) {
+    if (std::binary_search(diagnosis_.pairs.begin(), diagnosis_.pairs.end(), pair)) return is_set_aside(pair);
+    return options_.each_component && are_of_two_components(diagnosis_.components, pair);
+  };
+  const bool is_done = std::all_of(pairs.triangles.begin(), pairs.triangles.end(), is_fine) &&
+                       !pairs.by_other_diagonals && count_lost_areas(prepared_.rest, x, prepared_.triangles()) == 0;
+  if (!is_done) return pairs.faces.total() < before_.faces.total() ? Status::reduced : Status::no_progress;
+  const bool none_left = options_.goal == Goal::all ? pairs.faces.total() == 0 : pairs.faces[PairClass::disjoint] == 0;
+  return none_left ? Status::embedded : Status::obstructed;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,97 @@
+#include "unsnarl/parts.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace unsnarl {
+namespace {
+
+using Flags = std::vector<std::uint8_t>;
+
+/// Two squares of two triangles each, joined along a side that is written twice (vertices 1, 2 and 4, 5), and a
+/// triangle by itself.
+Document two_squares() {
+  return Document::parse(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+      "v 1 0 0\nv 1 1 0\nv 2 1 0\nv 2 0 0\n"
+      "v 9 0 0\nv 9 1 0\nv 8 0 0\n"
+      "o body\ng left skin\nusemtl red\nf 1 2 3\nf 1 3 4\ng right skin\nusemtl blue\nf 5 8 7\nf 5 7 6\n"
+      "o hat\ng hat\nf 9 10 11\n",
+      Format::obj);
+}
+
+Flags faces(const Document& document, const Parts& parts) {
+  return faces_in_parts(document.surface(), document.face_labels(), parts);
+}
+
+std::string complaint(const Document& document, const Parts& parts) {
+  try {
+    faces(document, parts);
+  } catch (const UnknownPart& e) {
+    return e.what();
+  }
+  return {};
+}
+
+TEST(Parts, NamesMeanFaces) {
+  const Document document = two_squares();
+  EXPECT_EQ(faces(document, {.groups = {"left skin"}}), (Flags{1, 1, 0, 0, 0}));
+  EXPECT_EQ(faces(document, {.groups = {"right"}}), (Flags{0, 0, 1, 1, 0}));
+  EXPECT_EQ(faces(document, {.groups = {"skin"}}), (Flags{1, 1, 1, 1, 0}));
+  EXPECT_EQ(faces(document, {.objects = {"hat"}}), (Flags{0, 0, 0, 0, 1}));
+  EXPECT_EQ(faces(document, {.materials = {"blue"}}), (Flags{0, 0, 1, 1, 1}));
+  EXPECT_EQ(faces(document, {.groups = {"left", "hat"}}), (Flags{1, 1, 0, 0, 1}));
+  EXPECT_EQ(faces(document, {.groups = {"left"}, .components = {1}}), (Flags{1, 1, 0, 0, 1}));
+  EXPECT_EQ(faces(document, {}), Flags(5, 0));
+}
+
+TEST(Parts, ComponentsAreCountedAfterIdentification) {
+  const Document document = two_squares();
+  EXPECT_EQ(component_of_faces(document.surface()), (std::vector<std::int32_t>{0, 0, 0, 0, 1}));
+  EXPECT_EQ(component_of_faces(document.surface(), {.weld = Weld::none}), (std::vector<std::int32_t>{0, 0, 1, 1, 2}));
+}
+
+TEST(Parts, WhatDoesNotExistIsRefusedWithTheListOfWhatDoes) {
+  const Document document = two_squares();
+  const std::string group = complaint(document, {.groups = {"lefty"}});
+  EXPECT_NE(group.find("no group 'lefty'"), std::string::npos) << group;
+  EXPECT_NE(group.find("'left skin', 'right skin', 'hat'"), std::string::npos) << group;
+  EXPECT_NE(complaint(document, {.objects = {"left"}}).find("'body', 'hat'"), std::string::npos);
+  EXPECT_NE(complaint(document, {.materials = {""}}).find("'red', 'blue'"), std::string::npos);
+  EXPECT_NE(complaint(document, {.components = {2}}).find("the mesh has 2"), std::string::npos);
+  EXPECT_NE(complaint(document, {.components = {-1}}).find("-1"), std::string::npos);
+  const Document bare = Document::parse("usemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", Format::obj);
+  EXPECT_EQ(complaint(bare, {.groups = {"x"}}), "there is no group 'x': the file names no groups, only materials");
+  const Document empty = Document::parse("v 0 0 0\n", Format::obj);
+  EXPECT_NE(complaint(empty, {.components = {0}}).find("no faces"), std::string::npos);
+}
+
+TEST(Parts, GltfNodesAreObjectsAndMeshesAreGroups) {
+  const std::vector<FaceLabels> labels = {
+      {"node", {"chair"}, {0, -1}}, {"mesh", {"seat"}, {-1, 0}}, {"material", {"wood"}, {0, 0}}};
+  const Surface surface{std::vector<double>(9), {0, 1, 2, 0, 2, 1}, {}};
+  EXPECT_EQ(faces_in_parts(surface, labels, {.objects = {"chair"}}), (Flags{1, 0}));
+  EXPECT_EQ(faces_in_parts(surface, labels, {.groups = {"seat"}}), (Flags{0, 1}));
+  EXPECT_EQ(faces_in_parts(surface, labels, {.materials = {"wood"}}), (Flags{1, 1}));
+  EXPECT_THROW(faces_in_parts(surface, labels, {.objects = {"seat"}}), UnknownPart);
+}
+
+TEST(Parts, VerticesOfFaces) {
+  const Document document = two_squares();
+  EXPECT_EQ(vertices_of_faces(document.surface(), Flags{0, 1, 0, 0, 0}), (Flags{1, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0}));
+}
+
+TEST(Parts, SeamsAreNoBoundary) {
+  // A square of four triangles around a middle, in two halves with corners of their own.
+  const Document document = Document::parse(
+      "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 0\nv 5 5 5\n"
+      "f 1 2 4\nf 2 3 4\nf 6 7 8\nf 7 5 8\n",
+      Format::obj);
+  EXPECT_EQ(boundary_vertices(document.surface()), (Flags{1, 1, 1, 0, 1, 1, 1, 0, 0}));
+  EXPECT_EQ(boundary_vertices(document.surface(), {.weld = Weld::none}), (Flags{1, 1, 1, 1, 1, 1, 1, 1, 0}));
+}
+
+}  // namespace
+}  // namespace unsnarl
