@@ -18,8 +18,8 @@ void intersections(Bytes bytes) {
   std::vector<std::int64_t> coordinates;
   for (const Index v : prepared.identification.first)
     for (int k = 0; k < 3; ++k) coordinates.push_back(mesh.coordinates[3 * static_cast<std::size_t>(v) + k]);
-  const auto expected =
-      pairs_of_faces(prepared, oracle::intersections_by_brute_force(coordinates, prepared.triangles()));
+  const auto expected = pairs_of_faces(prepared.triangulation.polygon,
+                                       oracle::intersections_by_brute_force(coordinates, prepared.triangles()));
   promise(found == expected, "find_intersections finds what brute force finds");
 
   const Certificate certificate = certify(mesh.surface, mesh.surface.positions, mesh.find);
