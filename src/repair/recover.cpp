@@ -8,7 +8,7 @@
 #include "energy/arap_triangle.h"
 #include "energy/bending.h"
 #include "energy/ipc_barrier.h"
-#include "energy/orientation_barrier.h"
+#include "energy/orientation_penalty.h"
 #include "energy/quadratic_pull.h"
 #include "geometry/parallel_sums.h"
 #include "mesh/areas.h"
@@ -172,7 +172,7 @@ class Recovery {
   Bending bending_;
   QuadraticPull pull_;
   IpcBarrier barrier_;
-  OrientationBarrier orientation_;
+  OrientationPenalty orientation_;
   IndexLists neighbours_;
   std::vector<double> snap_reach_;
 
@@ -233,10 +233,10 @@ Recovery::Recovery(Patch& patch, const RecoverOptions& options, const std::funct
   for (Index v = 0; v < patch.free_count; ++v) mass += pull_.mass[v];
   mass /= std::max<Index>(patch.free_count, 1);
   barrier_ = IpcBarrier(options.contact_force * mass * h_);
-  OrientationBarrier::Options orientation;
-  orientation.scale = options.contact_force * mass * h_;
+  OrientationPenalty::Options orientation;
+  orientation.scale = options.turn_weight * options.contact_force * mass * h_;
   orientation.activation = options.turn_activation;
-  orientation_ = OrientationBarrier(patch.rest, patch.x, active, orientation);
+  orientation_ = OrientationPenalty(patch.rest, active, orientation);
 
   snap_reach_.assign(n, 0);
   for (Index v = 0; v < patch.free_count; ++v) {
@@ -448,7 +448,7 @@ double Recovery::linearise() {
   double elastic = 0;
   for (const double e : energies_) elastic += e;
   double orientation = 0;
-  OrientationBarrier::Term kept;
+  OrientationPenalty::Term kept;
   StepOperator::RankOne term;
   for (Index t : triangles_) {
     if (!orientation_.evaluate(x_, t, kept)) continue;
@@ -492,7 +492,6 @@ void Recovery::pick_in_the_way() {
 
 void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop& stop) {
   if (moving_.empty()) return;
-  orientation_.update(x_);
   gather(activation);
   double current = linearise();
   std::vector<double> history = {current};
@@ -524,6 +523,7 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
     double next = current;
     for (int halving = 0; halving < 40 && !accepted; ++halving, alpha *= 0.5) {
       shortened_ = alpha * step_;
+      orientation_.filter(x_, triangles_, options_.turn_share, shortened_);
       filter_displacements(in_the_way_, x_, shortened_, OnCollision::shorten, options_.ccd);
       const double slope = gradient_.cwiseProduct(shortened_).sum();
       trial_ = x_ + shortened_;

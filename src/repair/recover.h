@@ -14,7 +14,7 @@ struct RecoverOptions {
   /// place of the largest coordinate. Callers give a few units in the last place of the format to be written.
   double min_gap = 0;
 
-  // Energy: pull + (arap_length h)^2 ARAP + (bending_length h)^4 bending + barriers.
+  // Energy: pull + (arap_length h)^2 ARAP + (bending_length h)^4 bending + barrier + orientation.
   double pull = 1;         ///< weight of the quadratic pull
   double arap_length = 2;  ///< in h: waves shorter than this are kept by ARAP rather than pulled home
   /// In h. Of 0.5, 0.6, 0.7, 1, 2 on four posed bodies: 1 leaves 5 to 45 % more rms displacement, 0.5 as many turned
@@ -23,9 +23,11 @@ struct RecoverOptions {
   /// Contact force per mean vertex mass and h at B'(y) = -1: the barrier balances a vertex that is one h from home
   /// against its elastic neighbourhood at about half the activation distance. 2 to 100 end within 1 % of each other.
   double contact_force = 10;
-  /// Share of a face's area along its rest normal below which it is kept from turning over; the weight is that of the
-  /// contacts. Faces left turned over on nine bodies and animals: 79 without, 2 with it; 0.4 moves 1 to 5 % more.
+  /// Share of a face's area along its rest normal below which it is pulled back from turning over. Faces left turned
+  /// over by more than 90 degrees on nine bodies and animals: 79 without, 14 with it; 0.4 moves 1 to 5 % more.
   double turn_activation = 0.2;
+  double turn_weight = 0.3;  ///< of that pull, of the contact force; 1 and 4 move more and turn no fewer
+  double turn_share = 0.2;   ///< of its area along its rest normal, that a face keeps in a step
 
   // Continuation: the barrier's activation distance starts at `activation` and shrinks.
   double activation = 0.1;         ///< in h, at most

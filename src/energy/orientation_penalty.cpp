@@ -1,0 +1,72 @@
+#include "energy/orientation_penalty.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/areas.h"
+
+namespace unsnarl {
+
+OrientationPenalty::OrientationPenalty(const Positions& rest, std::span<const Triangle> triangles,
+                                       const Options& options)
+    : activation_(options.activation) {
+  triangles_.reserve(triangles.size());
+  for (const Triangle& t : triangles) {
+    Kept kept;
+    kept.corners = t;
+    const Vec3 area = area_vector(rest, t);
+    const double squared = area.squaredNorm();
+    double longest = 0;  // edge
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, (rest.col(t[k]) - rest.col(t[(k + 1) % 3])).norm());
+    if (squared > 0 && longest > 0 && std::isfinite(1 / squared)) {
+      kept.normal = area / squared;
+      kept.weight = options.scale * std::sqrt(squared) / longest;
+    }
+    triangles_.push_back(kept);
+  }
+}
+
+double OrientationPenalty::value(const Positions& x, Index t) const {
+  const Kept& kept = triangles_[t];
+  if (!(kept.weight > 0)) return 0;
+  const double missing = 1 - kept.normal.dot(area_vector(x, kept.corners)) / activation_;
+  return missing > 0 ? 0.5 * kept.weight * missing * missing : 0;
+}
+
+bool OrientationPenalty::evaluate(const Positions& x, Index t, Term& term) const {
+  const Kept& kept = triangles_[t];
+  if (!(kept.weight > 0)) return false;
+  const double missing = 1 - kept.normal.dot(area_vector(x, kept.corners)) / activation_;
+  if (!(missing > 0)) return false;
+  term.value = 0.5 * kept.weight * missing * missing;
+  term.force = -kept.weight * missing / activation_;
+  term.stiffness = kept.weight / (activation_ * activation_);
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 opposite = x.col(kept.corners[(k + 2) % 3]) - x.col(kept.corners[(k + 1) % 3]);
+    term.gradient.col(k) = kept.normal.cross(opposite);
+  }
+  return true;
+}
+
+void OrientationPenalty::filter(const Positions& x, std::span<const Index> which, double share, Positions& p) const {
+  constexpr int rounds = 30;
+  const auto turns = [&](Index t) {
+    const Kept& kept = triangles_[t];
+    if (!(kept.weight > 0)) return false;
+    const double now = kept.normal.dot(area_vector(x, kept.corners));
+    if (!(now > 0)) return false;
+    const auto moved = [&](int k) { return Vec3(x.col(kept.corners[k]) + p.col(kept.corners[k])); };
+    const Vec3 a = moved(0);
+    return kept.normal.dot((moved(1) - a).cross(moved(2) - a)) < share * now;
+  };
+  std::vector<Index> turning;
+  for (int round = 1; round <= rounds; ++round) {
+    turning.clear();
+    std::copy_if(which.begin(), which.end(), std::back_inserter(turning), turns);
+    if (turning.empty()) return;
+    for (Index t : turning)
+      for (Index v : triangles_[t].corners) p.col(v) *= round < rounds ? 0.5 : 0;
+  }
+}
+
+}  // namespace unsnarl

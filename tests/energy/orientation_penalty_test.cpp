@@ -1,0 +1,98 @@
+#include "energy/orientation_penalty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "energy/finite_differences.h"
+#include "mesh/areas.h"
+
+namespace unsnarl {
+namespace {
+
+const std::vector<Triangle> one = {{0, 1, 2}};
+const std::vector<Index> first = {0};
+
+Positions corner(double height) {
+  Positions x(3, 3);
+  x.col(0) = Vec3(0, 0, 0);
+  x.col(1) = Vec3(2, 0, 0);
+  x.col(2) = Vec3(0.5, height, 0);
+  return x;
+}
+
+/// c of the formula.
+double area_share(const Positions& rest, const Positions& x) {
+  const Vec3 at_rest = area_vector(rest, one[0]);
+  return at_rest.dot(area_vector(x, one[0])) / at_rest.squaredNorm();
+}
+
+TEST(OrientationPenalty, RestShapeAndItsSurroundingsHaveNoEnergy) {
+  const OrientationPenalty penalty(corner(1), one, {});
+  OrientationPenalty::Term term;
+  for (double height : {1.0, 0.5, 0.2, 3.0}) {
+    EXPECT_EQ(penalty.value(corner(height), 0), 0);
+    EXPECT_FALSE(penalty.evaluate(corner(height), 0, term));
+  }
+  EXPECT_GT(penalty.value(corner(0.19), 0), 0);
+}
+
+TEST(OrientationPenalty, GrowsTheFartherAFaceIsTurned) {
+  const OrientationPenalty penalty(corner(1), one, {});
+  EXPECT_GT(penalty.value(corner(-0.1), 0), penalty.value(corner(0.1), 0));
+  EXPECT_GT(penalty.value(corner(-0.3), 0), penalty.value(corner(-0.1), 0));
+  EXPECT_TRUE(std::isfinite(penalty.value(corner(-100), 0)));
+}
+
+TEST(OrientationPenalty, TrianglesWithoutAreaAtRestAreFree) {
+  const OrientationPenalty penalty(corner(0), one, {});
+  EXPECT_EQ(penalty.value(corner(-1), 0), 0);
+  Positions p = corner(-1);
+  penalty.filter(corner(1), first, 0.2, p);
+  EXPECT_EQ(p, corner(-1));
+}
+
+TEST(OrientationPenalty, DerivativesAgreeWithFiniteDifferences) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Positions rest = corner(1) + 0.1 * random_positions(seed, 3);
+    const Positions x = corner(seed % 2 ? 0.1 : -0.1) + 0.03 * random_positions(seed + 100, 3);
+    const OrientationPenalty penalty(rest, one, {.scale = 3, .activation = 0.3});
+    OrientationPenalty::Term term;
+    ASSERT_TRUE(penalty.evaluate(x, 0, term));
+    EXPECT_DOUBLE_EQ(term.value, penalty.value(x, 0));
+    expect_gradient([&](const Positions& y) { return penalty.value(y, 0); }, x, term.force * term.gradient, 1e-7, 1e-5);
+    // The second derivative along the gradient of the share, by differences of the force.
+    const double step = 1e-6;
+    const Positions ahead = x + step * term.gradient, behind = x - step * term.gradient;
+    OrientationPenalty::Term a, b;
+    ASSERT_TRUE(penalty.evaluate(ahead, 0, a) && penalty.evaluate(behind, 0, b));
+    const double travelled = area_share(rest, ahead) - area_share(rest, behind);
+    EXPECT_NEAR((a.force - b.force) / travelled, term.stiffness, 1e-4 * std::abs(term.stiffness));
+  }
+}
+
+TEST(OrientationPenalty, FilterStopsWhatWouldTurnAFaceOver) {
+  const OrientationPenalty penalty(corner(1), one, {});
+  Positions p = Positions::Zero(3, 3);
+  p(1, 2) = -0.7;  // keeps 0.3 of its share
+  Positions kept = p;
+  penalty.filter(corner(1), first, 0.2, kept);
+  EXPECT_EQ(kept, p);
+  p(1, 2) = -3;
+  penalty.filter(corner(1), first, 0.2, p);
+  EXPECT_EQ(p(1, 2), -0.75);
+  const double share = area_share(corner(1), Positions(corner(1) + p));
+  EXPECT_GE(share, 0.2);
+}
+
+TEST(OrientationPenalty, FilterLetsTurnedFacesMove) {
+  const OrientationPenalty penalty(corner(1), one, {});
+  Positions p = Positions::Zero(3, 3);
+  p(1, 2) = -3;
+  const Positions whole = p;
+  penalty.filter(corner(-0.1), first, 0.2, p);
+  EXPECT_EQ(p, whole);
+}
+
+}  // namespace
+}  // namespace unsnarl
