@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <new>
 #include <optional>
@@ -325,11 +324,15 @@ class Repair {
     for (int round = 0; round < most_cuts && !stopped(); ++round) {
       const std::vector<double> positions = prepared_.scatter(surface_.positions, scene_.x);
       const std::size_t known = cuts.triangles.size(), regions = result_.report.regions.size();
-      const Triangulation by_result =
-          triangulate({positions, surface_.corners, surface_.offsets}, prepared_.identification.vertex_of);
-      for (const Triangulation* cut : std::initializer_list<const Triangulation*>{&by_result, &prepared_.otherwise}) {
-        const std::vector<IntersectingPair> strangers = add_cut(cuts, of_part(*cut));
+      const auto add = [&](const Triangulation& cut) {
+        const std::vector<IntersectingPair> strangers = add_cut(cuts, of_part(cut));
         ignored_.insert(ignored_.end(), strangers.begin(), strangers.end());
+      };
+      const SurfaceView result = {positions, surface_.corners, surface_.offsets};
+      add(triangulate(result, prepared_.identification.vertex_of));
+      if (options_.find.both_diagonals) {
+        add(prepared_.otherwise);
+        add(triangulate_otherwise(result, prepared_.identification.vertex_of));
       }
       if (cuts.triangles.size() == known) return;
       for (std::size_t t = known; t < cuts.triangles.size(); ++t)
