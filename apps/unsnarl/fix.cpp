@@ -11,12 +11,14 @@
 #include "intersecting_faces.h"
 #include "memory_guard.h"
 #include "mesh_input.h"
+#include "pictures.h"
 #include "progress.h"
 #include "render/picture.h"
 #include "render/png.h"
 #include "repair/face_pairs.h"
 #include "repair/measure.h"
 #include "repair/prepared_surface.h"
+#include "repair/recording_json.h"
 #include "repair/report_json.h"
 #include "staged_output.h"
 #include "standard_streams.h"
@@ -56,7 +58,8 @@ std::string checked_output(const FixOptions& options) {
   if (!from_stream && !options.in_place) paths.emplace_back("the input", options.input);
   paths.emplace_back(options.in_place ? "the input" : "-o", options.in_place ? options.input : options.output);
   for (const auto& [name, path] : {std::pair{"--report", options.report}, {"--highlight", options.highlight},
-                                   {"--picture", options.picture}, {"--view", options.view}})
+                                   {"--picture", options.picture}, {"--record", options.record},
+                                   {"--view", options.view}})
     if (!path.empty()) paths.emplace_back(name, path);
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -137,6 +140,7 @@ class Fix {
     for (const std::string& note : document_.notes()) say("note: {}", note);
     // A folder that is missing or must not be written to is found now rather than after the work.
     if (!is_stream(output_)) StagedOutput(output_, interruption_);
+    if (picture_kind(options_.picture) == PictureKind::folder) prepare_picture_folder(options_.picture);
 
     Context context;
     context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
@@ -154,6 +158,7 @@ class Fix {
 
     const ExitCode exit_code = exit_code_of(result_.status);
     write_pictures();
+    write_recording();
     files_.exit_code = exit_code;
     files_.seconds = clock_.seconds();
     write_report();
@@ -223,7 +228,9 @@ class Fix {
     if (!options_.highlight.empty())
       write_file(options_.highlight, highlight_file(surface(), result_.positions, pairs_before, pairs_after),
                  interruption_);
-    if (!options_.picture.empty()) {
+    if (picture_kind(options_.picture) != PictureKind::still) {
+      write_animation(options_.picture, surface(), result_, interruption_);
+    } else if (!options_.picture.empty()) {
       PictureOptions picture;
       const auto label = [](const char* when, std::size_t pairs) {
         return fmt::format("{}\n{}", when, pairs == 0   ? "no self-intersections"
@@ -238,6 +245,11 @@ class Fix {
                  encode_png(render_pair(before, faces_in(pairs_before), after, faces_in(pairs_after), picture)),
                  interruption_);
     }
+  }
+
+  void write_recording() {
+    if (options_.record.empty()) return;
+    write_file(options_.record, recording_json(result_, surface()).dump() + "\n", interruption_);
   }
 
   void write_report() {

@@ -21,7 +21,7 @@ struct FixOptions : MeshOptions {
   Parts fix, only;  ///< held still; worked on, all else held still (empty: everything is worked on)
   bool recompute_normals = false;
   bool paper = false, no_recover = false;
-  std::string report, highlight, picture, view;
+  std::string report, highlight, picture, view, record;
   std::string progress = "auto";
 };
 void add_fix_options(CLI::App& command, FixOptions& options);

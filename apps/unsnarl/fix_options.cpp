@@ -3,10 +3,14 @@
 #include "exit_code.h"
 #include "fix.h"
 #include "mesh_input.h"
+#include "pictures.h"
 #include "repair/measure.h"
 
 namespace unsnarl::app {
 namespace {
+
+/// Enough to follow what happens; a recording stays small.
+constexpr int recorded_frames = 100;
 
 /// One flag a vertex; empty: all may move.
 std::vector<std::uint8_t> fixed_vertices(const FixOptions& options, const Document& document) {
@@ -106,11 +110,17 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
   command.add_option("--report", options.report, "Write a JSON report: counts, displacement, regions, seconds, ...")
       ->type_name("FILE")
       ->group(shown);
-  command.add_option("--picture", options.picture, "Write a picture, before and after, intersecting faces in red")
+  command
+      .add_option("--picture", options.picture,
+                  "Write a picture, before and after, intersecting faces in red; FILE.gif or a folder (of PNG):\n"
+                  "an animation of the repair")
       ->type_name("FILE.png")
       ->group(shown);
   command.add_option("--view", options.view, "Write a page to look at: before, after, displacement (see unsnarl view)")
       ->type_name("PAGE.html")
+      ->group(shown);
+  command.add_option("--record", options.record, "Write how it went as JSON: iterations, the surface on the way")
+      ->type_name("FILE.json")
       ->group(shown);
   command.add_option("--highlight", options.highlight, "Write a PLY in which intersecting faces are coloured")
       ->type_name("FILE.ply")
@@ -158,6 +168,8 @@ RepairOptions repair_options(const FixOptions& options, const Document& document
   result.memory_limit_mb = options.memory_limit_mb;
   result.paper = options.paper;
   result.recover = !options.no_recover;
+  const bool animated = picture_kind(options.picture) != PictureKind::still;
+  if (!options.record.empty() || animated) result.record = {.history = true, .frames = recorded_frames};
   result.as_written = [&document](std::span<const double> positions, bool float32) {
     return document.as_written(positions, float32);
   };

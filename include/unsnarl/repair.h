@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "unsnarl/intersections.h"
+#include "unsnarl/recording.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -73,6 +74,7 @@ struct RepairOptions {
   /// MB (10^6 bytes) of resident memory, looked at all the time; 0: none. To be sure that it is never passed, limit
   /// the process too: an allocation that fails ends the work with Status::memory_limit and what was reached.
   double memory_limit_mb = 0;
+  RecordOptions record;             ///< what to note on the way; nothing unless asked for
   bool recover = true;              ///< false: stop after untangling (for research)
   bool paper = false;               ///< the configuration of the paper instead of the regional ladder
 };
@@ -144,6 +146,7 @@ struct RepairReport {
   Precision precision = Precision::float64;  ///< the format in which the result was made to hold
   std::vector<RegionReport> regions;
   std::vector<ComponentReport> components;
+  std::vector<RegionHistory> history;  ///< in the order of the work; empty unless RepairOptions::record asks for it
   std::vector<StageReport> stages;
 };
 
@@ -151,6 +154,7 @@ struct RepairResult {
   Status status = Status::no_progress;
   std::vector<double> positions;  ///< 3 n doubles, vertex order of the input
   RepairReport report;
+  std::vector<RecordedFrame> frames;  ///< from the input to `positions`; empty unless asked for
 };
 
 /// Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.

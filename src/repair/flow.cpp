@@ -20,6 +20,7 @@
 #include "repair/flow_recession.h"
 #include "repair/flow_samples.h"
 #include "repair/local_solver.h"
+#include "repair/trajectory.h"
 
 namespace unsnarl {
 namespace {
@@ -294,6 +295,7 @@ class Flow {
     evaluate_mesh(x_);
     refresh(pairs);
     for (;; ++result.iterations) {
+      record_iteration(pairs.size());
       if (pairs.size() < result.pairs_left) {
         result.pairs_left = pairs.size();
         best_ = full_;
@@ -346,6 +348,7 @@ class Flow {
                               std::max(4.0, locality_rel * diagonal_ / h_), options_.recession_iterations};
       for (const double share : options_.recession_shares) {
         if (stop_ && stop_()) break;
+        RecordedTry recorded(patch_);
         recession.positions(share, full_);
         if (!solve_contours(full_, contour, options_.jitter, &result.iterations)) continue;
         if (!result.clean) best_ = full_;
@@ -353,6 +356,7 @@ class Flow {
         result.pairs_left = 0;
         if (has_squeezed_face(patch_, patch_.rest, full_, options_.recession_area)) continue;
         patch_.x = full_;
+        recorded.keep();
         return result;
       }
     }
@@ -367,6 +371,14 @@ class Flow {
   }
 
   void make_shape(double spacing) { shape_ = std::make_unique<ShapeRepulsion>(patch_, rung_, options_, spacing); }
+
+  void record_iteration(std::size_t pairs) {
+    IterationRecord iteration{.pairs = pairs};
+    iteration[EnergyTerm::arap] = arap_value_;
+    iteration[EnergyTerm::minkowski] = lambda_minkowski_ * penalty_value_;
+    if (shape_) iteration[EnergyTerm::gaussian] = value_ - arap_value_ - lambda_minkowski_ * penalty_value_;
+    record(patch_, full_, iteration);
+  }
 
   double cap() const { return std::max(h_, shape_ ? 0.5 * shape_->spacing() : 0.5 * options_.spacing_rel * diagonal_); }
 
@@ -454,9 +466,11 @@ class Flow {
     local.bisections = 0;
     local.area_floor = options_.area_floor;
     patch_.x.leftCols(n_) = x.leftCols(n_);
+    RecordedTry recorded(patch_);
     const LocalResult result = solve_locally(patch_, rung, ignored, local, stop_);
     if (iterations) *iterations += result.iterations;
     if (!result.clean || has_squeezed_face(patch_, patch_.rest, patch_.x, options_.area_floor)) return false;
+    recorded.keep();
     x.leftCols(n_) = patch_.x.leftCols(n_);
     return true;
   }

@@ -13,6 +13,7 @@
 #include "repair/flow.h"
 #include "repair/local_solver.h"
 #include "repair/patch.h"
+#include "repair/trajectory.h"
 #include "repair/waves.h"
 
 namespace unsnarl {
@@ -121,13 +122,18 @@ class Climb {
     std::vector<IntersectingPair> pairs;
     std::vector<RegionReport> regions;
     std::vector<std::vector<Index>> moved;
+    Recorder::Stages recorded;
   };
-  State state() const { return {scene_.x, pairs_, result_.regions, result_.moved}; }
+  State state() const {
+    return {scene_.x, pairs_, result_.regions, result_.moved,
+            options_.recorder ? options_.recorder->stages() : Recorder::Stages()};
+  }
   void restore(const State& state) {
     scene_.x = state.x;
     pairs_ = state.pairs;
     result_.regions = state.regions;
     result_.moved = state.moved;
+    if (options_.recorder) options_.recorder->restore(state.recorded);
     gains_.clear();
   }
 
@@ -147,6 +153,7 @@ class Climb {
     double reach = 0;  // how far around the patch obstacles are taken in
     Patch patch;
     Positions start;
+    Trajectory trajectory;
     int iterations = 0;
     double seconds = 0;
     bool clean = false;
@@ -160,6 +167,7 @@ class Climb {
     Positions start, x;
     std::size_t pairs = 0, pairs_left = 0;
     RegionReport report;
+    Trajectory trajectory;
 
     bool is_large() const { return is_large_gain(pairs, pairs_left); }
   };
@@ -171,7 +179,8 @@ class Climb {
     RegionReport report = report_of(attempt, rung);
     report.pairs -= attempt.pairs_left;
     gains_.push_back({std::move(attempt.free), attempt.start.leftCols(n), attempt.patch.x.leftCols(n),
-                      attempt.region.pairs.size(), attempt.pairs_left, report});
+                      attempt.region.pairs.size(), attempt.pairs_left, report, std::move(attempt.trajectory)});
+    gains_.back().trajectory.end_at_fewest_pairs();
   }
 
   /// Moves the regions that no rung resolved to the states with the fewest pairs, which become the rest positions to
@@ -185,6 +194,7 @@ class Climb {
     const Positions before = scene_.x;
     std::vector<std::vector<Index>> moved;
     std::vector<RegionReport> reports;
+    std::vector<Trajectory> trajectories;
     std::vector<std::uint8_t> is_taken(scene_.vertex_count(), 0);
     for (Gain& gain : gains_) {
       if (kind == GainKind::large && !gain.is_large()) continue;
@@ -198,6 +208,7 @@ class Climb {
       }
       moved.push_back(std::move(gain.vertices));
       reports.push_back(std::move(gain.report));
+      trajectories.push_back(std::move(gain.trajectory));
     }
     if (moved.empty()) return false;
     gains_.clear();
@@ -211,6 +222,12 @@ class Climb {
       return false;
     }
     pairs_ = std::move(pairs);
+    if (options_.recorder) {
+      options_.recorder->begin_stage("untangle");
+      for (std::size_t k = 0; k < moved.size(); ++k)
+        options_.recorder->add(std::move(trajectories[k]), reports[k].rung,
+                               options_.first_region + result_.regions.size() + k, moved[k], scene_.x);
+    }
     std::move(moved.begin(), moved.end(), std::back_inserter(result_.moved));
     std::move(reports.begin(), reports.end(), std::back_inserter(result_.regions));
     scene_.rest = scene_.x;
@@ -242,6 +259,7 @@ class Climb {
   }
 
   void climb_one(const Rung& rung) {
+    if (options_.recorder) options_.recorder->begin_stage("untangle");
     std::vector<Attempt> attempts = gather_attempts(rung);
     SceneIndex index(scene_);
     // A second round for those that moved farther than their obstacles reach.
@@ -266,6 +284,9 @@ class Climb {
               return;
             }
             paste_patch(attempt.patch, scene_, index);
+            if (options_.recorder)
+              options_.recorder->add(std::move(attempt.trajectory), std::string(rung.name),
+                                     options_.first_region + result_.regions.size(), attempt.free, scene_.x);
             result_.regions.push_back(report_of(attempt, rung));
             result_.moved.push_back(std::move(attempt.free));
           });
@@ -321,7 +342,12 @@ class Climb {
     attempt.patch = cut_patch(scene_, index, attempt.free, attempt.reach);
     attempt.patch.edge_length = attempt.edge_length;
     attempt.start = attempt.patch.x;
+    if (options_.recorder && options_.recorder->is_on()) {
+      attempt.trajectory = options_.recorder->new_trajectory();
+      attempt.patch.trajectory = &attempt.trajectory;
+    }
     solve(attempt, rung, foreign_pairs(attempt.patch, attempt.region));
+    attempt.patch.trajectory = nullptr;
     attempt.rejected = attempt.clean && options_.accept && !options_.accept(attempt.patch);
     attempt.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
@@ -348,6 +374,7 @@ class Climb {
       LocalOptions local;
       local.keep_sides = keep_sides;
       attempt.patch.x = attempt.start;
+      attempt.trajectory.clear();
       take(solve_locally(attempt.patch, *rung.local, foreign, local, options_.stop));
       if (attempt.clean || is_large_gain(attempt.region.pairs.size(), attempt.pairs_left)) return;
     }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "repair/patch.h"
+#include "repair/recorder.h"
 #include "repair/scene.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/repair.h"
@@ -16,6 +17,8 @@ struct LadderOptions {
   /// Asked about a patch that a rung resolved (from any thread); may improve it. False: the region climbs on.
   /// Regions that are not resolved then stay where they are.
   std::function<bool(Patch& patch)> accept;
+  Recorder* recorder = nullptr;  ///< notes how regions were resolved; none: nobody does
+  std::size_t first_region = 0;  ///< number that the recorder is given for the first region
 };
 
 struct LadderResult {

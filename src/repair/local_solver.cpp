@@ -12,6 +12,7 @@
 #include "energy/arap.h"
 #include "energy/minkowski_penalty.h"
 #include "repair/contours.h"
+#include "repair/trajectory.h"
 #include "repair/turn_guard.h"
 
 namespace unsnarl {
@@ -77,14 +78,15 @@ class PenaltyForce {
     return deepest;
   }
 
-  void add(const Positions& x, double weight, Positions& force) {
+  /// Adds the weighted force; returns the weighted energy.
+  double add(const Positions& x, double weight, Positions& force) {
     tree_.update(x, 0.5 * margin_);
     std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
     tree_.self_pairs([&](Index task, Index a, Index b) { found[task].push_back({a, b}); });
     penalty_.pairs.clear();
     for (const auto& list : found) penalty_.pairs.insert(penalty_.pairs.end(), list.begin(), list.end());
     std::sort(penalty_.pairs.begin(), penalty_.pairs.end());
-    penalty_.value_and_gradient(x, force, -weight);
+    return -penalty_.value_and_gradient(x, force, -weight);
   }
   const MinkowskiPenalty& penalty() const { return penalty_; }
 
@@ -240,6 +242,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     if (stop && stop()) break;
     if (waited >= (result.iterations > rung.max_iterations ? options.patience : options.despair)) break;
     const std::vector<IntersectingPair> pairs = blocking_pairs(finder.find(x), tolerated);
+    record(patch, x, {.pairs = pairs.size()});
     if (pairs.empty()) {
       result.clean = true;
       break;
@@ -270,8 +273,8 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
       else
         add_contour_force(patch, x, edges, pairs, penalty.penalty(), force);
     } else if (method == LocalMethod::penalty) {
-      penalty.add(x, h, force);
-      arap.value_and_gradient(x, force, -1);
+      record_energy(patch, EnergyTerm::minkowski, penalty.add(x, h, force));
+      record_energy(patch, EnergyTerm::arap, -arap.value_and_gradient(x, force, -1));
     } else {
       add_contour_force(patch, x, edges, pairs, penalty.penalty(), force);
     }

@@ -13,6 +13,7 @@
 #include "mesh/adjacency.h"
 #include "mesh/areas.h"
 #include "optimize/lbfgs.h"
+#include "repair/trajectory.h"
 
 namespace unsnarl {
 namespace {
@@ -49,6 +50,7 @@ class PaperUntangle {
     const LbfgsResult found = minimize_lbfgs(objective, x_, options, {}, [&](LbfgsIteration& state) {
       unpack(state.x);
       result.disjoint_left = count_disjoint();
+      if (patch_.trajectory) record_iteration(result.disjoint_left);
       if (result.disjoint_left == 0 || (stop && stop())) return true;
       if (state.iteration == 0) return false;
       if (state.iteration % options_.area_refresh == 0) refresh_areas();
@@ -77,6 +79,12 @@ class PaperUntangle {
 
   std::span<const Triangle> active() const { return triangles_.first(static_cast<std::size_t>(patch_.active_count)); }
   void unpack(const Eigen::VectorXd& x) { full_.leftCols(n_) = Eigen::Map<const Positions>(x.data(), 3, n_); }
+
+  void record_iteration(std::size_t disjoint_left) {
+    IterationRecord iteration = terms_;
+    iteration.pairs = disjoint_left;
+    record(patch_, full_ / scale_, iteration);
+  }
 
   std::size_t count_disjoint() {
     const std::vector<IntersectingPair> pairs = finder_.find(full_);
@@ -171,11 +179,11 @@ class PaperUntangle {
         penalty_.pairs.push_back({std::min(a, b), std::max(a, b)});
     });
     Positions sum = Positions::Zero(3, full_.cols());
-    const double value = gaussian_.value_and_gradient(full_, sum, options_.lambda_gaussian) +
-                         penalty_.value_and_gradient(full_, sum, options_.lambda_minkowski) +
-                         arap_.value_and_gradient(full_, sum, options_.lambda_arap);
+    terms_[EnergyTerm::gaussian] = gaussian_.value_and_gradient(full_, sum, options_.lambda_gaussian);
+    terms_[EnergyTerm::minkowski] = penalty_.value_and_gradient(full_, sum, options_.lambda_minkowski);
+    terms_[EnergyTerm::arap] = arap_.value_and_gradient(full_, sum, options_.lambda_arap);
     gradient = Eigen::Map<const Eigen::VectorXd>(sum.data(), 3 * n_);
-    return value;
+    return terms_[EnergyTerm::gaussian] + terms_[EnergyTerm::minkowski] + terms_[EnergyTerm::arap];
   }
 
   Patch& patch_;
@@ -194,6 +202,7 @@ class PaperUntangle {
   std::vector<Box> boxes_;
   Bvh bvh_;
   Eigen::VectorXd x_;
+  IterationRecord terms_;  // of the energy, where it was last evaluated
 };
 
 }  // namespace

@@ -9,6 +9,8 @@
 
 namespace unsnarl {
 
+class Trajectory;
+
 /// A small surface of its own, cut out of the whole: what may move, and what stands still around it.
 /// Every solver works on patches and knows nothing of the surface they come from.
 struct Patch {
@@ -22,6 +24,7 @@ struct Patch {
   std::vector<Index> vertices;      ///< patch vertex -> vertex of the whole, ascending within the free and the fixed
   std::vector<Index> faces;         ///< patch triangle -> triangle of the whole, ascending within active and obstacles
   double edge_length = 0;           ///< h: mean edge of the intersecting faces at rest (or of all active ones)
+  Trajectory* trajectory = nullptr;  ///< where solvers note their iterations; none: nowhere. Not owned
 };
 
 /// Finds the triangles of a scene near a place while some of its vertices move: a tree over all triangles as they

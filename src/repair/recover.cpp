@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "energy/arap_triangle.h"
 #include "energy/bending.h"
@@ -16,6 +17,7 @@
 #include "repair/embedding_guard.h"
 #include "repair/open_gaps.h"
 #include "repair/snap_home.h"
+#include "repair/trajectory.h"
 
 namespace unsnarl {
 namespace {
@@ -145,6 +147,8 @@ class Recovery {
   double energy(const Positions& x);
   /// Energy, gradient and the rank-one terms of the Hessian at x_.
   double linearise();
+  /// Notes the state that was linearised.
+  void record_iteration();
   /// Stencils that may collide in the coming step.
   void pick_in_the_way();
   void snap();
@@ -186,6 +190,7 @@ class Recovery {
   std::vector<BarrierStencil> near_;
   std::vector<BarrierContact> contacts_;    // among near_
   std::vector<double> energies_;            // of triangles_ and hinges_
+  IterationRecord terms_;                   // of the energy, where it was last linearised; but for energies_
   std::vector<double> travelled_, travel_;  // per vertex: since gathering, in the coming step
   std::vector<double> allowance_;           // per vertex: motion since the last gathering that the list allows
   std::vector<SeparatedStencil> in_the_way_;
@@ -478,7 +483,23 @@ double Recovery::linearise() {
     term.stiffness = c.stiffness;
     operator_.terms.push_back(term);
   }
+  terms_[EnergyTerm::pull] = 0.5 * options_.pull * pull;
+  terms_[EnergyTerm::orientation] = orientation;
+  terms_[EnergyTerm::barrier] = contact;
   return 0.5 * options_.pull * pull + elastic + orientation + contact;
+}
+
+void Recovery::record_iteration() {
+  if (!patch_.trajectory) return;
+  IterationRecord iteration = terms_;
+  const auto hinges = energies_.begin() + static_cast<std::ptrdiff_t>(triangles_.size());
+  iteration[EnergyTerm::arap] = std::accumulate(energies_.begin(), hinges, 0.0);
+  iteration[EnergyTerm::bending] = std::accumulate(hinges, energies_.end(), 0.0);
+  iteration.pairs = guard_.pairs_at_start();
+  for (const BarrierContact& contact : contacts_)
+    if (near_[contact.stencil].stencil.kind != StencilKind::vertex_edge)  // those watch the shape of single faces
+      iteration.min_gap = std::fmin(iteration.min_gap, contact.closest.distance);
+  record(patch_, x_, iteration);
 }
 
 void Recovery::pick_in_the_way() {
@@ -494,6 +515,7 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
   if (moving_.empty()) return;
   gather(activation);
   double current = linearise();
+  record_iteration();
   std::vector<double> history = {current};
   for (int count = 0; count < steps && !stopped(); ++count) {
     const Index n = static_cast<Index>(moving_.size());
@@ -533,6 +555,7 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
     if (!accepted) break;
     x_.swap(trial_);
     current = linearise();
+    record_iteration();
     history.push_back(current);
     if (longest < std::max(options_.stop_motion * h_, options_.stop_activation * activation)) break;
     if (static_cast<int>(history.size()) > stop.window &&

@@ -23,6 +23,7 @@
 #include "repair/paper_untangle.h"
 #include "repair/patch.h"
 #include "repair/prepared_surface.h"
+#include "repair/recorder.h"
 #include "repair/recover.h"
 #include "repair/rounding.h"
 #include "repair/scene.h"
@@ -62,6 +63,7 @@ class Repair {
     result_.report.topology = diagnosis_.topology;
     result_.report.obstructions = diagnosis_.obstructions;
     judge_.emplace(prepared_, diagnosis_, options_);
+    recorder_.emplace(options_.record, prepared_.rest);
     result_.report.before = result_.report.after = judge_->pairs_at(prepared_.rest).faces;
     result_.positions.assign(surface_.positions.begin(), surface_.positions.end());
     reached_ = prepared_.rest;
@@ -338,6 +340,7 @@ class Repair {
       for (std::size_t t = known; t < cuts.triangles.size(); ++t)
         component_of_.push_back(diagnosis_.components.component_of_vertex[cuts.triangles[t][0]]);
       const Positions before = scene_.x;
+      const Recorder::Stages recorded = recorder_->stages();
       scene_ = make_scene(prepared_.rest, cuts.triangles, std::move(scene_.fixed));
       scene_.x = before;
       IntersectionFinder finder_of_all(scene_.triangles);
@@ -349,6 +352,7 @@ class Repair {
       if (is_resolved(finder_of_all)) continue;
       scene_.x = before;
       result_.report.regions.resize(regions);
+      recorder_->restore(recorded);
       return;
     }
   }
@@ -360,6 +364,8 @@ class Repair {
     LadderOptions ladder;
     ladder.stop = stopper();
     if (options_.max_displacement_rel > 0) ladder.accept = [this](Patch& patch) { return stays_near(patch); };
+    ladder.recorder = &*recorder_;
+    ladder.first_region = result_.report.regions.size();
     ladder.on_progress = [this](std::size_t left) {
       const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
       report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
@@ -375,8 +381,12 @@ class Repair {
     SceneIndex index(scene_);
     Patch patch = cut_patch(scene_, index, free, 0);
     patch.edge_length = mean_edge_length(scene_.rest, scene_.triangles);
+    Trajectory trajectory = recorder_->new_trajectory();
+    if (recorder_->is_on()) patch.trajectory = &trajectory;
     const PaperResult untangled = paper_untangle(patch, {}, stopper());
     paste_patch(patch, scene_, index);
+    recorder_->begin_stage("untangle");
+    recorder_->add(std::move(trajectory), "paper", result_.report.regions.size(), free, scene_.x);
     LadderResult result;
     RegionReport report;
     report.rung = "paper";
@@ -402,12 +412,15 @@ class Repair {
       boxes[r] = patch_box(scene_, regions[r], recovery_reach * edge_length[r]);
     }
     std::vector<Patch> patches(regions.size());
+    std::vector<Trajectory> trajectories(regions.size(), recorder_->new_trajectory());
+    recorder_->begin_stage("recover");
     run_in_waves(
         boxes,
         [&](std::size_t r) {
           if (stopped()) return;
           patches[r] = cut_patch(scene_, index, regions[r], recovery_reach * edge_length[r]);
           patches[r].edge_length = edge_length[r];
+          if (recorder_->is_on()) patches[r].trajectory = &trajectories[r];
           RecoverOptions recovery = options_.paper ? RecoverOptions::paper() : RecoverOptions{};
           recovery.min_gap = wanted_gap(regions[r]);
           gap[r] = recover(patches[r], recovery, stopper()).min_gap;
@@ -415,6 +428,7 @@ class Repair {
         [&](std::size_t r) {
           if (std::isfinite(gap[r]) && gap[r] > 0) smallest_gap_ = std::min(smallest_gap_, gap[r]);
           paste_patch(patches[r], scene_, index);
+          recorder_->add(std::move(trajectories[r]), "", r, regions[r], scene_.x);
           patches[r] = {};
         });
   }
@@ -487,6 +501,8 @@ class Repair {
       result_.status = Status::displacement_exceeded;
     measure_components(prepared_, diagnosis_, left.triangles, report);
     if (options_.each_component) name_pairs_between_components(prepared_, diagnosis_, left.triangles, report);
+    report.history = recorder_->history();
+    result_.frames = recorder_->frames(surface_, prepared_, result_.positions, *judge_);
     end_stage();
     phase_ = "certify";
     report_progress(1, left.triangles.size());
@@ -501,6 +517,7 @@ class Repair {
   double diagonal_ = 0;
   Diagnosis diagnosis_;
   std::optional<Judge> judge_;
+  std::optional<Recorder> recorder_;
   // What is worked on at the moment; ids of pairs are those of its triangles.
   Triangulation cut_;  // of the polygons, as the input has them
   Scene scene_;        // of these triangles, and of others that polygons may be cut into

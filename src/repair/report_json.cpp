@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "repair/measure.h"
+#include "repair/recording_json.h"
 #include "unsnarl/version.h"
 
 namespace unsnarl {
@@ -112,6 +113,7 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
                                   {"first_face", component.first_face},
                                   {"pairs_before", component.pairs_before},
                                   {"pairs_after", component.pairs_after}});
+  if (options.record.any()) json["history"] = history_json(r.history);
   json["stages"] = stages_json(result, files);
   json["seconds"] = files.seconds;
   json["peak_memory_mb"] = peak_memory_mb();

@@ -1,0 +1,49 @@
+#include "pictures.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "exit_code.h"
+#include "render/animation.h"
+#include "render/gif.h"
+#include "render/png.h"
+#include "staged_output.h"
+
+namespace unsnarl::app {
+
+namespace fs = std::filesystem;
+
+PictureKind picture_kind(const std::string& path) {
+  std::error_code ignored;
+  if (path.ends_with('/') || fs::is_directory(path, ignored)) return PictureKind::folder;
+  return path.ends_with(".gif") || path.ends_with(".GIF") ? PictureKind::gif : PictureKind::still;
+}
+
+void prepare_picture_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw WriteError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
+  if (!fs::is_empty(path, error) || error)
+    throw UsageError(fmt::format("--picture {}: this folder is not empty; name another, or empty it first", path));
+}
+
+void write_animation(const std::string& path, const SurfaceView& surface, const RepairResult& result,
+                     Interruption& interruption) {
+  if (picture_kind(path) == PictureKind::gif) {
+    std::vector<Image> images;
+    std::vector<double> delays;
+    render_animation(surface, result.frames, {}, [&](Image image, double seconds) {
+      images.push_back(std::move(image));
+      delays.push_back(seconds);
+    });
+    write_file(path, encode_gif(images, delays), interruption);
+  } else {
+    int number = 0;
+    render_animation(surface, result.frames, {}, [&](const Image& image, double) {
+      write_file((fs::path(path) / fmt::format("{:04}.png", number++)).string(), encode_png(image), interruption);
+    });
+  }
+}
+
+}  // namespace unsnarl::app

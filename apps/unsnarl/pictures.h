@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "interruption.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl::app {
+
+/// What --picture asks for, by its name.
+enum class PictureKind {
+  still,   ///< before and after, PNG
+  gif,     ///< *.gif: an animation
+  folder,  ///< a folder, there or ending in '/': the pictures of the animation, as 0000.png, 0001.png, ...
+};
+PictureKind picture_kind(const std::string& path);
+
+/// Makes sure that there is an empty folder. Throws UsageError, WriteError.
+void prepare_picture_folder(const std::string& path);
+
+/// The frames of a repair of `surface`, as a GIF or into a folder. Throws WriteError.
+void write_animation(const std::string& path, const SurfaceView& surface, const RepairResult& result,
+                     Interruption& interruption);
+
+}  // namespace unsnarl::app
