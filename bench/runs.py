@@ -97,7 +97,8 @@ def find_meshes(roots):
 
 
 def make_samples(program, folder, names=None):
-    """Writes the built-in samples (or those named) into a folder, as NAME.obj; returns their paths."""
+    """Writes the built-in samples (or those named) into a folder, as NAME.obj; returns their paths. `names` may be a
+    dictionary name -> resolution."""
     folder.mkdir(parents=True, exist_ok=True)
     if names is None:
         listing = subprocess.run([program, "sample", "--list"], capture_output=True, text=True)
@@ -109,7 +110,8 @@ def make_samples(program, folder, names=None):
     for name in names:
         path = folder / f"{name}.obj"
         path.unlink(missing_ok=True)
-        run = subprocess.run([program, "sample", name, "-o", path], capture_output=True, text=True)
+        resolution = ["--resolution", str(names[name])] if isinstance(names, dict) else []
+        run = subprocess.run([program, "sample", name, "-o", path, *resolution], capture_output=True, text=True)
         if run.returncode:
             sys.exit(f"'unsnarl sample {name}' failed:\n{run.stderr}")
         paths.append(path)

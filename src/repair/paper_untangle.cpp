@@ -9,6 +9,7 @@
 #include "energy/arap.h"
 #include "energy/gaussian_bandwidth.h"
 #include "energy/gaussian_contact.h"
+#include "energy/intersection_length.h"
 #include "energy/minkowski_penalty.h"
 #include "mesh/adjacency.h"
 #include "mesh/areas.h"
@@ -34,7 +35,7 @@ class PaperUntangle {
         penalty_(triangles_, {.one_vertex = false, .folded = false}),
         finder_(triangles_, patch.active_count) {
     const double start = options.start_bandwidth * edge_;
-    gaussian_.squared_bandwidth.assign(rest_.cols(), start * start);
+    squared_bandwidth_.assign(rest_.cols(), start * start);
   }
 
   PaperResult run(const std::function<bool()>& stop) {
@@ -55,7 +56,10 @@ class PaperUntangle {
       if (state.iteration == 0) return false;
       if (state.iteration % options_.area_refresh == 0) refresh_areas();
       gather_neighbours();
-      if (options_.adaptive) adapt(1);
+      if (options_.adaptive) {
+        adapt(1);
+        use_bandwidths();
+      }
       state.objective_changed = true;
       return false;
     });
@@ -64,8 +68,8 @@ class PaperUntangle {
     result.clean = result.disjoint_left == 0;
     result.iterations = found.iterations;
     result.evaluations = found.evaluations;
-    for (const double squared : gaussian_.squared_bandwidth) result.mean_bandwidth += std::sqrt(squared);
-    result.mean_bandwidth /= scale_ * static_cast<double>(gaussian_.squared_bandwidth.size());
+    for (const double squared : squared_bandwidth_) result.mean_bandwidth += std::sqrt(squared);
+    result.mean_bandwidth *= options_.bandwidth_scale / (scale_ * static_cast<double>(squared_bandwidth_.size()));
     if (found.iterations > 0) patch_.x.leftCols(n_) = full_.leftCols(n_) / scale_;
     return result;
   }
@@ -99,12 +103,18 @@ class PaperUntangle {
     }
   }
 
+  void use_bandwidths() {
+    gaussian_.squared_bandwidth = squared_bandwidth_;
+    for (double& squared : gaussian_.squared_bandwidth) squared *= options_.bandwidth_scale * options_.bandwidth_scale;
+  }
+  double widest() const { return std::sqrt(*std::max_element(squared_bandwidth_.begin(), squared_bandwidth_.end())); }
+
   // Weights: 0 for adjacent vertices, else 1 (§3.5.2).
   void gather_neighbours() {
-    double widest = 0;
-    for (const double squared : gaussian_.squared_bandwidth) widest = std::max(widest, squared);
     gaussian_.pairs.clear();
-    for (const auto& [i, j] : pairs_within<3>(full_, options_.neighbourhood * std::sqrt(widest))) {
+    if (options_.lambda_gaussian == 0) return;
+    const double reach = options_.neighbourhood * std::max(1.0, options_.bandwidth_scale) * widest();
+    for (const auto& [i, j] : pairs_within<3>(full_, reach)) {
       if (i >= n_ && j >= n_) continue;
       const std::span<const Index> around = neighbours_[i];
       if (std::binary_search(around.begin(), around.end(), j)) continue;
@@ -112,11 +122,15 @@ class PaperUntangle {
     }
   }
 
+  // What the bandwidths are found from does not depend on how they are scaled.
   std::vector<BandwidthPair> bandwidth_pairs() const {
+    const double reach = options_.neighbourhood * widest();
     std::vector<BandwidthPair> pairs;
     pairs.reserve(gaussian_.pairs.size());
-    for (const auto& [i, j, w] : gaussian_.pairs)
-      pairs.push_back({i, j, (full_.col(i) - full_.col(j)).squaredNorm(), w});
+    for (const auto& [i, j, w] : gaussian_.pairs) {
+      const double squared = (full_.col(i) - full_.col(j)).squaredNorm();
+      if (squared <= reach * reach) pairs.push_back({i, j, squared, w});
+    }
     return pairs;
   }
 
@@ -137,23 +151,24 @@ class PaperUntangle {
     } else {
       adapt(options_.bandwidth_iterations);
     }
+    use_bandwidths();
     gather_neighbours();
   }
 
   void set_global(double epsilon) {
-    std::fill(gaussian_.squared_bandwidth.begin(), gaussian_.squared_bandwidth.end(), epsilon * epsilon);
+    std::fill(squared_bandwidth_.begin(), squared_bandwidth_.end(), epsilon * epsilon);
   }
 
   void adapt(int iterations) {
     const std::vector<BandwidthPair> pairs = bandwidth_pairs();
     if (pairs.empty()) return;
     if (options_.scope == BandwidthScope::local) {
-      symmetric_local_bandwidths(pairs, gaussian_.squared_bandwidth, bandwidth_options(iterations));
+      symmetric_local_bandwidths(pairs, squared_bandwidth_, bandwidth_options(iterations));
       return;
     }
     // The damped global iteration (App. B.1), from where it stands.
     const BandwidthOptions options = bandwidth_options(iterations);
-    double squared = gaussian_.squared_bandwidth.front();
+    double squared = squared_bandwidth_.front();
     for (int k = 0; k < iterations; ++k) {
       double m0 = 0, m2 = 0;
       for (const BandwidthPair& pair : pairs) {
@@ -180,10 +195,17 @@ class PaperUntangle {
     });
     Positions sum = Positions::Zero(3, full_.cols());
     terms_[EnergyTerm::gaussian] = gaussian_.value_and_gradient(full_, sum, options_.lambda_gaussian);
-    terms_[EnergyTerm::minkowski] = penalty_.value_and_gradient(full_, sum, options_.lambda_minkowski);
+    terms_[EnergyTerm::minkowski] = mesh_energy(sum);
     terms_[EnergyTerm::arap] = arap_.value_and_gradient(full_, sum, options_.lambda_arap);
     gradient = Eigen::Map<const Eigen::VectorXd>(sum.data(), 3 * n_);
     return terms_[EnergyTerm::gaussian] + terms_[EnergyTerm::minkowski] + terms_[EnergyTerm::arap];
+  }
+
+  double mesh_energy(Positions& gradient) {
+    if (options_.lambda_minkowski == 0) return 0;
+    if (options_.mesh_energy == MeshEnergy::intersection_length)
+      return intersection_length(full_, triangles_, penalty_.pairs, gradient, options_.lambda_minkowski);
+    return penalty_.value_and_gradient(full_, gradient, options_.lambda_minkowski);
   }
 
   Patch& patch_;
@@ -198,6 +220,7 @@ class PaperUntangle {
   MinkowskiPenalty penalty_;
   IntersectionFinder finder_;
   GaussianContact<3> gaussian_;
+  std::vector<double> squared_bandwidth_;  // eps_i^2 as found, before they are scaled
   std::vector<double> areas_;
   std::vector<Box> boxes_;
   Bvh bvh_;

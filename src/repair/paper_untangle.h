@@ -13,15 +13,22 @@ enum class BandwidthScope {
   local,   ///< one eps a vertex, symmetric model (II) (§3.1.4)
 };
 
+/// What is minimised where triangles meet, for the comparison of §3.2.
+enum class MeshEnergy { penetration_depth, intersection_length };
+
 /// The untangling phase as the paper describes it (§3.1-3.3, §3.5), so that its experiments can be repeated; the
 /// default configuration is the ladder of regions and flow() instead. Works on a copy scaled to unit size (§3.5.5):
 /// lengths below are in units of the patch's largest extent, or of its mean edge where they say so. Where the paper
 /// names no value, the one here is ours.
 struct PaperOptions {
   BandwidthScope scope = BandwidthScope::local;
-  bool adaptive = true;  ///< bandwidths follow the geometry; false: frozen at the start's
-  double lambda_gaussian = 1;
-  double lambda_minkowski = 1;
+  bool adaptive = true;        ///< bandwidths follow the geometry; false: frozen at the start's
+  double bandwidth_scale = 1;  ///< the Gaussian's bandwidths, in those found (Fig. 14)
+  MeshEnergy mesh_energy = MeshEnergy::penetration_depth;
+  double lambda_gaussian = 1;  ///< 0: without
+  /// Of the mesh energy; 0: without. Large weights lock sheets against each other before they have come apart: of 16
+  /// coarse samples 13, 14, 15, 13, 8 and 1 came clean with 0.01, 0.03, 0.1, 0.3, 1 and 10 (docs/ablations.md).
+  double lambda_minkowski = 0.1;
   double lambda_arap = 1;         ///< weak on purpose (§5.8): recovery follows
   double damping = 0.25;          ///< theta (§3.1.5)
   int bandwidth_iterations = 50;  ///< at the start; one an iteration afterwards, where adaptive

@@ -383,6 +383,37 @@ TEST(PaperUntangle, DoesNotDependOnTheUnit) {
   EXPECT_EQ(Positions(1024 * small.x), large.x);
 }
 
+TEST(PaperUntangle, EveryEnergyCanBeLeftOut) {
+  Shape shape = sphere(Vec3(0, 0, 0), 1, 12);
+  shape.add(sphere(Vec3(1.9, 0.05, 0.02), 1, 12));
+  PaperOptions by_length, gaussian_alone, nothing;
+  by_length.mesh_energy = MeshEnergy::intersection_length;
+  by_length.lambda_gaussian = 0;
+  gaussian_alone.lambda_minkowski = 0;
+  nothing.lambda_gaussian = nothing.lambda_minkowski = 0;
+  for (PaperOptions* options : {&by_length, &gaussian_alone}) {
+    options->max_iterations = 300;
+    Patch patch = patch_of(shape);
+    EXPECT_TRUE(paper_untangle(patch, *options).clean);
+  }
+  Patch patch = patch_of(shape);
+  EXPECT_FALSE(paper_untangle(patch, nothing).clean);
+  EXPECT_LT((patch.x - patch.rest).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(PaperUntangle, BandwidthsAreScaledAfterTheyAreFound) {
+  PaperOptions options;
+  options.scope = BandwidthScope::global;
+  options.adaptive = false;
+  options.max_iterations = 1;
+  const auto bandwidth = [&](double scale) {
+    options.bandwidth_scale = scale;
+    Patch patch = patch_of(limb_and_sheet());
+    return paper_untangle(patch, options).mean_bandwidth;
+  };
+  EXPECT_NEAR(bandwidth(3), 3 * bandwidth(1), 1e-9 * bandwidth(1));
+}
+
 TEST(PaperUntangle, FixedVerticesStay) {
   Patch patch = patch_with_fixed(limb_and_sheet(), [](const Vec3& p) { return p[2] == 0.003; });
   const Positions before = patch.rest;

@@ -98,9 +98,9 @@ TEST(Measure, one_needle_does_not_decide_the_percentile) {
 
 TEST(Measure, lower_bound_is_half_the_deepest_overlap) {
   // A triangle in the plane z = 0 and one through its middle that reaches 0.2 below it.
-  const Surface surface = shapes::Shape{{{-3, -3, 0}, {3, -3, 0}, {0, 5, 0}, {-0.5, 0, -0.2}, {0.5, 0, -0.2}, {0, 0, 3}},
-                                        {{0, 1, 2}, {3, 4, 5}}}
-                              .surface();
+  const Surface surface = shapes::Shape{
+      {{-3, -3, 0}, {3, -3, 0}, {0, 5, 0}, {-0.5, 0, -0.2}, {0.5, 0, -0.2}, {0, 0, 3}},
+      {{0, 1, 2}, {3, 4, 5}}}.surface();
   const RepairReport report = measured(surface, surface.positions);
   EXPECT_NEAR(report.displacement_lower_bound_rel * report.diagonal, 0.1, 1e-12);
   const RepairResult repaired = repair(surface);
