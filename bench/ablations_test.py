@@ -35,8 +35,8 @@ class AblationsTest(unittest.TestCase):
 
     def ablations(self, *experiments):
         only = [word for name in experiments for word in ("--only", name)]
-        run = subprocess.run([sys.executable, ABLATIONS, "-o", self.root / "out", "--program", self.program, "--no-samples",
-                              *only, self.root / "mesh.obj"], capture_output=True, text=True)
+        run = subprocess.run([sys.executable, ABLATIONS, "-o", self.root / "out", "--program", self.program,
+                              "--no-samples", *only, self.root / "mesh.obj"], capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)
         return run.stdout
 

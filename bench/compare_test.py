@@ -41,7 +41,8 @@ class CompareTest(unittest.TestCase):
     def program(self, side, **values):
         values = {"cpu_s": 0, "megabytes": 0, "displacement": 0.001, "left": 0, **values}
         path = self.root / side
-        path.write_text(textwrap.dedent(PROGRAM).format(python=sys.executable, calls=str(self.calls), side=side, **values))
+        text = textwrap.dedent(PROGRAM).format(python=sys.executable, calls=str(self.calls), side=side, **values)
+        path.write_text(text)
         path.chmod(0o755)
         return path
 

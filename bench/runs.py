@@ -78,8 +78,8 @@ def find_key(tree, key):
 
 
 def find_meshes(roots):
-    """(dataset, name, path) of every mesh among files and below folders, in a fixed order. A dataset is the first folder
-    below the one given, or the one given where meshes lie in it directly."""
+    """(dataset, name, path) of every mesh among files and below folders, in a fixed order. A dataset is the first
+    folder below the one given, or the one given where meshes lie in it directly."""
     found = []
     for root in map(Path, roots):
         if root.is_file():
