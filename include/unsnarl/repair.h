@@ -61,6 +61,7 @@ struct RepairOptions {
   FindOptions find;  ///< identification of vertices, threads
   Goal goal = Goal::all;
   /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it, else float64.
+  /// float32 counts only where all coordinates are within its range.
   std::optional<Precision> precision;
   /// The positions that a reader of the file to be written will see, given those to be written and whether float32
   /// digits are enough. Unset: rounded to `precision`. The result is certified as it returns them.

@@ -31,6 +31,7 @@ Certificate certify(const SurfaceView& input, std::span<const double> positions,
   FacePairFinder finder(prepared);
   certificate.pairs = count_by_class(finder.find(x));
   certificate.pairs_float32 = count_by_class(finder.find(rounded_to_float32(x)));
+  if (!fits_float32(x)) ++certificate.pairs_float32[PairClass::degenerate];
   return certificate;
 }
 

@@ -107,6 +107,7 @@ Box patch_box(const Scene& scene, std::span<const Index> free_vertices, double r
 }
 
 void paste_patch(const Patch& patch, Scene& scene, SceneIndex& index) {
+  if (!patch.x.leftCols(patch.free_count).allFinite()) return;
   for (Index k = 0; k < patch.free_count; ++k) scene.x.col(patch.vertices[k]) = patch.x.col(k);
   index.mark_moved({patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
 }

@@ -51,7 +51,8 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
 /// Box of everything cut_patch could take in with this reach.
 Box patch_box(const Scene& scene, std::span<const Index> free_vertices, double reach);
 
-/// Takes the free vertices' positions over into the scene.
+/// Takes the free vertices' positions over into the scene; none where one is not finite (squares of coordinates beyond
+/// 2^500 overflow).
 void paste_patch(const Patch& patch, Scene& scene, SceneIndex& index);
 
 }  // namespace unsnarl

@@ -235,6 +235,7 @@ class Repair {
 
   void choose_precision() {
     float32_ = options_.precision != Precision::float64;
+    if (options_.precision == Precision::float32) float32_ = fits_float32(scene_.rest);
     if (options_.precision || pairs_.empty()) return;
     // By the conflicts alone: parts far away that have none change nothing.
     std::vector<Triangle> conflict;
@@ -244,7 +245,8 @@ class Repair {
         conflict.push_back(scene_.triangles[t]);
         for (Index v : conflict.back()) largest = std::max(largest, scene_.rest.col(v).cwiseAbs().maxCoeff());
       }
-    float32_ = gap_units * float32_unit(largest) <= largest_gap_of_edge * mean_edge_length(scene_.rest, conflict);
+    const double unit = float32_unit(largest);
+    float32_ = std::isfinite(unit) && gap_units * unit <= largest_gap_of_edge * mean_edge_length(scene_.rest, conflict);
   }
   /// Absolute gap wanted between sheets around these vertices. Local, so that distant parts change nothing.
   double wanted_gap(const std::vector<Index>& vertices) const {
@@ -443,16 +445,15 @@ class Repair {
   bool stays_near(Patch& patch) {
     const auto is_near = [&] {
       for (Index v = 0; v < patch.free_count; ++v)
-        if ((patch.x.col(v) - prepared_.rest.col(patch.vertices[v])).norm() >
-            options_.max_displacement_rel * diagonal_)
+        if ((patch.x.col(v) - prepared_.rest.col(patch.vertices[v])).norm() > options_.max_displacement_rel * diagonal_)
           return false;
       return true;
     };
     if (is_near()) return true;
     if (options_.recover) {
       RecoverOptions recovery;
-      recovery.min_gap = wanted_gap(
-          {patch.vertices.begin(), patch.vertices.begin() + static_cast<std::ptrdiff_t>(patch.free_count)});
+      recovery.min_gap =
+          wanted_gap({patch.vertices.begin(), patch.vertices.begin() + static_cast<std::ptrdiff_t>(patch.free_count)});
       recover(patch, recovery, stopper());
       if (is_near()) return true;
     }
@@ -494,7 +495,8 @@ class Repair {
     result_.status = judge_->status(left, reached_);
     if (result_.status == Status::reduced || result_.status == Status::no_progress)
       result_.status = stopped_or(displacement_is_exceeded_ ? Status::displacement_exceeded : result_.status);
-    report.float32_embedded = judge_->pairs_at(rounded_to_float32(reached_)).faces.total() == 0;
+    report.float32_embedded =
+        fits_float32(reached_) && judge_->pairs_at(rounded_to_float32(reached_)).faces.total() == 0;
     measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
     report.min_gap_rel = std::isfinite(smallest_gap_) && report.diagonal > 0 ? smallest_gap_ / report.diagonal : 0;
     if (options_.max_displacement_rel > 0 && report.displacement_max_rel > options_.max_displacement_rel)

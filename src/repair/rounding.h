@@ -1,19 +1,29 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "geometry/types.h"
 
 namespace unsnarl {
 
+/// Can float32 hold these positions, however coarsely?
+inline bool fits_float32(const Positions& x) {
+  return x.size() == 0 || x.cwiseAbs().maxCoeff() <= std::numeric_limits<float>::max();
+}
+/// What is beyond float32 becomes its largest number, since predicates need numbers.
 inline Positions rounded_to_float32(const Positions& x) {
-  return x.cast<float>().cast<double>();
+  constexpr double largest = std::numeric_limits<float>::max();
+  return x.cwiseMax(-largest).cwiseMin(largest).cast<float>().cast<double>();
 }
 
-/// Distance between neighbouring float32 numbers at the largest coordinate.
+/// Distance between neighbouring float32 numbers at the largest coordinate; infinite beyond float32.
 inline double float32_unit(double largest_coordinate) {
-  return largest_coordinate * 0x1p-23;
+  if (largest_coordinate > std::numeric_limits<float>::max()) return std::numeric_limits<double>::infinity();
+  return std::max<double>(largest_coordinate * 0x1p-23, std::numeric_limits<float>::denorm_min());
 }
 inline double float64_unit(double largest_coordinate) {
-  return largest_coordinate * 0x1p-52;
+  return std::max(largest_coordinate * 0x1p-52, std::numeric_limits<double>::denorm_min());
 }
 
 }  // namespace unsnarl

@@ -297,6 +297,30 @@ TEST(Repair, float32_is_made_to_hold_where_coordinates_allow_it) {
   EXPECT_TRUE(judged(near.surface(), asked.positions).empty());
 }
 
+TEST(Repair, coordinates_beyond_float32_are_repaired_in_float64) {
+  // Two tetrahedra, one with a corner in the other.
+  Surface surface;
+  surface.positions = {0,   0,   0,   4,   0,   0, 0,   4,   0,   0,   0,   4,  //
+                       1.2, 1.2, 1.1, 2.6, 2.5, 2, 2.5, 2.6, 2.2, 2.4, 2.4, 2.7};
+  surface.corners = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 4, 6, 5, 4, 5, 7, 5, 6, 7, 4, 7, 6};
+  for (const int exponent : {140, 300, 600}) {
+    Surface scaled = surface;
+    for (double& value : scaled.positions) value = std::ldexp(value, exponent);
+    for (const auto precision : {std::optional<Precision>(), std::optional(Precision::float32)}) {
+      RepairOptions options;
+      options.precision = precision;
+      const RepairResult result = repair(scaled, options);
+      EXPECT_GT(result.report.before.total(), 0u);
+      if (exponent == 140) EXPECT_EQ(result.status, Status::embedded);
+      EXPECT_TRUE(
+          std::all_of(result.positions.begin(), result.positions.end(), [](double v) { return std::isfinite(v); }));
+      EXPECT_EQ(result.report.precision, Precision::float64);
+      EXPECT_FALSE(result.report.float32_embedded);
+      EXPECT_EQ(certify(scaled, result.positions).embedded(), result.status == Status::embedded);
+    }
+  }
+}
+
 TEST(Repair, a_part_far_away_does_not_change_the_precision) {
   const Shape tangle = shapes::crossing_bumps(10, 0.3);
   const RepairResult alone = repair(tangle.surface());
