@@ -68,8 +68,12 @@ void FaceTree::update(const Positions& x, double margin) {
     return;
   }
   bvh_.build(boxes_);
-  if (active_count_ == n) return;
-  std::vector<std::uint8_t> active(static_cast<std::size_t>(n), 0);
+  if (active_count_ < n) watch();
+}
+
+void FaceTree::watch(std::span<const std::uint8_t> watched) {
+  if (!watched.empty()) return bvh_.watch(watched);
+  std::vector<std::uint8_t> active(triangles_.size(), 0);
   std::fill(active.begin(), active.begin() + active_count_, std::uint8_t{1});
   bvh_.watch(active);
 }

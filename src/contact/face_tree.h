@@ -14,14 +14,17 @@ namespace unsnarl {
 class FaceTree {
  public:
   /// The span must outlive the tree.
-  explicit FaceTree(std::span<const Triangle> triangles)
-      : FaceTree(triangles, static_cast<Index>(triangles.size())) {}
+  explicit FaceTree(std::span<const Triangle> triangles) : FaceTree(triangles, static_cast<Index>(triangles.size())) {}
   /// Pairs of two triangles >= active_count are left out.
   FaceTree(std::span<const Triangle> triangles, Index active_count)
       : triangles_(triangles), active_count_(active_count) {}
 
   /// Takes over the positions; every box is inflated by `margin`.
   void update(const Positions& x, double margin = 0);
+
+  /// From now on only pairs with a watched triangle (one flag each) are visited. At first, and without flags again: all
+  /// pairs with an active one.
+  void watch(std::span<const std::uint8_t> watched = {});
 
   /// Calls visit(task, i, j), i < j, once for each pair of triangles whose boxes overlap; in parallel over the tasks
   /// [0, task_count()), in a fixed order within each.

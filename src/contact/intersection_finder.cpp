@@ -1,12 +1,16 @@
 #include "contact/intersection_finder.h"
 
 #include <algorithm>
-#include <atomic>
+#include <iterator>
 
+#include "geometry/parallel_lists.h"
 #include "geometry/triangle_intersection.h"
 
 namespace unsnarl {
 namespace {
+
+/// Share of the triangles below which those that moved are worth telling apart.
+constexpr double few = 0.25;
 
 TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {
   return {x.col(t[first]), x.col(t[(first + 1) % 3]), x.col(t[(first + 2) % 3])};
@@ -60,30 +64,49 @@ IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles)
     : IntersectionFinder(triangles, static_cast<Index>(triangles.size())) {}
 
 IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Index active_count)
-    : triangles_(triangles), tree_(triangles, active_count) {}
+    : triangles_(triangles), active_count_(active_count), tree_(triangles, active_count) {}
 
-std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
-  tree_.update(x);
+bool IntersectionFinder::flag_moved(const Positions& x) {
+  if (last_x_.cols() != x.cols() || triangles_.empty()) return false;
+  std::vector<std::uint8_t> vertex_moved(static_cast<std::size_t>(x.cols()));
+  for (Index v = 0; v < x.cols(); ++v) vertex_moved[v] = x.col(v) != last_x_.col(v);
+  moved_.resize(triangles_.size());
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Triangle& corners = triangles_[t];
+    moved_[t] = vertex_moved[corners[0]] | vertex_moved[corners[1]] | vertex_moved[corners[2]];
+    count += moved_[t];
+  }
+  return static_cast<double>(count) < few * static_cast<double>(triangles_.size());
+}
+
+std::vector<IntersectingPair> IntersectionFinder::decide(const Positions& x) {
   std::vector<std::vector<IntersectingPair>> found(tree_.task_count());
   tree_.self_pairs([&](Index task, Index i, Index j) {
     PairClass kind;
-    if (intersects(x, triangles_[i], triangles_[j], kind)) found[task].push_back({i, j, kind});
+    if (i < active_count_ && intersects(x, triangles_[i], triangles_[j], kind)) found[task].push_back({i, j, kind});
   });
   std::vector<IntersectingPair> pairs;
-  for (const auto& list : found) pairs.insert(pairs.end(), list.begin(), list.end());
-  std::sort(pairs.begin(), pairs.end());
+  join_lists(found, pairs);
   return pairs;
 }
 
-bool IntersectionFinder::any(const Positions& x) {
+std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
+  const bool few_moved = flag_moved(x);
   tree_.update(x);
-  std::atomic<bool> hit{false};
-  tree_.self_pairs([&](Index, Index i, Index j) {
-    if (hit.load(std::memory_order_relaxed)) return;
-    PairClass kind;
-    if (intersects(x, triangles_[i], triangles_[j], kind)) hit.store(true, std::memory_order_relaxed);
-  });
-  return hit.load();
+  if (few_moved)
+    tree_.watch(moved_);
+  else if (watches_moved_)
+    tree_.watch();
+  watches_moved_ = few_moved;
+  std::vector<IntersectingPair> pairs = decide(x);
+  if (few_moved)
+    std::copy_if(last_pairs_.begin(), last_pairs_.end(), std::back_inserter(pairs),
+                 [&](const IntersectingPair& pair) { return !moved_[pair.a] && !moved_[pair.b]; });
+  std::sort(pairs.begin(), pairs.end());
+  last_x_ = x;
+  last_pairs_ = pairs;
+  return pairs;
 }
 
 }  // namespace unsnarl

@@ -111,7 +111,6 @@ TEST(IntersectionsOracle, finder_agrees_on_lattices) {
       const auto expected = oracle::intersections_by_brute_force(mesh.coordinates, mesh.triangles);
       const auto found = IntersectionFinder(mesh.triangles).find(positions_of(mesh));
       ASSERT_TRUE(found == expected) << difference(mesh, found, expected);
-      EXPECT_EQ(IntersectionFinder(mesh.triangles).any(positions_of(mesh)), !expected.empty());
       for (const IntersectingPair& pair : expected) ++seen[pair.kind];
     }
   for (std::size_t kind = 0; kind < pair_class_count; ++kind)
