@@ -270,6 +270,7 @@ class Fix {
     source.find = repair_options_.find;
     source.goal = repair_options_.goal;
     source.report = report();
+    source.frames = result_.frames;
     write_file(options_.view, view_page(source), interruption_);
   }
 

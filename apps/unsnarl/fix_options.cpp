@@ -169,7 +169,7 @@ RepairOptions repair_options(const FixOptions& options, const Document& document
   result.paper = options.paper;
   result.recover = !options.no_recover;
   const bool animated = picture_kind(options.picture) != PictureKind::still;
-  if (!options.record.empty() || animated) result.record = {.history = true, .frames = recorded_frames};
+  if (!options.record.empty() || !options.view.empty() || animated) result.record = {.history = true, .frames = recorded_frames};
   result.as_written = [&document](std::span<const double> positions, bool float32) {
     return document.as_written(positions, float32);
   };

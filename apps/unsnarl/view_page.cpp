@@ -45,6 +45,7 @@ std::string view_page(const PageSource& source) {
   content.before = state_at(source.before.positions, pairs_before);
   if (!source.after.empty()) content.after = state_at(source.after, pairs_after);
   content.report = source.report;
+  content.frames = source.frames;
   return make_page(viewer_template(), content);
 }
 

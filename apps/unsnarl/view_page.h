@@ -14,8 +14,9 @@ struct PageSource {
   SurfaceView before;
   std::span<const double> after;  ///< empty: there is only one surface to look at
   FindOptions find;
-  Goal goal = Goal::all;          ///< which pairs are shown
-  nlohmann::ordered_json report;  ///< null: none
+  Goal goal = Goal::all;                  ///< which pairs are shown
+  nlohmann::ordered_json report;          ///< null: none
+  std::span<const RecordedFrame> frames;  ///< of the repair; may be empty
 };
 
 /// The name of a mesh as the page shows it: the last part of its path.

@@ -20,9 +20,9 @@ constexpr int page_schema_version = 1;
 constexpr std::string_view place_for_data = "<!--unsnarl-data-->";
 
 /// From the units of the file to those of the page.
-class Frame {
+class PageUnits {
  public:
-  explicit Frame(std::span<const double> positions) {
+  explicit PageUnits(std::span<const double> positions) {
     Box box;
     for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
       box.extend(Vec3(positions[i], positions[i + 1], positions[i + 2]));
@@ -108,14 +108,14 @@ void add_faces(const SurfaceView& surface, DataElements& elements) {
   elements.add_words("triangle_faces", cut.polygon, 1);
 }
 
-void add_conflicts(const std::string& suffix, const PageState& state, const Frame& frame, DataElements& elements) {
+void add_conflicts(const std::string& suffix, const PageState& state, const PageUnits& units, DataElements& elements) {
   std::vector<Index> pairs;
   for (const IntersectingPair& pair : state.pairs)
     pairs.insert(pairs.end(), {pair.a, pair.b, static_cast<Index>(pair.kind)});
   elements.add_words("pairs_" + suffix, pairs, 3);
   std::vector<float> curves;
   for (const auto& segment : state.curves)
-    for (const Vec3& end : segment) frame.append(end, curves);
+    for (const Vec3& end : segment) units.append(end, curves);
   elements.add_words("curves_" + suffix, curves, 3);
 }
 
@@ -129,16 +129,39 @@ std::vector<float> displacements(std::span<const double> before, std::span<const
   return result;
 }
 
+/// The lists of all frames end to end; what is said of each, and how much of the lists is its own, comes as JSON.
+Json add_frames(std::span<const RecordedFrame> frames, const PageUnits& units, DataElements& elements) {
+  Json described = Json::array();
+  std::vector<Index> vertices, faces;
+  std::vector<float> displacements;
+  for (const RecordedFrame& frame : frames) {
+    described.push_back({{"phase", frame.phase},
+                         {"rung", frame.rung},
+                         {"iteration", frame.iteration},
+                         {"pairs", frame.pairs},
+                         {"moved", frame.vertices.size()},
+                         {"faces", frame.intersecting.size()}});
+    vertices.insert(vertices.end(), frame.vertices.begin(), frame.vertices.end());
+    faces.insert(faces.end(), frame.intersecting.begin(), frame.intersecting.end());
+    for (const double d : frame.displacements) displacements.push_back(static_cast<float>(d / units.unit()));
+  }
+  elements.add_words("frame_vertices", vertices, 1);
+  elements.add_words("frame_displacements", displacements, 3);
+  elements.add_words("frame_faces", faces, 1);
+  return described;
+}
+
 }  // namespace
 
 std::string make_page(std::string_view page_template, const PageContent& content) {
   const std::size_t place = page_template.find(place_for_data);
   if (place == std::string_view::npos) throw std::invalid_argument("the template of the page has no place for data");
   const SurfaceView& surface = content.faces;
-  const Frame frame(content.before.positions);
+  const PageUnits units(content.before.positions);
   const Camera camera = three_quarter_view(content.before.positions, 1, 0.1);
 
   DataElements elements;
+  const Json frames = add_frames(content.frames, units, elements);
   elements.add_json("scene", {{"schema", "unsnarl-page"},
                               {"schema_version", page_schema_version},
                               {"version", version},
@@ -146,20 +169,21 @@ std::string make_page(std::string_view page_template, const PageContent& content
                               {"output", content.output_name},
                               {"vertices", surface.vertex_count()},
                               {"faces", surface.face_count()},
-                              {"centre", as_json(frame.centre())},
-                              {"diagonal", frame.diagonal()},
+                              {"centre", as_json(units.centre())},
+                              {"diagonal", units.diagonal()},
                               {"camera", {{"toward", as_json(camera.toward)}, {"up", as_json(camera.up)}}},
                               {"pair_classes", pair_class_names},
-                              {"report", content.report}});
-  const std::vector<float> before = frame.of(content.before.positions);
+                              {"report", content.report},
+                              {"frames", frames}});
+  const std::vector<float> before = units.of(content.before.positions);
   elements.add_words("positions_before", before, 3);
   add_faces(surface, elements);
-  add_conflicts("before", content.before, frame, elements);
+  add_conflicts("before", content.before, units, elements);
   if (content.after) {
-    elements.add_words_like("positions_after", frame.of(content.after->positions), "positions_before", before);
-    elements.add_words("displacement", displacements(content.before.positions, content.after->positions, frame.unit()),
+    elements.add_words_like("positions_after", units.of(content.after->positions), "positions_before", before);
+    elements.add_words("displacement", displacements(content.before.positions, content.after->positions, units.unit()),
                        1);
-    add_conflicts("after", *content.after, frame, elements);
+    add_conflicts("after", *content.after, units, elements);
   }
   std::string page;
   page.reserve(page_template.size() + elements.html().size());

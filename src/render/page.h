@@ -10,6 +10,7 @@
 
 #include "geometry/types.h"
 #include "unsnarl/intersections.h"
+#include "unsnarl/recording.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -26,8 +27,9 @@ struct PageContent {
   std::string input_name, output_name;  ///< for the reader; any bytes. output_name may be empty
   SurfaceView faces;                    ///< its faces; its positions are `before`'s
   PageState before;
-  std::optional<PageState> after;  ///< of the same faces
-  nlohmann::ordered_json report;   ///< as of report_json; null: none
+  std::optional<PageState> after;         ///< of the same faces
+  nlohmann::ordered_json report;          ///< as of report_json; null: none
+  std::span<const RecordedFrame> frames;  ///< the repair on its way; may be empty
 };
 
 /// One HTML file that shows it all: the template with the lists of the mesh in it. Positions are drawn in 32 bits,

@@ -174,6 +174,34 @@ test('a click on the surface picks the face under it', async () => {
   assert.ok(vertices.includes(spot.vertex), `${vertices} should hold ${spot.vertex}`);
 });
 
+test('the recorded iterations are scrubbed, and lead from before to after', async () => {
+  await page.keyboard.press('4');
+  const start = await pixels();
+  const last = Number(await page.locator('#slider').getAttribute('max'));
+  assert.ok(last > 2, `${last + 1} frames`);
+  await page.locator('#slider').fill(String(last));
+  const end = await pixels();
+  assert.notEqual(end.digest, start.digest);
+  assert.ok(start.red > 0 && end.red === 0, `red: ${start.red}, then ${end.red}`);
+  const furthest = await page.evaluate(() => {
+    const { frames, page: data } = window.unsnarl;
+    return Math.max(...frames.positions.map((x, i) => Math.abs(x - data.after.positions[i])));
+  });
+  assert.ok(furthest < 1e-6, `the last frame is ${furthest} from the result`);
+  await page.keyboard.press('ArrowLeft');
+  assert.equal(await page.locator('#slider').inputValue(), String(last - 1));
+});
+
+test('the history is drawn', async () => {
+  assert.ok(await page.locator('#history .chart').count() >= 2);
+  assert.match(await page.locator('#history').textContent(), /Intersecting pairs.*Largest step/);
+  const [frame] = await page.evaluate(() => [window.unsnarl.state.frame]);
+  const chart = await page.locator('#history svg').first().boundingBox();
+  await page.mouse.click(chart.x + chart.width / 2, chart.y + chart.height / 2);
+  assert.notEqual(await page.evaluate(() => window.unsnarl.state.frame), frame);
+  await page.keyboard.press('1');
+});
+
 test('light and dark, and help', async () => {
   const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
   const first = await theme();
