@@ -59,19 +59,21 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
   command.add_flag("--in-place", options.in_place, "Overwrite IN with the repaired mesh");
   command.add_flag("--keep-partial", options.keep_partial,
                    "Write the result also where self-intersections are left or a limit was reached");
-  command.add_flag("--recompute-normals", options.recompute_normals,
-                   "Turn stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved; else they stay as\n"
-                   "they are. Facet normals in STL always follow");
+  command.add_flag(
+      "--recompute-normals", options.recompute_normals,
+      "Turn stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved; else they stay as\n"
+      "they are. Facet normals in STL always follow");
   const std::string what = "What may move";
-  command.add_option("--fix-vertices", options.fix_vertices, "File with the 0-based ids of vertices that must not move")
+  command
+      .add_option("--fix-vertices", options.fix_vertices, "File with the 0-based ids of vertices that must not move")
       ->type_name("FILE")
       ->group(what);
   add_parts(command, "--fix-", options.fix, "Do not move the ", what);
   command.add_flag("--fix-boundary", options.fix_boundary, "Do not move vertices on a boundary")->group(what);
-  CLI::Option* each = command.add_flag(
-      "--each", options.each,
-      "Repair every component as if it were alone. Where two run through each other they may go on\n"
-      "doing so: this is reported as 'obstructed' (exit code 7), and the result is written");
+  CLI::Option* each =
+      command.add_flag("--each", options.each,
+                       "Repair every component as if it were alone. Where two run through each other they may go on\n"
+                       "doing so: this is reported as 'obstructed' (exit code 7), and the result is written");
   command.add_flag("--together", options.together, "Repair the scene: components too are parted (default)")
       ->excludes(each)
       ->group(what);
@@ -102,7 +104,9 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->check(not_negative())
       ->type_name("S")
       ->group(limits);
-  command.add_option("--memory-limit", options.memory_limit_mb, "Stop before the program holds more than this many MB; 0: none")
+  command
+      .add_option("--memory-limit", options.memory_limit_mb,
+                  "Stop before the program holds more than this many MB; 0: none")
       ->check(not_negative())
       ->type_name("MB")
       ->group(limits);
@@ -144,7 +148,8 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "  unsnarl fix scene.obj -o out.obj --fix-group anchor --fix-boundary\n\n"
       "Exit codes: 0 embedded, 1 self-intersections left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
       "6 interrupted, 7 all repaired but what no allowed motion can resolve, 70 internal error.\n"
-      "With --only-... and --each, 0 still means that nothing in the whole file intersects; where only what they leave\n"
+      "With --only-... and --each, 0 still means that nothing in the whole file intersects; where only what they "
+      "leave\n"
       "out does, the result is written and the exit code is 7.");
 }
 
@@ -169,7 +174,8 @@ RepairOptions repair_options(const FixOptions& options, const Document& document
   result.paper = options.paper;
   result.recover = !options.no_recover;
   const bool animated = picture_kind(options.picture) != PictureKind::still;
-  if (!options.record.empty() || !options.view.empty() || animated) result.record = {.history = true, .frames = recorded_frames};
+  if (!options.record.empty() || !options.view.empty() || animated)
+    result.record = {.history = true, .frames = recorded_frames};
   result.as_written = [&document](std::span<const double> positions, bool float32) {
     return document.as_written(positions, float32);
   };

@@ -17,7 +17,8 @@ namespace {
 std::vector<IntersectingPair> by_oracle(const PreparedSurface& prepared, std::span<const double> positions) {
   const Positions x = prepared.gather(positions);
   return pairs_of_faces(
-      prepared, oracle::intersections_by_cgal({x.data(), static_cast<std::size_t>(x.size())}, prepared.triangles()));
+      prepared.triangulation.polygon,
+      oracle::intersections_by_cgal({x.data(), static_cast<std::size_t>(x.size())}, prepared.triangles()));
 }
 
 bool is_named(const std::vector<Obstruction>& obstructions, const IntersectingPair& pair) {
