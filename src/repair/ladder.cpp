@@ -305,8 +305,7 @@ class Climb {
     for (std::size_t r = 0; r < regions.size(); ++r) {
       // What is not accepted of a part will hardly be of the whole.
       const auto was_rejected = [&](Index v) { return rejected_.count(v) > 0; };
-      if (rung.rings == whole_component &&
-          std::any_of(regions[r].core.begin(), regions[r].core.end(), was_rejected))
+      if (rung.rings == whole_component && std::any_of(regions[r].core.begin(), regions[r].core.end(), was_rejected))
         continue;
       if (taken[r]) continue;
       taken[r] = 1;
@@ -371,6 +370,7 @@ class Climb {
     if (rung.flow) return take(flow(attempt.patch, *rung.flow, options_.stop, foreign));
     // Pockets that are inside out have to turn, and what surrounds them may have to: then nothing is kept.
     for (const bool keep_sides : {true, false}) {
+      if (keep_sides && rung.local->method == LocalMethod::smoothing) continue;  // it rounds off whatever there is
       LocalOptions local;
       local.keep_sides = keep_sides;
       attempt.patch.x = attempt.start;

@@ -228,7 +228,8 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
   std::optional<TurnGuard> guard;
   if (options.keep_sides) guard.emplace(patch, in_conflict(patch, finder.find(start)));
 
-  Positions x = start;
+  // patch.x stays what the metric was made of.
+  Positions x = start, best = start;
   if (rung.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.jitter, x);
 
   LocalMethod method = rung.method;
@@ -254,7 +255,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     }
     if (pairs.size() < result.pairs_left && !has_squeezed_face(patch, start, x, options.area_floor)) {
       result.pairs_left = pairs.size();
-      patch.x = x;
+      best = x;
     }
     if (method == LocalMethod::smoothing) {
       smooth(patch, metric, rung.locality * h, x);
@@ -292,7 +293,10 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     x.leftCols(n) = start.leftCols(n) + (static_cast<double>(part) / parts) * (whole - start).leftCols(n);
     result.clean = part > 0 && blocking_pairs(finder.find(x), tolerated).empty();
   }
-  if (!result.clean) return result;
+  if (!result.clean) {
+    patch.x = best;
+    return result;
+  }
   result.pairs_left = 0;
   patch.x = x;
   shrink_displacement(patch, start, options.bisections, is_clean);
