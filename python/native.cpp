@@ -55,7 +55,9 @@ Enum named(const char* option, const std::string& name, std::initializer_list<En
 }
 
 FindOptions find_options(const std::string& weld, double weld_tolerance, int threads) {
-  return {named("weld", weld, {Weld::none, Weld::seams, Weld::all}), weld_tolerance, threads};
+  return {.weld = named("weld", weld, {Weld::none, Weld::seams, Weld::all}),
+          .weld_tolerance = weld_tolerance,
+          .threads = threads};
 }
 
 /// Repairs on a thread of its own, so that this one can serve Python meanwhile: it lets other Python threads run, hands
