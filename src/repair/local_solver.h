@@ -30,7 +30,7 @@ struct LocalOptions {
   double area_floor = 1e-3;     ///< a face thinner than this share of its area at the start is not accepted
   double shallow_margin = 0.5;  ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
   double shallow_step = 1;      ///< of the deepest overlap: its steps
-  bool keep_sides = true;       ///< faces that intersect nothing at the start are kept from turning over (TurnGuard)
+  bool keep_sides = false;      ///< faces that intersect nothing at the start are kept from turning over (TurnGuard)
   /// Progress is when the number of pairs falls by this share ...
   double progress = 0.1;
   int patience = 12;   ///< ... within so many iterations: what a rung needs that to go on beyond its iterations,
