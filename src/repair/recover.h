@@ -98,8 +98,8 @@ struct RecoverResult {
 /// the way and never become more.
 /// Guarantees: no new pair; no face turns over against its rest shape (those that were are pulled back); stencils keep
 /// the distance `min_gap` once they have it (neighbours that are closer at rest keep a share of their rest distance);
-/// free vertices that can go home are bit-exactly at rest; the same bytes at any number of threads. `stop` is asked once
-/// a step; what was reached by then is kept.
+/// free vertices that can go home are bit-exactly at rest; the same bytes at any number of threads. `stop` is asked
+/// once a step; what was reached by then is kept.
 RecoverResult recover(Patch& patch, const RecoverOptions& options = {}, const std::function<bool()>& stop = {});
 
 }  // namespace unsnarl
