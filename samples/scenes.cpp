@@ -87,17 +87,16 @@ Surface anchored_balls(int resolution, const SampleValues& values) {
   const int count = values.whole("count"), steps = std::max(2, resolution / 4);
   const double radius = 0.5, post = 0.35;
   MeshBuilder builder;
-  builder.append(sample_sphere(steps, FaceKind::triangles, [&](const Vec3& d) {
-    return Vec3(post * d[0], 1.3 * d[1], post * d[2]);
-  }));
+  builder.append(sample_sphere(steps, FaceKind::triangles,
+                               [&](const Vec3& d) { return Vec3(post * d[0], 1.3 * d[1], post * d[2]); }));
   for (int k = 0; k < count; ++k) {
     const double angle = 2 * pi * k / count, height = 0.11 * (k % 3 - 1);
     const double width = std::sqrt(1 - std::pow(height / 1.3, 2)) * post;  // of the post at this height
     const Vec3 out(std::cos(angle), 0, std::sin(angle));
     const Vec3 centre = (width + radius - values["depth"]) * out + Vec3(0, height, 0);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3 + 1.1 * k, Vec3(2, 1, 3).normalized()).toRotationMatrix();
-    builder.append(sample_sphere(steps, FaceKind::triangles,
-                                 [&](const Vec3& d) { return Vec3(centre + radius * (turn * d)); }));
+    builder.append(
+        sample_sphere(steps, FaceKind::triangles, [&](const Vec3& d) { return Vec3(centre + radius * (turn * d)); }));
   }
   return builder.take();
 }

@@ -43,7 +43,7 @@ struct ComponentFindings {
 struct Findings {
   std::vector<IntersectingPair> pairs;
   PairCounts counts;
-  std::vector<Index> faces;  // in any pair
+  std::vector<Index> faces;   // in any pair
   std::vector<Place> places;  // most pairs first
   Topology topology;
   std::vector<ComponentFindings> components;
@@ -131,12 +131,9 @@ nlohmann::ordered_json as_json(const Findings& found, const CheckOptions& option
   json["schema_version"] = check_schema_version;
   json["version"] = version;
   const SurfaceView surface = document.surface();
-  json["input"] = {{"path", options.input},
-                   {"format", to_string(document.format())},
-                   {"vertices", surface.vertex_count()},
-                   {"faces", surface.face_count()},
-                   {"triangulation", found.triangulation},
-                   {"notes", document.notes()}};
+  json["input"] = {
+      {"path", options.input},         {"format", to_string(document.format())}, {"vertices", surface.vertex_count()},
+      {"faces", surface.face_count()}, {"triangulation", found.triangulation},   {"notes", document.notes()}};
   json["options"] = {{"goal", to_string(options.goal_wanted())},
                      {"weld", to_string(options.find().weld)},
                      {"weld_tolerance", options.weld_tolerance}};
@@ -182,8 +179,7 @@ std::string as_text(const Findings& found, const CheckOptions& options, const Do
   const auto line = [&text](const std::string& words) { text += words + "\n"; };
   line(fmt::format("{}: {}, {}, {}", options.input == standard_stream ? "mesh" : options.input,
                    counted(surface.vertex_count(), "vertex", "vertices"),
-                   counted(surface.face_count(), "face", "faces"),
-                   counted(t.components, "component", "components")));
+                   counted(surface.face_count(), "face", "faces"), counted(t.components, "component", "components")));
   line(fmt::format("  faces:      {}", found.triangulation));
   line(fmt::format("  components: {} closed, {} non-orientable", t.closed_components, t.non_orientable_components));
   line(fmt::format("  edges:      {} on a boundary, {} non-manifold", t.boundary_edges, t.non_manifold_edges));

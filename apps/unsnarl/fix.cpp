@@ -57,8 +57,10 @@ std::string checked_output(const FixOptions& options) {
   std::vector<std::pair<std::string, std::string>> paths;  // option, path
   if (!from_stream && !options.in_place) paths.emplace_back("the input", options.input);
   paths.emplace_back(options.in_place ? "the input" : "-o", options.in_place ? options.input : options.output);
-  for (const auto& [name, path] : {std::pair{"--report", options.report}, {"--highlight", options.highlight},
-                                   {"--picture", options.picture}, {"--record", options.record},
+  for (const auto& [name, path] : {std::pair{"--report", options.report},
+                                   {"--highlight", options.highlight},
+                                   {"--picture", options.picture},
+                                   {"--record", options.record},
                                    {"--view", options.view}})
     if (!path.empty()) paths.emplace_back(name, path);
   for (std::size_t i = 0; i < paths.size(); ++i)
@@ -213,9 +215,10 @@ class Fix {
     for (std::size_t i = 1; i < targets.size(); ++i)
       if (const fs::path own = source / targets[i].lexically_relative(main.empty() ? "." : main);
           is_same_file(targets[i], own))
-        throw UsageError(fmt::format("{} holds part of the input and would be overwritten; write the result to another "
-                                     "folder, or use --in-place",
-                                     targets[i].string()));
+        throw UsageError(
+            fmt::format("{} holds part of the input and would be overwritten; write the result to another "
+                        "folder, or use --in-place",
+                        targets[i].string()));
   }
 
   void write_pictures() {
@@ -233,9 +236,10 @@ class Fix {
     } else if (!options_.picture.empty()) {
       PictureOptions picture;
       const auto label = [](const char* when, std::size_t pairs) {
-        return fmt::format("{}\n{}", when, pairs == 0   ? "no self-intersections"
-                                           : pairs == 1 ? "1 intersecting pair of faces"
-                                                        : fmt::format("{} intersecting pairs of faces", pairs));
+        return fmt::format("{}\n{}", when,
+                           pairs == 0   ? "no self-intersections"
+                           : pairs == 1 ? "1 intersecting pair of faces"
+                                        : fmt::format("{} intersecting pairs of faces", pairs));
       };
       picture.before_label = label("before", pairs_before.size());
       picture.after_label = label("after", pairs_after.size());

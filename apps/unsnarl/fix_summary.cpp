@@ -24,20 +24,14 @@ std::string_view explanation(Status status, Goal goal) {
     case Status::embedded:
       return goal == Goal::all ? "embedded: no self-intersection is left"
                                : "no faces that share no vertex intersect any more";
-    case Status::reduced:
-      return "reduced: some self-intersections are left";
-    case Status::no_progress:
-      return "no progress: nothing better than the input was found";
-    case Status::obstructed:
-      return "obstructed: what is left no motion that is allowed can resolve";
-    case Status::time_limit:
-      return "stopped at the time limit";
-    case Status::memory_limit:
-      return "stopped at the memory limit";
+    case Status::reduced: return "reduced: some self-intersections are left";
+    case Status::no_progress: return "no progress: nothing better than the input was found";
+    case Status::obstructed: return "obstructed: what is left no motion that is allowed can resolve";
+    case Status::time_limit: return "stopped at the time limit";
+    case Status::memory_limit: return "stopped at the memory limit";
     case Status::displacement_exceeded:
       return "displacement exceeded: what is left needs a vertex to move farther than allowed";
-    case Status::cancelled:
-      return "interrupted";
+    case Status::cancelled: return "interrupted";
   }
   return "unknown status";
 }

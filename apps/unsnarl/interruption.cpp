@@ -68,7 +68,9 @@ Interruption::Interruption() {
   }).detach();
 }
 
-Interruption::~Interruption() { set_handler(nullptr); }
+Interruption::~Interruption() {
+  set_handler(nullptr);
+}
 
 void Interruption::set_handler(std::function<void()> on_first) {
   const std::lock_guard lock(state().mutex);

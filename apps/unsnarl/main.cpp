@@ -74,7 +74,9 @@ int run(int argc, char** argv) {
 }
 
 /// TBB says it in words only.
-bool is_about_threads(const std::exception& e) { return std::string_view(e.what()).starts_with("pthread_create"); }
+bool is_about_threads(const std::exception& e) {
+  return std::string_view(e.what()).starts_with("pthread_create");
+}
 
 /// Every error ends here: says the reason of the one that is being handled, returns its exit code.
 ExitCode explain_error() {

@@ -24,7 +24,9 @@ fs::path with_links_followed(const fs::path& path) {
   return target;
 }
 
-fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
 /// A rename is only safe from a loss of power once the folder is on the disk; some file systems cannot, which is fine.
 void flush_folder(const fs::path& folder) {

@@ -81,8 +81,7 @@ std::string surface_file(const SurfaceView& surface, Format format, const std::s
       append_positions(text, surface.positions, "");
       append_faces(text, surface);
       return text;
-    default:
-      throw UsageError(fmt::format("a new {} file cannot be made; choose obj, off or ply", to_string(format)));
+    default: throw UsageError(fmt::format("a new {} file cannot be made; choose obj, off or ply", to_string(format)));
   }
 }
 

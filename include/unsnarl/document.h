@@ -72,8 +72,9 @@ class Document {
   /// The file holds 32-bit floats (STL, glTF, PLY with float positions), so `float32_digits` makes no difference.
   bool stores_float32() const;
 
-  /// From now on patched() also turns the stored vertex normals of what moved (OBJ vn, PLY nx ny nz, glTF NORMAL) as the faces around
-  /// them turn, and rounds them to float32. False: this format, or this file, stores none that could be updated.
+  /// From now on patched() also turns the stored vertex normals of what moved (OBJ vn, PLY nx ny nz, glTF NORMAL) as
+  /// the faces around them turn, and rounds them to float32. False: this format, or this file, stores none that could
+  /// be updated.
   bool recompute_normals();
 
   /// The files to write, the main file first; then the external buffers of a glTF.

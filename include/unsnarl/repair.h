@@ -75,9 +75,9 @@ struct RepairOptions {
   /// MB (10^6 bytes) of resident memory, looked at all the time; 0: none. To be sure that it is never passed, limit
   /// the process too: an allocation that fails ends the work with Status::memory_limit and what was reached.
   double memory_limit_mb = 0;
-  RecordOptions record;             ///< what to note on the way; nothing unless asked for
-  bool recover = true;              ///< false: stop after untangling (for research)
-  bool paper = false;               ///< the configuration of the paper instead of the regional ladder
+  RecordOptions record;  ///< what to note on the way; nothing unless asked for
+  bool recover = true;   ///< false: stop after untangling (for research)
+  bool paper = false;    ///< the configuration of the paper instead of the regional ladder
 };
 
 /// Something that no motion of the vertices can resolve, or that the options forbid to.
@@ -161,8 +161,8 @@ struct RepairResult {
 /// Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
 ///
 /// Nothing is lost where memory runs out on the way; std::bad_alloc is thrown only if there is not even enough to find
-/// the input's intersections. Never returns positions with more intersecting pairs than the input. The same input and options give the same
-/// bytes at any thread count (time limits and cancellation aside).
+/// the input's intersections. Never returns positions with more intersecting pairs than the input. The same input and
+/// options give the same bytes at any thread count (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an
 /// option is out of range.

@@ -20,18 +20,12 @@ constexpr std::array<std::pair<Format, std::string_view>, 6> format_names = {{{F
 
 std::unique_ptr<MeshFile> parse_file(std::string bytes, Format format, const std::filesystem::path& folder) {
   switch (format) {
-    case Format::obj:
-      return parse_obj(std::move(bytes));
-    case Format::off:
-      return parse_off(std::move(bytes));
-    case Format::ply:
-      return parse_ply(std::move(bytes));
-    case Format::stl:
-      return parse_stl(std::move(bytes));
-    case Format::glb:
-      return parse_glb(std::move(bytes), folder);
-    case Format::gltf:
-      return parse_gltf(std::move(bytes), folder);
+    case Format::obj: return parse_obj(std::move(bytes));
+    case Format::off: return parse_off(std::move(bytes));
+    case Format::ply: return parse_ply(std::move(bytes));
+    case Format::stl: return parse_stl(std::move(bytes));
+    case Format::glb: return parse_glb(std::move(bytes), folder);
+    case Format::gltf: return parse_gltf(std::move(bytes), folder);
   }
   throw std::invalid_argument("unknown format");
 }

@@ -61,12 +61,9 @@ AccessorLayout GltfAccessors::indices(std::size_t id, const std::string& user) c
 std::size_t GltfAccessors::index(const AccessorLayout& indices, std::size_t i) const {
   const char* at = buffers_->data(indices.buffer).data() + indices.start + i * indices.stride;
   switch (indices.component_type) {
-    case unsigned_byte:
-      return load<std::uint8_t>(at, std::endian::little);
-    case unsigned_short:
-      return load<std::uint16_t>(at, std::endian::little);
-    default:
-      return load<std::uint32_t>(at, std::endian::little);
+    case unsigned_byte: return load<std::uint8_t>(at, std::endian::little);
+    case unsigned_short: return load<std::uint16_t>(at, std::endian::little);
+    default: return load<std::uint32_t>(at, std::endian::little);
   }
 }
 

@@ -140,22 +140,14 @@ class HeaderParser {
 
 double load_scalar(const char* from, PlyScalar type, std::endian order) {
   switch (type) {
-    case PlyScalar::int8:
-      return load<std::int8_t>(from, order);
-    case PlyScalar::uint8:
-      return load<std::uint8_t>(from, order);
-    case PlyScalar::int16:
-      return load<std::int16_t>(from, order);
-    case PlyScalar::uint16:
-      return load<std::uint16_t>(from, order);
-    case PlyScalar::int32:
-      return load<std::int32_t>(from, order);
-    case PlyScalar::uint32:
-      return load<std::uint32_t>(from, order);
-    case PlyScalar::float32:
-      return load<float>(from, order);
-    case PlyScalar::float64:
-      break;
+    case PlyScalar::int8: return load<std::int8_t>(from, order);
+    case PlyScalar::uint8: return load<std::uint8_t>(from, order);
+    case PlyScalar::int16: return load<std::int16_t>(from, order);
+    case PlyScalar::uint16: return load<std::uint16_t>(from, order);
+    case PlyScalar::int32: return load<std::int32_t>(from, order);
+    case PlyScalar::uint32: return load<std::uint32_t>(from, order);
+    case PlyScalar::float32: return load<float>(from, order);
+    case PlyScalar::float64: break;
   }
   return load<double>(from, order);
 }

@@ -78,8 +78,7 @@ void TextScanner::fail(const std::string& message, std::size_t offset) const {
 void TextScanner::fail_coordinate(Number reason, std::size_t vertex, bool is_float) {
   const std::string token = in_quotes(peek());
   switch (reason) {
-    case Number::missing:
-      fail(fmt::format("vertex {} has fewer than three coordinates; give it x, y and z", vertex));
+    case Number::missing: fail(fmt::format("vertex {} has fewer than three coordinates; give it x, y and z", vertex));
     case Number::malformed:
       fail(fmt::format("coordinate {} of vertex {} is not a number; write it like -1.5e-3, with a decimal point", token,
                        vertex));

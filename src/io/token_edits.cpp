@@ -26,12 +26,9 @@ char* print(char* begin, char* end, double value, TextPrecision precision) {
 
 double value_as_written(double value, TextPrecision precision) {
   switch (precision) {
-    case TextPrecision::double_digits:
-      return value;
-    case TextPrecision::stored_float:
-      return to_float(value);
-    case TextPrecision::float_digits:
-      break;
+    case TextPrecision::double_digits: return value;
+    case TextPrecision::stored_float: return to_float(value);
+    case TextPrecision::float_digits: break;
   }
   // The fewest digits of a float are not the float itself for somebody who reads them as a double.
   std::array<char, 32> digits;

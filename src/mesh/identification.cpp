@@ -42,10 +42,8 @@ Identification identify(const SurfaceView& surface, Weld weld, double tolerance)
       std::iota(own.begin(), own.end(), Index{0});
       return from_classes(std::move(own));
     }
-    case Weld::all:
-      return from_classes(position_classes(surface.positions, tolerance));
-    case Weld::seams:
-      break;
+    case Weld::all: return from_classes(position_classes(surface.positions, tolerance));
+    case Weld::seams: break;
   }
   return from_classes(glue_seams(surface, position_classes(surface.positions, tolerance)));
 }

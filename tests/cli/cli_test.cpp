@@ -25,7 +25,9 @@ const std::string crossing =
 /// The edge of the first face runs through the second; only corners that do not matter are free.
 const std::string hopeless = "v 0 0 -1\nv 0 0 1\nv 5 0 0\nv 1 0 0\nv -1 1 0\nv -1 -1 0\nf 1 2 3\nf 4 5 6\n";
 
-std::size_t pairs_in(const std::string& path) { return find_intersections(Document::read(path).surface()).size(); }
+std::size_t pairs_in(const std::string& path) {
+  return find_intersections(Document::read(path).surface()).size();
+}
 
 class Cli : public ::testing::Test {
  protected:
@@ -54,9 +56,11 @@ class Cli : public ::testing::Test {
 };
 
 TEST_F(Cli, HelpAndVersionGoToStandardOutput) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"fix", "--help"}, {"check", "--help"}, {"view", "--help"},
-        {"sample", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"fix", "--help"},
+                                                    {"check", "--help"},
+                                                    {"view", "--help"},
+                                                    {"sample", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.out.find("Examples"), std::string::npos);
@@ -203,10 +207,15 @@ TEST_F(Cli, NamedPartsStayWhereTheyAre) {
   const std::string in = file("in.obj", named), out = folder / "out.obj";
   const std::string anchor = named.substr(0, named.find("v 1.2"));
   const std::string swimmer = named.substr(named.find("v 1.2"), named.find("o rock") - named.find("v 1.2"));
-  for (const std::vector<std::string>& option :
-       {std::vector<std::string>{"--fix-group", "anchor"}, {"--fix-group", "anchor heavy"}, {"--fix-object", "rock"},
-        {"--fix-material", "stone"}, {"--fix-component", "0"}, {"--only-group", "swimmer"}, {"--only-object", "fish"},
-        {"--only-material", "skin"}, {"--only-component", "1"}}) {
+  for (const std::vector<std::string>& option : {std::vector<std::string>{"--fix-group", "anchor"},
+                                                 {"--fix-group", "anchor heavy"},
+                                                 {"--fix-object", "rock"},
+                                                 {"--fix-material", "stone"},
+                                                 {"--fix-component", "0"},
+                                                 {"--only-group", "swimmer"},
+                                                 {"--only-object", "fish"},
+                                                 {"--only-material", "skin"},
+                                                 {"--only-component", "1"}}) {
     const Outcome outcome = run({"fix", option[0], option[1], in, "-o", out});
     EXPECT_EQ(outcome.exit_code, 0) << option[0] << outcome.err;
     EXPECT_EQ(contents(out).substr(0, anchor.size()), anchor) << option[0];
@@ -264,8 +273,8 @@ TEST_F(Cli, WhatLiesOutsideOfARegionIsLeftAndSaid) {
     two += fmt::format("f {} {} {}\n", 9 + one.surface().view().face(f)[0], 9 + one.surface().view().face(f)[1],
                        9 + one.surface().view().face(f)[2]);
   const std::string in = file("in.obj", two), out = folder / "out.obj", report = folder / "r.json";
-  const Outcome outcome = run(
-      {"fix", in, "-o", out, "--only-component", "0", "--only-component", "1", "--report", report});
+  const Outcome outcome =
+      run({"fix", in, "-o", out, "--only-component", "0", "--only-component", "1", "--report", report});
   EXPECT_EQ(outcome.exit_code, 7) << outcome.err;
   EXPECT_EQ(pairs_in(out), pairs_in(in) / 2);
   const auto json = nlohmann::json::parse(contents(report));
@@ -334,9 +343,9 @@ TEST_F(Cli, TheMemoryLimitIsKept) {
 
 TEST_F(Cli, LimitsExitWith5) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
-  for (const std::vector<std::string>& limit :
-       {std::vector<std::string>{"--max-displacement", "1e-9"}, {"--max-displacement", "1e-8", "--absolute"},
-        {"--time-limit", "1e-9"}}) {
+  for (const std::vector<std::string>& limit : {std::vector<std::string>{"--max-displacement", "1e-9"},
+                                                {"--max-displacement", "1e-8", "--absolute"},
+                                                {"--time-limit", "1e-9"}}) {
     std::vector<std::string> arguments = {"fix", in, "-o", out};
     arguments.insert(arguments.end(), limit.begin(), limit.end());
     EXPECT_EQ(run(arguments).exit_code, 5) << limit[0];
@@ -361,8 +370,7 @@ TEST_F(Cli, InterruptedExitsWith6AndLeavesNothing) {
   EXPECT_EQ(kept.exit_code, 6) << kept.err;
   EXPECT_LE(pairs_in(out), pairs_in(in));
   fs::remove(out);
-  const Outcome twice =
-      run({"fix", in, "-o", out, "--progress", "json"}, {.signal_after = {"fraction", "stopping"}});
+  const Outcome twice = run({"fix", in, "-o", out, "--progress", "json"}, {.signal_after = {"fraction", "stopping"}});
   EXPECT_EQ(twice.exit_code, 6) << twice.err;
   EXPECT_EQ(folder.names(), before);
 }
@@ -443,8 +451,7 @@ TEST_F(Cli, ProgressAsJsonNeverGoesBack) {
 TEST_F(Cli, SameBytesAtAnyThreadCount) {
   const std::string in = file("in.obj", crossing);
   std::set<std::string> results;
-  for (const char* threads : {"1", "2", "4"})
-    results.insert(run({"fix", in, "-o", "-", "--threads", threads}).out);
+  for (const char* threads : {"1", "2", "4"}) results.insert(run({"fix", in, "-o", "-", "--threads", threads}).out);
   EXPECT_EQ(results.size(), 1u);
 }
 
@@ -484,16 +491,14 @@ TEST_F(Cli, CheckCountsAndLocates) {
 
 TEST_F(Cli, CheckForTheGoalDisjointSeesNoOthers) {
   // Two faces of one fan pass through each other at their common vertex only.
-  const std::string in = file(
-      "in.obj", "v 0 0 0\nv 2 -1 0\nv 2 1 0\nv 2 0 -1\nv 2 0 1\nf 1 2 3\nf 1 4 5\n");
+  const std::string in = file("in.obj", "v 0 0 0\nv 2 -1 0\nv 2 1 0\nv 2 0 -1\nv 2 0 1\nf 1 2 3\nf 1 4 5\n");
   EXPECT_EQ(run({"check", in}).exit_code, 1);
   EXPECT_EQ(run({"check", in, "--goal", "disjoint"}).exit_code, 0);
 }
 
 TEST_F(Cli, WeldDecidesWhatTouchingMeans) {
   // Two triangles with a common side, written with corners of their own.
-  const std::string in =
-      file("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 0\nv 1 0 0\nv 1 1 1\nf 1 2 3\nf 4 5 6\n");
+  const std::string in = file("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 0\nv 1 0 0\nv 1 1 1\nf 1 2 3\nf 4 5 6\n");
   EXPECT_EQ(run({"check", in}).exit_code, 0);
   EXPECT_EQ(run({"check", in, "--weld", "none"}).exit_code, 1);
   const std::string near =

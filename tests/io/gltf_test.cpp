@@ -127,14 +127,13 @@ TEST(Gltf, DataUriChangesOnlyWhereItMust) {
 TEST(Gltf, NormalsFollowWhereAskedTo) {
   EXPECT_FALSE(Document::parse(plain, Format::glb).recompute_normals());
   // A triangle in a node that is moved, mirrored and stretched, and a vertex of no face.
-  const std::string json =
-      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
-      R"("nodes":[{"mesh":0,"translation":[10,0,0],"scale":[2,4,-2]}],)"
-      R"("meshes":[{"primitives":[{"attributes":{"NORMAL":1,"POSITION":0},"indices":2}]}],)"
-      R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
-      R"({"bufferView":0,"byteOffset":48,"componentType":5126,"count":4,"type":"VEC3"},)"
-      R"({"bufferView":0,"byteOffset":96,"componentType":5125,"count":3,"type":"SCALAR"}],)"
-      R"("bufferViews":[{"buffer":0,"byteLength":108}],"buffers":[{"byteLength":108}]})";
+  const std::string json = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+                           R"("nodes":[{"mesh":0,"translation":[10,0,0],"scale":[2,4,-2]}],)"
+                           R"("meshes":[{"primitives":[{"attributes":{"NORMAL":1,"POSITION":0},"indices":2}]}],)"
+                           R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+                           R"({"bufferView":0,"byteOffset":48,"componentType":5126,"count":4,"type":"VEC3"},)"
+                           R"({"bufferView":0,"byteOffset":96,"componentType":5125,"count":3,"type":"SCALAR"}],)"
+                           R"("bufferViews":[{"buffer":0,"byteLength":108}],"buffers":[{"byteLength":108}]})";
   const auto buffer = [](float lift, float y, float z) {
     std::string bytes;
     for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, lift, 9.f, 9.f, 9.f}) put(bytes, x);

@@ -7,7 +7,9 @@
 namespace unsnarl {
 namespace {
 
-std::vector<Index> list(const IndexLists& lists, Index i) { return {lists[i].begin(), lists[i].end()}; }
+std::vector<Index> list(const IndexLists& lists, Index i) {
+  return {lists[i].begin(), lists[i].end()};
+}
 
 TEST(Adjacency, TwoTrianglesShareOneEdge) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {2, 1, 3}};

@@ -25,9 +25,7 @@ TEST(Areas, OfTheUnitCube) {
 
 TEST(Areas, NormalsPointOutwardAndVanishWithoutArea) {
   Positions x(3, 4);
-  x << 0, 1, 0, 2,
-       0, 0, 1, 0,
-       0, 0, 0, 0;
+  x << 0, 1, 0, 2, 0, 0, 1, 0, 0, 0, 0, 0;
   EXPECT_EQ(triangle_normal(x, {0, 1, 2}), Vec3(0, 0, 1));
   EXPECT_EQ(triangle_normal(x, {1, 0, 2}), Vec3(0, 0, -1));
   EXPECT_EQ(triangle_normal(x, {0, 1, 3}), Vec3(0, 0, 0));

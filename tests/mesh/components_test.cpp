@@ -84,14 +84,13 @@ TEST(Components, DuplicatesAreFoundInAnyOrderOfCorners) {
 TEST(Topology, OfASoupWithDefects) {
   Surface s = exploded(cube());
   const Index a = add_vertex(s, 5, 5, 5), b = add_vertex(s, 6, 6, 6), c = add_vertex(s, 7, 7, 7);
-  add_vertex(s, 9, 9, 9);     // unused
-  add_face(s, {a, b, c});     // no area
-  add_face(s, {c, b, a});     // and a duplicate
+  add_vertex(s, 9, 9, 9);  // unused
+  add_face(s, {a, b, c});  // no area
+  add_face(s, {c, b, a});  // and a duplicate
   const Identification id = identify(s);
   const Triangulation cut = triangulate(s, id.vertex_of);
   const EdgeTable edges = build_edges(cut.triangles);
-  const Topology topology =
-      describe_topology(s, id, cut, edges, find_components(cut.triangles, id.count, edges));
+  const Topology topology = describe_topology(s, id, cut, edges, find_components(cut.triangles, id.count, edges));
   EXPECT_EQ(topology.vertices, 12u);
   EXPECT_EQ(topology.faces, 8u);
   EXPECT_EQ(topology.triangles, 14u);

@@ -28,7 +28,9 @@ Index count_of(const Surface& s, Weld weld = Weld::seams, double tolerance = 0) 
   return id.count;
 }
 
-TEST(Identification, NoneKeepsEveryVertex) { EXPECT_EQ(count_of(exploded(cube()), Weld::none), 24); }
+TEST(Identification, NoneKeepsEveryVertex) {
+  EXPECT_EQ(count_of(exploded(cube()), Weld::none), 24);
+}
 
 TEST(Identification, CornersOfASoupBecomeTheOctahedron) {
   const Surface s = exploded(octahedron());
@@ -38,7 +40,9 @@ TEST(Identification, CornersOfASoupBecomeTheOctahedron) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(s.positions[3 * v + k], s.positions[3 * id.first[id.vertex_of[v]] + k]);
 }
 
-TEST(Identification, SixSeparateQuadsBecomeACube) { EXPECT_EQ(count_of(exploded(cube())), 8); }
+TEST(Identification, SixSeparateQuadsBecomeACube) {
+  EXPECT_EQ(count_of(exploded(cube())), 8);
+}
 
 TEST(Identification, MinusZeroIsZero) {
   Surface s = exploded(cube());
@@ -97,8 +101,12 @@ Surface card(Index n, bool soup) {
   return s;
 }
 
-TEST(Identification, TwoSidedCardIsNotGlued) { EXPECT_EQ(count_of(card(4, false)), 20); }
-TEST(Identification, TwoSidedCardAsSoupBecomesTwoSheets) { EXPECT_EQ(count_of(card(4, true)), 20); }
+TEST(Identification, TwoSidedCardIsNotGlued) {
+  EXPECT_EQ(count_of(card(4, false)), 20);
+}
+TEST(Identification, TwoSidedCardAsSoupBecomesTwoSheets) {
+  EXPECT_EQ(count_of(card(4, true)), 20);
+}
 
 TEST(Identification, TwoSidedCardHangingOnOneEdgeIsNotGlued) {
   // Front and back share the vertices of one end, so that they are one shell.
@@ -188,8 +196,7 @@ TEST(Identification, CollapsedCrossSectionOfATubeStaysARing) {
       add_vertex(s, r * std::cos(j * 1.257), r * std::sin(j * 1.257), i);
     }
   for (Index i = 0; i < 2; ++i)
-    for (Index j = 0; j < 5; ++j)
-      add_face(s, {5 * i + j, 5 * i + (j + 1) % 5, 5 * i + 5 + (j + 1) % 5, 5 * i + 5 + j});
+    for (Index j = 0; j < 5; ++j) add_face(s, {5 * i + j, 5 * i + (j + 1) % 5, 5 * i + 5 + (j + 1) % 5, 5 * i + 5 + j});
   EXPECT_EQ(count_of(s), 15);
 }
 
@@ -225,7 +232,9 @@ TEST(Identification, ToleranceWorksAcrossCellsAndFarFromTheOrigin) {
   EXPECT_EQ(count_of(s, Weld::all, 0.01), 2);
 }
 
-TEST(Identification, NothingIn) { EXPECT_EQ(count_of(Surface{}), 0); }
+TEST(Identification, NothingIn) {
+  EXPECT_EQ(count_of(Surface{}), 0);
+}
 
 }  // namespace
 }  // namespace unsnarl

@@ -48,8 +48,8 @@ inline void append(Surface& to, const Surface& s, double dx = 0, double dy = 0, 
 inline Surface octahedron() {
   Surface s;
   s.positions = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
-  for (const auto& t : std::vector<std::vector<Index>>{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                                                       {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}})
+  for (const auto& t : std::vector<std::vector<Index>>{
+           {0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}})
     add_face(s, t);
   return s;
 }

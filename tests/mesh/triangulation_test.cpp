@@ -13,7 +13,9 @@ namespace {
 
 using namespace shapes;
 
-Vec3 at(const Surface& s, Index v) { return {s.positions[3 * v], s.positions[3 * v + 1], s.positions[3 * v + 2]}; }
+Vec3 at(const Surface& s, Index v) {
+  return {s.positions[3 * v], s.positions[3 * v + 1], s.positions[3 * v + 2]};
+}
 
 Surface polygon(const std::vector<std::array<double, 3>>& points) {
   Surface s;
@@ -81,8 +83,7 @@ TEST(Triangulation, LShapeIsCoveredOnce) {
 
 TEST(Triangulation, NonPlanarPolygonKeepsItsTrianglesFacingOneWay) {
   std::vector<std::array<double, 3>> points;
-  for (int i = 0; i < 9; ++i)
-    points.push_back({std::cos(i * 0.698), std::sin(i * 0.698), 0.2 * ((i * 7) % 5)});
+  for (int i = 0; i < 9; ++i) points.push_back({std::cos(i * 0.698), std::sin(i * 0.698), 0.2 * ((i * 7) % 5)});
   const Surface s = polygon(points);
   const Triangulation cut = triangulate(s);
   ASSERT_EQ(cut.triangles.size(), 7u);
@@ -128,8 +129,7 @@ std::vector<Triangle> cut_simply(const Surface& s, std::vector<Index> p) {
       const Index a = p[(k + p.size() - 1) % p.size()], b = p[k], c = p[(k + 1) % p.size()];
       bool ear = side(a, b, c) > 0;
       for (Index x : p)
-        if (ear && x != a && x != b && x != c)
-          ear = !(side(a, b, x) >= 0 && side(b, c, x) >= 0 && side(c, a, x) >= 0);
+        if (ear && x != a && x != b && x != c) ear = !(side(a, b, x) >= 0 && side(b, c, x) >= 0 && side(c, a, x) >= 0);
       if (ear) {
         chosen = k;
         break;

@@ -23,12 +23,9 @@ std::optional<PairClass> classify(OracleTriangle a, OracleTriangle b, bool zero_
   if (!meet_outside_hull(shared)) return std::nullopt;
   if (zero_area_involved) return PairClass::degenerate;
   switch (shared.size()) {
-    case 0:
-      return PairClass::disjoint;
-    case 1:
-      return PairClass::one_vertex;
-    default:
-      return PairClass::folded;
+    case 0: return PairClass::disjoint;
+    case 1: return PairClass::one_vertex;
+    default: return PairClass::folded;
   }
 }
 
