@@ -8,22 +8,24 @@ namespace unsnarl {
 
 CoincidentFaces::CoincidentFaces(const SurfaceView& surface, std::span<const Index> class_of)
     : set_of_(surface.face_count(), -1) {
-  const auto corner_classes = [&](std::size_t f) {
-    std::vector<Index> classes;
+  const auto list_classes = [&](std::size_t f, std::vector<Index>& classes) {
+    classes.clear();
     for (Index v : surface.face(f)) classes.push_back(class_of[v]);
     std::sort(classes.begin(), classes.end());
     classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
-    return classes;
   };
+  std::vector<Index> classes, others;
   IdTable table(surface.face_count());
   Index sets = 0;
   for (std::size_t f = 0; f < surface.face_count(); ++f) {
-    const std::vector<Index> classes = corner_classes(f);
+    list_classes(f, classes);
     if (classes.size() < 3) continue;  // collapsed: it lies in an edge or a point of its neighbours anyway
     std::uint64_t hash = 0;
     for (Index c : classes) hash = mixed(hash + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(c + 1));
-    const Index other =
-        table.find_or_add(hash, static_cast<Index>(f), [&](Index g) { return corner_classes(g) == classes; });
+    const Index other = table.find_or_add(hash, static_cast<Index>(f), [&](Index g) {
+      list_classes(static_cast<std::size_t>(g), others);
+      return others == classes;
+    });
     if (other < 0) continue;
     if (set_of_[other] < 0) set_of_[other] = sets++;
     set_of_[f] = set_of_[other];

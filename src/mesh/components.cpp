@@ -104,26 +104,37 @@ std::size_t count_non_manifold_vertices(std::span<const Triangle> triangles, Ind
 }
 
 std::vector<std::vector<Index>> duplicate_triangles(std::span<const Triangle> triangles) {
-  struct Entry {
-    Triangle sorted;
-    Index triangle;
+  struct Entry {  // in the bucket of the smallest vertex
+    Index middle, largest, triangle;
     auto operator<=>(const Entry&) const = default;
   };
+  const auto sorted = [](Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  Index vertex_count = 0;
+  for (const Triangle& t : triangles) vertex_count = std::max({vertex_count, t[0] + 1, t[1] + 1, t[2] + 1});
+  std::vector<Index> begin(static_cast<std::size_t>(vertex_count) + 2, 0);
+  for (const Triangle& t : triangles) ++begin[std::min({t[0], t[1], t[2]}) + 2];
+  for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
   std::vector<Entry> entries(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    entries[i] = {triangles[i], static_cast<Index>(i)};
-    std::sort(entries[i].sorted.begin(), entries[i].sorted.end());
+    const Triangle t = sorted(triangles[i]);
+    entries[begin[t[0] + 1]++] = {t[1], t[2], static_cast<Index>(i)};
   }
-  std::sort(entries.begin(), entries.end());
   std::vector<std::vector<Index>> groups;
-  for (std::size_t i = 0; i < entries.size();) {
-    std::size_t end = i + 1;
-    while (end < entries.size() && entries[end].sorted == entries[i].sorted) ++end;
-    if (end - i > 1) {
-      groups.emplace_back();
-      for (; i < end; ++i) groups.back().push_back(entries[i].triangle);
+  for (Index v = 0; v < vertex_count; ++v) {
+    const auto first = entries.begin() + begin[v], last = entries.begin() + begin[v + 1];
+    std::sort(first, last);
+    for (auto it = first; it != last;) {
+      auto end = it + 1;
+      while (end != last && end->middle == it->middle && end->largest == it->largest) ++end;
+      if (end - it > 1) {
+        groups.emplace_back();
+        for (; it != end; ++it) groups.back().push_back(it->triangle);
+      }
+      it = end;
     }
-    i = end;
   }
   std::sort(groups.begin(), groups.end());
   return groups;
