@@ -12,7 +12,13 @@
 #include "mesh/components.h"
 #include "mesh/union_find.h"
 #include "mesh_input.h"
+#include "repair/face_pairs.h"
+#include "repair/prepared_surface.h"
+#include "repair/face_pairs.h"
+#include "repair/prepared_surface.h"
 #include "repair/report_json.h"
+#include "repair/threads.h"
+#include "repair/threads.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/version.h"
@@ -89,12 +95,14 @@ std::vector<Place> find_places(const SurfaceView& surface, const Identification&
 
 Findings examine(const SurfaceView& surface, const FindOptions& options) {
   Findings found;
-  found.pairs = find_intersections(surface, options);
+  const ThreadLimit threads(options.threads);
+  const PreparedSurface prepared = prepare(surface, options);
+  found.pairs = FacePairFinder(prepared).find(prepared.rest);
   found.counts = count_by_class(found.pairs);
   found.faces = faces_in(found.pairs);
 
-  const Identification identification = identify(surface, options.weld, options.weld_tolerance);
-  const Triangulation triangulation = triangulate(surface, identification.vertex_of);
+  const Identification& identification = prepared.identification;
+  const Triangulation& triangulation = prepared.triangulation;
   const EdgeTable edges = build_edges(triangulation.triangles);
   const Components components = find_components(triangulation.triangles, identification.count, edges);
   found.triangulation = triangulation.statistics.describe();

@@ -15,15 +15,16 @@
 #include "progress.h"
 #include "render/picture.h"
 #include "render/png.h"
+#include "repair/certifier.h"
 #include "repair/face_pairs.h"
 #include "repair/measure.h"
 #include "repair/prepared_surface.h"
 #include "repair/recording_json.h"
 #include "repair/report_json.h"
+#include "repair/threads.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
-#include "unsnarl/certify.h"
 #include "view_page.h"
 
 namespace unsnarl::app {
@@ -99,7 +100,8 @@ std::string broken_promise(const RepairResult& result, const RepairOptions& opti
   if (read_back.corners != input.corners || read_back.offsets != input.offsets ||
       read_back.positions.size() != input.positions.size())
     return "its faces are not those of the input";
-  const Certificate certificate = certify(input, read_back.positions, options.find);
+  const ThreadLimit threads(options.find.threads);
+  const Certificate certificate = Certifier(input, options.find).certify(read_back.positions);
   if (!certificate.seams_closed) return "a seam of the input is open in it";
   const PairCounts &after = certificate.pairs, &before = result.report.before;
   const std::size_t disjoint = after[PairClass::disjoint];

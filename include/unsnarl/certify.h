@@ -14,7 +14,6 @@ struct Certificate {
   PairCounts pairs;                     ///< intersecting pairs of faces
   PairCounts pairs_float32;             ///< the same after rounding all positions to float32; what is beyond its range
                                         ///< counts as one degenerate pair
-  std::size_t triangle_pairs = 0;       ///< intersecting pairs of the triangles that the faces are cut into
   std::size_t new_zero_area_faces = 0;  ///< triangles without area that had some in the input
   bool seams_closed = true;             ///< vertices that count as one are at one position
 
