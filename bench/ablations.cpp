@@ -56,7 +56,8 @@ struct Subject {
 
   explicit Subject(Surface given) : surface(std::move(given)) {
     prepared = prepare(surface, {});
-    diagnosis = diagnose(surface, prepared, {});
+    IntersectionFinder finder(prepared.triangles());
+    diagnosis = diagnose(surface, prepared, {}, finder);
     scene = make_scene(prepared.rest, prepared.triangulation.triangles,
                        std::vector<std::uint8_t>(prepared.identification.count, 0));
     std::vector<Index> free;

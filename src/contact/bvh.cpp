@@ -38,6 +38,8 @@ void Bvh::build(std::span<const Box> boxes) {
   order_.resize(n);
   boxes_.resize(n);
   watched_.assign(static_cast<std::size_t>(n), 1);
+  place_.clear();
+  is_watching_only_ = false;
   if (n == 0) return;
   Box bounds;
   for (const Box& box : boxes) bounds.extend(box.center());
@@ -82,18 +84,67 @@ Index Bvh::build_node(Index begin, Index end) {
   return id;
 }
 
+void Bvh::fit(Node& node) {
+  node.box = Box();
+  if (node.right == 0) {
+    for (Index k = node.begin; k < node.end; ++k) node.box.extend(boxes_[k]);
+  } else {
+    node.box.extend((&node)[1].box);
+    node.box.extend(nodes_[node.right].box);
+  }
+}
+
+void Bvh::flag(Node& node) {
+  if (node.right == 0) {
+    const auto end = watched_.begin() + node.end;
+    node.watched = std::find_if(watched_.begin() + node.begin, end, [](std::uint8_t w) { return w != 0; }) != end;
+  } else {
+    node.watched = (&node)[1].watched || nodes_[node.right].watched;
+  }
+}
+
+std::vector<Index> Bvh::places_of(std::span<const Index> boxes) {
+  if (place_.empty()) {
+    place_.resize(order_.size());
+    for (Index k = 0; k < size(); ++k) place_[order_[k]] = k;
+  }
+  std::vector<Index> places(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) places[i] = place_[boxes[i]];
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+template <class Visit>
+void Bvh::visit_above(std::span<const Index> places, Visit&& visit, Index id) {
+  if (places.empty()) return;
+  Node& node = nodes_[id];
+  if (node.right != 0) {
+    const auto middle = std::lower_bound(places.begin(), places.end(), nodes_[node.right].begin);
+    visit_above({places.begin(), middle}, visit, id + 1);
+    visit_above({middle, places.end()}, visit, node.right);
+  }
+  visit(node);
+}
+
 void Bvh::watch(std::span<const std::uint8_t> watched) {
   assert(watched.size() == order_.size());
+  is_watching_only_ = false;
   for (std::size_t k = 0; k < order_.size(); ++k) watched_[k] = watched[order_[k]];
-  for (std::size_t id = nodes_.size(); id-- > 0;) {
-    Node& node = nodes_[id];
-    if (node.right == 0) {
-      node.watched = std::find_if(watched_.begin() + node.begin, watched_.begin() + node.end,
-                                  [](std::uint8_t w) { return w != 0; }) != watched_.begin() + node.end;
-    } else {
-      node.watched = nodes_[id + 1].watched || nodes_[node.right].watched;
-    }
+  for (std::size_t id = nodes_.size(); id-- > 0;) flag(nodes_[id]);
+}
+
+void Bvh::watch_only(std::span<const Index> watched) {
+  if (is_watching_only_) {
+    for (Index k : only_watched_) watched_[k] = 0;
+    visit_above(only_watched_, [](Node& node) { node.watched = false; });
+  } else {
+    std::fill(watched_.begin(), watched_.end(), std::uint8_t{0});
+    for (Node& node : nodes_) node.watched = false;
   }
+  is_watching_only_ = true;
+  only_watched_ = places_of(watched);
+  for (Index k : only_watched_) watched_[k] = 1;
+  visit_above(only_watched_, [](Node& node) { node.watched = true; });
 }
 
 void Bvh::refit(std::span<const Box> boxes) {
@@ -101,16 +152,14 @@ void Bvh::refit(std::span<const Box> boxes) {
   const Index n = size();
   for (Index k = 0; k < n; ++k) boxes_[k] = boxes[order_[k]];
   // Children come after their parent.
-  for (std::size_t id = nodes_.size(); id-- > 0;) {
-    Node& node = nodes_[id];
-    node.box = Box();
-    if (node.right == 0) {
-      for (Index k = node.begin; k < node.end; ++k) node.box.extend(boxes_[k]);
-    } else {
-      node.box.extend(nodes_[id + 1].box);
-      node.box.extend(nodes_[node.right].box);
-    }
-  }
+  for (std::size_t id = nodes_.size(); id-- > 0;) fit(nodes_[id]);
+}
+
+void Bvh::refit(std::span<const Box> boxes, std::span<const Index> moved) {
+  assert(boxes.size() == order_.size());
+  const std::vector<Index> places = places_of(moved);
+  for (Index k : places) boxes_[k] = boxes[order_[k]];
+  visit_above(places, [this](Node& node) { fit(node); });
 }
 
 }  // namespace unsnarl

@@ -19,10 +19,14 @@ class Bvh {
   void build(std::span<const Box> boxes);
   /// Same number of boxes as at the last build, moved. The tree's shape is kept.
   void refit(std::span<const Box> boxes);
+  /// The same where only these have moved (ids, each once): at a cost that follows their number.
+  void refit(std::span<const Box> boxes, std::span<const Index> moved);
 
   /// From now on self_pairs() visits only pairs of which at least one box is watched (one flag a box); until the next
   /// build. Where few are, most of the tree is skipped.
   void watch(std::span<const std::uint8_t> watched);
+  /// The same for the boxes with these ids (each once), at a cost that follows their number and that of those before.
+  void watch_only(std::span<const Index> watched);
 
   Index size() const { return static_cast<Index>(order_.size()); }
 
@@ -50,15 +54,25 @@ class Bvh {
     bool watched = true;       // a box below it is
   };
   Index build_node(Index begin, Index end);
+  void fit(Node& node);
+  void flag(Node& node);
+  /// Where these boxes are among the leaves, ascending.
+  std::vector<Index> places_of(std::span<const Index> boxes);
+  /// Calls visit(Node&) for all nodes above these places, children before their parent.
+  template <class Visit>
+  void visit_above(std::span<const Index> places, Visit&& visit, Index node = 0);
   template <class Visit>
   void pairs_within(Index node, Visit& visit) const;
   template <class Visit>
   void pairs_between(Index a, Index b, Visit& visit) const;
 
   std::vector<Node> nodes_;
-  std::vector<Index> order_;  // leaf position -> box id
-  std::vector<Box> boxes_;    // in leaf order
+  std::vector<Index> order_;           // leaf position -> box id
+  std::vector<Index> place_;           // box id -> leaf position; empty until it is needed
+  std::vector<Box> boxes_;             // in leaf order
   std::vector<std::uint8_t> watched_;  // in leaf order
+  std::vector<Index> only_watched_;    // leaf positions, ascending; where watch_only() was the last to say
+  bool is_watching_only_ = false;
   std::vector<std::pair<Index, Index>> tasks_;
 };
 

@@ -19,11 +19,15 @@ double half_surface(const Box& box) {
   return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
+/// Products are rounded: some units in the last place keep the box around what was turned.
+Box with_reserve(const Box& box) {
+  return box.inflated(4e-15 * std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff()));
+}
+
 Box turned_box(const Eigen::Matrix3d& frame, const Positions& x, const Triangle& t) {
   Box box;
   for (Index v : t) box.extend(Vec3(frame * x.col(v)));
-  // Products are rounded: some units in the last place keep the box around the triangle.
-  return box.inflated(4e-15 * std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff()));
+  return with_reserve(box);
 }
 
 }  // namespace
@@ -48,6 +52,21 @@ void FaceTree::choose_frame(const Positions& x) {
   if (is_turned_) frame_ = frame;
 }
 
+Box FaceTree::own_box(const Positions& x, Index t) const {
+  return is_turned_ ? turned_box(frame_, x, triangles_[t]) : box_of(x, triangles_[t]);
+}
+
+Box FaceTree::in_frame(const Box& box) const {
+  if (!is_turned_ || !(box.lo.array() <= box.hi.array()).all()) return box;
+  Box turned;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p(corner & 1 ? box.hi[0] : box.lo[0], corner & 2 ? box.hi[1] : box.lo[1],
+                 corner & 4 ? box.hi[2] : box.lo[2]);
+    turned.extend(Vec3(frame_ * p));
+  }
+  return with_reserve(turned);
+}
+
 void FaceTree::update(const Positions& x, double margin) {
   const bool is_new = boxes_.empty();
   const Index n = static_cast<Index>(triangles_.size());
@@ -55,7 +74,7 @@ void FaceTree::update(const Positions& x, double margin) {
   if (is_new) choose_frame(x);
   auto update_range = [&](const oneapi::tbb::blocked_range<Index>& range) {
     for (Index t = range.begin(); t < range.end(); ++t) {
-      const Box box = is_turned_ ? turned_box(frame_, x, triangles_[t]) : box_of(x, triangles_[t]);
+      const Box box = own_box(x, t);
       boxes_[t] = margin > 0 ? box.inflated(margin) : box;
     }
   };
@@ -68,11 +87,15 @@ void FaceTree::update(const Positions& x, double margin) {
     return;
   }
   bvh_.build(boxes_);
-  if (active_count_ < n) watch();
+  if (active_count_ < n) watch_active();
 }
 
-void FaceTree::watch(std::span<const std::uint8_t> watched) {
-  if (!watched.empty()) return bvh_.watch(watched);
+void FaceTree::update(const Positions& x, std::span<const Index> moved) {
+  for (Index t : moved) boxes_[t] = own_box(x, t);
+  bvh_.refit(boxes_, moved);
+}
+
+void FaceTree::watch_active() {
   std::vector<std::uint8_t> active(triangles_.size(), 0);
   std::fill(active.begin(), active.begin() + active_count_, std::uint8_t{1});
   bvh_.watch(active);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/bvh.h"
+#include "contact/bvh_traversal.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -21,10 +22,21 @@ class FaceTree {
 
   /// Takes over the positions; every box is inflated by `margin`.
   void update(const Positions& x, double margin = 0);
+  /// The same where only these triangles (ids, each once) have moved since, and without margin then and now: at a cost
+  /// that follows their number. Not at first.
+  void update(const Positions& x, std::span<const Index> moved);
 
-  /// From now on only pairs with a watched triangle (one flag each) are visited. At first, and without flags again: all
-  /// pairs with an active one.
-  void watch(std::span<const std::uint8_t> watched = {});
+  /// From now on all pairs with an active triangle are visited, as at first.
+  void watch_active();
+  /// From now on only pairs with one of these triangles (ids, each once) are visited.
+  void watch_only(std::span<const Index> watched) { bvh_.watch_only(watched); }
+
+  /// Calls visit(Index) once for every triangle whose box overlaps one around `box`: for all that reach into `box`, and
+  /// for some that only come near.
+  template <class Visit>
+  void query(const Box& box, Visit&& visit) const {
+    bvh_.query(in_frame(box), visit);
+  }
 
   /// Calls visit(task, i, j), i < j, once for each pair of triangles whose boxes overlap; in parallel over the tasks
   /// [0, task_count()), in a fixed order within each.
@@ -36,6 +48,9 @@ class FaceTree {
 
  private:
   void choose_frame(const Positions& x);
+  Box own_box(const Positions& x, Index t) const;
+  /// A box along the axes of the tree's boxes around one along the coordinate axes.
+  Box in_frame(const Box& box) const;
 
   std::span<const Triangle> triangles_;
   Index active_count_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "geometry/parallel_lists.h"
 #include "geometry/triangle_intersection.h"
@@ -66,25 +67,67 @@ IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles)
 IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Index active_count)
     : triangles_(triangles), active_count_(active_count), tree_(triangles, active_count) {}
 
-bool IntersectionFinder::flag_moved(const Positions& x) {
-  if (last_x_.cols() != x.cols() || triangles_.empty()) return false;
+void IntersectionFinder::move(const Positions& x) {
+  if (x_.cols() != x.cols()) {
+    x_ = x;
+    tree_.update(x);
+    is_undecided_.assign(triangles_.size(), 0);
+    is_all_undecided_ = true;
+    return;
+  }
   std::vector<std::uint8_t> vertex_moved(static_cast<std::size_t>(x.cols()));
-  for (Index v = 0; v < x.cols(); ++v) vertex_moved[v] = x.col(v) != last_x_.col(v);
-  moved_.resize(triangles_.size());
-  std::size_t count = 0;
+  bool any = false;
+  for (Index v = 0; v < x.cols(); ++v) {
+    vertex_moved[v] = x.col(v) != x_.col(v);
+    any |= vertex_moved[v] != 0;
+  }
+  if (!any) return;
+  std::vector<Index> moved;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Triangle& corners = triangles_[t];
-    moved_[t] = vertex_moved[corners[0]] | vertex_moved[corners[1]] | vertex_moved[corners[2]];
-    count += moved_[t];
+    if (vertex_moved[corners[0]] | vertex_moved[corners[1]] | vertex_moved[corners[2]])
+      moved.push_back(static_cast<Index>(t));
   }
-  return static_cast<double>(count) < few * static_cast<double>(triangles_.size());
+  for (Index v = 0; v < x.cols(); ++v)
+    if (vertex_moved[v]) x_.col(v) = x.col(v);
+  take_over(moved);
 }
 
-std::vector<IntersectingPair> IntersectionFinder::decide(const Positions& x) {
+void IntersectionFinder::move(const Positions& x, std::span<const Index> triangles) {
+  if (x_.cols() != x.cols()) return move(x);
+  std::vector<Index> moved(triangles.begin(), triangles.end());
+  std::sort(moved.begin(), moved.end());
+  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  for (Index t : moved)
+    for (Index v : triangles_[t]) x_.col(v) = x.col(v);
+  take_over(moved);
+}
+
+void IntersectionFinder::take_over(std::span<const Index> moved) {
+  const auto is_few = [&](std::size_t count) {
+    return static_cast<double>(count) < few * static_cast<double>(triangles_.size());
+  };
+  if (is_few(moved.size()))
+    tree_.update(x_, moved);
+  else
+    tree_.update(x_);
+  for (Index t : moved) {
+    if (is_undecided_[t]) continue;
+    is_undecided_[t] = 1;
+    undecided_.push_back(t);
+  }
+  is_all_undecided_ |= !is_few(undecided_.size());
+}
+
+void IntersectionFinder::query(const Box& box, std::vector<Index>& found) const {
+  tree_.query(box, [&](Index t) { found.push_back(t); });
+}
+
+std::vector<IntersectingPair> IntersectionFinder::decide() const {
   std::vector<std::vector<IntersectingPair>> found(tree_.task_count());
   tree_.self_pairs([&](Index task, Index i, Index j) {
     PairClass kind;
-    if (i < active_count_ && intersects(x, triangles_[i], triangles_[j], kind)) found[task].push_back({i, j, kind});
+    if (i < active_count_ && intersects(x_, triangles_[i], triangles_[j], kind)) found[task].push_back({i, j, kind});
   });
   std::vector<IntersectingPair> pairs;
   join_lists(found, pairs);
@@ -92,21 +135,24 @@ std::vector<IntersectingPair> IntersectionFinder::decide(const Positions& x) {
 }
 
 std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
-  const bool few_moved = flag_moved(x);
-  tree_.update(x);
-  if (few_moved)
-    tree_.watch(moved_);
-  else if (watches_moved_)
-    tree_.watch();
-  watches_moved_ = few_moved;
-  std::vector<IntersectingPair> pairs = decide(x);
-  if (few_moved)
-    std::copy_if(last_pairs_.begin(), last_pairs_.end(), std::back_inserter(pairs),
-                 [&](const IntersectingPair& pair) { return !moved_[pair.a] && !moved_[pair.b]; });
-  std::sort(pairs.begin(), pairs.end());
-  last_x_ = x;
-  last_pairs_ = pairs;
-  return pairs;
+  move(x);
+  if (is_all_undecided_) {
+    if (watches_undecided_) tree_.watch_active();
+    watches_undecided_ = false;
+    pairs_ = decide();
+  } else if (!undecided_.empty()) {
+    tree_.watch_only(undecided_);
+    watches_undecided_ = true;
+    std::vector<IntersectingPair> pairs = decide();
+    std::copy_if(pairs_.begin(), pairs_.end(), std::back_inserter(pairs),
+                 [&](const IntersectingPair& pair) { return !is_undecided_[pair.a] && !is_undecided_[pair.b]; });
+    pairs_ = std::move(pairs);
+  }
+  std::sort(pairs_.begin(), pairs_.end());
+  for (Index t : undecided_) is_undecided_[t] = 0;
+  undecided_.clear();
+  is_all_undecided_ = false;
+  return pairs_;
 }
 
 }  // namespace unsnarl

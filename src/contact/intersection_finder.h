@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -12,29 +13,44 @@ namespace unsnarl {
 /// Exact class of the pair of triangles (a, b), or nothing where they meet only in the hull of the vertices they share.
 bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairClass& kind);
 
-/// Finds all intersecting pairs of a set of triangles whose vertices move: the tree is built once and refitted, and
-/// where few triangles have moved since the last time, only their pairs are decided anew.
+/// Knows where the triangles of a set are while their vertices move: which of them intersect, and which are near a
+/// place. The tree is built once; where few triangles move, the cost follows their number, but for a look at every
+/// vertex and triangle.
 class IntersectionFinder {
  public:
   /// Pairs of two triangles >= active_count are skipped (obstacles among themselves). The span must outlive the finder.
   explicit IntersectionFinder(std::span<const Triangle> triangles);
   IntersectionFinder(std::span<const Triangle> triangles, Index active_count);
 
-  /// All intersecting pairs, a < b, sorted. Decided by exact predicates. Same result at any thread count.
+  /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates, anew for what has moved since the last
+  /// time. Same result at any thread count.
   std::vector<IntersectingPair> find(const Positions& x);
 
+  /// Takes over the positions for query().
+  void move(const Positions& x);
+  /// The same where only these triangles (any order, with repetitions) may have moved.
+  void move(const Positions& x, std::span<const Index> triangles);
+  /// Appends the triangles whose boxes, where they are now, overlap one around `box`: all that reach into it, and some
+  /// that only come near; each once, unsorted. Safe from many threads.
+  void query(const Box& box, std::vector<Index>& found) const;
+
+  std::span<const Triangle> triangles() const { return triangles_; }
+
  private:
-  /// Flags the triangles that have moved since the last time; false where too many have.
-  bool flag_moved(const Positions& x);
-  std::vector<IntersectingPair> decide(const Positions& x);
+  /// These triangles (each once) have moved to x_.
+  void take_over(std::span<const Index> moved);
+  std::vector<IntersectingPair> decide() const;
 
   std::span<const Triangle> triangles_;
   Index active_count_;
   FaceTree tree_;
-  bool watches_moved_ = false;  // and not all active triangles
-  Positions last_x_;            // of the last find()
-  std::vector<IntersectingPair> last_pairs_;
-  std::vector<std::uint8_t> moved_;  // per triangle
+  Positions x_;                          // now
+  std::vector<IntersectingPair> pairs_;  // as they were last decided
+  // Triangles that have moved since then; all of them if that is not told apart.
+  bool is_all_undecided_ = true;
+  std::vector<Index> undecided_;
+  std::vector<std::uint8_t> is_undecided_;
+  bool watches_undecided_ = false;  // and not all active triangles
 };
 
 }  // namespace unsnarl

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "contact/intersection_finder.h"
-
 namespace unsnarl {
 namespace {
 
@@ -19,7 +17,8 @@ void add_unique_sorted(std::vector<std::int32_t>& faces) {
 
 }  // namespace
 
-Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed) {
+Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
+                   IntersectionFinder& finder) {
   Diagnosis result;
   const std::span<const Triangle> triangles = prepared.triangles();
   const std::vector<Index>& polygon = prepared.triangulation.polygon;
@@ -28,7 +27,7 @@ Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, 
   result.components = find_components(triangles, prepared.identification.count, edges);
   result.topology =
       describe_topology(surface, prepared.identification, prepared.triangulation, edges, result.components);
-  result.pairs = IntersectionFinder(triangles).find(prepared.rest);
+  result.pairs = finder.find(prepared.rest);
 
   const std::vector<Index>& component_of = result.components.component_of_triangle;
   for (Index c = 0; c < result.components.count(); ++c) {
@@ -42,7 +41,9 @@ Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, 
              " triangles) is closed and non-orientable: no such surface can be embedded in space"});
   }
   std::vector<std::int32_t> fixed_faces;
-  for (const std::vector<Index>& group : duplicate_triangles(triangles)) {
+  std::vector<std::vector<Index>> duplicates;
+  if (result.topology.duplicate_faces > 0) duplicates = duplicate_triangles(triangles);
+  for (const std::vector<Index>& group : duplicates) {
     Obstruction obstruction{Obstruction::Kind::duplicate_faces, {}, {}};
     for (Index t : group) obstruction.faces.push_back(polygon[t]);
     std::string list;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/intersection_finder.h"
 #include "repair/prepared_surface.h"
 #include "unsnarl/repair.h"
 
@@ -23,7 +24,8 @@ inline bool are_of_two_components(const Components& components, const Intersecti
   return components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b];
 }
 
-/// `fixed`: one flag an identified vertex; empty: none.
-Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed);
+/// `fixed`: one flag an identified vertex; empty: none. `finder`: of the prepared triangles.
+Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
+                   IntersectionFinder& finder);
 
 }  // namespace unsnarl

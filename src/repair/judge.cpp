@@ -6,19 +6,25 @@
 
 namespace unsnarl {
 
-Judge::Judge(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options)
-    : prepared_(prepared), diagnosis_(diagnosis), options_(options), finder_(prepared.triangles()) {
+Judge::Judge(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options,
+             Finders& finders)
+    : prepared_(prepared), diagnosis_(diagnosis), options_(options), finders_(finders) {
   if (!prepared.otherwise.triangles.empty()) any_cut_.emplace(prepared);
   before_ = pairs_at(prepared.rest);
 }
 
 Judge::Pairs Judge::pairs_at(const Positions& x) {
   Pairs pairs;
-  pairs.triangles = x == prepared_.rest ? diagnosis_.pairs : finder_.find(x);
+  pairs.triangles = x == prepared_.rest ? diagnosis_.pairs : finders_.as_is.find(x);
   const std::vector<IntersectingPair> faces = pairs_of_faces(prepared_.triangulation.polygon, pairs.triangles);
   pairs.faces = count_by_class(any_cut_ ? any_cut_->find(x) : faces);
   pairs.by_other_diagonals = pairs.faces.total() > faces.size();
   return pairs;
+}
+
+bool Judge::is_embedded_in_float32(const Positions& x) {
+  if (!fits_float32(x)) return false;
+  return any_cut_ ? any_cut_->find(rounded_to_float32(x)).empty() : finders_.find_rounded(x).empty();
 }
 
 bool Judge::is_set_aside(const IntersectingPair& pair) const {

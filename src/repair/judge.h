@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "contact/intersection_finder.h"
 #include "repair/diagnose.h"
 #include "repair/face_pairs.h"
+#include "repair/finders.h"
 #include "repair/prepared_surface.h"
 #include "unsnarl/repair.h"
 
@@ -14,7 +14,8 @@ namespace unsnarl {
 /// Says what positions of a surface are worth against its input. What it is given must outlive it.
 class Judge {
  public:
-  Judge(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options);
+  /// `finders`: of the prepared triangles.
+  Judge(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options, Finders& finders);
 
   struct Pairs {
     std::vector<IntersectingPair> triangles;  ///< sorted
@@ -22,6 +23,8 @@ class Judge {
     bool by_other_diagonals = false;  ///< some faces intersect for other diagonals than those that were cut along
   };
   Pairs pairs_at(const Positions& x);
+  /// No two faces intersect once the positions are rounded to float32.
+  bool is_embedded_in_float32(const Positions& x);
 
   /// A pair of the input that is not to be resolved: an obstruction, of a class or between components that do not
   /// count.
@@ -35,7 +38,7 @@ class Judge {
   const PreparedSurface& prepared_;
   const Diagnosis& diagnosis_;
   const RepairOptions& options_;
-  IntersectionFinder finder_;
+  Finders& finders_;
   std::optional<FacePairFinder> any_cut_;
   Pairs before_;
 };

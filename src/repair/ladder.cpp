@@ -84,8 +84,8 @@ std::span<const Rung> wild_rungs() {
 
 class Climb {
  public:
-  Climb(Scene& scene, std::span<const IntersectingPair> ignored, const LadderOptions& options)
-      : scene_(scene), ignored_(ignored), options_(options), finder_(scene.triangles) {}
+  Climb(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored, const LadderOptions& options)
+      : scene_(scene), index_(index), ignored_(ignored), options_(options) {}
 
   LadderResult run() {
     const Positions rest = scene_.rest;
@@ -140,7 +140,7 @@ class Climb {
   bool stopped() const { return options_.stop && options_.stop(); }
 
   std::vector<IntersectingPair> current_pairs() {
-    auto pairs = blocking_pairs(finder_.find(scene_.x), ignored_);
+    auto pairs = blocking_pairs(index_.find_pairs(), ignored_);
     if (options_.on_progress) options_.on_progress(pairs.size());
     return pairs;
   }
@@ -261,14 +261,14 @@ class Climb {
   void climb_one(const Rung& rung) {
     if (options_.recorder) options_.recorder->begin_stage("untangle");
     std::vector<Attempt> attempts = gather_attempts(rung);
-    SceneIndex index(scene_);
+    index_.update();
     // A second round for those that moved farther than their obstacles reach.
     for (int round = 0; round < 3 && !attempts.empty() && !stopped(); ++round) {
       std::vector<Box> boxes;
       for (const Attempt& attempt : attempts) boxes.push_back(patch_box(scene_, attempt.free, 2 * attempt.reach));
       std::vector<Attempt> again;
       run_in_waves(
-          boxes, [&](std::size_t i) { run(attempts[i], rung, index); },
+          boxes, [&](std::size_t i) { run(attempts[i], rung); },
           [&](std::size_t i) {
             Attempt& attempt = attempts[i];
             if (attempt.rejected) {
@@ -283,7 +283,7 @@ class Climb {
               again.push_back(std::move(attempt));
               return;
             }
-            paste_patch(attempt.patch, scene_, index);
+            paste_patch(attempt.patch, scene_, index_);
             if (options_.recorder)
               options_.recorder->add(std::move(attempt.trajectory), std::string(rung.name),
                                      options_.first_region + result_.regions.size(), attempt.free, scene_.x);
@@ -335,10 +335,10 @@ class Climb {
     return attempts;
   }
 
-  void run(Attempt& attempt, const Rung& rung, const SceneIndex& index) const {
+  void run(Attempt& attempt, const Rung& rung) const {
     if (stopped()) return;
     const auto begin = std::chrono::steady_clock::now();
-    attempt.patch = cut_patch(scene_, index, attempt.free, attempt.reach);
+    attempt.patch = cut_patch(scene_, index_, attempt.free, attempt.reach);
     attempt.patch.edge_length = attempt.edge_length;
     attempt.start = attempt.patch.x;
     if (options_.recorder && options_.recorder->is_on()) {
@@ -393,9 +393,9 @@ class Climb {
   }
 
   Scene& scene_;
+  SceneIndex& index_;
   std::span<const IntersectingPair> ignored_;
   const LadderOptions& options_;
-  IntersectionFinder finder_;
   std::vector<IntersectingPair> pairs_;
   std::vector<Gain> gains_;
   bool has_taken_gains_ = false;
@@ -405,8 +405,9 @@ class Climb {
 
 }  // namespace
 
-LadderResult climb_ladder(Scene& scene, std::span<const IntersectingPair> ignored, const LadderOptions& options) {
-  return Climb(scene, ignored, options).run();
+LadderResult climb_ladder(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
+                          const LadderOptions& options) {
+  return Climb(scene, index, ignored, options).run();
 }
 
 }  // namespace unsnarl

@@ -29,6 +29,7 @@ struct LadderResult {
 
 /// Untangles the scene region by region: every conflict region climbs from gentle local rungs to the flow of its whole
 /// component, everything outside it held. Pairs in `ignored` (sorted, of triangles) cannot be resolved and are let be.
-LadderResult climb_ladder(Scene& scene, std::span<const IntersectingPair> ignored, const LadderOptions& options);
+LadderResult climb_ladder(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
+                          const LadderOptions& options);
 
 }  // namespace unsnarl

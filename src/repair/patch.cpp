@@ -5,38 +5,12 @@
 namespace unsnarl {
 namespace {
 
-std::vector<Box> boxes_of(const Scene& scene) {
-  std::vector<Box> boxes(scene.triangle_count());
-  for (Index t = 0; t < scene.triangle_count(); ++t) boxes[t] = box_of(scene.x, scene.triangles[t]);
-  return boxes;
-}
-
 void sort_unique(std::vector<Index>& list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 }  // namespace
-
-SceneIndex::SceneIndex(const Scene& scene)
-    : scene_(scene), bvh_(boxes_of(scene)), is_moved_(scene.triangle_count(), 0) {}
-
-void SceneIndex::query(const Box& box, std::vector<Index>& found) const {
-  bvh_.query(box, [&](Index t) {
-    if (!is_moved_[t]) found.push_back(t);
-  });
-  for (Index t : moved_)
-    if (box_of(scene_.x, scene_.triangles[t]).overlaps(box)) found.push_back(t);
-}
-
-void SceneIndex::mark_moved(std::span<const Index> vertices) {
-  for (Index v : vertices)
-    for (Index t : scene_.triangles_of_vertex[v])
-      if (!is_moved_[t]) {
-        is_moved_[t] = 1;
-        moved_.push_back(t);
-      }
-}
 
 Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach) {
   Patch patch;
@@ -49,7 +23,7 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
   // One query for every few active triangles near each other would do; one for each is simple and was never the
   // bottleneck.
   std::vector<Index> near, found;
-  std::vector<std::uint8_t> is_near(scene.triangle_count(), 0);
+  std::vector<bool> is_near(scene.triangle_count());  // bits: there may be thousands of patches
   for (Index k = 0; k < patch.active_count; ++k) {
     const Triangle& t = scene.triangles[patch.faces[k]];
     Box box = box_of(scene.x, t);
@@ -58,7 +32,7 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
     index.query(box.inflated(reach), found);
     for (Index other : found)
       if (!is_near[other]) {
-        is_near[other] = 1;
+        is_near[other] = true;
         near.push_back(other);
       }
   }

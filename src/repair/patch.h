@@ -3,9 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "contact/bvh.h"
+#include "geometry/box.h"
 #include "geometry/types.h"
 #include "repair/scene.h"
+#include "repair/scene_index.h"
 
 namespace unsnarl {
 
@@ -18,30 +19,13 @@ struct Patch {
   Index free_count = 0;
   /// Triangles [0, active_count) have a free vertex; the rest are obstacles nearby.
   Index active_count = 0;
-  Positions rest;                   ///< where the vertices are in the input; for fixed ones equal to x
-  Positions x;                      ///< where they are now
-  std::vector<Triangle> triangles;  ///< of vertices of the patch
-  std::vector<Index> vertices;      ///< patch vertex -> vertex of the whole, ascending within the free and the fixed
-  std::vector<Index> faces;         ///< patch triangle -> triangle of the whole, ascending within active and obstacles
-  double edge_length = 0;           ///< h: mean edge of the intersecting faces at rest (or of all active ones)
+  Positions rest;                    ///< where the vertices are in the input; for fixed ones equal to x
+  Positions x;                       ///< where they are now
+  std::vector<Triangle> triangles;   ///< of vertices of the patch
+  std::vector<Index> vertices;       ///< patch vertex -> vertex of the whole, ascending within the free and the fixed
+  std::vector<Index> faces;          ///< patch triangle -> triangle of the whole, ascending within active and obstacles
+  double edge_length = 0;            ///< h: mean edge of the intersecting faces at rest (or of all active ones)
   Trajectory* trajectory = nullptr;  ///< where solvers note their iterations; none: nowhere. Not owned
-};
-
-/// Finds the triangles of a scene near a place while some of its vertices move: a tree over all triangles as they
-/// were when it was built, and a list of those that have moved since.
-class SceneIndex {
- public:
-  explicit SceneIndex(const Scene& scene);
-  /// Triangles whose boxes, as they are now, overlap the given box; each once, unsorted.
-  void query(const Box& box, std::vector<Index>& found) const;
-  /// The triangles of these vertices have moved.
-  void mark_moved(std::span<const Index> vertices);
-
- private:
-  const Scene& scene_;
-  Bvh bvh_;
-  std::vector<Index> moved_;
-  std::vector<std::uint8_t> is_moved_;
 };
 
 /// Cuts out the patch with these free vertices (ascending, none fixed). Obstacles: all triangles within `reach` (a

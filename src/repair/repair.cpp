@@ -10,12 +10,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contact/intersection_finder.h"
 #include "mesh/areas.h"
 #include "repair/conflict_regions.h"
 #include "repair/cuts.h"
 #include "repair/diagnose.h"
 #include "repair/face_pairs.h"
+#include "repair/finders.h"
 #include "repair/judge.h"
 #include "repair/ladder.h"
 #include "repair/local_solver.h"
@@ -59,10 +59,11 @@ class Repair {
     std::vector<std::uint8_t> fixed(prepared_.identification.count, 0);
     for (std::size_t v = 0; v < options_.fixed.size(); ++v)
       if (options_.fixed[v]) fixed[prepared_.identification.vertex_of[v]] = 1;
-    diagnosis_ = diagnose(surface_, prepared_, fixed);
+    finders_.emplace(prepared_.triangles());
+    diagnosis_ = diagnose(surface_, prepared_, fixed, finders_->as_is);
     result_.report.topology = diagnosis_.topology;
     result_.report.obstructions = diagnosis_.obstructions;
-    judge_.emplace(prepared_, diagnosis_, options_);
+    judge_.emplace(prepared_, diagnosis_, options_, *finders_);
     recorder_.emplace(options_.record, prepared_.rest);
     result_.report.before = result_.report.after = judge_->pairs_at(prepared_.rest).faces;
     result_.positions.assign(surface_.positions.begin(), surface_.positions.end());
@@ -109,7 +110,7 @@ class Repair {
     component_of_ = diagnosis_.components.component_of_triangle;
     for (const IntersectingPair& pair : pairs_)
       if (judge_->is_set_aside(pair)) ignored_.push_back(pair);
-    work_on_scene();
+    work_on_scene(*finders_);
   }
 
   void work_on_each_component(const std::vector<std::uint8_t>& fixed) {
@@ -138,7 +139,8 @@ class Repair {
         pairs_.push_back({number[pair.a], number[pair.b], pair.kind});
         if (judge_->is_set_aside(pair)) ignored_.push_back(pairs_.back());
       }
-      work_on_scene();
+      Finders finders(cut_.triangles);
+      work_on_scene(finders);
       float32 &= float32_;
     }
     float32_ = float32 && options_.precision != Precision::float64;
@@ -156,20 +158,20 @@ class Repair {
     return part;
   }
 
-  void work_on_scene() {
+  /// `finders`: of its triangles.
+  void work_on_scene(Finders& finders) {
     choose_precision();
-    IntersectionFinder finder(cut_.triangles);
     const bool other_diagonals_matter = !prepared_.otherwise.triangles.empty();
-    if (ignored_.size() == pairs_.size() && !has_float32_conflict(finder) && !other_diagonals_matter) return;
+    if (ignored_.size() == pairs_.size() && !has_float32_conflict(finders) && !other_diagonals_matter) return;
     try {
-      work(finder);
-      settle_cut(finder);
+      work(finders);
+      settle_cut(finders);
     } catch (const std::bad_alloc&) {
       run_out_of_memory();
     }
     if (options_.max_displacement_rel > 0 &&
         send_home_what_is_too_far(scene_, merge_overlapping(std::move(moved_), scene_.vertex_count()),
-                                  options_.max_displacement_rel * diagonal_, pairs_, finder))
+                                  options_.max_displacement_rel * diagonal_, pairs_, finders.as_is))
       displacement_is_exceeded_ = true;
     moved_.clear();
     for (Index v = 0; v < scene_.vertex_count(); ++v)
@@ -268,9 +270,9 @@ class Repair {
   }
   /// Pairs that exist only after rounding everything to float32, where float32 has to hold: everywhere if asked for,
   /// else where something was repaired.
-  std::vector<IntersectingPair> float32_conflicts(IntersectionFinder& finder, const Positions& x) const {
+  std::vector<IntersectingPair> float32_conflicts(Finders& finders, const Positions& x) const {
     if (!float32_) return {};
-    std::vector<IntersectingPair> conflicts = blocking_pairs(finder.find(rounded_to_float32(x)), ignored_);
+    std::vector<IntersectingPair> conflicts = blocking_pairs(finders.find_rounded(x), ignored_);
     std::erase_if(conflicts, [&](const IntersectingPair& pair) {
       return !can_be_parted(pair) || (!options_.precision && !has_moved(pair.a, x) && !has_moved(pair.b, x));
     });
@@ -289,29 +291,30 @@ class Repair {
     };
     return can_move(pair.a) || can_move(pair.b);
   }
-  bool has_float32_conflict(IntersectionFinder& finder) const {
-    return !float32_conflicts(finder, scene_.rest).empty();
+  bool has_float32_conflict(Finders& finders) const {
+    return options_.precision && !float32_conflicts(finders, scene_.rest).empty();
   }
 
   // Work.
 
-  void work(IntersectionFinder& finder) {
+  void work(Finders& finders) {
+    SceneIndex index(scene_, finders.as_is);
     for (int round = 0; round < rounding_rounds && !stopped(); ++round) {
       start("untangle");
-      LadderResult climbed = options_.paper ? untangle_as_in_the_paper(finder) : untangle();
+      LadderResult climbed = options_.paper ? untangle_as_in_the_paper(index) : untangle(index);
       auto& regions = result_.report.regions;
       regions.insert(regions.end(), climbed.regions.begin(), climbed.regions.end());
       if (options_.recover) {
         start("recover");
         report_progress(0.7, climbed.left.size());
-        recover_regions(merge_overlapping(climbed.moved, scene_.vertex_count()));
+        recover_regions(merge_overlapping(climbed.moved, scene_.vertex_count()), index);
       }
       moved_.insert(moved_.end(), climbed.moved.begin(), climbed.moved.end());
       start("certify");
       report_progress(0.9, climbed.left.size());
       scene_.x = as_written(scene_.x);
-      const std::vector<IntersectingPair> conflicts = float32_conflicts(finder, scene_.x);
-      if ((conflicts.empty() && is_resolved(finder)) || !climbed.left.empty()) break;
+      const std::vector<IntersectingPair> conflicts = float32_conflicts(finders, scene_.x);
+      if ((conflicts.empty() && is_resolved(finders)) || !climbed.left.empty()) break;
       const Positions rounded = rounded_to_float32(scene_.x);
       for (const IntersectingPair& pair : conflicts)
         for (Index t : {pair.a, pair.b})
@@ -322,8 +325,8 @@ class Repair {
 
   /// Whoever reads the result, a second run among them, cuts its polygons by its own positions. Where that cut
   /// intersects, work goes on until all cuts met hold; quads along either diagonal, if both count.
-  void settle_cut(IntersectionFinder& finder) {
-    if (surface_.offsets.empty() || !is_resolved(finder)) return;
+  void settle_cut(Finders& finders) {
+    if (surface_.offsets.empty() || !is_resolved(finders)) return;
     Triangulation cuts = cut_;
     for (int round = 0; round < most_cuts && !stopped(); ++round) {
       const std::vector<double> positions = prepared_.scatter(surface_.positions, scene_.x);
@@ -345,24 +348,24 @@ class Repair {
       const Recorder::Stages recorded = recorder_->stages();
       scene_ = make_scene(prepared_.rest, cuts.triangles, std::move(scene_.fixed));
       scene_.x = before;
-      IntersectionFinder finder_of_all(scene_.triangles);
-      for (const IntersectingPair& pair : finder_of_all.find(scene_.x))
+      Finders finders_of_all(scene_.triangles);
+      for (const IntersectingPair& pair : finders_of_all.as_is.find(scene_.x))
         if (pair.kind == PairClass::duplicate) ignored_.push_back(pair);  // no motion parts them
       std::sort(ignored_.begin(), ignored_.end());
-      if (is_resolved(finder_of_all)) return;
-      work(finder_of_all);
-      if (is_resolved(finder_of_all)) continue;
+      if (is_resolved(finders_of_all)) return;
+      work(finders_of_all);
+      if (is_resolved(finders_of_all)) continue;
       scene_.x = before;
       result_.report.regions.resize(regions);
       recorder_->restore(recorded);
       return;
     }
   }
-  bool is_resolved(IntersectionFinder& finder) const {
-    return blocking_pairs(finder.find(scene_.x), ignored_).empty() && lost_areas() == 0;
+  bool is_resolved(Finders& finders) const {
+    return blocking_pairs(finders.as_is.find(scene_.x), ignored_).empty() && lost_areas() == 0;
   }
 
-  LadderResult untangle() {
+  LadderResult untangle(SceneIndex& index) {
     LadderOptions ladder;
     ladder.stop = stopper();
     if (options_.max_displacement_rel > 0) ladder.accept = [this](Patch& patch) { return stays_near(patch); };
@@ -372,15 +375,14 @@ class Repair {
       const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
       report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
     };
-    return climb_ladder(scene_, ignored_, ladder);
+    return climb_ladder(scene_, index, ignored_, ladder);
   }
 
   /// The whole scene as one patch, until no disjoint pair is left.
-  LadderResult untangle_as_in_the_paper(IntersectionFinder& finder) {
+  LadderResult untangle_as_in_the_paper(SceneIndex& index) {
     std::vector<Index> free;
     for (Index v = 0; v < scene_.vertex_count(); ++v)
       if (!scene_.fixed[v] && !scene_.triangles_of_vertex[v].empty()) free.push_back(v);
-    SceneIndex index(scene_);
     Patch patch = cut_patch(scene_, index, free, 0);
     patch.edge_length = mean_edge_length(scene_.rest, scene_.triangles);
     Trajectory trajectory = recorder_->new_trajectory();
@@ -398,12 +400,12 @@ class Repair {
     report.seconds = seconds_since(phase_begin_);
     result.regions.push_back(report);
     result.moved.push_back(std::move(free));
-    result.left = blocking_pairs(finder.find(scene_.x), ignored_);
+    result.left = blocking_pairs(index.find_pairs(), ignored_);
     return result;
   }
 
-  void recover_regions(const std::vector<std::vector<Index>>& regions) {
-    SceneIndex index(scene_);
+  void recover_regions(const std::vector<std::vector<Index>>& regions, SceneIndex& index) {
+    index.update();
     std::vector<double> edge_length(regions.size()), gap(regions.size());
     std::vector<Box> boxes(regions.size());
     for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -495,8 +497,7 @@ class Repair {
     result_.status = judge_->status(left, reached_);
     if (result_.status == Status::reduced || result_.status == Status::no_progress)
       result_.status = stopped_or(displacement_is_exceeded_ ? Status::displacement_exceeded : result_.status);
-    report.float32_embedded =
-        fits_float32(reached_) && judge_->pairs_at(rounded_to_float32(reached_)).faces.total() == 0;
+    report.float32_embedded = judge_->is_embedded_in_float32(reached_);
     measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
     report.min_gap_rel = std::isfinite(smallest_gap_) && report.diagonal > 0 ? smallest_gap_ / report.diagonal : 0;
     if (options_.max_displacement_rel > 0 && report.displacement_max_rel > options_.max_displacement_rel)
@@ -518,6 +519,7 @@ class Repair {
   PreparedSurface prepared_;
   double diagonal_ = 0;
   Diagnosis diagnosis_;
+  std::optional<Finders> finders_;  // of the prepared triangles
   std::optional<Judge> judge_;
   std::optional<Recorder> recorder_;
   // What is worked on at the moment; ids of pairs are those of its triangles.

@@ -126,6 +126,33 @@ TEST(Bvh, visits_only_pairs_of_which_a_box_is_watched) {
   }
 }
 
+TEST(Bvh, what_few_boxes_change_is_what_all_would) {
+  for (const Index n : {1, 5, 300, 5000}) {
+    std::vector<Box> boxes = random_boxes(n, 0.1, 9);
+    const std::vector<Box> others = random_boxes(n, 0.1, 10);
+    Bvh some(boxes), all(boxes);
+    for (const Index every : {7, 1000000, 3}) {
+      std::vector<Index> chosen;
+      std::vector<std::uint8_t> is_chosen(boxes.size(), 0);
+      for (Index i = (n - 1) / 2; i < n; i += every) chosen.push_back(i);
+      std::reverse(chosen.begin(), chosen.end());  // in any order
+      for (Index i : chosen) is_chosen[i] = 1, boxes[i] = others[i];
+      some.refit(boxes, chosen);
+      all.refit(boxes);
+      EXPECT_TRUE(self_pairs(some) == self_pairs(all));
+      some.watch_only(chosen);
+      all.watch(is_chosen);
+      EXPECT_TRUE(parallel_pairs(some) == parallel_pairs(all));
+      some.watch_only(chosen);
+      EXPECT_TRUE(self_pairs(some) == self_pairs(all));
+    }
+    some.watch(std::vector<std::uint8_t>(boxes.size(), 1));
+    EXPECT_TRUE(self_pairs(some) == brute_pairs(boxes));
+    some.watch_only({});
+    EXPECT_TRUE(self_pairs(some).empty());
+  }
+}
+
 TEST(Bvh, boxes_that_touch_overlap) {
   std::vector<Box> boxes(2);
   boxes[0].extend(Vec3(0, 0, 0));

@@ -112,6 +112,47 @@ TEST(FaceTree, boxes_are_turned_along_slanted_needles) {
   EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
 }
 
+// What has a corner in the box has to be found; without turned boxes, what is found are the boxes that overlap it.
+TEST(FaceTree, queries_follow_the_motion) {
+  for (const bool has_needles : {false, true}) {
+    const Mesh mesh = has_needles ? slanted_needles(400) : soup(400, 0.15, 1);
+    FaceTree tree(mesh.triangles);
+    Positions x = mesh.x;
+    int hits = 0;
+    tree.update(x);
+    const auto check = [&] {
+      for (Index v = 0; v < x.cols(); v += 37) {
+        Box box;
+        box.extend(Vec3(x.col(v)));
+        box = box.inflated(0.1);
+        std::vector<std::uint8_t> found(mesh.triangles.size(), 0);
+        tree.query(box, [&](Index t) { ++found[t]; });
+        for (std::size_t t = 0; t < found.size(); ++t) {
+          const bool near = box_of(x, mesh.triangles[t]).overlaps(box);
+          bool inside = false;
+          for (Index corner : mesh.triangles[t])
+            inside |=
+                (x.col(corner).array() >= box.lo.array()).all() && (x.col(corner).array() <= box.hi.array()).all();
+          EXPECT_LE(found[t], near || has_needles);
+          EXPECT_GE(found[t], has_needles ? inside : near);
+          hits += inside;
+        }
+      }
+    };
+    check();
+    std::vector<Index> moved;
+    for (Index t = 0; t < static_cast<Index>(mesh.triangles.size()); ++t) {
+      const Triangle& corners = mesh.triangles[t];
+      if (std::any_of(corners.begin(), corners.end(), [](Index v) { return v < 30; })) moved.push_back(t);
+    }
+    for (Index v = 0; v < 30; ++v) x.col(v) += Vec3(0.5, -0.3, 0.7);
+    tree.update(x, moved);
+    check();
+    EXPECT_GT(hits, 10);
+    tree.query(Box(), [](Index) { ADD_FAILURE() << "an empty box overlaps nothing"; });
+  }
+}
+
 TEST(FaceTree, turned_boxes_lose_no_intersection) {
   const Mesh mesh = slanted_needles(150);
   // A motion that leaves the direction of the needles.

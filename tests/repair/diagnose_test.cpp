@@ -13,7 +13,9 @@ namespace {
 using shapes::Shape;
 
 Diagnosis diagnosis_of(const Surface& surface, const std::vector<std::uint8_t>& fixed = {}) {
-  return diagnose(surface, prepare(surface, {}), fixed);
+  const PreparedSurface prepared = prepare(surface, {});
+  IntersectionFinder finder(prepared.triangles());
+  return diagnose(surface, prepared, fixed, finder);
 }
 
 Surface appended(Surface surface, const Surface& other, double shift) {

@@ -11,13 +11,18 @@ namespace {
 
 using shapes::Shape;
 
+LadderResult climb(Scene& scene, std::span<const IntersectingPair> ignored, const LadderOptions& options) {
+  SceneIndex index(scene);
+  return climb_ladder(scene, index, ignored, options);
+}
+
 TEST(Ladder, clears_a_crossing_and_says_how) {
   const Shape shape = shapes::crossing_bumps(14, 0.3);
   Scene scene = shapes::scene_of(shape);
   std::vector<std::size_t> left;
   LadderOptions options;
   options.on_progress = [&](std::size_t pairs) { left.push_back(pairs); };
-  const LadderResult result = climb_ladder(scene, {}, options);
+  const LadderResult result = climb(scene, {}, options);
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
   ASSERT_EQ(result.regions.size(), 1u);
@@ -40,7 +45,7 @@ TEST(Ladder, clears_a_crossing_and_says_how) {
 TEST(Ladder, a_region_climbs_until_a_rung_resolves_it) {
   const Shape shape = shapes::crossing_bumps(14, 3.5);
   Scene scene = shapes::scene_of(shape), shallow = shapes::scene_of(shapes::crossing_bumps(14, 0.3));
-  const LadderResult result = climb_ladder(scene, {}, {}), gentle = climb_ladder(shallow, {}, {});
+  const LadderResult result = climb(scene, {}, {}), gentle = climb(shallow, {}, {});
   EXPECT_TRUE(result.left.empty());
   ASSERT_EQ(result.regions.size(), 1u);
   ASSERT_EQ(gentle.regions.size(), 1u);
@@ -51,7 +56,7 @@ TEST(Ladder, a_region_climbs_until_a_rung_resolves_it) {
 
 TEST(Ladder, nothing_to_do_moves_nothing) {
   Scene scene = shapes::scene_of(shapes::bumpy_sheet(5, 0.5));
-  const LadderResult result = climb_ladder(scene, {}, {});
+  const LadderResult result = climb(scene, {}, {});
   EXPECT_TRUE(result.regions.empty());
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(scene.x == scene.rest);
@@ -60,9 +65,9 @@ TEST(Ladder, nothing_to_do_moves_nothing) {
 TEST(Ladder, regions_apart_do_not_feel_each_other) {
   const Shape shallow = shapes::crossing_bumps(12, 0.2), deeper = shapes::crossing_bumps(12, 0.8);
   Scene alone = shapes::scene_of(shallow);
-  climb_ladder(alone, {}, {});
+  climb(alone, {}, {});
   Scene both = shapes::scene_of(Shape(shallow).add(deeper, {60, 0, 0}));
-  const LadderResult result = climb_ladder(both, {}, {});
+  const LadderResult result = climb(both, {}, {});
   EXPECT_TRUE(result.left.empty());
   EXPECT_EQ(result.regions.size(), 2u);
   EXPECT_TRUE(both.x.leftCols(alone.x.cols()) == alone.x);
@@ -76,7 +81,7 @@ TEST(Ladder, ignored_pairs_are_let_be) {
     if (pair.a >= squares) ignored.push_back(pair);
   ASSERT_FALSE(ignored.empty());
   Scene scene = shapes::scene_of(shape);
-  const LadderResult result = climb_ladder(scene, ignored, {});
+  const LadderResult result = climb(scene, ignored, {});
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles) == ignored);
   EXPECT_TRUE(scene.x.rightCols(8) == scene.rest.rightCols(8));
@@ -88,7 +93,7 @@ TEST(Ladder, fixed_vertices_stay) {
   std::fill(fixed.begin(), fixed.begin() + static_cast<std::ptrdiff_t>(fixed.size() / 2),
             std::uint8_t{1});  // a whole sheet
   Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
-  const LadderResult result = climb_ladder(scene, {}, {});
+  const LadderResult result = climb(scene, {}, {});
   EXPECT_TRUE(result.left.empty());
   const Index half = scene.vertex_count() / 2;
   EXPECT_TRUE(scene.x.leftCols(half) == scene.rest.leftCols(half));
@@ -103,7 +108,7 @@ TEST(Ladder, what_cannot_be_resolved_keeps_what_was_gained) {
   for (const Index t : {pairs[0].a, pairs[0].b})
     for (const Index v : shape.triangles[t]) fixed[v] = 1;
   Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
-  const LadderResult result = climb_ladder(scene, {}, {});
+  const LadderResult result = climb(scene, {}, {});
   EXPECT_FALSE(result.left.empty());
   EXPECT_LT(2 * result.left.size(), pairs.size());
   EXPECT_TRUE(result.left == shapes::pairs_at(scene.x, scene.triangles));
@@ -121,7 +126,7 @@ TEST(Ladder, stopping_leaves_the_rest_as_it_is) {
   Scene scene = shapes::scene_of(shapes::crossing_bumps(12, 0.3));
   LadderOptions options;
   options.stop = [] { return true; };
-  const LadderResult result = climb_ladder(scene, {}, options);
+  const LadderResult result = climb(scene, {}, options);
   EXPECT_TRUE(result.left == shapes::pairs_at(scene.rest, scene.triangles));
   EXPECT_TRUE(result.moved.empty());
   EXPECT_TRUE(scene.x == scene.rest);

@@ -17,8 +17,9 @@ Surface cube() {
 
 RepairReport measured(const Surface& surface, const std::vector<double>& positions) {
   const PreparedSurface prepared = prepare(surface, {});
+  IntersectionFinder finder(prepared.triangles());
   RepairReport report;
-  measure_change(surface, prepared, diagnose(surface, prepared, {}), positions, report);
+  measure_change(surface, prepared, diagnose(surface, prepared, {}, finder), positions, report);
   return report;
 }
 

@@ -30,22 +30,6 @@ std::vector<Index> overlapping(const Scene& scene, const Box& box) {
   return found;
 }
 
-TEST(SceneIndex, knows_where_moved_triangles_are) {
-  Scene scene = shapes::scene_of(shapes::crossing_bumps(10, 0.4));
-  SceneIndex index(scene);
-  const Box here = box_around({0, 0, 0}, 1.5), there = box_around({0, 0, 30}, 1.5);
-  EXPECT_EQ(found_by(index, here), overlapping(scene, here));
-  EXPECT_TRUE(found_by(index, there).empty());
-  const std::vector<Index> moved = {60, 61, 71};
-  for (int round = 0; round < 2; ++round) {
-    for (Index v : moved) scene.x(2, v) += 15;
-    index.mark_moved(moved);  // twice: each triangle must still be found once
-    EXPECT_EQ(found_by(index, here), overlapping(scene, here));
-    EXPECT_EQ(found_by(index, there), overlapping(scene, there));
-  }
-  EXPECT_FALSE(found_by(index, there).empty());
-}
-
 TEST(Patch, is_a_copy_of_its_part_of_the_scene) {
   Scene scene = shapes::scene_of(shapes::crossing_bumps(10, 0.4));
   for (Index v = 0; v < scene.vertex_count(); ++v) scene.x(0, v) += 0.01 * v;  // no longer at rest
