@@ -45,6 +45,8 @@ class FaceTree {
     bvh_.self_pairs_parallel([&](Index task, Index i, Index j) { visit(task, std::min(i, j), std::max(i, j)); });
   }
   Index task_count() const { return bvh_.task_count(); }
+  /// Whether the boxes are not along the coordinate axes.
+  bool is_turned() const { return is_turned_; }
 
  private:
   void choose_frame(const Positions& x);

@@ -12,6 +12,8 @@ namespace {
 
 /// Share of the triangles below which those that moved are worth telling apart.
 constexpr double few = 0.25;
+/// A surface that has moved as a whole so many times will go on to do so.
+constexpr int seldom = 2;
 
 TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {
   return {x.col(t[first]), x.col(t[(first + 1) % 3]), x.col(t[(first + 2) % 3])};
@@ -136,7 +138,12 @@ std::vector<IntersectingPair> IntersectionFinder::decide() const {
 
 std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
   move(x);
-  if (is_all_undecided_) {
+  if (is_all_undecided_ && decided_as_a_whole_ >= seldom && !tree_.is_turned()) {
+    if (!moving_)
+      moving_ = std::make_unique<MovingIntersections>(triangles_, active_count_, static_cast<Index>(x.cols()));
+    pairs_ = moving_->find(x_);
+  } else if (is_all_undecided_) {
+    ++decided_as_a_whole_;
     if (watches_undecided_) tree_.watch_active();
     watches_undecided_ = false;
     pairs_ = decide();

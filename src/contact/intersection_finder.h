@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "contact/face_tree.h"
+#include "contact/moving_intersections.h"
 #include "geometry/types.h"
 #include "unsnarl/intersections.h"
 
@@ -50,7 +52,9 @@ class IntersectionFinder {
   bool is_all_undecided_ = true;
   std::vector<Index> undecided_;
   std::vector<std::uint8_t> is_undecided_;
-  bool watches_undecided_ = false;  // and not all active triangles
+  bool watches_undecided_ = false;               // and not all active triangles
+  int decided_as_a_whole_ = 0;                   // so many times
+  std::unique_ptr<MovingIntersections> moving_;  // for more of these
 };
 
 }  // namespace unsnarl

@@ -1,0 +1,61 @@
+#include "contact/moving_intersections.h"
+
+#include <algorithm>
+
+#include "contact/intersection_finder.h"
+#include "geometry/parallel_lists.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr Index chunk = 4096;  // pairs or vertices a task
+
+bool has_corner(const Triangle& t, Index v) {
+  return t[0] == v || t[1] == v || t[2] == v;
+}
+
+}  // namespace
+
+void MovingIntersections::add_near(const Positions& x, Index begin, Index end,
+                                   std::vector<IntersectingPair>& found) const {
+  const std::span<const Box> boxes = near_.boxes();
+  PairClass kind;
+  for (Index k = begin; k < end; ++k) {
+    const auto [a, b] = near_.pairs()[k];
+    if (boxes[a].overlaps(boxes[b]) && intersects(x, triangles_[a], triangles_[b], kind)) found.push_back({a, b, kind});
+  }
+}
+
+void MovingIntersections::add_joined(const Positions& x, Index begin, Index end,
+                                     std::vector<IntersectingPair>& found) const {
+  const std::span<const Box> boxes = near_.boxes();
+  PairClass kind;
+  for (Index v = begin; v < end; ++v) {
+    if (fans_.is_unfolded(v)) continue;
+    const std::span<const Index> at = fans_.triangles_at(v);
+    for (std::size_t j = 1; j < at.size(); ++j)
+      for (std::size_t i = 0; i < j && at[i] < active_count_; ++i) {
+        const Triangle &a = triangles_[at[i]], &b = triangles_[at[j]];
+        // What shares two vertices is decided by either's fan, or else at the first of them.
+        if (!boxes[at[i]].overlaps(boxes[at[j]])) continue;
+        const bool elsewhere = std::any_of(
+            a.begin(), a.end(), [&](Index u) { return u != v && has_corner(b, u) && (u < v || fans_.is_unfolded(u)); });
+        if (!elsewhere && intersects(x, a, b, kind)) found.push_back({at[i], at[j], kind});
+      }
+  }
+}
+
+std::vector<IntersectingPair> MovingIntersections::find(const Positions& x) {
+  near_.update(x);
+  fans_.update(x);
+  std::vector<IntersectingPair> pairs, joined;
+  gather_in_chunks(static_cast<Index>(near_.pairs().size()), chunk, pairs,
+                   [&](Index begin, Index end, auto& list) { add_near(x, begin, end, list); });
+  gather_in_chunks(static_cast<Index>(x.cols()), chunk, joined,
+                   [&](Index begin, Index end, auto& list) { add_joined(x, begin, end, list); });
+  pairs.insert(pairs.end(), joined.begin(), joined.end());
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace unsnarl

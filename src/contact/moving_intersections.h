@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/near_pairs.h"
+#include "contact/vertex_fans.h"
+#include "unsnarl/intersections.h"
+
+namespace unsnarl {
+
+/// Finds all intersecting pairs of a set of triangles that moves as a whole, a little at a time. Triangles that share a
+/// vertex are decided fan by fan, the others where they are near each other.
+class MovingIntersections {
+ public:
+  /// Pairs of two triangles >= active_count are skipped. The span must outlive this.
+  MovingIntersections(std::span<const Triangle> triangles, Index active_count, Index vertex_count)
+      : triangles_(triangles),
+        active_count_(active_count),
+        near_(triangles, active_count),
+        fans_(triangles, active_count, vertex_count) {}
+
+  /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates. Same result at any thread count.
+  std::vector<IntersectingPair> find(const Positions& x);
+
+ private:
+  void add_near(const Positions& x, Index begin, Index end, std::vector<IntersectingPair>& found) const;
+  /// Of the vertices [begin, end).
+  void add_joined(const Positions& x, Index begin, Index end, std::vector<IntersectingPair>& found) const;
+
+  std::span<const Triangle> triangles_;
+  Index active_count_;
+  NearPairs near_;
+  VertexFans fans_;
+};
+
+}  // namespace unsnarl

@@ -1,0 +1,100 @@
+#include "contact/near_pairs.h"
+
+#include <algorithm>
+
+#include "geometry/parallel_lists.h"
+#include "geometry/parallel_sums.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr Index chunk = 2048;  // triangles a task
+// Room around a box: for so many motions like the last, within these shares of the mean diagonal of the boxes. Who is
+// faster still would leave it at once and gets none.
+constexpr double motions = 12;
+constexpr double least_room = 0.03;
+constexpr double most_room = 0.4;
+/// Share of the triangles up to which those that left their boxes are looked up one by one.
+constexpr double few = 0.2;
+
+bool contains(const Box& outer, const Box& inner) {
+  return (outer.lo.array() <= inner.lo.array()).all() && (inner.hi.array() <= outer.hi.array()).all();
+}
+
+double motion(const Box& from, const Box& to) {
+  return std::max((to.lo - from.lo).cwiseAbs().maxCoeff(), (to.hi - from.hi).cwiseAbs().maxCoeff());
+}
+
+bool share_a_vertex(const Triangle& a, const Triangle& b) {
+  return std::any_of(a.begin(), a.end(), [&](Index v) { return v == b[0] || v == b[1] || v == b[2]; });
+}
+
+}  // namespace
+
+void NearPairs::update(const Positions& x, double margin) {
+  const Index n = static_cast<Index>(triangles_.size());
+  const bool is_new = boxes_.empty();
+  boxes_.resize(n);
+  roomy_.resize(n);
+  left_.resize(n);
+  if (is_new) {
+    for (Index t = 0; t < n; ++t) {
+      boxes_[t] = box_of(x, triangles_[t]);
+      length_ += boxes_[t].diagonal() / n;
+    }
+  }
+  const double left = sum_in_chunks(n, chunk, [&](Index begin, Index end) {
+    double count = 0;
+    for (Index t = begin; t < end; ++t) {
+      const Box box = box_of(x, triangles_[t]);
+      const Box wanted = box.inflated(margin);
+      left_[t] = is_new || !contains(roomy_[t], wanted);
+      if (left_[t]) {
+        const double last = motion(boxes_[t], box) / length_;
+        roomy_[t] = wanted.inflated(last > most_room ? 0 : length_ * std::clamp(motions * last, least_room, most_room));
+        ++count;
+      }
+      boxes_[t] = box;
+    }
+    return count;
+  });
+  if (left == 0) return;
+  if (is_new)
+    bvh_.build(roomy_);
+  else
+    bvh_.refit(roomy_);
+  if (left > few * n)
+    look_for_all();
+  else
+    look_for_those_that_left();
+}
+
+void NearPairs::look_for_all() {
+  std::vector<std::vector<Pair>> found(bvh_.task_count());
+  bvh_.self_pairs_parallel([&](Index task, Index i, Index j) {
+    if (i >= active_count_ && j >= active_count_) return;
+    if (!share_a_vertex(triangles_[i], triangles_[j])) found[task].push_back({std::min(i, j), std::max(i, j)});
+  });
+  join_lists(found, pairs_);
+}
+
+void NearPairs::look_for_those_that_left() {
+  std::erase_if(pairs_, [&](const Pair& pair) { return left_[pair[0]] || left_[pair[1]]; });
+  std::vector<Pair> found;
+  gather_in_chunks(static_cast<Index>(triangles_.size()), chunk, found,
+                   [&](Index begin, Index end, std::vector<Pair>& list) {
+                     for (Index t = begin; t < end; ++t) {
+                       if (!left_[t]) continue;
+                       bvh_.query(roomy_[t], [&](Index other) {
+                         // Two that left find each other twice.
+                         if (left_[other] && other <= t) return;
+                         if (t >= active_count_ && other >= active_count_) return;
+                         if (!share_a_vertex(triangles_[t], triangles_[other]))
+                           list.push_back({std::min(t, other), std::max(t, other)});
+                       });
+                     }
+                   });
+  pairs_.insert(pairs_.end(), found.begin(), found.end());
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/bvh.h"
+#include "geometry/types.h"
+
+namespace unsnarl {
+
+/// Lists the pairs of triangles near each other, but for those that share a vertex, on a surface that moves a little at
+/// a time. Every triangle's box has some room around it, by how fast it moves; only the pairs of those that have left
+/// theirs are looked for anew.
+class NearPairs {
+ public:
+  using Pair = std::array<Index, 2>;  // ascending
+
+  /// Pairs of two triangles >= active_count are left out. The span must outlive this.
+  NearPairs(std::span<const Triangle> triangles, Index active_count)
+      : triangles_(triangles), active_count_(active_count) {}
+
+  /// Takes over the positions: from now on all pairs are listed whose boxes, inflated by `margin`, overlap, each once,
+  /// and others a little farther apart. The order is a function of all positions up to now.
+  void update(const Positions& x, double margin = 0);
+  std::span<const Pair> pairs() const { return pairs_; }
+  /// The triangles' boxes at the positions, without margin.
+  std::span<const Box> boxes() const { return boxes_; }
+
+ private:
+  void look_for_all();
+  void look_for_those_that_left();
+
+  std::span<const Triangle> triangles_;
+  Index active_count_;
+  double length_ = 0;               // mean diagonal of the boxes
+  std::vector<Box> boxes_, roomy_;  // now; with margin and room, when their triangle last left it
+  std::vector<std::uint8_t> left_;  // per triangle: has left its box
+  Bvh bvh_;                         // of the roomy ones
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace unsnarl
