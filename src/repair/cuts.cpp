@@ -22,10 +22,10 @@ std::vector<Piece> sorted_pieces(const Triangulation& cut) {
   return pieces;
 }
 
-}  // namespace
-
-std::vector<IntersectingPair> add_cut(Triangulation& all, const Triangulation& cut) {
-  if (all.triangles == cut.triangles) return {};
+/// Adds to `all` the triangles that `cut` has besides.
+void add(const Triangulation& cut, UnitedCuts& united) {
+  Triangulation& all = united.all;
+  if (all.triangles == cut.triangles) return;
   const std::vector<Piece> known = sorted_pieces(all), wanted = sorted_pieces(cut);
   const auto first_new = static_cast<Index>(all.triangles.size());
   std::vector<std::pair<Index, Index>> added;  // polygon, triangle; by polygon
@@ -35,15 +35,33 @@ std::vector<IntersectingPair> add_cut(Triangulation& all, const Triangulation& c
     all.triangles.push_back(cut.triangles[t]);
     all.polygon.push_back(cut.polygon[t]);
   }
-  std::vector<IntersectingPair> strangers;
   for (Index s = 0; s < first_new; ++s) {
     auto it = std::lower_bound(added.begin(), added.end(), std::pair(all.polygon[s], Index{0}));
     if (it == added.end() || it->first != all.polygon[s]) continue;
     if (std::binary_search(wanted.begin(), wanted.end(), piece(all, static_cast<std::size_t>(s)))) continue;
     for (; it != added.end() && it->first == all.polygon[s]; ++it)
-      strangers.push_back({s, it->second, PairClass::folded});
+      united.strangers.push_back({s, it->second, PairClass::folded});
   }
-  return strangers;
+}
+
+}  // namespace
+
+UnitedCuts unite(const std::vector<Triangulation>& cuts) {
+  UnitedCuts united;
+  for (const Triangulation& cut : cuts) add(cut, united);
+  std::sort(united.strangers.begin(), united.strangers.end());
+  return united;
+}
+
+std::vector<Index> polygons_on_new_duplicates(const Triangulation& cut, std::size_t known,
+                                              std::span<const IntersectingPair> pairs) {
+  std::vector<Index> polygons;
+  for (const IntersectingPair& pair : pairs)
+    if (pair.kind == PairClass::duplicate && static_cast<std::size_t>(std::max(pair.a, pair.b)) >= known)
+      polygons.insert(polygons.end(), {cut.polygon[pair.a], cut.polygon[pair.b]});
+  std::sort(polygons.begin(), polygons.end());
+  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  return polygons;
 }
 
 }  // namespace unsnarl

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesh/triangulation.h"
@@ -7,8 +8,17 @@
 
 namespace unsnarl {
 
-/// Adds to `all` the triangles that `cut`, another cut of the same polygons, has besides. Returns the pairs of one old
-/// and one new triangle of a polygon that the new cut does not hold both, sorted: they may meet. Their class says nothing.
-std::vector<IntersectingPair> add_cut(Triangulation& all, const Triangulation& cut);
+/// The triangles of several cuts of the same polygons, each once, those of earlier cuts first.
+struct UnitedCuts {
+  Triangulation all;
+  /// Pairs of triangles of one polygon that no cut holds both, sorted: they may meet. Their class says nothing.
+  std::vector<IntersectingPair> strangers;
+};
+UnitedCuts unite(const std::vector<Triangulation>& cuts);
+
+/// Polygons of which a triangle lies on the same three vertices as another, of these pairs (of `cut`), since it came to
+/// be cut otherwise than in the first `known` triangles; each once, sorted.
+std::vector<Index> polygons_on_new_duplicates(const Triangulation& cut, std::size_t known,
+                                              std::span<const IntersectingPair> pairs);
 
 }  // namespace unsnarl
