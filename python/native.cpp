@@ -16,12 +16,12 @@
 #include <string>
 #include <thread>
 
-#include "apps/unsnarl/exit_code.h"
 #include "mesh/triangulation.h"
 #include "repair/measure.h"
 #include "repair/report_json.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/intersections.h"
+#include "unsnarl/parts.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/version.h"
 
@@ -54,9 +54,11 @@ Enum named(const char* option, const std::string& name, std::initializer_list<En
   throw std::invalid_argument(std::string(option) + " is '" + name + "'; choose one of " + all);
 }
 
-FindOptions find_options(const std::string& weld, double weld_tolerance, int threads) {
+FindOptions find_options(const std::string& weld, double weld_tolerance, bool both_diagonals = false,
+                         int threads = 0) {
   return {.weld = named("weld", weld, {Weld::none, Weld::seams, Weld::all}),
           .weld_tolerance = weld_tolerance,
+          .both_diagonals = both_diagonals,
           .threads = threads};
 }
 
@@ -116,9 +118,9 @@ RepairResult repair_while_serving_python(const SurfaceView& surface, const Repai
 
 py::tuple py_find_intersections(const Array<double>& positions, const Array<std::int32_t>& corners,
                                 const Array<std::int32_t>& offsets, const std::string& weld, double weld_tolerance,
-                                int threads) {
+                                bool both_diagonals, int threads) {
   const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
-  const FindOptions options = find_options(weld, weld_tolerance, threads);
+  const FindOptions options = find_options(weld, weld_tolerance, both_diagonals, threads);
   std::vector<IntersectingPair> pairs;
   {
     const py::gil_scoped_release others_may_run;
@@ -137,9 +139,9 @@ py::tuple py_find_intersections(const Array<double>& positions, const Array<std:
 
 py::dict py_certify(const Array<double>& positions, const Array<std::int32_t>& corners,
                     const Array<std::int32_t>& offsets, const Array<double>& moved, const std::string& weld,
-                    double weld_tolerance, int threads) {
+                    double weld_tolerance, bool both_diagonals, int threads) {
   const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
-  const FindOptions options = find_options(weld, weld_tolerance, threads);
+  const FindOptions options = find_options(weld, weld_tolerance, both_diagonals, threads);
   Certificate certificate;
   {
     const py::gil_scoped_release others_may_run;
@@ -158,12 +160,12 @@ py::dict py_certify(const Array<double>& positions, const Array<std::int32_t>& c
 py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& corners,
                     const Array<std::int32_t>& offsets, const Array<std::uint8_t>& fixed, const std::string& goal,
                     const std::string& precision, double min_gap, double max_displacement, bool absolute,
-                    double time_limit, double memory_limit, bool recover, bool paper, const std::string& weld,
-                    double weld_tolerance, int threads, const py::object& progress) {
+                    double time_limit, double memory_limit, bool recover, bool paper, bool each_component,
+                    const std::string& weld, double weld_tolerance, bool both_diagonals, int threads, const py::object& progress) {
   const auto begin = std::chrono::steady_clock::now();
   const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
   RepairOptions options;
-  options.find = find_options(weld, weld_tolerance, threads);
+  options.find = find_options(weld, weld_tolerance, both_diagonals, threads);
   options.goal = named("goal", goal, {Goal::all, Goal::disjoint});
   if (precision != "auto") options.precision = named("precision", precision, {Precision::float32, Precision::float64});
   const double diagonal = absolute ? diagonal_of(surface) : 1;
@@ -174,6 +176,7 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
   options.memory_limit_mb = memory_limit;
   options.recover = recover;
   options.paper = paper;
+  options.each_component = each_component;
   options.fixed.assign(fixed.data(), fixed.data() + fixed.size());
 
   const RepairResult result = repair_while_serving_python(surface, options, progress);
@@ -181,10 +184,28 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
   files.vertices = surface.vertex_count();
   files.faces = surface.face_count();
   files.triangulation = triangulate(surface).statistics.describe();
-  files.exit_code = app::exit_code_of(result.status);
   files.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return py::make_tuple(array_of(result.positions), std::string(to_string(result.status)),
                         report_json(result, options, files).dump());
+}
+
+Array<std::int32_t> py_component_of_faces(const Array<double>& positions, const Array<std::int32_t>& corners,
+                                          const Array<std::int32_t>& offsets, const std::string& weld,
+                                          double weld_tolerance) {
+  const FindOptions options = find_options(weld, weld_tolerance);
+  return array_of(component_of_faces({span_of(positions), span_of(corners), span_of(offsets)}, options));
+}
+
+Array<std::uint8_t> py_boundary_vertices(const Array<double>& positions, const Array<std::int32_t>& corners,
+                                         const Array<std::int32_t>& offsets, const std::string& weld,
+                                         double weld_tolerance) {
+  const FindOptions options = find_options(weld, weld_tolerance);
+  return array_of(boundary_vertices({span_of(positions), span_of(corners), span_of(offsets)}, options));
+}
+
+Array<std::uint8_t> py_vertices_of_faces(const Array<double>& positions, const Array<std::int32_t>& corners,
+                                         const Array<std::int32_t>& offsets, const Array<std::uint8_t>& faces) {
+  return array_of(vertices_of_faces({span_of(positions), span_of(corners), span_of(offsets)}, span_of(faces)));
 }
 
 }  // namespace
@@ -199,11 +220,17 @@ PYBIND11_MODULE(_native, module) {
   module.attr("pair_kinds") = kinds;
   const auto array = [](const char* name) { return py::arg(name).noconvert(); };
   module.def("find_intersections", &py_find_intersections, array("positions"), array("corners"), array("offsets"),
-             py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("threads"));
+             py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"));
   module.def("certify", &py_certify, array("positions"), array("corners"), array("offsets"), array("moved"),
-             py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("threads"));
+             py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"));
   module.def("repair", &py_repair, array("positions"), array("corners"), array("offsets"), array("fixed"),
              py::kw_only(), py::arg("goal"), py::arg("precision"), py::arg("min_gap"), py::arg("max_displacement"),
-             py::arg("absolute"), py::arg("time_limit"), py::arg("memory_limit"), py::arg("recover"), py::arg("paper"),
-             py::arg("weld"), py::arg("weld_tolerance"), py::arg("threads"), py::arg("progress"));
+             py::arg("absolute"), py::arg("time_limit"), py::arg("memory_limit"), py::arg("recover"), py::arg("paper"), py::arg("each_component"),
+             py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"), py::arg("progress"));
+  module.def("component_of_faces", &py_component_of_faces, array("positions"), array("corners"), array("offsets"),
+             py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"));
+  module.def("boundary_vertices", &py_boundary_vertices, array("positions"), array("corners"), array("offsets"),
+             py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"));
+  module.def("vertices_of_faces", &py_vertices_of_faces, array("positions"), array("corners"), array("offsets"),
+             array("faces"));
 }

@@ -6,22 +6,20 @@
 #include <chrono>
 #include <set>
 
-#include "exit_code.h"
 #include "geometry/box.h"
 #include "intersecting_faces.h"
 #include "mesh/components.h"
 #include "mesh/union_find.h"
 #include "mesh_input.h"
-#include "repair/face_pairs.h"
-#include "repair/prepared_surface.h"
+#include "repair/exit_code.h"
 #include "repair/face_pairs.h"
 #include "repair/prepared_surface.h"
 #include "repair/report_json.h"
 #include "repair/threads.h"
-#include "repair/threads.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/version.h"
+#include "usage_error.h"
 
 namespace unsnarl::app {
 namespace {

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <new>
 
-#include "exit_code.h"
 #include "fix_summary.h"
 #include "intersecting_faces.h"
 #include "memory_guard.h"
@@ -16,6 +15,7 @@
 #include "render/picture.h"
 #include "render/png.h"
 #include "repair/certifier.h"
+#include "repair/exit_code.h"
 #include "repair/face_pairs.h"
 #include "repair/measure.h"
 #include "repair/prepared_surface.h"
@@ -25,6 +25,7 @@
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
+#include "usage_error.h"
 #include "view_page.h"
 
 namespace unsnarl::app {
@@ -160,10 +161,8 @@ class Fix {
     if (is_to_be_written(result_, surface(), options_.keep_partial)) write_output();
     files_.after_repair.push_back({"write", writing.seconds(), peak_memory_mb()});
 
-    const ExitCode exit_code = exit_code_of(result_.status);
     write_pictures();
     write_recording();
-    files_.exit_code = exit_code;
     files_.seconds = clock_.seconds();
     write_report();
     write_view();
@@ -171,7 +170,7 @@ class Fix {
       display_.clear();
       tell(fix_summary(result_, repair_options_, files_));
     }
-    return exit_code;
+    return exit_code_of(result_.status);
   }
 
  private:

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "exit_code.h"
 #include "fix.h"
 #include "mesh_input.h"
 #include "pictures.h"
 #include "repair/measure.h"
+#include "usage_error.h"
 
 namespace unsnarl::app {
 namespace {

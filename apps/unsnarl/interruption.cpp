@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "exit_code.h"
+#include "repair/exit_code.h"
 
 namespace unsnarl::app {
 namespace {

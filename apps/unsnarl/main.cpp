@@ -10,13 +10,14 @@
 #include <system_error>
 
 #include "check.h"
-#include "exit_code.h"
 #include "fix.h"
 #include "interruption.h"
+#include "repair/exit_code.h"
 #include "sample.h"
 #include "standard_streams.h"
 #include "unsnarl/document.h"
 #include "unsnarl/version.h"
+#include "usage_error.h"
 #include "view.h"
 
 namespace unsnarl::app {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "exit_code.h"
+#include "usage_error.h"
 
 namespace unsnarl::app {
 

@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
-#include "exit_code.h"
 #include "render/animation.h"
 #include "render/gif.h"
 #include "render/png.h"
 #include "staged_output.h"
+#include "usage_error.h"
 
 namespace unsnarl::app {
 

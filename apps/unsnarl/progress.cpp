@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "exit_code.h"
 #include "standard_streams.h"
+#include "usage_error.h"
 
 namespace unsnarl::app {
 

@@ -8,12 +8,13 @@
 #include <stdexcept>
 
 #include "command_options.h"
-#include "exit_code.h"
 #include "mesh_input.h"
+#include "repair/exit_code.h"
 #include "samples/samples.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
+#include "usage_error.h"
 
 namespace unsnarl::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <bit>
 #include <cstring>
 
-#include "exit_code.h"
 #include "unsnarl/parts.h"
+#include "usage_error.h"
 
 namespace unsnarl::app {
 namespace {

@@ -5,10 +5,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "exit_code.h"
 #include "mesh_input.h"
+#include "repair/exit_code.h"
 #include "staged_output.h"
 #include "standard_streams.h"
+#include "usage_error.h"
 #include "view_page.h"
 
 namespace unsnarl::app {

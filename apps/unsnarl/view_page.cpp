@@ -5,10 +5,10 @@
 
 #include "contact/intersection_finder.h"
 #include "contact/intersection_segments.h"
-#include "exit_code.h"
 #include "mesh_input.h"
 #include "render/page.h"
 #include "repair/prepared_surface.h"
+#include "usage_error.h"
 #include "viewer_template.h"
 
 namespace unsnarl::app {

@@ -23,6 +23,7 @@ untangled raises nothing, its ``Result.status`` says so.
 from ._certify import Certificate, certify
 from ._intersections import Intersections, find_intersections
 from ._native import version as __version__
+from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._repair import Progress, Result, Status, repair
 
 __all__ = [
@@ -31,7 +32,10 @@ __all__ = [
     "Progress",
     "Result",
     "Status",
+    "boundary_vertices",
     "certify",
+    "component_of_faces",
     "find_intersections",
     "repair",
+    "vertices_of_faces",
 ]

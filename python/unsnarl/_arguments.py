@@ -19,6 +19,10 @@ class Surface(NamedTuple):
     corners: NDArray[np.int32]  # vertex ids, face after face
     offsets: NDArray[np.int32]  # m + 1; empty: all faces are triangles
 
+    @property
+    def face_count(self) -> int:
+        return len(self.offsets) - 1 if self.offsets.size > 0 else len(self.corners) // 3
+
 
 def surface_of(V: Any, F: Any) -> Surface:
     """The mesh of positions V (n, 3) and faces F (m, k), or (corners, offsets)."""
@@ -58,26 +62,35 @@ def positions_of(V: Any, name: str = "V") -> NDArray[np.float64]:
 
 def vertex_flags(fixed: Any, vertex_count: int) -> NDArray[np.uint8]:
     """One flag a vertex, from a mask (n,) of bool or from vertex ids; empty where nothing is fixed."""
-    if fixed is None:
+    if fixed is None or _array(fixed, "fixed").size == 0:
         return np.empty(0, np.uint8)
-    given = _array(fixed, "fixed")
+    return _flags(fixed, "fixed", vertex_count, "vertices", "vertex")
+
+
+def face_flags(faces: Any, face_count: int) -> NDArray[np.uint8]:
+    """One flag a face, from a mask (m,) of bool or from face ids."""
+    return _flags(faces, "faces", face_count, "faces", "face")
+
+
+def _flags(chosen: Any, argument: str, count: int, things: str, thing: str) -> NDArray[np.uint8]:
+    given = _array(chosen, argument)
     if given.size == 0:
-        return np.empty(0, np.uint8)
+        return np.zeros(count, np.uint8)
     if given.ndim != 1:
-        raise ValueError(f"fixed has shape {given.shape}; give a mask ({vertex_count},) of bool, or a list of ids")
+        raise ValueError(f"{argument} has shape {given.shape}; give a mask ({count},) of bool, or a list of ids")
     if given.dtype == np.bool_:
-        if given.size != vertex_count:
-            raise ValueError(f"fixed has {given.size} flags, but there are {vertex_count} vertices")
+        if given.size != count:
+            raise ValueError(f"{argument} has {given.size} flags, but there are {count} {things}")
         return given.astype(np.uint8)
-    ids = _ids(given, "fixed")
-    wrong = np.flatnonzero((ids < 0) | (ids >= vertex_count))
+    ids = _ids(given, argument)
+    wrong = np.flatnonzero((ids < 0) | (ids >= count))
     if wrong.size > 0:
+        raise ValueError(f"{argument}[{wrong[0]}] is {ids[wrong[0]]}, but there are {count} {things} (counted from 0)")
+    if ids.size == count > 2 and ids.max() <= 1:
         raise ValueError(
-            f"fixed[{wrong[0]}] is {ids[wrong[0]]}, but there are {vertex_count} vertices (counted from 0)"
+            f"{argument} holds a 0 or 1 for each {thing}: give a mask as bool, as in {argument}.astype(bool)"
         )
-    if ids.size == vertex_count > 2 and ids.max() <= 1:
-        raise ValueError("fixed holds a 0 or 1 for each vertex: give a mask as bool, as in fixed.astype(bool)")
-    flags = np.zeros(vertex_count, np.uint8)
+    flags = np.zeros(count, np.uint8)
     flags[ids] = 1
     return flags
 

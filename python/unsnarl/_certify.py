@@ -21,14 +21,22 @@ class Certificate(NamedTuple):
 
 
 def certify(
-    V: Any, F: Any, moved: Any, *, weld: str = "seams", weld_tolerance: float = 0.0, threads: int = 0
+    V: Any,
+    F: Any,
+    moved: Any,
+    *,
+    weld: str = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    threads: int = 0,
 ) -> Certificate:
     """Decides exactly whether the positions `moved` (n, 3) embed the faces of the mesh (V, F).
 
     Which vertices count as one and how polygons are cut is decided on V, so vertices that have come to coincide since
     intersect; find_intersections(moved, F) would take them for one.
 
-    V and F (None where V is a mesh), weld, weld_tolerance, threads and errors: as for find_intersections.
+    V and F (None where V is a mesh), weld, weld_tolerance, both_diagonals, threads and errors: as for
+    find_intersections.
     """
     V, F, _ = opened(V, F)
     found = _native.certify(
@@ -36,6 +44,7 @@ def certify(
         positions_of(moved, "moved"),
         weld=name("weld", weld),
         weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
+        both_diagonals=bool(both_diagonals),
         threads=thread_count(threads),
     )
     for counts in ("pairs", "pairs_float32"):

@@ -43,7 +43,13 @@ class Intersections:
 
 
 def find_intersections(
-    V: Any, F: Any = None, *, weld: str = "seams", weld_tolerance: float = 0.0, threads: int = 0
+    V: Any,
+    F: Any = None,
+    *,
+    weld: str = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    threads: int = 0,
 ) -> Intersections:
     """All pairs of faces that meet anywhere but in the hull of the vertices they share. Touching counts.
 
@@ -59,6 +65,9 @@ def find_intersections(
         normals); "all" at exactly equal positions.
     weld_tolerance
         Length in the units of V: vertices this close count as equal. 0: only exactly equal ones.
+    both_diagonals
+        Quads have two diagonals: count two faces as intersecting where they do for any choice of them (a diagonal that
+        folds its quad left out). Readers of the mesh may choose either.
     threads
         0: as many as the machine has. The result does not depend on it.
 
@@ -73,6 +82,7 @@ def find_intersections(
         *surface_of(V, F),
         weld=name("weld", weld),
         weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
+        both_diagonals=bool(both_diagonals),
         threads=thread_count(threads),
     )
     return Intersections(pairs, np.array(_native.pair_kinds)[kinds])

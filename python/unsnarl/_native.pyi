@@ -14,6 +14,7 @@ def find_intersections(
     *,
     weld: str,
     weld_tolerance: float,
+    both_diagonals: bool,
     threads: int,
 ) -> tuple[NDArray[np.int32], NDArray[np.uint8]]: ...
 def certify(
@@ -24,6 +25,7 @@ def certify(
     *,
     weld: str,
     weld_tolerance: float,
+    both_diagonals: bool,
     threads: int,
 ) -> dict[str, Any]: ...
 def repair(
@@ -41,8 +43,32 @@ def repair(
     memory_limit: float,
     recover: bool,
     paper: bool,
+    each_component: bool,
     weld: str,
     weld_tolerance: float,
+    both_diagonals: bool,
     threads: int,
     progress: Callable[[float, str, int, float], object] | None,
 ) -> tuple[NDArray[np.float64], str, str]: ...
+def component_of_faces(
+    positions: NDArray[np.float64],
+    corners: NDArray[np.int32],
+    offsets: NDArray[np.int32],
+    *,
+    weld: str,
+    weld_tolerance: float,
+) -> NDArray[np.int32]: ...
+def boundary_vertices(
+    positions: NDArray[np.float64],
+    corners: NDArray[np.int32],
+    offsets: NDArray[np.int32],
+    *,
+    weld: str,
+    weld_tolerance: float,
+) -> NDArray[np.uint8]: ...
+def vertices_of_faces(
+    positions: NDArray[np.float64],
+    corners: NDArray[np.int32],
+    offsets: NDArray[np.int32],
+    faces: NDArray[np.uint8],
+) -> NDArray[np.uint8]: ...

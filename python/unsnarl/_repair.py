@@ -76,6 +76,8 @@ def repair(
     memory_limit: float = 0.0,
     weld: str = "seams",
     weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
     threads: int = 0,
     recover: bool = True,
     paper: bool = False,
@@ -94,7 +96,8 @@ def repair(
         Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh or pyvista
         alone, as in ``repair(mesh, fixed=ids)``. See the documentation of the package.
     fixed
-        Vertices that must not move: a mask (n,) of bool, or their ids. None: all may move.
+        Vertices that must not move: a mask (n,) of bool, or their ids. None: all may move. Masks of parts come from
+        vertices_of_faces and boundary_vertices.
     goal
         "all": no intersecting pair of any kind. "disjoint": none of faces that share no vertex.
     precision
@@ -110,8 +113,10 @@ def repair(
         Seconds after which to stop. 0: none.
     memory_limit
         MB that the whole process may hold. 0: no limit.
-    weld, weld_tolerance, threads
+    weld, weld_tolerance, both_diagonals, threads
         As for find_intersections.
+    each_component
+        Repair every component as if alone; what runs through others may do so still, and is reported as obstruction.
     recover
         False: stop after untangling, without moving back toward the input (for research).
     paper
@@ -145,6 +150,8 @@ def repair(
         paper=bool(paper),
         weld=name("weld", weld),
         weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
+        both_diagonals=bool(both_diagonals),
+        each_component=bool(each_component),
         threads=thread_count(threads),
         progress=None if progress is None else _callback(progress),
     )

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "repair/exit_code.h"
 #include "repair/measure.h"
 #include "repair/recording_json.h"
 #include "unsnarl/version.h"
@@ -67,7 +68,7 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
   json["schema_version"] = report_schema_version;
   json["version"] = version;
   json["status"] = to_string(result.status);
-  json["exit_code"] = files.exit_code;
+  json["exit_code"] = static_cast<int>(exit_code_of(result.status));
   const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
   json["input"] = {{"path", text_or_null(files.input)},
                    {"format", text_or_null(files.format)},

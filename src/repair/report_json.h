@@ -19,7 +19,6 @@ struct ReportFiles {
   std::size_t vertices = 0, faces = 0;  ///< as the file counts them
   std::string triangulation;        ///< how the polygons were cut, in words
   std::vector<std::string> notes;   ///< what the reader remarked
-  int exit_code = 0;
   double seconds = 0;               ///< from the start of the program
   std::vector<StageReport> before_repair, after_repair;  ///< reading, writing
 };

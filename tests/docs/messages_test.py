@@ -39,7 +39,7 @@ class Troubleshooting(unittest.TestCase):
             self.assertIn(kind, headings)
 
     def test_every_exit_code_is_explained(self):
-        codes = {code for _, code in enumerators("apps/unsnarl/exit_code.h", "ExitCode")}
+        codes = {code for _, code in enumerators("src/repair/exit_code.h", "ExitCode")}
         self.assertIn("70", codes)
         self.assertEqual(codes, set(re.findall(r"(?:Exit code |^\| )(\d+)\b", PAGE, re.M)))
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <stdexcept>
-
 #include "unsnarl/repair.h"
 
-namespace unsnarl::app {
+namespace unsnarl {
 
 /// Exit codes of the program, the same for all commands.
 enum ExitCode : int {
@@ -19,6 +17,7 @@ enum ExitCode : int {
   exit_internal_error = 70,
 };
 
+/// The one that `unsnarl fix` ends with; stands in the report too.
 constexpr ExitCode exit_code_of(Status status) {
   switch (status) {
     case Status::embedded: return exit_embedded;
@@ -33,10 +32,4 @@ constexpr ExitCode exit_code_of(Status status) {
   return exit_internal_error;
 }
 
-/// Two options that contradict each other, a value that makes no sense: exit_usage.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-}  // namespace unsnarl::app
+}  // namespace unsnarl

@@ -1,0 +1,50 @@
+"""Parts of a mesh, to be held or to be moved."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._arguments import face_flags, name, not_negative, surface_of
+from ._meshes import opened
+
+
+def component_of_faces(
+    V: Any, F: Any = None, *, weld: str = "seams", weld_tolerance: float = 0.0
+) -> NDArray[np.int32]:
+    """Component of each face, (m,): faces joined by a vertex that they share, seams closed.
+
+    Components are counted from 0 in the order of their first faces, as ``unsnarl check`` lists them; a face without any
+    triangle has -1. V, F, weld, weld_tolerance and errors: as for find_intersections.
+    """
+    V, F, _ = opened(V, F)
+    return _native.component_of_faces(
+        *surface_of(V, F), weld=name("weld", weld), weld_tolerance=not_negative("weld_tolerance", weld_tolerance)
+    )
+
+
+def boundary_vertices(V: Any, F: Any = None, *, weld: str = "seams", weld_tolerance: float = 0.0) -> NDArray[np.bool_]:
+    """Mask (n,) of the vertices on an edge of one face only, seams closed: as `fixed`, it holds the boundary.
+
+    V, F, weld, weld_tolerance and errors: as for find_intersections.
+    """
+    V, F, _ = opened(V, F)
+    flags = _native.boundary_vertices(
+        *surface_of(V, F), weld=name("weld", weld), weld_tolerance=not_negative("weld_tolerance", weld_tolerance)
+    )
+    return flags.astype(bool)
+
+
+def vertices_of_faces(V: Any, F: Any, faces: Any) -> NDArray[np.bool_]:
+    """Mask (n,) of the vertices that the given faces use: as `fixed`, it holds these faces.
+
+    `faces` is a mask (m,) of bool, or their ids. With ``~mask`` of some of them all else moves only where it shares no
+    vertex with them: ``fixed=vertices_of_faces(V, F, ~mask)`` moves nothing but those faces. V and F (None where V is a
+    mesh) and errors: as for find_intersections.
+    """
+    V, F, _ = opened(V, F)
+    surface = surface_of(V, F)
+    return _native.vertices_of_faces(*surface, face_flags(faces, surface.face_count)).astype(bool)
