@@ -9,6 +9,7 @@
 
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
+#include "mesh/union_find.h"
 #include "repair/conflict_regions.h"
 #include "repair/flow.h"
 #include "repair/local_solver.h"
@@ -28,25 +29,19 @@ struct Rung {
   std::size_t hub_valence = no_hubs;
 };
 
-/// Obstacles are taken in this many h around a region; regions that move farther are tried again with more.
-constexpr double first_reach = 4;
+/// Obstacles are taken in this many h around a region; regions that move farther are tried again with more. (Checking
+/// afterwards whether they met any of those left out is not enough: they may have passed through them.)
+constexpr double local_reach = 4;  // of 254 regions that local rungs resolved, 6 moved farther
+constexpr double flow_reach = 20;  // of 4 that flows did, 2 moved by 16 h
 
 /// The ladder is climbed again where it has left at most this share of the pairs.
 constexpr double worth_climbing_again = 0.7;
-/// A rung that fails a region of many pairs but takes away most of them has done its part: the few that are left, in
-/// regions of their own, climb on from there. (8807 pairs of two spheres: 8 left after 104 shallow iterations, none
-/// after 24 more.)
-bool is_large_gain(std::size_t pairs, std::size_t pairs_left) {
-  return pairs >= 100 && 10 * pairs_left <= pairs;
-}
-
 /// Gentle rungs hold vertices with more neighbours than this. The needles of a CAD export met at two of 1900.
 constexpr std::size_t hub_valence = 100;
 
 constexpr int whole_component = std::numeric_limits<int>::max();
 
 constexpr LocalRung shallow = {LocalMethod::shallow, 0.1, 1, 20};
-constexpr LocalRung penalty = {LocalMethod::penalty, 0.1, 3, 30};
 constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
 constexpr LocalRung long_contour = {LocalMethod::contour, 0.3, 4, 60};
 constexpr LocalRung smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
@@ -54,9 +49,8 @@ constexpr LocalRung wide_smoothing = {LocalMethod::smoothing, 0.1, 5, 100};
 
 /// The default configuration, gentle first. These move only what lies close to the conflict.
 std::span<const Rung> gentle_rungs() {
-  static const std::array<Rung, 5> rungs = {{
+  static const std::array<Rung, 4> rungs = {{
       {"shallow-0", 0, &shallow, nullptr, hub_valence},
-      {"penalty-2", 2, &penalty, nullptr, hub_valence},
       {"contour-2", 2, &contour, nullptr, hub_valence},
       {"contour-4", 4, &contour, nullptr, hub_valence},
       {"contour-8", 8, &long_contour, nullptr},
@@ -90,21 +84,13 @@ class Climb {
   LadderResult run() {
     const Positions rest = scene_.rest;
     pairs_ = current_pairs();
-    const State start = state();
-    climb_gently();
-    const State gentle = state();
-    if (has_taken_gains_ && !pairs_.empty()) {
-      // Wild rungs do better from the input than from where gentle ones got stuck.
-      restore(start);
-      scene_.rest = rest;
-      climb(gentle_rungs());
+    climb(gentle_rungs());
+    for (Index group : find_stuck_groups()) {
+      group_ = group;
+      climb_apart();
     }
-    climb(wild_rungs());
-    while (!pairs_.empty() && take_gains(GainKind::any) && !stopped()) {
-      climb(gentle_rungs());
-      climb(wild_rungs());
-    }
-    if (gentle.pairs.size() < pairs_.size()) restore(gentle);
+    group_ = everything;
+    pairs_ = current_pairs();
     scene_.rest = rest;
     for (const ConflictRegion& region : conflict_regions(scene_, pairs_)) {
       RegionReport unresolved;
@@ -117,32 +103,95 @@ class Climb {
   }
 
  private:
+  /// Where a rung that failed had the fewest pairs.
+  struct Gain {
+    std::vector<Index> vertices;
+    Positions start, x;
+    std::size_t pairs = 0, pairs_left = 0;
+    RegionReport report;
+    Trajectory trajectory;
+  };
+
   struct State {
-    Positions x;
+    Positions rest, x;
     std::vector<IntersectingPair> pairs;
+    std::vector<Gain> gains;
     std::vector<RegionReport> regions;
     std::vector<std::vector<Index>> moved;
     Recorder::Stages recorded;
   };
   State state() const {
-    return {scene_.x, pairs_, result_.regions, result_.moved,
-            options_.recorder ? options_.recorder->stages() : Recorder::Stages()};
+    return {scene_.rest,     scene_.x,      pairs_, gains_, result_.regions,
+            result_.moved, options_.recorder ? options_.recorder->stages() : Recorder::Stages()};
   }
-  void restore(const State& state) {
-    scene_.x = state.x;
-    pairs_ = state.pairs;
-    result_.regions = state.regions;
-    result_.moved = state.moved;
+  void restore(State state) {
+    scene_.rest = std::move(state.rest);
+    scene_.x = std::move(state.x);
+    pairs_ = std::move(state.pairs);
+    gains_ = std::move(state.gains);
+    result_.regions = std::move(state.regions);
+    result_.moved = std::move(state.moved);
     if (options_.recorder) options_.recorder->restore(state.recorded);
-    gains_.clear();
   }
 
   bool stopped() const { return options_.stop && options_.stop(); }
 
+  /// Of the group that climbs now.
   std::vector<IntersectingPair> current_pairs() {
     auto pairs = blocking_pairs(index_.find_pairs(), ignored_);
     if (options_.on_progress) options_.on_progress(pairs.size());
+    std::erase_if(pairs, [&](const IntersectingPair& pair) { return !is_in_group(pair.a) && !is_in_group(pair.b); });
     return pairs;
+  }
+  bool is_in_group(Index triangle) const {
+    return group_ == everything || group_of_vertex_[scene_.triangles[triangle][0]] == group_;
+  }
+
+  /// Components, with those that the pairs there are tie together taken as one: what is decided for one of these groups
+  /// does not depend on the others.
+  std::vector<Index> find_stuck_groups() {
+    if (pairs_.empty()) return {};
+    UnionFind sets(scene_.vertex_count());
+    const auto unite = [&](const Triangle& t) {
+      sets.unite(t[0], t[1]);
+      sets.unite(t[0], t[2]);
+    };
+    std::for_each(scene_.triangles.begin(), scene_.triangles.end(), unite);
+    for (const IntersectingPair& pair : pairs_) sets.unite(scene_.triangles[pair.a][0], scene_.triangles[pair.b][0]);
+    group_of_vertex_ = sets.dense_ids();
+    std::vector<Index> groups;
+    for (const IntersectingPair& pair : pairs_) groups.push_back(group_of_vertex_[scene_.triangles[pair.a][0]]);
+    std::sort(groups.begin(), groups.end());
+    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+    return groups;
+  }
+
+  /// The group, of which gentle rungs have left pairs, by itself.
+  void climb_apart() {
+    pairs_ = current_pairs();
+    if (pairs_.empty() || stopped()) return;
+    std::vector<Gain> gains_of_others;
+    const auto others = std::stable_partition(gains_.begin(), gains_.end(), [&](const Gain& gain) {
+      return group_of_vertex_[gain.vertices.front()] == group_;
+    });
+    std::move(others, gains_.end(), std::back_inserter(gains_of_others));
+    gains_.erase(others, gains_.end());
+
+    // Gently, again from where that has got to, as long as it takes away pairs.
+    const State first = state();
+    while (!pairs_.empty() && take_gains() && !stopped()) climb(gentle_rungs());
+    if (!pairs_.empty() && !stopped()) {
+      // Wild rungs do better from farther back than from where gentle ones got stuck.
+      State gentle = state();
+      restore(first);
+      climb(wild_rungs());
+      while (!pairs_.empty() && take_gains() && !stopped()) {
+        climb(gentle_rungs());
+        climb(wild_rungs());
+      }
+      if (gentle.pairs.size() < pairs_.size()) restore(std::move(gentle));
+    }
+    gains_ = std::move(gains_of_others);
   }
 
   /// A region about to be tried on a rung.
@@ -161,23 +210,18 @@ class Climb {
     bool rejected = false;  // clean, but not accepted
   };
 
-  /// Where a rung that failed had the fewest pairs.
-  struct Gain {
-    std::vector<Index> vertices;
-    Positions start, x;
-    std::size_t pairs = 0, pairs_left = 0;
-    RegionReport report;
-    Trajectory trajectory;
-
-    bool is_large() const { return is_large_gain(pairs, pairs_left); }
-  };
-  enum class GainKind { large, any };
+  /// A rung that fails a region of many pairs but takes away most of them has done its part: the few that are left, in
+  /// regions of their own, climb on from there. (8807 pairs of two spheres: 8 left after 104 shallow iterations, none
+  /// after 24 more.)
+  bool is_large_gain(const Attempt& attempt) const {
+    return !options_.accept && attempt.region.pairs.size() >= 100 &&
+           10 * attempt.pairs_left <= attempt.region.pairs.size();
+  }
 
   void keep_gain(Attempt& attempt, const Rung& rung) {
     if (options_.accept || attempt.pairs_left >= attempt.region.pairs.size()) return;
     const Index n = attempt.patch.free_count;
-    RegionReport report = report_of(attempt, rung);
-    report.pairs -= attempt.pairs_left;
+    const RegionReport report = report_of(attempt, rung);
     gains_.push_back({std::move(attempt.free), attempt.start.leftCols(n), attempt.patch.x.leftCols(n),
                       attempt.region.pairs.size(), attempt.pairs_left, report, std::move(attempt.trajectory)});
     gains_.back().trajectory.end_at_fewest_pairs();
@@ -185,10 +229,8 @@ class Climb {
 
   /// Moves the regions that no rung resolved to the states with the fewest pairs, which become the rest positions to
   /// climb again from: fewer pairs make smaller regions. False where that is not worth while.
-  bool take_gains(GainKind kind) {
-    // Of large gains the gentlest.
+  bool take_gains() {
     std::stable_sort(gains_.begin(), gains_.end(), [](const Gain& a, const Gain& b) {
-      if (a.is_large() || b.is_large()) return a.is_large() && !b.is_large();
       return a.pairs - a.pairs_left > b.pairs - b.pairs_left;
     });
     const Positions before = scene_.x;
@@ -197,7 +239,6 @@ class Climb {
     std::vector<Trajectory> trajectories;
     std::vector<std::uint8_t> is_taken(scene_.vertex_count(), 0);
     for (Gain& gain : gains_) {
-      if (kind == GainKind::large && !gain.is_large()) continue;
       bool is_current = true;
       for (std::size_t k = 0; k < gain.vertices.size() && is_current; ++k)
         is_current = !is_taken[gain.vertices[k]] && scene_.x.col(gain.vertices[k]) == gain.start.col(k);
@@ -228,11 +269,15 @@ class Climb {
         options_.recorder->add(std::move(trajectories[k]), reports[k].rung,
                                options_.first_region + result_.regions.size() + k, moved[k], scene_.x);
     }
+    for (const std::vector<Index>& vertices : moved) start_anew(vertices);
     std::move(moved.begin(), moved.end(), std::back_inserter(result_.moved));
     std::move(reports.begin(), reports.end(), std::back_inserter(result_.regions));
-    scene_.rest = scene_.x;
-    has_taken_gains_ = true;
     return static_cast<double>(pairs_.size()) <= worth_climbing_again * static_cast<double>(count_before);
+  }
+
+  /// Where they are now counts as rest position in what follows.
+  void start_anew(const std::vector<Index>& vertices) {
+    for (Index v : vertices) scene_.rest.col(v) = scene_.x.col(v);
   }
 
   void climb(std::span<const Rung> rungs) {
@@ -240,21 +285,6 @@ class Climb {
       if (pairs_.empty() || stopped()) return;
       climb_one(rung);
       pairs_ = current_pairs();
-    }
-  }
-
-  /// Gentle rungs, and again from where they have got to, as long as that takes away pairs.
-  void climb_gently() {
-    for (bool go_on = true; go_on;) {
-      go_on = false;
-      for (const Rung& rung : gentle_rungs()) {
-        if (pairs_.empty() || stopped()) return;
-        climb_one(rung);
-        pairs_ = current_pairs();
-        if (stopped()) return;
-        if ((go_on = take_gains(GainKind::large))) break;
-      }
-      if (!go_on && !pairs_.empty()) go_on = take_gains(GainKind::any);
     }
   }
 
@@ -275,7 +305,7 @@ class Climb {
               rejected_.insert(attempt.region.core.begin(), attempt.region.core.end());
               return;
             }
-            if (!attempt.clean) return keep_gain(attempt, rung);
+            if (!attempt.clean && !is_large_gain(attempt)) return keep_gain(attempt, rung);
             const double moved =
                 (attempt.patch.x - attempt.start).leftCols(attempt.patch.free_count).colwise().norm().maxCoeff();
             if (moved > attempt.reach) {
@@ -284,10 +314,12 @@ class Climb {
               return;
             }
             paste_patch(attempt.patch, scene_, index_);
+            if (!attempt.clean) attempt.trajectory.end_at_fewest_pairs();
             if (options_.recorder)
               options_.recorder->add(std::move(attempt.trajectory), std::string(rung.name),
                                      options_.first_region + result_.regions.size(), attempt.free, scene_.x);
             result_.regions.push_back(report_of(attempt, rung));
+            if (!attempt.clean) start_anew(attempt.free);
             result_.moved.push_back(std::move(attempt.free));
           });
       attempts = std::move(again);
@@ -329,7 +361,7 @@ class Climb {
       for (const IntersectingPair& pair : region.pairs)
         for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
       attempt.edge_length = mean_equilateral_side(scene_.rest, core_faces);
-      attempt.reach = first_reach * attempt.edge_length;
+      attempt.reach = (rung.flow ? flow_reach : local_reach) * attempt.edge_length;
       attempts.push_back(std::move(attempt));
     }
     return attempts;
@@ -355,7 +387,7 @@ class Climb {
     RegionReport report;
     report.rung = rung.name;
     report.faces = static_cast<std::size_t>(attempt.patch.active_count);
-    report.pairs = attempt.region.pairs.size();
+    report.pairs = attempt.region.pairs.size() - (attempt.clean ? 0 : attempt.pairs_left);
     report.iterations = attempt.iterations;
     report.seconds = attempt.seconds;
     return report;
@@ -370,13 +402,15 @@ class Climb {
     if (rung.flow) return take(flow(attempt.patch, *rung.flow, options_.stop, foreign));
     // Pockets that are inside out have to turn, and what surrounds them may have to: then nothing is kept.
     for (const bool keep_sides : {true, false}) {
-      if (keep_sides && rung.local->method == LocalMethod::smoothing) continue;  // it rounds off whatever there is
+      const LocalMethod method = rung.local->method;
+      if (keep_sides && method == LocalMethod::smoothing) continue;  // it rounds off whatever there is
+      if (!keep_sides && method == LocalMethod::shallow) return;     // wider rungs may still keep them
       LocalOptions local;
       local.keep_sides = keep_sides;
       attempt.patch.x = attempt.start;
       attempt.trajectory.clear();
       take(solve_locally(attempt.patch, *rung.local, foreign, local, options_.stop));
-      if (attempt.clean || is_large_gain(attempt.region.pairs.size(), attempt.pairs_left)) return;
+      if (attempt.clean || is_large_gain(attempt)) return;
     }
   }
 
@@ -396,9 +430,11 @@ class Climb {
   SceneIndex& index_;
   std::span<const IntersectingPair> ignored_;
   const LadderOptions& options_;
+  static constexpr Index everything = -1;
+  Index group_ = everything;            // what climbs now
+  std::vector<Index> group_of_vertex_;  // once there are groups
   std::vector<IntersectingPair> pairs_;
   std::vector<Gain> gains_;
-  bool has_taken_gains_ = false;
   std::set<Index> rejected_;  // vertices of regions that were resolved in a way that was not accepted
   LadderResult result_;
 };

@@ -33,8 +33,11 @@ struct LocalOptions {
   bool keep_sides = false;      ///< faces that intersect nothing at the start are kept from turning over (TurnGuard)
   /// Progress is when the number of pairs falls by this share ...
   double progress = 0.1;
-  int patience = 12;   ///< ... within so many iterations: what a rung needs that to go on beyond its iterations,
-  int despair = 30;    ///< or within so many: else it is left early
+  /// ... within so many iterations: what a rung needs that to go on beyond its iterations. On the 22 of 61 meshes where
+  /// some rung fails, with 8: 10 % more time, and a curled body moves 15 % farther.
+  int patience = 12;
+  /// Or within so many: else it is left early. With 15: the same time, and two bodies move 10 and 35 % farther.
+  int despair = 30;
   int bisections = 5;  ///< of the displacement back to the start; the smallest clean one is kept
 };
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <new>
 #include <optional>
@@ -300,6 +301,8 @@ class Repair {
 
   void work(Finders& finders) {
     SceneIndex index(scene_, finders.as_is);
+    const std::vector<IntersectingPair> ignored = ignored_;
+    std::vector<std::uint8_t> is_stuck(diagnosis_.components.count(), 0);
     for (int round = 0; round < rounding_rounds && !stopped(); ++round) {
       start("untangle");
       LadderResult climbed = options_.paper ? untangle_as_in_the_paper(index) : untangle(index);
@@ -314,14 +317,28 @@ class Repair {
       start("certify");
       report_progress(0.9, climbed.left.size());
       scene_.x = as_written(scene_.x);
-      const std::vector<IntersectingPair> conflicts = float32_conflicts(finders, scene_.x);
-      if ((conflicts.empty() && is_resolved(finders)) || !climbed.left.empty()) break;
+      // Components on which pairs are left are let be, and the others go on without them.
+      for (const IntersectingPair& pair : climbed.left)
+        is_stuck[component_of_[pair.a]] = is_stuck[component_of_[pair.b]] = 1;
+      const auto goes_on = [&](const IntersectingPair& pair) {
+        return !is_stuck[component_of_[pair.a]] && !is_stuck[component_of_[pair.b]];
+      };
+      if (!climbed.left.empty()) {
+        std::vector<IntersectingPair> left = blocking_pairs(finders.as_is.find(scene_.x), ignored_);
+        std::erase_if(left, goes_on);
+        ignored_.insert(ignored_.end(), left.begin(), left.end());
+        std::sort(ignored_.begin(), ignored_.end());
+      }
+      std::vector<IntersectingPair> conflicts = float32_conflicts(finders, scene_.x);
+      std::erase_if(conflicts, std::not_fn(goes_on));
+      if (conflicts.empty() && is_resolved(finders)) break;
       const Positions rounded = rounded_to_float32(scene_.x);
       for (const IntersectingPair& pair : conflicts)
         for (Index t : {pair.a, pair.b})
           for (Index v : scene_.triangles[t])
             if (!scene_.fixed[v]) scene_.x.col(v) = rounded.col(v);
     }
+    ignored_ = ignored;
   }
 
   // Polygons.

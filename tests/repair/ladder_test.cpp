@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "repair/shapes.h"
 
@@ -119,6 +120,36 @@ TEST(Ladder, what_cannot_be_resolved_keeps_what_was_gained) {
   for (Index v = 0; v < scene.vertex_count(); ++v) {
     const bool is_at_rest = scene.x.col(v) == scene.rest.col(v);
     EXPECT_TRUE(is_at_rest || (!fixed[v] && std::count(moved.begin(), moved.end(), v) > 0)) << v;
+  }
+}
+
+/// Two sheets that run through each other; the faces of the first pair cannot move, so that something is always left.
+Scene stubborn(const Shape& shape, const Shape& far_away = {}) {
+  Shape both = shape;
+  both.add(far_away, {90, 0, 0});
+  std::vector<std::uint8_t> fixed(both.points.size(), 0);
+  const auto hold = [&](const Shape& part, std::size_t first) {
+    const auto pairs = shapes::pairs_of(part);
+    if (pairs.empty()) return;
+    for (const Index t : {pairs[0].a, pairs[0].b})
+      for (const Index v : part.triangles[t]) fixed[first + static_cast<std::size_t>(v)] = 1;
+  };
+  hold(shape, 0);
+  hold(far_away, shape.points.size());
+  return make_scene(both.positions(), both.triangles, fixed);
+}
+
+// Neither what is gained here nor what is given up there depends on the other.
+TEST(Ladder, stubborn_parts_apart_do_not_feel_each_other) {
+  const std::array<Shape, 2> shapes = {shapes::crossing_bumps(7, 0.3), shapes::crossing_bumps(6, 1.5)};
+  for (const Shape& here : shapes) {
+    Scene alone = stubborn(here);
+    const LadderResult result = climb(alone, {}, {});
+    Scene both = stubborn(here, shapes[0]);
+    const LadderResult result_of_both = climb(both, {}, {});
+    EXPECT_GT(result.left.size(), 0u);
+    EXPECT_GT(result_of_both.left.size(), result.left.size());
+    EXPECT_TRUE(both.x.leftCols(alone.x.cols()) == alone.x);
   }
 }
 
