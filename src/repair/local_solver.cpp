@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "contact/intersection_finder.h"
-#include "energy/arap.h"
 #include "energy/minkowski_penalty.h"
 #include "repair/contours.h"
 #include "repair/trajectory.h"
@@ -78,15 +77,14 @@ class PenaltyForce {
     return deepest;
   }
 
-  /// Adds the weighted force; returns the weighted energy.
-  double add(const Positions& x, double weight, Positions& force) {
+  void add(const Positions& x, Positions& force) {
     tree_.update(x, 0.5 * margin_);
     std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
     tree_.self_pairs([&](Index task, Index a, Index b) { found[task].push_back({a, b}); });
     penalty_.pairs.clear();
     for (const auto& list : found) penalty_.pairs.insert(penalty_.pairs.end(), list.begin(), list.end());
     std::sort(penalty_.pairs.begin(), penalty_.pairs.end());
-    return -penalty_.value_and_gradient(x, force, -weight);
+    penalty_.value_and_gradient(x, force, -1);
   }
   const MinkowskiPenalty& penalty() const { return penalty_; }
 
@@ -223,7 +221,6 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
   if (!metric.ok()) return result;
   IntersectionFinder finder(patch.triangles, patch.active_count);
   PenaltyForce penalty(patch, options.margin * h);
-  Arap arap(std::span(patch.triangles).first(patch.active_count), patch.rest, n);
 
   std::optional<TurnGuard> guard;
   if (options.keep_sides) guard.emplace(patch, in_conflict(patch, finder.find(start)));
@@ -259,7 +256,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     }
     if (method == LocalMethod::smoothing) {
       smooth(patch, metric, rung.locality * h, x);
-      if (pairs.size() * 5 <= initial_pairs) method = LocalMethod::penalty;
+      if (pairs.size() * 5 <= initial_pairs) method = LocalMethod::contour;
       continue;
     }
     Positions force = Positions::Zero(3, x.cols());
@@ -270,19 +267,16 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
       limit = std::min(limit, options.shallow_step * deepest);
       // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.
       if (result.iterations % 2 == 0)
-        penalty.add(x, 1, force);
+        penalty.add(x, force);
       else
         add_contour_force(patch, x, edges, pairs, penalty.penalty(), force);
-    } else if (method == LocalMethod::penalty) {
-      record_energy(patch, EnergyTerm::minkowski, penalty.add(x, h, force));
-      record_energy(patch, EnergyTerm::arap, -arap.value_and_gradient(x, force, -1));
     } else {
       add_contour_force(patch, x, edges, pairs, penalty.penalty(), force);
     }
     Eigen::MatrixX3d direction = metric.solve(force, n);
     const double size = direction.rowwise().norm().maxCoeff();
     if (!(size > 0) || !std::isfinite(size)) break;
-    if (method != LocalMethod::penalty || size > limit) direction *= limit / size;
+    direction *= limit / size;
     x.leftCols(n) += direction.transpose();
     if (guard) guard->project(x);
   }

@@ -11,9 +11,8 @@ namespace unsnarl {
 /// How a local rung finds its direction.
 enum class LocalMethod {
   shallow,    ///< the Minkowski penalty (paper §3.2) and `contour` in turn, steps and margin as small as the overlaps
-  penalty,    ///< the same + ARAP, steps and margin in h
   contour,    ///< one direction for each intersection curve, its two sheets pushed apart along it
-  smoothing,  ///< implicit smoothing until few crossings are left, then `penalty`
+  smoothing,  ///< implicit smoothing until few crossings are left, then `contour`
 };
 
 /// One way to untangle a small patch. Lengths in units of the patch's h.
