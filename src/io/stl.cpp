@@ -56,8 +56,8 @@ class BinaryStlFile final : public StlFile {
     if (bytes.size() < header_size) return false;
     const std::uint64_t expected = header_size + facet_size * std::uint64_t{facet_count(bytes)};
     if (bytes.size() == expected) return true;
-    // Text has no zero bytes.
-    return !starts_with_solid(bytes) || bytes.substr(0, 1024).find('\0') != std::string_view::npos;
+    // Text has no zero bytes, wherever: patching moves what follows the first numbers.
+    return !starts_with_solid(bytes) || bytes.find('\0') != std::string_view::npos;
   }
   static bool starts_with_solid(std::string_view bytes) {
     const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());

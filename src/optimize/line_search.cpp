@@ -12,6 +12,7 @@ LineSearchResult backtrack(const Objective& objective, const Eigen::VectorXd& di
   const double slope = gradient.dot(direction);
   Eigen::VectorXd trial(x.size()), trial_gradient(x.size());
   for (double step = options.first_step; step >= options.smallest_step; step *= options.shrink) {
+    if (result.evaluations > 0 && options.stop && options.stop()) break;
     trial = x + step * direction;
     const double trial_value = objective(trial, trial_gradient);
     ++result.evaluations;

@@ -15,6 +15,8 @@ struct LineSearchOptions {
   double smallest_step = 1e-10;       ///< the search ends below this alpha (paper §3.5.1)
   /// For objectives that are not smooth: the search ends below this alpha too, but *takes* that step. 0: never.
   double accept_step = 0;
+  /// Asked before each trial but the first; true ends the search without a step.
+  std::function<bool()> stop;
 };
 
 struct LineSearchResult {

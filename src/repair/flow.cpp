@@ -424,6 +424,7 @@ class Flow {
       return true;
     }
     LineSearchOptions search;
+    search.stop = stop_;
     search.first_step = std::min(1.0, cap() / fastest);
     search.accept_step = std::min(search.first_step, options_.accept_motion * h_ / fastest);
     const Eigen::VectorXd old_x = x_, old_gradient = gradient_;

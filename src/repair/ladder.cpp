@@ -373,6 +373,7 @@ class Climb {
     attempt.patch = cut_patch(scene_, index_, attempt.free, attempt.reach);
     attempt.patch.edge_length = attempt.edge_length;
     attempt.start = attempt.patch.x;
+    if (stopped()) return;
     if (options_.recorder && options_.recorder->is_on()) {
       attempt.trajectory = options_.recorder->new_trajectory();
       attempt.patch.trajectory = &attempt.trajectory;

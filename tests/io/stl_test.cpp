@@ -123,6 +123,12 @@ TEST(Stl, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(binary("x", facets), Format::stl, "byte 158: corner 2 of facet 2 (counting from 1) is not finite");
 }
 
+// A result whose numbers are shorter would have it nearer to the start, and be taken for binary.
+TEST(Stl, AZeroByteAnywhereIsNoText) {
+  const std::string name = "endsolid My Part\nsolid", far_away = std::string(2000, ' ') + '\0';
+  EXPECT_PARSE_ERROR(replaced(ascii, name, name + far_away), Format::stl, "the header promises");
+}
+
 TEST(Stl, SurvivesDamage) {
   check_damage(ascii, Format::stl);
   check_damage(binary("solid", two_facets), Format::stl);

@@ -33,6 +33,19 @@ TEST(LineSearch, HalvesUntilTheDecreaseSuffices) {
   EXPECT_EQ(s.gradient[0], 0);
 }
 
+TEST(LineSearch, StopsBetweenTrials) {
+  State s(parabola, 1);
+  const Eigen::VectorXd d = Eigen::VectorXd::Constant(1, -8);
+  LineSearchOptions options;
+  int asked = 0;
+  options.stop = [&] { return ++asked == 2; };
+  const LineSearchResult result = backtrack(parabola, d, options, s.x, s.value, s.gradient);
+  EXPECT_EQ(result.step, 0);
+  EXPECT_EQ(result.evaluations, 2);
+  EXPECT_EQ(s.x[0], 1);
+  EXPECT_EQ(s.value, 1);
+}
+
 TEST(LineSearch, LeavesEverythingAloneWhenItFails) {
   State s(parabola, 1);
   const Eigen::VectorXd uphill = Eigen::VectorXd::Constant(1, 1);

@@ -2,22 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "repair/shapes.h"
+
 namespace unsnarl {
 namespace {
 
 /// A free vertex (0) amid a square, and a triangle hanging over it at height 1.
 Patch tent() {
-  Patch patch;
-  patch.free_count = 1;
-  patch.active_count = 4;
-  patch.rest.resize(3, 8);
-  patch.rest << 0, -1, 1, 1, -1, -3, 3, 0,  //
-      0, -1, -1, 1, 1, -3, -3, 3,           //
-      0, 0, 0, 0, 0, 1, 1, 1;
-  patch.x = patch.rest;
-  patch.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 6, 7}};
-  patch.edge_length = 1;
-  return patch;
+  shapes::Shape shape = shapes::square_fan();
+  shape.add({{{-3, -3, 1}, {3, -3, 1}, {0, 3, 1}}, {{0, 1, 2}}});
+  return shapes::patch_of(shape, 1, 4);
 }
 
 TEST(EmbeddingGuard, TakesBackWhatRunsIntoAnotherFace) {

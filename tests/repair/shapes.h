@@ -81,6 +81,11 @@ inline Shape crossed_squares() {
       grid(1, 1, false, [](double i, double j) { return Vec3(0.1 + 0.2 * i, 2 * j - 0.97, 2 * i - 1.03); }));
 }
 
+/// A flat square of side 2 in four triangles around its middle, vertex 0.
+inline Shape square_fan() {
+  return {{{0, 0, 0}, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}};
+}
+
 inline Scene scene_of(const Shape& shape) {
   return make_scene(shape.positions(), shape.triangles, {});
 }
@@ -95,6 +100,14 @@ inline Patch patch_of(const Shape& shape) {
   for (Index v = 0; v < patch.free_count; ++v) patch.vertices.push_back(v);
   for (Index t = 0; t < patch.active_count; ++t) patch.faces.push_back(t);
   patch.edge_length = mean_edge_length(patch.rest, patch.triangles);
+  return patch;
+}
+
+/// Only the first vertices are free, and used by the first triangles.
+inline Patch patch_of(const Shape& shape, Index free_count, Index active_count) {
+  Patch patch = patch_of(shape);
+  patch.free_count = free_count;
+  patch.active_count = active_count;
   return patch;
 }
 

@@ -3,23 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "mesh/areas.h"
+#include "repair/shapes.h"
 
 namespace unsnarl {
 namespace {
 
-/// A strip of four triangles between two fixed lines, its middle vertex (0) free.
+/// The middle of a square is free.
 Patch fan() {
-  Patch patch;
-  patch.free_count = 1;
-  patch.active_count = 4;
-  patch.rest.resize(3, 5);
-  patch.rest << 0, -1, 1, 1, -1,  //
-      0, -1, -1, 1, 1,            //
-      0, 0, 0, 0, 0;
-  patch.x = patch.rest;
-  patch.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
-  patch.edge_length = 1;
-  return patch;
+  return shapes::patch_of(shapes::square_fan(), 1, 4);
 }
 
 int turned(const Patch& patch, const Positions& x) {
