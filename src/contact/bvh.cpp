@@ -42,7 +42,13 @@ void Bvh::build(std::span<const Box> boxes) {
   is_watching_only_ = false;
   if (n == 0) return;
   Box bounds;
-  for (const Box& box : boxes) bounds.extend(box.center());
+  const auto center_of = [&](Index i) {  // of an empty or an endless box any will do
+    const Vec3 center = boxes[i].center();
+    return center.allFinite() ? center : bounds.lo;
+  };
+  for (const Box& box : boxes)
+    if (const Vec3 center = box.center(); center.allFinite()) bounds.extend(center);
+  if (!bounds.lo.allFinite()) bounds.extend(Vec3(Vec3::Zero()));
   Vec3 scale;
   for (int k = 0; k < 3; ++k) {
     const double extent = bounds.hi[k] - bounds.lo[k];
@@ -50,7 +56,7 @@ void Bvh::build(std::span<const Box> boxes) {
   }
   std::vector<MortonBox> sorted(n);
   auto encode = [&](Index i) {
-    const Vec3 p = (boxes[i].center() - bounds.lo).cwiseProduct(scale);
+    const Vec3 p = (center_of(i) - bounds.lo).cwiseProduct(scale);
     sorted[i] = {spread_bits(std::uint64_t(p[0])) | spread_bits(std::uint64_t(p[1])) << 1 |
                      spread_bits(std::uint64_t(p[2])) << 2,
                  i};

@@ -1,6 +1,7 @@
 #include "contact/intersection_finder.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -26,37 +27,48 @@ bool uses_a_vertex_twice(const Triangle& t) {
 }  // namespace
 
 bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairClass& kind) {
+  // Of the millions of pairs of a check nearly all share one vertex or none: those are told by one look each.
+  unsigned equal = 0;  // bit 3 k + l: corner k of a is corner l of b
+  for (unsigned k = 0; k < 3; ++k)
+    for (unsigned l = 0; l < 3; ++l) equal |= static_cast<unsigned>(a[k] == b[l]) << (3 * k + l);
   std::array<int, 3> shared = {-1, -1, -1};  // corner of b that corner k of a is
-  int shared_count = 0, corner_a = 0, corner_b = 0, sum_a = 0, sum_b = 0;
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l)
-      if (a[k] == b[l]) {
-        shared[k] = l;
-        corner_a = k, corner_b = l;
-        sum_a += k, sum_b += l;
-        ++shared_count;
-        break;
-      }
-  if (shared_count >= 2 && (uses_a_vertex_twice(a) || uses_a_vertex_twice(b))) {
-    kind = PairClass::degenerate;
-    return degenerate_triangles_meet(rotated(x, a, 0), rotated(x, b, 0), shared);
-  }
-  if (shared_count == 3) {
-    kind = PairClass::duplicate;
-    return true;
-  }
   Meeting meeting;
-  if (shared_count == 0) {
+  if (equal == 0) {
     kind = PairClass::disjoint;
     meeting = triangles_meet(rotated(x, a, 0), rotated(x, b, 0));
-  } else if (shared_count == 1) {
+  } else if (std::has_single_bit(equal)) {
+    const int bit = std::countr_zero(equal), corner_a = bit / 3, corner_b = bit % 3;
+    shared[corner_a] = corner_b;
     kind = PairClass::one_vertex;
     meeting = triangles_meet_beyond_vertex(rotated(x, a, corner_a), rotated(x, b, corner_b));
   } else {
-    kind = PairClass::folded;
-    const int apex_a = 3 - sum_a, apex_b = 3 - sum_b;
-    const Vec3 u = x.col(a[(apex_a + 1) % 3]), v = x.col(a[(apex_a + 2) % 3]);
-    meeting = triangles_fold_flat({u, v, x.col(a[apex_a])}, {u, v, x.col(b[apex_b])});
+    int shared_count = 0, corner_a = 0, corner_b = 0, sum_a = 0, sum_b = 0;
+    for (int k = 0; k < 3; ++k) {
+      const unsigned row = equal >> (3 * k) & 7;
+      if (row == 0) continue;
+      const int l = std::countr_zero(row);
+      shared[k] = l;
+      corner_a = k, corner_b = l;
+      sum_a += k, sum_b += l;
+      ++shared_count;
+    }
+    if (shared_count >= 2 && (uses_a_vertex_twice(a) || uses_a_vertex_twice(b))) {
+      kind = PairClass::degenerate;
+      return degenerate_triangles_meet(rotated(x, a, 0), rotated(x, b, 0), shared);
+    }
+    if (shared_count == 3) {
+      kind = PairClass::duplicate;
+      return true;
+    }
+    if (shared_count == 1) {  // with a vertex that b uses twice
+      kind = PairClass::one_vertex;
+      meeting = triangles_meet_beyond_vertex(rotated(x, a, corner_a), rotated(x, b, corner_b));
+    } else {
+      kind = PairClass::folded;
+      const int apex_a = 3 - sum_a, apex_b = 3 - sum_b;
+      const Vec3 u = x.col(a[(apex_a + 1) % 3]), v = x.col(a[(apex_a + 2) % 3]);
+      meeting = triangles_fold_flat({u, v, x.col(a[apex_a])}, {u, v, x.col(b[apex_b])});
+    }
   }
   if (meeting != Meeting::ask_degenerate) return meeting == Meeting::yes;
   kind = PairClass::degenerate;
@@ -139,8 +151,7 @@ std::vector<IntersectingPair> IntersectionFinder::decide() const {
 std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
   move(x);
   if (is_all_undecided_ && decided_as_a_whole_ >= seldom && !tree_.is_turned()) {
-    if (!moving_)
-      moving_ = std::make_unique<MovingIntersections>(triangles_, active_count_, static_cast<Index>(x.cols()));
+    if (!moving_) moving_.emplace(triangles_, active_count_, static_cast<Index>(x.cols()));
     pairs_ = moving_->find(x_);
   } else if (is_all_undecided_) {
     ++decided_as_a_whole_;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,7 +54,7 @@ class IntersectionFinder {
   std::vector<std::uint8_t> is_undecided_;
   bool watches_undecided_ = false;               // and not all active triangles
   int decided_as_a_whole_ = 0;                   // so many times
-  std::unique_ptr<MovingIntersections> moving_;  // for more of these
+  std::optional<MovingIntersections> moving_;  // for more of these
 };
 
 }  // namespace unsnarl

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace unsnarl {
 namespace {
@@ -22,11 +23,11 @@ Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, 
   Diagnosis result;
   const std::span<const Triangle> triangles = prepared.triangles();
   const std::vector<Index>& polygon = prepared.triangulation.polygon;
-  const EdgeTable edges = build_edges(triangles);
-  result.edge_count = edges.edges.size();
+  EdgeTable edges = build_edges(triangles);
   result.components = find_components(triangles, prepared.identification.count, edges);
   result.topology =
       describe_topology(surface, prepared.identification, prepared.triangulation, edges, result.components);
+  result.edges = std::move(edges.edges);
   result.pairs = finder.find(prepared.rest);
 
   const std::vector<Index>& component_of = result.components.component_of_triangle;

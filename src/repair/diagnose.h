@@ -14,7 +14,7 @@ namespace unsnarl {
 struct Diagnosis {
   Topology topology;
   Components components;
-  std::size_t edge_count = 0;           ///< of the triangles
+  std::vector<Edge> edges;              ///< of the triangles, sorted
   std::vector<IntersectingPair> pairs;  ///< of triangles, sorted
   std::vector<Obstruction> obstructions;
   std::vector<IntersectingPair> obstructed;  ///< those pairs that no motion can resolve; a subset of `pairs`, sorted

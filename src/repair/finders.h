@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,14 +14,18 @@ namespace unsnarl {
 class Finders {
  public:
   /// The span must outlive this.
-  explicit Finders(std::span<const Triangle> triangles) : as_is(triangles), rounded_(triangles) {}
+  explicit Finders(std::span<const Triangle> triangles) : as_is(triangles) {}
 
   IntersectionFinder as_is;
   /// The pairs at these positions once they are rounded to float32.
-  std::vector<IntersectingPair> find_rounded(const Positions& x) { return rounded_.find(rounded_to_float32(x)); }
+  std::vector<IntersectingPair> find_rounded(const Positions& x) {
+    // A copy saves building a tree, and deciding again whatever float32 holds as it is.
+    if (!rounded_) rounded_ = as_is;
+    return rounded_->find(rounded_to_float32(x));
+  }
 
  private:
-  IntersectionFinder rounded_;
+  std::optional<IntersectionFinder> rounded_;
 };
 
 }  // namespace unsnarl

@@ -133,7 +133,7 @@ void measure_change(const SurfaceView& surface, const PreparedSurface& prepared,
   const double area = total_area(prepared.rest, triangles);
   report.displacement_lower_bound_rel =
       report.diagonal > 0 ? 0.5 * deepest_overlap(prepared, diagnosis) / report.diagonal : 0;
-  measure_stretch(prepared, diagnosis.edge_count, x, report);
+  measure_stretch(prepared, diagnosis.edges.size(), x, report);
   report.area_change_rel = area > 0 ? total_area(x, triangles) / area - 1 : 0;
 }
 

@@ -23,5 +23,8 @@ struct Scene {
 
 /// A scene at rest.
 Scene make_scene(Positions rest, std::vector<Triangle> triangles, std::vector<std::uint8_t> fixed);
+/// The same where the edges of the triangles (sorted) are known.
+Scene make_scene(Positions rest, std::vector<Triangle> triangles, std::vector<std::uint8_t> fixed,
+                 std::span<const Edge> edges);
 
 }  // namespace unsnarl

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "contact/bvh.h"
+#include "contact/bvh_traversal.h"
 #include "geometry/box.h"
 
 namespace unsnarl {
@@ -17,17 +19,15 @@ namespace unsnarl {
 template <class Work, class Finish>
 void run_in_waves(std::span<const Box> boxes, Work&& work, Finish&& finish) {
   const std::size_t n = boxes.size();
+  std::vector<std::vector<std::size_t>> earlier(n), waves;
+  Bvh(boxes).self_pairs([&](Index i, Index j) { earlier[std::max(i, j)].push_back(std::min(i, j)); });
   std::vector<std::size_t> wave(n, 0);
-  std::size_t waves = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < i; ++j)
-      if (wave[j] >= wave[i] && boxes[i].overlaps(boxes[j])) wave[i] = wave[j] + 1;
-    waves = std::max(waves, wave[i] + 1);
+    for (std::size_t j : earlier[i]) wave[i] = std::max(wave[i], wave[j] + 1);
+    if (wave[i] == waves.size()) waves.emplace_back();
+    waves[wave[i]].push_back(i);
   }
-  for (std::size_t w = 0; w < waves; ++w) {
-    std::vector<std::size_t> items;
-    for (std::size_t i = 0; i < n; ++i)
-      if (wave[i] == w) items.push_back(i);
+  for (const std::vector<std::size_t>& items : waves) {
     oneapi::tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t k) { work(items[k]); });
     for (std::size_t i : items) finish(i);
   }
