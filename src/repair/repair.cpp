@@ -15,33 +15,27 @@
 #include "repair/conflict_regions.h"
 #include "repair/cuts.h"
 #include "repair/diagnose.h"
-#include "repair/face_pairs.h"
 #include "repair/finders.h"
+#include "repair/gap.h"
 #include "repair/judge.h"
 #include "repair/ladder.h"
+#include "repair/limits.h"
 #include "repair/local_solver.h"
 #include "repair/measure.h"
-#include "repair/paper_untangle.h"
 #include "repair/patch.h"
 #include "repair/prepared_surface.h"
 #include "repair/recorder.h"
 #include "repair/recover.h"
+#include "repair/recover_regions.h"
 #include "repair/rounding.h"
 #include "repair/scene.h"
 #include "repair/send_home.h"
 #include "repair/threads.h"
-#include "repair/waves.h"
+#include "repair/untangle_whole.h"
 
 namespace unsnarl {
 namespace {
 
-/// The gap wanted between sheets, in units in the last place of the format to be written: rounding moves each of the
-/// two by half a unit in every coordinate, which is less than two units of distance; the rest is reserve.
-constexpr double gap_units = 8;
-/// float32 is asked for only where that gap is at most this share of an edge; else coordinates are too coarse for it.
-constexpr double largest_gap_of_edge = 0.05;
-/// Obstacles are taken in this many h around a region: it hardly leaves the space between start and input.
-constexpr double recovery_reach = 2;
 /// Rounding, repair of what rounding brought, and again.
 constexpr int rounding_rounds = 4;
 /// Times that polygons are cut anew from where their vertices came to lie, and among the first of them that both cuts
@@ -51,7 +45,11 @@ constexpr int most_cuts = 12, most_cuts_at_once = 6;
 class Repair {
  public:
   Repair(const SurfaceView& surface, const RepairOptions& options, Context& context)
-      : surface_(surface), options_(options), context_(context), threads_(options.find.threads) {}
+      : surface_(surface),
+        options_(options),
+        context_(context),
+        limits_(options, context),
+        threads_(options.find.threads) {}
 
   RepairResult run() {
     check_options();
@@ -76,13 +74,13 @@ class Repair {
       else
         work_on_everything(std::move(fixed));
     } catch (const std::bad_alloc&) {
-      run_out_of_memory();
+      limits_.run_out_of_memory();
     }
     scene_ = {};
     try {
       finish();
     } catch (const std::bad_alloc&) {  // the result cannot be examined, so it is none
-      run_out_of_memory();
+      limits_.run_out_of_memory();
       result_.positions.assign(surface_.positions.begin(), surface_.positions.end());
       result_.report.after = result_.report.before;
       result_.status = Status::memory_limit;
@@ -107,7 +105,7 @@ class Repair {
 
   void work_on_everything(std::vector<std::uint8_t> fixed) {
     cut_ = prepared_.triangulation;
-    scene_ = make_scene(prepared_.rest, cut_.triangles, std::move(fixed));
+    scene_ = make_scene(prepared_.rest, cut_.triangles, std::move(fixed), diagnosis_.edges);
     pairs_ = diagnosis_.pairs;
     component_of_ = diagnosis_.components.component_of_triangle;
     for (const IntersectingPair& pair : pairs_)
@@ -131,7 +129,7 @@ class Repair {
     for (Index c = 0; c < count; ++c) {
       // One without conflict is as it should be, unless rounding is asked to be looked at too.
       const bool is_of_interest = !pairs[c].empty() || options_.precision == Precision::float32;
-      if (!is_of_interest || diagnosis_.components.list[c].obstructed() || stopped()) continue;
+      if (!is_of_interest || diagnosis_.components.list[c].obstructed() || limits_.reached()) continue;
       component_of_.assign(members[c].size(), c);
       cut_ = of_part(prepared_.triangulation);
       scene_ = make_scene(prepared_.rest, cut_.triangles, fixed);
@@ -169,7 +167,7 @@ class Repair {
       work(finders);
       settle_cut(finders);
     } catch (const std::bad_alloc&) {
-      run_out_of_memory();
+      limits_.run_out_of_memory();
     }
     if (options_.max_displacement_rel > 0 &&
         send_home_what_is_too_far(scene_, merge_overlapping(std::move(moved_), scene_.vertex_count()),
@@ -197,30 +195,6 @@ class Repair {
   static double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
-  std::function<bool()> stopper() {
-    return [this] { return stopped(); };
-  }
-  /// Safe from any thread.
-  bool stopped() {
-    if (stop_reason_ == no_stop) {
-      if (context_.is_cancelled())
-        stop_reason_ = static_cast<int>(Status::cancelled);
-      else if (options_.time_limit_s > 0 && seconds_since(begin_) > options_.time_limit_s)
-        stop_reason_ = static_cast<int>(Status::time_limit);
-      else if (options_.memory_limit_mb > 0 && resident_memory_mb() > options_.memory_limit_mb)
-        stop_reason_ = static_cast<int>(Status::memory_limit);
-    }
-    return stop_reason_ != no_stop;
-  }
-  /// What was at work is gone; what was reached is still there.
-  void run_out_of_memory() {
-    stop_reason_ = static_cast<int>(Status::memory_limit);
-    release_free_memory();
-  }
-  Status stopped_or(Status status) const {
-    const int reason = stop_reason_;
-    return reason == no_stop ? status : static_cast<Status>(reason);
-  }
   void report_progress(double fraction, std::size_t pairs_left) {
     if (!context_.on_progress) return;
     progress_.fraction = std::max(progress_.fraction, fraction);
@@ -241,23 +215,11 @@ class Repair {
     float32_ = options_.precision != Precision::float64;
     if (options_.precision == Precision::float32) float32_ = fits_float32(scene_.rest);
     if (options_.precision || pairs_.empty()) return;
-    // By the conflicts alone: parts far away that have none change nothing.
-    std::vector<Triangle> conflict;
-    double largest = 0;
-    for (const IntersectingPair& pair : pairs_)
-      for (Index t : {pair.a, pair.b}) {
-        conflict.push_back(scene_.triangles[t]);
-        for (Index v : conflict.back()) largest = std::max(largest, scene_.rest.col(v).cwiseAbs().maxCoeff());
-      }
-    const double unit = float32_unit(largest);
-    float32_ = std::isfinite(unit) && gap_units * unit <= largest_gap_of_edge * mean_edge_length(scene_.rest, conflict);
+    float32_ = float32_can_hold(scene_, pairs_);
   }
   /// Absolute gap wanted between sheets around these vertices. Local, so that distant parts change nothing.
-  double wanted_gap(const std::vector<Index>& vertices) const {
-    double largest = 0;
-    for (Index v : vertices) largest = std::max(largest, scene_.rest.col(v).cwiseAbs().maxCoeff());
-    const double gap = gap_units * (float32_ ? float32_unit(largest) : float64_unit(largest));
-    return std::max(gap, options_.min_gap_rel * diagonal_);
+  double wanted_gap(std::span<const Index> vertices) const {
+    return std::max(gap_of_format(scene_, vertices, float32_), options_.min_gap_rel * diagonal_);
   }
   /// The state as it will be read back from the file.
   Positions as_written(const Positions& x) const {
@@ -303,15 +265,15 @@ class Repair {
     SceneIndex index(scene_, finders.as_is);
     const std::vector<IntersectingPair> ignored = ignored_;
     std::vector<std::uint8_t> is_stuck(diagnosis_.components.count(), 0);
-    for (int round = 0; round < rounding_rounds && !stopped(); ++round) {
+    for (int round = 0; round < rounding_rounds && !limits_.reached(); ++round) {
       start("untangle");
-      LadderResult climbed = options_.paper ? untangle_as_in_the_paper(index) : untangle(index);
+      LadderResult climbed = untangle(index);
       auto& regions = result_.report.regions;
       regions.insert(regions.end(), climbed.regions.begin(), climbed.regions.end());
       if (options_.recover) {
         start("recover");
         report_progress(0.7, climbed.left.size());
-        recover_regions(merge_overlapping(climbed.moved, scene_.vertex_count()), index);
+        recover(merge_overlapping(climbed.moved, scene_.vertex_count()), index);
       }
       moved_.insert(moved_.end(), climbed.moved.begin(), climbed.moved.end());
       start("certify");
@@ -352,7 +314,7 @@ class Repair {
     const std::size_t input_size = unite(input).all.triangles.size();
     Waypoint best = waypoint();
     bool best_holds = false;
-    for (int round = 0; round < most_cuts && !stopped(); ++round) {
+    for (int round = 0; round < most_cuts && !limits_.reached(); ++round) {
       const std::vector<Triangulation> now = cuts_by_positions();
       const UnitedCuts both = unite({input[0], input[1], now[0], now[1]});
       if (round == 0 && both.all.triangles.size() == cut_.triangles.size()) return;
@@ -432,15 +394,17 @@ class Repair {
   }
 
   bool is_resolved(Finders& finders) const {
-    return blocking_pairs(finders.as_is.find(scene_.x), ignored_).empty() && lost_areas() == 0;
+    return blocking_pairs(finders.as_is.find(scene_.x), ignored_).empty() &&
+           count_lost_areas(prepared_.rest, scene_.x, prepared_.triangulation.triangles) == 0;
   }
 
   LadderResult untangle(SceneIndex& index) {
     LadderOptions ladder;
-    ladder.stop = stopper();
-    if (options_.max_displacement_rel > 0) ladder.accept = [this](Patch& patch) { return stays_near(patch); };
+    ladder.stop = limits_.stopper();
     ladder.recorder = &*recorder_;
     ladder.first_region = result_.report.regions.size();
+    if (options_.paper) return untangle_whole(scene_, index, pairs_.size(), ignored_, ladder);
+    if (options_.max_displacement_rel > 0) ladder.accept = [this](Patch& patch) { return stays_near(patch); };
     ladder.on_progress = [this](std::size_t left) {
       const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
       report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
@@ -448,67 +412,12 @@ class Repair {
     return climb_ladder(scene_, index, ignored_, ladder);
   }
 
-  /// The whole scene as one patch, until no disjoint pair is left.
-  LadderResult untangle_as_in_the_paper(SceneIndex& index) {
-    std::vector<Index> free;
-    for (Index v = 0; v < scene_.vertex_count(); ++v)
-      if (!scene_.fixed[v] && !scene_.triangles_of_vertex[v].empty()) free.push_back(v);
-    Patch patch = cut_patch(scene_, index, free, 0);
-    patch.edge_length = mean_edge_length(scene_.rest, scene_.triangles);
-    Trajectory trajectory = recorder_->new_trajectory();
-    if (recorder_->is_on()) patch.trajectory = &trajectory;
-    const PaperResult untangled = paper_untangle(patch, {}, stopper());
-    paste_patch(patch, scene_, index);
-    recorder_->begin_stage("untangle");
-    recorder_->add(std::move(trajectory), "paper", result_.report.regions.size(), free, scene_.x);
-    LadderResult result;
-    RegionReport report;
-    report.rung = "paper";
-    report.faces = static_cast<std::size_t>(patch.active_count);
-    report.pairs = pairs_.size();
-    report.iterations = untangled.iterations;
-    report.seconds = seconds_since(phase_begin_);
-    result.regions.push_back(report);
-    result.moved.push_back(std::move(free));
-    result.left = blocking_pairs(index.find_pairs(), ignored_);
-    return result;
-  }
-
-  void recover_regions(const std::vector<std::vector<Index>>& regions, SceneIndex& index) {
-    index.update();
-    std::vector<double> edge_length(regions.size()), gap(regions.size());
-    std::vector<Box> boxes(regions.size());
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-      std::vector<Triangle> faces;
-      for (Index v : regions[r])
-        for (Index t : scene_.triangles_of_vertex[v]) faces.push_back(scene_.triangles[t]);
-      edge_length[r] = mean_edge_length(scene_.rest, faces);
-      boxes[r] = patch_box(scene_, regions[r], recovery_reach * edge_length[r]);
-    }
-    std::vector<Patch> patches(regions.size());
-    std::vector<Trajectory> trajectories(regions.size(), recorder_->new_trajectory());
-    recorder_->begin_stage("recover");
-    run_in_waves(
-        boxes,
-        [&](std::size_t r) {
-          if (stopped()) return;
-          patches[r] = cut_patch(scene_, index, regions[r], recovery_reach * edge_length[r]);
-          patches[r].edge_length = edge_length[r];
-          if (recorder_->is_on()) patches[r].trajectory = &trajectories[r];
-          RecoverOptions recovery = options_.paper ? RecoverOptions::paper() : RecoverOptions{};
-          recovery.min_gap = wanted_gap(regions[r]);
-          gap[r] = recover(patches[r], recovery, stopper()).min_gap;
-        },
-        [&](std::size_t r) {
-          if (std::isfinite(gap[r]) && gap[r] > 0) smallest_gap_ = std::min(smallest_gap_, gap[r]);
-          paste_patch(patches[r], scene_, index);
-          recorder_->add(std::move(trajectories[r]), "", r, regions[r], scene_.x);
-          patches[r] = {};
-        });
-  }
-
-  std::size_t lost_areas() const {
-    return count_lost_areas(prepared_.rest, scene_.x, prepared_.triangulation.triangles);
+  void recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index) {
+    RecoverRegionsOptions options;
+    if (options_.paper) options.recover = RecoverOptions::paper();
+    options.min_gap = [this](std::span<const Index> vertices) { return wanted_gap(vertices); };
+    options.stop = limits_.stopper();
+    smallest_gap_ = std::min(smallest_gap_, recover_regions(scene_, index, regions, options, *recorder_));
   }
 
   // The limit of displacement.
@@ -524,14 +433,14 @@ class Repair {
     if (is_near()) return true;
     if (options_.recover) {
       RecoverOptions recovery;
-      recovery.min_gap =
-          wanted_gap({patch.vertices.begin(), patch.vertices.begin() + static_cast<std::ptrdiff_t>(patch.free_count)});
-      recover(patch, recovery, stopper());
+      recovery.min_gap = wanted_gap({patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
+      unsnarl::recover(patch, recovery, limits_.stopper());
       if (is_near()) return true;
     }
     displacement_is_exceeded_ = true;
     return false;
   }
+
   // The end.
 
   /// Components that were repaired as if alone may run into each other: takes them over one by one, without those that
@@ -566,7 +475,7 @@ class Repair {
     report.after = left.faces;
     result_.status = judge_->status(left, reached_);
     if (result_.status == Status::reduced || result_.status == Status::no_progress)
-      result_.status = stopped_or(displacement_is_exceeded_ ? Status::displacement_exceeded : result_.status);
+      result_.status = limits_.status_or(displacement_is_exceeded_ ? Status::displacement_exceeded : result_.status);
     report.float32_embedded = judge_->is_embedded_in_float32(reached_);
     measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
     report.min_gap_rel = std::isfinite(smallest_gap_) && report.diagonal > 0 ? smallest_gap_ / report.diagonal : 0;
@@ -584,6 +493,7 @@ class Repair {
   const SurfaceView surface_;
   const RepairOptions& options_;
   Context& context_;
+  Limits limits_;
   ThreadLimit threads_;
   RepairResult result_;
   PreparedSurface prepared_;
@@ -602,10 +512,8 @@ class Repair {
   Positions reached_;  // of all vertices
   bool float32_ = false;
   double smallest_gap_ = std::numeric_limits<double>::infinity();
-  static constexpr int no_stop = -1;
-  std::atomic<int> stop_reason_{no_stop};
   std::string_view phase_;
-  Clock::time_point begin_ = Clock::now(), phase_begin_ = begin_;
+  Clock::time_point phase_begin_ = Clock::now();
   Context::Progress progress_;
 };
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+
+/// Watches what ends a repair early: cancellation, the limits of time and of memory. Safe from any thread. What it is
+/// given must outlive it.
+class Limits {
+ public:
+  /// Time counts from here on.
+  Limits(const RepairOptions& options, const Context& context) : options_(options), context_(context) {}
+
+  /// Once it says so, it stays.
+  bool reached();
+  std::function<bool()> stopper() {
+    return [this] { return reached(); };
+  }
+  /// Memory could not be had: what was at work is gone, what was reached is still there.
+  void run_out_of_memory();
+  /// The limit that was reached, or `status` where none was.
+  Status status_or(Status status) const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int none = -1;
+
+  const RepairOptions& options_;
+  const Context& context_;
+  Clock::time_point begin_ = Clock::now();
+  std::atomic<int> reason_{none};  // a Status
+};
+
+}  // namespace unsnarl
