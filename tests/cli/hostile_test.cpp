@@ -21,12 +21,6 @@ const std::string crossing =
 
 constexpr std::array<const char*, 6> formats = {"obj", "off", "ply", "stl", "glb", "gltf"};
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool memory_can_be_limited = false;  // the shadow memory takes terabytes of addresses
-#else
-constexpr bool memory_can_be_limited = true;
-#endif
-
 /// For RunOptions::in_child.
 std::function<void()> with_limit(int resource, rlim_t limit) {
   return [=] {

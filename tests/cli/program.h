@@ -19,6 +19,19 @@
 /// Runs the program as its users do.
 namespace unsnarl::cli {
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define UNSNARL_TESTS_WITH_ADDRESS_SANITIZER
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define UNSNARL_TESTS_WITH_ADDRESS_SANITIZER
+#endif
+#if defined(UNSNARL_TESTS_WITH_ADDRESS_SANITIZER)
+inline constexpr bool memory_can_be_limited = false;  // the shadow memory takes terabytes of addresses
+#else
+inline constexpr bool memory_can_be_limited = true;
+#endif
+
 namespace fs = std::filesystem;
 
 inline std::string contents(const fs::path& path) {
