@@ -283,6 +283,7 @@ class Climb {
   void climb(std::span<const Rung> rungs) {
     for (const Rung& rung : rungs) {
       if (pairs_.empty() || stopped()) return;
+      if (options_.whole_components && rung.rings != whole_component) continue;
       climb_one(rung);
       pairs_ = current_pairs();
     }

@@ -17,6 +17,7 @@ struct LadderOptions {
   /// Asked about a patch that a rung resolved (from any thread); may improve it. False: the region climbs on.
   /// Regions that are not resolved then stay where they are.
   std::function<bool(Patch& patch)> accept;
+  bool whole_components = false;  ///< climbs only rungs that free whole components
   Recorder* recorder = nullptr;  ///< notes how regions were resolved; none: nobody does
   std::size_t first_region = 0;  ///< number that the recorder is given for the first region
 };

@@ -15,6 +15,7 @@
 #include "repair/conflict_regions.h"
 #include "repair/cuts.h"
 #include "repair/diagnose.h"
+#include "repair/far_regions.h"
 #include "repair/finders.h"
 #include "repair/gap.h"
 #include "repair/judge.h"
@@ -267,14 +268,15 @@ class Repair {
     std::vector<std::uint8_t> is_stuck(diagnosis_.components.count(), 0);
     for (int round = 0; round < rounding_rounds && !limits_.reached(); ++round) {
       start("untangle");
-      LadderResult climbed = untangle(index);
-      auto& regions = result_.report.regions;
-      regions.insert(regions.end(), climbed.regions.begin(), climbed.regions.end());
+      LadderResult climbed = untangle(index, ignored_);
       if (options_.recover) {
         start("recover");
         report_progress(0.7, climbed.left.size());
         recover(merge_overlapping(climbed.moved, scene_.vertex_count()), index);
+        if (!options_.paper && round == 0) take_closer_ways(climbed, index);
       }
+      auto& regions = result_.report.regions;
+      regions.insert(regions.end(), climbed.regions.begin(), climbed.regions.end());
       moved_.insert(moved_.end(), climbed.moved.begin(), climbed.moved.end());
       start("certify");
       report_progress(0.9, climbed.left.size());
@@ -398,8 +400,48 @@ class Repair {
            count_lost_areas(prepared_.rest, scene_.x, prepared_.triangulation.triangles) == 0;
   }
 
-  LadderResult untangle(SceneIndex& index) {
+  /// Contours may be driven a long way off a sheet where whole sheets that repel each other part at once: tries that on
+  /// what has gone far, from rest, and keeps what lies closer.
+  void take_closer_ways(LadderResult& climbed, SceneIndex& index) {
+    const auto of_all = merge_overlapping(climbed.moved, scene_.vertex_count());
+    for (const std::vector<Index>& region : far_regions(scene_, of_all, pairs_)) {
+      if (limits_.reached()) return;
+      const Positions before = scene_.x;
+      const Recorder::Stages recorded = recorder_->stages();
+      const double gap = smallest_gap_;
+      std::vector<IntersectingPair> known = blocking_pairs(index.find_pairs(), ignored_);
+      known.insert(known.end(), ignored_.begin(), ignored_.end());
+      std::sort(known.begin(), known.end());
+      for (Index v : region) scene_.x.col(v) = scene_.rest.col(v);
+      LadderResult other = untangle(index, known, true);
+      if (other.left.empty()) recover(merge_overlapping(other.moved, scene_.vertex_count()), index);
+      double squares = 0, squares_before = 0;
+      for (Index v = 0; v < scene_.vertex_count(); ++v)
+        if (scene_.x.col(v) != before.col(v)) {
+          squares += (scene_.x.col(v) - scene_.rest.col(v)).squaredNorm();
+          squares_before += (before.col(v) - scene_.rest.col(v)).squaredNorm();
+        }
+      if (!other.left.empty() || limits_.reached() || !(squares < squares_before)) {
+        scene_.x = before;
+        smallest_gap_ = gap;
+        recorder_->restore(recorded);
+        index.update();
+        continue;
+      }
+      for (std::size_t k = climbed.moved.size(); k-- > 0;)
+        if (!climbed.moved[k].empty() && std::binary_search(region.begin(), region.end(), climbed.moved[k].front())) {
+          climbed.moved.erase(climbed.moved.begin() + static_cast<std::ptrdiff_t>(k));
+          climbed.regions.erase(climbed.regions.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+      climbed.regions.insert(climbed.regions.begin() + static_cast<std::ptrdiff_t>(climbed.moved.size()),
+                             other.regions.begin(), other.regions.end());
+      climbed.moved.insert(climbed.moved.end(), other.moved.begin(), other.moved.end());
+    }
+  }
+
+  LadderResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored, bool whole_components = false) {
     LadderOptions ladder;
+    ladder.whole_components = whole_components;
     ladder.stop = limits_.stopper();
     ladder.recorder = &*recorder_;
     ladder.first_region = result_.report.regions.size();
@@ -409,7 +451,7 @@ class Repair {
       const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
       report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
     };
-    return climb_ladder(scene_, index, ignored_, ladder);
+    return climb_ladder(scene_, index, ignored, ladder);
   }
 
   void recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index) {

@@ -7,6 +7,7 @@
 namespace unsnarl {
 namespace {
 
+// First guesses that held; not swept.
 /// Share of the area vector at rest that is kept.
 constexpr double least_share = 0.1;
 constexpr int max_rounds = 10;

@@ -76,6 +76,16 @@ INSTANTIATE_TEST_SUITE_P(Repair, Samples,
                                          Expected{"helicoid_overlapping", 40}, Expected{"perforated_fold", 30}),
                          [](const auto& info) { return std::string(info.param.sample); });
 
+// The contours of its windings can be driven off over its border, which takes 28 % of the diagonal.
+TEST(Repair, a_closer_way_is_taken_where_the_first_goes_far) {
+  const RepairResult result = repair(make_sample("spiral_sheet"));
+  EXPECT_EQ(result.status, Status::embedded);
+  EXPECT_LT(result.report.displacement_max_rel, 0.05);
+  ASSERT_FALSE(result.report.regions.empty());
+  for (const RegionReport& region : result.report.regions) EXPECT_EQ(region.rung.substr(0, 4), "flow");
+}
+
+
 TEST(Repair, what_has_no_conflict_does_not_move) {
   // A crossing in the middle of large sheets: far from it nothing may move.
   const Surface surface = shapes::crossing_bumps(30, 0.3).surface();
