@@ -24,7 +24,7 @@ TEST(FarRegions, are_those_that_moved_many_times_their_overlap) {
   // The overlap is between 0 and 0.3 deep.
   scene.x.col(3) += Vec3(0, 0, 0.3);
   scene.x.col(n + 3) += Vec3(0, 0, 30);
-  EXPECT_EQ(far_regions(scene, regions, pairs), std::vector{regions[1]});
+  EXPECT_EQ(far_regions(scene, regions, pairs), std::vector<std::vector<Index>>({regions[1]}));
 }
 
 TEST(FarRegions, without_a_pair_there_is_no_measure) {

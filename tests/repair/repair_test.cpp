@@ -215,12 +215,12 @@ TEST(Repair, the_goal_disjoint_leaves_faces_that_share_a_vertex) {
 TEST(Repair, a_time_limit_is_kept_and_leaves_nothing_worse) {
   const Surface surface = shapes::crossing_bumps(40, 3).surface();
   RepairOptions options;
-  options.time_limit_s = 0.05;
+  options.time_limit_s = 0.001;  // over before the first search is
   const auto begin = std::chrono::steady_clock::now();
   const RepairResult result = repair(surface, options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   EXPECT_EQ(result.status, Status::time_limit) << to_string(result.status);
-  EXPECT_LT(seconds, 3) << "the limit was 0.05 s";
+  EXPECT_LT(seconds, 3) << "the limit was 0.001 s";
   EXPECT_LE(judged(surface, result.positions).size(), judged(surface, surface.positions).size());
 }
 
