@@ -27,6 +27,15 @@ TEST(FarRegions, are_those_that_moved_many_times_their_overlap) {
   EXPECT_EQ(far_regions(scene, regions, pairs), std::vector<std::vector<Index>>({regions[1]}));
 }
 
+TEST(FarRegions, have_to_be_a_good_part_of_their_components) {
+  const Shape shape = shapes::crossing_bumps(8, 0.3);
+  Scene scene = shapes::scene_of(shape);
+  scene.x.col(0) += Vec3(0, 0, 30);
+  const std::vector<IntersectingPair> pairs = shapes::pairs_of(shape);
+  const std::vector<std::vector<Index>> regions = {{0, scene.triangles[pairs[0].a][0]}};
+  EXPECT_TRUE(far_regions(scene, regions, pairs).empty());
+}
+
 TEST(FarRegions, without_a_pair_there_is_no_measure) {
   const Shape shape = shapes::bumpy_sheet(6, 0.5);
   Scene scene = shapes::scene_of(shape);
