@@ -518,6 +518,8 @@ class Repair {
     result_.status = judge_->status(left, reached_);
     if (result_.status == Status::reduced || result_.status == Status::no_progress)
       result_.status = limits_.status_or(displacement_is_exceeded_ ? Status::displacement_exceeded : result_.status);
+    // Who cancels is not given, unasked, what lies farther off than it need.
+    if (limits_.status_or(result_.status) == Status::cancelled) result_.status = Status::cancelled;
     report.float32_embedded = judge_->is_embedded_in_float32(reached_);
     measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
     report.min_gap_rel = std::isfinite(smallest_gap_) && report.diagonal > 0 ? smallest_gap_ / report.diagonal : 0;
