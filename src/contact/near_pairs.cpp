@@ -51,7 +51,9 @@ void NearPairs::update(const Positions& x, double margin) {
       left_[t] = is_new || !contains(roomy_[t], wanted);
       if (left_[t]) {
         const double last = motion(boxes_[t], box) / length_;
-        roomy_[t] = wanted.inflated(last > most_room ? 0 : length_ * std::clamp(motions * last, least_room, most_room));
+        // Not a number where all boxes are points: no room then.
+        roomy_[t] =
+            wanted.inflated(last <= most_room ? length_ * std::clamp(motions * last, least_room, most_room) : 0);
         ++count;
       }
       boxes_[t] = box;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "repair/patch.h"
@@ -17,7 +18,8 @@ struct LadderOptions {
   /// Asked about a patch that a rung resolved (from any thread); may improve it. False: the region climbs on.
   /// Regions that are not resolved then stay where they are.
   std::function<bool(Patch& patch)> accept;
-  bool whole_components = false;  ///< climbs only rungs that free whole components
+  /// Climbs only the first flows of whole components, once: for what gentler rungs have resolved by going far.
+  bool second_way = false;
   Recorder* recorder = nullptr;  ///< notes how regions were resolved; none: nobody does
   std::size_t first_region = 0;  ///< number that the recorder is given for the first region
 };
@@ -27,6 +29,9 @@ struct LadderResult {
   std::vector<std::vector<Index>> moved;  ///< vertices freed for each resolved region, for recovery
   std::vector<IntersectingPair> left;     ///< pairs of triangles that remain
 };
+
+/// Of the rung with this name (RegionReport::rung).
+bool frees_whole_components(std::string_view rung);
 
 /// Untangles the scene region by region: every conflict region climbs from gentle local rungs to the flow of its whole
 /// component, everything outside it held. Pairs in `ignored` (sorted, of triangles) cannot be resolved and are let be.

@@ -165,7 +165,7 @@ class Repair {
     const bool other_diagonals_matter = !prepared_.otherwise.triangles.empty();
     if (ignored_.size() == pairs_.size() && !has_float32_conflict(finders) && !other_diagonals_matter) return;
     try {
-      work(finders);
+      work(finders, true);
       settle_cut(finders);
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
@@ -262,7 +262,8 @@ class Repair {
 
   // Work.
 
-  void work(Finders& finders) {
+  /// is_first: `pairs_` are those of the scene, which is at rest.
+  void work(Finders& finders, bool is_first = false) {
     SceneIndex index(scene_, finders.as_is);
     const std::vector<IntersectingPair> ignored = ignored_;
     std::vector<std::uint8_t> is_stuck(diagnosis_.components.count(), 0);
@@ -273,7 +274,7 @@ class Repair {
         start("recover");
         report_progress(0.7, climbed.left.size());
         recover(merge_overlapping(climbed.moved, scene_.vertex_count()), index);
-        if (!options_.paper && round == 0) take_closer_ways(climbed, index);
+        if (is_first && round == 0 && !options_.paper) take_closer_ways(climbed, index);
       }
       auto& regions = result_.report.regions;
       regions.insert(regions.end(), climbed.regions.begin(), climbed.regions.end());
@@ -406,6 +407,13 @@ class Repair {
     const auto of_all = merge_overlapping(climbed.moved, scene_.vertex_count());
     for (const std::vector<Index>& region : far_regions(scene_, of_all, pairs_)) {
       if (limits_.reached()) return;
+      const auto is_in_region = [&](const std::vector<Index>& moved) {
+        return !moved.empty() && std::binary_search(region.begin(), region.end(), moved.front());
+      };
+      bool was_whole = false;
+      for (std::size_t k = 0; k < climbed.moved.size(); ++k)
+        was_whole |= is_in_region(climbed.moved[k]) && frees_whole_components(climbed.regions[k].rung);
+      if (was_whole) continue;
       const Positions before = scene_.x;
       const Recorder::Stages recorded = recorder_->stages();
       const double gap = smallest_gap_;
@@ -429,7 +437,7 @@ class Repair {
         continue;
       }
       for (std::size_t k = climbed.moved.size(); k-- > 0;)
-        if (!climbed.moved[k].empty() && std::binary_search(region.begin(), region.end(), climbed.moved[k].front())) {
+        if (is_in_region(climbed.moved[k])) {
           climbed.moved.erase(climbed.moved.begin() + static_cast<std::ptrdiff_t>(k));
           climbed.regions.erase(climbed.regions.begin() + static_cast<std::ptrdiff_t>(k));
         }
@@ -439,9 +447,9 @@ class Repair {
     }
   }
 
-  LadderResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored, bool whole_components = false) {
+  LadderResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored, bool second_way = false) {
     LadderOptions ladder;
-    ladder.whole_components = whole_components;
+    ladder.second_way = second_way;
     ladder.stop = limits_.stopper();
     ladder.recorder = &*recorder_;
     ladder.first_region = result_.report.regions.size();

@@ -132,5 +132,20 @@ TEST(NearPairs, lists_all_whose_boxes_overlap_once_and_in_the_same_order_at_any_
   }
 }
 
+TEST(NearPairs, boxes_that_are_points_have_no_room_but_neighbours) {
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  Positions x = Positions::Zero(3, 9);
+  x.rightCols(3).row(0).setConstant(5);
+  NearPairs near(triangles, 3);
+  for (const double there : {5., 0., 5.}) {
+    x.rightCols(3).row(0).setConstant(there);
+    near.update(x);
+    std::vector<NearPairs::Pair> pairs(near.pairs().begin(), near.pairs().end());
+    std::sort(pairs.begin(), pairs.end());
+    const std::vector<NearPairs::Pair> all = {{0, 1}, {0, 2}, {1, 2}}, first = {{0, 1}};
+    EXPECT_TRUE(pairs == (there == 0 ? all : first));
+  }
+}
+
 }  // namespace
 }  // namespace unsnarl

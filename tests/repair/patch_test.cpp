@@ -10,26 +10,6 @@
 namespace unsnarl {
 namespace {
 
-Box box_around(const Vec3& p, double half) {
-  Box box;
-  box.extend(p);
-  return box.inflated(half);
-}
-
-std::vector<Index> found_by(const SceneIndex& index, const Box& box) {
-  std::vector<Index> found;
-  index.query(box, found);
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-std::vector<Index> overlapping(const Scene& scene, const Box& box) {
-  std::vector<Index> found;
-  for (Index t = 0; t < scene.triangle_count(); ++t)
-    if (box_of(scene.x, scene.triangles[t]).overlaps(box)) found.push_back(t);
-  return found;
-}
-
 TEST(Patch, is_a_copy_of_its_part_of_the_scene) {
   Scene scene = shapes::scene_of(shapes::crossing_bumps(10, 0.4));
   for (Index v = 0; v < scene.vertex_count(); ++v) scene.x(0, v) += 0.01 * v;  // no longer at rest
@@ -89,9 +69,9 @@ TEST(Patch, pasting_moves_the_free_vertices_and_nothing_else) {
     const bool is_free = std::binary_search(free.begin(), free.end(), v);
     EXPECT_TRUE(scene.x.col(v) == (is_free ? Vec3(before.col(v).array() + 50) : Vec3(before.col(v))));
   }
-  const Box there = box_around({50, 50, 50}, 6);
-  EXPECT_EQ(found_by(index, there), overlapping(scene, there));
-  EXPECT_FALSE(found_by(index, there).empty());
+  const Box there = shapes::box_around({50, 50, 50}, 6);
+  EXPECT_EQ(shapes::found_by(index, there), shapes::overlapping(scene, there));
+  EXPECT_FALSE(shapes::found_by(index, there).empty());
 }
 
 TEST(Patch, its_box_holds_whatever_is_cut_out) {

@@ -9,40 +9,20 @@
 namespace unsnarl {
 namespace {
 
-Box box_around(const Vec3& p, double half) {
-  Box box;
-  box.extend(p);
-  return box.inflated(half);
-}
-
-std::vector<Index> found_by(const SceneIndex& index, const Box& box) {
-  std::vector<Index> found;
-  index.query(box, found);
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-std::vector<Index> overlapping(const Scene& scene, const Box& box) {
-  std::vector<Index> found;
-  for (Index t = 0; t < scene.triangle_count(); ++t)
-    if (box_of(scene.x, scene.triangles[t]).overlaps(box)) found.push_back(t);
-  return found;
-}
-
 TEST(SceneIndex, knows_where_moved_triangles_are) {
   Scene scene = shapes::scene_of(shapes::crossing_bumps(10, 0.4));
   SceneIndex index(scene);
-  const Box here = box_around({0, 0, 0}, 1.5), there = box_around({0, 0, 30}, 1.5);
-  EXPECT_EQ(found_by(index, here), overlapping(scene, here));
-  EXPECT_TRUE(found_by(index, there).empty());
+  const Box here = shapes::box_around({0, 0, 0}, 1.5), there = shapes::box_around({0, 0, 30}, 1.5);
+  EXPECT_EQ(shapes::found_by(index, here), shapes::overlapping(scene, here));
+  EXPECT_TRUE(shapes::found_by(index, there).empty());
   const std::vector<Index> moved = {60, 61, 71};
   for (int round = 0; round < 2; ++round) {
     for (Index v : moved) scene.x(2, v) += 15;
     index.mark_moved(moved);  // twice: each triangle must still be found once
-    EXPECT_EQ(found_by(index, here), overlapping(scene, here));
-    EXPECT_EQ(found_by(index, there), overlapping(scene, there));
+    EXPECT_EQ(shapes::found_by(index, here), shapes::overlapping(scene, here));
+    EXPECT_EQ(shapes::found_by(index, there), shapes::overlapping(scene, there));
   }
-  EXPECT_FALSE(found_by(index, there).empty());
+  EXPECT_FALSE(shapes::found_by(index, there).empty());
 }
 
 // What was only marked has yet to be decided, in whatever order positions become known.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "mesh/areas.h"
 #include "repair/patch.h"
 #include "repair/scene.h"
+#include "repair/scene_index.h"
 #include "unsnarl/surface.h"
 
 /// Small surfaces that run through themselves, and what tests ask of them.
@@ -116,6 +118,28 @@ inline std::vector<IntersectingPair> pairs_at(const Positions& x, const std::vec
 }
 inline std::vector<IntersectingPair> pairs_of(const Shape& shape) {
   return pairs_at(shape.positions(), shape.triangles);
+}
+
+inline Box box_around(const Vec3& p, double half) {
+  Box box;
+  box.extend(p);
+  return box.inflated(half);
+}
+
+/// Triangles that the index finds near the box, ascending.
+inline std::vector<Index> found_by(const SceneIndex& index, const Box& box) {
+  std::vector<Index> found;
+  index.query(box, found);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Triangles whose boxes overlap it, ascending.
+inline std::vector<Index> overlapping(const Scene& scene, const Box& box) {
+  std::vector<Index> found;
+  for (Index t = 0; t < scene.triangle_count(); ++t)
+    if (box_of(scene.x, scene.triangles[t]).overlaps(box)) found.push_back(t);
+  return found;
 }
 
 }  // namespace unsnarl::shapes
