@@ -1,0 +1,87 @@
+#include "repair/settle_cut.h"
+
+#include <utility>
+#include <vector>
+
+#include "repair/cuts.h"
+
+namespace unsnarl {
+namespace {
+
+/// Times that polygons are cut anew from where their vertices came to lie, and among the first of them that both cuts
+/// are worked on at once. Of 412 soups of twisted polygons 1 settled in none of 12 rounds at once.
+constexpr int most_cuts = 12, most_cuts_at_once = 6;
+
+/// The polygons as whoever reads the present state cuts them: as usual, and along the other diagonals.
+std::vector<Triangulation> cuts_by_positions(const SceneRepair& repair, const Job& job, Index component) {
+  const std::vector<double> positions = job.prepared.scatter(job.surface.positions, repair.scene().x);
+  const SurfaceView result = {positions, job.surface.corners, job.surface.offsets};
+  const std::vector<Index>& vertex_of = job.prepared.identification.vertex_of;
+  const Components& components = job.diagnosis.components;
+  return {of_component(triangulate(result, vertex_of), components, component),
+          job.options.find.both_diagonals
+              ? of_component(triangulate_otherwise(result, vertex_of), components, component)
+              : Triangulation()};
+}
+
+void work_on(SceneRepair& repair, const std::vector<Triangulation>& cuts) {
+  repair.take(unite(cuts));
+  Finders finders(repair.scene().triangles);
+  repair.set_aside_what_cannot_be_parted(finders);
+  repair.work(finders);
+}
+
+std::vector<Index> vertices_of(const Job& job, const std::vector<Index>& polygons) {
+  std::vector<Index> vertices;
+  for (const Index f : polygons)
+    for (const Index corner : job.surface.face(f)) vertices.push_back(job.prepared.identification.vertex_of[corner]);
+  return vertices;
+}
+
+}  // namespace
+
+Triangulation of_component(const Triangulation& cut, const Components& components, Index component) {
+  if (component < 0) return cut;
+  Triangulation part;
+  for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
+    if (components.component_of_vertex[cut.triangles[t][0]] != component) continue;
+    part.triangles.push_back(cut.triangles[t]);
+    part.polygon.push_back(cut.polygon[t]);
+  }
+  return part;
+}
+
+void settle_cut(SceneRepair& repair, const Job& job, const Triangulation& cut, Index component, Finders& finders) {
+  if (job.surface.offsets.empty() || !repair.is_resolved(finders)) return;
+  const std::vector<Triangulation> input = {cut, job.prepared.otherwise};
+  const std::size_t input_size = unite(input).all.triangles.size();
+  SceneRepair::Waypoint best = repair.waypoint();
+  bool best_holds = false;
+  for (int round = 0; round < most_cuts && !job.limits.reached(); ++round) {
+    const std::vector<Triangulation> now = cuts_by_positions(repair, job, component);
+    const UnitedCuts both = unite({input[0], input[1], now[0], now[1]});
+    if (round == 0 && both.all.triangles.size() == cut.triangles.size()) return;
+    repair.take(both);
+    const SceneRepair::Waypoint here = repair.waypoint();
+    Finders finders_of_both(repair.scene().triangles);
+    const std::vector<IntersectingPair> pairs = repair.set_aside_what_cannot_be_parted(finders_of_both);
+    if (repair.is_resolved(finders_of_both)) {
+      const std::vector<Index> heaped = polygons_on_new_duplicates(both.all, input_size, pairs);
+      if (heaped.empty()) return;
+      if (!std::exchange(best_holds, true)) best = here;
+      repair.send_home(vertices_of(job, heaped));
+      work_on(repair, input);
+    } else {
+      if (round < most_cuts_at_once) {
+        repair.work(finders_of_both);
+        if (repair.is_resolved(finders_of_both)) continue;
+        repair.go_back_to(here);
+      }
+      work_on(repair, round % 2 == 0 ? now : input);
+    }
+  }
+  repair.take(unite(input));
+  repair.go_back_to(best);
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "repair/finders.h"
+#include "repair/job.h"
+#include "repair/scene_repair.h"
+
+namespace unsnarl {
+
+/// Whoever reads the result, a second run among them, cuts its polygons by its own positions. Where that cut
+/// intersects, work goes on until it and the input's both hold: on both at once or, as long as no way is found to that,
+/// on the one and the other in turn. Quads along either diagonal, if both count.
+///
+/// `cut`: of the polygons, as the input has them, into the triangles of the scene; `finders` are of those. All of that
+/// belongs to one component, or to any of them where that is -1.
+void settle_cut(SceneRepair& repair, const Job& job, const Triangulation& cut, Index component, Finders& finders);
+
+/// What a cut of all polygons has of a component; everything where that is -1.
+Triangulation of_component(const Triangulation& cut, const Components& components, Index component);
+
+}  // namespace unsnarl
