@@ -4,20 +4,13 @@
 
 #include <algorithm>
 
+#include "mesh/ear_clipper.h"
+
 namespace unsnarl {
 namespace {
 
 /// Polygons cut by one task; the tasks do not depend on the number of threads.
 constexpr std::size_t polygons_in_block = 8192;
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// Summed from the left: near-ties are decided by rounding, and independent checkers must decide them alike.
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// Cuts polygons one after another, keeping its memory.
 class PolygonCutter {
@@ -63,14 +56,13 @@ class PolygonCutter {
     normal_ = Vec3::Zero();
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Vec3 a = position(corners[k]) - origin, b = position(corners[(k + 1) % corners.size()]) - origin;
-      normal_ += cross(a, b);
+      normal_ += a.cross(b);
     }
   }
 
   /// Positive where a, b, c turn left as seen against the mean normal.
   double side(Index a, Index b, Index c) const {
-    const Vec3 origin = position(a);
-    return dot(normal_, cross(position(b) - origin, position(c) - origin));
+    return turn(normal_, position(a), position(b), position(c));
   }
 
   template <class Emit>
@@ -87,70 +79,22 @@ class PolygonCutter {
     }
   }
 
-  /// What is known about a corner as an ear. A blocked one stays blocked while its witness is there.
-  struct Ear {
-    enum class State : std::uint8_t { unknown, free, reflex, blocked };
-    State state = State::unknown;
-    Index witness = 0;  // place of a corner that lies in the ear
-  };
-
-  /// Always cuts the first ear from the start of the polygon. What is known about the others is kept, so that a polygon
-  /// with k corners costs about k^2 instead of k^3.
   template <class Emit>
   void clip_ears(std::span<const Index> corners, Emit&& emit) {
     ++statistics_.clipped;
-    const auto n = static_cast<Index>(corners.size());
-    ring_.resize(n);
-    for (Index i = 0; i < n; ++i) ring_[i] = i;
-    ears_.assign(n, {});
-    gone_.assign(n, 0);
-    while (ring_.size() > 3) {
-      const std::size_t m = ring_.size();
-      std::size_t k = 0;
-      while (k < m && !is_ear(corners, k)) ++k;
-      if (k == m) {
-        ++statistics_.forced_ears;
-        k = 0;
-      }
-      const Index before = ring_[(k + m - 1) % m], here = ring_[k], after = ring_[(k + 1) % m];
-      emit(corners[before], corners[here], corners[after]);
-      gone_[here] = 1;
-      ears_[before].state = ears_[after].state = Ear::State::unknown;
-      ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(k));
-    }
-    emit(corners[ring_[0]], corners[ring_[1]], corners[ring_[2]]);
-  }
-
-  bool is_ear(std::span<const Index> corners, std::size_t k) {
-    Ear& ear = ears_[ring_[k]];
-    if (ear.state == Ear::State::free) return true;
-    if (ear.state == Ear::State::reflex) return false;
-    if (ear.state == Ear::State::blocked && !gone_[ear.witness]) return false;
-    const std::size_t m = ring_.size();
-    const Index a = corners[ring_[(k + m - 1) % m]], b = corners[ring_[k]], c = corners[ring_[(k + 1) % m]];
-    if (side(a, b, c) <= 0) {
-      ear.state = Ear::State::reflex;
-      return false;
-    }
-    for (Index place : ring_) {
-      const Index x = corners[place];
-      if (x == a || x == b || x == c) continue;
-      if (side(a, b, x) >= 0 && side(b, c, x) >= 0 && side(c, a, x) >= 0) {
-        ear.state = Ear::State::blocked;
-        ear.witness = place;
-        return false;
-      }
-    }
-    ear.state = Ear::State::free;
-    return true;
+    points_.clear();
+    for (Index corner : corners) points_.push_back(position(corner));
+    triangles_.clear();
+    statistics_.forced_ears += clipper_.clip(corners, points_, normal_, triangles_);
+    for (const auto& [a, b, c] : triangles_) emit(corners[a], corners[b], corners[c]);
   }
 
   const SurfaceView& surface_;
   CutStatistics& statistics_;
   Vec3 normal_;
-  std::vector<Index> ring_;  // places (corner numbers) still there, in order
-  std::vector<Ear> ears_;    // by place
-  std::vector<std::uint8_t> gone_;
+  EarClipper clipper_;
+  std::vector<Vec3> points_;         // of one polygon's corners
+  std::vector<Triangle> triangles_;  // as places of its corners
 };
 
 void add(CutStatistics& sum, const CutStatistics& part) {

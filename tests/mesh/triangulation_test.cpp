@@ -142,12 +142,21 @@ std::vector<Triangle> cut_simply(const Surface& s, std::vector<Index> p) {
   return out;
 }
 
+void expect_cut_as_by_the_rule(const Surface& s, const std::vector<Index>& corners) {
+  const Triangulation cut = triangulate(s);
+  std::vector<Triangle> expected = cut_simply(s, corners);
+  const std::size_t all = expected.size();
+  std::erase_if(expected, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  EXPECT_EQ(cut.triangles, expected);
+  EXPECT_EQ(cut.statistics.dropped, all - expected.size());
+}
+
 TEST(Triangulation, BookkeepingChangesNothing) {
   std::mt19937 random(7);
   for (int round = 0; round < 300; ++round) {
     Surface s;
     std::vector<Index> corners;
-    const int size = 5 + static_cast<int>(random() % 12);
+    const int size = 5 + static_cast<int>(random() % (round % 10 == 0 ? 60 : 12));
     const auto range = static_cast<unsigned>(2 + round % 7);  // tiny integers: ties and repeated points abound
     for (int i = 0; i < size; ++i) {
       if (i > 2 && random() % 10 == 0)
@@ -156,13 +165,66 @@ TEST(Triangulation, BookkeepingChangesNothing) {
         corners.push_back(add_vertex(s, random() % range, random() % range, round % 3 == 0 ? random() % 2 : 0));
     }
     add_face(s, corners);
-    const Triangulation cut = triangulate(s);
-    std::vector<Triangle> expected = cut_simply(s, corners);
-    const std::size_t all = expected.size();
-    std::erase_if(expected, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
-    EXPECT_EQ(cut.triangles, expected);
-    EXPECT_EQ(cut.statistics.dropped, all - expected.size());
+    expect_cut_as_by_the_rule(s, corners);
   }
+}
+
+/// A jagged ring in a plane askew, whose corners are rounded off it: what is collinear is so but for rounding.
+TEST(Triangulation, BoxesChangeNothingEvenWhereRoundingDecides) {
+  std::mt19937 random(11);
+  for (const double scale : {1.0, 1e-90, 1e90}) {
+    for (int round = 0; round < 40; ++round) {
+      Surface s;
+      std::vector<Index> corners;
+      const int size = 40 + static_cast<int>(random() % 60);
+      for (int i = 0; i < size; ++i) {
+        const double angle = 6.283185307179586 * i / size, radius = round % 2 == 0 ? 1 : 1 + random() % 4;
+        double u = radius * std::cos(angle), v = radius * std::sin(angle);
+        if (round % 4 == 1) u = std::round(3 * u) / 7, v = std::round(3 * v) / 7;
+        corners.push_back(
+            add_vertex(s, scale * (0.1 + u * 0.6 - v * 0.3), scale * (0.7 * u + v * 0.2), scale * (0.3 - u * 0.1 + v)));
+      }
+      add_face(s, corners);
+      expect_cut_as_by_the_rule(s, corners);
+    }
+  }
+}
+
+/// For a cost of the square of their number nobody would wait.
+TEST(Triangulation, PolygonsOfVeryManyCornersAreCut) {
+  const int size = 200000;
+  const auto expect_covered_once = [](const std::vector<std::array<double, 3>>& points) {
+    const Surface s = polygon(points);
+    const Triangulation cut = triangulate(s);
+    EXPECT_EQ(cut.triangles.size(), points.size() - 2);
+    EXPECT_EQ(cut.statistics.forced_ears, 0u);
+    double area = 0, largest = 0, sum = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto &a = points[i], &b = points[(i + 1) % points.size()];
+      area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    }
+    for (const Triangle& t : cut.triangles) {
+      const double part = 0.5 * (at(s, t[1]) - at(s, t[0])).cross(at(s, t[2]) - at(s, t[0]))[2];
+      sum += part;
+      largest = std::max(largest, area > 0 ? -part : part);
+    }
+    EXPECT_EQ(largest, 0);  // all turn the way of the polygon
+    EXPECT_NEAR(sum, area, 1e-6 * std::abs(area));
+  };
+  std::vector<std::array<double, 3>> star, comb = {{0, 0, 0}, {size, 0, 0}}, spiral;
+  for (int i = 0; i < size; ++i) {
+    const double angle = 6.283185307179586 * i / size, radius = 1 + i % 2;
+    star.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+  }
+  for (int i = size; i-- > 0;) comb.push_back({i + 0.5, i % 2 == 0 ? 1.0 : 9.0, 0});
+  for (int i = 0; i < size; ++i) {
+    const int step = i < size / 2 ? i : size - 1 - i;
+    const double angle = 3e-3 * step, radius = (i < size / 2 ? 2 : 2.1) + 0.1 * angle;
+    spiral.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+  }
+  expect_covered_once(star);
+  expect_covered_once(comb);
+  expect_covered_once(spiral);
 }
 
 TEST(Triangulation, RepeatedCornersAreDroppedAndCounted) {
