@@ -36,6 +36,25 @@ std::string_view explanation(Status status, Goal goal) {
   return "unknown status";
 }
 
+std::string_view why(LeftReason reason) {
+  switch (reason) {
+    case LeftReason::closed_non_orientable: return "of a closed non-orientable component, which has no embedding";
+    case LeftReason::duplicate_faces: return "on the same three vertices";
+    case LeftReason::fixed_faces: return "in what is fixed of them";
+    case LeftReason::between_components: return "between components, which --each leaves";
+    case LeftReason::goal: return "of faces that share a vertex, which --goal disjoint leaves";
+    case LeftReason::rounding: return "parted by less than the digits of the file can say";
+    case LeftReason::displacement: return "that part only where something moves farther than allowed";
+    case LeftReason::taken_back: return "that part only at the cost of more pairs elsewhere";
+    case LeftReason::time_limit: return "not yet resolved at the time limit";
+    case LeftReason::memory_limit: return "not yet resolved at the memory limit";
+    case LeftReason::cancelled: return "not yet resolved when interrupted";
+    case LeftReason::unresolved: return "that no rung of the ladder could part";
+    case LeftReason::other_diagonal: return "along the other diagonals of quads alone";
+  }
+  return "for an unknown reason";
+}
+
 std::string_view float32_remark(const RepairResult& result) {
   if (result.status != Status::embedded || result.report.float32_embedded) return "";
   return " (in double precision; readers that round to 32 bits may see some)";
@@ -58,6 +77,8 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
                    files.vertices, files.faces, r.topology.components, r.topology.components == 1 ? "" : "s"));
   line(fmt::format("  intersecting pairs before: {}", in_words(r.before)));
   line(fmt::format("  intersecting pairs after:  {}", in_words(r.after)));
+  for (std::size_t i = 0; i < left_reason_count; ++i)
+    if (r.left_by_reason[i] > 0) line(fmt::format("    {} {}", r.left_by_reason[i], why(static_cast<LeftReason>(i))));
   if (r.untouched_share < 1)
     line(fmt::format("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
                      100 * (1 - r.untouched_share), 100 * r.displacement_max_rel, 100 * r.displacement_mean_rel));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -85,7 +86,7 @@ struct Obstruction {
   enum class Kind : std::uint8_t {
     closed_non_orientable,  ///< a closed non-orientable component has no embedding in space
     duplicate_faces,        ///< several faces on the same three vertices
-    fixed_faces,            ///< intersecting faces with all vertices fixed
+    fixed_faces,            ///< faces that intersect in what their fixed vertices span: these, edges, whole faces
     between_components,     ///< faces of different components, which RepairOptions::each_component leaves
   };
   Kind kind;
@@ -118,6 +119,35 @@ struct ComponentReport {
   std::size_t pairs_before = 0, pairs_after = 0;  ///< intersecting pairs of its faces among each other
 };
 
+/// Why two faces still intersect; the first that holds.
+enum class LeftReason : std::uint8_t {
+  closed_non_orientable,  ///< of a component that has no embedding in space
+  duplicate_faces,        ///< on the same three vertices
+  fixed_faces,            ///< what their fixed vertices span intersects
+  between_components,     ///< of different components, which RepairOptions::each_component leaves
+  goal,                   ///< of a class that RepairOptions::goal does not ask for
+  rounding,               ///< were parted, by less than the digits of the result can say
+  displacement,           ///< were parted, but something had moved farther than allowed
+  taken_back,             ///< were parted, but with all that there was to it there were more pairs than before
+  time_limit,             ///< not resolved when the limit was reached
+  memory_limit,
+  cancelled,
+  unresolved,      ///< no rung of the ladder could part them
+  other_diagonal,  ///< only meet where quads are cut along their other diagonals (FindOptions::both_diagonals)
+};
+inline constexpr std::size_t left_reason_count = 13;
+std::string_view to_string(LeftReason reason);
+
+/// Two faces that intersect in the result, a <= b.
+struct LeftPair {
+  std::int32_t a = 0, b = 0;
+  PairClass kind = PairClass::disjoint;
+  LeftReason reason = LeftReason::unresolved;
+  std::string rung;  ///< unresolved: name of the furthest rung that was tried; else empty
+};
+/// A report lists so many pairs that are left at most; it counts all.
+inline constexpr std::size_t most_left_pairs_listed = 1000;
+
 struct StageReport {
   std::string name;
   double seconds = 0;
@@ -128,6 +158,9 @@ struct RepairReport {
   Topology topology;
   PairCounts before, after;
   std::vector<Obstruction> obstructions;
+  /// The pairs of `after`, sorted: the first most_left_pairs_listed of them. Empty where memory ran out at the end.
+  std::vector<LeftPair> left;
+  std::array<std::size_t, left_reason_count> left_by_reason{};  ///< of all, indexed by LeftReason
   double diagonal = 0;  ///< of the input's bounding box; unit of every *_rel
   double displacement_mean_rel = 0, displacement_rms_rel = 0, displacement_max_rel = 0;
   /// No embedded result has a smaller displacement_max_rel: half the depth of the deepest single pair of triangles that

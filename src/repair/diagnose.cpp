@@ -7,8 +7,16 @@
 namespace unsnarl {
 namespace {
 
-bool all_fixed(const Triangle& t, std::span<const std::uint8_t> fixed) {
-  return !fixed.empty() && fixed[t[0]] && fixed[t[1]] && fixed[t[2]];
+/// What the fixed vertices of a triangle span, as a triangle that uses some of them twice; none: nothing is fixed.
+std::optional<Triangle> fixed_part(const Triangle& t, std::span<const std::uint8_t> fixed) {
+  std::optional<Triangle> part;
+  int count = 0;
+  for (Index v : t) {
+    if (fixed.empty() || !fixed[v]) continue;
+    if (!part) part = Triangle{v, v, v};
+    std::fill(part->begin() + count++, part->end(), v);
+  }
+  return part;
 }
 
 void add_unique_sorted(std::vector<std::int32_t>& faces) {
@@ -17,6 +25,19 @@ void add_unique_sorted(std::vector<std::int32_t>& faces) {
 }
 
 }  // namespace
+
+std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared, const Components& components,
+                                                std::span<const std::uint8_t> fixed, const IntersectingPair& pair) {
+  if (!are_of_two_components(components, pair) &&
+      components.list[components.component_of_triangle[pair.a]].obstructed())
+    return Obstruction::Kind::closed_non_orientable;
+  if (pair.kind == PairClass::duplicate) return Obstruction::Kind::duplicate_faces;
+  const std::optional<Triangle> a = fixed_part(prepared.triangles()[pair.a], fixed);
+  const std::optional<Triangle> b = fixed_part(prepared.triangles()[pair.b], fixed);
+  PairClass kind;
+  if (a && b && intersects(prepared.rest, *a, *b, kind)) return Obstruction::Kind::fixed_faces;
+  return std::nullopt;
+}
 
 Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
                    IntersectionFinder& finder) {
@@ -30,7 +51,8 @@ Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, 
   result.edges = std::move(edges.edges);
   result.pairs = finder.find(prepared.rest);
 
-  const std::vector<Index>& component_of = result.components.component_of_triangle;
+  result.fixed.assign(fixed.begin(), fixed.end());
+
   for (Index c = 0; c < result.components.count(); ++c) {
     const Component& component = result.components.list[c];
     if (!component.obstructed()) continue;
@@ -53,17 +75,17 @@ Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, 
     result.obstructions.push_back(std::move(obstruction));
   }
   for (const IntersectingPair& pair : result.pairs) {
-    const Index component = component_of[pair.a];
-    const bool both_fixed = all_fixed(triangles[pair.a], fixed) && all_fixed(triangles[pair.b], fixed);
-    const bool non_orientable = component == component_of[pair.b] && result.components.list[component].obstructed();
-    if (both_fixed) fixed_faces.insert(fixed_faces.end(), {polygon[pair.a], polygon[pair.b]});
-    if (both_fixed || non_orientable || pair.kind == PairClass::duplicate) result.obstructed.push_back(pair);
+    const std::optional<Obstruction::Kind> kind = obstruction_of(prepared, result.components, fixed, pair);
+    if (!kind) continue;
+    result.obstructed.push_back(pair);
+    if (*kind == Obstruction::Kind::fixed_faces)
+      fixed_faces.insert(fixed_faces.end(), {polygon[pair.a], polygon[pair.b]});
   }
   if (!fixed_faces.empty()) {
     add_unique_sorted(fixed_faces);
     const std::string count = std::to_string(fixed_faces.size());
     result.obstructions.push_back({Obstruction::Kind::fixed_faces, std::move(fixed_faces),
-                                   count + " faces with all vertices fixed intersect each other"});
+                                   count + " faces intersect each other in what is fixed of them"});
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include "repair/phases.h"
 #include "repair/prepared_surface.h"
 #include "repair/recorder.h"
+#include "repair/tried.h"
 #include "unsnarl/repair.h"
 
 namespace unsnarl {
@@ -21,6 +22,7 @@ struct Job {
   Limits& limits;
   Recorder& recorder;
   Phases& phases;
+  Tried& tried;
   std::vector<RegionReport>& regions;
 };
 

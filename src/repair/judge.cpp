@@ -16,9 +16,13 @@ Judge::Judge(const PreparedSurface& prepared, const Diagnosis& diagnosis, const 
 Judge::Pairs Judge::pairs_at(const Positions& x) {
   Pairs pairs;
   pairs.triangles = x == prepared_.rest ? diagnosis_.pairs : finders_.as_is.find(x);
-  const std::vector<IntersectingPair> faces = pairs_of_faces(prepared_.triangulation.polygon, pairs.triangles);
-  pairs.faces = count_by_class(any_cut_ ? any_cut_->find(x) : faces);
-  pairs.by_other_diagonals = pairs.faces.total() > faces.size();
+  pairs.of_faces = pairs_of_faces(prepared_.triangulation.polygon, pairs.triangles);
+  if (any_cut_) {
+    std::vector<IntersectingPair> of_any_cut = any_cut_->find(x);
+    pairs.by_other_diagonals = of_any_cut.size() > pairs.of_faces.size();
+    pairs.of_faces = std::move(of_any_cut);
+  }
+  pairs.faces = count_by_class(pairs.of_faces);
   return pairs;
 }
 

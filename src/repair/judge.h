@@ -19,6 +19,7 @@ class Judge {
 
   struct Pairs {
     std::vector<IntersectingPair> triangles;  ///< sorted
+    std::vector<IntersectingPair> of_faces;   ///< sorted
     PairCounts faces;
     bool by_other_diagonals = false;  ///< some faces intersect for other diagonals than those that were cut along
   };

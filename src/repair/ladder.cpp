@@ -103,6 +103,10 @@ class Climb {
       pairs_ = current_pairs();
     }
     scene_.rest = rest;
+    if (options_.tried && stopped())
+      for (const IntersectingPair& pair : pairs_)
+        for (Index t : {pair.a, pair.b})
+          for (Index v : scene_.triangles[t]) options_.tried->is_cut_short[v] = 1;
     for (const ConflictRegion& region : conflict_regions(scene_, pairs_)) {
       RegionReport unresolved;
       unresolved.rung = "none";
@@ -132,8 +136,13 @@ class Climb {
     Recorder::Stages recorded;
   };
   State state() const {
-    return {scene_.rest,     scene_.x,      pairs_, gains_, result_.regions,
-            result_.moved, options_.recorder ? options_.recorder->stages() : Recorder::Stages()};
+    return {scene_.rest,
+            scene_.x,
+            pairs_,
+            gains_,
+            result_.regions,
+            result_.moved,
+            options_.recorder ? options_.recorder->stages() : Recorder::Stages()};
   }
   void restore(State state) {
     scene_.rest = std::move(state.rest);
@@ -241,9 +250,8 @@ class Climb {
   /// Moves the regions that no rung resolved to the states with the fewest pairs, which become the rest positions to
   /// climb again from: fewer pairs make smaller regions. False where that is not worth while.
   bool take_gains() {
-    std::stable_sort(gains_.begin(), gains_.end(), [](const Gain& a, const Gain& b) {
-      return a.pairs - a.pairs_left > b.pairs - b.pairs_left;
-    });
+    std::stable_sort(gains_.begin(), gains_.end(),
+                     [](const Gain& a, const Gain& b) { return a.pairs - a.pairs_left > b.pairs - b.pairs_left; });
     const Positions before = scene_.x;
     std::vector<std::vector<Index>> moved;
     std::vector<RegionReport> reports;
@@ -302,6 +310,7 @@ class Climb {
   void climb_one(const Rung& rung) {
     if (options_.recorder) options_.recorder->begin_stage("untangle");
     std::vector<Attempt> attempts = gather_attempts(rung);
+    note_tried(attempts, rung);
     index_.update();
     // A second round for those that moved farther than their obstacles reach.
     for (int round = 0; round < 3 && !attempts.empty() && !stopped(); ++round) {
@@ -314,6 +323,8 @@ class Climb {
             Attempt& attempt = attempts[i];
             if (attempt.rejected) {
               rejected_.insert(attempt.region.core.begin(), attempt.region.core.end());
+              if (options_.tried)
+                for (Index v : attempt.region.core) options_.tried->is_too_far[v] = 1;
               return;
             }
             if (!attempt.clean && !is_large_gain(attempt)) return keep_gain(attempt, rung);
@@ -335,6 +346,14 @@ class Climb {
           });
       attempts = std::move(again);
     }
+  }
+
+  void note_tried(const std::vector<Attempt>& attempts, const Rung& rung) {
+    if (!options_.tried) return;
+    std::int8_t number = 0;
+    while (number < last_rung() && rung_name(number) != rung.name) ++number;
+    for (const Attempt& attempt : attempts)
+      for (Index v : attempt.region.core) options_.tried->rung[v] = std::max(options_.tried->rung[v], number);
   }
 
   /// The regions there are now, each with its free vertices; one whose free vertices reach another's core takes it in.
@@ -456,6 +475,15 @@ class Climb {
 bool frees_whole_components(std::string_view rung) {
   return std::any_of(wild_rungs().begin(), wild_rungs().end(),
                      [&](const Rung& r) { return r.name == rung && r.rings == whole_component; });
+}
+
+std::string_view rung_name(int number) {
+  const auto gentle = static_cast<int>(gentle_rungs().size());
+  return number < gentle ? gentle_rungs()[number].name : wild_rungs()[number - gentle].name;
+}
+
+int last_rung() {
+  return static_cast<int>(gentle_rungs().size() + wild_rungs().size()) - 1;
 }
 
 LadderResult climb_ladder(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,

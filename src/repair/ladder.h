@@ -7,6 +7,7 @@
 #include "repair/patch.h"
 #include "repair/recorder.h"
 #include "repair/scene.h"
+#include "repair/tried.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/repair.h"
 
@@ -21,6 +22,7 @@ struct LadderOptions {
   /// Climbs only the first flows of whole components, once: for what gentler rungs have resolved by going far.
   bool second_way = false;
   Recorder* recorder = nullptr;  ///< notes how regions were resolved; none: nobody does
+  Tried* tried = nullptr;        ///< notes what was tried; none: nobody does
   std::size_t first_region = 0;  ///< number that the recorder is given for the first region
 };
 
@@ -37,5 +39,9 @@ bool frees_whole_components(std::string_view rung);
 /// component, everything outside it held. Pairs in `ignored` (sorted, of triangles) cannot be resolved and are let be.
 LadderResult climb_ladder(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
                           const LadderOptions& options);
+
+/// Name of a rung by its number, from gentle to wild.
+std::string_view rung_name(int number);
+int last_rung();
 
 }  // namespace unsnarl

@@ -12,6 +12,7 @@
 #include "repair/finders.h"
 #include "repair/job.h"
 #include "repair/judge.h"
+#include "repair/left_pairs.h"
 #include "repair/limits.h"
 #include "repair/measure.h"
 #include "repair/phases.h"
@@ -20,6 +21,7 @@
 #include "repair/scene_repair.h"
 #include "repair/settle_cut.h"
 #include "repair/threads.h"
+#include "repair/tried.h"
 
 namespace unsnarl {
 namespace {
@@ -52,7 +54,8 @@ class Repair {
     result_.report.before = result_.report.after = judge_->pairs_at(prepared_.rest).faces;
     result_.positions.assign(surface_.positions.begin(), surface_.positions.end());
     reached_ = prepared_.rest;
-    job_.emplace(Job{surface_, options_, prepared_, diagnosis_, diagonal_, limits_, *recorder_, phases_,
+    tried_.emplace(prepared_.rest);
+    job_.emplace(Job{surface_, options_, prepared_, diagnosis_, diagonal_, limits_, *recorder_, phases_, *tried_,
                      result_.report.regions});
     try {
       if (options_.each_component)
@@ -186,6 +189,7 @@ class Repair {
     if (options_.max_displacement_rel > 0 && report.displacement_max_rel > options_.max_displacement_rel)
       result_.status = Status::displacement_exceeded;
     measure_components(prepared_, diagnosis_, left.triangles, report);
+    explain_left_pairs(prepared_, diagnosis_, options_, limits_, *tried_, left, reached_, report);
     if (options_.each_component) name_pairs_between_components(prepared_, diagnosis_, left.triangles, report);
     report.history = recorder_->history();
     result_.frames = recorder_->frames(surface_, prepared_, result_.positions, *judge_);
@@ -205,6 +209,7 @@ class Repair {
   std::optional<Finders> finders_;  // of the prepared triangles
   std::optional<Judge> judge_;
   std::optional<Recorder> recorder_;
+  std::optional<Tried> tried_;
   std::optional<Job> job_;
   Positions reached_;  // of all vertices
   bool float32_ = false, displacement_is_exceeded_ = false;

@@ -37,6 +37,20 @@ Json stages_json(const RepairResult& result, const ReportFiles& files) {
   return stages;
 }
 
+Json left_json(const RepairReport& report) {
+  Json by_reason = Json::object(), pairs = Json::array();
+  for (std::size_t i = 0; i < left_reason_count; ++i)
+    if (report.left_by_reason[i] > 0)
+      by_reason[std::string(to_string(static_cast<LeftReason>(i)))] = report.left_by_reason[i];
+  for (const LeftPair& pair : report.left) {
+    pairs.push_back({{"faces", {pair.a, pair.b}},
+                     {"class", pair_class_names[static_cast<std::size_t>(pair.kind)]},
+                     {"reason", to_string(pair.reason)}});
+    if (!pair.rung.empty()) pairs.back()["rung"] = pair.rung;
+  }
+  return {{"by_reason", by_reason}, {"pairs", pairs}};
+}
+
 }  // namespace
 
 Json topology_json(const Topology& t) {
@@ -86,6 +100,7 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
   for (const Obstruction& obstruction : r.obstructions)
     json["obstructions"].push_back(
         {{"kind", to_string(obstruction.kind)}, {"faces", obstruction.faces}, {"message", obstruction.message}});
+  json["left"] = left_json(r);
   json["diagonal"] = r.diagonal;
   json["displacement_mean_rel"] = r.displacement_mean_rel;
   json["displacement_rms_rel"] = r.displacement_rms_rel;
@@ -123,36 +138,43 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
 
 std::string_view to_string(Status status) {
   switch (status) {
-    case Status::embedded:
-      return "embedded";
-    case Status::reduced:
-      return "reduced";
-    case Status::no_progress:
-      return "no_progress";
-    case Status::obstructed:
-      return "obstructed";
-    case Status::time_limit:
-      return "time_limit";
-    case Status::memory_limit:
-      return "memory_limit";
-    case Status::displacement_exceeded:
-      return "displacement_exceeded";
-    case Status::cancelled:
-      return "cancelled";
+    case Status::embedded: return "embedded";
+    case Status::reduced: return "reduced";
+    case Status::no_progress: return "no_progress";
+    case Status::obstructed: return "obstructed";
+    case Status::time_limit: return "time_limit";
+    case Status::memory_limit: return "memory_limit";
+    case Status::displacement_exceeded: return "displacement_exceeded";
+    case Status::cancelled: return "cancelled";
   }
   return "unknown";
 }
 
 std::string_view to_string(Obstruction::Kind kind) {
   switch (kind) {
-    case Obstruction::Kind::closed_non_orientable:
-      return "closed_non_orientable";
-    case Obstruction::Kind::duplicate_faces:
-      return "duplicate_faces";
-    case Obstruction::Kind::fixed_faces:
-      return "fixed_faces";
-    case Obstruction::Kind::between_components:
-      return "between_components";
+    case Obstruction::Kind::closed_non_orientable: return "closed_non_orientable";
+    case Obstruction::Kind::duplicate_faces: return "duplicate_faces";
+    case Obstruction::Kind::fixed_faces: return "fixed_faces";
+    case Obstruction::Kind::between_components: return "between_components";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(LeftReason reason) {
+  switch (reason) {
+    case LeftReason::closed_non_orientable: return "closed_non_orientable";
+    case LeftReason::duplicate_faces: return "duplicate_faces";
+    case LeftReason::fixed_faces: return "fixed_faces";
+    case LeftReason::between_components: return "between_components";
+    case LeftReason::goal: return "goal";
+    case LeftReason::rounding: return "rounding";
+    case LeftReason::displacement: return "displacement";
+    case LeftReason::taken_back: return "taken_back";
+    case LeftReason::time_limit: return "time_limit";
+    case LeftReason::memory_limit: return "memory_limit";
+    case LeftReason::cancelled: return "cancelled";
+    case LeftReason::unresolved: return "unresolved";
+    case LeftReason::other_diagonal: return "other_diagonal";
   }
   return "unknown";
 }
@@ -170,6 +192,8 @@ std::string_view to_string(Precision precision) {
   return precision == Precision::float32 ? "float32" : "float64";
 }
 
-std::string_view to_string(Goal goal) { return goal == Goal::all ? "all" : "disjoint"; }
+std::string_view to_string(Goal goal) {
+  return goal == Goal::all ? "all" : "disjoint";
+}
 
 }  // namespace unsnarl

@@ -64,6 +64,8 @@ void SceneRepair::work(Finders& finders) {
     moved_.insert(moved_.end(), climbed.moved.begin(), climbed.moved.end());
     job_.phases.start("certify");
     report_progress(0.9, climbed.left.size());
+    for (Index v = 0; v < scene_.vertex_count(); ++v)
+      if (!scene_.triangles_of_vertex[v].empty()) job_.tried.solved.col(v) = scene_.x.col(v);
     scene_.x = as_written(scene_.x);
     // Components on which pairs are left are let be, and the others go on without them.
     for (const IntersectingPair& pair : climbed.left)
@@ -95,6 +97,7 @@ LadderResult SceneRepair::untangle(SceneIndex& index, std::span<const Intersecti
   ladder.stop = job_.limits.stopper();
   ladder.recorder = &job_.recorder;
   ladder.first_region = job_.regions.size();
+  if (!second_way) ladder.tried = &job_.tried;
   if (job_.options.paper) return untangle_whole(scene_, index, pairs_.size(), ignored, ladder);
   if (job_.options.max_displacement_rel > 0) ladder.accept = [this](Patch& patch) { return stays_near(patch); };
   ladder.on_progress = [this](std::size_t left) {
@@ -192,9 +195,13 @@ bool SceneRepair::stays_near(Patch& patch) {
 
 void SceneRepair::keep_within_displacement(IntersectionFinder& finder) {
   const double limit = job_.options.max_displacement_rel * job_.diagonal;
-  if (limit > 0 &&
-      send_home_what_is_too_far(scene_, merge_overlapping(moved_, scene_.vertex_count()), limit, pairs_, finder))
-    displacement_is_exceeded_ = true;
+  if (limit <= 0) return;
+  const Positions before = scene_.x;
+  if (!send_home_what_is_too_far(scene_, merge_overlapping(moved_, scene_.vertex_count()), limit, pairs_, finder))
+    return;
+  displacement_is_exceeded_ = true;
+  for (Index v = 0; v < scene_.vertex_count(); ++v)
+    if (scene_.x.col(v) != before.col(v)) job_.tried.is_too_far[v] = 1;
 }
 
 // Polygons.

@@ -229,7 +229,7 @@ TEST_F(Cli, NamedPartsStayWhereTheyAre) {
   // Several times, and everything: nothing is left that could move.
   const Outcome all = run({"fix", in, "-o", out, "--fix-group", "anchor", "--fix-group", "swimmer"});
   EXPECT_EQ(all.exit_code, 7) << all.err;
-  EXPECT_NE(all.err.find("all vertices fixed"), std::string::npos) << all.err;
+  EXPECT_NE(all.err.find("in what is fixed of them"), std::string::npos) << all.err;
   EXPECT_FALSE(fs::exists(out));
   // Closed bodies have no boundary to hold.
   EXPECT_EQ(run({"fix", in, "-o", out, "--fix-boundary"}).exit_code, 0);
@@ -280,6 +280,11 @@ TEST_F(Cli, WhatLiesOutsideOfARegionIsLeftAndSaid) {
   const auto json = nlohmann::json::parse(contents(report));
   EXPECT_EQ(json["status"], "obstructed");
   EXPECT_EQ(json["obstructions"][0]["kind"], "fixed_faces");
+  EXPECT_EQ(json["left"]["by_reason"]["fixed_faces"], json["after"]["total"]);
+  ASSERT_EQ(json["left"]["pairs"].size(), json["after"]["total"]);
+  EXPECT_EQ(json["left"]["pairs"][0]["reason"], "fixed_faces");
+  EXPECT_GE(json["left"]["pairs"][0]["faces"][0], 8);
+  EXPECT_NE(outcome.err.find("in what is fixed of them"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Cli, EachComponentByItself) {

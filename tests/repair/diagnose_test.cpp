@@ -100,7 +100,7 @@ TEST(Diagnose, faces_on_the_same_three_vertices) {
   EXPECT_EQ(diagnosis.topology.duplicate_faces, 3u);
 }
 
-TEST(Diagnose, intersecting_faces_with_all_vertices_fixed) {
+TEST(Diagnose, faces_that_intersect_in_what_is_fixed_of_them) {
   const Shape shape = shapes::crossed_squares();
   const auto pairs = shapes::pairs_of(shape);
   std::vector<std::uint8_t> fixed(8, 1);
@@ -116,6 +116,11 @@ TEST(Diagnose, intersecting_faces_with_all_vertices_fixed) {
   for (std::size_t v = 4; v < 8; ++v) fixed[v] = 0;  // one of the two may move
   EXPECT_TRUE(diagnosis_of(shape.surface(), fixed).obstructions.empty());
   fixed[4] = fixed[5] = 1;  // in part
+  EXPECT_TRUE(diagnosis_of(shape.surface(), fixed).obstructions.empty());
+  fixed[5] = 0;
+  fixed[6] = 1;  // an edge through the other square
+  EXPECT_EQ(diagnosis_of(shape.surface(), fixed).obstructions.size(), 1u);
+  for (std::size_t v = 0; v < 4; ++v) fixed[v] = 0;  // which may give way
   EXPECT_TRUE(diagnosis_of(shape.surface(), fixed).obstructions.empty());
 }
 
