@@ -12,7 +12,7 @@
 
 namespace unsnarl {
 
-/// How another way is gone: untangled by LadderOptions::second_way, with these pairs let be, and recovered.
+/// How another way is gone: untangled by LadderOptions::Rungs::second_way, with these pairs let be, and recovered.
 struct SecondWay {
   std::function<LadderResult(std::span<const IntersectingPair> ignored)> untangle;
   std::function<double(const std::vector<std::vector<Index>>& regions)> recover;  ///< returns the least gap

@@ -91,10 +91,8 @@ class Climb {
   LadderResult run() {
     const Positions rest = scene_.rest;
     pairs_ = current_pairs();
-    if (options_.second_way) {
-      climb(second_way_rungs());
-    } else {
-      climb(gentle_rungs());
+    climb(options_.rungs == LadderOptions::Rungs::second_way ? second_way_rungs() : gentle_rungs());
+    if (options_.rungs == LadderOptions::Rungs::all) {
       for (Index group : find_stuck_groups()) {
         group_ = group;
         climb_apart();
@@ -438,6 +436,8 @@ class Climb {
       if (!keep_sides && method == LocalMethod::shallow) return;     // wider rungs may still keep them
       LocalOptions local;
       local.keep_sides = keep_sides;
+      if (options_.min_gap)
+        local.min_gap = options_.min_gap({attempt.patch.vertices.data(), std::size_t(attempt.patch.free_count)});
       attempt.patch.x = attempt.start;
       attempt.trajectory.clear();
       take(solve_locally(attempt.patch, *rung.local, foreign, local, options_.stop));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -16,11 +17,17 @@ namespace unsnarl {
 struct LadderOptions {
   std::function<bool()> stop;
   std::function<void(std::size_t pairs_left)> on_progress;
+  /// Distance that faces have to have in the end (RecoverOptions::min_gap) around these vertices; none: any.
+  std::function<double(std::span<const Index> vertices)> min_gap;
   /// Asked about a patch that a rung resolved (from any thread); may improve it. False: the region climbs on.
   /// Regions that are not resolved then stay where they are.
   std::function<bool(Patch& patch)> accept;
-  /// Climbs only the first flows of whole components, once: for what gentler rungs have resolved by going far.
-  bool second_way = false;
+  enum class Rungs {
+    all,
+    gentle,      ///< those that move only what lies close to the conflict, once
+    second_way,  ///< the first flows of whole components, once: for what gentler rungs have resolved by going far
+  };
+  Rungs rungs = Rungs::all;
   Recorder* recorder = nullptr;  ///< notes how regions were resolved; none: nobody does
   Tried* tried = nullptr;        ///< notes what was tried; none: nobody does
   std::size_t first_region = 0;  ///< number that the recorder is given for the first region

@@ -3,6 +3,7 @@
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -70,13 +71,6 @@ class PenaltyForce {
     margin_ = margin;
     penalty_ = MinkowskiPenalty(patch_.triangles, {.margin = margin});
   }
-  /// Depth of the deepest of these pairs, margin included.
-  double deepest(const Positions& x, std::span<const IntersectingPair> pairs) const {
-    double deepest = 0;
-    for (const IntersectingPair& pair : pairs) deepest = std::max(deepest, penalty_.evaluate(x, pair.a, pair.b).depth);
-    return deepest;
-  }
-
   void add(const Positions& x, Positions& force) {
     tree_.update(x, 0.5 * margin_);
     std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
@@ -94,6 +88,18 @@ class PenaltyForce {
   MinkowskiPenalty penalty_;
   FaceTree tree_;
 };
+
+/// Depth of the deepest of these pairs, without any margin.
+double deepest_overlap(const Patch& patch, const Positions& x, std::span<const IntersectingPair> pairs) {
+  const auto corners = [&](Index t) {
+    const Triangle& c = patch.triangles[t];
+    return std::array<Vec3, 3>{x.col(c[0]), x.col(c[1]), x.col(c[2])};
+  };
+  double deepest = 0;
+  for (const IntersectingPair& pair : pairs)
+    deepest = std::max(deepest, triangle_penetration(corners(pair.a), corners(pair.b), 0).depth);
+  return deepest;
+}
 
 /// Pushes the two sheets of every intersection curve apart, each curve in one direction.
 void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& edges,
@@ -262,7 +268,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     Positions force = Positions::Zero(3, x.cols());
     double limit = rung.step * h;
     if (method == LocalMethod::shallow) {
-      const double deepest = penalty.deepest(x, pairs);
+      const double deepest = std::max({deepest_overlap(patch, x, pairs), options.shallow_floor * h, options.min_gap});
       if (result.iterations == 0) penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
       limit = std::min(limit, options.shallow_step * deepest);
       // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.

@@ -29,6 +29,10 @@ struct LocalOptions {
   double area_floor = 1e-3;     ///< a face thinner than this share of its area at the start is not accepted
   double shallow_margin = 0.5;  ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
   double shallow_step = 1;      ///< of the deepest overlap: its steps
+  /// h: the overlap that faces are taken to have at least, also where they do no more than touch. (Where the margin counted
+  /// as overlap, needles that ran into each other by 1e-5 h were thrown about by 0.02 h, and never came apart.)
+  double shallow_floor = 1e-4;
+  double min_gap = 0;  ///< length: the same, since they will have to be that far apart
   bool keep_sides = false;      ///< faces that intersect nothing at the start are kept from turning over (TurnGuard)
   /// Progress is when the number of pairs falls by this share ...
   double progress = 0.1;

@@ -319,23 +319,24 @@ double Recovery::measure_gap() {
 }
 
 RecoverResult Recovery::run() {
+  const double start_motion = (start_ - patch_.rest).colwise().norm().maxCoeff();
   OpenGapsOptions open;
-  open.target = std::max(options_.open_target * h_, 3 * min_gap_);
+  open.target = std::max(std::min(options_.open_target * h_, options_.open_motion * start_motion), 3 * min_gap_);
   open.max_rounds = options_.open_rounds;
   open.step_cap = 5 * open.target;
   open_gaps(x_, *rules_, guard_, moving_.moves, open);
   safe_ = x_;
 
   const double least = options_.activation_gaps * min_gap_;
-  // Where little moved, little room is needed: a wide barrier would first push everything farther away.
-  const double start_motion = (start_ - patch_.rest).colwise().norm().maxCoeff();
-  double activation = std::max(std::min(options_.activation * h_, options_.activation_motion * start_motion), least);
+  const auto activation_of = [&](double share_of_h) {
+    return std::max(std::min(share_of_h * h_, options_.activation_motion * start_motion), least);
+  };
+  double activation = activation_of(options_.activation);
   steps_at(activation, std::min(options_.first_steps, options_.max_steps), options_.coarse);
   check();
   snap();
   const double last_activation =
-      std::max(options_.activation * std::pow(options_.activation_factor, options_.stages - 1) * h_, least);
-  activation = std::max(activation, last_activation);
+      activation_of(options_.activation * std::pow(options_.activation_factor, options_.stages - 1));
   for (bool last = options_.stages == 0; !last && !stopped();) {
     release_contact_region();
     if (moving_.vertices.empty()) break;

@@ -32,13 +32,16 @@ struct RecoverOptions {
 
   // Continuation: the barrier's activation distance starts at `activation` and shrinks.
   double activation = 0.1;         ///< in h, at most
-  double activation_motion = 0.5;  ///< and at most this share of the largest displacement at the start
+  /// And at most this share of the largest displacement at the start, at any time: where little moved, little room is
+  /// needed, and a wide barrier would push everything farther away. Fans of needles end 300 times closer.
+  double activation_motion = 0.5;
   double activation_factor = 0.2;  ///< from stage to stage
   int stages = 3;
   double activation_gaps = 3;  ///< the activation distance never falls below this many min_gap
 
   // Gaps and home.
-  double open_target = 0.01;  ///< in h: gaps are first opened to this
+  double open_target = 0.01;  ///< in h: gaps are first opened to this, at most
+  double open_motion = 0.5;   ///< and at most to this share of the largest displacement at the start
   int open_rounds = 12;
   double snap_reach = 0.1;  ///< share of the mean edge at a vertex from which it may be sent straight home
   int contact_rings = 2;    ///< rings around what is not home or in contact that stay free after the first snap

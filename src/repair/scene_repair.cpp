@@ -42,19 +42,42 @@ bool SceneRepair::has_work(Finders& finders) const {
 }
 
 void SceneRepair::work(Finders& finders) {
-  SceneIndex index(scene_, finders.as_is);
+  const Waypoint start = waypoint();
   const bool starts_at_rest = std::exchange(is_at_rest_, false);
+  const Rounds rounds = work_in_rounds(finders, starts_at_rest);
+  if (rounds.resolved || !rounds.before_rounding || !may_give_up_float32()) return;
+  float32_ = false;
+  if (!rounds.some_are_stuck && !job_.limits.reached()) {
+    go_back_to(start);
+    if (work_in_rounds(finders, starts_at_rest).resolved) return;
+  }
+  go_back_to(*rounds.before_rounding);
+  scene_.x = as_written(scene_.x);
+}
+
+SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders, bool starts_at_rest) {
+  Rounds result;
+  SceneIndex index(scene_, finders.as_is);
   const std::vector<IntersectingPair> ignored = ignored_;
   std::vector<std::uint8_t> is_stuck(job_.diagnosis.components.count(), 0);
   for (int round = 0; round < rounding_rounds && !job_.limits.reached(); ++round) {
     job_.phases.start("untangle");
-    LadderResult climbed = untangle(index, ignored_);
+    LadderOptions ladder = ladder_options();
+    if (round > 0) {
+      // What rounding brought comes apart only where it is given room for it; else there is float64.
+      ladder.min_gap = [this](std::span<const Index> vertices) { return wanted_gap(vertices); };
+      if (may_give_up_float32()) ladder.rungs = LadderOptions::Rungs::gentle;
+    }
+    LadderResult climbed = untangle(index, ignored_, ladder);
+    if (ladder.rungs == LadderOptions::Rungs::gentle && !climbed.left.empty()) break;
     if (job_.options.recover) {
       job_.phases.start("recover");
       report_progress(0.7, climbed.left.size());
       smallest_gap_ = std::min(smallest_gap_, recover(merge_overlapping(climbed.moved, scene_.vertex_count()), index));
       if (starts_at_rest && round == 0 && !job_.options.paper) {
-        const SecondWay way = {[&](auto known) { return untangle(index, known, true); },
+        ladder.rungs = LadderOptions::Rungs::second_way;
+        ladder.tried = nullptr;
+        const SecondWay way = {[&](auto known) { return untangle(index, known, ladder); },
                                [&](const auto& regions) { return recover(regions, index); }, job_.limits.stopper()};
         smallest_gap_ =
             std::min(smallest_gap_, take_closer_ways(scene_, index, climbed, pairs_, ignored_, way, job_.recorder));
@@ -66,6 +89,8 @@ void SceneRepair::work(Finders& finders) {
     report_progress(0.9, climbed.left.size());
     for (Index v = 0; v < scene_.vertex_count(); ++v)
       if (!scene_.triangles_of_vertex[v].empty()) job_.tried.solved.col(v) = scene_.x.col(v);
+    result.before_rounding = waypoint();
+    result.some_are_stuck |= !climbed.left.empty();
     scene_.x = as_written(scene_.x);
     // Components on which pairs are left are let be, and the others go on without them.
     for (const IntersectingPair& pair : climbed.left)
@@ -81,7 +106,8 @@ void SceneRepair::work(Finders& finders) {
     }
     std::vector<IntersectingPair> conflicts = float32_conflicts(finders, scene_.x);
     std::erase_if(conflicts, std::not_fn(goes_on));
-    if (conflicts.empty() && is_resolved(finders)) break;
+    result.resolved = conflicts.empty() && is_resolved(finders);
+    if (result.resolved) break;
     const Positions rounded = rounded_to_float32(scene_.x);
     for (const IntersectingPair& pair : conflicts)
       for (Index t : {pair.a, pair.b})
@@ -89,22 +115,27 @@ void SceneRepair::work(Finders& finders) {
           if (!scene_.fixed[v]) scene_.x.col(v) = rounded.col(v);
   }
   ignored_ = ignored;
+  return result;
 }
 
-LadderResult SceneRepair::untangle(SceneIndex& index, std::span<const IntersectingPair> ignored, bool second_way) {
+LadderOptions SceneRepair::ladder_options() {
   LadderOptions ladder;
-  ladder.second_way = second_way;
   ladder.stop = job_.limits.stopper();
   ladder.recorder = &job_.recorder;
   ladder.first_region = job_.regions.size();
-  if (!second_way) ladder.tried = &job_.tried;
-  if (job_.options.paper) return untangle_whole(scene_, index, pairs_.size(), ignored, ladder);
+  ladder.tried = &job_.tried;
   if (job_.options.max_displacement_rel > 0) ladder.accept = [this](Patch& patch) { return stays_near(patch); };
   ladder.on_progress = [this](std::size_t left) {
     const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
     report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
   };
-  return climb_ladder(scene_, index, ignored, ladder);
+  return ladder;
+}
+
+LadderResult SceneRepair::untangle(SceneIndex& index, std::span<const IntersectingPair> ignored,
+                                   const LadderOptions& ladder) {
+  return job_.options.paper ? untangle_whole(scene_, index, pairs_.size(), ignored, ladder)
+                            : climb_ladder(scene_, index, ignored, ladder);
 }
 
 double SceneRepair::recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index) {
@@ -231,6 +262,7 @@ void SceneRepair::go_back_to(const Waypoint& waypoint) {
   scene_.x = waypoint.x;
   job_.regions.resize(waypoint.regions);
   job_.recorder.restore(waypoint.recorded);
+  smallest_gap_ = waypoint.smallest_gap;
 }
 
 }  // namespace unsnarl

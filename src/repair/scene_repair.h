@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,7 @@ class SceneRepair {
   bool is_resolved(Finders& finders) const;
   /// At rest, is there anything to do?
   bool has_work(Finders& finders) const;
+  /// Where float32 was not asked for and rounding to it lets no way hold, float64 has to do.
   void work(Finders& finders);
   /// Puts what was moved farther than allowed back to rest.
   void keep_within_displacement(IntersectionFinder& finder);
@@ -53,12 +55,21 @@ class SceneRepair {
     Positions x;
     std::size_t regions;
     Recorder::Stages recorded;
+    double smallest_gap;
   };
-  Waypoint waypoint() const { return {scene_.x, job_.regions.size(), job_.recorder.stages()}; }
+  Waypoint waypoint() const { return {scene_.x, job_.regions.size(), job_.recorder.stages(), smallest_gap_}; }
   void go_back_to(const Waypoint& waypoint);
 
  private:
+  struct Rounds {
+    bool resolved = false;
+    bool some_are_stuck = false;              // no rung resolves some component
+    std::optional<Waypoint> before_rounding;  // the last state without pairs, but of what is stuck
+  };
+  Rounds work_in_rounds(Finders& finders, bool starts_at_rest);
+
   bool chooses_float32() const;
+  bool may_give_up_float32() const { return float32_ && !job_.options.precision; }
   double wanted_gap(std::span<const Index> vertices) const;
   Positions as_written(const Positions& x) const;
   std::vector<IntersectingPair> float32_conflicts(Finders& finders, const Positions& x) const;
@@ -66,7 +77,8 @@ class SceneRepair {
   bool can_be_parted(const IntersectingPair& pair) const;
   Index component_of(Index t) const { return job_.diagnosis.components.component_of_vertex[scene_.triangles[t][0]]; }
 
-  LadderResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored, bool second_way = false);
+  LadderOptions ladder_options();
+  LadderResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored, const LadderOptions& ladder);
   double recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index);
   bool stays_near(Patch& patch);
   void report_progress(double fraction, std::size_t pairs_left);

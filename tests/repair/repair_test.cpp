@@ -13,6 +13,7 @@
 
 #include "mesh/triangulation.h"
 #include "oracle/intersections_oracle.h"
+#include "repair/local_solver.h"
 #include "repair/shapes.h"
 #include "samples/samples.h"
 #include "unsnarl/certify.h"
@@ -362,6 +363,54 @@ TEST(Repair, sheets_that_only_rounding_brings_together_are_parted) {
   const RepairResult beside = repair(Shape(shape).add(shapes::crossing_bumps(8, 0.3), {30, 0, 0}).surface());
   EXPECT_EQ(beside.status, Status::embedded);
   EXPECT_TRUE(std::equal(surface.positions.begin(), surface.positions.end(), beside.positions.begin()));
+}
+
+/// As a modeller leaves them: a strip whose upper border runs straight at a far vertex, but for the last digits, and the
+/// needles between the border's edges and that vertex. They run over the strip for as much as the border is not straight.
+Shape fan_of_needles(double roughness, Index cells = 12) {
+  Shape shape;
+  shape.points.push_back({9000, 0, 0});
+  for (Index i = 0; i <= cells; ++i) {
+    shape.points.push_back({-10. * i, roughness * jitter_of(i, 0), roughness * jitter_of(i, 1)});
+    shape.points.push_back({-10. * i + 3, 0.7, -0.7});
+  }
+  for (Index i = 0; i < cells; ++i) {
+    const Index upper = 1 + 2 * i, lower = upper + 1;
+    shape.triangles.push_back({upper, lower, upper + 2});
+    shape.triangles.push_back({lower, lower + 2, upper + 2});
+    shape.triangles.push_back({0, upper, upper + 2});
+  }
+  return shape;
+}
+
+TEST(Repair, needles_part_by_about_what_they_overlap) {
+  constexpr double roughness = 3e-4;  // five orders of magnitude below the longest edges
+  const Surface surface = fan_of_needles(roughness).surface();
+  ASSERT_FALSE(judged(surface, surface.positions).empty());
+  RepairOptions options;
+  options.precision = Precision::float64;
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
+  EXPECT_TRUE(judged(surface, result.positions).empty());
+  EXPECT_LT(result.report.displacement_max_rel * result.report.diagonal, 3 * roughness);
+}
+
+// By a writer whose short numbers are so short that no two sheets stay apart.
+TEST(Repair, float32_is_given_up_where_no_way_is_found_to_hold_it) {
+  const Surface surface = shapes::crossing_bumps(8, 0.3).surface();
+  RepairOptions options;
+  options.as_written = [](std::span<const double> positions, bool float32) {
+    std::vector<double> written(positions.begin(), positions.end());
+    if (float32)
+      for (double& value : written) value = 2 * std::round(value / 2);
+    return written;
+  };
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
+  EXPECT_TRUE(judged(surface, result.positions).empty());
+  EXPECT_EQ(result.report.precision, Precision::float64);
+  options.precision = Precision::float32;
+  EXPECT_NE(repair(surface, options).status, Status::embedded);
 }
 
 // Least distance between vertices of one sheet and faces of the other, by brute force.
