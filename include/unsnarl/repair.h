@@ -61,7 +61,8 @@ class Context {
 struct RepairOptions {
   FindOptions find;  ///< identification of vertices, threads
   Goal goal = Goal::all;
-  /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it, else float64.
+  /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it and a way to it is
+  /// found, else float64.
   /// float32 counts only where all coordinates are within its range.
   std::optional<Precision> precision;
   /// The positions that a reader of the file to be written will see, given those to be written and whether float32
