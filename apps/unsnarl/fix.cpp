@@ -137,7 +137,7 @@ class Fix {
     files_.vertices = surface().view().vertex_count();
     files_.faces = surface().view().face_count();
     files_.notes = document_.notes();
-    files_.before_repair.push_back({"read", clock_.seconds(), peak_memory_mb()});
+    files_.before_repair.push_back({"read", clock_.seconds(), cpu_seconds(), peak_memory_mb()});
   }
 
   int run() {
@@ -158,8 +158,9 @@ class Fix {
     display_.clear();
 
     const Stopwatch writing;
+    const double cpu_before = cpu_seconds();
     if (is_to_be_written(result_, surface(), options_.keep_partial)) write_output();
-    files_.after_repair.push_back({"write", writing.seconds(), peak_memory_mb()});
+    files_.after_repair.push_back({"write", writing.seconds(), cpu_seconds() - cpu_before, peak_memory_mb()});
 
     write_pictures();
     write_recording();

@@ -151,7 +151,8 @@ inline constexpr std::size_t most_left_pairs_listed = 1000;
 
 struct StageReport {
   std::string name;
-  double seconds = 0;
+  double seconds = 0;         ///< of the clock
+  double cpu_seconds = 0;     ///< of the processors, by all threads of the process
   double peak_memory_mb = 0;  ///< peak resident memory of the process at the end of the stage
 };
 

@@ -33,6 +33,8 @@ class Bvh {
   /// Calls visit(Index) for every box that overlaps `box`, in the order of the tree (a function of the boxes alone).
   template <class Visit>
   void query(const Box& box, Visit&& visit) const;
+  /// Whether any box overlaps `box`.
+  bool overlaps_any(const Box& box) const;
 
   /// Calls visit(i, j), i != j, once for every unordered pair of (watched) boxes that overlap; order within a pair
   /// and among pairs is a function of the boxes alone.

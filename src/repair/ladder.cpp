@@ -440,8 +440,10 @@ class Climb {
         local.min_gap = options_.min_gap({attempt.patch.vertices.data(), std::size_t(attempt.patch.free_count)});
       attempt.patch.x = attempt.start;
       attempt.trajectory.clear();
-      take(solve_locally(attempt.patch, *rung.local, foreign, local, options_.stop));
+      const LocalResult result = solve_locally(attempt.patch, *rung.local, foreign, local, options_.stop);
+      take(result);
       if (attempt.clean || is_large_gain(attempt)) return;
+      if (keep_sides && !result.kept_sides) return;  // without keeping them it would go the same way
     }
   }
 

@@ -284,7 +284,7 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     if (!(size > 0) || !std::isfinite(size)) break;
     direction *= limit / size;
     x.leftCols(n) += direction.transpose();
-    if (guard) guard->project(x);
+    if (guard && guard->project(x)) result.kept_sides = true;
   }
   // Too far: somewhat back there may be room for the faces.
   constexpr int parts = 16;

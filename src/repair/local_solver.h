@@ -52,6 +52,7 @@ struct LocalResult {
   int iterations = 0;
   std::size_t pairs_left = not_counted;  ///< in patch.x
   double displacement = 0;               ///< largest vertex motion, length
+  bool kept_sides = false;  ///< faces had to be kept from turning over: without keep_sides it goes another way
 };
 
 /// Tries to move the patch's free vertices, from patch.x on, until no active triangle intersects another, except in the

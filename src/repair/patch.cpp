@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "contact/bvh.h"
+
 namespace unsnarl {
 namespace {
 
@@ -20,24 +22,20 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
   sort_unique(patch.faces);
   patch.active_count = static_cast<Index>(patch.faces.size());
 
-  // One query for every few active triangles near each other would do; one for each is simple and was never the
-  // bottleneck.
-  std::vector<Index> near, found;
-  std::vector<bool> is_near(scene.triangle_count());  // bits: there may be thousands of patches
-  for (Index k = 0; k < patch.active_count; ++k) {
-    const Triangle& t = scene.triangles[patch.faces[k]];
-    Box box = box_of(scene.x, t);
-    box.extend(box_of(scene.rest, t));
-    found.clear();
-    index.query(box.inflated(reach), found);
-    for (Index other : found)
-      if (!is_near[other]) {
-        is_near[other] = true;
-        near.push_back(other);
-      }
+  // One query for all, and then who is near any: a query for each would find the same obstacles again and again.
+  std::vector<Box> boxes;
+  Box all;
+  for (Index t : patch.faces) {
+    Box box = box_of(scene.x, scene.triangles[t]);
+    box.extend(box_of(scene.rest, scene.triangles[t]));
+    boxes.push_back(box.inflated(reach));
+    all.extend(boxes.back());
   }
+  const Bvh active(boxes);
+  std::vector<Index> near, obstacles;
+  index.query(all, near);
+  std::erase_if(near, [&](Index t) { return !active.overlaps_any(box_of(scene.x, scene.triangles[t])); });
   std::sort(near.begin(), near.end());
-  std::vector<Index> obstacles;
   std::set_difference(near.begin(), near.end(), patch.faces.begin(), patch.faces.end(), std::back_inserter(obstacles));
   patch.faces.insert(patch.faces.end(), obstacles.begin(), obstacles.end());
 

@@ -11,12 +11,13 @@ void Phases::start(std::string_view phase) {
   end();
   phase_ = phase;
   begin_ = Clock::now();
+  cpu_begin_ = cpu_seconds();
 }
 
 void Phases::end() {
   if (phase_.empty()) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-  stages_.push_back({std::string(phase_), seconds, peak_memory_mb()});
+  stages_.push_back({std::string(phase_), seconds, cpu_seconds() - cpu_begin_, peak_memory_mb()});
   phase_ = {};
 }
 

@@ -29,6 +29,7 @@ class Phases {
   std::vector<StageReport>& stages_;
   std::string_view phase_;
   Clock::time_point begin_ = Clock::now();
+  double cpu_begin_ = 0;
   Context::Progress progress_;
 };
 

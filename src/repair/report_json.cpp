@@ -33,7 +33,10 @@ Json stages_json(const RepairResult& result, const ReportFiles& files) {
   Json stages = Json::array();
   for (const auto* list : {&files.before_repair, &result.report.stages, &files.after_repair})
     for (const StageReport& stage : *list)
-      stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"peak_memory_mb", stage.peak_memory_mb}});
+      stages.push_back({{"name", stage.name},
+                      {"seconds", stage.seconds},
+                      {"cpu_seconds", stage.cpu_seconds},
+                      {"peak_memory_mb", stage.peak_memory_mb}});
   return stages;
 }
 

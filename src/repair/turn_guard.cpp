@@ -25,7 +25,7 @@ TurnGuard::TurnGuard(const Patch& patch, std::span<const std::uint8_t> may_turn)
   }
 }
 
-void TurnGuard::project(Positions& x) const {
+bool TurnGuard::project(Positions& x) const {
   for (int round = 0; round < max_rounds; ++round) {
     bool pushed = false;
     for (const Kept& kept : kept_) {
@@ -43,8 +43,9 @@ void TurnGuard::project(Positions& x) const {
         if (t[k] < free_count_) x.col(t[k]) += missing / squares * gradient[k];
       pushed = true;
     }
-    if (!pushed) return;
+    if (!pushed) return round > 0;
   }
+  return true;
 }
 
 }  // namespace unsnarl

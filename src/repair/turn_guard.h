@@ -16,8 +16,8 @@ class TurnGuard {
   TurnGuard(const Patch& patch, std::span<const std::uint8_t> may_turn);
 
   /// Pushes the free corners of the faces that are below the share until they are not, one face after the other
-  /// (position-based dynamics); gives up after a few rounds where faces work against each other.
-  void project(Positions& x) const;
+  /// (position-based dynamics); gives up after a few rounds where faces work against each other. False: all are above.
+  bool project(Positions& x) const;
 
  private:
   struct Kept {

@@ -259,6 +259,7 @@ TEST(Repair, the_stages_are_timed) {
   EXPECT_EQ(result.report.stages.back().name, "certify");
   for (const StageReport& stage : result.report.stages) {
     EXPECT_GE(stage.seconds, 0);
+    EXPECT_GE(stage.cpu_seconds, 0);
     EXPECT_GT(stage.peak_memory_mb, 1);
   }
 }
