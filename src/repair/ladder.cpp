@@ -232,8 +232,12 @@ class Climb {
   /// regions of their own, climb on from there. (8807 pairs of two spheres: 8 left after 104 shallow iterations, none
   /// after 24 more.)
   bool is_large_gain(const Attempt& attempt) const {
-    return !options_.accept && attempt.region.pairs.size() >= 100 &&
-           10 * attempt.pairs_left <= attempt.region.pairs.size();
+    const std::size_t enough = few_enough(attempt);
+    return enough > 0 && attempt.pairs_left <= enough;
+  }
+  /// Pairs left that make a large gain; 0: there is none.
+  std::size_t few_enough(const Attempt& attempt) const {
+    return !options_.accept && attempt.region.pairs.size() >= 100 ? attempt.region.pairs.size() / 10 : 0;
   }
 
   void keep_gain(Attempt& attempt, const Rung& rung) {
@@ -429,22 +433,17 @@ class Climb {
       attempt.pairs_left = result.pairs_left;
     };
     if (rung.flow) return take(flow(attempt.patch, *rung.flow, options_.stop, foreign));
+    LocalOptions local;
     // Pockets that are inside out have to turn, and what surrounds them may have to: then nothing is kept.
-    for (const bool keep_sides : {true, false}) {
-      const LocalMethod method = rung.local->method;
-      if (keep_sides && method == LocalMethod::smoothing) continue;  // it rounds off whatever there is
-      if (!keep_sides && method == LocalMethod::shallow) return;     // wider rungs may still keep them
-      LocalOptions local;
-      local.keep_sides = keep_sides;
-      if (options_.min_gap)
-        local.min_gap = options_.min_gap({attempt.patch.vertices.data(), std::size_t(attempt.patch.free_count)});
-      attempt.patch.x = attempt.start;
-      attempt.trajectory.clear();
-      const LocalResult result = solve_locally(attempt.patch, *rung.local, foreign, local, options_.stop);
-      take(result);
-      if (attempt.clean || is_large_gain(attempt)) return;
-      if (keep_sides && !result.kept_sides) return;  // without keeping them it would go the same way
+    switch (rung.local->method) {
+      case LocalMethod::shallow: local.sides = KeepSides::yes; break;  // wider rungs may still keep them
+      case LocalMethod::contour: local.sides = KeepSides::at_first; break;
+      case LocalMethod::smoothing: break;  // it rounds off whatever there is
     }
+    local.few_enough = few_enough(attempt);
+    if (options_.min_gap)
+      local.min_gap = options_.min_gap({attempt.patch.vertices.data(), std::size_t(attempt.patch.free_count)});
+    take(solve_locally(attempt.patch, *rung.local, foreign, local, options_.stop));
   }
 
   /// Pairs of active triangles that are not the region's: other regions' and those that cannot be resolved.

@@ -128,6 +128,17 @@ void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& 
   }
 }
 
+/// How far a rung has got.
+struct Try {
+  Positions x, best;
+  LocalMethod method;
+  std::size_t pairs_left = not_counted;  // in best
+  int iterations = 0;
+  double reference = std::numeric_limits<double>::infinity();  // pairs at the last progress
+  int waited = 0;                                              // iterations since
+  Trajectory::Mark mark;
+};
+
 std::vector<std::uint8_t> in_conflict(const Patch& patch, std::span<const IntersectingPair> pairs) {
   std::vector<std::uint8_t> result(patch.triangles.size(), 0);
   for (const IntersectingPair& pair : pairs) result[pair.a] = result[pair.b] = 1;
@@ -229,76 +240,97 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
   PenaltyForce penalty(patch, options.margin * h);
 
   std::optional<TurnGuard> guard;
-  if (options.keep_sides) guard.emplace(patch, in_conflict(patch, finder.find(start)));
+  if (options.sides != KeepSides::no) guard.emplace(patch, in_conflict(patch, finder.find(start)));
 
-  // patch.x stays what the metric was made of.
-  Positions x = start, best = start;
-  if (rung.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.jitter, x);
-
-  LocalMethod method = rung.method;
-  std::size_t initial_pairs = 0;
   auto is_clean = [&](const Positions& y) {
     return blocking_pairs(finder.find(y), tolerated).empty() && !has_squeezed_face(patch, start, y, options.area_floor);
   };
-  double reference = std::numeric_limits<double>::infinity();  // pairs at the last progress
-  int waited = 0;                                              // iterations since
-  for (;; ++result.iterations, ++waited) {
-    if (stop && stop()) break;
-    if (waited >= (result.iterations > rung.max_iterations ? options.patience : options.despair)) break;
-    const std::vector<IntersectingPair> pairs = blocking_pairs(finder.find(x), tolerated);
-    record(patch, x, {.pairs = pairs.size()});
-    if (pairs.empty()) {
-      result.clean = true;
-      break;
+  std::size_t initial_pairs = 0;
+  std::optional<Try> before_keeping;  // where the guard was first needed
+  // Goes on with a try until it is clean (true) or left.
+  const auto go_on = [&](Try& t) {
+    bool clean = false;
+    while (!(stop && stop())) {
+      if (t.waited >= (t.iterations > rung.max_iterations ? options.patience : options.despair)) break;
+      const std::vector<IntersectingPair> pairs = blocking_pairs(finder.find(t.x), tolerated);
+      record(patch, t.x, {.pairs = pairs.size()});
+      clean = pairs.empty();
+      if (clean) break;
+      if (t.iterations == 0) t.pairs_left = initial_pairs = pairs.size();
+      if (static_cast<double>(pairs.size()) <= (1 - options.progress) * t.reference) {
+        t.reference = static_cast<double>(pairs.size());
+        t.waited = 0;
+      }
+      if (pairs.size() < t.pairs_left && !has_squeezed_face(patch, start, t.x, options.area_floor)) {
+        t.pairs_left = pairs.size();
+        t.best = t.x;
+      }
+      const int iteration = t.iterations++;
+      ++t.waited;
+      if (t.method == LocalMethod::smoothing) {
+        smooth(patch, metric, rung.locality * h, t.x);
+        if (pairs.size() * 5 <= initial_pairs) t.method = LocalMethod::contour;
+        continue;
+      }
+      Positions force = Positions::Zero(3, t.x.cols());
+      double limit = rung.step * h;
+      if (t.method == LocalMethod::shallow) {
+        const double deepest =
+            std::max({deepest_overlap(patch, t.x, pairs), options.shallow_floor * h, options.min_gap});
+        if (iteration == 0) penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
+        limit = std::min(limit, options.shallow_step * deepest);
+        // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.
+        if (iteration % 2 == 0)
+          penalty.add(t.x, force);
+        else
+          add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), force);
+      } else {
+        add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), force);
+      }
+      Eigen::MatrixX3d direction = metric.solve(force, n);
+      const double size = direction.rowwise().norm().maxCoeff();
+      if (!(size > 0) || !std::isfinite(size)) break;
+      direction *= limit / size;
+      t.x.leftCols(n) += direction.transpose();
+      if (!guard) continue;
+      const bool is_first = options.sides == KeepSides::at_first && !before_keeping;
+      const Positions unkept = is_first ? t.x : Positions();
+      if (!guard->project(t.x) || !is_first) continue;
+      before_keeping = t;
+      before_keeping->x = unkept;
+      if (patch.trajectory) before_keeping->mark = patch.trajectory->mark();
     }
-    if (result.iterations == 0) result.pairs_left = initial_pairs = pairs.size();
-    if (static_cast<double>(pairs.size()) <= (1 - options.progress) * reference) {
-      reference = static_cast<double>(pairs.size());
-      waited = 0;
+    // Too far: somewhat back there may be room for the faces.
+    constexpr int parts = 16;
+    const Positions whole = t.x;
+    for (int part = parts - 1; clean && has_squeezed_face(patch, start, t.x, options.area_floor); --part) {
+      t.x.leftCols(n) = start.leftCols(n) + (static_cast<double>(part) / parts) * (whole - start).leftCols(n);
+      clean = part > 0 && blocking_pairs(finder.find(t.x), tolerated).empty();
     }
-    if (pairs.size() < result.pairs_left && !has_squeezed_face(patch, start, x, options.area_floor)) {
-      result.pairs_left = pairs.size();
-      best = x;
-    }
-    if (method == LocalMethod::smoothing) {
-      smooth(patch, metric, rung.locality * h, x);
-      if (pairs.size() * 5 <= initial_pairs) method = LocalMethod::contour;
-      continue;
-    }
-    Positions force = Positions::Zero(3, x.cols());
-    double limit = rung.step * h;
-    if (method == LocalMethod::shallow) {
-      const double deepest = std::max({deepest_overlap(patch, x, pairs), options.shallow_floor * h, options.min_gap});
-      if (result.iterations == 0) penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
-      limit = std::min(limit, options.shallow_step * deepest);
-      // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.
-      if (result.iterations % 2 == 0)
-        penalty.add(x, force);
-      else
-        add_contour_force(patch, x, edges, pairs, penalty.penalty(), force);
-    } else {
-      add_contour_force(patch, x, edges, pairs, penalty.penalty(), force);
-    }
-    Eigen::MatrixX3d direction = metric.solve(force, n);
-    const double size = direction.rowwise().norm().maxCoeff();
-    if (!(size > 0) || !std::isfinite(size)) break;
-    direction *= limit / size;
-    x.leftCols(n) += direction.transpose();
-    if (guard && guard->project(x)) result.kept_sides = true;
-  }
-  // Too far: somewhat back there may be room for the faces.
-  constexpr int parts = 16;
-  const Positions whole = x;
-  for (int part = parts - 1; result.clean && has_squeezed_face(patch, start, x, options.area_floor); --part) {
-    x.leftCols(n) = start.leftCols(n) + (static_cast<double>(part) / parts) * (whole - start).leftCols(n);
-    result.clean = part > 0 && blocking_pairs(finder.find(x), tolerated).empty();
+    return clean;
+  };
+
+  // patch.x stays what the metric was made of.
+  Try current{.x = start, .best = start, .method = rung.method, .mark = {}};
+  if (rung.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.jitter, current.x);
+  result.clean = go_on(current);
+  result.iterations = current.iterations;
+  if (!result.clean && before_keeping && current.pairs_left > options.few_enough) {
+    // Up to there it would go the same way.
+    result.iterations -= before_keeping->iterations;
+    current = std::move(*before_keeping);
+    guard.reset();
+    if (patch.trajectory) patch.trajectory->rewind(std::move(current.mark));
+    result.clean = go_on(current);
+    result.iterations += current.iterations;
   }
   if (!result.clean) {
-    patch.x = best;
+    result.pairs_left = current.pairs_left;
+    patch.x = current.best;
     return result;
   }
   result.pairs_left = 0;
-  patch.x = x;
+  patch.x = current.x;
   shrink_displacement(patch, start, options.bisections, is_clean);
   result.displacement = (patch.x - start).leftCols(n).colwise().norm().maxCoeff();
   return result;

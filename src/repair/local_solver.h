@@ -23,6 +23,13 @@ struct LocalRung {
   int max_iterations;  ///< beyond which it goes on only as long as it makes progress
 };
 
+/// Whether faces that intersect nothing at the start are kept from turning over (TurnGuard).
+enum class KeepSides {
+  no,
+  yes,
+  at_first,  ///< where that fails, no longer, from where the first of them had to be kept on
+};
+
 struct LocalOptions {
   double margin = 0.03;  ///< h: the penalty acts until the faces are this far apart; 28 iterations against 61 without
   double jitter = 1e-3;  ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
@@ -33,7 +40,8 @@ struct LocalOptions {
   /// as overlap, needles that ran into each other by 1e-5 h were thrown about by 0.02 h, and never came apart.)
   double shallow_floor = 1e-4;
   double min_gap = 0;  ///< length: the same, since they will have to be that far apart
-  bool keep_sides = false;      ///< faces that intersect nothing at the start are kept from turning over (TurnGuard)
+  KeepSides sides = KeepSides::no;
+  std::size_t few_enough = 0;  ///< pairs; with KeepSides::at_first, a try that leaves no more is left at that
   /// Progress is when the number of pairs falls by this share ...
   double progress = 0.1;
   /// ... within so many iterations: what a rung needs that to go on beyond its iterations. On the 22 of 61 meshes where
@@ -52,7 +60,6 @@ struct LocalResult {
   int iterations = 0;
   std::size_t pairs_left = not_counted;  ///< in patch.x
   double displacement = 0;               ///< largest vertex motion, length
-  bool kept_sides = false;  ///< faces had to be kept from turning over: without keep_sides it goes another way
 };
 
 /// Tries to move the patch's free vertices, from patch.x on, until no active triangle intersects another, except in the

@@ -82,6 +82,7 @@ class Recovery {
   std::vector<SeparatedStencil> in_the_way_;
   Positions gathered_at_;
   double activation_ = 0;
+  double last_longest_ = 0;  // of the Newton steps: how far the farthest vertex would have gone
 
   Positions gradient_, step_, shortened_, trial_;
   Eigen::Matrix3Xd rhs_, solution_;
@@ -250,10 +251,14 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
     rhs_.resize(3, n);
     for (Index i = 0; i < n; ++i) rhs_.col(i) = -gradient_.col(moving_.vertices[i]);
     operator_.inverse_blocks(options_.scalar_jacobi, blocks_);
+    PcgOptions solver = options_.solver;
+    if (last_longest_ > options_.far_caps * options_.step_cap * h_)
+      solver.relative_tolerance = std::max(solver.relative_tolerance, options_.far_tolerance);
     result_.solver_iterations += pcg_.solve([&](const auto& v, auto& out) { operator_.apply(v, out); }, blocks_, rhs_,
-                                            solution_, options_.solver);
+                                            solution_, solver);
     ++result_.iterations;
     const double longest = std::sqrt(solution_.colwise().squaredNorm().maxCoeff());
+    last_longest_ = longest;
     if (!(longest > 0) || !(rhs_.cwiseProduct(solution_).sum() > 0)) break;
 
     const double wanted = std::min(longest, options_.step_cap * h_);
@@ -367,6 +372,7 @@ RecoverOptions RecoverOptions::paper() {
   options.coarse = options.fine = {0, 1};
   options.stop_motion = options.stop_activation = 0;
   options.solver = {1e-6, 2000};
+  options.far_tolerance = 0;
   options.scalar_jacobi = true;
   options.shorten_all = true;
   options.time_step = 1;

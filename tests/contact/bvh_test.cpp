@@ -54,6 +54,22 @@ Pairs parallel_pairs(const Bvh& bvh) {
   return pairs;
 }
 
+TEST(Bvh, tells_whether_any_box_overlaps) {
+  EXPECT_FALSE(Bvh().overlaps_any(random_boxes(1, 1, 1).front()));
+  for (const Index n : {5, 300}) {
+    const std::vector<Box> boxes = random_boxes(n, 0.6 / std::cbrt(n), static_cast<unsigned>(n));
+    const Bvh bvh(boxes);
+    int yes = 0;
+    for (const Box& box : random_boxes(500, 0.1, 7)) {
+      const bool any = std::any_of(boxes.begin(), boxes.end(), [&](const Box& b) { return b.overlaps(box); });
+      EXPECT_EQ(bvh.overlaps_any(box), any);
+      yes += any;
+    }
+    EXPECT_GT(yes, 0) << n;
+    EXPECT_LT(yes, 500) << n;
+  }
+}
+
 // Around the sizes of leaves (4), of tasks (1024) and of the parallel build (20000).
 TEST(Bvh, finds_each_overlapping_pair_once) {
   for (const Index n : {0, 1, 2, 3, 4, 5, 8, 9, 100, 1000, 1023, 1024, 1025, 4097, 20001}) {

@@ -25,7 +25,7 @@ TEST(TurnGuard, PushesAFaceBackOverItsEdge) {
   Positions x = patch.x;
   x.col(0) = Vec3(0.2, -1.5, 0.1);
   ASSERT_EQ(turned(patch, x), 1);
-  guard.project(x);
+  EXPECT_TRUE(guard.project(x));
   EXPECT_EQ(turned(patch, x), 0);
   EXPECT_NEAR(x(1, 0), -0.9, 1e-12);  // just as far as the share of its area asks for
   EXPECT_EQ(x(2, 0), 0.1);
@@ -37,11 +37,11 @@ TEST(TurnGuard, LeavesAloneWhatMayTurnAndWhatHasRoom) {
   Positions x = patch.x;
   x.col(0) = Vec3(0.2, -1.5, 0.1);
   const Positions before = x;
-  TurnGuard(patch, std::vector<std::uint8_t>{1, 0, 0, 0}).project(x);
+  EXPECT_FALSE(TurnGuard(patch, std::vector<std::uint8_t>{1, 0, 0, 0}).project(x));
   EXPECT_EQ(x, before);
   x.col(0) = Vec3(0.2, -0.5, 0.4);
   const Positions inside = x;
-  TurnGuard(patch, std::vector<std::uint8_t>(4, 0)).project(x);
+  EXPECT_FALSE(TurnGuard(patch, std::vector<std::uint8_t>(4, 0)).project(x));
   EXPECT_EQ(x, inside);
 }
 
@@ -49,7 +49,7 @@ TEST(TurnGuard, DoesNotAskOfAFaceWhatItDidNotHaveAtTheStart) {
   Patch patch = fan();
   patch.x.col(0) = Vec3(0, -1.2, 0);  // turned over when it is given
   Positions x = patch.x;
-  TurnGuard(patch, std::vector<std::uint8_t>(4, 0)).project(x);
+  EXPECT_FALSE(TurnGuard(patch, std::vector<std::uint8_t>(4, 0)).project(x));
   EXPECT_EQ(x, patch.x);
 }
 
