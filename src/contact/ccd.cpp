@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/parallel_lists.h"
+
 namespace unsnarl {
 namespace {
 
@@ -89,29 +91,38 @@ int filter_displacements(std::span<const SeparatedStencil> stencils, const Posit
   std::vector<std::uint8_t> changed(static_cast<std::size_t>(x.cols()), 1);
   std::vector<std::uint8_t> changing(changed.size(), 0);
   std::vector<double> scale(changed.size(), 1);
+  struct Collision {
+    Index stencil;
+    double time;
+  };
+  std::vector<Collision> collisions;
   for (int sweep = 0;; ++sweep) {
-    bool any = false;
+    constexpr Index chunk = 1024;  // stencils a task: 0.1 to 0.4 ms of work
+    gather_in_chunks(static_cast<Index>(stencils.size()), chunk, collisions,
+                     [&](Index begin, Index end, std::vector<Collision>& list) {
+                       for (Index k = begin; k < end; ++k) {
+                         const Stencil& s = stencils[k].stencil;
+                         bool touched = false, moving = false;
+                         for (int i = 0; i < s.size(); ++i) {
+                           touched |= changed[s.v[i]] != 0;
+                           moving |= !p.col(s.v[i]).isZero(0);
+                         }
+                         if (!touched || !moving) continue;
+                         const double t = time_of_impact(stencils[k], x, p, options);
+                         if (t < 1) list.push_back({k, t});
+                       }
+                     });
+    if (collisions.empty()) return sweep + 1;
     const bool stay = on_collision == OnCollision::stay || sweep >= sweeps_of_shortening;
-    for (const SeparatedStencil& s : stencils) {
-      const int n = s.stencil.size();
-      bool touched = false;
-      bool moving = false;
-      for (int i = 0; i < n; ++i) {
-        touched |= changed[s.stencil.v[i]] != 0;
-        moving |= !p.col(s.stencil.v[i]).isZero(0);
-      }
-      if (!touched || !moving) continue;
-      const double t = time_of_impact(s, x, p, options);
-      if (t >= 1) continue;
-      any = true;
-      for (int i = 0; i < n; ++i) {
-        const Index v = s.stencil.v[i];
+    for (const Collision& collision : collisions) {
+      const Stencil& s = stencils[collision.stencil].stencil;
+      for (int i = 0; i < s.size(); ++i) {
+        const Index v = s.v[i];
         if (p.col(v).isZero(0)) continue;
-        scale[v] = stay ? 0 : std::min(scale[v], t);
+        scale[v] = stay ? 0 : std::min(scale[v], collision.time);
         changing[v] = 1;
       }
     }
-    if (!any) return sweep + 1;
     for (Index v = 0; v < static_cast<Index>(changing.size()); ++v) {
       if (changing[v]) p.col(v) *= scale[v];
       scale[v] = 1;

@@ -1,5 +1,7 @@
 #include "energy/ipc_barrier.h"
 
+#include "geometry/parallel_lists.h"
+
 namespace unsnarl {
 namespace {
 
@@ -33,35 +35,44 @@ double IpcBarrier::value(const Positions& x, std::span<const BarrierStencil> ste
 
 double IpcBarrier::evaluate(const Positions& x, std::span<const BarrierStencil> stencils,
                             std::vector<BarrierContact>& contacts) const {
-  contacts.clear();
+  constexpr Index chunk = 2048;  // stencils a task
+  gather_in_chunks(static_cast<Index>(stencils.size()), chunk, contacts,
+                   [&](Index begin, Index end, std::vector<BarrierContact>& list) {
+                     BarrierContact contact;
+                     for (Index i = begin; i < end; ++i) {
+                       if (!evaluate(x, stencils[i], contact)) continue;
+                       contact.stencil = i;
+                       list.push_back(contact);
+                     }
+                   });
   double sum = 0;
-  for (std::size_t i = 0; i < stencils.size(); ++i) {
-    const BarrierStencil& s = stencils[i];
-    BarrierContact contact;
-    contact.closest = closest(s.stencil, x);
-    if (contact.closest.distance >= s.activation) continue;
-    contact.stencil = static_cast<Index>(i);
-    const double width = s.activation - s.separation;
-    const double y = (contact.closest.distance - s.separation) / width;
-    const double energy = width * barrier(y);
-    double factor = 1;
-    if (s.mollifier_threshold > 0) {
-      const Edges e = edges_of(s.stencil, x);
-      if (e.c < s.mollifier_threshold) {
-        factor = mollifier(e.c, s.mollifier_threshold);
-        contact.mollified = true;
-        // d|u x v|^2 = 2 (|v|^2 u - (u.v) v) . du + 2 (|u|^2 v - (u.v) u) . dv
-        const double slope = 2 * force_scale_ * energy * mollifier_derivative(e.c, s.mollifier_threshold);
-        contact.twist.col(0) = slope * (e.v.squaredNorm() * e.u - e.u.dot(e.v) * e.v);
-        contact.twist.col(1) = slope * (e.u.squaredNorm() * e.v - e.u.dot(e.v) * e.u);
-      }
-    }
-    sum += factor * energy;
-    contact.force = force_scale_ * factor * barrier_derivative(y);
-    contact.stiffness = force_scale_ * factor * barrier_second_derivative(y) / width;
-    contacts.push_back(contact);
-  }
+  for (const BarrierContact& contact : contacts) sum += contact.energy;
   return force_scale_ * sum;
+}
+
+bool IpcBarrier::evaluate(const Positions& x, const BarrierStencil& s, BarrierContact& contact) const {
+  contact.closest = closest(s.stencil, x);
+  if (contact.closest.distance >= s.activation) return false;
+  const double width = s.activation - s.separation;
+  const double y = (contact.closest.distance - s.separation) / width;
+  const double energy = width * barrier(y);
+  double factor = 1;
+  contact.mollified = false;
+  if (s.mollifier_threshold > 0) {
+    const Edges e = edges_of(s.stencil, x);
+    if (e.c < s.mollifier_threshold) {
+      factor = mollifier(e.c, s.mollifier_threshold);
+      contact.mollified = true;
+      // d|u x v|^2 = 2 (|v|^2 u - (u.v) v) . du + 2 (|u|^2 v - (u.v) u) . dv
+      const double slope = 2 * force_scale_ * energy * mollifier_derivative(e.c, s.mollifier_threshold);
+      contact.twist.col(0) = slope * (e.v.squaredNorm() * e.u - e.u.dot(e.v) * e.v);
+      contact.twist.col(1) = slope * (e.u.squaredNorm() * e.v - e.u.dot(e.v) * e.u);
+    }
+  }
+  contact.energy = factor * energy;
+  contact.force = force_scale_ * factor * barrier_derivative(y);
+  contact.stiffness = force_scale_ * factor * barrier_second_derivative(y) / width;
+  return true;
 }
 
 void IpcBarrier::add_gradient(std::span<const BarrierStencil> stencils, std::span<const BarrierContact> contacts,

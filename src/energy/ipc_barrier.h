@@ -48,6 +48,7 @@ struct BarrierStencil {
 struct BarrierContact {
   Index stencil = 0;  ///< position in the list
   Closest closest;
+  double energy = 0;     ///< force_scale left out
   double force = 0;      ///< derivative of the energy in the distance, <= 0
   double stiffness = 0;  ///< its second: the Hessian's Gauss-Newton part is stiffness (w n)(w n)^T
   bool mollified = false;
@@ -69,6 +70,9 @@ class IpcBarrier {
                            double scale, Positions& g);
 
  private:
+  /// False: not active.
+  bool evaluate(const Positions& x, const BarrierStencil& stencil, BarrierContact& contact) const;
+
   double force_scale_;
 };
 

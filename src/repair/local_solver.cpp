@@ -1,6 +1,7 @@
 #include "repair/local_solver.h"
 
 #include <Eigen/SparseCholesky>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -51,7 +52,11 @@ class Metric {
   bool ok() const { return factor_.info() == Eigen::Success; }
   /// Free columns of force -> direction.
   Eigen::MatrixX3d solve(const Positions& force, Index n) const {
-    return factor_.solve(Eigen::MatrixX3d(force.leftCols(n).transpose()));
+    Eigen::MatrixX3d direction(n, 3);
+    oneapi::tbb::parallel_for(0, 3, [&](int k) {
+      direction.col(k) = factor_.solve(Eigen::VectorXd(force.row(k).leftCols(n).transpose()));
+    });
+    return direction;
   }
 
  private:

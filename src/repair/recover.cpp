@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "energy/ipc_barrier.h"
+#include "geometry/parallel_lists.h"
 #include "geometry/parallel_sums.h"
 #include "mesh/areas.h"
 #include "repair/contact_rules.h"
@@ -19,7 +20,8 @@
 namespace unsnarl {
 namespace {
 
-constexpr Index chunk = 1024;  // stencils a task
+constexpr Index chunk = 1024;       // stencils a task
+constexpr Index list_chunk = 8192;  // the same where each only takes a look
 
 class Recovery {
  public:
@@ -185,11 +187,14 @@ bool Recovery::list_allows(const Positions& p) {
 
 void Recovery::pick_near(const Positions& x) {
   for (Index v : moving_.vertices) travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
-  near_.clear();
-  for (const ContactRule& rule : gathered_) {
-    if (rule.distance - approach(rule.stencil.stencil, travelled_) < rule.stencil.activation)
-      near_.push_back(rule.stencil);
-  }
+  gather_in_chunks(static_cast<Index>(gathered_.size()), list_chunk, near_,
+                   [&](Index begin, Index end, std::vector<BarrierStencil>& list) {
+                     for (Index k = begin; k < end; ++k) {
+                       const ContactRule& rule = gathered_[k];
+                       if (rule.distance - approach(rule.stencil.stencil, travelled_) < rule.stencil.activation)
+                         list.push_back(rule.stencil);
+                     }
+                   });
 }
 
 double Recovery::energy(const Positions& x) {
@@ -232,12 +237,16 @@ void Recovery::record_iteration() {
 }
 
 void Recovery::pick_in_the_way() {
-  in_the_way_.clear();
-  for (const ContactRule& rule : gathered_) {
-    const BarrierStencil& s = rule.stencil;
-    const double left = rule.distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
-    if (left <= s.separation + rules_->options().roundoff) in_the_way_.push_back({s.stencil, s.separation});
-  }
+  gather_in_chunks(static_cast<Index>(gathered_.size()), list_chunk, in_the_way_,
+                   [&](Index begin, Index end, std::vector<SeparatedStencil>& list) {
+                     for (Index k = begin; k < end; ++k) {
+                       const BarrierStencil& s = gathered_[k].stencil;
+                       const double left =
+                           gathered_[k].distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
+                       if (left <= s.separation + rules_->options().roundoff)
+                         list.push_back({s.stencil, s.separation});
+                     }
+                   });
 }
 
 void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop& stop) {
