@@ -1,7 +1,7 @@
 #include "repair/local_solver.h"
 
-#include <Eigen/SparseCholesky>
 #include <oneapi/tbb/parallel_for.h>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <array>
@@ -53,9 +53,8 @@ class Metric {
   /// Free columns of force -> direction.
   Eigen::MatrixX3d solve(const Positions& force, Index n) const {
     Eigen::MatrixX3d direction(n, 3);
-    oneapi::tbb::parallel_for(0, 3, [&](int k) {
-      direction.col(k) = factor_.solve(Eigen::VectorXd(force.row(k).leftCols(n).transpose()));
-    });
+    oneapi::tbb::parallel_for(
+        0, 3, [&](int k) { direction.col(k) = factor_.solve(Eigen::VectorXd(force.row(k).leftCols(n).transpose())); });
     return direction;
   }
 
@@ -251,7 +250,8 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
     return blocking_pairs(finder.find(y), tolerated).empty() && !has_squeezed_face(patch, start, y, options.area_floor);
   };
   std::size_t initial_pairs = 0;
-  std::optional<Try> before_keeping;  // where the guard was first needed
+  double at_least = options.shallow_floor * h;  // overlap that steps are for: as little as there is would never end
+  std::optional<Try> before_keeping;            // where the guard was first needed
   // Goes on with a try until it is clean (true) or left.
   const auto go_on = [&](Try& t) {
     bool clean = false;
@@ -280,8 +280,8 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
       Positions force = Positions::Zero(3, t.x.cols());
       double limit = rung.step * h;
       if (t.method == LocalMethod::shallow) {
-        const double deepest =
-            std::max({deepest_overlap(patch, t.x, pairs), options.shallow_floor * h, options.min_gap});
+        const double deepest = std::max({deepest_overlap(patch, t.x, pairs), at_least, options.min_gap});
+        if (iteration == 0) at_least = deepest;
         if (iteration == 0) penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
         limit = std::min(limit, options.shallow_step * deepest);
         // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.

@@ -35,9 +35,9 @@ struct LocalOptions {
   double jitter = 1e-3;  ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
   double area_floor = 1e-3;     ///< a face thinner than this share of its area at the start is not accepted
   double shallow_margin = 0.5;  ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
-  double shallow_step = 1;      ///< of the deepest overlap: its steps
-  /// h: the overlap that faces are taken to have at least, also where they do no more than touch. (Where the margin counted
-  /// as overlap, needles that ran into each other by 1e-5 h were thrown about by 0.02 h, and never came apart.)
+  double shallow_step = 1;      ///< of the deepest overlap, now or at the start: its steps
+  /// h: the overlap that faces are taken to have at least, also where they do no more than touch. (Where the margin
+  /// counted as overlap, needles that ran into each other by 1e-5 h were thrown about by 0.02 h, and never came apart.)
   double shallow_floor = 1e-4;
   double min_gap = 0;  ///< length: the same, since they will have to be that far apart
   KeepSides sides = KeepSides::no;
