@@ -22,8 +22,11 @@ const std::string crossing =
     "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4 # top\nv 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
     "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n";
 
-/// The edge of the first face runs through the second; only corners that do not matter are free.
-const std::string hopeless = "v 0 0 -1\nv 0 0 1\nv 5 0 0\nv 1 0 0\nv -1 1 0\nv -1 -1 0\nf 1 2 3\nf 4 5 6\n";
+/// All triangles of a vertex with two of five others: round it these would have to be joined without crossings, and the
+/// complete graph on five vertices is not planar.
+const std::string hopeless =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0.1\nv -1 0.2 0\nv 0.1 -1 0\nv 0.2 0.1 1\nf 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 2 6\nf 1 3 4\n"
+    "f 1 3 5\nf 1 3 6\nf 1 4 5\nf 1 4 6\nf 1 5 6\n";
 
 std::size_t pairs_in(const std::string& path) {
   return find_intersections(Document::read(path).surface()).size();
@@ -169,7 +172,7 @@ TEST_F(Cli, InPlaceReplacesTheInputAndKeepsItsPermissions) {
 
 TEST_F(Cli, OutputIsReplacedOnlyBySuccess) {
   const std::string in = file("in.obj", hopeless), out = file("out.obj", "precious");
-  const std::string ids = file("ids.txt", "0 1 3 4 5\n");
+  const std::string ids = file("ids.txt", "1 2 3 4 5\n");
   const Outcome outcome = run({"fix", in, "-o", out, "--fix-vertices", ids});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_EQ(contents(out), "precious");
@@ -178,7 +181,7 @@ TEST_F(Cli, OutputIsReplacedOnlyBySuccess) {
 
 TEST_F(Cli, NothingBetterThanTheInputExitsWith1) {
   const std::string in = file("in.obj", hopeless), out = folder / "out.obj", report = folder / "report.json";
-  const std::string ids = file("ids.txt", "0 1 # the edge\n3 4 5\n");
+  const std::string ids = file("ids.txt", "1 2 # those around it\n3 4 5\n");
   const Outcome outcome = run({"fix", in, "-o", out, "--fix-vertices", ids, "--report", report});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_FALSE(fs::exists(out));
