@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "mesh_input.h"
-#include "repair/measure.h"
+#include "repair/process_usage.h"
 
 namespace unsnarl::app {
 namespace {

@@ -21,7 +21,8 @@ void require_viewer() {
   if (viewer_template().empty())
     throw UsageError(
         "this build has no viewer: it was made without Node.js or without the viewer's packages. Install nodejs and "
-        "npm, run 'npm ci' in viewer/, then configure and build again with -DUNSNARL_BUILD_VIEWER=ON (./demo does it all)");
+        "npm, run 'npm ci' in viewer/, then configure and build again with -DUNSNARL_BUILD_VIEWER=ON (./demo does it "
+        "all)");
 }
 
 std::string view_page(const PageSource& source) {

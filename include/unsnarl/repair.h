@@ -61,9 +61,8 @@ class Context {
 struct RepairOptions {
   FindOptions find;  ///< identification of vertices, threads
   Goal goal = Goal::all;
-  /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it and a way to it is
-  /// found, else float64.
-  /// float32 counts only where all coordinates are within its range.
+  /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it and a way to it
+  /// is found, else float64. float32 counts only where all coordinates are within its range.
   std::optional<Precision> precision;
   /// The positions that a reader of the file to be written will see, given those to be written and whether float32
   /// digits are enough. Unset: rounded to `precision`. The result is certified as it returns them.
@@ -136,7 +135,7 @@ enum class LeftReason : std::uint8_t {
   unresolved,      ///< no rung of the ladder could part them
   other_diagonal,  ///< only meet where quads are cut along their other diagonals (FindOptions::both_diagonals)
 };
-inline constexpr std::size_t left_reason_count = 13;
+inline constexpr std::size_t left_reason_count = static_cast<std::size_t>(LeftReason::other_diagonal) + 1;
 std::string_view to_string(LeftReason reason);
 
 /// Two faces that intersect in the result, a <= b.

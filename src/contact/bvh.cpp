@@ -4,9 +4,10 @@
 #include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstdint>
+
+#include "contact/bvh_traversal.h"
 
 namespace unsnarl {
 namespace {
@@ -92,23 +93,7 @@ Index Bvh::build_node(Index begin, Index end) {
 }
 
 bool Bvh::overlaps_any(const Box& box) const {
-  if (nodes_.empty()) return false;
-  std::array<Index, 64> stack;  // depth is at most log2(2^31) + 1
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Index id = stack[--top];
-    const Node& node = nodes_[id];
-    if (!node.box.overlaps(box)) continue;
-    if (node.right != 0) {
-      stack[top++] = node.right;
-      stack[top++] = id + 1;
-      continue;
-    }
-    for (Index k = node.begin; k < node.end; ++k)
-      if (boxes_[k].overlaps(box)) return true;
-  }
-  return false;
+  return find(box, [](Index) { return true; });
 }
 
 void Bvh::fit(Node& node) {

@@ -33,6 +33,9 @@ class Bvh {
   /// Calls visit(Index) for every box that overlaps `box`, in the order of the tree (a function of the boxes alone).
   template <class Visit>
   void query(const Box& box, Visit&& visit) const;
+  /// Whether accept(Index) is true of any box that overlaps `box`; asks no more once it is.
+  template <class Accept>
+  bool find(const Box& box, Accept&& accept) const;
   /// Whether any box overlaps `box`.
   bool overlaps_any(const Box& box) const;
 

@@ -6,9 +6,9 @@
 
 namespace unsnarl {
 
-template <class Visit>
-void Bvh::query(const Box& box, Visit&& visit) const {
-  if (nodes_.empty()) return;
+template <class Accept>
+bool Bvh::find(const Box& box, Accept&& accept) const {
+  if (nodes_.empty()) return false;
   std::array<Index, 64> stack;  // depth is at most log2(2^31) + 1
   int top = 0;
   stack[top++] = 0;
@@ -18,12 +18,21 @@ void Bvh::query(const Box& box, Visit&& visit) const {
     if (!node.box.overlaps(box)) continue;
     if (node.right == 0) {
       for (Index k = node.begin; k < node.end; ++k)
-        if (boxes_[k].overlaps(box)) visit(order_[k]);
+        if (boxes_[k].overlaps(box) && accept(order_[k])) return true;
     } else {
       stack[top++] = node.right;
       stack[top++] = id + 1;
     }
   }
+  return false;
+}
+
+template <class Visit>
+void Bvh::query(const Box& box, Visit&& visit) const {
+  find(box, [&](Index i) {
+    visit(i);
+    return false;
+  });
 }
 
 template <class Visit>

@@ -309,6 +309,10 @@ Penetration triangle_penetration(const std::array<Vec3, 3>& a, const std::array<
   return result;
 }
 
+double overlap_depth(const Positions& x, const Triangle& a, const Triangle& b) {
+  return triangle_penetration({x.col(a[0]), x.col(a[1]), x.col(a[2])}, {x.col(b[0]), x.col(b[1]), x.col(b[2])}, 0).depth;
+}
+
 PolygonPenetration polygon_penetration(std::span<const Vec3> a, std::span<const Vec3> b, double margin,
                                        std::span<double> weight_a, std::span<double> weight_b) {
   const Candidate best = least_depth(a, b, margin, nullptr);

@@ -32,6 +32,9 @@ struct Penetration {
 Penetration triangle_penetration(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, double margin,
                                  std::uint8_t* hint = nullptr);
 
+/// Depth of the overlap of two triangles at x, without margin.
+double overlap_depth(const Positions& x, const Triangle& a, const Triangle& b);
+
 /// The same for planar convex polygons with three corners or more, in order around. The weights go to the caller's
 /// arrays, one entry a corner; they are written only where depth > 0.
 struct PolygonPenetration {

@@ -1,7 +1,6 @@
 #include "repair/far_regions.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -41,10 +40,6 @@ std::vector<std::vector<Index>> far_regions(const Scene& scene, std::span<const 
   std::vector<Index> region_of(scene.vertex_count(), -1);
   for (std::size_t r = 0; r < regions.size(); ++r)
     for (Index v : regions[r]) region_of[v] = static_cast<Index>(r);
-  const auto corners = [&](Index t) {
-    const Triangle& c = scene.triangles[t];
-    return std::array<Vec3, 3>{scene.rest.col(c[0]), scene.rest.col(c[1]), scene.rest.col(c[2])};
-  };
   std::vector<double> deepest(regions.size(), 0);
   for (const IntersectingPair& pair : pairs) {
     if (pair.kind != PairClass::disjoint) continue;
@@ -52,7 +47,8 @@ std::vector<std::vector<Index>> far_regions(const Scene& scene, std::span<const 
     for (Index t : {pair.a, pair.b})
       for (Index v : scene.triangles[t]) region = std::max(region, region_of[v]);
     if (region < 0) continue;
-    deepest[region] = std::max(deepest[region], triangle_penetration(corners(pair.a), corners(pair.b), 0).depth);
+    const double depth = overlap_depth(scene.rest, scene.triangles[pair.a], scene.triangles[pair.b]);
+    deepest[region] = std::max(deepest[region], depth);
   }
   std::vector<std::vector<Index>> result;
   for (std::size_t r = 0; r < regions.size(); ++r) {

@@ -1,6 +1,6 @@
 #include "repair/limits.h"
 
-#include "repair/measure.h"
+#include "repair/process_usage.h"
 
 namespace unsnarl {
 

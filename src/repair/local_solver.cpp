@@ -4,7 +4,6 @@
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -75,6 +74,7 @@ class PenaltyForce {
     margin_ = margin;
     penalty_ = MinkowskiPenalty(patch_.triangles, {.margin = margin});
   }
+
   void add(const Positions& x, Positions& force) {
     tree_.update(x, 0.5 * margin_);
     std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
@@ -95,13 +95,9 @@ class PenaltyForce {
 
 /// Depth of the deepest of these pairs, without any margin.
 double deepest_overlap(const Patch& patch, const Positions& x, std::span<const IntersectingPair> pairs) {
-  const auto corners = [&](Index t) {
-    const Triangle& c = patch.triangles[t];
-    return std::array<Vec3, 3>{x.col(c[0]), x.col(c[1]), x.col(c[2])};
-  };
   double deepest = 0;
   for (const IntersectingPair& pair : pairs)
-    deepest = std::max(deepest, triangle_penetration(corners(pair.a), corners(pair.b), 0).depth);
+    deepest = std::max(deepest, overlap_depth(x, patch.triangles[pair.a], patch.triangles[pair.b]));
   return deepest;
 }
 
@@ -281,8 +277,10 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
       double limit = rung.step * h;
       if (t.method == LocalMethod::shallow) {
         const double deepest = std::max({deepest_overlap(patch, t.x, pairs), at_least, options.min_gap});
-        if (iteration == 0) at_least = deepest;
-        if (iteration == 0) penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
+        if (iteration == 0) {
+          at_least = deepest;
+          penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
+        }
         limit = std::min(limit, options.shallow_step * deepest);
         // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.
         if (iteration % 2 == 0)

@@ -1,19 +1,11 @@
 #include "repair/measure.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <string>
 #include <vector>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include "energy/minkowski_penalty.h"
 #include "geometry/box.h"
@@ -67,15 +59,11 @@ double volume_change(const PreparedSurface& prepared, const Components& componen
 /// afterwards: an embedded result has d > depth / 2.
 double deepest_overlap(const PreparedSurface& prepared, const Diagnosis& diagnosis) {
   const std::span<const Triangle> triangles = prepared.triangles();
-  const auto corners = [&](Index t) {
-    return std::array<Vec3, 3>{prepared.rest.col(triangles[t][0]), prepared.rest.col(triangles[t][1]),
-                               prepared.rest.col(triangles[t][2])};
-  };
   double deepest = 0;
   for (const IntersectingPair& pair : diagnosis.pairs)
     if (pair.kind == PairClass::disjoint &&
         !std::binary_search(diagnosis.obstructed.begin(), diagnosis.obstructed.end(), pair))
-      deepest = std::max(deepest, triangle_penetration(corners(pair.a), corners(pair.b), 0).depth);
+      deepest = std::max(deepest, overlap_depth(prepared.rest, triangles[pair.a], triangles[pair.b]));
   return std::isfinite(deepest) ? deepest : 0;
 }
 
@@ -172,36 +160,6 @@ void name_pairs_between_components(const PreparedSurface& prepared, const Diagno
   obstruction.message = std::to_string(between.size()) +
                         " pairs of faces of different components intersect: each component was repaired by itself";
   report.obstructions.push_back(std::move(obstruction));
-}
-
-void release_free_memory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
-
-double resident_memory_mb() {
-  long total = 0, resident = 0;
-  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%ld %ld", &total, &resident) != 2) resident = 0;
-    std::fclose(file);
-  }
-  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
-}
-
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
-}
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 }  // namespace unsnarl

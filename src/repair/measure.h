@@ -23,12 +23,4 @@ void measure_components(const PreparedSurface& prepared, const Diagnosis& diagno
 void name_pairs_between_components(const PreparedSurface& prepared, const Diagnosis& diagnosis,
                                    const std::vector<IntersectingPair>& left, RepairReport& report);
 
-/// Gives memory that is not in use back to the system, as far as the allocator can.
-void release_free_memory();
-/// Resident memory of this process, MB: now, and the most so far.
-double resident_memory_mb();
-double peak_memory_mb();
-/// Processor time of this process so far, by all threads and in the system, s.
-double cpu_seconds();
-
 }  // namespace unsnarl

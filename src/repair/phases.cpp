@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "repair/measure.h"
+#include "repair/process_usage.h"
 
 namespace unsnarl {
 

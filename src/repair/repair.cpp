@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "repair/cuts.h"
 #include "repair/diagnose.h"
 #include "repair/finders.h"
 #include "repair/job.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "repair/exit_code.h"
-#include "repair/measure.h"
+#include "repair/process_usage.h"
 #include "repair/recording_json.h"
 #include "unsnarl/version.h"
 

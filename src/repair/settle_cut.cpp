@@ -40,17 +40,6 @@ std::vector<Index> vertices_of(const Job& job, const std::vector<Index>& polygon
 
 }  // namespace
 
-Triangulation of_component(const Triangulation& cut, const Components& components, Index component) {
-  if (component < 0) return cut;
-  Triangulation part;
-  for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
-    if (components.component_of_vertex[cut.triangles[t][0]] != component) continue;
-    part.triangles.push_back(cut.triangles[t]);
-    part.polygon.push_back(cut.polygon[t]);
-  }
-  return part;
-}
-
 void settle_cut(SceneRepair& repair, const Job& job, const Triangulation& cut, Index component, Finders& finders) {
   if (job.surface.offsets.empty() || !repair.is_resolved(finders)) return;
   const std::vector<Triangulation> input = {cut, job.prepared.otherwise};

@@ -14,7 +14,4 @@ namespace unsnarl {
 /// belongs to one component, or to any of them where that is -1.
 void settle_cut(SceneRepair& repair, const Job& job, const Triangulation& cut, Index component, Finders& finders);
 
-/// What a cut of all polygons has of a component; everything where that is -1.
-Triangulation of_component(const Triangulation& cut, const Components& components, Index component);
-
 }  // namespace unsnarl

@@ -217,9 +217,10 @@ TEST(RepairProperties, relabelling_changes_little) {
   }
 }
 
-// A second run would cut polygons anew, by where their corners lie now. In some knots no way is found to that.
+// A second run would cut polygons anew, by where their corners lie now.
 TEST(RepairProperties, repaired_polygons_are_left_alone) {
-  std::size_t repaired = 0, moved_again = 0;
+  constexpr unsigned knot = 210;  // no cut is found that it settles in
+  std::size_t repaired = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     const Surface soup = meshes::polygon_soup(seed);
@@ -228,10 +229,9 @@ TEST(RepairProperties, repaired_polygons_are_left_alone) {
     Surface again = soup;
     again.positions = result.positions;
     ++repaired;
-    moved_again += repair(again).positions != again.positions;
+    EXPECT_TRUE(repair(again).positions == again.positions || seed == knot);
   }
   EXPECT_GT(repaired, 150u);
-  EXPECT_LE(moved_again, 1u);
 }
 
 TEST(RepairProperties, fixed_vertices_do_not_move) {

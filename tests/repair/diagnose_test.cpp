@@ -124,6 +124,22 @@ TEST(Diagnose, faces_that_intersect_in_what_is_fixed_of_them) {
   EXPECT_TRUE(diagnosis_of(shape.surface(), fixed).obstructions.empty());
 }
 
+// Being fixed where they are joined keeps no two faces from parting.
+TEST(Diagnose, shared_fixed_vertices_are_no_obstruction) {
+  // Two that share a vertex, the second through the first; two that share an edge, folded onto each other.
+  const Shape fan = {{{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {2, 0, -1}, {2.1, 0, 1}}, {{0, 1, 2}, {0, 3, 4}}};
+  const Shape fold = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 1, 0}}, {{0, 1, 2}, {1, 0, 3}}};
+  for (const auto& [shape, fixed] : {std::pair(fan, std::vector<std::uint8_t>{1, 0, 0, 0, 0}),
+                                     std::pair(fan, std::vector<std::uint8_t>{1, 1, 0, 1, 0}),
+                                     std::pair(fold, std::vector<std::uint8_t>{1, 1, 0, 0}),
+                                     std::pair(fold, std::vector<std::uint8_t>{1, 1, 1, 0})}) {
+    const Diagnosis diagnosis = diagnosis_of(shape.surface(), fixed);
+    EXPECT_EQ(diagnosis.pairs.size(), 1u);
+    EXPECT_TRUE(diagnosis.obstructions.empty());
+  }
+  EXPECT_EQ(diagnosis_of(fold.surface(), {1, 1, 1, 1}).obstructions.size(), 1u);
+}
+
 TEST(Diagnose, counts_what_is_odd_about_a_mesh) {
   const Topology book = diagnosis_of(make_sample("book", 24)).topology;
   EXPECT_GT(book.non_manifold_edges, 0u);

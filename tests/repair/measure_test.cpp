@@ -109,10 +109,5 @@ TEST(Measure, lower_bound_is_half_the_deepest_overlap) {
   EXPECT_GE(repaired.report.displacement_max_rel, report.displacement_lower_bound_rel);
 }
 
-TEST(Measure, memory) {
-  EXPECT_GT(resident_memory_mb(), 1);
-  EXPECT_GE(peak_memory_mb(), 0.5 * resident_memory_mb());
-}
-
 }  // namespace
 }  // namespace unsnarl
