@@ -6,14 +6,15 @@
 
 #include "contact/bvh.h"
 #include "contact/distances.h"
+#include "contact/motion_bounds.h"
 #include "mesh/adjacency.h"
 
 namespace unsnarl {
 
-/// A stencil and how far apart its primitives are.
 struct NearStencil {
   Stencil stencil;
-  double distance = 0;
+  double distance = 0;        ///< of its primitives
+  double least_distance = 0;  ///< that they keep within their bounds, at least: least_distance() along the shortest way
   friend bool operator==(const NearStencil& s, const NearStencil& t) = default;
 };
 
@@ -25,12 +26,11 @@ class ContactCandidates {
   /// The triangles may include obstacles; vertices without a triangle take part in nothing. The span must outlive this.
   ContactCandidates(std::span<const Triangle> triangles, Index vertex_count);
 
-  /// All stencils with at least one vertex v with moves[v] != 0 whose primitives are at x, or may come while every
-  /// vertex v goes as far as allowance[v], at most `radius` apart: those whose distance less approach() is that small.
-  /// `moves` and `allowance` have one entry a vertex. Parallel; the order is a function of the arguments, and of those
-  /// of the first call, alone.
-  void gather(const Positions& x, double radius, std::span<const double> allowance,
-              std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils);
+  /// All stencils with at least one vertex v with moves[v] != 0 whose primitives may come `radius` close while every
+  /// vertex keeps to its bounds, and few others: only some whose least_distance is that small. `moves` has one entry a
+  /// vertex. Parallel; the order is a function of the arguments, and of those of the first call, alone.
+  void gather(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
+              std::vector<NearStencil>& stencils);
 
   /// Whether a triangle at the one primitive shares a vertex with a triangle at the other. For listed stencils.
   bool are_neighbours(const Stencil& stencil) const;
@@ -43,8 +43,8 @@ class ContactCandidates {
     const Triangle& f = triangles_[t];
     return f[0] == v || f[1] == v || f[2] == v;
   }
-  void gather_pair(const Positions& x, double radius, std::span<const double> allowance,
-                   std::span<const std::uint8_t> moves, Index a, Index b, std::vector<NearStencil>& stencils) const;
+  void gather_pair(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
+                   Index a, Index b, std::vector<NearStencil>& stencils) const;
 
   std::span<const Triangle> triangles_;
   EdgeTable edges_;
@@ -55,9 +55,19 @@ class ContactCandidates {
   std::vector<std::uint8_t> owned_corners_;  // bit k: corner k; bit 3 + k: edge k of the triangle
   std::vector<std::uint8_t> moving_;         // per triangle: has a moving vertex
   std::vector<Box> boxes_;
-  std::vector<Vec3> edge_middle_;  // as of the last gathering
-  std::vector<double> edge_radius_;
-  std::vector<Vec3> normal_;  // of the triangles, unit (or zero)
+  // As of the last gathering:
+  struct Slab {
+    Vec3 normal;        // of the triangle, unit or zero
+    double lo, hi;      // where its corners may be along it, from the first one
+    double around = 0;  // the largest of its corners
+  };
+  struct Ball {
+    Vec3 center;
+    double radius;  // of where the edge may be, without its room
+    double around;
+  };
+  std::vector<Slab> slabs_;
+  std::vector<Ball> balls_;
   Bvh bvh_;
   bool built_ = false;
 };

@@ -29,26 +29,25 @@ ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conf
   }
 }
 
-void ContactRules::gather(const Positions& x, double activation, std::span<const double> allowance,
+void ContactRules::gather(const Positions& x, double activation, const MotionBounds& bounds,
                           std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
-  candidates_.gather(x, activation, allowance, moves, stencils_);
+  candidates_.gather(x, activation, bounds, moves, stencils_);
   constexpr Index chunk = 1024;  // stencils or triangles a task
   gather_in_chunks(static_cast<Index>(stencils_.size()), chunk, rules,
                    [&](Index begin, Index end, std::vector<ContactRule>& list) {
                      for (Index k = begin; k < end; ++k) {
                        ContactRule rule;
-                       if (rule_of(stencils_[k], activation, allowance, rule)) list.push_back(rule);
+                       if (rule_of(stencils_[k], activation, rule)) list.push_back(rule);
                      }
                    });
   gather_in_chunks(patch_.active_count, chunk, altitudes_,
                    [&](Index begin, Index end, std::vector<ContactRule>& list) {
-                     add_altitudes(x, allowance, moves, begin, end, list);
+                     add_altitudes(x, bounds, moves, begin, end, list);
                    });
   rules.insert(rules.end(), altitudes_.begin(), altitudes_.end());
 }
 
-bool ContactRules::rule_of(const NearStencil& near, double activation, std::span<const double> allowance,
-                           ContactRule& rule) const {
+bool ContactRules::rule_of(const NearStencil& near, double activation, ContactRule& rule) const {
   constexpr double mollifier_sin2 = 1e-3;  // as in IPC
   const Stencil& s = near.stencil;
   if (!(near.distance > 0)) return false;
@@ -73,7 +72,7 @@ bool ContactRules::rule_of(const NearStencil& near, double activation, std::span
   rule.closed = !(rule.distance > separation);
   rule.stencil.separation = rule.closed ? 0.5 * rule.distance : separation;
   rule.stencil.activation = std::max(std::min(activation, rule.reach), least_activation * rule.stencil.separation);
-  if (rule.distance > rule.stencil.activation + approach(s, allowance)) return false;
+  if (near.least_distance > rule.stencil.activation) return false;
   if (s.kind == StencilKind::edge_edge) {
     const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();
     const double v2 = (patch_.rest.col(s.v[3]) - patch_.rest.col(s.v[2])).squaredNorm();
@@ -82,9 +81,8 @@ bool ContactRules::rule_of(const NearStencil& near, double activation, std::span
   return true;
 }
 
-void ContactRules::add_altitudes(const Positions& x, std::span<const double> allowance,
-                                 std::span<const std::uint8_t> moves, Index begin, Index end,
-                                 std::vector<ContactRule>& rules) const {
+void ContactRules::add_altitudes(const Positions& x, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
+                                 Index begin, Index end, std::vector<ContactRule>& rules) const {
   for (Index t = begin; t < end; ++t) {
     const Triangle& f = patch_.triangles[t];
     if (!moves[f[0]] && !moves[f[1]] && !moves[f[2]]) continue;
@@ -95,8 +93,9 @@ void ContactRules::add_altitudes(const Positions& x, std::span<const double> all
       rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
       if (rule.rest_distance <= options_.roundoff) continue;  // without area at rest: it may stay so
       rule.reach = options_.altitude_share * rule.rest_distance;
-      rule.distance = std::sqrt(squared_distance(s, x));
-      if (rule.distance > rule.reach + approach(s, allowance) || !(rule.distance > 0)) continue;
+      const Closest at = closest(s, x);
+      rule.distance = at.distance;
+      if (!(rule.distance > 0) || least_distance(s, x, bounds, at.direction) > rule.reach) continue;
       rule.stencil.stencil = s;
       const double floor = options_.altitude_floor * rule.rest_distance;
       rule.closed = !(rule.distance > floor);

@@ -42,21 +42,21 @@ class ContactRules {
   /// in_conflict: per triangle, whether it intersects another one at rest. The patch must outlive this.
   ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options);
 
-  /// Rules for all stencils with a moving vertex that are, or may come while every vertex v goes as far as
-  /// allowance[v], closer than `activation` and their reach (own altitudes: than their reach): that is their activation
-  /// distance, unless it is too close to their separation.
-  void gather(const Positions& x, double activation, std::span<const double> allowance,
-              std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
+  /// Rules for all stencils with a moving vertex that are, or may come while every vertex keeps to its bounds, closer
+  /// than `activation` and their reach (own altitudes: than their reach): that is their activation distance, unless it
+  /// is too close to their separation.
+  void gather(const Positions& x, double activation, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
+              std::vector<ContactRule>& rules);
 
   const ContactCandidates& candidates() const { return candidates_; }
   const ContactRuleOptions& options() const { return options_; }
 
  private:
   /// Rule of a stencil; false where there is none or it cannot come that close.
-  bool rule_of(const NearStencil& near, double activation, std::span<const double> allowance, ContactRule& rule) const;
+  bool rule_of(const NearStencil& near, double activation, ContactRule& rule) const;
   /// The corners of triangles [begin, end) that move against their opposite edges.
-  void add_altitudes(const Positions& x, std::span<const double> allowance, std::span<const std::uint8_t> moves,
-                     Index begin, Index end, std::vector<ContactRule>& rules) const;
+  void add_altitudes(const Positions& x, const MotionBounds& bounds, std::span<const std::uint8_t> moves, Index begin,
+                     Index end, std::vector<ContactRule>& rules) const;
 
   const Patch& patch_;
   std::vector<std::uint8_t> in_conflict_;

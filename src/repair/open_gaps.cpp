@@ -37,12 +37,13 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, EmbeddingGuard& guar
   std::vector<ContactRule> close;
   std::vector<SeparatedStencil> filter;
   std::vector<int> pushes(static_cast<std::size_t>(x.cols()));
-  std::vector<double> allowance(pushes.size());
-  for (std::size_t v = 0; v < allowance.size(); ++v) allowance[v] = moves[v] ? options.step_cap : 0;
+  MotionBounds bounds;
+  bounds.reset(static_cast<Index>(x.cols()));
+  for (std::size_t v = 0; v < moves.size(); ++v) bounds.around[v] = moves[v] ? options.step_cap : 0;
   Positions p(3, x.cols());
   Positions safe;
   for (;; ++result.rounds) {
-    rules.gather(x, options.target, allowance, moves, close);
+    rules.gather(x, options.target, bounds, moves, close);
     p.setZero();
     std::fill(pushes.begin(), pushes.end(), 0);
     result.still_closed = 0;

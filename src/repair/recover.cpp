@@ -80,7 +80,7 @@ class Recovery {
   std::vector<BarrierContact> contacts_;    // among near_
   double contact_energy_ = 0;               // where it was last linearised
   std::vector<double> travelled_, travel_;  // per vertex: since gathering, in the coming step
-  std::vector<double> allowance_;           // per vertex: motion since the last gathering that the list allows
+  MotionBounds bounds_;                     // what the list allows
   std::vector<SeparatedStencil> in_the_way_;
   Positions gathered_at_;
   double activation_ = 0;
@@ -136,7 +136,7 @@ void Recovery::set_moving(const std::vector<std::uint8_t>& moves) {
   }
   shape_->restrict_to(moving_);
   shape_->build_matrix(operator_);
-  allowance_.assign(moves.size(), 0);
+  bounds_.reset(static_cast<Index>(moves.size()));
 }
 
 void Recovery::release_everything() {
@@ -172,7 +172,7 @@ void Recovery::gather(double activation) {
   gathered_at_ = x_;
   travelled_.assign(moving_.moves.size(), 0);
   travel_.assign(moving_.moves.size(), 0);
-  rules_->gather(x_, activation, allowance_, moving_.moves, gathered_);
+  rules_->gather(x_, activation, bounds_, moving_.moves, gathered_);
 }
 
 bool Recovery::list_allows(const Positions& p) {
@@ -180,7 +180,7 @@ bool Recovery::list_allows(const Positions& p) {
   for (Index v : moving_.vertices) {
     travelled_[v] = (x_.col(v) - gathered_at_.col(v)).norm();
     travel_[v] = p.col(v).norm();
-    allows &= travelled_[v] + travel_[v] <= allowance_[v];
+    allows = allows && bounds_.allow(v, x_.col(v) + p.col(v) - gathered_at_.col(v));
   }
   return allows;
 }
@@ -275,8 +275,8 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
     for (Index i = 0; i < n; ++i) step_.col(moving_.vertices[i]) = (wanted / longest) * solution_.col(i);
     if (!list_allows(step_)) {
       const bool reuse = wanted <= options_.margin_reuse * h_;
-      for (Index v : moving_.vertices)
-        allowance_[v] = reuse ? travel_[v] + std::max(travel_[v], options_.margin_min * h_) : travel_[v];
+      bounds_.along = step_;
+      for (Index v : moving_.vertices) bounds_.around[v] = reuse ? std::max(travel_[v], options_.margin_min * h_) : 0;
       gather(activation);
       list_allows(step_);
     }
@@ -320,8 +320,8 @@ void Recovery::check() {
 
 double Recovery::measure_gap() {
   release_everything();
-  allowance_.assign(moving_.moves.size(), std::max(2 * min_gap_, activation_));
-  rules_->gather(x_, 0, allowance_, moving_.moves, gathered_);
+  bounds_.around.assign(moving_.moves.size(), std::max(2 * min_gap_, activation_));
+  rules_->gather(x_, 0, bounds_, moving_.moves, gathered_);
   double gap = std::numeric_limits<double>::infinity();
   result_.closed = 0;
   for (const ContactRule& rule : gathered_) {

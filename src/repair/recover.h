@@ -62,8 +62,9 @@ struct RecoverOptions {
   double stop_activation = 0.05;  ///< ... or than this share of the activation distance
   double step_cap = 0.5;          ///< longest motion of a vertex in a step, in h
   bool shorten_all = false;       ///< a collision shortens the step of every vertex, not only of those that collide
-  // A list of close stencils allows each vertex its step and as much again, this at least, in h; where the longest step
-  // exceeds margin_reuse, in h, its step alone: lists with more room took longer to gather than they lasted.
+  // A list of close stencils holds around each vertex's step, as far as that is long, this at least, in h; where the
+  // longest step exceeds margin_reuse, in h, for the step alone: lists with more room took longer to gather than they
+  // lasted.
   double margin_min = 0.02;
   double margin_reuse = 0.1;
   double armijo = 1e-4;

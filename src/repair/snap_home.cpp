@@ -9,7 +9,8 @@ Index snap_home(Positions& x, const Positions& rest, std::span<const double> rea
   std::vector<ContactRule> close;
   std::vector<SeparatedStencil> filter;
   std::vector<std::uint8_t> trying(moves.size());
-  std::vector<double> travel(moves.size());
+  MotionBounds bounds;
+  bounds.reset(static_cast<Index>(x.cols()));
   Positions p(3, x.cols());
   Positions safe;
   Index arrived = 0;
@@ -18,18 +19,16 @@ Index snap_home(Positions& x, const Positions& rest, std::span<const double> rea
     bool any = false;
     for (Index v = 0; v < x.cols(); ++v) {
       trying[v] = 0;
-      travel[v] = 0;
       if (!moves[v] || x.col(v) == rest.col(v)) continue;
       const Vec3 way = rest.col(v) - x.col(v);
-      const double length = way.norm();
-      if (length > reach[v]) continue;
+      if (way.norm() > reach[v]) continue;
       p.col(v) = way;
       trying[v] = 1;
-      travel[v] = length;
       any = true;
     }
     if (!any) return arrived;
-    rules.gather(x, rules.options().min_gap, travel, trying, close);
+    bounds.along = p;
+    rules.gather(x, rules.options().min_gap, bounds, trying, close);
     filter.clear();
     for (const ContactRule& rule : close) filter.push_back({rule.stencil.stencil, rule.stencil.separation});
     filter_displacements(filter, x, p, OnCollision::stay);

@@ -47,29 +47,49 @@ Soup random_soup(std::uint64_t seed, Index vertices, int count) {
   return soup;
 }
 
-std::set<Key> brute_force(const Soup& soup, double radius, const std::vector<double>& allowance,
-                          const std::vector<std::uint8_t>& moves) {
-  std::set<Key> result;
-  const auto add = [&](const Stencil& s) {
-    bool moving = false;
-    for (Index v : s.v) moving |= moves[v] != 0;
-    if (moving && closest(s, soup.x).distance <= radius + approach(s, allowance)) result.insert(key_of(s));
+/// Calls visit(stencil) for every stencil with a moving vertex; edges meet in both orders.
+template <class Visit>
+void for_all_stencils(const Soup& soup, const std::vector<std::uint8_t>& moves, Visit&& visit) {
+  const auto visit_moving = [&](const Stencil& s) {
+    if (std::any_of(s.v.begin(), s.v.end(), [&](Index v) { return moves[v] != 0; })) visit(s);
   };
   std::set<Index> used;
   for (const Triangle& f : soup.triangles) used.insert(f.begin(), f.end());
   for (Index v : used) {
     for (const Triangle& f : soup.triangles) {
-      if (f[0] != v && f[1] != v && f[2] != v) add({StencilKind::vertex_face, {v, f[0], f[1], f[2]}});
+      if (f[0] != v && f[1] != v && f[2] != v) visit_moving({StencilKind::vertex_face, {v, f[0], f[1], f[2]}});
     }
   }
   const EdgeTable table = build_edges(soup.triangles);
   for (const Edge& e : table.edges) {
     for (const Edge& g : table.edges) {
       if (e[0] != g[0] && e[0] != g[1] && e[1] != g[0] && e[1] != g[1])
-        add({StencilKind::edge_edge, {e[0], e[1], g[0], g[1]}});
+        visit_moving({StencilKind::edge_edge, {e[0], e[1], g[0], g[1]}});
     }
   }
+}
+
+/// Where vertices go nowhere in particular: what may come near is known exactly.
+std::set<Key> brute_force(const Soup& soup, double radius, const std::vector<double>& around,
+                          const std::vector<std::uint8_t>& moves) {
+  std::set<Key> result;
+  for_all_stencils(soup, moves, [&](const Stencil& s) {
+    if (closest(s, soup.x).distance <= radius + approach(s, around)) result.insert(key_of(s));
+  });
   return result;
+}
+
+MotionBounds standing(Index vertex_count) {
+  MotionBounds bounds;
+  bounds.reset(vertex_count);
+  return bounds;
+}
+
+/// Coordinates in [-size, size].
+Vec3 random_vector(std::mt19937_64& engine, double size) {
+  Vec3 p;
+  for (int k = 0; k < 3; ++k) p[k] = size * (static_cast<double>(engine() >> 11) * 0x1p-52 - 1);
+  return p;
 }
 
 TEST(ContactCandidates, AgreeWithBruteForce) {
@@ -81,28 +101,77 @@ TEST(ContactCandidates, AgreeWithBruteForce) {
     for (double radius : {0.02, 0.2}) {
       // None, everyone as far, everyone else.
       for (int kind = 0; kind < 3; ++kind) {
-        std::vector<double> allowance(25);
-        for (Index v = 0; v < 25; ++v) allowance[v] = kind == 0 ? 0 : kind == 1 ? 0.05 : 0.01 * ((v * 7) % 11);
+        MotionBounds bounds = standing(25);
+        for (Index v = 0; v < 25; ++v) bounds.around[v] = kind == 0 ? 0 : kind == 1 ? 0.05 : 0.01 * ((v * 7) % 11);
         std::vector<NearStencil> found;
-        candidates.gather(soup.x, radius, allowance, moves, found);
+        candidates.gather(soup.x, radius, bounds, moves, found);
         std::set<Key> keys;
         for (const NearStencil& s : found) {
           keys.insert(key_of(s.stencil));
           EXPECT_DOUBLE_EQ(s.distance, closest(s.stencil, soup.x).distance);
         }
-        EXPECT_EQ(keys, brute_force(soup, radius, allowance, moves)) << "seed " << seed << " radius " << radius;
+        EXPECT_EQ(keys, brute_force(soup, radius, bounds.around, moves)) << "seed " << seed << " radius " << radius;
       }
     }
   }
 }
 
+TEST(ContactCandidates, MissNothingThatComesNearWithinItsBounds) {
+  const double radius = 0.05;
+  std::size_t listed = 0, listed_by_lengths = 0, came_near = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Soup soup = random_soup(seed + 100, 25, 30);
+    std::mt19937_64 engine(seed);
+    // Flat surfaces, where many normals are parallel to motions, and parallel edges.
+    if (seed % 4 == 3)
+      for (Index v = 0; v < 25; ++v) soup.x.col(v) << v % 5, (v * v) % 7, 0;
+    std::vector<std::uint8_t> moves(25, 0);
+    MotionBounds bounds = standing(25);
+    for (Index v = 0; v < 25; ++v) {
+      if (seed % 3 != 0 && v % 3 == 0) continue;
+      moves[v] = 1;
+      // As one, each on its own, some of them in place.
+      bounds.along.col(v) = seed % 2 ? Vec3(0.3, 0.1, 0) + random_vector(engine, 0.02) : random_vector(engine, 0.3);
+      if (v % 5 == 0) bounds.along.col(v).setZero();
+      bounds.around[v] = v % 2 ? 0.05 : 0;
+    }
+    std::vector<NearStencil> found;
+    ContactCandidates candidates(soup.triangles, 25);
+    candidates.gather(soup.x, radius, bounds, moves, found);
+    std::set<Key> keys;
+    for (const NearStencil& s : found) {
+      keys.insert(key_of(s.stencil));
+      EXPECT_LE(s.least_distance, radius);
+    }
+    listed += keys.size();
+    std::vector<double> lengths(25);
+    for (Index v = 0; v < 25; ++v) lengths[v] = bounds.along.col(v).norm() + bounds.around[v];
+    listed_by_lengths += brute_force(soup, radius, lengths, moves).size();
+    // Every vertex goes its own share of the way, many none of it or all, and as far aside as it may.
+    Positions x = soup.x;
+    for (int sample = 0; sample < 40; ++sample) {
+      for (Index v = 0; v < 25; ++v) {
+        const double share = std::array{0.0, 1.0, static_cast<double>(engine() % 16) / 15}[engine() % 3];
+        x.col(v) =
+            soup.x.col(v) + share * bounds.along.col(v) + bounds.around[v] * random_vector(engine, 1).normalized();
+      }
+      for_all_stencils(soup, moves, [&](const Stencil& s) {
+        if (closest(s, x).distance > radius) return;
+        ++came_near;
+        EXPECT_TRUE(keys.contains(key_of(s))) << "seed " << seed;
+      });
+    }
+  }
+  EXPECT_GT(came_near, 1000u);
+  EXPECT_LT(listed, listed_by_lengths * 3 / 4);
+}
+
 TEST(ContactCandidates, ListNothingTwiceWhereNoTriangleIs) {
   Soup soup = random_soup(5, 200, 150);
   const std::vector<std::uint8_t> moves(200, 1);
-  const std::vector<double> none(200, 0);
   ContactCandidates candidates(soup.triangles, 200);
   std::vector<NearStencil> found;
-  candidates.gather(soup.x, 0.1, none, moves, found);
+  candidates.gather(soup.x, 0.1, standing(200), moves, found);
   std::set<Key> keys;
   for (const NearStencil& s : found) keys.insert(key_of(s.stencil));
   EXPECT_EQ(keys.size(), found.size());
@@ -111,17 +180,16 @@ TEST(ContactCandidates, ListNothingTwiceWhereNoTriangleIs) {
 TEST(ContactCandidates, FollowMotionAndRepeatThemselves) {
   Soup soup = random_soup(6, 30, 30);
   const std::vector<std::uint8_t> moves(30, 1);
-  const std::vector<double> none(30, 0);
   ContactCandidates candidates(soup.triangles, 30);
   std::vector<NearStencil> first, again;
-  candidates.gather(soup.x, 0.1, none, moves, first);
+  candidates.gather(soup.x, 0.1, standing(30), moves, first);
   soup.x = soup.x.colwise().reverse().eval();
-  candidates.gather(soup.x, 0.05, none, moves, again);
+  candidates.gather(soup.x, 0.05, standing(30), moves, again);
   std::set<Key> keys;
   for (const NearStencil& s : again) keys.insert(key_of(s.stencil));
-  EXPECT_EQ(keys, brute_force(soup, 0.05, none, moves));
+  EXPECT_EQ(keys, brute_force(soup, 0.05, std::vector<double>(30, 0), moves));
   std::vector<NearStencil> repeated;
-  candidates.gather(soup.x, 0.05, none, moves, repeated);
+  candidates.gather(soup.x, 0.05, standing(30), moves, repeated);
   EXPECT_EQ(again, repeated);
 }
 

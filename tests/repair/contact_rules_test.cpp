@@ -24,6 +24,14 @@ Patch face_over_face(double height, double rest_height) {
   return patch;
 }
 
+/// Every vertex may go so far from where it is.
+MotionBounds anywhere_within(std::vector<double> around) {
+  MotionBounds bounds;
+  bounds.reset(static_cast<Index>(around.size()));
+  bounds.around = std::move(around);
+  return bounds;
+}
+
 ContactRule rule_of_vertex_0(const Patch& patch, std::vector<std::uint8_t> in_conflict) {
   ContactRuleOptions options;
   options.min_gap = 0.01;
@@ -31,7 +39,7 @@ ContactRule rule_of_vertex_0(const Patch& patch, std::vector<std::uint8_t> in_co
   ContactRules rules(patch, std::move(in_conflict), options);
   const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
   std::vector<ContactRule> found;
-  rules.gather(patch.x, 1, std::vector<double>(6, 1), moves, found);
+  rules.gather(patch.x, 1, anywhere_within(std::vector<double>(6, 1)), moves, found);
   for (const ContactRule& rule : found) {
     if (rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}}) return rule;
   }
@@ -83,7 +91,7 @@ std::vector<ContactRule> rules_of(const Patch& patch, std::vector<std::uint8_t> 
   options.roundoff = 1e-13;
   ContactRules rules(patch, std::move(in_conflict), options);
   std::vector<ContactRule> found;
-  rules.gather(patch.x, 1, std::vector<double>(4, 1), std::vector<std::uint8_t>(4, 1), found);
+  rules.gather(patch.x, 1, anywhere_within(std::vector<double>(4, 1)), std::vector<std::uint8_t>(4, 1), found);
   std::erase_if(found, [](const ContactRule& rule) { return rule.stencil.stencil.kind != StencilKind::vertex_face; });
   return found;
 }
@@ -115,7 +123,7 @@ TEST(ContactRules, ListWhatMayComeNearByMovingAsFarAsAllowed) {
     options.min_gap = 0.01;
     ContactRules rules(patch, {0, 0}, options);
     std::vector<ContactRule> found;
-    rules.gather(patch.x, 1, std::vector<double>{room, 0, 0, 0, 0, 0}, moves, found);
+    rules.gather(patch.x, 1, anywhere_within({room, 0, 0, 0, 0, 0}), moves, found);
     return std::any_of(found.begin(), found.end(), [](const ContactRule& rule) {
       return rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}};
     });
@@ -131,7 +139,7 @@ TEST(ContactRules, FacesGuardTheirOwnAltitudes) {
   ContactRules rules(patch, {0, 0}, {});
   const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
   std::vector<ContactRule> found;
-  rules.gather(patch.x, 0.01, std::vector<double>(6, 0), moves, found);
+  rules.gather(patch.x, 0.01, anywhere_within(std::vector<double>(6, 0)), moves, found);
   int altitudes = 0;
   for (const ContactRule& rule : found) altitudes += rule.own_altitude;
   EXPECT_GE(altitudes, 1);

@@ -93,7 +93,9 @@ double gap_of(const Patch& patch, double radius) {
   std::vector<std::uint8_t> moves(static_cast<std::size_t>(patch.x.cols()), 0);
   std::fill(moves.begin(), moves.begin() + patch.free_count, std::uint8_t{1});
   std::vector<NearStencil> stencils;
-  candidates.gather(patch.x, radius, std::vector<double>(moves.size(), 0), moves, stencils);
+  MotionBounds standing;
+  standing.reset(static_cast<Index>(patch.x.cols()));
+  candidates.gather(patch.x, radius, standing, moves, stencils);
   double gap = radius;
   for (const NearStencil& s : stencils) {
     if (!candidates.are_neighbours(s.stencil)) gap = std::min(gap, s.distance);
