@@ -36,6 +36,7 @@ struct MortonBox {
 void Bvh::build(std::span<const Box> boxes) {
   const Index n = static_cast<Index>(boxes.size());
   nodes_.clear();
+  leaves_.clear();
   tasks_.clear();
   order_.resize(n);
   boxes_.resize(n);
@@ -79,7 +80,10 @@ void Bvh::build(std::span<const Box> boxes) {
 Index Bvh::build_node(Index begin, Index end) {
   const Index id = static_cast<Index>(nodes_.size());
   nodes_.push_back({{}, begin, end, 0, true});
-  if (end - begin > leaf_size) {
+  if (end - begin <= leaf_size) {
+    leaves_.emplace_back();
+    nodes_[id].right = -static_cast<Index>(leaves_.size());
+  } else {
     const Index middle = begin + (end - begin) / 2;
     const Index left = build_node(begin, middle);
     const Index right = build_node(middle, end);
@@ -98,8 +102,12 @@ bool Bvh::overlaps_any(const Box& box) const {
 
 void Bvh::fit(Node& node) {
   node.box = Box();
-  if (node.right == 0) {
-    for (Index k = node.begin; k < node.end; ++k) node.box.extend(boxes_[k]);
+  if (node.is_leaf()) {
+    FourBoxes& leaf = leaves_[node.leaf()];
+    for (Index k = node.begin; k < node.end; ++k) {
+      node.box.extend(boxes_[k]);
+      leaf.set(k - node.begin, boxes_[k]);
+    }
   } else {
     node.box.extend((&node)[1].box);
     node.box.extend(nodes_[node.right].box);
@@ -107,7 +115,7 @@ void Bvh::fit(Node& node) {
 }
 
 void Bvh::flag(Node& node) {
-  if (node.right == 0) {
+  if (node.is_leaf()) {
     const auto end = watched_.begin() + node.end;
     node.watched = std::find_if(watched_.begin() + node.begin, end, [](std::uint8_t w) { return w != 0; }) != end;
   } else {
@@ -130,7 +138,7 @@ template <class Visit>
 void Bvh::visit_above(std::span<const Index> places, Visit&& visit, Index id) {
   if (places.empty()) return;
   Node& node = nodes_[id];
-  if (node.right != 0) {
+  if (!node.is_leaf()) {
     const auto middle = std::lower_bound(places.begin(), places.end(), nodes_[node.right].begin);
     visit_above({places.begin(), middle}, visit, id + 1);
     visit_above({middle, places.end()}, visit, node.right);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact/four_boxes.h"
 #include "geometry/box.h"
 #include "geometry/types.h"
 
@@ -55,8 +56,10 @@ class Bvh {
   struct Node {
     Box box;
     Index begin = 0, end = 0;  // boxes order_[begin, end) below it
-    Index right = 0;           // left child is the next node; 0: a leaf
+    Index right = 0;           // left child is the next node; of a leaf its number, as -1 - number
     bool watched = true;       // a box below it is
+    bool is_leaf() const { return right < 0; }
+    Index leaf() const { return -1 - right; }
   };
   Index build_node(Index begin, Index end);
   void fit(Node& node);
@@ -66,6 +69,9 @@ class Bvh {
   /// Calls visit(Node&) for all nodes above these places, children before their parent.
   template <class Visit>
   void visit_above(std::span<const Index> places, Visit&& visit, Index node = 0);
+  /// Visits the pairs of box i, of leaf a, with those boxes of leaf b whose bits are set.
+  template <class Visit>
+  void pairs_with(Index i, unsigned bits, const Node& b, Visit& visit) const;
   template <class Visit>
   void pairs_within(Index node, Visit& visit) const;
   template <class Visit>
@@ -75,6 +81,7 @@ class Bvh {
   std::vector<Index> order_;           // leaf position -> box id
   std::vector<Index> place_;           // box id -> leaf position; empty until it is needed
   std::vector<Box> boxes_;             // in leaf order
+  std::vector<FourBoxes> leaves_;      // the same, a leaf side by side
   std::vector<std::uint8_t> watched_;  // in leaf order
   std::vector<Index> only_watched_;    // leaf positions, ascending; where watch_only() was the last to say
   bool is_watching_only_ = false;

@@ -2,6 +2,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <bit>
+
 #include "contact/bvh.h"
 
 namespace unsnarl {
@@ -16,7 +18,7 @@ bool Bvh::find(const Box& box, Accept&& accept) const {
     const Index id = stack[--top];
     const Node& node = nodes_[id];
     if (!node.box.overlaps(box)) continue;
-    if (node.right == 0) {
+    if (node.is_leaf()) {
       for (Index k = node.begin; k < node.end; ++k)
         if (boxes_[k].overlaps(box) && accept(order_[k])) return true;
     } else {
@@ -36,16 +38,22 @@ void Bvh::query(const Box& box, Visit&& visit) const {
 }
 
 template <class Visit>
+void Bvh::pairs_with(Index i, unsigned bits, const Node& b, Visit& visit) const {
+  for (; bits != 0; bits &= bits - 1) {
+    const Index j = b.begin + std::countr_zero(bits);
+    if (j < b.end && (watched_[i] || watched_[j]) && boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
+  }
+}
+
+template <class Visit>
 void Bvh::pairs_between(Index a, Index b, Visit& visit) const {
   const Node &node_a = nodes_[a], &node_b = nodes_[b];
   if (!(node_a.watched || node_b.watched) || !node_a.box.overlaps(node_b.box)) return;
-  if (node_a.right == 0 && node_b.right == 0) {
-    for (Index i = node_a.begin; i < node_a.end; ++i) {
-      if (!boxes_[i].overlaps(node_b.box)) continue;
-      for (Index j = node_b.begin; j < node_b.end; ++j)
-        if ((watched_[i] || watched_[j]) && boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
-    }
-  } else if (node_b.right == 0 || (node_a.right != 0 && node_a.end - node_a.begin >= node_b.end - node_b.begin)) {
+  if (node_a.is_leaf() && node_b.is_leaf()) {
+    const FourBoxes &boxes_a = leaves_[node_a.leaf()], &boxes_b = leaves_[node_b.leaf()];
+    for (Index i = node_a.begin; i < node_a.end; ++i)
+      pairs_with(i, boxes_b.overlapping(boxes_a, i - node_a.begin), node_b, visit);
+  } else if (node_b.is_leaf() || (!node_a.is_leaf() && node_a.end - node_a.begin >= node_b.end - node_b.begin)) {
     pairs_between(a + 1, b, visit);
     pairs_between(node_a.right, b, visit);
   } else {
@@ -58,10 +66,12 @@ template <class Visit>
 void Bvh::pairs_within(Index id, Visit& visit) const {
   const Node& node = nodes_[id];
   if (!node.watched) return;
-  if (node.right == 0) {
-    for (Index i = node.begin; i < node.end; ++i)
-      for (Index j = i + 1; j < node.end; ++j)
-        if ((watched_[i] || watched_[j]) && boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
+  if (node.is_leaf()) {
+    const FourBoxes& boxes = leaves_[node.leaf()];
+    for (Index i = node.begin; i < node.end; ++i) {
+      const Index k = i - node.begin;
+      pairs_with(i, boxes.overlapping(boxes, k) & (~1u << k), node, visit);
+    }
     return;
   }
   pairs_within(id + 1, visit);

@@ -1,12 +1,11 @@
 #include "contact/contact_candidates.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "geometry/parallel_lists.h"
+#include "geometry/parallel_sums.h"
 
 namespace unsnarl {
 namespace {
@@ -16,7 +15,7 @@ constexpr double rounding = 1e-9;
 /// Cross products shorter than this are not made unit vectors: their squares may underflow.
 constexpr double least_normal = 1e-140;
 
-constexpr Index grain = 1024;  // triangles or edges a task
+constexpr Index chunk = 1024;  // triangles or edges a task
 
 /// What is passed along an axis by points that start at `at` and move by up to `motion`.
 struct Interval {
@@ -33,19 +32,56 @@ double gap(const Interval& a, const Interval& b) {
 }
 
 /// Whether two edges stay farther apart than `length` along the normal of both while their vertices go along p, by
-/// more than rounding may feign. `extent` bounds how far apart they are.
-bool stay_apart_along_normal(double length, double extent, const Positions& x, const Positions& p, const Edge& e,
-                             const Edge& g) {
-  const Vec3 u = x.col(e[1]) - x.col(e[0]), v = x.col(g[1]) - x.col(g[0]);
+/// more than rounding may feign.
+bool stay_apart_along_normal(double length, const Positions& x, const Positions& p, const Edge& e, const Edge& g) {
+  const Vec3 u = x.col(e[1]) - x.col(e[0]), v = x.col(g[1]) - x.col(g[0]), r = x.col(e[0]) - x.col(g[0]);
   const Vec3 n = u.cross(v);
-  const double at = n.dot(x.col(e[0]) - x.col(g[0]));
+  const double at = n.dot(r);
   Interval first(at, n.dot(p.col(e[0]))), second(0, n.dot(p.col(g[0])));
   first.extend({at, n.dot(p.col(e[1]))});
   second.extend({0, n.dot(p.col(g[1]))});
   const double apart = gap(first, second);
   // (a + b)^2 <= (1 + s) a^2 + (1 + 1/s) b^2 for the length along the normal a and the rounding b, s = 1/1000.
-  const double error2 = rounding * rounding * extent * extent * u.squaredNorm() * v.squaredNorm();
+  const double u2 = u.squaredNorm(), v2 = v.squaredNorm();
+  const double p2 = std::max(
+      {p.col(e[0]).squaredNorm(), p.col(e[1]).squaredNorm(), p.col(g[0]).squaredNorm(), p.col(g[1]).squaredNorm()});
+  const double extent2 = 4 * (u2 + v2 + r.squaredNorm() + 4 * p2);
+  const double error2 = rounding * rounding * extent2 * u2 * v2;
   return apart > 0 && apart * apart > 1.001 * length * length * n.squaredNorm() + 1001 * error2;
+}
+
+/// Bit 3 k + l: corner k of a is corner l of b.
+unsigned equal_corners(const FourIndices& a, const FourIndices& b) {
+  unsigned equal = 0;
+  for (int k = 0; k < 3; ++k) equal |= (bits_of(b == four_times(a[k])) & 7u) << (3 * k);
+  return equal;
+}
+
+/// By the corners that two triangles share, what else they do.
+struct Shared {
+  std::uint16_t edges = 0;     // bit 3 k + l: edge k of a has an end in common with edge l of b
+  std::uint8_t corners_a = 0;  // bit k: corner k of a is one of b
+  std::uint8_t corners_b = 0;
+};
+constexpr std::array<Shared, 512> shared_of_corners = [] {
+  std::array<Shared, 512> table;
+  for (unsigned equal = 0; equal < 512; ++equal)
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) {
+        if (!(equal >> (3 * k + l) & 1u)) continue;
+        Shared& shared = table[equal];
+        shared.corners_a |= 1u << k;
+        shared.corners_b |= 1u << l;
+        for (int i : {k, (k + 2) % 3})
+          for (int j : {l, (l + 2) % 3}) shared.edges |= 1u << (3 * i + j);
+      }
+  return table;
+}();
+
+/// Calls visit(k) for every bit k, ascending.
+template <class Visit>
+void for_bits(unsigned bits, Visit&& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
 }  // namespace
@@ -57,10 +93,11 @@ ContactCandidates::ContactCandidates(std::span<const Triangle> triangles, Index 
       owned_corners_(triangles.size(), 0),
       boxes_(triangles.size()),
       slabs_(triangles.size()),
-      balls_(edges_.edges.size()) {
+      reach_(triangles.size()) {
   std::vector<std::uint8_t> vertex_seen(static_cast<std::size_t>(vertex_count), 0);
   std::vector<std::uint8_t> edge_seen(edges_.edges.size(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
+    corners_.push_back(FourIndices{triangles[t][0], triangles[t][1], triangles[t][2], -1});
     for (int k = 0; k < 3; ++k) {
       std::uint8_t& vertex = vertex_seen[triangles[t][k]];
       if (!vertex) owned_corners_[t] |= static_cast<std::uint8_t>(1u << k);
@@ -82,46 +119,58 @@ ContactCandidates::ContactCandidates(std::span<const Triangle> triangles, Index 
   for (Index e = 0; e < edges_.triangles_of_edge.size(); ++e) list_corners(around_edge_, edges_.triangles_of_edge[e]);
 }
 
+void ContactCandidates::update_triangle(const Positions& x, double radius, const MotionBounds& bounds, Index t) {
+  const Triangle& f = triangles_[t];
+  const Vec3 a = x.col(f[0]), b = x.col(f[1]), c = x.col(f[2]);
+  const Vec3 p = bounds.along.col(f[0]), q = bounds.along.col(f[1]), r = bounds.along.col(f[2]);
+  Slab& slab = slabs_[t];
+  slab.around = std::max({bounds.around[f[0]], bounds.around[f[1]], bounds.around[f[2]]});
+  std::array<Box, 3> ways;  // of the corners
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 at = x.col(f[k]);
+    ways[k].extend(at);
+    ways[k].extend(Vec3(at + bounds.along.col(f[k])));
+    box.extend(ways[k]);
+  }
+  const auto reaching = [&](const Box& way, double around) {
+    return way.inflated(0.5 * radius + (1 + rounding) * around);
+  };
+  boxes_[t] = reaching(box, slab.around);
+  Reach& reach = reach_[t];
+  reach.corners.set(3, boxes_[t]);
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3;
+    const bool owns_corner = owned_corners_[t] & (1u << k), owns_edge = owned_corners_[t] & (8u << k);
+    reach.corners.set(k, owns_corner ? reaching(ways[k], bounds.around[f[k]]) : Box());
+    Box edge;
+    if (owns_edge) {
+      edge.extend(ways[k]);
+      edge.extend(ways[l]);
+      edge = reaching(edge, std::max(bounds.around[f[k]], bounds.around[f[l]]));
+    }
+    reach.edges.set(k, edge);
+  }
+  const Vec3 n = (b - a).cross(c - a);
+  const double length = n.norm();
+  slab.normal = length > least_normal ? Vec3(n / length) : Vec3::Zero();
+  Interval range(0, slab.normal.dot(p));
+  range.extend({slab.normal.dot(b - a), slab.normal.dot(q)});
+  range.extend({slab.normal.dot(c - a), slab.normal.dot(r)});
+  slab.lo = range.lo;
+  slab.hi = range.hi;
+}
+
 void ContactCandidates::gather(const Positions& x, double radius, const MotionBounds& bounds,
                                std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils) {
-  const Positions& along = bounds.along;
-  const std::vector<double>& around = bounds.around;
   // What stands still needs no looking at, however much of it there is: only pairs with a moving triangle are visited.
   const Index triangle_count = static_cast<Index>(triangles_.size());
   moving_.resize(triangles_.size());
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<Index>(0, triangle_count, grain), [&](const auto& range) {
-    for (Index t = range.begin(); t < range.end(); ++t) {
+  for_chunks(triangle_count, chunk, [&](Index begin, Index end) {
+    for (Index t = begin; t < end; ++t) {
       const Triangle& f = triangles_[t];
       moving_[t] = moves[f[0]] || moves[f[1]] || moves[f[2]];
-      Slab& slab = slabs_[t];
-      slab.around = std::max({around[f[0]], around[f[1]], around[f[2]]});
-      Box& box = boxes_[t] = box_of(x, f);
-      const Vec3 a = x.col(f[0]), b = x.col(f[1]), c = x.col(f[2]);
-      const Vec3 p = along.col(f[0]), q = along.col(f[1]), r = along.col(f[2]);
-      box.extend(Vec3(a + p));
-      box.extend(Vec3(b + q));
-      box.extend(Vec3(c + r));
-      box = box.inflated(0.5 * radius + (1 + rounding) * slab.around);
-      const Vec3 n = (b - a).cross(c - a);
-      const double length = n.norm();
-      slab.normal = length > least_normal ? Vec3(n / length) : Vec3::Zero();
-      Interval range(0, slab.normal.dot(p));
-      range.extend({slab.normal.dot(b - a), slab.normal.dot(q)});
-      range.extend({slab.normal.dot(c - a), slab.normal.dot(r)});
-      slab.lo = range.lo;
-      slab.hi = range.hi;
-    }
-  });
-  const Index edge_count = static_cast<Index>(edges_.edges.size());
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<Index>(0, edge_count, grain), [&](const auto& range) {
-    for (Index e = range.begin(); e < range.end(); ++e) {
-      const auto [i, j] = edges_.edges[e];
-      const Vec3 a = x.col(i), b = x.col(j), p = along.col(i), q = along.col(j);
-      Ball& ball = balls_[e];
-      ball.center = 0.5 * (a + b) + 0.25 * (p + q);
-      const auto from_center = [&](const Vec3& point) { return (point - ball.center).squaredNorm(); };
-      ball.radius = std::sqrt(std::max({from_center(a), from_center(b), from_center(a + p), from_center(b + q)}));
-      ball.around = std::max(around[i], around[j]);
+      update_triangle(x, radius, bounds, t);
     }
   });
   if (built_) {
@@ -131,6 +180,31 @@ void ContactCandidates::gather(const Positions& x, double radius, const MotionBo
     built_ = true;
   }
   bvh_.watch(moving_);
+  gather_watched(x, radius, bounds, moves, stencils);
+}
+
+void ContactCandidates::gather_around(std::span<const Index> vertices, const Positions& x, double radius,
+                                      const MotionBounds& bounds, std::vector<NearStencil>& stencils) {
+  around_.assign(around_vertex_.size(), 0);
+  std::fill(moving_.begin(), moving_.end(), std::uint8_t{0});
+  std::vector<Index> touched;
+  for (Index v : vertices) {
+    around_[v] = 1;
+    for (Index t : triangles_of_vertex_[v]) {
+      if (!moving_[t]) touched.push_back(t);
+      moving_[t] = 1;
+    }
+  }
+  for_chunks(static_cast<Index>(touched.size()), chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) update_triangle(x, radius, bounds, touched[k]);
+  });
+  bvh_.refit(boxes_, touched);
+  bvh_.watch_only(touched);
+  gather_watched(x, radius, bounds, around_, stencils);
+}
+
+void ContactCandidates::gather_watched(const Positions& x, double radius, const MotionBounds& bounds,
+                                       std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils) {
   std::vector<std::vector<NearStencil>> lists(bvh_.task_count());
   bvh_.self_pairs_parallel(
       [&](Index task, Index a, Index b) { gather_pair(x, radius, bounds, moves, a, b, lists[task]); });
@@ -145,52 +219,34 @@ void ContactCandidates::gather_pair(const Positions& x, double radius, const Mot
     const double least = least_distance(stencil, x, bounds, at.direction);
     if (least <= radius) stencils.push_back({stencil, at.distance, least});
   };
-  const bool moving[2] = {moving_[a] != 0, moving_[b] != 0};
-  const Index faces[2] = {a, b};
-  for (int side = 0; side < 2; ++side) {
-    const Index t = faces[side];
-    const Index other = faces[1 - side];
-    if (!(owned_corners_[t] & 7)) continue;
+  const Shared& shared = shared_of_corners[equal_corners(corners_[a], corners_[b])];
+  const auto gather_corners = [&](Index t, Index other, unsigned corners_of_other) {
     const Triangle& f = triangles_[other];
     const Slab& slab = slabs_[other];
-    for (int k = 0; k < 3; ++k) {
+    const unsigned near = reach_[t].corners.overlapping(reach_[other].corners, 3) & 7u & ~corners_of_other;
+    for_bits(near, [&](int k) {
       const Index v = triangles_[t][k];
-      if (!(owned_corners_[t] & (1u << k)) || has_corner(other, v)) continue;
-      if (!moves[v] && !moving[1 - side]) continue;
-      const double reach = radius + (bounds.around[v] + slab.around);
+      if (!moves[v] && !moving_[other]) return;
       // Stays farther from the plane than that: no need of the distance.
-      const Vec3 p = bounds.along.col(v);
+      const double reach = radius + (bounds.around[v] + slab.around);
       const Vec3 to = x.col(v) - x.col(f[0]);
-      const Interval range(slab.normal.dot(to), slab.normal.dot(p));
-      const double needed = reach + rounding * (reach + to.norm());
-      if (range.lo - slab.hi > needed || slab.lo - range.hi > needed) continue;
-      Box box;
-      box.extend(Vec3(x.col(v)));
-      box.extend(Vec3(x.col(v) + p));
-      if (!box.inflated(0.5 * radius + (1 + rounding) * bounds.around[v]).overlaps(boxes_[other])) continue;
+      const Interval range(slab.normal.dot(to), slab.normal.dot(bounds.along.col(v)));
+      if (std::max(range.lo - slab.hi, slab.lo - range.hi) > reach + rounding * (reach + to.cwiseAbs().sum())) return;
       append({StencilKind::vertex_face, {v, f[0], f[1], f[2]}, {v, other}});
-    }
-  }
-  if (!(owned_corners_[a] & 56) || !(owned_corners_[b] & 56)) return;
+    });
+  };
+  gather_corners(a, b, shared.corners_a);
+  gather_corners(b, a, shared.corners_b);
   for (int k = 0; k < 3; ++k) {
-    if (!(owned_corners_[a] & (8u << k))) continue;
-    const Index edge_a = edges_.edges_of_triangle[a][k];
-    const Edge& e = edges_.edges[edge_a];
-    const bool e_moves = moves[e[0]] || moves[e[1]];
-    const Ball& ball = balls_[edge_a];
-    for (int l = 0; l < 3; ++l) {
-      if (!(owned_corners_[b] & (8u << l))) continue;
-      const Index edge_b = edges_.edges_of_triangle[b][l];
-      const Edge& g = edges_.edges[edge_b];
-      if (e[0] == g[0] || e[0] == g[1] || e[1] == g[0] || e[1] == g[1]) continue;
-      if (!e_moves && !moves[g[0]] && !moves[g[1]]) continue;
-      const Ball& other = balls_[edge_b];
-      const double reach = radius + (ball.around + other.around);
-      const double most = (1 + rounding) * (ball.radius + other.radius + reach);
-      if ((ball.center - other.center).squaredNorm() > most * most) continue;
-      if (stay_apart_along_normal(reach, 2 * most, x, bounds.along, e, g)) continue;
+    const unsigned near = reach_[b].edges.overlapping(reach_[a].edges, k) & 7u & ~(shared.edges >> (3 * k));
+    for_bits(near, [&](int l) {
+      const Index edge_a = edges_.edges_of_triangle[a][k], edge_b = edges_.edges_of_triangle[b][l];
+      const Edge &e = edges_.edges[edge_a], &g = edges_.edges[edge_b];
+      if (!moves[e[0]] && !moves[e[1]] && !moves[g[0]] && !moves[g[1]]) return;
+      const auto around = [&](const Edge& edge) { return std::max(bounds.around[edge[0]], bounds.around[edge[1]]); };
+      if (stay_apart_along_normal(radius + (around(e) + around(g)), x, bounds.along, e, g)) return;
       append({StencilKind::edge_edge, {e[0], e[1], g[0], g[1]}, {edge_a, edge_b}});
-    }
+    });
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "contact/bvh.h"
 #include "contact/distances.h"
+#include "contact/four_boxes.h"
 #include "contact/motion_bounds.h"
 #include "mesh/adjacency.h"
 
@@ -32,6 +33,11 @@ class ContactCandidates {
   void gather(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
               std::vector<NearStencil>& stencils);
 
+  /// The same for the stencils with at least one of some `vertices`, after x and the bounds of these alone have changed
+  /// since the last gathering; at a cost that follows their number. Each once.
+  void gather_around(std::span<const Index> vertices, const Positions& x, double radius, const MotionBounds& bounds,
+                     std::vector<NearStencil>& stencils);
+
   /// Whether a triangle at the one primitive shares a vertex with a triangle at the other. For listed stencils.
   bool are_neighbours(const Stencil& stencil) const;
 
@@ -39,10 +45,10 @@ class ContactCandidates {
   const IndexLists& triangles_of_vertex() const { return triangles_of_vertex_; }
 
  private:
-  bool has_corner(Index t, Index v) const {
-    const Triangle& f = triangles_[t];
-    return f[0] == v || f[1] == v || f[2] == v;
-  }
+  /// Takes over where triangle t may be.
+  void update_triangle(const Positions& x, double radius, const MotionBounds& bounds, Index t);
+  void gather_watched(const Positions& x, double radius, const MotionBounds& bounds,
+                      std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils);
   void gather_pair(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
                    Index a, Index b, std::vector<NearStencil>& stencils) const;
 
@@ -53,21 +59,22 @@ class ContactCandidates {
   IndexLists around_edge_;    // the same of each edge
   // Every vertex and edge is looked after by its first triangle, so that a stencil is listed once.
   std::vector<std::uint8_t> owned_corners_;  // bit k: corner k; bit 3 + k: edge k of the triangle
-  std::vector<std::uint8_t> moving_;         // per triangle: has a moving vertex
+  std::vector<std::uint8_t> moving_;         // per triangle: has a vertex that is gathered around
+  std::vector<std::uint8_t> around_;         // per vertex: gather_around() it
   std::vector<Box> boxes_;
+  std::vector<FourIndices> corners_;  // of the triangles; the last is -1
   // As of the last gathering:
   struct Slab {
     Vec3 normal;        // of the triangle, unit or zero
     double lo, hi;      // where its corners may be along it, from the first one
     double around = 0;  // the largest of its corners
   };
-  struct Ball {
-    Vec3 center;
-    double radius;  // of where the edge may be, without its room
-    double around;
+  struct Reach {
+    FourBoxes corners;  // of those the triangle looks after, and its own
+    FourBoxes edges;    // of those it looks after
   };
   std::vector<Slab> slabs_;
-  std::vector<Ball> balls_;
+  std::vector<Reach> reach_;
   Bvh bvh_;
   bool built_ = false;
 };

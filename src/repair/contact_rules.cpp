@@ -12,6 +12,11 @@ namespace {
 /// The barrier sets in at this many separations at least.
 constexpr double least_activation = 1.5;
 
+/// Corner k of a triangle against the opposite edge.
+Stencil altitude_of(const Triangle& f, int k) {
+  return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
+}
+
 }  // namespace
 
 ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options)
@@ -20,7 +25,14 @@ ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conf
       options_(options),
       candidates_(patch.triangles, static_cast<Index>(patch.rest.cols())),
       vertex_in_conflict_(patch.rest.cols(), 0),
-      edge_in_conflict_(candidates_.edges().edges.size(), 0) {
+      edge_in_conflict_(candidates_.edges().edges.size(), 0),
+      rest_altitudes_(static_cast<std::size_t>(patch.active_count)) {
+  for (Index t = 0; t < patch.active_count; ++t) {
+    const Triangle& f = patch.triangles[t];
+    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
+    for (int k = 0; k < 3; ++k)
+      rest_altitudes_[t][k] = std::sqrt(squared_distance(altitude_of(f, k), patch.rest));
+  }
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
     if (!in_conflict_[t]) continue;
     for (Index v : patch.triangles[t]) vertex_in_conflict_[v] = 1;
@@ -31,26 +43,48 @@ ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conf
 
 void ContactRules::gather(const Positions& x, double activation, const MotionBounds& bounds,
                           std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
+  rules.clear();
   candidates_.gather(x, activation, bounds, moves, stencils_);
-  constexpr Index chunk = 1024;  // stencils or triangles a task
-  gather_in_chunks(static_cast<Index>(stencils_.size()), chunk, rules,
-                   [&](Index begin, Index end, std::vector<ContactRule>& list) {
-                     for (Index k = begin; k < end; ++k) {
-                       ContactRule rule;
-                       if (rule_of(stencils_[k], activation, rule)) list.push_back(rule);
-                     }
-                   });
-  gather_in_chunks(patch_.active_count, chunk, altitudes_,
-                   [&](Index begin, Index end, std::vector<ContactRule>& list) {
-                     add_altitudes(x, bounds, moves, begin, end, list);
-                   });
-  rules.insert(rules.end(), altitudes_.begin(), altitudes_.end());
+  add_rules(x, x, activation, bounds, moves, rules);
 }
 
-bool ContactRules::rule_of(const NearStencil& near, double activation, ContactRule& rule) const {
+void ContactRules::gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
+                                 double activation, const MotionBounds& bounds, std::vector<ContactRule>& rules) {
+  is_anew_.assign(static_cast<std::size_t>(x.cols()), 0);
+  for (Index v : vertices) is_anew_[v] = 1;
+  std::erase_if(rules, [&](const ContactRule& rule) {
+    const Stencil& s = rule.stencil.stencil;
+    return std::any_of(s.v.begin(), s.v.begin() + s.size(), [&](Index v) { return is_anew_[v] != 0; });
+  });
+  candidates_.gather_around(vertices, from, activation, bounds, stencils_);
+  add_rules(from, x, activation, bounds, is_anew_, rules);
+}
+
+void ContactRules::add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
+                             std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
+  constexpr Index chunk = 1024;  // stencils or triangles a task
+  gather_in_chunks(static_cast<Index>(stencils_.size()), chunk, added_,
+                   [&](Index begin, Index end, std::vector<ContactRule>& list) {
+                     for (Index k = begin; k < end; ++k) {
+                       const NearStencil& near = stencils_[k];
+                       const double distance =
+                           &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x));
+                       ContactRule rule;
+                       if (rule_of(near, distance, activation, rule)) list.push_back(rule);
+                     }
+                   });
+  rules.insert(rules.end(), added_.begin(), added_.end());
+  gather_in_chunks(patch_.active_count, chunk, added_,
+                   [&](Index begin, Index end, std::vector<ContactRule>& list) {
+                     add_altitudes(from, x, bounds, moves, begin, end, list);
+                   });
+  rules.insert(rules.end(), added_.begin(), added_.end());
+}
+
+bool ContactRules::rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const {
   constexpr double mollifier_sin2 = 1e-3;  // as in IPC
   const Stencil& s = near.stencil;
-  if (!(near.distance > 0)) return false;
+  if (!(distance > 0)) return false;
   rule.stencil.stencil = s;
   rule.distance = near.distance;
   rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
@@ -69,8 +103,8 @@ bool ContactRules::rule_of(const NearStencil& near, double activation, ContactRu
   } else if (!neighbours && conflict) {
     rule.reach = std::numeric_limits<double>::infinity();
   }
-  rule.closed = !(rule.distance > separation);
-  rule.stencil.separation = rule.closed ? 0.5 * rule.distance : separation;
+  rule.closed = !(distance > separation);
+  rule.stencil.separation = rule.closed ? 0.5 * distance : separation;
   rule.stencil.activation = std::max(std::min(activation, rule.reach), least_activation * rule.stencil.separation);
   if (near.least_distance > rule.stencil.activation) return false;
   if (s.kind == StencilKind::edge_edge) {
@@ -81,25 +115,26 @@ bool ContactRules::rule_of(const NearStencil& near, double activation, ContactRu
   return true;
 }
 
-void ContactRules::add_altitudes(const Positions& x, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
+void ContactRules::add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
                                  Index begin, Index end, std::vector<ContactRule>& rules) const {
   for (Index t = begin; t < end; ++t) {
     const Triangle& f = patch_.triangles[t];
     if (!moves[f[0]] && !moves[f[1]] && !moves[f[2]]) continue;
-    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
     for (int k = 0; k < 3; ++k) {
       ContactRule rule;
-      const Stencil s{StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
-      rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
+      const Stencil s = altitude_of(f, k);
+      rule.rest_distance = rest_altitudes_[t][k];
       if (rule.rest_distance <= options_.roundoff) continue;  // without area at rest: it may stay so
       rule.reach = options_.altitude_share * rule.rest_distance;
-      const Closest at = closest(s, x);
+      const Closest at = closest(s, from);
       rule.distance = at.distance;
-      if (!(rule.distance > 0) || least_distance(s, x, bounds, at.direction) > rule.reach) continue;
+      if (least_distance(s, from, bounds, at.direction) > rule.reach) continue;
+      const double distance = std::sqrt(squared_distance(s, x));
+      if (!(distance > 0)) continue;
       rule.stencil.stencil = s;
       const double floor = options_.altitude_floor * rule.rest_distance;
-      rule.closed = !(rule.distance > floor);
-      rule.stencil.separation = rule.closed ? 0.5 * rule.distance : floor;
+      rule.closed = !(distance > floor);
+      rule.stencil.separation = rule.closed ? 0.5 * distance : floor;
       rule.stencil.activation = std::max(rule.reach, least_activation * rule.stencil.separation);
       rule.own_altitude = true;
       rules.push_back(rule);

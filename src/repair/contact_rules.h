@@ -15,7 +15,7 @@ struct ContactRule {
   BarrierStencil stencil;
   double reach = 0;  ///< the activation distance never exceeds this
   double rest_distance = 0;
-  double distance = 0;        ///< when gathered
+  double distance = 0;        ///< where its vertices' bounds start
   bool closed = false;        ///< closer than it should be; its separation is half its distance
   bool own_altitude = false;  ///< a corner of a face against the opposite edge: keeps the face from being squeezed
 };
@@ -48,23 +48,34 @@ class ContactRules {
   void gather(const Positions& x, double activation, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
               std::vector<ContactRule>& rules);
 
+  /// Replaces the rules of stencils with one of some `vertices`, after these were given new bounds that start at x; at
+  /// a cost that follows their number. `from`: where each vertex's bounds start; activation as before.
+  void gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x, double activation,
+                     const MotionBounds& bounds, std::vector<ContactRule>& rules);
+
   const ContactCandidates& candidates() const { return candidates_; }
   const ContactRuleOptions& options() const { return options_; }
 
  private:
-  /// Rule of a stencil; false where there is none or it cannot come that close.
-  bool rule_of(const NearStencil& near, double activation, ContactRule& rule) const;
+  /// Adds the rules of stencils_ and of altitudes with a moving vertex.
+  void add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
+                 std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
+  /// Rule of a stencil that is `distance` wide now; false where there is none or it cannot come that close.
+  bool rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const;
   /// The corners of triangles [begin, end) that move against their opposite edges.
-  void add_altitudes(const Positions& x, const MotionBounds& bounds, std::span<const std::uint8_t> moves, Index begin,
-                     Index end, std::vector<ContactRule>& rules) const;
+  void add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
+                     std::span<const std::uint8_t> moves, Index begin, Index end,
+                     std::vector<ContactRule>& rules) const;
 
   const Patch& patch_;
   std::vector<std::uint8_t> in_conflict_;
   ContactRuleOptions options_;
   ContactCandidates candidates_;
   std::vector<std::uint8_t> vertex_in_conflict_, edge_in_conflict_;  // some triangle there is
+  std::vector<std::array<double, 3>> rest_altitudes_;  // of the active triangles; 0 where corners are equal
   std::vector<NearStencil> stencils_;
-  std::vector<ContactRule> altitudes_;
+  std::vector<ContactRule> added_;
+  std::vector<std::uint8_t> is_anew_;  // per vertex
 };
 
 }  // namespace unsnarl

@@ -22,6 +22,8 @@ namespace {
 
 constexpr Index chunk = 1024;       // stencils a task
 constexpr Index list_chunk = 8192;  // the same where each only takes a look
+/// Share of the moving vertices up to which lists are gathered anew around those that leave their bounds.
+constexpr double few = 0.3;
 
 class Recovery {
  public:
@@ -34,10 +36,10 @@ class Recovery {
   void set_moving(const std::vector<std::uint8_t>& moves);
   /// Steps at one activation distance until converged or `steps` are used up.
   void steps_at(double activation, int steps, const RecoverOptions::Stop& stop);
-  /// Lists the stencils that may be active while no vertex goes farther than its allowance.
+  /// Lists the stencils that may be active while no vertex goes far.
   void gather(double activation);
-  /// Whether the list holds for these steps too; updates travelled_ and travel_.
-  bool list_allows(const Positions& p);
+  /// Lists anew what the vertices may meet that leave their bounds in this step; updates travelled_ and travel_.
+  void keep_up_with(const Positions& step);
   /// Picks out of the list the stencils that may be active at x, by bounds of the motion since it was gathered.
   void pick_near(const Positions& x);
   double energy(const Positions& x);
@@ -80,9 +82,10 @@ class Recovery {
   std::vector<BarrierContact> contacts_;    // among near_
   double contact_energy_ = 0;               // where it was last linearised
   std::vector<double> travelled_, travel_;  // per vertex: since gathering, in the coming step
-  MotionBounds bounds_;                     // what the list allows
+  Positions gathered_at_;                   // where each vertex was when it was last gathered around ...
+  MotionBounds bounds_;                     // ... and where the list lets it go from there
+  std::vector<Index> leaving_;              // vertices that would leave their bounds
   std::vector<SeparatedStencil> in_the_way_;
-  Positions gathered_at_;
   double activation_ = 0;
   double last_longest_ = 0;  // of the Newton steps: how far the farthest vertex would have gone
 
@@ -136,7 +139,6 @@ void Recovery::set_moving(const std::vector<std::uint8_t>& moves) {
   }
   shape_->restrict_to(moving_);
   shape_->build_matrix(operator_);
-  bounds_.reset(static_cast<Index>(moves.size()));
 }
 
 void Recovery::release_everything() {
@@ -169,20 +171,41 @@ void Recovery::release_contact_region() {
 
 void Recovery::gather(double activation) {
   activation_ = activation;
-  gathered_at_ = x_;
   travelled_.assign(moving_.moves.size(), 0);
   travel_.assign(moving_.moves.size(), 0);
+  gathered_at_ = x_;
+  bounds_.reset(static_cast<Index>(x_.cols()));
+  for (Index v : moving_.vertices) bounds_.around[v] = options_.margin_min * h_;
   rules_->gather(x_, activation, bounds_, moving_.moves, gathered_);
 }
 
-bool Recovery::list_allows(const Positions& p) {
-  bool allows = true;
+void Recovery::keep_up_with(const Positions& p) {
+  leaving_.clear();
+  for (Index v : moving_.vertices)
+    if (!bounds_.allow(v, x_.col(v) + p.col(v) - gathered_at_.col(v))) leaving_.push_back(v);
+  if (!leaving_.empty()) {
+    const double most = few * static_cast<double>(moving_.vertices.size());
+    const bool anew = static_cast<double>(leaving_.size()) > most;
+    // Room lasts where few go far; else the next list is made anew in any case.
+    const double far = options_.margin_reuse * h_;
+    const auto goes_far = [&](Index v) { return p.col(v).norm() > far; };
+    const auto far_count = std::count_if(moving_.vertices.begin(), moving_.vertices.end(), goes_far);
+    const bool lasts = static_cast<double>(far_count) <= most;
+    for (Index v : anew ? moving_.vertices : leaving_) {
+      const double length = p.col(v).norm();
+      gathered_at_.col(v) = x_.col(v);
+      bounds_.along.col(v) = p.col(v);
+      bounds_.around[v] = lasts && length <= far ? std::max(length, options_.margin_min * h_) : 0;
+    }
+    if (anew)
+      rules_->gather(x_, activation_, bounds_, moving_.moves, gathered_);
+    else
+      rules_->gather_around(leaving_, gathered_at_, x_, activation_, bounds_, gathered_);
+  }
   for (Index v : moving_.vertices) {
     travelled_[v] = (x_.col(v) - gathered_at_.col(v)).norm();
     travel_[v] = p.col(v).norm();
-    allows = allows && bounds_.allow(v, x_.col(v) + p.col(v) - gathered_at_.col(v));
   }
-  return allows;
 }
 
 void Recovery::pick_near(const Positions& x) {
@@ -273,13 +296,7 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
     const double wanted = std::min(longest, options_.step_cap * h_);
     step_.setZero();
     for (Index i = 0; i < n; ++i) step_.col(moving_.vertices[i]) = (wanted / longest) * solution_.col(i);
-    if (!list_allows(step_)) {
-      const bool reuse = wanted <= options_.margin_reuse * h_;
-      bounds_.along = step_;
-      for (Index v : moving_.vertices) bounds_.around[v] = reuse ? std::max(travel_[v], options_.margin_min * h_) : 0;
-      gather(activation);
-      list_allows(step_);
-    }
+    keep_up_with(step_);
     pick_in_the_way();
     // Whoever would collide goes as far as that allows, everyone else all the way.
     bool accepted = false;
@@ -320,6 +337,7 @@ void Recovery::check() {
 
 double Recovery::measure_gap() {
   release_everything();
+  bounds_.reset(static_cast<Index>(x_.cols()));
   bounds_.around.assign(moving_.moves.size(), std::max(2 * min_gap_, activation_));
   rules_->gather(x_, 0, bounds_, moving_.moves, gathered_);
   double gap = std::numeric_limits<double>::infinity();

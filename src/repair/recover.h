@@ -63,7 +63,7 @@ struct RecoverOptions {
   double step_cap = 0.5;          ///< longest motion of a vertex in a step, in h
   bool shorten_all = false;       ///< a collision shortens the step of every vertex, not only of those that collide
   // A list of close stencils holds around each vertex's step, as far as that is long, this at least, in h; where the
-  // longest step exceeds margin_reuse, in h, for the step alone: lists with more room took longer to gather than they
+  // step exceeds margin_reuse, in h, or does for most, for the step alone: more room took longer to gather than it
   // lasted.
   double margin_min = 0.02;
   double margin_reuse = 0.1;

@@ -166,6 +166,38 @@ TEST(ContactCandidates, MissNothingThatComesNearWithinItsBounds) {
   EXPECT_LT(listed, listed_by_lengths * 3 / 4);
 }
 
+TEST(ContactCandidates, AroundSomeVerticesListTheSameAsEverywhere) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    Soup soup = random_soup(seed + 200, 60, 60);
+    std::mt19937_64 engine(seed);
+    const std::vector<std::uint8_t> moves(60, 1);
+    MotionBounds bounds = standing(60);
+    ContactCandidates candidates(soup.triangles, 60);
+    std::vector<NearStencil> found;
+    candidates.gather(soup.x, 0.03, bounds, moves, found);
+    for (int round = 0; round < 3; ++round) {
+      std::vector<Index> vertices;
+      std::vector<std::uint8_t> is_around(60, 0);
+      for (Index v = 0; v < 60; ++v) {
+        if (engine() % 8 != 0) continue;
+        vertices.push_back(v);
+        is_around[v] = 1;
+        soup.x.col(v) += random_vector(engine, 0.1);
+        bounds.along.col(v) = random_vector(engine, 0.1);
+        bounds.around[v] = 0.02;
+      }
+      candidates.gather_around(vertices, soup.x, 0.03, bounds, found);
+      std::vector<NearStencil> all;
+      ContactCandidates(soup.triangles, 60).gather(soup.x, 0.03, bounds, is_around, all);
+      std::set<Key> keys, expected;
+      for (const NearStencil& s : found) keys.insert(key_of(s.stencil));
+      for (const NearStencil& s : all) expected.insert(key_of(s.stencil));
+      EXPECT_EQ(keys, expected);
+      EXPECT_EQ(keys.size(), found.size());
+    }
+  }
+}
+
 TEST(ContactCandidates, ListNothingTwiceWhereNoTriangleIs) {
   Soup soup = random_soup(5, 200, 150);
   const std::vector<std::uint8_t> moves(200, 1);

@@ -133,6 +133,35 @@ TEST(ContactRules, ListWhatMayComeNearByMovingAsFarAsAllowed) {
   EXPECT_TRUE(is_listed(0.11));
 }
 
+TEST(ContactRules, AroundAVertexJudgeClosedWhereItIsNow) {
+  // Vertex 0 started 0.2 over the face, whose bounds begin 0.195 below where it is now.
+  Patch patch = face_over_face(0.2, 0.5);
+  ContactRuleOptions options;
+  options.min_gap = 0.01;
+  options.roundoff = 1e-13;
+  ContactRules rules(patch, {0, 0}, options);
+  const std::vector<std::uint8_t> moves(6, 1);
+  MotionBounds bounds = anywhere_within(std::vector<double>(6, 0.2));
+  std::vector<ContactRule> found;
+  const Positions from = patch.x;
+  rules.gather(from, 0.1, bounds, moves, found);
+  const std::size_t count = found.size();
+  for (Index v : {3, 4, 5}) patch.x(2, v) += 0.195;
+  rules.gather_around(std::vector<Index>{0}, from, patch.x, 0.1, bounds, found);
+  EXPECT_EQ(found.size(), count);
+  const auto over_face = std::find_if(found.begin(), found.end(), [](const ContactRule& rule) {
+    return rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}};
+  });
+  ASSERT_NE(over_face, found.end());
+  EXPECT_NEAR(over_face->distance, 0.2, 1e-12);
+  EXPECT_TRUE(over_face->closed);
+  EXPECT_NEAR(over_face->stencil.separation, 0.0025, 1e-12);
+  // Where nothing may come any more there is no rule either.
+  for (Index v = 0; v < 6; ++v) bounds.around[v] = 0;
+  rules.gather_around(std::vector<Index>{0, 1, 2, 3, 4, 5}, from, from, 0.1, bounds, found);
+  EXPECT_TRUE(found.empty());
+}
+
 TEST(ContactRules, FacesGuardTheirOwnAltitudes) {
   Patch patch = face_over_face(3, 3);
   patch.x.col(0) = 0.5 * (patch.x.col(1) + patch.x.col(2)) + Vec3(0, 0, 0.02);  // squeezed
