@@ -101,12 +101,13 @@ bool Bvh::overlaps_any(const Box& box) const {
 }
 
 void Bvh::fit(Node& node) {
-  node.box = Box();
+  node.box = RoundedBox();
   if (node.is_leaf()) {
     FourBoxes& leaf = leaves_[node.leaf()];
     for (Index k = node.begin; k < node.end; ++k) {
-      node.box.extend(boxes_[k]);
-      leaf.set(k - node.begin, boxes_[k]);
+      const RoundedBox box(boxes_[k]);
+      node.box.extend(box);
+      leaf.set(k - node.begin, box);
     }
   } else {
     node.box.extend((&node)[1].box);

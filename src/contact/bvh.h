@@ -54,7 +54,7 @@ class Bvh {
  private:
   static constexpr Index leaf_size = 4;  // boxes in a leaf; 4 measured best of 1, 2, 4, 8 on 10k to 1M faces
   struct Node {
-    Box box;
+    RoundedBox box;
     Index begin = 0, end = 0;  // boxes order_[begin, end) below it
     Index right = 0;           // left child is the next node; of a leaf its number, as -1 - number
     bool watched = true;       // a box below it is

@@ -11,16 +11,19 @@ namespace unsnarl {
 template <class Accept>
 bool Bvh::find(const Box& box, Accept&& accept) const {
   if (nodes_.empty()) return false;
+  const RoundedBox rounded(box);
   std::array<Index, 64> stack;  // depth is at most log2(2^31) + 1
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const Index id = stack[--top];
     const Node& node = nodes_[id];
-    if (!node.box.overlaps(box)) continue;
+    if (!node.box.overlaps(rounded)) continue;
     if (node.is_leaf()) {
-      for (Index k = node.begin; k < node.end; ++k)
-        if (boxes_[k].overlaps(box) && accept(order_[k])) return true;
+      for (unsigned bits = leaves_[node.leaf()].overlapping(rounded); bits != 0; bits &= bits - 1) {
+        const Index k = node.begin + std::countr_zero(bits);
+        if (k < node.end && boxes_[k].overlaps(box) && accept(order_[k])) return true;
+      }
     } else {
       stack[top++] = node.right;
       stack[top++] = id + 1;

@@ -138,18 +138,18 @@ void ContactCandidates::update_triangle(const Positions& x, double radius, const
   };
   boxes_[t] = reaching(box, slab.around);
   Reach& reach = reach_[t];
-  reach.corners.set(3, boxes_[t]);
+  reach.corners.set(3, RoundedBox(boxes_[t]));
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
     const bool owns_corner = owned_corners_[t] & (1u << k), owns_edge = owned_corners_[t] & (8u << k);
-    reach.corners.set(k, owns_corner ? reaching(ways[k], bounds.around[f[k]]) : Box());
+    reach.corners.set(k, owns_corner ? RoundedBox(reaching(ways[k], bounds.around[f[k]])) : RoundedBox());
     Box edge;
     if (owns_edge) {
       edge.extend(ways[k]);
       edge.extend(ways[l]);
       edge = reaching(edge, std::max(bounds.around[f[k]], bounds.around[f[l]]));
     }
-    reach.edges.set(k, edge);
+    reach.edges.set(k, RoundedBox(edge));
   }
   const Vec3 n = (b - a).cross(c - a);
   const double length = n.norm();

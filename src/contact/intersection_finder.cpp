@@ -11,10 +11,14 @@
 namespace unsnarl {
 namespace {
 
-/// Share of the triangles below which those that moved are worth telling apart.
+/// Share of the triangles, or of the active ones, below which those that moved are worth telling apart.
 constexpr double few = 0.25;
 /// A surface that has moved as a whole so many times will go on to do so.
 constexpr int seldom = 2;
+
+bool is_few(std::size_t count, std::size_t of) {
+  return static_cast<double>(count) < few * static_cast<double>(of);
+}
 
 TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {
   return {x.col(t[first]), x.col(t[(first + 1) % 3]), x.col(t[(first + 2) % 3])};
@@ -82,10 +86,26 @@ IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Inde
     : triangles_(triangles), active_count_(active_count), tree_(triangles, active_count) {}
 
 void IntersectionFinder::move(const Positions& x) {
+  note(x);
+  update_tree();
+}
+
+void IntersectionFinder::move(const Positions& x, std::span<const Index> triangles) {
+  if (x_.cols() != x.cols()) return move(x);
+  for (Index t : triangles) {
+    for (Index v : triangles_[t]) x_.col(v) = x.col(v);
+    undecided_.add(t);
+    outside_tree_.add(t);
+  }
+  update_tree();
+}
+
+void IntersectionFinder::note(const Positions& x) {
   if (x_.cols() != x.cols()) {
     x_ = x;
     tree_.update(x);
-    is_undecided_.assign(triangles_.size(), 0);
+    undecided_.reset(triangles_.size());
+    outside_tree_.reset(triangles_.size());
     is_all_undecided_ = true;
     return;
   }
@@ -96,41 +116,23 @@ void IntersectionFinder::move(const Positions& x) {
     any |= vertex_moved[v] != 0;
   }
   if (!any) return;
-  std::vector<Index> moved;
+  x_ = x;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Triangle& corners = triangles_[t];
-    if (vertex_moved[corners[0]] | vertex_moved[corners[1]] | vertex_moved[corners[2]])
-      moved.push_back(static_cast<Index>(t));
+    if (!(vertex_moved[corners[0]] | vertex_moved[corners[1]] | vertex_moved[corners[2]])) continue;
+    undecided_.add(static_cast<Index>(t));
+    outside_tree_.add(static_cast<Index>(t));
   }
-  for (Index v = 0; v < x.cols(); ++v)
-    if (vertex_moved[v]) x_.col(v) = x.col(v);
-  take_over(moved);
 }
 
-void IntersectionFinder::move(const Positions& x, std::span<const Index> triangles) {
-  if (x_.cols() != x.cols()) return move(x);
-  std::vector<Index> moved(triangles.begin(), triangles.end());
-  std::sort(moved.begin(), moved.end());
-  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
-  for (Index t : moved)
-    for (Index v : triangles_[t]) x_.col(v) = x.col(v);
-  take_over(moved);
-}
-
-void IntersectionFinder::take_over(std::span<const Index> moved) {
-  const auto is_few = [&](std::size_t count) {
-    return static_cast<double>(count) < few * static_cast<double>(triangles_.size());
-  };
-  if (is_few(moved.size()))
+void IntersectionFinder::update_tree() {
+  const std::span<const Index> moved = outside_tree_.items();
+  if (moved.empty()) return;
+  if (is_few(moved.size(), triangles_.size()))
     tree_.update(x_, moved);
   else
     tree_.update(x_);
-  for (Index t : moved) {
-    if (is_undecided_[t]) continue;
-    is_undecided_[t] = 1;
-    undecided_.push_back(t);
-  }
-  is_all_undecided_ |= !is_few(undecided_.size());
+  outside_tree_.clear();
 }
 
 void IntersectionFinder::query(const Box& box, std::vector<Index>& found) const {
@@ -149,25 +151,28 @@ std::vector<IntersectingPair> IntersectionFinder::decide() const {
 }
 
 std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
-  move(x);
+  note(x);
+  const std::size_t undecided = undecided_.items().size();
+  is_all_undecided_ |= undecided > 0 && !is_few(undecided, static_cast<std::size_t>(active_count_));
   if (is_all_undecided_ && decided_as_a_whole_ >= seldom && !tree_.is_turned()) {
     if (!moving_) moving_.emplace(triangles_, active_count_, static_cast<Index>(x.cols()));
     pairs_ = moving_->find(x_);
   } else if (is_all_undecided_) {
     ++decided_as_a_whole_;
+    update_tree();
     if (watches_undecided_) tree_.watch_active();
     watches_undecided_ = false;
     pairs_ = decide();
-  } else if (!undecided_.empty()) {
-    tree_.watch_only(undecided_);
+  } else if (!undecided_.items().empty()) {
+    update_tree();
+    tree_.watch_only(undecided_.items());
     watches_undecided_ = true;
     std::vector<IntersectingPair> pairs = decide();
     std::copy_if(pairs_.begin(), pairs_.end(), std::back_inserter(pairs),
-                 [&](const IntersectingPair& pair) { return !is_undecided_[pair.a] && !is_undecided_[pair.b]; });
+                 [&](const IntersectingPair& pair) { return !undecided_.has(pair.a) && !undecided_.has(pair.b); });
     pairs_ = std::move(pairs);
   }
   std::sort(pairs_.begin(), pairs_.end());
-  for (Index t : undecided_) is_undecided_[t] = 0;
   undecided_.clear();
   is_all_undecided_ = false;
   return pairs_;

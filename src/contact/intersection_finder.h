@@ -39,21 +39,41 @@ class IntersectionFinder {
   std::span<const Triangle> triangles() const { return triangles_; }
 
  private:
-  /// These triangles (each once) have moved to x_.
-  void take_over(std::span<const Index> moved);
+  /// Triangles, each once, in the order in which they were added.
+  class Some {
+   public:
+    void reset(std::size_t count) { items_.clear(), is_in_.assign(count, 0); }
+    void add(Index t) {
+      if (!is_in_[t]) items_.push_back(t);
+      is_in_[t] = 1;
+    }
+    void clear() {
+      for (Index t : items_) is_in_[t] = 0;
+      items_.clear();
+    }
+    bool has(Index t) const { return is_in_[t] != 0; }
+    std::span<const Index> items() const { return items_; }
+
+   private:
+    std::vector<Index> items_;
+    std::vector<std::uint8_t> is_in_;
+  };
+
+  /// Takes over the positions, but for the tree.
+  void note(const Positions& x);
+  void update_tree();
   std::vector<IntersectingPair> decide() const;
 
   std::span<const Triangle> triangles_;
   Index active_count_;
   FaceTree tree_;
-  Positions x_;                          // now
-  std::vector<IntersectingPair> pairs_;  // as they were last decided
-  // Triangles that have moved since then; all of them if that is not told apart.
-  bool is_all_undecided_ = true;
-  std::vector<Index> undecided_;
-  std::vector<std::uint8_t> is_undecided_;
-  bool watches_undecided_ = false;               // and not all active triangles
-  int decided_as_a_whole_ = 0;                   // so many times
+  Some outside_tree_;                          // triangles that have moved since it was updated
+  Positions x_;                                // now
+  std::vector<IntersectingPair> pairs_;        // as they were last decided
+  bool is_all_undecided_ = true;               // since then; or:
+  Some undecided_;                             // triangles that have moved since then
+  bool watches_undecided_ = false;             // and not all active triangles
+  int decided_as_a_whole_ = 0;                 // so many times
   std::optional<MovingIntersections> moving_;  // for more of these
 };
 

@@ -18,17 +18,15 @@ bool has_corner(const Triangle& t, Index v) {
 
 void MovingIntersections::add_near(const Positions& x, Index begin, Index end,
                                    std::vector<IntersectingPair>& found) const {
-  const std::span<const Box> boxes = near_.boxes();
   PairClass kind;
   for (Index k = begin; k < end; ++k) {
     const auto [a, b] = near_.pairs()[k];
-    if (boxes[a].overlaps(boxes[b]) && intersects(x, triangles_[a], triangles_[b], kind)) found.push_back({a, b, kind});
+    if (near_.overlap(a, b) && intersects(x, triangles_[a], triangles_[b], kind)) found.push_back({a, b, kind});
   }
 }
 
 void MovingIntersections::add_joined(const Positions& x, Index begin, Index end,
                                      std::vector<IntersectingPair>& found) const {
-  const std::span<const Box> boxes = near_.boxes();
   PairClass kind;
   for (Index v = begin; v < end; ++v) {
     if (fans_.is_unfolded(v)) continue;
@@ -37,7 +35,7 @@ void MovingIntersections::add_joined(const Positions& x, Index begin, Index end,
       for (std::size_t i = 0; i < j && at[i] < active_count_; ++i) {
         const Triangle &a = triangles_[at[i]], &b = triangles_[at[j]];
         // What shares two vertices is decided by either's fan, or else at the first of them.
-        if (!boxes[at[i]].overlaps(boxes[at[j]])) continue;
+        if (!near_.overlap(at[i], at[j])) continue;
         const bool elsewhere = std::any_of(
             a.begin(), a.end(), [&](Index u) { return u != v && has_corner(b, u) && (u < v || fans_.is_unfolded(u)); });
         if (!elsewhere && intersects(x, a, b, kind)) found.push_back({at[i], at[j], kind});

@@ -35,6 +35,7 @@ void NearPairs::update(const Positions& x, double margin) {
   const Index n = static_cast<Index>(triangles_.size());
   const bool is_new = boxes_.empty();
   boxes_.resize(n);
+  rounded_.resize(n);
   roomy_.resize(n);
   left_.resize(n);
   if (is_new) {
@@ -57,14 +58,21 @@ void NearPairs::update(const Positions& x, double margin) {
         ++count;
       }
       boxes_[t] = box;
+      rounded_[t] = RoundedBox(box);
     }
     return count;
   });
   if (left == 0) return;
-  if (is_new)
+  if (is_new) {
     bvh_.build(roomy_);
-  else
+    if (active_count_ < n) {
+      std::vector<std::uint8_t> active(static_cast<std::size_t>(n), 0);
+      std::fill(active.begin(), active.begin() + active_count_, std::uint8_t{1});
+      bvh_.watch(active);
+    }
+  } else {
     bvh_.refit(roomy_);
+  }
   if (left > few * n)
     look_for_all();
   else
@@ -74,7 +82,6 @@ void NearPairs::update(const Positions& x, double margin) {
 void NearPairs::look_for_all() {
   std::vector<std::vector<Pair>> found(bvh_.task_count());
   bvh_.self_pairs_parallel([&](Index task, Index i, Index j) {
-    if (i >= active_count_ && j >= active_count_) return;
     if (!share_a_vertex(triangles_[i], triangles_[j])) found[task].push_back({std::min(i, j), std::max(i, j)});
   });
   join_lists(found, pairs_);

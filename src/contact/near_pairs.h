@@ -25,8 +25,8 @@ class NearPairs {
   /// and others a little farther apart. The order is a function of all positions up to now.
   void update(const Positions& x, double margin = 0);
   std::span<const Pair> pairs() const { return pairs_; }
-  /// The triangles' boxes at the positions, without margin.
-  std::span<const Box> boxes() const { return boxes_; }
+  /// Whether the boxes of two triangles overlap at the positions, without margin; of a few that do not too.
+  bool overlap(Index a, Index b) const { return rounded_[a].overlaps(rounded_[b]); }
 
  private:
   void look_for_all();
@@ -34,10 +34,11 @@ class NearPairs {
 
   std::span<const Triangle> triangles_;
   Index active_count_;
-  double length_ = 0;               // mean diagonal of the boxes
-  std::vector<Box> boxes_, roomy_;  // now; with margin and room, when their triangle last left it
-  std::vector<std::uint8_t> left_;  // per triangle: has left its box
-  Bvh bvh_;                         // of the roomy ones
+  double length_ = 0;                // mean diagonal of the boxes
+  std::vector<Box> boxes_, roomy_;   // now; with margin and room, when their triangle last left it
+  std::vector<RoundedBox> rounded_;  // as they are now
+  std::vector<std::uint8_t> left_;   // per triangle: has left its box
+  Bvh bvh_;                          // of the roomy ones
   std::vector<Pair> pairs_;
 };
 

@@ -4,6 +4,23 @@
 #include <cstdint>
 
 namespace unsnarl {
+namespace {
+
+/// Sorts pairs of numbers below n: by the first ones as it deals them out, by the few second ones of each.
+void sort_pairs(Index n, std::vector<std::array<Index, 2>>& pairs) {
+  std::vector<std::size_t> begin(static_cast<std::size_t>(n) + 1, 0);
+  for (const auto& pair : pairs) ++begin[pair[0] + 1];
+  for (Index i = 0; i < n; ++i) begin[i + 1] += begin[i];
+  std::vector<std::array<Index, 2>> dealt(pairs.size());
+  std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
+  for (const auto& pair : pairs) dealt[end[pair[0]]++] = pair;
+  for (Index i = 0; i < n; ++i)
+    std::sort(dealt.begin() + static_cast<std::ptrdiff_t>(begin[i]),
+              dealt.begin() + static_cast<std::ptrdiff_t>(end[i]));
+  pairs.swap(dealt);
+}
+
+}  // namespace
 
 template <int Dim>
 std::vector<std::array<Index, 2>> pairs_within(const Eigen::Matrix<double, Dim, Eigen::Dynamic>& x, double cutoff) {
@@ -44,7 +61,7 @@ std::vector<std::array<Index, 2>> pairs_within(const Eigen::Matrix<double, Dim, 
       }
     }
   }
-  std::sort(pairs.begin(), pairs.end());
+  sort_pairs(n, pairs);
   return pairs;
 }
 

@@ -93,6 +93,35 @@ TEST(IntersectionFinder, what_moved_since_the_last_time_is_decided_as_if_anew) {
   }
 }
 
+TEST(IntersectionFinder, few_active_faces_that_move_over_and_over_are_decided_as_if_anew) {
+  WavySheets sheets(0.5);
+  const Index active = 600;
+  IntersectionFinder finder(sheets.triangles, active);
+  std::uint64_t state = 2;
+  const auto random = [&] { return state = state * 6364136223846793005ULL + 1442695040888963407ULL, state >> 33; };
+  std::size_t found = 0;
+  for (int round = 0; round < 10; ++round) {
+    // All of them, but for some rounds; at times someone asks what is near a place.
+    const Index moving = round % 4 == 3 ? 20 : active;
+    for (Index t = 0; t < moving; ++t)
+      sheets.x(2, sheets.triangles[t][random() % 3]) += 0.1 * (static_cast<double>(random() % 1000) / 500 - 1);
+    const std::vector<IntersectingPair> pairs = finder.find(sheets.x);
+    EXPECT_TRUE(pairs == IntersectionFinder(sheets.triangles, active).find(sheets.x)) << "round " << round;
+    found += pairs.size();
+    if (round % 3 != 2) continue;
+    finder.move(sheets.x);
+    const Box box = box_of(sheets.x, sheets.triangles[round]).inflated(0.01);
+    std::vector<Index> near;
+    finder.query(box, near);
+    for (Index t = 0; t < static_cast<Index>(sheets.triangles.size()); ++t) {
+      if (box.overlaps(box_of(sheets.x, sheets.triangles[t]))) {
+        EXPECT_NE(std::find(near.begin(), near.end(), t), near.end());
+      }
+    }
+  }
+  EXPECT_GT(found, 100u);
+}
+
 TEST(IntersectionFinder, obstacles_do_not_count_among_themselves) {
   const WavySheets sheets(0.5);
   const auto all = IntersectionFinder(sheets.triangles).find(sheets.x);
