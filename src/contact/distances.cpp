@@ -11,6 +11,11 @@ namespace {
 // boundaries are tried as well and the nearest point found wins. Costs nothing on ordinary meshes.
 constexpr double degenerate_sin2 = 1e-10;
 
+// Squared sine above which rounding does not blur on which sides the nearest point of lines or planes lies: only
+// boundaries that it lies beyond are tried. (A convex function's minimum in a convex set lies on a side that faces its
+// minimum.)
+constexpr double safe_sin2 = 1e-4;
+
 /// Nearest points before the square root is taken.
 struct Nearest {
   Vec3 difference;
@@ -51,6 +56,8 @@ Nearest nearest_vertex_face(const Vec3& p, const Vec3& a, const Vec3& b, const V
   const double w = ab.cross(ap).dot(n);  // and of c
   const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
   const bool sliver = n2 <= degenerate_sin2 * longest2 * longest2;
+  const bool beyond[3] = {w < 0, v + w > n2, v < 0};  // edge k
+  const bool safe = (beyond[0] || beyond[1] || beyond[2]) && n2 > safe_sin2 * longest2 * longest2;
 
   Nearest best;
   if (n2 > 0 && v >= 0 && w >= 0 && v + w <= n2) {
@@ -64,6 +71,7 @@ Nearest nearest_vertex_face(const Vec3& p, const Vec3& a, const Vec3& b, const V
   }
   const Vec3* corner[3] = {&a, &b, &c};
   for (int k = 0; k < 3; ++k) {
+    if (safe && !beyond[k]) continue;
     Vec3 difference;
     const int next = (k + 1) % 3;
     const double t = nearest_on_segment(p, *corner[k], *corner[next], difference);
@@ -85,8 +93,11 @@ Nearest nearest_edge_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   const Vec3 n = u.cross(v);
   const double n2 = n.squaredNorm();
   Nearest best;
+  bool safe = false;
+  std::array<bool, 4> beyond{};  // vertex k's end
   if (n2 > 0) {
-    const bool parallel = n2 <= degenerate_sin2 * u.squaredNorm() * v.squaredNorm();
+    const double scale2 = u.squaredNorm() * v.squaredNorm();
+    const bool parallel = n2 <= degenerate_sin2 * scale2;
     // Lines: r + s u - t v is parallel to n.
     const double s = v.cross(r).dot(n) / n2;
     const double t = u.cross(r).dot(n) / n2;
@@ -96,9 +107,12 @@ Nearest nearest_edge_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
       best.squared_distance = best.difference.squaredNorm();
       if (!parallel) return best;
     }
+    beyond = {s < 0, s > 1, t < 0, t > 1};
+    safe = (beyond[0] || beyond[1] || beyond[2] || beyond[3]) && n2 > safe_sin2 * scale2;
   }
   // The minimum lies on the boundary of the square of parameters: an end point against the other segment.
   for (int k = 0; k < 4; ++k) {
+    if (safe && !beyond[k]) continue;
     Vec3 difference;
     const bool first = k < 2;
     const Vec3& p = k == 0 ? a : k == 1 ? b : k == 2 ? c : d;

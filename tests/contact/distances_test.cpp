@@ -111,6 +111,24 @@ TEST(Distances, AgreeWithSamplingOnTinyLatticesWhereDegenerateCasesRule) {
   }
 }
 
+TEST(Distances, NoPieceOfABoundaryIsNearer) {
+  Dice dice(7);
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Vec3 a = dice.vector(), b = dice.vector(), c = dice.vector();
+    // Thin ones and nearly parallel ones too.
+    const double thin = trial % 4 == 0 ? 1e-3 : 1;
+    const Vec3 d = trial % 2 == 0 ? Vec3(c + (b - a) + thin * dice.vector()) : dice.vector();
+    const double edges = closest_edge_edge(a, b, c, d).distance;
+    const double least_edges = std::min({closest_vertex_edge(a, c, d).distance, closest_vertex_edge(b, c, d).distance,
+                                         closest_vertex_edge(c, a, b).distance, closest_vertex_edge(d, a, b).distance});
+    ASSERT_LE(edges, least_edges * (1 + 1e-12));
+    const double face = closest_vertex_face(a, b, c, d).distance;
+    const double least_face = std::min({closest_vertex_edge(a, b, c).distance, closest_vertex_edge(a, c, d).distance,
+                                        closest_vertex_edge(a, d, b).distance});
+    ASSERT_LE(face, least_face * (1 + 1e-12));
+  }
+}
+
 TEST(Distances, KnownPlaces) {
   const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
   EXPECT_DOUBLE_EQ(closest_vertex_face({0.25, 0.25, 0.5}, a, b, c).distance, 0.5);      // over the interior
