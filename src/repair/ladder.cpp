@@ -10,23 +10,27 @@
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
 #include "mesh/union_find.h"
+#include "repair/coarse_solver.h"
 #include "repair/conflict_regions.h"
 #include "repair/flow.h"
 #include "repair/local_solver.h"
 #include "repair/patch.h"
+#include "repair/pockets.h"
 #include "repair/trajectory.h"
 #include "repair/waves.h"
 
 namespace unsnarl {
 namespace {
 
-/// One way to resolve a region: a local rung, which starts from where the surface is now, or a flow, from rest.
+/// One way to resolve a region: a local rung, which starts from where the surface is now, or a flow, from rest. Or,
+/// with neither, on a coarser mesh, from where the surface is now.
 struct Rung {
   std::string_view name;
   int rings;               ///< edges from the intersecting faces to the border of the free vertices
   const LocalRung* local;  ///< or null
   const FlowRung* flow;    ///< or null
   std::size_t hub_valence = no_hubs;
+  int least_depth = 0;  ///< edges: regions of less (pocket_depth) are let be
 };
 
 /// Obstacles are taken in this many h around a region; regions that move farther are tried again with more. (Checking
@@ -40,12 +44,26 @@ constexpr double worth_climbing_again = 0.7;
 constexpr std::size_t hub_valence = 100;
 
 constexpr int whole_component = std::numeric_limits<int>::max();
+constexpr int by_depth = -1;  // as many rings as the region is deep
+
+/// Regions at least so deep, in edges, are untangled on a coarser mesh where gentle rungs fail ...
+constexpr int deep = 10;
+/// ... and so deep before these. (A curled body, 27 deep: gentle rungs end 20 % closer, with 2 turned faces, not 39.
+/// Every face cut in four, 54 deep: with the coarser mesh first it ends a quarter closer, with 355 turned ones, not
+/// 424.)
+constexpr int very_deep = 32;
+constexpr double rings_per_depth = 1.5;  // freed around such regions. Of 0.7, 1 and 1.5 the closest on three bodies
 
 constexpr LocalRung shallow = {LocalMethod::shallow, 0.1, 1, 20};
 constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
 constexpr LocalRung long_contour = {LocalMethod::contour, 0.3, 4, 60};
 constexpr LocalRung smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
 constexpr LocalRung wide_smoothing = {LocalMethod::smoothing, 0.1, 5, 100};
+
+/// On a coarser mesh, regions at least so deep.
+Rung coarser(int depth) {
+  return {"coarser", by_depth, nullptr, nullptr, no_hubs, depth};
+}
 
 /// The default configuration, gentle first. These move only what lies close to the conflict.
 std::span<const Rung> gentle_rungs() {
@@ -64,6 +82,7 @@ std::span<const Rung> wild_rungs() {
     const FlowRung* local_flow =
         &*std::find_if(flows.begin(), flows.end(), [](const FlowRung& rung) { return rung.name == "flow 1b"; });
     std::vector<Rung> all = {
+        coarser(deep),
         {"smoothing-4", 4, &smoothing, nullptr},
         {"flow-8", 8, nullptr, local_flow},
         {"smoothing-8", 8, &wide_smoothing, nullptr},
@@ -83,6 +102,15 @@ std::span<const Rung> second_way_rungs() {
   return {first, 2};
 }
 
+std::vector<Index> component_of_vertices(const Scene& scene) {
+  UnionFind sets(scene.vertex_count());
+  for (const Triangle& t : scene.triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  return sets.dense_ids();
+}
+
 class Climb {
  public:
   Climb(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored, const LadderOptions& options)
@@ -91,8 +119,15 @@ class Climb {
   LadderResult run() {
     const Positions rest = scene_.rest;
     pairs_ = current_pairs();
+    const bool climbs_all =
+        options_.rungs == LadderOptions::Rungs::all || options_.rungs == LadderOptions::Rungs::local;
+    if (climbs_all) {
+      // On a mesh that is a coarser one itself, a still coarser one goes before all else.
+      const Rung first = coarser(options_.rungs == LadderOptions::Rungs::local ? deep : very_deep);
+      climb({&first, 1});
+    }
     climb(options_.rungs == LadderOptions::Rungs::second_way ? second_way_rungs() : gentle_rungs());
-    if (options_.rungs == LadderOptions::Rungs::all) {
+    if (climbs_all) {
       for (Index group : find_stuck_groups()) {
         group_ = group;
         climb_apart();
@@ -152,6 +187,13 @@ class Climb {
     if (options_.recorder) options_.recorder->restore(state.recorded);
   }
 
+  std::span<const Rung> wild() const {
+    const std::span<const Rung> all = wild_rungs();
+    if (options_.rungs == LadderOptions::Rungs::all) return all;
+    const auto whole = std::find_if(all.begin(), all.end(), [](const Rung& r) { return r.rings == whole_component; });
+    return {all.begin(), whole};
+  }
+
   bool stopped() const { return options_.stop && options_.stop(); }
 
   /// Of the group that climbs now.
@@ -198,14 +240,14 @@ class Climb {
     // Gently, again from where that has got to, as long as it takes away pairs.
     const State first = state();
     while (!pairs_.empty() && take_gains() && !stopped()) climb(gentle_rungs());
-    if (!pairs_.empty() && !stopped()) {
+    if (pairs_.size() > options_.good_enough && !stopped()) {
       // Wild rungs do better from farther back than from where gentle ones got stuck.
       State gentle = state();
       restore(first);
-      climb(wild_rungs());
+      climb(wild());
       while (!pairs_.empty() && take_gains() && !stopped()) {
         climb(gentle_rungs());
-        climb(wild_rungs());
+        climb(wild());
       }
       if (gentle.pairs.size() < pairs_.size()) restore(std::move(gentle));
     }
@@ -344,10 +386,19 @@ class Climb {
                                      options_.first_region + result_.regions.size(), attempt.free, scene_.x);
             result_.regions.push_back(report_of(attempt, rung));
             if (!attempt.clean) start_anew(attempt.free);
-            result_.moved.push_back(std::move(attempt.free));
+            result_.moved.push_back(rung.rings == by_depth ? moved_surroundings(attempt) : std::move(attempt.free));
           });
       attempts = std::move(again);
     }
+  }
+
+  /// Of what a coarser mesh has carried along, what is elsewhere than before and a little around it.
+  std::vector<Index> moved_surroundings(const Attempt& attempt) const {
+    constexpr int rings = 4;
+    std::vector<Index> moved;
+    for (std::size_t k = 0; k < attempt.free.size(); ++k)
+      if (attempt.patch.x.col(k) != attempt.start.col(k)) moved.push_back(attempt.free[k]);
+    return dilate(scene_, moved, rings);
   }
 
   void note_tried(const std::vector<Attempt>& attempts, const Rung& rung) {
@@ -372,12 +423,15 @@ class Climb {
       if (rung.rings == whole_component && std::any_of(regions[r].core.begin(), regions[r].core.end(), was_rejected))
         continue;
       if (taken[r]) continue;
+      const int depth = rung.least_depth > 0 ? depth_of(regions[r], rung.least_depth) : 0;
+      if (depth < rung.least_depth) continue;
+      const int rings = rung.rings == by_depth ? static_cast<int>(rings_per_depth * depth) : rung.rings;
       taken[r] = 1;
       Attempt attempt;
       ConflictRegion& region = attempt.region = regions[r];
       for (bool grown = true; grown;) {
         grown = false;
-        attempt.free = dilate(scene_, region.core, rung.rings, rung.hub_valence);
+        attempt.free = dilate(scene_, region.core, rings, rung.hub_valence);
         for (Index v : attempt.free) {
           const Index other = region_of_core[v];
           if (other < 0 || taken[other]) continue;
@@ -393,10 +447,17 @@ class Climb {
       for (const IntersectingPair& pair : region.pairs)
         for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
       attempt.edge_length = mean_equilateral_side(scene_.rest, core_faces);
-      attempt.reach = (rung.flow ? flow_reach : local_reach) * attempt.edge_length;
+      attempt.reach = (rung.local ? local_reach : flow_reach) * attempt.edge_length;
       attempts.push_back(std::move(attempt));
     }
     return attempts;
+  }
+
+  /// 0 where it is less than `least`.
+  int depth_of(const ConflictRegion& region, int least) const {
+    if (region.core.size() < 2 * static_cast<std::size_t>(least)) return 0;  // no such girth
+    if (component_of_vertex_.empty()) component_of_vertex_ = component_of_vertices(scene_);
+    return pocket_depth(scene_, component_of_vertex_, region);
   }
 
   void run(Attempt& attempt, const Rung& rung) const {
@@ -432,6 +493,7 @@ class Climb {
       attempt.clean = result.clean;
       attempt.pairs_left = result.pairs_left;
     };
+    if (!rung.flow && !rung.local) return take(solve_on_coarser_mesh(attempt.patch, foreign, options_.stop));
     if (rung.flow) return take(flow(attempt.patch, *rung.flow, options_.stop, foreign));
     LocalOptions local;
     // Pockets that are inside out have to turn, and what surrounds them may have to: then nothing is kept.
@@ -466,6 +528,7 @@ class Climb {
   Index group_ = everything;            // what climbs now
   std::vector<Index> group_of_vertex_;  // once there are groups
   std::vector<IntersectingPair> pairs_;
+  mutable std::vector<Index> component_of_vertex_;  // made when first asked for
   std::vector<Gain> gains_;
   std::set<Index> rejected_;  // vertices of regions that were resolved in a way that was not accepted
   LadderResult result_;

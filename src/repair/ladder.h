@@ -24,10 +24,12 @@ struct LadderOptions {
   std::function<bool(Patch& patch)> accept;
   enum class Rungs {
     all,
+    local,       ///< all but those that free whole components
     gentle,      ///< those that move only what lies close to the conflict, once
     second_way,  ///< the first flows of whole components, once: for what gentler rungs have resolved by going far
   };
   Rungs rungs = Rungs::all;
+  std::size_t good_enough = 0;   ///< pairs left by gentle rungs for which wild ones are not worth while
   Recorder* recorder = nullptr;  ///< notes how regions were resolved; none: nobody does
   Tried* tried = nullptr;        ///< notes what was tried; none: nobody does
   std::size_t first_region = 0;  ///< number that the recorder is given for the first region

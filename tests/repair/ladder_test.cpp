@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "repair/shapes.h"
 
@@ -53,6 +54,32 @@ TEST(Ladder, a_region_climbs_until_a_rung_resolves_it) {
   EXPECT_NE(result.regions[0].rung, gentle.regions[0].rung);
   EXPECT_EQ(result.regions[0].pairs, shapes::pairs_of(shape).size());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
+}
+
+// Two wide bumps run through each other many edges deep: the mesh with edges twice as long goes first.
+TEST(Ladder, deep_conflicts_start_on_a_coarser_mesh) {
+  const auto bump = [](double height) {
+    return shapes::grid(100, 100, false, [=](double i, double j) {
+      const double x = i - 50, y = j - 50;
+      return Vec3(x, y, height * std::exp(-(x * x + y * y) / 1400));
+    });
+  };
+  Shape shape = bump(16);
+  shape.add(bump(-16), {0.31, 0.17, 20});
+  Scene scene = shapes::scene_of(shape);
+  const LadderResult result = climb(scene, {}, {});
+  EXPECT_TRUE(result.left.empty());
+  EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
+  ASSERT_FALSE(result.regions.empty());
+  EXPECT_EQ(result.regions[0].rung, "coarser");
+  EXPECT_GT(2 * result.regions[0].pairs, shapes::pairs_of(shape).size());
+  // What it says has moved has, and is not everything.
+  ASSERT_FALSE(result.moved.empty());
+  std::vector<std::uint8_t> is_free(scene.vertex_count(), 0);
+  for (const std::vector<Index>& moved : result.moved)
+    for (Index v : moved) is_free[v] = 1;
+  for (Index v = 0; v < scene.vertex_count(); ++v) EXPECT_TRUE(is_free[v] || scene.x.col(v) == scene.rest.col(v));
+  EXPECT_LT(std::count(is_free.begin(), is_free.end(), 1), scene.vertex_count());
 }
 
 TEST(Ladder, nothing_to_do_moves_nothing) {

@@ -1,0 +1,67 @@
+#include "repair/pockets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/union_find.h"
+#include "repair/shapes.h"
+
+namespace unsnarl {
+namespace {
+
+/// Of the only region.
+int depth_of(const shapes::Shape& shape) {
+  const Scene scene = shapes::scene_of(shape);
+  UnionFind sets(scene.vertex_count());
+  for (const Triangle& t : scene.triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  const std::vector<ConflictRegion> regions = conflict_regions(scene, shapes::pairs_of(shape));
+  EXPECT_EQ(regions.size(), 1u);
+  return pocket_depth(scene, sets.dense_ids(), regions.front());
+}
+
+/// Two sheets of cells of side 1 / n whose wide bumps run through each other.
+shapes::Shape bumps(Index n, double depth) {
+  const auto sheet = [&](double height) {
+    return shapes::grid(40 * n, 40 * n, false, [=](double i, double j) {
+      const double x = i / n - 20, y = j / n - 20;
+      return Vec3(x, y, height * std::exp(-(x * x + y * y) / 36));
+    });
+  };
+  shapes::Shape shape = sheet(1 + 0.5 * depth);
+  return shape.add(sheet(-1 - 0.5 * depth), {0.31, 0.17, 2});
+}
+
+TEST(Pockets, are_as_many_edges_deep_as_the_mesh_is_fine) {
+  const int coarse = depth_of(bumps(1, 1)), fine = depth_of(bumps(2, 1));
+  EXPECT_GE(coarse, 2);
+  EXPECT_GE(fine, 2 * coarse - 1);
+  EXPECT_LE(fine, 2 * coarse + 3);
+}
+
+TEST(Pockets, are_deeper_where_more_has_run_through) {
+  EXPECT_GT(depth_of(bumps(2, 2)), depth_of(bumps(2, 0.3)));
+}
+
+// A wedge pushed into the side of a sheet cuts nothing off it, nor the sheet off the wedge.
+TEST(Pockets, open_cuts_cut_nothing_off) {
+  shapes::Shape shape = shapes::bumpy_sheet(20, 0);
+  shape.add(shapes::grid(20, 20, false, [](double i, double j) { return Vec3(8.3 + 0.9 * i, 0.13, 0.7 * (j - 10)); }));
+  EXPECT_EQ(depth_of(shape), 0);
+}
+
+// A thin needle through a sheet leaves by its side, however long it is.
+TEST(Pockets, are_not_deeper_than_half_their_girth) {
+  shapes::Shape shape = shapes::bumpy_sheet(30, 0);
+  shape.add(shapes::grid(24, 4, true, [](double i, double j) {
+    const double angle = 2 * M_PI * j / 4;
+    return Vec3(0.21 + 0.3 * std::cos(angle), 0.13 + 0.3 * std::sin(angle), i - 16.37);
+  }));
+  EXPECT_LE(depth_of(shape), 2);
+}
+
+}  // namespace
+}  // namespace unsnarl
