@@ -2,7 +2,7 @@
 
 #include <meshoptimizer.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "geometry/box.h"
 
@@ -13,7 +13,7 @@ std::vector<Triangle> simplify(const Positions& x, std::span<const Triangle> tri
   Box box;
   for (const Triangle& t : triangles) box.extend(box_of(x, t));
   const double size = triangles.empty() ? 0 : (box.hi - box.lo).maxCoeff();
-  if (!(size > 0)) return {triangles.begin(), triangles.end()};
+  if (!(size > 0) || !std::isfinite(size)) return {triangles.begin(), triangles.end()};
   // In the units of the library: single precision, sizes relative to the largest extent. Only which vertices stay
   // depends on it.
   std::vector<float> points(3 * static_cast<std::size_t>(x.cols()));
