@@ -310,7 +310,8 @@ Penetration triangle_penetration(const std::array<Vec3, 3>& a, const std::array<
 }
 
 double overlap_depth(const Positions& x, const Triangle& a, const Triangle& b) {
-  return triangle_penetration({x.col(a[0]), x.col(a[1]), x.col(a[2])}, {x.col(b[0]), x.col(b[1]), x.col(b[2])}, 0).depth;
+  const auto corners = [&](const Triangle& t) { return std::array<Vec3, 3>{x.col(t[0]), x.col(t[1]), x.col(t[2])}; };
+  return triangle_penetration(corners(a), corners(b), 0).depth;
 }
 
 PolygonPenetration polygon_penetration(std::span<const Vec3> a, std::span<const Vec3> b, double margin,

@@ -46,11 +46,7 @@ void find_orientability(std::span<const Triangle> triangles, const EdgeTable& ed
 }  // namespace
 
 Components find_components(std::span<const Triangle> triangles, Index vertex_count, const EdgeTable& edges) {
-  UnionFind sets(static_cast<std::size_t>(vertex_count));
-  for (const Triangle& t : triangles) {
-    sets.unite(t[0], t[1]);
-    sets.unite(t[0], t[2]);
-  }
+  UnionFind sets = vertices_joined_by(triangles, vertex_count);
   Components result;
   result.component_of_triangle.resize(triangles.size());
   result.component_of_vertex.assign(static_cast<std::size_t>(vertex_count), -1);

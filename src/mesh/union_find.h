@@ -1,6 +1,7 @@
 #pragma once
 
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,13 @@ namespace unsnarl {
 class UnionFind {
  public:
   explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+
+  /// A new member, in a set of its own. Returns it: the largest one.
+  Index add() {
+    parent_.push_back(static_cast<Index>(parent_.size()));
+    return parent_.back();
+  }
+  std::size_t size() const { return parent_.size(); }
 
   Index find(Index i) {
     while (parent_[i] != i) {
@@ -44,5 +52,15 @@ class UnionFind {
  private:
   std::vector<Index> parent_;
 };
+
+/// Vertices 0 .. vertex_count - 1, those of each triangle in one set.
+inline UnionFind vertices_joined_by(std::span<const Triangle> triangles, Index vertex_count) {
+  UnionFind sets(static_cast<std::size_t>(vertex_count));
+  for (const Triangle& t : triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  return sets;
+}
 
 }  // namespace unsnarl

@@ -6,6 +6,7 @@
 #include "repair/conflict_regions.h"
 #include "repair/far_regions.h"
 #include "repair/local_solver.h"
+#include "repair/rungs.h"
 
 namespace unsnarl {
 namespace {

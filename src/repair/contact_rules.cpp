@@ -30,8 +30,7 @@ ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conf
   for (Index t = 0; t < patch.active_count; ++t) {
     const Triangle& f = patch.triangles[t];
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
-    for (int k = 0; k < 3; ++k)
-      rest_altitudes_[t][k] = std::sqrt(squared_distance(altitude_of(f, k), patch.rest));
+    for (int k = 0; k < 3; ++k) rest_altitudes_[t][k] = std::sqrt(squared_distance(altitude_of(f, k), patch.rest));
   }
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
     if (!in_conflict_[t]) continue;
@@ -63,21 +62,19 @@ void ContactRules::gather_around(std::span<const Index> vertices, const Position
 void ContactRules::add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
                              std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
   constexpr Index chunk = 1024;  // stencils or triangles a task
-  gather_in_chunks(static_cast<Index>(stencils_.size()), chunk, added_,
-                   [&](Index begin, Index end, std::vector<ContactRule>& list) {
-                     for (Index k = begin; k < end; ++k) {
-                       const NearStencil& near = stencils_[k];
-                       const double distance =
-                           &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x));
-                       ContactRule rule;
-                       if (rule_of(near, distance, activation, rule)) list.push_back(rule);
-                     }
-                   });
+  gather_in_chunks(
+      static_cast<Index>(stencils_.size()), chunk, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+        for (Index k = begin; k < end; ++k) {
+          const NearStencil& near = stencils_[k];
+          const double distance = &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x));
+          ContactRule rule;
+          if (rule_of(near, distance, activation, rule)) list.push_back(rule);
+        }
+      });
   rules.insert(rules.end(), added_.begin(), added_.end());
-  gather_in_chunks(patch_.active_count, chunk, added_,
-                   [&](Index begin, Index end, std::vector<ContactRule>& list) {
-                     add_altitudes(from, x, bounds, moves, begin, end, list);
-                   });
+  gather_in_chunks(patch_.active_count, chunk, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+    add_altitudes(from, x, bounds, moves, begin, end, list);
+  });
   rules.insert(rules.end(), added_.begin(), added_.end());
 }
 
@@ -115,8 +112,9 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   return true;
 }
 
-void ContactRules::add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
-                                 Index begin, Index end, std::vector<ContactRule>& rules) const {
+void ContactRules::add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
+                                 std::span<const std::uint8_t> moves, Index begin, Index end,
+                                 std::vector<ContactRule>& rules) const {
   for (Index t = begin; t < end; ++t) {
     const Triangle& f = patch_.triangles[t];
     if (!moves[f[0]] && !moves[f[1]] && !moves[f[2]]) continue;

@@ -1,10 +1,8 @@
 #include "repair/ladder.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <iterator>
-#include <limits>
 #include <set>
 
 #include "contact/intersection_finder.h"
@@ -16,22 +14,12 @@
 #include "repair/local_solver.h"
 #include "repair/patch.h"
 #include "repair/pockets.h"
+#include "repair/rungs.h"
 #include "repair/trajectory.h"
 #include "repair/waves.h"
 
 namespace unsnarl {
 namespace {
-
-/// One way to resolve a region: a local rung, which starts from where the surface is now, or a flow, from rest. Or,
-/// with neither, on a coarser mesh, from where the surface is now.
-struct Rung {
-  std::string_view name;
-  int rings;               ///< edges from the intersecting faces to the border of the free vertices
-  const LocalRung* local;  ///< or null
-  const FlowRung* flow;    ///< or null
-  std::size_t hub_valence = no_hubs;
-  int least_depth = 0;  ///< edges: regions of less (pocket_depth) are let be
-};
 
 /// Obstacles are taken in this many h around a region; regions that move farther are tried again with more. (Checking
 /// afterwards whether they met any of those left out is not enough: they may have passed through them.)
@@ -40,76 +28,7 @@ constexpr double flow_reach = 20;  // of 4 that flows did, 2 moved by 16 h
 
 /// The ladder is climbed again where it has left at most this share of the pairs.
 constexpr double worth_climbing_again = 0.7;
-/// Gentle rungs hold vertices with more neighbours than this. The needles of a CAD export met at two of 1900.
-constexpr std::size_t hub_valence = 100;
-
-constexpr int whole_component = std::numeric_limits<int>::max();
-constexpr int by_depth = -1;  // as many rings as the region is deep
-
-/// Regions at least so deep, in edges, are untangled on a coarser mesh where gentle rungs fail ...
-constexpr int deep = 10;
-/// ... and so deep before these. (A curled body, 27 deep: gentle rungs end 20 % closer, with 2 turned faces, not 39.
-/// Every face cut in four, 54 deep: with the coarser mesh first it ends a quarter closer, with 355 turned ones, not
-/// 424.)
-constexpr int very_deep = 32;
 constexpr double rings_per_depth = 1.5;  // freed around such regions. Of 0.7, 1 and 1.5 the closest on three bodies
-
-constexpr LocalRung shallow = {LocalMethod::shallow, 0.1, 1, 20};
-constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
-constexpr LocalRung long_contour = {LocalMethod::contour, 0.3, 4, 60};
-constexpr LocalRung smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
-constexpr LocalRung wide_smoothing = {LocalMethod::smoothing, 0.1, 5, 100};
-
-/// On a coarser mesh, regions at least so deep.
-Rung coarser(int depth) {
-  return {"coarser", by_depth, nullptr, nullptr, no_hubs, depth};
-}
-
-/// The default configuration, gentle first. These move only what lies close to the conflict.
-std::span<const Rung> gentle_rungs() {
-  static const std::array<Rung, 4> rungs = {{
-      {"shallow-0", 0, &shallow, nullptr, hub_valence},
-      {"contour-2", 2, &contour, nullptr, hub_valence},
-      {"contour-4", 4, &contour, nullptr, hub_valence},
-      {"contour-8", 8, &long_contour, nullptr},
-  }};
-  return rungs;
-}
-
-std::span<const Rung> wild_rungs() {
-  static const std::vector<Rung> rungs = [] {
-    const std::span<const FlowRung> flows = default_flow_rungs();
-    const FlowRung* local_flow =
-        &*std::find_if(flows.begin(), flows.end(), [](const FlowRung& rung) { return rung.name == "flow 1b"; });
-    std::vector<Rung> all = {
-        coarser(deep),
-        {"smoothing-4", 4, &smoothing, nullptr},
-        {"flow-8", 8, nullptr, local_flow},
-        {"smoothing-8", 8, &wide_smoothing, nullptr},
-        {"flow-16", 16, nullptr, local_flow},
-    };
-    for (const FlowRung& flow : flows)
-      if (flow.line_search) all.push_back({flow.name, whole_component, nullptr, &flow});
-    return all;
-  }();
-  return rungs;
-}
-
-/// The two that brought regions closer that had gone far: with the deep flows after them, eight times slower, none did.
-std::span<const Rung> second_way_rungs() {
-  const auto first = std::find_if(wild_rungs().begin(), wild_rungs().end(),
-                                  [](const Rung& rung) { return rung.rings == whole_component; });
-  return {first, 2};
-}
-
-std::vector<Index> component_of_vertices(const Scene& scene) {
-  UnionFind sets(scene.vertex_count());
-  for (const Triangle& t : scene.triangles) {
-    sets.unite(t[0], t[1]);
-    sets.unite(t[0], t[2]);
-  }
-  return sets.dense_ids();
-}
 
 class Climb {
  public:
@@ -122,9 +41,7 @@ class Climb {
     const bool climbs_all =
         options_.rungs == LadderOptions::Rungs::all || options_.rungs == LadderOptions::Rungs::local;
     if (climbs_all) {
-      // On a mesh that is a coarser one itself, a still coarser one goes before all else.
-      const Rung first = coarser(options_.rungs == LadderOptions::Rungs::local ? deep : very_deep);
-      climb({&first, 1});
+      climb(options_.rungs == LadderOptions::Rungs::local ? coarser_first_again() : coarser_first());
     }
     climb(options_.rungs == LadderOptions::Rungs::second_way ? second_way_rungs() : gentle_rungs());
     if (climbs_all) {
@@ -188,10 +105,7 @@ class Climb {
   }
 
   std::span<const Rung> wild() const {
-    const std::span<const Rung> all = wild_rungs();
-    if (options_.rungs == LadderOptions::Rungs::all) return all;
-    const auto whole = std::find_if(all.begin(), all.end(), [](const Rung& r) { return r.rings == whole_component; });
-    return {all.begin(), whole};
+    return options_.rungs == LadderOptions::Rungs::all ? wild_rungs() : wild_rungs_within_components();
   }
 
   bool stopped() const { return options_.stop && options_.stop(); }
@@ -211,12 +125,7 @@ class Climb {
   /// does not depend on the others.
   std::vector<Index> find_stuck_groups() {
     if (pairs_.empty()) return {};
-    UnionFind sets(scene_.vertex_count());
-    const auto unite = [&](const Triangle& t) {
-      sets.unite(t[0], t[1]);
-      sets.unite(t[0], t[2]);
-    };
-    std::for_each(scene_.triangles.begin(), scene_.triangles.end(), unite);
+    UnionFind sets = vertices_joined_by(scene_.triangles, scene_.vertex_count());
     for (const IntersectingPair& pair : pairs_) sets.unite(scene_.triangles[pair.a][0], scene_.triangles[pair.b][0]);
     group_of_vertex_ = sets.dense_ids();
     std::vector<Index> groups;
@@ -456,7 +365,8 @@ class Climb {
   /// 0 where it is less than `least`.
   int depth_of(const ConflictRegion& region, int least) const {
     if (region.core.size() < 2 * static_cast<std::size_t>(least)) return 0;  // no such girth
-    if (component_of_vertex_.empty()) component_of_vertex_ = component_of_vertices(scene_);
+    if (component_of_vertex_.empty())
+      component_of_vertex_ = vertices_joined_by(scene_.triangles, scene_.vertex_count()).dense_ids();
     return pocket_depth(scene_, component_of_vertex_, region);
   }
 
@@ -535,20 +445,6 @@ class Climb {
 };
 
 }  // namespace
-
-bool frees_whole_components(std::string_view rung) {
-  return std::any_of(wild_rungs().begin(), wild_rungs().end(),
-                     [&](const Rung& r) { return r.name == rung && r.rings == whole_component; });
-}
-
-std::string_view rung_name(int number) {
-  const auto gentle = static_cast<int>(gentle_rungs().size());
-  return number < gentle ? gentle_rungs()[number].name : wild_rungs()[number - gentle].name;
-}
-
-int last_rung() {
-  return static_cast<int>(gentle_rungs().size() + wild_rungs().size()) - 1;
-}
 
 LadderResult climb_ladder(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
                           const LadderOptions& options) {

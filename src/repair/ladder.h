@@ -41,16 +41,9 @@ struct LadderResult {
   std::vector<IntersectingPair> left;     ///< pairs of triangles that remain
 };
 
-/// Of the rung with this name (RegionReport::rung).
-bool frees_whole_components(std::string_view rung);
-
 /// Untangles the scene region by region: every conflict region climbs from gentle local rungs to the flow of its whole
 /// component, everything outside it held. Pairs in `ignored` (sorted, of triangles) cannot be resolved and are let be.
 LadderResult climb_ladder(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
                           const LadderOptions& options);
-
-/// Name of a rung by its number, from gentle to wild.
-std::string_view rung_name(int number);
-int last_rung();
 
 }  // namespace unsnarl

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "contact/intersection_finder.h"
-#include "repair/ladder.h"
+#include "repair/rungs.h"
 
 namespace unsnarl {
 namespace {

@@ -3,18 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "mesh/union_find.h"
 
 namespace unsnarl {
 namespace {
 
 /// Vertices around a pocket for an edge of its depth that counts: two for a finger, which can leave sideways by half
-/// its girth; discs have six.
+/// its girth; discs have six. Of posed bodies: fingers 11 deep with a girth of 30, a chin 12 with 160, a limb 53 with
+/// 188.
 constexpr int girth_per_edge = 2;
-/// What is deeper, as a share of the root of the number of faces, is a limb or the outside rather than a pocket.
+/// What is deeper, as a share of the root of the number of faces, is a limb or the outside rather than a pocket: a hand
+/// beyond its fingers' conflicts has 0.2 and more, the deepest pocket of a curled body 0.17.
 constexpr double largest_share = 0.2;
 
 /// The parts that the intersecting faces cut the surface into, as far as they have been reached.
@@ -30,8 +33,8 @@ class Parts {
     std::vector<Index> next;
     for (const Index v : front_)
       for (const Index w : scene_.neighbours[v]) {
-        if (!part_of_.try_emplace(w, static_cast<Index>(parent_.size())).second) continue;
-        parent_.push_back(static_cast<Index>(parent_.size()));
+        if (!part_of_.try_emplace(w, static_cast<Index>(parts_.size())).second) continue;
+        parts_.add();
         first_vertex_.push_back(w);
         depth_of_.push_back(depth_);
         girth_of_.push_back(depth_ == 1);
@@ -48,40 +51,36 @@ class Parts {
   /// Depth of the deepest part that has been reached to its bottom; of each connected surface the deepest is the
   /// outside and does not count.
   int deepest_pocket(std::span<const Index> component_of_vertex) {
-    std::vector<std::array<int, 3>> parts;  // component, depth and girth
-    for (Index part = 0; part < static_cast<Index>(parent_.size()); ++part)
-      if (parent_[part] == part)
-        parts.push_back({component_of_vertex[first_vertex_[part]], depth_of_[part], girth_of_[part]});
-    std::sort(parts.begin(), parts.end());
+    std::vector<std::array<int, 3>> found;  // component, depth and girth
+    for (Index part = 0; part < static_cast<Index>(parts_.size()); ++part)
+      if (parts_.find(part) == part)
+        found.push_back({component_of_vertex[first_vertex_[part]], depth_of_[part], girth_of_[part]});
+    std::sort(found.begin(), found.end());
     int deepest = 0;
-    for (std::size_t k = 0; k + 1 < parts.size(); ++k)
-      if (parts[k][1] < depth_ && parts[k][0] == parts[k + 1][0])
-        deepest = std::max(deepest, std::min(parts[k][1], parts[k][2] / girth_per_edge));
+    for (std::size_t k = 0; k + 1 < found.size(); ++k)
+      if (found[k][1] < depth_ && found[k][0] == found[k + 1][0])
+        deepest = std::max(deepest, std::min(found[k][1], found[k][2] / girth_per_edge));
     return deepest;
   }
 
  private:
   static constexpr Index none = -1;
 
-  Index find(Index part) {
-    while (parent_[part] != part) part = parent_[part] = parent_[parent_[part]];
-    return part;
-  }
   void unite(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return;
-    if (b < a) std::swap(a, b);
-    parent_[b] = a;
-    depth_of_[a] = std::max(depth_of_[a], depth_of_[b]);
-    girth_of_[a] += girth_of_[b];
+    a = parts_.find(a);
+    b = parts_.find(b);
+    if (!parts_.unite(a, b)) return;
+    const Index part = std::min(a, b), other = std::max(a, b);
+    depth_of_[part] = std::max(depth_of_[part], depth_of_[other]);
+    girth_of_[part] += girth_of_[other];
   }
 
   const Scene& scene_;
   std::vector<Index> front_;
   int depth_ = 0;
   std::unordered_map<Index, Index> part_of_;  // of vertices; never gone through in its order
-  std::vector<Index> parent_;
+  UnionFind parts_{0};
+  // Of every part, true of the root of its set:
   std::vector<Index> first_vertex_;
   std::vector<int> depth_of_;
   std::vector<int> girth_of_;  // vertices next to the core

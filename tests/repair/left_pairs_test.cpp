@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "repair/ladder.h"
+#include "repair/rungs.h"
 #include "repair/shapes.h"
 #include "samples/samples.h"
 #include "unsnarl/repair.h"

@@ -13,14 +13,9 @@ namespace {
 /// Of the only region.
 int depth_of(const shapes::Shape& shape) {
   const Scene scene = shapes::scene_of(shape);
-  UnionFind sets(scene.vertex_count());
-  for (const Triangle& t : scene.triangles) {
-    sets.unite(t[0], t[1]);
-    sets.unite(t[0], t[2]);
-  }
   const std::vector<ConflictRegion> regions = conflict_regions(scene, shapes::pairs_of(shape));
   EXPECT_EQ(regions.size(), 1u);
-  return pocket_depth(scene, sets.dense_ids(), regions.front());
+  return pocket_depth(scene, vertices_joined_by(scene.triangles, scene.vertex_count()).dense_ids(), regions.front());
 }
 
 /// Two sheets of cells of side 1 / n whose wide bumps run through each other.

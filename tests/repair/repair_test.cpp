@@ -366,8 +366,9 @@ TEST(Repair, sheets_that_only_rounding_brings_together_are_parted) {
   EXPECT_TRUE(std::equal(surface.positions.begin(), surface.positions.end(), beside.positions.begin()));
 }
 
-/// As a modeller leaves them: a strip whose upper border runs straight at a far vertex, but for the last digits, and the
-/// needles between the border's edges and that vertex. They run over the strip for as much as the border is not straight.
+/// As a modeller leaves them: a strip whose upper border runs straight at a far vertex, but for the last digits, and
+/// the needles between the border's edges and that vertex. They run over the strip for as much as the border is not
+/// straight.
 Shape fan_of_needles(double roughness, Index cells = 12) {
   Shape shape;
   shape.points.push_back({9000, 0, 0});

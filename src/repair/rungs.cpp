@@ -1,0 +1,100 @@
+#include "repair/rungs.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace unsnarl {
+namespace {
+
+/// Gentle rungs hold vertices with more neighbours than this. The needles of a CAD export met at two of 1900.
+constexpr std::size_t hub_valence = 100;
+
+/// Regions at least so deep, in edges, are untangled on a coarser mesh where gentle rungs fail ...
+constexpr int deep = 10;
+/// ... and so deep before these. (A curled body, 27 deep: gentle rungs end 20 % closer, with 2 turned faces, not 39.
+/// Every face cut in four, 54 deep: with the coarser mesh first it ends a quarter closer, with 355 turned ones, not
+/// 424.)
+constexpr int very_deep = 32;
+
+constexpr LocalRung shallow = {LocalMethod::shallow, 0.1, 1, 20};
+constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
+constexpr LocalRung long_contour = {LocalMethod::contour, 0.3, 4, 60};
+constexpr LocalRung smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
+constexpr LocalRung wide_smoothing = {LocalMethod::smoothing, 0.1, 5, 100};
+
+constexpr Rung coarser(int least_depth) {
+  return {"coarser", by_depth, nullptr, nullptr, no_hubs, least_depth};
+}
+
+std::size_t count_within_components() {
+  const std::span<const Rung> all = wild_rungs();
+  return static_cast<std::size_t>(
+      std::find_if(all.begin(), all.end(), [](const Rung& rung) { return rung.rings == whole_component; }) -
+      all.begin());
+}
+
+}  // namespace
+
+std::span<const Rung> gentle_rungs() {
+  static const std::array<Rung, 4> rungs = {{
+      {"shallow-0", 0, &shallow, nullptr, hub_valence},
+      {"contour-2", 2, &contour, nullptr, hub_valence},
+      {"contour-4", 4, &contour, nullptr, hub_valence},
+      {"contour-8", 8, &long_contour, nullptr},
+  }};
+  return rungs;
+}
+
+std::span<const Rung> wild_rungs() {
+  static const std::vector<Rung> rungs = [] {
+    const std::span<const FlowRung> flows = default_flow_rungs();
+    const FlowRung* local_flow =
+        &*std::find_if(flows.begin(), flows.end(), [](const FlowRung& rung) { return rung.name == "flow 1b"; });
+    std::vector<Rung> all = {
+        coarser(deep),
+        {"smoothing-4", 4, &smoothing, nullptr},
+        {"flow-8", 8, nullptr, local_flow},
+        {"smoothing-8", 8, &wide_smoothing, nullptr},
+        {"flow-16", 16, nullptr, local_flow},
+    };
+    for (const FlowRung& flow : flows)
+      if (flow.line_search) all.push_back({flow.name, whole_component, nullptr, &flow});
+    return all;
+  }();
+  return rungs;
+}
+
+std::span<const Rung> wild_rungs_within_components() {
+  return wild_rungs().first(count_within_components());
+}
+
+std::span<const Rung> coarser_first() {
+  static constexpr std::array<Rung, 1> rungs = {coarser(very_deep)};
+  return rungs;
+}
+
+std::span<const Rung> coarser_first_again() {
+  static constexpr std::array<Rung, 1> rungs = {coarser(deep)};
+  return rungs;
+}
+
+std::span<const Rung> second_way_rungs() {
+  return wild_rungs().subspan(count_within_components(), 2);
+}
+
+bool frees_whole_components(std::string_view rung) {
+  const std::span<const Rung> whole = wild_rungs().subspan(count_within_components());
+  return std::any_of(whole.begin(), whole.end(), [&](const Rung& r) { return r.name == rung; });
+}
+
+std::string_view rung_name(int number) {
+  const auto gentle = static_cast<int>(gentle_rungs().size());
+  return number < gentle ? gentle_rungs()[number].name : wild_rungs()[number - gentle].name;
+}
+
+int last_rung() {
+  return static_cast<int>(gentle_rungs().size() + wild_rungs().size()) - 1;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include "repair/conflict_regions.h"
+#include "repair/flow.h"
+#include "repair/local_solver.h"
+
+namespace unsnarl {
+
+// Of Rung::rings.
+constexpr int whole_component = std::numeric_limits<int>::max();
+constexpr int by_depth = -1;  ///< a share of the region's depth (pocket_depth)
+
+/// One way to resolve a region: a local rung, which starts from where the surface is now, or a flow, from rest. Or,
+/// with neither, on a coarser mesh, from where the surface is now.
+struct Rung {
+  std::string_view name;
+  int rings;               ///< edges from the intersecting faces to the border of the free vertices
+  const LocalRung* local;  ///< or null
+  const FlowRung* flow;    ///< or null
+  std::size_t hub_valence = no_hubs;
+  int least_depth = 0;  ///< edges: regions of less (pocket_depth) are let be
+};
+
+/// The default configuration, gentle first. These move only what lies close to the conflict.
+std::span<const Rung> gentle_rungs();
+/// The rest of it.
+std::span<const Rung> wild_rungs();
+/// Those of them that do not free whole components; they come first.
+std::span<const Rung> wild_rungs_within_components();
+
+/// For what is so deep that the coarser mesh goes before gentle rungs ...
+std::span<const Rung> coarser_first();
+/// ... and the same on a mesh that is a coarser one itself.
+std::span<const Rung> coarser_first_again();
+
+/// The two that brought regions closer that had gone far: with the deep flows after them, eight times slower, none did.
+std::span<const Rung> second_way_rungs();
+
+/// Of the rung with this name (RegionReport::rung).
+bool frees_whole_components(std::string_view rung);
+
+/// Name of a rung by its number, from gentle to wild.
+std::string_view rung_name(int number);
+int last_rung();
+
+}  // namespace unsnarl
