@@ -48,7 +48,8 @@ bool OrientationPenalty::evaluate(const Positions& x, Index t, Term& term) const
   return true;
 }
 
-void OrientationPenalty::filter(const Positions& x, std::span<const Index> which, double share, Positions& p) const {
+bool OrientationPenalty::filter(const Positions& x, std::span<const Index> which, double share, double factor,
+                                Positions& p) const {
   constexpr int rounds = 30;
   const auto turns = [&](Index t) {
     const Kept& kept = triangles_[t];
@@ -60,12 +61,12 @@ void OrientationPenalty::filter(const Positions& x, std::span<const Index> which
     return kept.normal.dot((moved(1) - a).cross(moved(2) - a)) < share * now;
   };
   std::vector<Index> turning;
-  for (int round = 1; round <= rounds; ++round) {
+  for (int round = 0;; ++round) {
     turning.clear();
     std::copy_if(which.begin(), which.end(), std::back_inserter(turning), turns);
-    if (turning.empty()) return;
+    if (turning.empty()) return round > 0;
     for (Index t : turning)
-      for (Index v : triangles_[t].corners) p.col(v) *= round < rounds ? 0.5 : 0;
+      for (Index v : triangles_[t].corners) p.col(v) *= round < rounds ? factor : 0;
   }
 }
 

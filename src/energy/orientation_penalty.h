@@ -37,9 +37,10 @@ class OrientationPenalty {
   /// Returns false, and leaves the term alone, where triangle t has no energy at x.
   bool evaluate(const Positions& x, Index t, Term& term) const;
 
-  /// Halves the displacements p of the corners of those triangles `which` are not turned over at x and would keep less
-  /// than `share` of their c, until none does; the last ones stay where they are.
-  void filter(const Positions& x, std::span<const Index> which, double share, Positions& p) const;
+  /// Scales the displacements p of the corners of those triangles `which` are not turned over at x and would keep less
+  /// than `share` of their c by `factor`, in [0, 1), until none does; the last ones stay where they are. Returns
+  /// whether there were any.
+  bool filter(const Positions& x, std::span<const Index> which, double share, double factor, Positions& p) const;
 
  private:
   struct Kept {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "mesh/areas.h"
-
 namespace unsnarl {
 
 EmbeddingGuard::EmbeddingGuard(const Patch& patch)
@@ -20,24 +18,13 @@ std::vector<IntersectingPair> EmbeddingGuard::new_pairs(const Positions& x) {
   return pairs;
 }
 
-std::vector<Index> EmbeddingGuard::turned_faces(const Positions& x, const Positions& safe) const {
-  std::vector<Index> turned;
-  for (Index t = 0; t < patch_.active_count; ++t) {
-    const Triangle& f = patch_.triangles[t];
-    const Vec3 at_rest = area_vector(patch_.rest, f);
-    if (at_rest.dot(area_vector(safe, f)) > 0 && !(at_rest.dot(area_vector(x, f)) > 0)) turned.push_back(t);
-  }
-  return turned;
-}
-
 Index EmbeddingGuard::roll_back(Positions& x, const Positions& safe) {
   // Each round takes back the offenders' vertices; a long chain of them is not worth following.
   constexpr int rounds = 20;
   Index count = 0;
   for (int round = 0;; ++round) {
     const std::vector<IntersectingPair> pairs = new_pairs(x);
-    const std::vector<Index> turned = turned_faces(x, safe);
-    if (pairs.empty() && turned.empty()) return count;
+    if (pairs.empty()) return count;
     Index put_back = 0;
     const auto restore = [&](Index v) {
       if (x.col(v) == safe.col(v)) return;
@@ -48,8 +35,6 @@ Index EmbeddingGuard::roll_back(Positions& x, const Positions& safe) {
       for (Index v : patch_.triangles[pair.a]) restore(v);
       for (Index v : patch_.triangles[pair.b]) restore(v);
     }
-    for (Index t : turned)
-      for (Index v : patch_.triangles[t]) restore(v);
     if (put_back == 0 || round == rounds) {
       for (Index v = 0; v < patch_.free_count; ++v) restore(v);
       return count + put_back;

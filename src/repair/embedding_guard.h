@@ -8,7 +8,7 @@
 namespace unsnarl {
 
 /// Watches that a moving patch gains no intersecting pair over those it had at the start (none, or obstructions such as
-/// duplicate faces), and that none of its faces turns over. Pairs are exact. The patch's triangles must outlive it.
+/// duplicate faces). Exact. The patch's triangles must outlive it.
 class EmbeddingGuard {
  public:
   explicit EmbeddingGuard(const Patch& patch);
@@ -16,9 +16,7 @@ class EmbeddingGuard {
   std::size_t pairs_at_start() const { return tolerated_.size(); }
   /// Pairs at x that were not there at the start.
   std::vector<IntersectingPair> new_pairs(const Positions& x);
-  /// Active triangles that turn over, against their rest shape, on the way from `safe` to x.
-  std::vector<Index> turned_faces(const Positions& x, const Positions& safe) const;
-  /// Puts vertices of newly intersecting or turned faces back to where they are in `safe` (a state without new pairs),
+  /// Puts vertices of newly intersecting faces back to where they are in `safe` (a state without new pairs),
   /// until there are none. Returns the number of vertices put back.
   Index roll_back(Positions& x, const Positions& safe);
 

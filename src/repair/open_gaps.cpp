@@ -30,8 +30,8 @@ Vec3 exact_direction(const Stencil& s, const Positions& x) {
 
 }  // namespace
 
-OpenGapsResult open_gaps(Positions& x, ContactRules& rules, EmbeddingGuard& guard, std::span<const std::uint8_t> moves,
-                         const OpenGapsOptions& options) {
+OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const UprightFaces& upright, EmbeddingGuard& guard,
+                         std::span<const std::uint8_t> moves, const OpenGapsOptions& options) {
   OpenGapsResult result;
   const double roundoff = rules.options().roundoff;
   std::vector<ContactRule> close;
@@ -82,7 +82,7 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, EmbeddingGuard& guar
       doubtful |= rule.distance <= direction_margin * roundoff;
       if (rule.distance > roundoff) filter.push_back({rule.stencil.stencil, rule.stencil.separation});
     }
-    filter_displacements(filter, x, p, OnCollision::shorten);
+    filter_step(filter, upright, x, p, OnCollision::shorten);
     safe = x;
     x += p;
     if (doubtful) guard.roll_back(x, safe);

@@ -5,6 +5,7 @@
 
 #include "repair/contact_rules.h"
 #include "repair/embedding_guard.h"
+#include "repair/step_filter.h"
 
 namespace unsnarl {
 
@@ -21,9 +22,9 @@ struct OpenGapsResult {
 
 /// Pushes apart, position by position, all stencils that are closer than the target: along the line between the
 /// closest points, or, where round-off hides it, along the normal on the side that the exact orientation predicate
-/// says. Every round goes through the vertex-wise CCD filter and, where a gap is of the order of round-off, the exact
+/// says. Every round goes through the vertex-wise filter_step and, where a gap is of the order of round-off, the exact
 /// guard.
-OpenGapsResult open_gaps(Positions& x, ContactRules& rules, EmbeddingGuard& guard, std::span<const std::uint8_t> moves,
-                         const OpenGapsOptions& options);
+OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const UprightFaces& upright, EmbeddingGuard& guard,
+                         std::span<const std::uint8_t> moves, const OpenGapsOptions& options);
 
 }  // namespace unsnarl

@@ -14,6 +14,7 @@
 #include "repair/open_gaps.h"
 #include "repair/shape_energy.h"
 #include "repair/snap_home.h"
+#include "repair/step_filter.h"
 #include "repair/step_operator.h"
 #include "repair/trajectory.h"
 
@@ -52,6 +53,7 @@ class Recovery {
   void snap();
   void check();
   double measure_gap();
+  UprightFaces upright() const { return {shape_->orientation(), shape_->triangles(), options_.turn_share}; }
   bool stopped() {
     if (stop_ && !result_.stopped) result_.stopped = stop_();
     return result_.stopped;
@@ -304,8 +306,7 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
     double next = current;
     for (int halving = 0; halving < 40 && !accepted; ++halving, alpha *= 0.5) {
       shortened_ = alpha * step_;
-      shape_->orientation().filter(x_, shape_->triangles(), options_.turn_share, shortened_);
-      filter_displacements(in_the_way_, x_, shortened_, OnCollision::shorten, options_.ccd);
+      filter_step(in_the_way_, upright(), x_, shortened_, OnCollision::shorten, options_.ccd);
       const double slope = gradient_.cwiseProduct(shortened_).sum();
       trial_ = x_ + shortened_;
       next = energy(trial_);
@@ -326,7 +327,7 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
 
 void Recovery::snap() {
   result_.home = 0;
-  snap_home(x_, patch_.rest, snap_reach_, *rules_, guard_, moving_.moves);
+  snap_home(x_, patch_.rest, snap_reach_, *rules_, upright(), guard_, moving_.moves);
   safe_ = x_;
 }
 
@@ -356,7 +357,7 @@ RecoverResult Recovery::run() {
   open.target = std::max(std::min(options_.open_target * h_, options_.open_motion * start_motion), 3 * min_gap_);
   open.max_rounds = options_.open_rounds;
   open.step_cap = 5 * open.target;
-  open_gaps(x_, *rules_, guard_, moving_.moves, open);
+  open_gaps(x_, *rules_, upright(), guard_, moving_.moves, open);
   safe_ = x_;
 
   const double least = options_.activation_gaps * min_gap_;

@@ -5,7 +5,7 @@
 namespace unsnarl {
 
 Index snap_home(Positions& x, const Positions& rest, std::span<const double> reach, ContactRules& rules,
-                EmbeddingGuard& guard, std::span<const std::uint8_t> moves, int rounds) {
+                const UprightFaces& upright, EmbeddingGuard& guard, std::span<const std::uint8_t> moves, int rounds) {
   std::vector<ContactRule> close;
   std::vector<SeparatedStencil> filter;
   std::vector<std::uint8_t> trying(moves.size());
@@ -31,7 +31,7 @@ Index snap_home(Positions& x, const Positions& rest, std::span<const double> rea
     rules.gather(x, rules.options().min_gap, bounds, trying, close);
     filter.clear();
     for (const ContactRule& rule : close) filter.push_back({rule.stencil.stencil, rule.stencil.separation});
-    filter_displacements(filter, x, p, OnCollision::stay);
+    filter_step(filter, upright, x, p, OnCollision::stay);
     safe = x;
     Index moved = 0;
     for (Index v = 0; v < x.cols(); ++v) {

@@ -5,6 +5,7 @@
 
 #include "repair/contact_rules.h"
 #include "repair/embedding_guard.h"
+#include "repair/step_filter.h"
 
 namespace unsnarl {
 
@@ -12,8 +13,10 @@ namespace unsnarl {
 /// there.
 ///
 /// A vertex v tries where moves[v] and 0 < |x - rest| <= reach[v]. One whose stencil would come closer than its
-/// separation on the way stays where it is. Then the exact guard has its say. Returns how many arrived.
+/// separation on the way, or whose face would turn over, stays where it is. Then the exact guard has its say. Returns
+/// how many arrived.
 Index snap_home(Positions& x, const Positions& rest, std::span<const double> reach, ContactRules& rules,
-                EmbeddingGuard& guard, std::span<const std::uint8_t> moves, int rounds = 3);
+                const UprightFaces& upright, EmbeddingGuard& guard, std::span<const std::uint8_t> moves,
+                int rounds = 3);
 
 }  // namespace unsnarl

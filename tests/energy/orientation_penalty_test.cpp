@@ -48,7 +48,7 @@ TEST(OrientationPenalty, TrianglesWithoutAreaAtRestAreFree) {
   const OrientationPenalty penalty(corner(0), one, {});
   EXPECT_EQ(penalty.value(corner(-1), 0), 0);
   Positions p = corner(-1);
-  penalty.filter(corner(1), first, 0.2, p);
+  penalty.filter(corner(1), first, 0.2, 0.5, p);
   EXPECT_EQ(p, corner(-1));
 }
 
@@ -76,10 +76,10 @@ TEST(OrientationPenalty, FilterStopsWhatWouldTurnAFaceOver) {
   Positions p = Positions::Zero(3, 3);
   p(1, 2) = -0.7;  // keeps 0.3 of its share
   Positions kept = p;
-  penalty.filter(corner(1), first, 0.2, kept);
+  EXPECT_FALSE(penalty.filter(corner(1), first, 0.2, 0.5, kept));
   EXPECT_EQ(kept, p);
   p(1, 2) = -3;
-  penalty.filter(corner(1), first, 0.2, p);
+  EXPECT_TRUE(penalty.filter(corner(1), first, 0.2, 0.5, p));
   EXPECT_EQ(p(1, 2), -0.75);
   const double share = area_share(corner(1), Positions(corner(1) + p));
   EXPECT_GE(share, 0.2);
@@ -90,7 +90,7 @@ TEST(OrientationPenalty, FilterLetsTurnedFacesMove) {
   Positions p = Positions::Zero(3, 3);
   p(1, 2) = -3;
   const Positions whole = p;
-  penalty.filter(corner(-0.1), first, 0.2, p);
+  penalty.filter(corner(-0.1), first, 0.2, 0.5, p);
   EXPECT_EQ(p, whole);
 }
 

@@ -28,26 +28,5 @@ TEST(EmbeddingGuard, TakesBackWhatRunsIntoAnotherFace) {
   EXPECT_EQ(x, patch.x);
 }
 
-TEST(EmbeddingGuard, TakesBackWhatTurnsAFaceOver) {
-  const Patch patch = tent();
-  EmbeddingGuard guard(patch);
-  Positions x = patch.x;
-  x.col(0) = Vec3(0, -1.5, 0.2);  // hangs over the first edge: nothing intersects
-  EXPECT_TRUE(guard.new_pairs(x).empty());
-  EXPECT_EQ(guard.turned_faces(x, patch.x), std::vector<Index>{0});
-  EXPECT_EQ(guard.roll_back(x, patch.x), 1);
-  EXPECT_EQ(x, patch.x);
-}
-
-TEST(EmbeddingGuard, WhatWasTurnedOverMayStay) {
-  Patch patch = tent();
-  patch.x.col(0) = Vec3(0, -1.5, 0.2);
-  EmbeddingGuard guard(patch);
-  Positions x = patch.x;
-  x(0, 0) = 0.1;
-  EXPECT_TRUE(guard.turned_faces(x, patch.x).empty());
-  EXPECT_EQ(guard.roll_back(x, patch.x), 0);
-}
-
 }  // namespace
 }  // namespace unsnarl
