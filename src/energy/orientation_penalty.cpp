@@ -9,7 +9,7 @@ namespace unsnarl {
 
 OrientationPenalty::OrientationPenalty(const Positions& rest, std::span<const Triangle> triangles,
                                        const Options& options)
-    : activation_(options.activation) {
+    : activation_(options.activation), most_(1 + options.linear / options.activation) {
   triangles_.reserve(triangles.size());
   for (const Triangle& t : triangles) {
     Kept kept;
@@ -30,7 +30,8 @@ double OrientationPenalty::value(const Positions& x, Index t) const {
   const Kept& kept = triangles_[t];
   if (!(kept.weight > 0)) return 0;
   const double missing = 1 - kept.normal.dot(area_vector(x, kept.corners)) / activation_;
-  return missing > 0 ? 0.5 * kept.weight * missing * missing : 0;
+  const double most = std::min(missing, most_);
+  return missing > 0 ? kept.weight * most * (missing - 0.5 * most) : 0;
 }
 
 bool OrientationPenalty::evaluate(const Positions& x, Index t, Term& term) const {
@@ -38,9 +39,10 @@ bool OrientationPenalty::evaluate(const Positions& x, Index t, Term& term) const
   if (!(kept.weight > 0)) return false;
   const double missing = 1 - kept.normal.dot(area_vector(x, kept.corners)) / activation_;
   if (!(missing > 0)) return false;
-  term.value = 0.5 * kept.weight * missing * missing;
-  term.force = -kept.weight * missing / activation_;
-  term.stiffness = kept.weight / (activation_ * activation_);
+  const double most = std::min(missing, most_);
+  term.value = kept.weight * most * (missing - 0.5 * most);
+  term.force = -kept.weight * most / activation_;
+  term.stiffness = kept.weight / (activation_ * activation_) * (most / missing);
   for (int k = 0; k < 3; ++k) {
     const Vec3 opposite = x.col(kept.corners[(k + 2) % 3]) - x.col(kept.corners[(k + 1) % 3]);
     term.gradient.col(k) = kept.normal.cross(opposite);

@@ -43,7 +43,7 @@ int untangle_and_recover(Scene& scene, double min_gap, const std::function<bool(
   const std::vector<IntersectingPair> fixed = fixed_pairs(scene, pairs);
   LadderOptions ladder;
   ladder.stop = stop;
-  ladder.rungs = LadderOptions::Rungs::local;
+  ladder.rungs = LadderOptions::Rungs::of_coarser_mesh;
   ladder.good_enough = static_cast<std::size_t>(good_enough * static_cast<double>(pairs.size() - fixed.size()));
   const LadderResult climbed = climb_ladder(scene, index, fixed, ladder);
   RecoverRegionsOptions recovery;

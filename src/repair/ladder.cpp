@@ -39,9 +39,9 @@ class Climb {
     const Positions rest = scene_.rest;
     pairs_ = current_pairs();
     const bool climbs_all =
-        options_.rungs == LadderOptions::Rungs::all || options_.rungs == LadderOptions::Rungs::local;
+        options_.rungs == LadderOptions::Rungs::all || options_.rungs == LadderOptions::Rungs::of_coarser_mesh;
     if (climbs_all) {
-      climb(options_.rungs == LadderOptions::Rungs::local ? coarser_first_again() : coarser_first());
+      climb(options_.rungs == LadderOptions::Rungs::of_coarser_mesh ? coarser_first_again() : coarser_first());
     }
     climb(options_.rungs == LadderOptions::Rungs::second_way ? second_way_rungs() : gentle_rungs());
     if (climbs_all) {
@@ -105,7 +105,7 @@ class Climb {
   }
 
   std::span<const Rung> wild() const {
-    return options_.rungs == LadderOptions::Rungs::all ? wild_rungs() : wild_rungs_within_components();
+    return options_.rungs == LadderOptions::Rungs::all ? wild_rungs() : wild_rungs_of_coarser_mesh();
   }
 
   bool stopped() const { return options_.stop && options_.stop(); }
@@ -295,7 +295,7 @@ class Climb {
                                      options_.first_region + result_.regions.size(), attempt.free, scene_.x);
             result_.regions.push_back(report_of(attempt, rung));
             if (!attempt.clean) start_anew(attempt.free);
-            result_.moved.push_back(rung.rings == by_depth ? moved_surroundings(attempt) : std::move(attempt.free));
+            result_.moved.push_back(rung.is_on_coarser_mesh() ? moved_surroundings(attempt) : std::move(attempt.free));
           });
       attempts = std::move(again);
     }
@@ -403,7 +403,7 @@ class Climb {
       attempt.clean = result.clean;
       attempt.pairs_left = result.pairs_left;
     };
-    if (!rung.flow && !rung.local) return take(solve_on_coarser_mesh(attempt.patch, foreign, options_.stop));
+    if (rung.is_on_coarser_mesh()) return take(solve_on_coarser_mesh(attempt.patch, foreign, options_.stop));
     if (rung.flow) return take(flow(attempt.patch, *rung.flow, options_.stop, foreign));
     LocalOptions local;
     // Pockets that are inside out have to turn, and what surrounds them may have to: then nothing is kept.

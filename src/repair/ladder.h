@@ -24,9 +24,9 @@ struct LadderOptions {
   std::function<bool(Patch& patch)> accept;
   enum class Rungs {
     all,
-    local,       ///< all but those that free whole components
-    gentle,      ///< those that move only what lies close to the conflict, once
-    second_way,  ///< the first flows of whole components, once: for what gentler rungs have resolved by going far
+    of_coarser_mesh,  ///< see rungs.h
+    gentle,           ///< those that move only what lies close to the conflict, once
+    second_way,       ///< the first flows of whole components, once: for what gentler rungs have resolved by going far
   };
   Rungs rungs = Rungs::all;
   std::size_t good_enough = 0;   ///< pairs left by gentle rungs for which wild ones are not worth while

@@ -360,6 +360,7 @@ RecoverResult Recovery::run() {
   open_gaps(x_, *rules_, upright(), guard_, moving_.moves, open);
   safe_ = x_;
 
+  const Positions opened = x_;
   const double least = options_.activation_gaps * min_gap_;
   const auto activation_of = [&](double share_of_h) {
     return std::max(std::min(share_of_h * h_, options_.activation_motion * start_motion), least);
@@ -378,6 +379,7 @@ RecoverResult Recovery::run() {
     activation = std::max(activation * options_.activation_factor, last_activation);
   }
   check();
+  if ((x_ - patch_.rest).norm() > options_.most_farther * (opened - patch_.rest).norm()) x_ = opened;
   release_everything();
   snap();
 

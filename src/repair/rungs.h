@@ -15,8 +15,8 @@ namespace unsnarl {
 constexpr int whole_component = std::numeric_limits<int>::max();
 constexpr int by_depth = -1;  ///< a share of the region's depth (pocket_depth)
 
-/// One way to resolve a region: a local rung, which starts from where the surface is now, or a flow, from rest. Or,
-/// with neither, on a coarser mesh, from where the surface is now.
+/// One way to resolve a region: a local rung, which starts from where the surface is now, a flow, from rest, or a
+/// coarser mesh, from where the surface is now.
 struct Rung {
   std::string_view name;
   int rings;               ///< edges from the intersecting faces to the border of the free vertices
@@ -24,14 +24,17 @@ struct Rung {
   const FlowRung* flow;    ///< or null
   std::size_t hub_valence = no_hubs;
   int least_depth = 0;  ///< edges: regions of less (pocket_depth) are let be
+
+  bool is_on_coarser_mesh() const { return !local && !flow; }
 };
 
 /// The default configuration, gentle first. These move only what lies close to the conflict.
 std::span<const Rung> gentle_rungs();
 /// The rest of it.
 std::span<const Rung> wild_rungs();
-/// Those of them that do not free whole components; they come first.
-std::span<const Rung> wild_rungs_within_components();
+/// Those of them that are climbed on a coarser mesh; they come first. None frees whole components, and there are
+/// coarser ones still for deep conflicts only.
+std::span<const Rung> wild_rungs_of_coarser_mesh();
 
 /// For what is so deep that the coarser mesh goes before gentle rungs ...
 std::span<const Rung> coarser_first();

@@ -71,6 +71,22 @@ TEST(OrientationPenalty, DerivativesAgreeWithFiniteDifferences) {
   }
 }
 
+// A needle at rest that has become wide.
+TEST(OrientationPenalty, GrowsLinearlyWhereAFaceIsManyTimesTurned) {
+  const OrientationPenalty penalty(corner(1), one, {.linear = 30});
+  const auto growth = [&](double height) {
+    return penalty.value(corner(height - 1), 0) - penalty.value(corner(height), 0);
+  };
+  EXPECT_NEAR(growth(-31), growth(-1000), 1e-6 * growth(-31));
+  EXPECT_LT(growth(-20), 0.9 * growth(-31));
+  const Positions x = corner(-50);
+  OrientationPenalty::Term term;
+  ASSERT_TRUE(penalty.evaluate(x, 0, term));
+  EXPECT_DOUBLE_EQ(term.value, penalty.value(x, 0));
+  EXPECT_GT(term.stiffness, 0);
+  expect_gradient([&](const Positions& y) { return penalty.value(y, 0); }, x, term.force * term.gradient, 1e-6, 1e-5);
+}
+
 TEST(OrientationPenalty, FilterStopsWhatWouldTurnAFaceOver) {
   const OrientationPenalty penalty(corner(1), one, {});
   Positions p = Positions::Zero(3, 3);

@@ -329,6 +329,13 @@ Surface at_scale(double scale, const Vec3& away = Vec3::Zero()) {
   return mapped(shapes::crossing_bumps(8, 0.3).surface(), [=](const Vec3& p) { return Vec3(scale * p + away); });
 }
 
+// Recovery by the shape's energies would lead away from it: the bending of a ring that is one point outweighs the rest.
+TEST(Repair, a_collapsed_ring_is_opened_no_farther_than_it_has_to_be) {
+  const RepairResult result = repair(make_sample("cylinder_inverted", 0));
+  EXPECT_EQ(result.status, Status::embedded);
+  EXPECT_LT(result.report.displacement_mean_rel, 1e-4);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Repair, Generality,
     testing::Values(
