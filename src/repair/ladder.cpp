@@ -28,7 +28,13 @@ constexpr double flow_reach = 20;  // of 4 that flows did, 2 moved by 16 h
 
 /// The ladder is climbed again where it has left at most this share of the pairs.
 constexpr double worth_climbing_again = 0.7;
-constexpr double rings_per_depth = 1.5;  // freed around such regions. Of 0.7, 1 and 1.5 the closest on three bodies
+/// Share of the pairs of a large region that a rung may leave to be done with it. What a coarser mesh leaves is shallow,
+/// but much: a body of 428k faces took eight times as long where 503 pairs left of 3720 were too many.
+constexpr double large_gain = 0.1, large_gain_of_coarser_mesh = 1.0 / 3;
+constexpr std::size_t large = 100;  // pairs
+
+/// Freed around regions that go by a coarser mesh. Of 0.7, 1 and 1.5 the closest on three bodies.
+constexpr double rings_per_depth = 1.5;
 
 class Climb {
  public:
@@ -182,13 +188,15 @@ class Climb {
   /// A rung that fails a region of many pairs but takes away most of them has done its part: the few that are left, in
   /// regions of their own, climb on from there. (8807 pairs of two spheres: 8 left after 104 shallow iterations, none
   /// after 24 more.)
-  bool is_large_gain(const Attempt& attempt) const {
-    const std::size_t enough = few_enough(attempt);
+  bool is_large_gain(const Attempt& attempt, const Rung& rung) const {
+    const std::size_t enough = few_enough(attempt, rung);
     return enough > 0 && attempt.pairs_left <= enough;
   }
   /// Pairs left that make a large gain; 0: there is none.
-  std::size_t few_enough(const Attempt& attempt) const {
-    return !options_.accept && attempt.region.pairs.size() >= 100 ? attempt.region.pairs.size() / 10 : 0;
+  std::size_t few_enough(const Attempt& attempt, const Rung& rung) const {
+    if (options_.accept || attempt.region.pairs.size() < large) return 0;
+    const double share = rung.is_on_coarser_mesh() ? large_gain_of_coarser_mesh : large_gain;
+    return static_cast<std::size_t>(share * static_cast<double>(attempt.region.pairs.size()));
   }
 
   void keep_gain(Attempt& attempt, const Rung& rung) {
@@ -280,7 +288,7 @@ class Climb {
                 for (Index v : attempt.region.core) options_.tried->is_too_far[v] = 1;
               return;
             }
-            if (!attempt.clean && !is_large_gain(attempt)) return keep_gain(attempt, rung);
+            if (!attempt.clean && !is_large_gain(attempt, rung)) return keep_gain(attempt, rung);
             const double moved =
                 (attempt.patch.x - attempt.start).leftCols(attempt.patch.free_count).colwise().norm().maxCoeff();
             if (moved > attempt.reach) {
@@ -412,7 +420,7 @@ class Climb {
       case LocalMethod::contour: local.sides = KeepSides::at_first; break;
       case LocalMethod::smoothing: break;  // it rounds off whatever there is
     }
-    local.few_enough = few_enough(attempt);
+    local.few_enough = few_enough(attempt, rung);
     if (options_.min_gap)
       local.min_gap = options_.min_gap({attempt.patch.vertices.data(), std::size_t(attempt.patch.free_count)});
     take(solve_locally(attempt.patch, *rung.local, foreign, local, options_.stop));

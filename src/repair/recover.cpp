@@ -356,7 +356,7 @@ RecoverResult Recovery::run() {
   OpenGapsOptions open;
   open.target = std::max(std::min(options_.open_target * h_, options_.open_motion * start_motion), 3 * min_gap_);
   open.max_rounds = options_.open_rounds;
-  open.step_cap = 5 * open.target;
+  open.step_cap = open.target;  // five of them end as close, but look 11 gaps around, not 3: up to 9 GB, not 2
   open_gaps(x_, *rules_, upright(), guard_, moving_.moves, open);
   safe_ = x_;
 
