@@ -296,6 +296,10 @@ void foot_points(std::span<const Vec3> a, std::span<const Vec3> b, const Candida
   }
 }
 
+std::array<Vec3, 3> corners_of(const Positions& x, const Triangle& t) {
+  return {x.col(t[0]), x.col(t[1]), x.col(t[2])};
+}
+
 }  // namespace
 
 Penetration triangle_penetration(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, double margin,
@@ -310,8 +314,7 @@ Penetration triangle_penetration(const std::array<Vec3, 3>& a, const std::array<
 }
 
 double overlap_depth(const Positions& x, const Triangle& a, const Triangle& b) {
-  const auto corners = [&](const Triangle& t) { return std::array<Vec3, 3>{x.col(t[0]), x.col(t[1]), x.col(t[2])}; };
-  return triangle_penetration(corners(a), corners(b), 0).depth;
+  return triangle_penetration(corners_of(x, a), corners_of(x, b), 0).depth;
 }
 
 PolygonPenetration polygon_penetration(std::span<const Vec3> a, std::span<const Vec3> b, double margin,
@@ -395,12 +398,10 @@ Penetration MinkowskiPenalty::evaluate(const Positions& x, Index a, Index b, std
     }
   }
   if (shared == 0) {
-    return triangle_penetration({x.col(ta[0]), x.col(ta[1]), x.col(ta[2])}, {x.col(tb[0]), x.col(tb[1]), x.col(tb[2])},
-                                options_.margin, hint);
+    return triangle_penetration(corners_of(x, ta), corners_of(x, tb), options_.margin, hint);
   }
   if (shared == 1 && options_.one_vertex) {
-    return one_vertex_penetration({x.col(ta[0]), x.col(ta[1]), x.col(ta[2])}, in_a[0],
-                                  {x.col(tb[0]), x.col(tb[1]), x.col(tb[2])}, in_b[0], options_.vertex_trim,
+    return one_vertex_penetration(corners_of(x, ta), in_a[0], corners_of(x, tb), in_b[0], options_.vertex_trim,
                                   options_.margin, hint);
   }
   // A triangle with a repeated vertex can share "two" corners that are one; it has no fold.

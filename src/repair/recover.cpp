@@ -406,6 +406,7 @@ RecoverOptions RecoverOptions::paper() {
   options.scalar_jacobi = true;
   options.shorten_all = true;
   options.time_step = 1;
+  options.most_farther = std::numeric_limits<double>::infinity();
   return options;
 }
 

@@ -64,9 +64,9 @@ struct RecoverOptions {
   Stop fine = {3e-3, 2};
   double stop_motion = 1e-3;      ///< or when the Newton step moves no vertex farther than this, in h ...
   double stop_activation = 0.05;  ///< ... or than this share of the activation distance
-  /// Longest motion of a vertex in a step, in h. 1: the same on fine meshes, 0.2 % farther and a fifth more turned
-  /// faces on others; 2: 5 % farther. A fifth of what the Newton step wants, where that is more: surfaces far from home
-  /// end 16 % farther still.
+  /// Longest motion of a vertex in a step, in h. 1: fine meshes end 5 % closer, others 0.2 % farther with a fifth more
+  /// turned faces; 2: fine meshes end 5 % farther. A fifth of what the Newton step wants, where that is more: surfaces
+  /// far from home end 16 % farther.
   double step_cap = 0.5;
   bool shorten_all = false;  ///< a collision shortens the step of every vertex, not only of those that collide
   // A list of close stencils holds around each vertex's step, as far as that is long, this at least, in h; where the
@@ -112,10 +112,11 @@ struct RecoverResult {
 /// Open gaps, a few steps, send home what can go home, steps on what cannot, send home again.
 /// \pre patch.x has no intersecting pair with an active triangle, in any class. Pairs that are there are kept out of
 /// the way and never become more.
-/// Guarantees: no new pair; no face turns over against its rest shape (those that were are pulled back); stencils keep
-/// the distance `min_gap` once they have it (neighbours that are closer at rest keep a share of their rest distance);
-/// free vertices that can go home are bit-exactly at rest; the same bytes at any number of threads. `stop` is asked
-/// once a step; what was reached by then is kept.
+/// Guarantees: no new pair; no face turns over against its rest shape in a step, but where filter_step does not settle
+/// (not seen so far), and those that were are pulled back; stencils keep the distance `min_gap` once they have it
+/// (neighbours that are closer at rest keep a share of their rest distance); free vertices that can go home are
+/// bit-exactly at rest; the same bytes at any number of threads. `stop` is asked once a step; what was reached by then
+/// is kept.
 RecoverResult recover(Patch& patch, const RecoverOptions& options = {}, const std::function<bool()>& stop = {});
 
 }  // namespace unsnarl
