@@ -5,6 +5,10 @@
 #include <utility>
 
 #include "energy/minkowski_penalty.h"
+#include "mesh/areas.h"
+#include "mesh/union_find.h"
+#include "repair/conflict_regions.h"
+#include "repair/pockets.h"
 
 namespace unsnarl {
 namespace {
@@ -13,6 +17,10 @@ namespace {
 /// below 15. A spiral with 31 comes 18 times closer by another way, strips of hair with 53 24 times, cushions with 28
 /// four times; others beyond do not.
 constexpr double far = 20;
+/// And in depths of the pocket that its conflicts cut off: single faces hide how deep it is, the more so the smaller
+/// they are. (A curled body of 428k faces moved 0.2 of its pocket, 20 of its deepest pair; a spiral's sheets 1.4
+/// and 7.)
+constexpr double far_of_pocket = 1;
 /// Least share of its components that a region has to be. (A flow of a whole character for a dent in its collar takes
 /// twenty times as long as all else, and is not closer.)
 constexpr double least_share = 0.25;
@@ -33,6 +41,37 @@ std::size_t component_size(const Scene& scene, const std::vector<Index>& vertice
   return size;
 }
 
+double largest_motion(const Scene& scene, const std::vector<Index>& vertices) {
+  double motion = 0;
+  for (Index v : vertices) motion = std::max(motion, (scene.x.col(v) - scene.rest.col(v)).norm());
+  return motion;
+}
+
+double deepest_overlap(const Scene& scene, std::span<const IntersectingPair> pairs) {
+  double deepest = 0;
+  for (const IntersectingPair& pair : pairs)
+    if (pair.kind == PairClass::disjoint)
+      deepest = std::max(deepest, overlap_depth(scene.rest, scene.triangles[pair.a], scene.triangles[pair.b]));
+  return deepest;
+}
+
+/// As a length.
+double depth_of_pocket(const Scene& scene, std::span<const Index> component_of_vertex,
+                       const std::vector<IntersectingPair>& pairs) {
+  ConflictRegion conflict;
+  conflict.pairs = pairs;
+  std::vector<Triangle> faces;
+  for (const IntersectingPair& pair : pairs)
+    for (Index t : {pair.a, pair.b}) {
+      const Triangle& face = scene.triangles[t];
+      faces.push_back(face);
+      conflict.core.insert(conflict.core.end(), face.begin(), face.end());
+    }
+  std::sort(conflict.core.begin(), conflict.core.end());
+  conflict.core.erase(std::unique(conflict.core.begin(), conflict.core.end()), conflict.core.end());
+  return pocket_depth(scene, component_of_vertex, conflict) * mean_equilateral_side(scene.rest, faces);
+}
+
 }  // namespace
 
 std::vector<std::vector<Index>> far_regions(const Scene& scene, std::span<const std::vector<Index>> regions,
@@ -40,22 +79,24 @@ std::vector<std::vector<Index>> far_regions(const Scene& scene, std::span<const 
   std::vector<Index> region_of(scene.vertex_count(), -1);
   for (std::size_t r = 0; r < regions.size(); ++r)
     for (Index v : regions[r]) region_of[v] = static_cast<Index>(r);
-  std::vector<double> deepest(regions.size(), 0);
+  std::vector<std::vector<IntersectingPair>> pairs_of(regions.size());
   for (const IntersectingPair& pair : pairs) {
-    if (pair.kind != PairClass::disjoint) continue;
     Index region = -1;
     for (Index t : {pair.a, pair.b})
       for (Index v : scene.triangles[t]) region = std::max(region, region_of[v]);
-    if (region < 0) continue;
-    const double depth = overlap_depth(scene.rest, scene.triangles[pair.a], scene.triangles[pair.b]);
-    deepest[region] = std::max(deepest[region], depth);
+    if (region >= 0) pairs_of[region].push_back(pair);
   }
+  std::vector<Index> component_of_vertex;
   std::vector<std::vector<Index>> result;
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    const auto has_gone_far = [&](Index v) { return (scene.x.col(v) - scene.rest.col(v)).norm() > far * deepest[r]; };
-    if (!(deepest[r] > 0) || std::none_of(regions[r].begin(), regions[r].end(), has_gone_far)) continue;
-    if (static_cast<double>(regions[r].size()) >= least_share * static_cast<double>(component_size(scene, regions[r])))
-      result.push_back(regions[r]);
+    const double deepest = deepest_overlap(scene, pairs_of[r]);
+    const double motion = largest_motion(scene, regions[r]);
+    if (!(deepest > 0) || !(motion > far * deepest)) continue;
+    if (static_cast<double>(regions[r].size()) < least_share * static_cast<double>(component_size(scene, regions[r])))
+      continue;
+    if (component_of_vertex.empty())
+      component_of_vertex = vertices_joined_by(scene.triangles, scene.vertex_count()).dense_ids();
+    if (motion > far_of_pocket * depth_of_pocket(scene, component_of_vertex, pairs_of[r])) result.push_back(regions[r]);
   }
   return result;
 }

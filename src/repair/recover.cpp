@@ -41,6 +41,11 @@ class Recovery {
   void gather(double activation);
   /// Lists anew what the vertices may meet that leave their bounds in this step; updates travelled_ and travel_.
   void keep_up_with(const Positions& step);
+  /// Those of the moving vertices that are so close to something that round-off hides it, or had no room left at the
+  /// state that near_ was picked for, stay where they are until others are released. True if there were any.
+  bool hold_touching();
+  bool hold_collided(const Positions& x);
+  bool hold(std::span<const Stencil> stencils);
   /// Picks out of the list the stencils that may be active at x, by bounds of the motion since it was gathered.
   void pick_near(const Positions& x);
   double energy(const Positions& x);
@@ -181,6 +186,30 @@ void Recovery::gather(double activation) {
   rules_->gather(x_, activation, bounds_, moving_.moves, gathered_);
 }
 
+bool Recovery::hold_touching() {
+  std::vector<Stencil> touching;
+  for (const ContactRule& rule : gathered_)
+    if (!(rule.distance > rules_->options().roundoff)) touching.push_back(rule.stencil.stencil);
+  return hold(touching);
+}
+
+bool Recovery::hold_collided(const Positions& x) {
+  std::vector<Stencil> collided;
+  for (const BarrierStencil& s : near_)
+    if (!(std::sqrt(squared_distance(s.stencil, x)) > s.separation)) collided.push_back(s.stencil);
+  return hold(collided);
+}
+
+bool Recovery::hold(std::span<const Stencil> stencils) {
+  std::vector<std::uint8_t> moves = moving_.moves;
+  for (const Stencil& s : stencils)
+    for (int i = 0; i < s.size(); ++i) moves[s.v[i]] = 0;
+  if (moves == moving_.moves) return false;
+  set_moving(moves);
+  gather(activation_);
+  return true;
+}
+
 void Recovery::keep_up_with(const Positions& p) {
   leaving_.clear();
   for (Index v : moving_.vertices)
@@ -277,6 +306,8 @@ void Recovery::pick_in_the_way() {
 void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop& stop) {
   if (moving_.vertices.empty()) return;
   gather(activation);
+  hold_touching();
+  if (moving_.vertices.empty()) return;
   double current = linearise();
   record_iteration();
   std::vector<double> history = {current};
@@ -310,7 +341,19 @@ void Recovery::steps_at(double activation, int steps, const RecoverOptions::Stop
       const double slope = gradient_.cwiseProduct(shortened_).sum();
       trial_ = x_ + shortened_;
       next = energy(trial_);
-      accepted = slope < 0 && next <= current + options_.armijo * slope;
+      if (!std::isfinite(next)) break;
+      const auto decreases = [&] { return slope < 0 && next <= current + options_.armijo * slope; };
+      accepted = decreases();
+      if (!accepted && halving == 0) {
+        current = energy(x_);  // with the rules as they are since they were gathered anew for this step
+        accepted = decreases();
+      }
+    }
+    if (!std::isfinite(next)) {
+      if (!hold_collided(trial_) || moving_.vertices.empty()) break;
+      current = linearise();
+      history = {current};
+      continue;
     }
     if (!accepted) break;
     x_.swap(trial_);

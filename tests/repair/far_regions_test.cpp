@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
+#include "energy/minkowski_penalty.h"
 #include "repair/shapes.h"
 
 namespace unsnarl {
@@ -25,6 +28,31 @@ TEST(FarRegions, are_those_that_moved_many_times_their_overlap) {
   scene.x.col(3) += Vec3(0, 0, 0.3);
   scene.x.col(n + 3) += Vec3(0, 0, 30);
   EXPECT_EQ(far_regions(scene, regions, pairs), std::vector<std::vector<Index>>({regions[1]}));
+}
+
+// The finer the mesh, the less its faces overlap where the surfaces run through each other as deeply.
+TEST(FarRegions, moved_farther_than_their_pockets_are_deep) {
+  constexpr int n = 3;
+  const auto bump = [](double height) {
+    return shapes::grid(40 * n, 40 * n, false, [=](double i, double j) {
+      const double x = i / n - 20, y = j / n - 20;
+      return Vec3(x, y, height * std::exp(-(x * x + y * y) / 36));
+    });
+  };
+  Shape shape = bump(1.5);
+  shape.add(bump(-1.5), {0.31, 0.17, 2});
+  Scene scene = shapes::scene_of(shape);
+  const std::vector<IntersectingPair> pairs = shapes::pairs_of(shape);
+  std::vector<std::vector<Index>> regions(1, std::vector<Index>(scene.vertex_count()));
+  std::iota(regions[0].begin(), regions[0].end(), 0);
+  double deepest = 0;
+  for (const IntersectingPair& pair : pairs)
+    deepest = std::max(deepest, overlap_depth(scene.rest, scene.triangles[pair.a], scene.triangles[pair.b]));
+  ASSERT_LT(21 * deepest, 2);
+  scene.x.col(3) += Vec3(0, 0, 21 * deepest);
+  EXPECT_TRUE(far_regions(scene, regions, pairs).empty());
+  scene.x.col(3) += Vec3(0, 0, 20);
+  EXPECT_EQ(far_regions(scene, regions, pairs), regions);
 }
 
 TEST(FarRegions, have_to_be_a_good_part_of_their_components) {
