@@ -110,8 +110,18 @@ class Climb {
     if (options_.recorder) options_.recorder->restore(state.recorded);
   }
 
-  std::span<const Rung> wild() const {
-    return options_.rungs == LadderOptions::Rungs::all ? wild_rungs() : wild_rungs_of_coarser_mesh();
+  /// A rung that left a few of many pairs leaves them to gentle ones, before whole components are moved for them: of
+  /// 169 pairs on 414k faces 5 were left, which a flow of all made 280 in 72 s.
+  void climb_wild() {
+    const bool is_coarser_mesh = options_.rungs == LadderOptions::Rungs::of_coarser_mesh;
+    const std::span<const Rung> rungs = is_coarser_mesh ? wild_rungs_of_coarser_mesh() : wild_rungs();
+    for (bool again = true; again;) {
+      const std::size_t before = large_gains_;
+      climb(rungs);
+      again = large_gains_ > before && !pairs_.empty() && !stopped();
+      if (again) climb(gentle_rungs());
+    }
+    if (!is_coarser_mesh) climb(whole_component_rungs());
   }
 
   bool stopped() const { return options_.stop && options_.stop(); }
@@ -159,10 +169,10 @@ class Climb {
       // Wild rungs do better from farther back than from where gentle ones got stuck.
       State gentle = state();
       restore(first);
-      climb(wild());
+      climb_wild();
       while (!pairs_.empty() && take_gains() && !stopped()) {
         climb(gentle_rungs());
-        climb(wild());
+        climb_wild();
       }
       if (gentle.pairs.size() < pairs_.size()) restore(std::move(gentle));
     }
@@ -302,7 +312,10 @@ class Climb {
               options_.recorder->add(std::move(attempt.trajectory), std::string(rung.name),
                                      options_.first_region + result_.regions.size(), attempt.free, scene_.x);
             result_.regions.push_back(report_of(attempt, rung));
-            if (!attempt.clean) start_anew(attempt.free);
+            if (!attempt.clean) {
+              start_anew(attempt.free);
+              ++large_gains_;
+            }
             result_.moved.push_back(rung.is_on_coarser_mesh() ? moved_surroundings(attempt) : std::move(attempt.free));
           });
       attempts = std::move(again);
@@ -448,6 +461,7 @@ class Climb {
   std::vector<IntersectingPair> pairs_;
   mutable std::vector<Index> component_of_vertex_;  // made when first asked for
   std::vector<Gain> gains_;
+  std::size_t large_gains_ = 0;  // that were kept
   std::set<Index> rejected_;  // vertices of regions that were resolved in a way that was not accepted
   LadderResult result_;
 };

@@ -27,22 +27,6 @@ constexpr Rung coarser(int least_depth) {
   return {"coarser", by_depth, nullptr, nullptr, no_hubs, least_depth};
 }
 
-bool is_of_whole_components(const Rung& rung) {
-  return rung.rings == whole_component;
-}
-
-/// On a mesh that is a coarser one itself, only what is deep goes by a still coarser one.
-bool is_not_for_coarser_mesh(const Rung& rung) {
-  return is_of_whole_components(rung) || (rung.is_on_coarser_mesh() && rung.rings != by_depth);
-}
-
-/// Wild rungs before the first one that is such.
-template <class Is>
-std::size_t count_before(Is is) {
-  const std::span<const Rung> all = wild_rungs();
-  return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), is) - all.begin());
-}
-
 }  // namespace
 
 std::span<const Rung> gentle_rungs() {
@@ -56,29 +40,35 @@ std::span<const Rung> gentle_rungs() {
 }
 
 std::span<const Rung> wild_rungs() {
-  static const std::vector<Rung> rungs = [] {
-    const std::span<const FlowRung> flows = default_flow_rungs();
-    const FlowRung* local_flow =
-        &*std::find_if(flows.begin(), flows.end(), [](const FlowRung& rung) { return rung.name == "flow 1b"; });
-    std::vector<Rung> all = {
-        coarser(deep),
-        {"smoothing-4", 4, &smoothing, nullptr},
-        {"flow-8", 8, nullptr, local_flow},
-        {"smoothing-8", 8, &wide_smoothing, nullptr},
-        {"flow-16", 16, nullptr, local_flow},
-        // Of what a coarser mesh had left, 32 pairs: in 0.1 s, where flows of the component kept 103 after 70 s. (With
-        // 8 rings they are left here too.)
-        {"coarser-16", 16, nullptr, nullptr},
-    };
-    for (const FlowRung& flow : flows)
-      if (flow.line_search) all.push_back({flow.name, whole_component, nullptr, &flow});
-    return all;
-  }();
+  static const FlowRung& flow = *std::find_if(default_flow_rungs().begin(), default_flow_rungs().end(),
+                                              [](const FlowRung& rung) { return rung.name == "flow 1b"; });
+  static const std::array<Rung, 6> rungs = {{
+      coarser(deep),
+      {"smoothing-4", 4, &smoothing, nullptr},
+      {"flow-8", 8, nullptr, &flow},
+      {"smoothing-8", 8, &wide_smoothing, nullptr},
+      {"flow-16", 16, nullptr, &flow},
+      // Of what a coarser mesh had left, 32 pairs: in 0.1 s, where flows of the component kept 103 after 70 s. (With
+      // 8 rings they are left here too.)
+      {"coarser-16", 16, nullptr, nullptr},
+  }};
   return rungs;
 }
 
 std::span<const Rung> wild_rungs_of_coarser_mesh() {
-  return wild_rungs().first(count_before(is_not_for_coarser_mesh));
+  const std::span<const Rung> all = wild_rungs();
+  const auto is_left_out = [](const Rung& rung) { return rung.is_on_coarser_mesh() && rung.rings != by_depth; };
+  return {all.begin(), std::find_if(all.begin(), all.end(), is_left_out)};
+}
+
+std::span<const Rung> whole_component_rungs() {
+  static const std::vector<Rung> rungs = [] {
+    std::vector<Rung> all;
+    for (const FlowRung& flow : default_flow_rungs())
+      if (flow.line_search) all.push_back({flow.name, whole_component, nullptr, &flow});
+    return all;
+  }();
+  return rungs;
 }
 
 std::span<const Rung> coarser_first() {
@@ -92,21 +82,25 @@ std::span<const Rung> coarser_first_again() {
 }
 
 std::span<const Rung> second_way_rungs() {
-  return wild_rungs().subspan(count_before(is_of_whole_components), 2);
+  return whole_component_rungs().first(2);
 }
 
 bool frees_whole_components(std::string_view rung) {
-  const std::span<const Rung> whole = wild_rungs().subspan(count_before(is_of_whole_components));
+  const std::span<const Rung> whole = whole_component_rungs();
   return std::any_of(whole.begin(), whole.end(), [&](const Rung& r) { return r.name == rung; });
 }
 
 std::string_view rung_name(int number) {
-  const auto gentle = static_cast<int>(gentle_rungs().size());
-  return number < gentle ? gentle_rungs()[number].name : wild_rungs()[number - gentle].name;
+  auto left = static_cast<std::size_t>(number);
+  for (const std::span<const Rung> rungs : {gentle_rungs(), wild_rungs()}) {
+    if (left < rungs.size()) return rungs[left].name;
+    left -= rungs.size();
+  }
+  return whole_component_rungs()[left].name;
 }
 
 int last_rung() {
-  return static_cast<int>(gentle_rungs().size() + wild_rungs().size()) - 1;
+  return static_cast<int>(gentle_rungs().size() + wild_rungs().size() + whole_component_rungs().size()) - 1;
 }
 
 }  // namespace unsnarl

@@ -30,11 +30,13 @@ struct Rung {
 
 /// The default configuration, gentle first. These move only what lies close to the conflict.
 std::span<const Rung> gentle_rungs();
-/// The rest of it.
+/// What moves more around them.
 std::span<const Rung> wild_rungs();
-/// Those of them that are climbed on a coarser mesh; they come first. None frees whole components, and there are
-/// coarser ones still for deep conflicts only.
+/// Those of them that are climbed on a coarser mesh; they come first. There are coarser ones still for deep conflicts
+/// only.
 std::span<const Rung> wild_rungs_of_coarser_mesh();
+/// The rest of it, which moves all that hangs together.
+std::span<const Rung> whole_component_rungs();
 
 /// For what is so deep that the coarser mesh goes before gentle rungs ...
 std::span<const Rung> coarser_first();
