@@ -353,8 +353,8 @@ class Climb {
       if (rung.rings == whole_component && std::any_of(regions[r].core.begin(), regions[r].core.end(), was_rejected))
         continue;
       if (taken[r]) continue;
-      const int depth = rung.least_depth > 0 ? depth_of(regions[r], rung.least_depth) : 0;
-      if (depth < rung.least_depth) continue;
+      const int depth = depth_for(rung, regions[r]);
+      if (depth < rung.least_depth || depth >= rung.below_depth) continue;
       const int rings = rung.rings == by_depth ? static_cast<int>(rings_per_depth * depth) : rung.rings;
       taken[r] = 1;
       Attempt attempt;
@@ -383,9 +383,10 @@ class Climb {
     return attempts;
   }
 
-  /// 0 where it is less than `least`.
-  int depth_of(const ConflictRegion& region, int least) const {
-    if (region.core.size() < 2 * static_cast<std::size_t>(least)) return 0;  // no such girth
+  /// 0 where it is less than the rung's bounds.
+  int depth_for(const Rung& rung, const ConflictRegion& region) const {
+    const int least = rung.least_depth > 0 ? rung.least_depth : rung.below_depth;
+    if (region.core.size() / 2 < static_cast<std::size_t>(least)) return 0;  // no such girth
     if (component_of_vertex_.empty())
       component_of_vertex_ = vertices_joined_by(scene_.triangles, scene_.vertex_count()).dense_ids();
     return pocket_depth(scene_, component_of_vertex_, region);
@@ -430,7 +431,8 @@ class Climb {
     // Pockets that are inside out have to turn, and what surrounds them may have to: then nothing is kept.
     switch (rung.local->method) {
       case LocalMethod::shallow: local.sides = KeepSides::yes; break;  // wider rungs may still keep them
-      case LocalMethod::contour: local.sides = KeepSides::at_first; break;
+      case LocalMethod::contour:
+      case LocalMethod::shorten: local.sides = KeepSides::at_first; break;
       case LocalMethod::smoothing: break;  // it rounds off whatever there is
     }
     local.few_enough = few_enough(attempt, rung);

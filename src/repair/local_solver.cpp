@@ -101,9 +101,13 @@ double deepest_overlap(const Patch& patch, const Positions& x, std::span<const I
   return deepest;
 }
 
-/// Pushes the two sheets of every intersection curve apart, each curve in one direction.
+enum class CurveForce { per_curve, per_crossing };
+
+/// Pushes the two sheets of every intersection curve apart, each curve in one direction or each of its crossings in its
+/// own.
 void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& edges,
-                       std::span<const IntersectingPair> pairs, const MinkowskiPenalty& penalty, Positions& force) {
+                       std::span<const IntersectingPair> pairs, const MinkowskiPenalty& penalty, CurveForce kind,
+                       Positions& force) {
   const Contours contours = trace_contours(x, patch.triangles, edges, pairs);
   std::vector<Vec3> direction(contours.count, Vec3::Zero());
   for (const Crossing& c : contours.crossings) direction[c.contour] += c.side * c.direction;
@@ -112,7 +116,7 @@ void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& 
     d = size > 0 ? Vec3(d / size) : Vec3(0, 0, 1);
   }
   for (const Crossing& c : contours.crossings) {
-    const Vec3 push = c.side * direction[c.contour];
+    const Vec3 push = kind == CurveForce::per_curve ? Vec3(c.side * direction[c.contour]) : c.direction;
     const auto [u, v] = edges.edges[c.edge];
     force.col(u) += (1 - c.along) * push;
     force.col(v) += c.along * push;
@@ -248,11 +252,16 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
   std::size_t initial_pairs = 0;
   double at_least = options.shallow_floor * h;  // overlap that steps are for: as little as there is would never end
   std::optional<Try> before_keeping;            // where the guard was first needed
+  // Iterations without progress after which a try is left.
+  const auto patience = [&](const Try& t) {
+    if (t.method == LocalMethod::shorten) return options.shorten_patience;
+    return t.iterations > rung.max_iterations ? options.patience : options.despair;
+  };
   // Goes on with a try until it is clean (true) or left.
   const auto go_on = [&](Try& t) {
     bool clean = false;
     while (!(stop && stop())) {
-      if (t.waited >= (t.iterations > rung.max_iterations ? options.patience : options.despair)) break;
+      if (t.waited >= patience(t)) break;
       const std::vector<IntersectingPair> pairs = blocking_pairs(finder.find(t.x), tolerated);
       record(patch, t.x, {.pairs = pairs.size()});
       clean = pairs.empty();
@@ -286,9 +295,10 @@ LocalResult solve_locally(Patch& patch, const LocalRung& rung, std::span<const I
         if (iteration % 2 == 0)
           penalty.add(t.x, force);
         else
-          add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), force);
+          add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), CurveForce::per_curve, force);
       } else {
-        add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), force);
+        const CurveForce kind = t.method == LocalMethod::shorten ? CurveForce::per_crossing : CurveForce::per_curve;
+        add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), kind, force);
       }
       Eigen::MatrixX3d direction = metric.solve(force, n);
       const double size = direction.rowwise().norm().maxCoeff();

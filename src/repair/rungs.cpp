@@ -20,6 +20,8 @@ constexpr int very_deep = 32;
 constexpr LocalRung shallow = {LocalMethod::shallow, 0.1, 1, 20};
 constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
 constexpr LocalRung long_contour = {LocalMethod::contour, 0.3, 4, 60};
+constexpr LocalRung shorten = {LocalMethod::shorten, 0.1, 2, 60};
+constexpr LocalRung long_shorten = {LocalMethod::shorten, 0.3, 4, 60};
 constexpr LocalRung smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
 constexpr LocalRung wide_smoothing = {LocalMethod::smoothing, 0.1, 5, 100};
 
@@ -30,11 +32,14 @@ constexpr Rung coarser(int least_depth) {
 }  // namespace
 
 std::span<const Rung> gentle_rungs() {
-  static const std::array<Rung, 4> rungs = {{
+  static const std::array<Rung, 6> rungs = {{
       {"shallow-0", 0, &shallow, nullptr, hub_valence},
       {"contour-2", 2, &contour, nullptr, hub_valence},
       {"contour-4", 4, &contour, nullptr, hub_valence},
       {"contour-8", 8, &long_contour, nullptr},
+      // Few rings: with 4 and 8, 2 and 6, or 8 and 16 what contours leave of twelve meshes moves 14 to 19 % farther.
+      {"shorten-2", 2, &shorten, nullptr, no_hubs, 0, deep},
+      {"shorten-4", 4, &long_shorten, nullptr, no_hubs, 0, deep},
   }};
   return rungs;
 }

@@ -42,10 +42,11 @@ Patch with_held_border(const Shape& shape, Index n) {
 
 constexpr LocalRung shallow = {LocalMethod::shallow, 0.1, 1, 60};
 constexpr LocalRung contour = {LocalMethod::contour, 0.1, 2, 60};
+constexpr LocalRung shorten = {LocalMethod::shorten, 0.1, 2, 60};
 constexpr LocalRung smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
 
 TEST(LocalSolver, each_method_clears_a_shallow_crossing) {
-  for (const LocalRung& rung : {shallow, contour, smoothing}) {
+  for (const LocalRung& rung : {shallow, contour, shorten, smoothing}) {
     SCOPED_TRACE(static_cast<int>(rung.method));
     Patch patch = with_held_border(shapes::crossing_bumps(12, 0.3), 12);
     const Positions start = patch.x;
@@ -84,8 +85,9 @@ TEST(LocalSolver, exactly_coincident_sheets_are_parted) {
 TEST(LocalSolver, failure_keeps_the_state_with_the_fewest_pairs) {
   const Patch original = with_held_border(shapes::crossing_bumps(12, 2.5), 12);
   LocalOptions options;
-  options.patience = 0;
-  for (const LocalMethod method : {LocalMethod::shallow, LocalMethod::contour, LocalMethod::smoothing}) {
+  options.patience = options.shorten_patience = 2;
+  for (const LocalMethod method :
+       {LocalMethod::shallow, LocalMethod::contour, LocalMethod::shorten, LocalMethod::smoothing}) {
     Patch patch = original;
     const LocalResult result = solve_locally(patch, {method, 0.01, 0.3, 2}, {}, options);  // two small steps do not do
     EXPECT_FALSE(result.clean);
