@@ -23,7 +23,7 @@ struct Rung {
   const LocalRung* local;  ///< or null
   const FlowRung* flow;    ///< or null
   std::size_t hub_valence = no_hubs;
-  int least_depth = 0;  ///< edges: regions of less (pocket_depth) are let be ...
+  int least_depth = 0;                                ///< edges: regions of less (pocket_depth) are let be ...
   int below_depth = std::numeric_limits<int>::max();  ///< ... and of so much or more
 
   bool is_on_coarser_mesh() const { return !local && !flow; }
