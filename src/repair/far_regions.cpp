@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "energy/minkowski_penalty.h"
 #include "mesh/areas.h"
-#include "mesh/union_find.h"
-#include "repair/conflict_regions.h"
 #include "repair/pockets.h"
 
 namespace unsnarl {
@@ -56,20 +55,18 @@ double deepest_overlap(const Scene& scene, std::span<const IntersectingPair> pai
 }
 
 /// As a length.
-double depth_of_pocket(const Scene& scene, std::span<const Index> component_of_vertex,
-                       const std::vector<IntersectingPair>& pairs) {
-  ConflictRegion conflict;
-  conflict.pairs = pairs;
+double depth_of_pocket(const Scene& scene, const ConnectedParts& parts, std::span<const IntersectingPair> pairs) {
+  std::vector<Index> core;
   std::vector<Triangle> faces;
   for (const IntersectingPair& pair : pairs)
     for (Index t : {pair.a, pair.b}) {
       const Triangle& face = scene.triangles[t];
       faces.push_back(face);
-      conflict.core.insert(conflict.core.end(), face.begin(), face.end());
+      core.insert(core.end(), face.begin(), face.end());
     }
-  std::sort(conflict.core.begin(), conflict.core.end());
-  conflict.core.erase(std::unique(conflict.core.begin(), conflict.core.end()), conflict.core.end());
-  return pocket_depth(scene, component_of_vertex, conflict) * mean_equilateral_side(scene.rest, faces);
+  std::sort(core.begin(), core.end());
+  core.erase(std::unique(core.begin(), core.end()), core.end());
+  return pocket_depth(scene, parts, core) * mean_equilateral_side(scene.rest, faces);
 }
 
 }  // namespace
@@ -86,7 +83,7 @@ std::vector<std::vector<Index>> far_regions(const Scene& scene, std::span<const 
       for (Index v : scene.triangles[t]) region = std::max(region, region_of[v]);
     if (region >= 0) pairs_of[region].push_back(pair);
   }
-  std::vector<Index> component_of_vertex;
+  std::optional<ConnectedParts> parts;
   std::vector<std::vector<Index>> result;
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const double deepest = deepest_overlap(scene, pairs_of[r]);
@@ -94,9 +91,8 @@ std::vector<std::vector<Index>> far_regions(const Scene& scene, std::span<const 
     if (!(deepest > 0) || !(motion > far * deepest)) continue;
     if (static_cast<double>(regions[r].size()) < least_share * static_cast<double>(component_size(scene, regions[r])))
       continue;
-    if (component_of_vertex.empty())
-      component_of_vertex = vertices_joined_by(scene.triangles, scene.vertex_count()).dense_ids();
-    if (motion > far_of_pocket * depth_of_pocket(scene, component_of_vertex, pairs_of[r])) result.push_back(regions[r]);
+    if (!parts) parts.emplace(scene);
+    if (motion > far_of_pocket * depth_of_pocket(scene, *parts, pairs_of[r])) result.push_back(regions[r]);
   }
   return result;
 }

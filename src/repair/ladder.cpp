@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include "contact/intersection_finder.h"
@@ -383,13 +384,12 @@ class Climb {
     return attempts;
   }
 
-  /// 0 where it is less than the rung's bounds.
+  /// 0 where it cannot reach the rung's bounds, or there are none.
   int depth_for(const Rung& rung, const ConflictRegion& region) const {
     const int least = rung.least_depth > 0 ? rung.least_depth : rung.below_depth;
     if (region.core.size() / 2 < static_cast<std::size_t>(least)) return 0;  // no such girth
-    if (component_of_vertex_.empty())
-      component_of_vertex_ = vertices_joined_by(scene_.triangles, scene_.vertex_count()).dense_ids();
-    return pocket_depth(scene_, component_of_vertex_, region);
+    if (!parts_) parts_.emplace(scene_);
+    return pocket_depth(scene_, *parts_, region.core);
   }
 
   void run(Attempt& attempt, const Rung& rung) const {
@@ -461,7 +461,7 @@ class Climb {
   Index group_ = everything;            // what climbs now
   std::vector<Index> group_of_vertex_;  // once there are groups
   std::vector<IntersectingPair> pairs_;
-  mutable std::vector<Index> component_of_vertex_;  // made when first asked for
+  mutable std::optional<ConnectedParts> parts_;  // made when first asked for
   std::vector<Gain> gains_;
   std::size_t large_gains_ = 0;  // that were kept
   std::set<Index> rejected_;  // vertices of regions that were resolved in a way that was not accepted

@@ -21,7 +21,7 @@ struct LocalRung {
   LocalMethod method;
   double step;         ///< largest vertex motion of an iteration, h
   double locality;     ///< range of the direction's smoothing, h
-  int max_iterations;  ///< beyond which it goes on only as long as it makes progress
+  int max_iterations;  ///< beyond which it goes on only as long as it makes progress (`shorten`: at once)
 };
 
 /// Whether faces that intersect nothing at the start are kept from turning over (TurnGuard).
@@ -48,11 +48,11 @@ struct LocalOptions {
   /// ... within so many iterations: what a rung needs that to go on beyond its iterations. On the 22 of 61 meshes where
   /// some rung fails, with 8: 10 % more time, and a curled body moves 15 % farther.
   int patience = 12;
-  /// The same for `shorten`, all along. With 30 a tangle of layered cloth is left with 10 pairs; with 100 what comes
-  /// apart otherwise moves a third farther.
-  int shorten_patience = 60;
   /// Or within so many: else it is left early. With 15: the same time, and two bodies move 10 and 35 % farther.
   int despair = 30;
+  /// In place of both for `shorten`. With 30 a tangle of layered cloth keeps pairs; with 100 some sheets move a third
+  /// farther.
+  int shorten_patience = 60;
   int bisections = 5;  ///< of the displacement back to the start; the smallest clean one is kept
 };
 

@@ -20,10 +20,10 @@ constexpr int girth_per_edge = 2;
 /// beyond its fingers' conflicts has 0.2 and more, the deepest pocket of a curled body 0.17.
 constexpr double largest_share = 0.2;
 
-/// The parts that the intersecting faces cut the surface into, as far as they have been reached.
-class Parts {
+/// The pieces that the intersecting faces cut the surface into, as far as they have been reached.
+class Pieces {
  public:
-  Parts(const Scene& scene, std::span<const Index> core) : scene_(scene), front_(core.begin(), core.end()) {
+  Pieces(const Scene& scene, std::span<const Index> core) : scene_(scene), front_(core.begin(), core.end()) {
     for (const Index v : core) part_of_[v] = none;
   }
 
@@ -88,12 +88,25 @@ class Parts {
 
 }  // namespace
 
-int pocket_depth(const Scene& scene, std::span<const Index> component_of_vertex, const ConflictRegion& region) {
-  const int at_most = static_cast<int>(largest_share * std::sqrt(static_cast<double>(scene.triangle_count())));
-  Parts parts(scene, region.core);
-  for (int depth = 0; depth < at_most && parts.grow(); ++depth) {
+ConnectedParts::ConnectedParts(const Scene& scene) {
+  UnionFind sets = vertices_joined_by(scene.triangles, scene.vertex_count());
+  of_vertex = sets.dense_ids();
+  face_count.assign(of_vertex.size(), 0);
+  for (const Triangle& t : scene.triangles) ++face_count[of_vertex[t[0]]];
+}
+
+int pocket_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core) {
+  std::vector<Index> met;
+  for (const Index v : core) met.push_back(parts.of_vertex[v]);
+  std::sort(met.begin(), met.end());
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  double faces = 0;
+  for (const Index part : met) faces += parts.face_count[part];
+  const int at_most = static_cast<int>(largest_share * std::sqrt(faces));
+  Pieces pieces(scene, core);
+  for (int depth = 0; depth < at_most && pieces.grow(); ++depth) {
   }
-  return parts.deepest_pocket(component_of_vertex);
+  return pieces.deepest_pocket(parts.of_vertex);
 }
 
 }  // namespace unsnarl

@@ -189,7 +189,7 @@ void Recovery::gather(double activation) {
 bool Recovery::hold_touching() {
   std::vector<Stencil> touching;
   for (const ContactRule& rule : gathered_)
-    if (!(rule.distance > rules_->options().roundoff)) touching.push_back(rule.stencil.stencil);
+    if (!rule.own_altitude && !(rule.distance > rules_->options().roundoff)) touching.push_back(rule.stencil.stencil);
   return hold(touching);
 }
 

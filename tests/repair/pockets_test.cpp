@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mesh/union_find.h"
+#include "repair/conflict_regions.h"
 #include "repair/shapes.h"
 
 namespace unsnarl {
@@ -15,7 +15,7 @@ int depth_of(const shapes::Shape& shape) {
   const Scene scene = shapes::scene_of(shape);
   const std::vector<ConflictRegion> regions = conflict_regions(scene, shapes::pairs_of(shape));
   EXPECT_EQ(regions.size(), 1u);
-  return pocket_depth(scene, vertices_joined_by(scene.triangles, scene.vertex_count()).dense_ids(), regions.front());
+  return pocket_depth(scene, ConnectedParts(scene), regions.front().core);
 }
 
 /// Two sheets of cells of side 1 / n whose wide bumps run through each other.
@@ -56,6 +56,18 @@ TEST(Pockets, are_not_deeper_than_half_their_girth) {
     return Vec3(0.21 + 0.3 * std::cos(angle), 0.13 + 0.3 * std::sin(angle), i - 16.37);
   }));
   EXPECT_LE(depth_of(shape), 2);
+}
+
+// How much may be a pocket at all goes by the faces of what is in conflict.
+TEST(Pockets, do_not_depend_on_what_is_elsewhere) {
+  shapes::Shape shape = shapes::bumpy_sheet(30, 0);
+  shape.add(shapes::grid(40, 24, true, [](double i, double j) {
+    const double angle = 2 * M_PI * j / 24;
+    return Vec3(0.21 + 3 * std::cos(angle), 0.13 + 3 * std::sin(angle), i - 19.63);
+  }));
+  const int alone = depth_of(shape);
+  shape.add(shapes::bumpy_sheet(200, 0), {1000, 0, 0});
+  EXPECT_EQ(depth_of(shape), alone);
 }
 
 }  // namespace
