@@ -13,7 +13,7 @@ bool has(const Triangle& t, Index v) {
 
 /// Where the edges of one triangle pierce the other.
 void add_piercings(const Positions& x, const Triangle& piercing, const Triangle& pierced, std::vector<Vec3>& points) {
-  const TrianglePoints face = {x.col(pierced[0]), x.col(pierced[1]), x.col(pierced[2])};
+  const TrianglePoints face = points_of(x, pierced);
   const Vec3 normal = (face[1] - face[0]).cross(face[2] - face[0]);
   for (int k = 0; k < 3; ++k) {
     const Index u = piercing[k], v = piercing[(k + 1) % 3];

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/triangle_intersection.h"
+
 namespace unsnarl {
 namespace {
 
@@ -296,10 +298,6 @@ void foot_points(std::span<const Vec3> a, std::span<const Vec3> b, const Candida
   }
 }
 
-std::array<Vec3, 3> corners_of(const Positions& x, const Triangle& t) {
-  return {x.col(t[0]), x.col(t[1]), x.col(t[2])};
-}
-
 }  // namespace
 
 Penetration triangle_penetration(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, double margin,
@@ -314,7 +312,7 @@ Penetration triangle_penetration(const std::array<Vec3, 3>& a, const std::array<
 }
 
 double overlap_depth(const Positions& x, const Triangle& a, const Triangle& b) {
-  return triangle_penetration(corners_of(x, a), corners_of(x, b), 0).depth;
+  return triangle_penetration(points_of(x, a), points_of(x, b), 0).depth;
 }
 
 PolygonPenetration polygon_penetration(std::span<const Vec3> a, std::span<const Vec3> b, double margin,
@@ -398,10 +396,10 @@ Penetration MinkowskiPenalty::evaluate(const Positions& x, Index a, Index b, std
     }
   }
   if (shared == 0) {
-    return triangle_penetration(corners_of(x, ta), corners_of(x, tb), options_.margin, hint);
+    return triangle_penetration(points_of(x, ta), points_of(x, tb), options_.margin, hint);
   }
   if (shared == 1 && options_.one_vertex) {
-    return one_vertex_penetration(corners_of(x, ta), in_a[0], corners_of(x, tb), in_b[0], options_.vertex_trim,
+    return one_vertex_penetration(points_of(x, ta), in_a[0], points_of(x, tb), in_b[0], options_.vertex_trim,
                                   options_.margin, hint);
   }
   // A triangle with a repeated vertex can share "two" corners that are one; it has no fold.

@@ -10,6 +10,10 @@ namespace unsnarl {
 /// the function says so.
 using TrianglePoints = std::array<Vec3, 3>;
 
+inline TrianglePoints points_of(const Positions& x, const Triangle& t) {
+  return {x.col(t[0]), x.col(t[1]), x.col(t[2])};
+}
+
 /// Segment pq against a triangle that is not degenerate.
 bool segment_meets_triangle(const Vec3& p, const Vec3& q, const TrianglePoints& t);
 

@@ -54,17 +54,13 @@ struct Incidence {
   bool operator<(const Incidence& o) const { return key() != o.key() ? key() < o.key() : other < o.other; }
 };
 
-TrianglePoints points(const Positions& x, const Triangle& t) {
-  return {x.col(t[0]), x.col(t[1]), x.col(t[2])};
-}
-
 bool has(const Triangle& t, Index v) {
   return t[0] == v || t[1] == v || t[2] == v;
 }
 
 /// Unit direction of the curve in face `other` from the crossing inwards, within the plane of the pierced face.
 Vec3 curve_direction(const Positions& x, const Triangle& other, const Edge& edge, const Vec3& pierced_normal) {
-  const TrianglePoints p = points(x, other);
+  const TrianglePoints p = points_of(x, other);
   const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
   Vec3 along = normal.cross(pierced_normal);
   const double length = along.norm();
@@ -89,7 +85,7 @@ Contours trace_contours(const Positions& x, std::span<const Triangle> triangles,
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (pairs[k].kind != PairClass::disjoint && pairs[k].kind != PairClass::one_vertex) continue;
     for (const auto& [piercing, pierced] : {std::pair(pairs[k].a, pairs[k].b), std::pair(pairs[k].b, pairs[k].a)}) {
-      const TrianglePoints face = points(x, triangles[pierced]);
+      const TrianglePoints face = points_of(x, triangles[pierced]);
       for (Index e : edges.edges_of_triangle[piercing]) {
         if (e < 0) continue;
         const auto [u, v] = edges.edges[e];
@@ -109,7 +105,7 @@ Contours trace_contours(const Positions& x, std::span<const Triangle> triangles,
     while (end < incidences.size() && incidences[end].key() == incidences[begin].key()) ++end;
     const auto [edge_id, face_id] = incidences[begin].key();
     const Edge& edge = edges.edges[edge_id];
-    const TrianglePoints face = points(x, triangles[face_id]);
+    const TrianglePoints face = points_of(x, triangles[face_id]);
     const Vec3 p = x.col(edge[0]), q = x.col(edge[1]);
     const Vec3 normal_raw = (face[1] - face[0]).cross(face[2] - face[0]);
     const double double_area = normal_raw.norm(), length = (q - p).norm();

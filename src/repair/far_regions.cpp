@@ -16,9 +16,9 @@ namespace {
 /// below 15. A spiral with 31 comes 18 times closer by another way, strips of hair with 53 24 times, cushions with 28
 /// four times; others beyond do not.
 constexpr double far = 20;
-/// And in depths of the pocket that its conflicts cut off: single faces hide how deep it is, the more so the smaller
-/// they are. (A curled body of 428k faces moved 0.2 of its pocket, 20 of its deepest pair; a spiral's sheets 1.4
-/// and 7.)
+/// And in depths of the pocket, where its conflicts cut one off: single faces hide how deep it is, the more so the
+/// smaller they are. (A curled body of 107k faces moved 13 of its deepest pair, but 0.13 of its pocket; with 428k beyond
+/// 20 of the former. Two sheets of that spiral moved 1.4 and 7 pockets.)
 constexpr double far_of_pocket = 1;
 /// Least share of its components that a region has to be. (A flow of a whole character for a dent in its collar takes
 /// twenty times as long as all else, and is not closer.)

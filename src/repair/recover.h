@@ -27,10 +27,10 @@ struct RecoverOptions {
   // move on average: 29 as it is; 353 without the pull, and 22 % farther.
   /// Share of a face's area along its rest normal below which it is pulled back. 0.4: 51 turned, 0.2 % farther.
   double turn_activation = 0.2;
-  /// Of that pull, of the contact force. 1: a third to a half fewer turned, 0.9 % farther (59 meshes), the same on 14
-  /// fine ones, but 4 % farther on 36 samples.
+  /// Of that pull, of the contact force. 1: two fifths fewer turned, 0.9 % farther on 59 meshes and no farther on 14
+  /// fine ones; but as many turned on 36 samples, and 4 % farther.
   double turn_weight = 0.3;
-  double turn_share = 0.2;   ///< of its area along its rest normal, that a face keeps in a step. 0.05: 71; 0.4: 65
+  double turn_share = 0.2;  ///< of its area along its rest normal, that a face keeps in a step. 0.05: 71; 0.4: 65
 
   // Continuation: the barrier's activation distance starts at `activation` and shrinks.
   double activation = 0.1;  ///< in h, at most
@@ -117,8 +117,8 @@ struct RecoverResult {
 /// Guarantees: no new pair; no face turns over against its rest shape in a step, but where filter_step does not settle
 /// (not seen so far), and those that were are pulled back; stencils keep the distance `min_gap` once they have it
 /// (neighbours that are closer at rest keep a share of their rest distance); free vertices that can go home are
-/// bit-exactly at rest; the same bytes at any number of threads. `stop` is asked once a step; what was reached by then
-/// is kept.
+/// bit-exactly at rest; what is closer than round-off to something stays where it is while others step; the same bytes
+/// at any number of threads. `stop` is asked once a step; what was reached by then is kept.
 RecoverResult recover(Patch& patch, const RecoverOptions& options = {}, const std::function<bool()>& stop = {});
 
 }  // namespace unsnarl

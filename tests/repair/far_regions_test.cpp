@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "energy/minkowski_penalty.h"
@@ -32,15 +31,7 @@ TEST(FarRegions, are_those_that_moved_many_times_their_overlap) {
 
 // The finer the mesh, the less its faces overlap where the surfaces run through each other as deeply.
 TEST(FarRegions, moved_farther_than_their_pockets_are_deep) {
-  constexpr int n = 3;
-  const auto bump = [](double height) {
-    return shapes::grid(40 * n, 40 * n, false, [=](double i, double j) {
-      const double x = i / n - 20, y = j / n - 20;
-      return Vec3(x, y, height * std::exp(-(x * x + y * y) / 36));
-    });
-  };
-  Shape shape = bump(1.5);
-  shape.add(bump(-1.5), {0.31, 0.17, 2});
+  const Shape shape = shapes::crossing_wide_bumps(3, 1);
   Scene scene = shapes::scene_of(shape);
   const std::vector<IntersectingPair> pairs = shapes::pairs_of(shape);
   std::vector<std::vector<Index>> regions(1, std::vector<Index>(scene.vertex_count()));

@@ -18,27 +18,15 @@ int depth_of(const shapes::Shape& shape) {
   return pocket_depth(scene, ConnectedParts(scene), regions.front().core);
 }
 
-/// Two sheets of cells of side 1 / n whose wide bumps run through each other.
-shapes::Shape bumps(Index n, double depth) {
-  const auto sheet = [&](double height) {
-    return shapes::grid(40 * n, 40 * n, false, [=](double i, double j) {
-      const double x = i / n - 20, y = j / n - 20;
-      return Vec3(x, y, height * std::exp(-(x * x + y * y) / 36));
-    });
-  };
-  shapes::Shape shape = sheet(1 + 0.5 * depth);
-  return shape.add(sheet(-1 - 0.5 * depth), {0.31, 0.17, 2});
-}
-
 TEST(Pockets, are_as_many_edges_deep_as_the_mesh_is_fine) {
-  const int coarse = depth_of(bumps(1, 1)), fine = depth_of(bumps(2, 1));
+  const int coarse = depth_of(shapes::crossing_wide_bumps(1, 1)), fine = depth_of(shapes::crossing_wide_bumps(2, 1));
   EXPECT_GE(coarse, 2);
   EXPECT_GE(fine, 2 * coarse - 1);
   EXPECT_LE(fine, 2 * coarse + 3);
 }
 
 TEST(Pockets, are_deeper_where_more_has_run_through) {
-  EXPECT_GT(depth_of(bumps(2, 2)), depth_of(bumps(2, 0.3)));
+  EXPECT_GT(depth_of(shapes::crossing_wide_bumps(2, 2)), depth_of(shapes::crossing_wide_bumps(2, 0.3)));
 }
 
 // A wedge pushed into the side of a sheet cuts nothing off it, nor the sheet off the wedge.

@@ -68,6 +68,18 @@ inline Shape crossing_bumps(Index n, double depth) {
   return shape;
 }
 
+/// Two sheets of cells of side 1 / n whose wide bumps run through each other.
+inline Shape crossing_wide_bumps(Index n, double depth) {
+  const auto sheet = [&](double height) {
+    return grid(40 * n, 40 * n, false, [=](double i, double j) {
+      const double x = i / n - 20, y = j / n - 20;
+      return Vec3(x, y, height * std::exp(-(x * x + y * y) / 36));
+    });
+  };
+  Shape shape = sheet(1 + 0.5 * depth);
+  return shape.add(sheet(-1 - 0.5 * depth), {0.31, 0.17, 2});
+}
+
 /// A tube of radius r and length m along x.
 inline Shape tube(Index m, Index around, double r) {
   return grid(m, around, true, [=](double i, double j) {
