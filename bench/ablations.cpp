@@ -11,20 +11,20 @@
 
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
+#include "pipeline/threads.h"
+#include "recover/recover.h"
 #include "render/picture.h"
 #include "render/png.h"
-#include "repair/diagnose.h"
-#include "repair/measure.h"
-#include "repair/paper_untangle.h"
-#include "repair/patch.h"
-#include "repair/prepared_surface.h"
-#include "repair/recover.h"
-#include "repair/threads.h"
+#include "report/measure.h"
 #include "samples/samples.h"
 #include "samples/tube.h"
+#include "scene/diagnose.h"
+#include "scene/patch.h"
+#include "scene/prepared_surface.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/document.h"
 #include "unsnarl/repair.h"
+#include "untangle/paper_untangle.h"
 
 namespace unsnarl {
 namespace {
@@ -59,7 +59,7 @@ struct Subject {
     IntersectionFinder finder(prepared.triangles());
     diagnosis = diagnose(surface, prepared, {}, finder);
     scene = make_scene(prepared.rest, prepared.triangulation.triangles,
-                       std::vector<std::uint8_t>(prepared.identification.count, 0));
+                       std::vector<std::uint8_t>(prepared.weld_map.count, 0));
     std::vector<Index> free;
     for (Index v = 0; v < scene.vertex_count(); ++v)
       if (!scene.triangles_of_vertex[v].empty()) free.push_back(v);
@@ -83,7 +83,7 @@ void add_measures(Subject& subject, const std::vector<double>& positions, const 
   row[prefix + "displacement_mean_rel"] = report.displacement_mean_rel;
   row[prefix + "displacement_max_rel"] = report.displacement_max_rel;
   row[prefix + "edge_stretch_p999"] = report.edge_stretch_p999;
-  row[prefix + "turned_share"] = static_cast<double>(report.turned_triangles) / triangles;
+  row[prefix + "turned_share"] = static_cast<double>(report.flipped_triangles) / triangles;
   row[prefix + "volume_ratio"] = 1 + report.volume_change_rel;  // negative: inside out
 }
 

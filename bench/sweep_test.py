@@ -38,7 +38,7 @@ PROGRAM = """\
                    topology=dict(vertices=12, faces=20), before=dict(total=8, by_class=dict(disjoint=7, folded=1)),
                    after=dict(total=left, by_class=dict(disjoint=left)), untouched_share=0.9,
                    displacement_mean_rel=1e-4, displacement_max_rel=1e-3,
-                   regions=[dict(rung="A2"), dict(rung="A2"), dict(rung="I4")],
+                   regions=[dict(strategy="A2"), dict(strategy="A2"), dict(strategy="I4")],
                    stages=[dict(name="untangle", seconds=0.5)]), open(option("--report"), "w"))
     if "--picture" in arguments: open(option("--picture"), "w").write("png")
     sys.exit(1 if left else 0)
@@ -83,7 +83,7 @@ class SweepTest(unittest.TestCase):
             "b/silent.stl": "exit_3", "b/slow.obj": "killed_after_time_limit", "b/greedy.obj": "exit_1"})
         good, stubborn = rows["a/good.obj"], rows["a/stubborn.off"]
         self.assertEqual((good["pairs_before"], good["pairs_left"], good["intersecting_faces_left"]), ("8", "0", "0"))
-        self.assertEqual((good["rungs"], good["stage_s"], good["same_bytes"]), ("A2:2 I4:1", "untangle:0.500", "True"))
+        self.assertEqual((good["strategies"], good["stage_s"], good["same_bytes"]), ("A2:2 I4:1", "untangle:0.500", "True"))
         self.assertEqual((stubborn["pairs_left"], stubborn["intersecting_faces_left"]), ("3", "3"))
         self.assertEqual((good["faces"], good["before_folded"], good["displacement_max_rel"]), ("20", "1", "0.001"))
         self.assertGreater(float(good["peak_memory_mb"]), 1)

@@ -15,8 +15,8 @@ void print(const char* title, const unsnarl::RepairResult& result) {
               std::string(to_string(result.status)).c_str(), result.report.displacement_rms_rel,
               result.report.displacement_max_rel);
   for (const unsnarl::RegionReport& region : result.report.regions)
-    std::printf("  region: %zu pairs, %zu faces free, rung %s, %d iterations\n", region.pairs, region.faces,
-                region.rung.c_str(), region.iterations);
+    std::printf("  region: %zu pairs, %zu faces free, strategy %s, %d iterations\n", region.pairs, region.faces,
+                region.strategy.c_str(), region.iterations);
 }
 
 }  // namespace

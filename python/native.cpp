@@ -17,8 +17,8 @@
 #include <thread>
 
 #include "mesh/triangulation.h"
-#include "repair/measure.h"
-#include "repair/report_json.h"
+#include "report/measure.h"
+#include "report/report_json.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/parts.h"
@@ -54,8 +54,7 @@ Enum named(const char* option, const std::string& name, std::initializer_list<En
   throw std::invalid_argument(std::string(option) + " is '" + name + "'; choose one of " + all);
 }
 
-FindOptions find_options(const std::string& weld, double weld_tolerance, bool both_diagonals = false,
-                         int threads = 0) {
+FindOptions find_options(const std::string& weld, double weld_tolerance, bool both_diagonals = false, int threads = 0) {
   return {.weld = named("weld", weld, {Weld::none, Weld::seams, Weld::all}),
           .weld_tolerance = weld_tolerance,
           .both_diagonals = both_diagonals,
@@ -161,7 +160,8 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
                     const Array<std::int32_t>& offsets, const Array<std::uint8_t>& fixed, const std::string& goal,
                     const std::string& precision, double min_gap, double max_displacement, bool absolute,
                     double time_limit, double memory_limit, bool recover, bool paper, bool each_component,
-                    const std::string& weld, double weld_tolerance, bool both_diagonals, int threads, const py::object& progress) {
+                    const std::string& weld, double weld_tolerance, bool both_diagonals, int threads,
+                    const py::object& progress) {
   const auto begin = std::chrono::steady_clock::now();
   const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
   RepairOptions options;
@@ -225,8 +225,9 @@ PYBIND11_MODULE(_native, module) {
              py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"));
   module.def("repair", &py_repair, array("positions"), array("corners"), array("offsets"), array("fixed"),
              py::kw_only(), py::arg("goal"), py::arg("precision"), py::arg("min_gap"), py::arg("max_displacement"),
-             py::arg("absolute"), py::arg("time_limit"), py::arg("memory_limit"), py::arg("recover"), py::arg("paper"), py::arg("each_component"),
-             py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"), py::arg("progress"));
+             py::arg("absolute"), py::arg("time_limit"), py::arg("memory_limit"), py::arg("recover"), py::arg("paper"),
+             py::arg("each_component"), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"),
+             py::arg("threads"), py::arg("progress"));
   module.def("component_of_faces", &py_component_of_faces, array("positions"), array("corners"), array("offsets"),
              py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"));
   module.def("boundary_vertices", &py_boundary_vertices, array("positions"), array("corners"), array("offsets"),

@@ -11,11 +11,11 @@
 #include "mesh/components.h"
 #include "mesh/union_find.h"
 #include "mesh_input.h"
-#include "repair/exit_code.h"
-#include "repair/face_pairs.h"
-#include "repair/prepared_surface.h"
-#include "repair/report_json.h"
-#include "repair/threads.h"
+#include "pipeline/threads.h"
+#include "report/exit_code.h"
+#include "report/report_json.h"
+#include "scene/face_pairs.h"
+#include "scene/prepared_surface.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/version.h"
@@ -64,14 +64,14 @@ void extend_by_face(Box& box, const SurfaceView& surface, Index f) {
   }
 }
 
-std::vector<Place> find_places(const SurfaceView& surface, const Identification& identification,
+std::vector<Place> find_places(const SurfaceView& surface, const WeldMap& weld_map,
                                const std::vector<IntersectingPair>& pairs, const std::vector<Index>& faces) {
   UnionFind sets(surface.face_count());
   for (const IntersectingPair& pair : pairs) sets.unite(pair.a, pair.b);
-  std::vector<Index> face_at(static_cast<std::size_t>(identification.count), -1);
+  std::vector<Index> face_at(static_cast<std::size_t>(weld_map.count), -1);
   for (Index f : faces)
     for (Index corner : surface.face(f)) {
-      Index& other = face_at[identification.vertex_of[corner]];
+      Index& other = face_at[weld_map.vertex_of[corner]];
       if (other >= 0) sets.unite(other, f);
       other = f;
     }
@@ -99,17 +99,17 @@ Findings examine(const SurfaceView& surface, const FindOptions& options) {
   found.counts = count_by_class(found.pairs);
   found.faces = faces_in(found.pairs);
 
-  const Identification& identification = prepared.identification;
+  const WeldMap& weld_map = prepared.weld_map;
   const Triangulation& triangulation = prepared.triangulation;
   const EdgeTable edges = build_edges(triangulation.triangles);
-  const Components components = find_components(triangulation.triangles, identification.count, edges);
+  const Components components = find_components(triangulation.triangles, weld_map.count, edges);
   found.triangulation = triangulation.statistics.describe();
-  found.topology = describe_topology(surface, identification, triangulation, edges, components);
+  found.topology = describe_topology(surface, weld_map, triangulation, edges, components);
   for (const Component& component : components.list) found.obstructed_components += component.obstructed();
 
   std::set<Index> involved;
   const auto component_of = [&](Index f) {
-    return components.component_of_vertex[identification.vertex_of[surface.face(f)[0]]];
+    return components.component_of_vertex[weld_map.vertex_of[surface.face(f)[0]]];
   };
   found.components.resize(components.list.size());
   for (Index f = static_cast<Index>(surface.face_count()); f-- > 0;) {
@@ -127,7 +127,7 @@ Findings examine(const SurfaceView& surface, const FindOptions& options) {
     if (a == b) ++found.components[a].pairs_within;
   }
   found.intersecting_components = involved.size();
-  found.places = find_places(surface, identification, found.pairs, found.faces);
+  found.places = find_places(surface, weld_map, found.pairs, found.faces);
   return found;
 }
 

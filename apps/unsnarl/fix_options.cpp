@@ -3,7 +3,7 @@
 #include "fix.h"
 #include "mesh_input.h"
 #include "pictures.h"
-#include "repair/measure.h"
+#include "report/measure.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "mesh_input.h"
-#include "repair/process_usage.h"
+#include "report/process_usage.h"
 
 namespace unsnarl::app {
 namespace {
@@ -49,7 +49,7 @@ std::string_view why(LeftReason reason) {
     case LeftReason::time_limit: return "not yet resolved at the time limit";
     case LeftReason::memory_limit: return "not yet resolved at the memory limit";
     case LeftReason::cancelled: return "not yet resolved when interrupted";
-    case LeftReason::unresolved: return "that no rung of the ladder could part";
+    case LeftReason::unresolved: return "that no strategy of the ladder could part";
     case LeftReason::other_diagonal: return "along the other diagonals of quads alone";
   }
   return "for an unknown reason";

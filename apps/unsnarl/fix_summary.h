@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "repair/report_json.h"
+#include "report/report_json.h"
 #include "unsnarl/repair.h"
 
 namespace unsnarl::app {

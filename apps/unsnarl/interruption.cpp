@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "repair/exit_code.h"
+#include "report/exit_code.h"
 
 namespace unsnarl::app {
 namespace {

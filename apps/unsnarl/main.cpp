@@ -12,7 +12,7 @@
 #include "check.h"
 #include "fix.h"
 #include "interruption.h"
-#include "repair/exit_code.h"
+#include "report/exit_code.h"
 #include "sample.h"
 #include "standard_streams.h"
 #include "unsnarl/document.h"

@@ -9,7 +9,7 @@
 
 #include "command_options.h"
 #include "mesh_input.h"
-#include "repair/exit_code.h"
+#include "report/exit_code.h"
 #include "samples/samples.h"
 #include "staged_output.h"
 #include "standard_streams.h"

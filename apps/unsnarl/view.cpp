@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "mesh_input.h"
-#include "repair/exit_code.h"
+#include "report/exit_code.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "usage_error.h"

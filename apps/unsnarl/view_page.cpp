@@ -7,7 +7,7 @@
 #include "contact/intersection_segments.h"
 #include "mesh_input.h"
 #include "render/page.h"
-#include "repair/prepared_surface.h"
+#include "scene/prepared_surface.h"
 #include "usage_error.h"
 #include "viewer_template.h"
 

@@ -44,16 +44,16 @@ struct IterationRecord {
 /// The iterations that led one region to where it ended, tries that were given up left out.
 struct RegionHistory {
   std::string phase;       ///< "untangle", "recover"
-  std::string rung;        ///< untangle: as in RegionReport; recover: empty
+  std::string strategy;    ///< untangle: as in RegionReport; recover: empty
   std::size_t region = 0;  ///< untangle: position in RepairReport::regions; recover: number of the area, from 0
   std::vector<IterationRecord> iterations;
 };
 
 /// The surface at a moment, as what has moved since the frame before. Regions that do not overlap are shown at work at
-/// the same time: frame k of a rung (or of the recovery) has the k-th iteration of each.
+/// the same time: frame k of a strategy (or of the recovery) has the k-th iteration of each.
 struct RecordedFrame {
   std::string phase;                       ///< "input" (the first), "untangle", "recover", "result" (the last)
-  std::string rung;                        ///< untangle: the rung at work
+  std::string strategy;                    ///< untangle: the strategy at work
   int iteration = 0;                       ///< of the regions at work
   std::size_t pairs = 0;                   ///< intersecting pairs of faces, of all classes, at this moment
   std::vector<std::int32_t> intersecting;  ///< ids of the faces in these pairs, ascending

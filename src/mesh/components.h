@@ -6,9 +6,6 @@
 
 #include "geometry/types.h"
 #include "mesh/adjacency.h"
-#include "mesh/identification.h"
-#include "mesh/triangulation.h"
-#include "unsnarl/repair.h"
 
 namespace unsnarl {
 
@@ -46,11 +43,5 @@ std::size_t count_non_manifold_vertices(std::span<const Triangle> triangles, Ind
 /// Groups of two or more triangles on the same three vertices, in any order of the vertices; triangles ascending within
 /// a group, groups in the order of their first triangles.
 std::vector<std::vector<Index>> duplicate_triangles(std::span<const Triangle> triangles);
-
-/// Everything that RepairReport::topology holds. `vertices` counts identified ones; `duplicate_faces` the triangles
-/// beyond the first of each group; `zero_area_faces` the faces of which no triangle has any area;
-/// `duplicate_vertices` what Identification::merged counts.
-Topology describe_topology(const SurfaceView& surface, const Identification& identification,
-                           const Triangulation& triangulation, const EdgeTable& edges, const Components& components);
 
 }  // namespace unsnarl

@@ -33,7 +33,7 @@ struct Triangulation {
 
 /// Cuts every polygon once, by the positions given: a quad along the diagonal from its first corner, or along the other
 /// where that one folds and the other does not; a larger polygon by ear clipping in its mean plane, as it is often
-/// concave. `vertex_of` (file vertex -> identified vertex, see Identification) renames the corners after the cut;
+/// concave. `vertex_of` (file vertex -> identified vertex, see WeldMap) renames the corners after the cut;
 /// triangles with a repeated vertex are then left out and counted. Empty: no renaming.
 ///
 /// Precondition: valid ids, finite coordinates. The result does not depend on the number of threads.

@@ -129,9 +129,9 @@ std::string caption(const RecordedFrame& frame) {
                             : frame.pairs == 1 ? "1 intersecting pair of faces"
                                                : std::to_string(frame.pairs) + " intersecting pairs of faces";
   if (frame.phase == "input" || frame.phase == "result") return frame.phase + "\n" + pairs;
-  const std::string rung = frame.rung.empty() ? "" : " of " + frame.rung;
+  const std::string strategy = frame.strategy.empty() ? "" : " of " + frame.strategy;
   return (frame.phase == "recover" ? "back towards the input\n" : "untangling\n") + pairs + ", iteration " +
-         std::to_string(frame.iteration) + rung;
+         std::to_string(frame.iteration) + strategy;
 }
 
 /// Pairs as columns, displacement as a line, over all frames; what is still to come is pale.

@@ -136,7 +136,7 @@ Json add_frames(std::span<const RecordedFrame> frames, const PageUnits& units, D
   std::vector<float> displacements;
   for (const RecordedFrame& frame : frames) {
     described.push_back({{"phase", frame.phase},
-                         {"rung", frame.rung},
+                         {"strategy", frame.strategy},
                          {"iteration", frame.iteration},
                          {"pairs", frame.pairs},
                          {"moved", frame.vertices.size()},

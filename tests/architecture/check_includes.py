@@ -20,7 +20,12 @@ BELOW = {
     "optimize": ["geometry"],
     "io": ["geometry", "mesh"],
     "render": ["geometry", "mesh"],
-    "repair": ["geometry", "mesh", "contact", "energy", "optimize", "io", "render"],
+    "scene": ["geometry", "mesh", "contact"],
+    "recover": ["geometry", "mesh", "contact", "energy", "optimize", "scene"],
+    "untangle": ["geometry", "mesh", "contact", "energy", "optimize", "scene", "recover"],
+    "report": ["geometry", "mesh", "contact", "energy", "io", "scene", "untangle"],
+    "pipeline": ["geometry", "mesh", "contact", "energy", "optimize", "io", "render", "scene", "recover", "untangle",
+                 "report"],
     "samples": ["geometry", "mesh"],
 }
 THIRD_PARTY = re.compile(r"^(Eigen|CGAL|tbb|oneapi|fmt|nlohmann|CLI|png|zlib|boost|gmp|mpfr|gtest|benchmark)\b")

@@ -54,11 +54,11 @@ class Troubleshooting(unittest.TestCase):
                     with self.subTest(message=message):
                         self.assertTrue(part in all_literals, f"no source says '{part}'")
 
-    def test_rungs_are_the_programs(self):
+    def test_strategies_are_the_programs(self):
         table = (pages.PROJECT / "docs/how_it_works.md").read_text()
-        rungs = re.findall(r"`([a-z]+-\d+)`", table)
-        self.assertGreater(len(rungs), 5)
-        self.assertLessEqual(set(rungs), set(literals()))
+        strategies = re.findall(r"`([a-z]+-\d+)`", table)
+        self.assertGreater(len(strategies), 5)
+        self.assertLessEqual(set(strategies), set(literals()))
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 #include "fuzz/promise.h"
 #include "fuzz/targets.h"
 #include "oracle/intersections_oracle.h"
-#include "repair/prepared_surface.h"
+#include "scene/prepared_surface.h"
 #include "unsnarl/certify.h"
 
 namespace unsnarl::fuzz {
@@ -16,7 +16,7 @@ void intersections(Bytes bytes) {
 
   const PreparedSurface prepared = prepare(mesh.surface, mesh.find);
   std::vector<std::int64_t> coordinates;
-  for (const Index v : prepared.identification.first)
+  for (const Index v : prepared.weld_map.first)
     for (int k = 0; k < 3; ++k) coordinates.push_back(mesh.coordinates[3 * static_cast<std::size_t>(v) + k]);
   const auto expected = pairs_of_faces(prepared.triangulation.polygon,
                                        oracle::intersections_by_brute_force(coordinates, prepared.triangles()));

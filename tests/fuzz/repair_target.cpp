@@ -8,7 +8,7 @@
 #include "fuzz/promise.h"
 #include "fuzz/targets.h"
 #include "oracle/intersections_oracle.h"
-#include "repair/prepared_surface.h"
+#include "scene/prepared_surface.h"
 #include "unsnarl/certify.h"
 
 namespace unsnarl::fuzz {

@@ -81,29 +81,5 @@ TEST(Components, DuplicatesAreFoundInAnyOrderOfCorners) {
   EXPECT_EQ(duplicate_triangles(triangles), (std::vector<std::vector<Index>>{{0, 2, 4}, {1, 3}}));
 }
 
-TEST(Topology, OfASoupWithDefects) {
-  Surface s = exploded(cube());
-  const Index a = add_vertex(s, 5, 5, 5), b = add_vertex(s, 6, 6, 6), c = add_vertex(s, 7, 7, 7);
-  add_vertex(s, 9, 9, 9);  // unused
-  add_face(s, {a, b, c});  // no area
-  add_face(s, {c, b, a});  // and a duplicate
-  const Identification id = identify(s);
-  const Triangulation cut = triangulate(s, id.vertex_of);
-  const EdgeTable edges = build_edges(cut.triangles);
-  const Topology topology = describe_topology(s, id, cut, edges, find_components(cut.triangles, id.count, edges));
-  EXPECT_EQ(topology.vertices, 12u);
-  EXPECT_EQ(topology.faces, 8u);
-  EXPECT_EQ(topology.triangles, 14u);
-  EXPECT_EQ(topology.components, 2u);
-  EXPECT_EQ(topology.boundary_edges, 0u);
-  EXPECT_EQ(topology.non_manifold_edges, 0u);
-  EXPECT_EQ(topology.duplicate_faces, 1u);
-  EXPECT_EQ(topology.zero_area_faces, 2u);
-  EXPECT_EQ(topology.duplicate_vertices, 16u);
-  EXPECT_EQ(topology.unused_vertices, 1u);
-  EXPECT_EQ(topology.closed_components, 2u);
-  EXPECT_EQ(topology.non_orientable_components, 0u);
-}
-
 }  // namespace
 }  // namespace unsnarl

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "mesh/adjacency.h"
-#include "repair/shapes.h"
+#include "scene/shapes.h"
 
 namespace unsnarl {
 namespace {

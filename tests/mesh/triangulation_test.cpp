@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "mesh/identification.h"
 #include "mesh/shapes.h"
+#include "mesh/weld_map.h"
 
 namespace unsnarl {
 namespace {
@@ -241,7 +241,7 @@ TEST(Triangulation, RepeatedCornersAreDroppedAndCounted) {
 
 TEST(Triangulation, CornersAreRenamedAfterTheCut) {
   const Surface s = exploded(cube());
-  const Identification id = identify(s);
+  const WeldMap id = weld(s);
   const Triangulation cut = triangulate(s, id.vertex_of);
   ASSERT_EQ(cut.triangles.size(), 12u);
   for (const Triangle& t : cut.triangles)

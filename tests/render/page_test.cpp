@@ -109,7 +109,7 @@ TEST(Page, RecordedFramesEndToEnd) {
   const std::string page = make_page(page_template, content);
   EXPECT_EQ(
       Json::parse(text_of(page, "scene"))["frames"][1],
-      Json({{"phase", "untangle"}, {"rung", "slide"}, {"iteration", 3}, {"pairs", 2}, {"moved", 2}, {"faces", 1}}));
+      Json({{"phase", "untangle"}, {"strategy", "slide"}, {"iteration", 3}, {"pairs", 2}, {"moved", 2}, {"faces", 1}}));
   EXPECT_EQ(text_of(page, "frame_vertices"), packed<Index>({2, 4}, 1));
   EXPECT_EQ(text_of(page, "frame_displacements"), packed<float>({1, 0, 0, 0, 0, -0.5}, 3));
   EXPECT_EQ(text_of(page, "frame_faces"), packed<Index>({0, 1, 1}, 1));

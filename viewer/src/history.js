@@ -22,8 +22,8 @@ function regionCharts(region) {
   return charts.map(({ node }) => node);
 }
 
-function regionName({ phase, rung, region, pairs }) {
-  return `${phase}${rung ? `, ${rung}` : ''}, region ${region}: ${plural(pairs.length, 'iteration', 'iterations')}`;
+function regionName({ phase, strategy, region, pairs }) {
+  return `${phase}${strategy ? `, ${strategy}` : ''}, region ${region}: ${plural(pairs.length, 'iteration', 'iterations')}`;
 }
 
 /**
@@ -37,7 +37,7 @@ export function historySection(history, frames, onFrame) {
   const section = element('section', { id: 'history' }, element('h2', {}, 'History'));
   let whole = null;
   if (frames.length > 1) {
-    const stage = (k) => `${frames[k].phase} ${frames[k].rung}`;
+    const stage = (k) => `${frames[k].phase} ${frames[k].strategy}`;
     const marks = frames.map((_, k) => k).filter((k) => k > 0 && stage(k) !== stage(k - 1));
     whole = chart('Intersecting pairs, all', [{ name: 'pairs', values: frames.map((f) => f.pairs), colour: 0 }],
       { marks, onPick: onFrame });

@@ -235,8 +235,8 @@ export class Viewer {
     } else if (layout === 'single') {
       captions.first = [this.page.scene.input, pairs(this.before)];
     } else if (layout === 'replay') {
-      const { phase, rung, iteration, pairs: left } = this.page.frames[this.state.frame];
-      const words = phase === 'input' ? 'before' : phase === 'result' ? 'after' : `${phase}${rung ? `, ${rung}` : ''}, iteration ${iteration}`;
+      const { phase, strategy, iteration, pairs: left } = this.page.frames[this.state.frame];
+      const words = phase === 'input' ? 'before' : phase === 'result' ? 'after' : `${phase}${strategy ? `, ${strategy}` : ''}, iteration ${iteration}`;
       captions.first = [words, left ? plural(left, 'intersecting pair', 'intersecting pairs') : 'no self-intersections'];
     }
     for (const [name, text] of Object.entries(captions)) {

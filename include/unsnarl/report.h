@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "unsnarl/intersections.h"
+#include "unsnarl/recording.h"
+
+namespace unsnarl {
+
+/// How a repair ended. Only `embedded` promises a surface without self-intersections.
+enum class Status : std::uint8_t {
+  embedded,               ///< no two faces meet anywhere but in the hull of the vertices they share
+  reduced,                ///< fewer intersecting pairs than the input, but not none
+  no_progress,            ///< nothing better than the input was found; positions are the input's
+  obstructed,             ///< everything else repaired; only the listed obstructions remain
+  time_limit,             ///< stopped by RepairOptions::time_limit_s
+  memory_limit,           ///< stopped by RepairOptions::memory_limit_mb
+  displacement_exceeded,  ///< some self-intersections are left, since resolving them moves a vertex too far
+  cancelled,              ///< stopped by Context::cancel
+};
+std::string_view to_string(Status status);
+
+/// Number format the repaired positions must stay embedded in.
+enum class Precision : std::uint8_t { float32, float64 };
+
+/// Something that no motion of the vertices can resolve, or that the options forbid to.
+struct Obstruction {
+  enum class Kind : std::uint8_t {
+    closed_non_orientable,  ///< a closed non-orientable component has no embedding in space
+    duplicate_faces,        ///< several faces on the same three vertices
+    fixed_faces,            ///< faces that intersect in what their fixed vertices span: these, edges, whole faces
+    between_components,     ///< faces of different components, which RepairOptions::each_component leaves
+  };
+  Kind kind;
+  std::vector<std::int32_t> faces;  ///< the faces concerned (input ids); a whole component is named by its first face
+  std::string message;              ///< one sentence for a person
+};
+std::string_view to_string(Obstruction::Kind kind);
+
+/// Connectivity of the input, after weld_map.
+struct Topology {
+  std::size_t vertices = 0, faces = 0, triangles = 0, components = 0;
+  std::size_t boundary_edges = 0, non_manifold_edges = 0, non_manifold_vertices = 0;
+  std::size_t duplicate_faces = 0, zero_area_faces = 0, duplicate_vertices = 0, unused_vertices = 0;
+  std::size_t closed_components = 0, non_orientable_components = 0;
+};
+
+/// One conflict region and how it was resolved.
+struct RegionReport {
+  std::string strategy;   ///< name of the strategy that resolved it, or these pairs of it; "none" where all failed
+  std::size_t faces = 0;  ///< faces that were free to move
+  std::size_t pairs = 0;  ///< intersecting pairs it started with
+  int iterations = 0;
+  double seconds = 0;
+};
+
+/// A component with self-intersections of its own, before or after.
+struct ComponentReport {
+  std::size_t component = 0;  ///< number in the order of the first faces (see component_of_faces)
+  std::int32_t first_face = 0;
+  std::size_t pairs_before = 0, pairs_after = 0;  ///< intersecting pairs of its faces among each other
+};
+
+/// Why two faces still intersect; the first that holds.
+enum class LeftReason : std::uint8_t {
+  closed_non_orientable,  ///< of a component that has no embedding in space
+  duplicate_faces,        ///< on the same three vertices
+  fixed_faces,            ///< what their fixed vertices span intersects
+  between_components,     ///< of different components, which RepairOptions::each_component leaves
+  goal,                   ///< of a class that RepairOptions::goal does not ask for
+  rounding,               ///< were parted, by less than the digits of the result can say
+  displacement,           ///< were parted, but something had moved farther than allowed
+  taken_back,             ///< were parted, but with all that there was to it there were more pairs than before
+  time_limit,             ///< not resolved when the limit was reached
+  memory_limit,
+  cancelled,
+  unresolved,      ///< no strategy of the ladder could part them
+  other_diagonal,  ///< only meet where quads are cut along their other diagonals (FindOptions::both_diagonals)
+};
+inline constexpr std::size_t left_reason_count = static_cast<std::size_t>(LeftReason::other_diagonal) + 1;
+std::string_view to_string(LeftReason reason);
+
+/// Two faces that intersect in the result, a <= b.
+struct LeftPair {
+  std::int32_t a = 0, b = 0;
+  PairClass kind = PairClass::disjoint;
+  LeftReason reason = LeftReason::unresolved;
+  std::string strategy;  ///< unresolved: name of the furthest strategy that was tried; else empty
+};
+/// A report lists so many pairs that are left at most; it counts all.
+inline constexpr std::size_t most_left_pairs_listed = 1000;
+
+struct StageReport {
+  std::string name;
+  double seconds = 0;         ///< of the clock
+  double cpu_seconds = 0;     ///< of the processors, by all threads of the process
+  double peak_memory_mb = 0;  ///< peak resident memory of the process at the end of the stage
+};
+
+struct RepairReport {
+  Topology topology;
+  PairCounts before, after;
+  std::vector<Obstruction> obstructions;
+  /// The pairs of `after`, sorted: the first most_left_pairs_listed of them. Empty where memory ran out at the end.
+  std::vector<LeftPair> left;
+  std::array<std::size_t, left_reason_count> left_by_reason{};  ///< of all, indexed by LeftReason
+  double diagonal = 0;                                          ///< of the input's bounding box; unit of every *_rel
+  double displacement_mean_rel = 0, displacement_rms_rel = 0, displacement_max_rel = 0;
+  /// No embedded result has a smaller displacement_max_rel: half the depth of the deepest single pair of triangles that
+  /// share no vertex (obstructions aside). Seldom reached, because a whole neighbourhood has to make way.
+  double displacement_lower_bound_rel = 0;
+  double untouched_share = 1;                          ///< share of vertices that are bit-identical to the input
+  std::size_t flipped_triangles = 0;                   ///< normals turned by more than 90 degrees
+  std::size_t flipped_triangles_without_conflict = 0;  ///< of these: not in an intersecting pair of the input
+  double min_gap_rel = 0;                              ///< smallest gap met while contacts were watched; 0: not watched
+  double volume_change_rel = 0;                        ///< signed volume of closed components, after / before - 1
+  double area_change_rel = 0;
+  /// Edge lengths, max(after / before, before / after) over the edges of the triangles that the faces are cut into: the
+  /// largest, and the 99.9th percentile, which single needles do not decide. Edges without length in the input do not
+  /// count; infinite where one has none left.
+  double edge_stretch_max = 1, edge_stretch_p999 = 1;
+  bool float32_embedded = false;             ///< holds after rounding all positions to float32
+  Precision precision = Precision::float64;  ///< the format in which the result was made to hold
+  std::vector<RegionReport> regions;
+  std::vector<ComponentReport> components;
+  std::vector<RegionHistory> history;  ///< in the order of the work; empty unless RepairOptions::record asks for it
+  std::vector<StageReport> stages;
+};
+
+}  // namespace unsnarl

@@ -1,0 +1,30 @@
+#include "pipeline/limits.h"
+
+#include "report/process_usage.h"
+
+namespace unsnarl {
+
+bool Limits::reached() {
+  if (reason_ == none) {
+    if (context_.is_cancelled())
+      reason_ = static_cast<int>(Status::cancelled);
+    else if (options_.time_limit_s > 0 &&
+             std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_limit_s)
+      reason_ = static_cast<int>(Status::time_limit);
+    else if (options_.memory_limit_mb > 0 && resident_memory_mb() > options_.memory_limit_mb)
+      reason_ = static_cast<int>(Status::memory_limit);
+  }
+  return reason_ != none;
+}
+
+void Limits::run_out_of_memory() {
+  reason_ = static_cast<int>(Status::memory_limit);
+  release_free_memory();
+}
+
+Status Limits::status_or(Status status) const {
+  const int reason = reason_;
+  return reason == none ? status : static_cast<Status>(reason);
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,229 @@
+#include "unsnarl/repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "pipeline/job.h"
+#include "pipeline/limits.h"
+#include "pipeline/phases.h"
+#include "pipeline/scene_repair.h"
+#include "pipeline/settle_triangulation.h"
+#include "pipeline/threads.h"
+#include "pipeline/triangulations.h"
+#include "report/acceptance.h"
+#include "report/left_pairs.h"
+#include "report/measure.h"
+#include "report/recorded_frames.h"
+#include "scene/diagnose.h"
+#include "scene/finders.h"
+#include "scene/prepared_surface.h"
+#include "scene/recorder.h"
+#include "untangle/attempt_log.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr Index everything = -1;  // instead of a component
+
+class Repair {
+ public:
+  Repair(const SurfaceView& surface, const RepairOptions& options, Context& context)
+      : surface_(surface),
+        options_(options),
+        limits_(options, context),
+        threads_(options.find.threads),
+        phases_(context, result_.report.stages) {}
+
+  RepairResult run() {
+    check_options();
+    phases_.start("diagnose");
+    prepared_ = prepare(surface_, options_.find);
+    diagonal_ = diagonal_of(surface_);
+    std::vector<std::uint8_t> fixed(prepared_.weld_map.count, 0);
+    for (std::size_t v = 0; v < options_.fixed.size(); ++v)
+      if (options_.fixed[v]) fixed[prepared_.weld_map.vertex_of[v]] = 1;
+    finders_.emplace(prepared_.triangles());
+    diagnosis_ = diagnose(surface_, prepared_, fixed, finders_->as_is);
+    result_.report.topology = diagnosis_.topology;
+    result_.report.obstructions = diagnosis_.obstructions;
+    acceptance_.emplace(prepared_, diagnosis_, options_, *finders_);
+    recorder_.emplace(options_.record, prepared_.rest);
+    result_.report.before = result_.report.after = acceptance_->pairs_at(prepared_.rest).faces;
+    result_.positions.assign(surface_.positions.begin(), surface_.positions.end());
+    reached_ = prepared_.rest;
+    attempts_.emplace(prepared_.rest);
+    job_.emplace(Job{surface_, options_, prepared_, diagnosis_, diagonal_, limits_, *recorder_, phases_, *attempts_,
+                     result_.report.regions});
+    try {
+      if (options_.each_component)
+        work_on_each_component(fixed);
+      else
+        work_on_everything(std::move(fixed));
+    } catch (const std::bad_alloc&) {
+      limits_.run_out_of_memory();
+    }
+    try {
+      finish();
+    } catch (const std::bad_alloc&) {  // the result cannot be examined, so it is none
+      limits_.run_out_of_memory();
+      result_.positions.assign(surface_.positions.begin(), surface_.positions.end());
+      result_.report.after = result_.report.before;
+      result_.status = Status::memory_limit;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void check_options() const {
+    if (!options_.fixed.empty() && options_.fixed.size() != surface_.vertex_count())
+      throw std::invalid_argument("RepairOptions::fixed has " + std::to_string(options_.fixed.size()) + " flags for " +
+                                  std::to_string(surface_.vertex_count()) + " vertices");
+    if (!(options_.min_gap_rel >= 0) || !(options_.max_displacement_rel >= 0) || !(options_.time_limit_s >= 0) ||
+        !(options_.memory_limit_mb >= 0))
+      throw std::invalid_argument("RepairOptions: gaps, displacements and limits must not be negative");
+    if (options_.find.threads < 0)
+      throw std::invalid_argument("RepairOptions::find.threads is " + std::to_string(options_.find.threads) +
+                                  "; give 0 for as many as the machine has, or their number");
+  }
+
+  // What is worked on: everything at once, or one component after the other.
+
+  void work_on_everything(std::vector<std::uint8_t> fixed) {
+    const Triangulation& cut = prepared_.triangulation;
+    std::vector<IntersectingPair> ignored;
+    for (const IntersectingPair& pair : diagnosis_.pairs)
+      if (acceptance_->is_set_aside(pair)) ignored.push_back(pair);
+    SceneRepair scene(*job_, make_scene(prepared_.rest, cut.triangles, std::move(fixed), diagnosis_.edges),
+                      diagnosis_.pairs, std::move(ignored));
+    work_on_scene(scene, cut, everything, *finders_);
+    float32_ = scene.float32();
+  }
+
+  void work_on_each_component(const std::vector<std::uint8_t>& fixed) {
+    const std::vector<Index>& component_of = diagnosis_.components.component_of_triangle;
+    const Index count = diagnosis_.components.count();
+    std::vector<Index> size(count, 0), number(component_of.size());  // of each triangle in its component
+    for (std::size_t t = 0; t < component_of.size(); ++t) number[t] = size[component_of[t]]++;
+    std::vector<std::vector<IntersectingPair>> pairs(count), ignored(count);
+    for (const IntersectingPair& pair : diagnosis_.pairs) {
+      const Index c = component_of[pair.a];
+      if (c != component_of[pair.b]) continue;
+      pairs[c].push_back({number[pair.a], number[pair.b], pair.kind});
+      if (acceptance_->is_set_aside(pair)) ignored[c].push_back(pairs[c].back());
+    }
+    bool float32 = true;
+    for (Index c = 0; c < count; ++c) {
+      // One without conflict is as it should be, unless rounding is asked to be looked at too.
+      const bool is_of_interest = !pairs[c].empty() || options_.precision == Precision::float32;
+      if (!is_of_interest || diagnosis_.components.list[c].obstructed() || limits_.reached()) continue;
+      const Triangulation cut = of_component(prepared_.triangulation, diagnosis_.components, c);
+      SceneRepair scene(*job_, make_scene(prepared_.rest, cut.triangles, fixed), std::move(pairs[c]),
+                        std::move(ignored[c]));
+      Finders finders(cut.triangles);
+      work_on_scene(scene, cut, c, finders);
+      float32 &= scene.float32();
+    }
+    float32_ = float32 && options_.precision != Precision::float64;
+  }
+
+  /// `cut`: of the polygons of the component, or of all, into its triangles, which `finders` are of.
+  void work_on_scene(SceneRepair& scene, const Triangulation& cut, Index component, Finders& finders) {
+    const bool other_diagonals_matter = !prepared_.otherwise.triangles.empty();
+    if (!scene.has_work(finders) && !other_diagonals_matter) return;
+    try {
+      scene.work(finders);
+      settle_triangulation(scene, *job_, cut, component, finders);
+    } catch (const std::bad_alloc&) {
+      limits_.run_out_of_memory();
+    }
+    scene.keep_within_displacement(finders.as_is);
+    displacement_is_exceeded_ |= scene.displacement_is_exceeded();
+    smallest_gap_ = std::min(smallest_gap_, scene.smallest_gap());
+    for (Index v = 0; v < scene.scene().vertex_count(); ++v)
+      if (!scene.scene().triangles_of_vertex[v].empty()) reached_.col(v) = scene.scene().x.col(v);
+  }
+
+  // The end.
+
+  /// Components that were repaired as if alone may run into each other: takes them over one by one, without those that
+  /// make it worse.
+  void take_over_what_makes_nothing_worse() {
+    const Positions wanted = std::exchange(reached_, prepared_.rest);
+    const std::vector<Index>& component_of = diagnosis_.components.component_of_vertex;
+    std::vector<std::vector<Index>> vertices(diagnosis_.components.count());
+    for (Index v = 0; v < wanted.cols(); ++v)
+      if (component_of[v] >= 0 && wanted.col(v) != prepared_.rest.col(v)) vertices[component_of[v]].push_back(v);
+    for (const std::vector<Index>& component : vertices) {
+      if (component.empty()) continue;
+      for (Index v : component) reached_.col(v) = wanted.col(v);
+      if (!acceptance_->is_worse(acceptance_->pairs_at(reached_))) continue;
+      for (Index v : component) reached_.col(v) = prepared_.rest.col(v);
+    }
+  }
+
+  void finish() {
+    phases_.start("certify");
+    RepairReport& report = result_.report;
+    report.precision = float32_ ? Precision::float32 : Precision::float64;
+    Acceptance::Pairs left = acceptance_->pairs_at(reached_);
+    if (acceptance_->is_worse(left)) {
+      if (options_.each_component)
+        take_over_what_makes_nothing_worse();
+      else
+        reached_ = prepared_.rest;
+      left = acceptance_->pairs_at(reached_);
+    }
+    result_.positions = prepared_.scatter(surface_.positions, reached_);
+    report.after = left.faces;
+    result_.status = acceptance_->status(left, reached_);
+    if (result_.status == Status::reduced || result_.status == Status::no_progress)
+      result_.status = limits_.status_or(displacement_is_exceeded_ ? Status::displacement_exceeded : result_.status);
+    // Who cancels is not given, unasked, what lies farther off than it need.
+    if (limits_.status_or(result_.status) == Status::cancelled) result_.status = Status::cancelled;
+    report.float32_embedded = acceptance_->is_embedded_in_float32(reached_);
+    measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
+    report.min_gap_rel = std::isfinite(smallest_gap_) && report.diagonal > 0 ? smallest_gap_ / report.diagonal : 0;
+    if (options_.max_displacement_rel > 0 && report.displacement_max_rel > options_.max_displacement_rel)
+      result_.status = Status::displacement_exceeded;
+    measure_components(prepared_, diagnosis_, left.triangles, report);
+    explain_left_pairs(prepared_, diagnosis_, options_, limits_.status_or(Status::reduced), *attempts_, left, reached_,
+                       report);
+    if (options_.each_component) name_pairs_between_components(prepared_, diagnosis_, left.triangles, report);
+    report.history = recorder_->history();
+    result_.frames = recorded_frames(*recorder_, surface_, prepared_, result_.positions, *acceptance_);
+    phases_.report(1, left.triangles.size(), reached_, prepared_.rest, diagonal_);
+    phases_.end();
+  }
+
+  const SurfaceView surface_;
+  const RepairOptions& options_;
+  Limits limits_;
+  ThreadLimit threads_;
+  RepairResult result_;
+  Phases phases_;
+  PreparedSurface prepared_;
+  double diagonal_ = 0;
+  Diagnosis diagnosis_;
+  std::optional<Finders> finders_;  // of the prepared triangles
+  std::optional<Acceptance> acceptance_;
+  std::optional<Recorder> recorder_;
+  std::optional<AttemptLog> attempts_;
+  std::optional<Job> job_;
+  Positions reached_;  // of all vertices
+  bool float32_ = false, displacement_is_exceeded_ = false;
+  double smallest_gap_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+RepairResult repair(const SurfaceView& surface, const RepairOptions& options, Context* context) {
+  Context own;
+  return Repair(surface, options, context ? *context : own).run();
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,267 @@
+#include "pipeline/scene_repair.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "mesh/areas.h"
+#include "pipeline/closer_ways.h"
+#include "pipeline/gap.h"
+#include "pipeline/restore_to_rest.h"
+#include "recover/recover.h"
+#include "recover/recover_regions.h"
+#include "scene/rounding.h"
+#include "untangle/conflict_regions.h"
+#include "untangle/local_solver.h"
+#include "untangle/untangle_whole.h"
+
+namespace unsnarl {
+namespace {
+
+/// Rounding, repair of what rounding brought, and again.
+constexpr int rounding_rounds = 4;
+
+}  // namespace
+
+SceneRepair::SceneRepair(const Job& job, Scene scene, std::vector<IntersectingPair> pairs,
+                         std::vector<IntersectingPair> ignored)
+    : job_(job),
+      scene_(std::move(scene)),
+      pairs_(std::move(pairs)),
+      ignored_(std::move(ignored)),
+      float32_(chooses_float32()) {}
+
+bool SceneRepair::is_resolved(Finders& finders) const {
+  return blocking_pairs(finders.as_is.find(scene_.x), ignored_).empty() &&
+         count_lost_areas(job_.prepared.rest, scene_.x, job_.prepared.triangulation.triangles) == 0;
+}
+
+bool SceneRepair::has_work(Finders& finders) const {
+  if (ignored_.size() != pairs_.size()) return true;
+  return job_.options.precision && !float32_conflicts(finders, scene_.x).empty();
+}
+
+void SceneRepair::work(Finders& finders) {
+  const Checkpoint start = checkpoint();
+  const bool starts_at_rest = std::exchange(is_at_rest_, false);
+  const Rounds rounds = work_in_rounds(finders, starts_at_rest);
+  if (rounds.resolved || !rounds.before_rounding || !may_give_up_float32()) return;
+  float32_ = false;
+  if (!rounds.some_are_stuck && !job_.limits.reached()) {
+    restore(start);
+    if (work_in_rounds(finders, starts_at_rest).resolved) return;
+  }
+  restore(*rounds.before_rounding);
+  scene_.x = as_written(scene_.x);
+}
+
+SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders, bool starts_at_rest) {
+  Rounds result;
+  SceneIndex index(scene_, finders.as_is);
+  const std::vector<IntersectingPair> ignored = ignored_;
+  std::vector<std::uint8_t> is_stuck(job_.diagnosis.components.count(), 0);
+  for (int round = 0; round < rounding_rounds && !job_.limits.reached(); ++round) {
+    job_.phases.start("untangle");
+    LadderOptions ladder = ladder_options();
+    if (round > 0) {
+      // What rounding brought comes apart only where it is given room for it; else there is float64.
+      ladder.min_gap = [this](std::span<const Index> vertices) { return wanted_gap(vertices); };
+      if (may_give_up_float32()) ladder.strategies = LadderOptions::Strategies::gentle;
+    }
+    LadderResult climbed = untangle(index, ignored_, ladder);
+    if (ladder.strategies == LadderOptions::Strategies::gentle && !climbed.left.empty()) break;
+    if (job_.options.recover) {
+      job_.phases.start("recover");
+      report_progress(0.7, climbed.left.size());
+      smallest_gap_ = std::min(smallest_gap_, recover(merge_overlapping(climbed.moved, scene_.vertex_count()), index));
+      if (starts_at_rest && round == 0 && !job_.options.paper) {
+        ladder.strategies = LadderOptions::Strategies::second_way;
+        ladder.tried = nullptr;
+        const SecondWay way = {[&](auto known) { return untangle(index, known, ladder); },
+                               [&](const auto& regions) { return recover(regions, index); }, job_.limits.stopper()};
+        smallest_gap_ =
+            std::min(smallest_gap_, take_closer_ways(scene_, index, climbed, pairs_, ignored_, way, job_.recorder));
+      }
+    }
+    job_.regions.insert(job_.regions.end(), climbed.regions.begin(), climbed.regions.end());
+    moved_.insert(moved_.end(), climbed.moved.begin(), climbed.moved.end());
+    job_.phases.start("certify");
+    report_progress(0.9, climbed.left.size());
+    for (Index v = 0; v < scene_.vertex_count(); ++v)
+      if (!scene_.triangles_of_vertex[v].empty()) job_.tried.solved.col(v) = scene_.x.col(v);
+    result.before_rounding = checkpoint();
+    result.some_are_stuck |= !climbed.left.empty();
+    scene_.x = as_written(scene_.x);
+    // Components on which pairs are left are let be, and the others go on without them.
+    for (const IntersectingPair& pair : climbed.left)
+      is_stuck[component_of(pair.a)] = is_stuck[component_of(pair.b)] = 1;
+    const auto goes_on = [&](const IntersectingPair& pair) {
+      return !is_stuck[component_of(pair.a)] && !is_stuck[component_of(pair.b)];
+    };
+    if (!climbed.left.empty()) {
+      std::vector<IntersectingPair> left = blocking_pairs(finders.as_is.find(scene_.x), ignored_);
+      std::erase_if(left, goes_on);
+      ignored_.insert(ignored_.end(), left.begin(), left.end());
+      std::sort(ignored_.begin(), ignored_.end());
+    }
+    std::vector<IntersectingPair> conflicts = float32_conflicts(finders, scene_.x);
+    std::erase_if(conflicts, std::not_fn(goes_on));
+    result.resolved = conflicts.empty() && is_resolved(finders);
+    if (result.resolved) break;
+    const Positions rounded = rounded_to_float32(scene_.x);
+    for (const IntersectingPair& pair : conflicts)
+      for (Index t : {pair.a, pair.b})
+        for (Index v : scene_.triangles[t])
+          if (!scene_.fixed[v]) scene_.x.col(v) = rounded.col(v);
+  }
+  ignored_ = ignored;
+  return result;
+}
+
+LadderOptions SceneRepair::ladder_options() {
+  LadderOptions ladder;
+  ladder.stop = job_.limits.stopper();
+  ladder.recorder = &job_.recorder;
+  ladder.first_region = job_.regions.size();
+  ladder.tried = &job_.tried;
+  if (job_.options.max_displacement_rel > 0) ladder.accept = [this](Patch& patch) { return stays_near(patch); };
+  ladder.on_progress = [this](std::size_t left) {
+    const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
+    report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
+  };
+  return ladder;
+}
+
+LadderResult SceneRepair::untangle(SceneIndex& index, std::span<const IntersectingPair> ignored,
+                                   const LadderOptions& ladder) {
+  return job_.options.paper ? untangle_whole(scene_, index, pairs_.size(), ignored, ladder)
+                            : climb_ladder(scene_, index, ignored, ladder);
+}
+
+double SceneRepair::recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index) {
+  RecoverRegionsOptions options;
+  if (job_.options.paper) options.recover = RecoverOptions::paper();
+  options.min_gap = [this](std::span<const Index> vertices) { return wanted_gap(vertices); };
+  options.stop = job_.limits.stopper();
+  return recover_regions(scene_, index, regions, options, job_.recorder);
+}
+
+void SceneRepair::report_progress(double fraction, std::size_t pairs_left) {
+  job_.phases.report(fraction, pairs_left, scene_.x, job_.prepared.rest, job_.diagonal);
+}
+
+// Precision.
+
+bool SceneRepair::chooses_float32() const {
+  const std::optional<Precision> wanted = job_.options.precision;
+  if (wanted) return *wanted == Precision::float32 && fits_float32(scene_.rest);
+  return pairs_.empty() || float32_can_hold(scene_, pairs_);
+}
+
+/// Absolute gap wanted between sheets around these vertices. Local, so that distant parts change nothing.
+double SceneRepair::wanted_gap(std::span<const Index> vertices) const {
+  return std::max(gap_of_format(scene_, vertices, float32_), job_.options.min_gap_rel * job_.diagonal);
+}
+
+/// The state as it will be read back from the file.
+Positions SceneRepair::as_written(const Positions& x) const {
+  if (job_.options.as_written) {
+    const PreparedSurface& prepared = job_.prepared;
+    return prepared.gather(job_.options.as_written(prepared.scatter(job_.surface.positions, x), float32_));
+  }
+  if (!float32_) return x;
+  Positions rounded = x;
+  for (Index v = 0; v < x.cols(); ++v)
+    for (int k = 0; k < 3; ++k)
+      if (x(k, v) != scene_.rest(k, v)) rounded(k, v) = static_cast<double>(static_cast<float>(x(k, v)));
+  return rounded;
+}
+
+/// Pairs that exist only after rounding everything to float32, where float32 has to hold: everywhere if asked for, else
+/// where something was repaired.
+std::vector<IntersectingPair> SceneRepair::float32_conflicts(Finders& finders, const Positions& x) const {
+  if (!float32_) return {};
+  std::vector<IntersectingPair> conflicts = blocking_pairs(finders.find_rounded(x), ignored_);
+  std::erase_if(conflicts, [&](const IntersectingPair& pair) {
+    return !can_be_parted(pair) || (!job_.options.precision && !has_moved(pair.a, x) && !has_moved(pair.b, x));
+  });
+  return conflicts;
+}
+
+bool SceneRepair::has_moved(Index t, const Positions& x) const {
+  const auto moved = [&](Index v) { return x.col(v) != scene_.rest.col(v); };
+  return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(), moved);
+}
+
+bool SceneRepair::can_be_parted(const IntersectingPair& pair) const {
+  const Index component = component_of(pair.a);
+  if (component == component_of(pair.b) && job_.diagnosis.components.list[component].obstructed()) return false;
+  const auto can_move = [&](Index t) {
+    return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(),
+                       [&](Index v) { return !scene_.fixed[v]; });
+  };
+  return can_move(pair.a) || can_move(pair.b);
+}
+
+// The limit of displacement.
+
+/// Is a patch that a strategy resolved within the limit, at least once it has recovered?
+bool SceneRepair::stays_near(Patch& patch) {
+  const double limit = job_.options.max_displacement_rel * job_.diagonal;
+  const auto is_near = [&] {
+    for (Index v = 0; v < patch.free_count; ++v)
+      if ((patch.x.col(v) - job_.prepared.rest.col(patch.vertices[v])).norm() > limit) return false;
+    return true;
+  };
+  if (is_near()) return true;
+  if (job_.options.recover) {
+    RecoverOptions recovery;
+    recovery.min_gap = wanted_gap({patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
+    unsnarl::recover(patch, recovery, job_.limits.stopper());
+    if (is_near()) return true;
+  }
+  displacement_is_exceeded_ = true;
+  return false;
+}
+
+void SceneRepair::keep_within_displacement(IntersectionFinder& finder) {
+  const double limit = job_.options.max_displacement_rel * job_.diagonal;
+  if (limit <= 0) return;
+  const Positions before = scene_.x;
+  if (!restore_what_is_too_far(scene_, merge_overlapping(moved_, scene_.vertex_count()), limit, pairs_, finder)) return;
+  displacement_is_exceeded_ = true;
+  for (Index v = 0; v < scene_.vertex_count(); ++v)
+    if (scene_.x.col(v) != before.col(v)) job_.tried.is_too_far[v] = 1;
+}
+
+// Polygons.
+
+void SceneRepair::take(const UnitedTriangulations& cuts) {
+  Scene scene = make_scene(job_.prepared.rest, cuts.all.triangles, scene_.fixed);
+  ignored_ = cuts.strangers;
+  scene.x = std::move(scene_.x);
+  scene_ = std::move(scene);
+}
+
+std::vector<IntersectingPair> SceneRepair::set_aside_what_cannot_be_parted(Finders& finders) {
+  std::vector<IntersectingPair> pairs = finders.as_is.find(scene_.x);
+  for (const IntersectingPair& pair : blocking_pairs(pairs, ignored_))
+    if (pair.kind == PairClass::duplicate || !can_be_parted(pair) ||
+        (job_.options.goal == Goal::disjoint && pair.kind != PairClass::disjoint))
+      ignored_.push_back(pair);
+  std::sort(ignored_.begin(), ignored_.end());
+  return pairs;
+}
+
+void SceneRepair::restore_to_rest(std::span<const Index> vertices) {
+  for (const Index v : vertices) scene_.x.col(v) = scene_.rest.col(v);
+}
+
+void SceneRepair::restore(const Checkpoint& checkpoint) {
+  scene_.x = checkpoint.x;
+  job_.regions.resize(checkpoint.regions);
+  job_.recorder.restore(checkpoint.recorded);
+  smallest_gap_ = checkpoint.smallest_gap;
+}
+
+}  // namespace unsnarl

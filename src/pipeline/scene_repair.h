@@ -1,0 +1,96 @@
+#pragma once
+
+#include <atomic>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipeline/job.h"
+#include "pipeline/triangulations.h"
+#include "scene/finders.h"
+#include "scene/patch.h"
+#include "scene/scene.h"
+#include "scene/scene_index.h"
+#include "untangle/ladder.h"
+
+namespace unsnarl {
+
+/// Work on one scene, all of a surface or a component of it: untangle, recover, round, and again where that brought
+/// something. The job must outlive it.
+class SceneRepair {
+ public:
+  /// `scene` is at rest; `pairs` are those of its triangles, of which `ignored` (sorted) are let be.
+  SceneRepair(const Job& job, Scene scene, std::vector<IntersectingPair> pairs, std::vector<IntersectingPair> ignored);
+
+  // Finders are always of the triangles of the scene at that time.
+
+  const Scene& scene() const { return scene_; }
+  /// Nothing but what is let be intersects, and no face has lost its area.
+  bool is_resolved(Finders& finders) const;
+  /// At rest, is there anything to do?
+  bool has_work(Finders& finders) const;
+  /// Where float32 was not asked for and rounding to it lets no way hold, float64 has to do.
+  void work(Finders& finders);
+  /// Puts what was moved farther than allowed back to rest.
+  void keep_within_displacement(IntersectionFinder& finder);
+
+  /// float32 is to hold.
+  bool float32() const { return float32_; }
+  /// Smallest gap met while contacts were watched, or infinity.
+  double smallest_gap() const { return smallest_gap_; }
+  /// Something could not be resolved within the displacement that is allowed.
+  bool displacement_is_exceeded() const { return displacement_is_exceeded_; }
+
+  // For polygons, which may be cut anew (settle_triangulation).
+
+  /// Makes the scene one of these triangles, where it is now.
+  void take(const UnitedTriangulations& cuts);
+  /// From now on lets be what no motion parts, or need not. Returns all pairs there are.
+  std::vector<IntersectingPair> set_aside_what_cannot_be_parted(Finders& finders);
+  void restore_to_rest(std::span<const Index> vertices);
+
+  /// A state to go back to, with the same triangles or others.
+  struct Checkpoint {
+    Positions x;
+    std::size_t regions;
+    Recorder::Stages recorded;
+    double smallest_gap;
+  };
+  Checkpoint checkpoint() const { return {scene_.x, job_.regions.size(), job_.recorder.stages(), smallest_gap_}; }
+  void restore(const Checkpoint& checkpoint);
+
+ private:
+  struct Rounds {
+    bool resolved = false;
+    bool some_are_stuck = false;                // no strategy resolves some component
+    std::optional<Checkpoint> before_rounding;  // the last state without pairs, but of what is stuck
+  };
+  Rounds work_in_rounds(Finders& finders, bool starts_at_rest);
+
+  bool chooses_float32() const;
+  bool may_give_up_float32() const { return float32_ && !job_.options.precision; }
+  double wanted_gap(std::span<const Index> vertices) const;
+  Positions as_written(const Positions& x) const;
+  std::vector<IntersectingPair> float32_conflicts(Finders& finders, const Positions& x) const;
+  bool has_moved(Index t, const Positions& x) const;
+  bool can_be_parted(const IntersectingPair& pair) const;
+  Index component_of(Index t) const { return job_.diagnosis.components.component_of_vertex[scene_.triangles[t][0]]; }
+
+  LadderOptions ladder_options();
+  LadderResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored, const LadderOptions& ladder);
+  double recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index);
+  bool stays_near(Patch& patch);
+  void report_progress(double fraction, std::size_t pairs_left);
+
+  const Job& job_;
+  Scene scene_;
+  std::vector<IntersectingPair> pairs_, ignored_;
+  bool is_at_rest_ = true;  // so that pairs_ are those of the scene
+  bool float32_;
+  std::vector<std::vector<Index>> moved_;  // what regions freed
+  double smallest_gap_ = std::numeric_limits<double>::infinity();
+  std::atomic<bool> displacement_is_exceeded_{false};
+};
+
+}  // namespace unsnarl

@@ -1,0 +1,143 @@
+#include "recover/contact_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/parallel_lists.h"
+
+namespace unsnarl {
+namespace {
+
+/// The barrier sets in at this many separations at least.
+constexpr double least_activation = 1.5;
+
+/// Corner k of a triangle against the opposite edge.
+Stencil altitude_of(const Triangle& f, int k) {
+  return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
+}
+
+}  // namespace
+
+ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options)
+    : patch_(patch),
+      in_conflict_(std::move(in_conflict)),
+      options_(options),
+      candidates_(patch.triangles, static_cast<Index>(patch.rest.cols())),
+      vertex_in_conflict_(patch.rest.cols(), 0),
+      edge_in_conflict_(candidates_.edges().edges.size(), 0),
+      rest_altitudes_(static_cast<std::size_t>(patch.active_count)) {
+  for (Index t = 0; t < patch.active_count; ++t) {
+    const Triangle& f = patch.triangles[t];
+    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
+    for (int k = 0; k < 3; ++k) rest_altitudes_[t][k] = std::sqrt(squared_distance(altitude_of(f, k), patch.rest));
+  }
+  for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
+    if (!in_conflict_[t]) continue;
+    for (Index v : patch.triangles[t]) vertex_in_conflict_[v] = 1;
+    for (Index e : candidates_.edges().edges_of_triangle[t])
+      if (e >= 0) edge_in_conflict_[e] = 1;
+  }
+}
+
+void ContactRules::gather(const Positions& x, double activation, const MotionBounds& bounds,
+                          std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
+  rules.clear();
+  candidates_.gather(x, activation, bounds, moves, stencils_);
+  add_rules(x, x, activation, bounds, moves, rules);
+}
+
+void ContactRules::gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
+                                 double activation, const MotionBounds& bounds, std::vector<ContactRule>& rules) {
+  is_anew_.assign(static_cast<std::size_t>(x.cols()), 0);
+  for (Index v : vertices) is_anew_[v] = 1;
+  std::erase_if(rules, [&](const ContactRule& rule) {
+    const Stencil& s = rule.stencil.stencil;
+    return std::any_of(s.v.begin(), s.v.begin() + s.size(), [&](Index v) { return is_anew_[v] != 0; });
+  });
+  candidates_.gather_around(vertices, from, activation, bounds, stencils_);
+  add_rules(from, x, activation, bounds, is_anew_, rules);
+}
+
+void ContactRules::add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
+                             std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
+  constexpr Index chunk = 1024;  // stencils or triangles a task
+  gather_in_chunks(
+      static_cast<Index>(stencils_.size()), chunk, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+        for (Index k = begin; k < end; ++k) {
+          const NearStencil& near = stencils_[k];
+          const double distance = &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x));
+          ContactRule rule;
+          if (rule_of(near, distance, activation, rule)) list.push_back(rule);
+        }
+      });
+  rules.insert(rules.end(), added_.begin(), added_.end());
+  gather_in_chunks(patch_.active_count, chunk, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+    add_altitudes(from, x, bounds, moves, begin, end, list);
+  });
+  rules.insert(rules.end(), added_.begin(), added_.end());
+}
+
+bool ContactRules::rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const {
+  constexpr double mollifier_sin2 = 1e-3;  // as in IPC
+  const Stencil& s = near.stencil;
+  if (!(distance > 0)) return false;
+  rule.stencil.stencil = s;
+  rule.distance = near.distance;
+  rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
+  const auto [first, second] = s.primitives;
+  const bool is_edge = s.kind == StencilKind::edge_edge;
+  const bool first_in_conflict = (is_edge ? edge_in_conflict_[first] : vertex_in_conflict_[first]) != 0;
+  const bool second_in_conflict = (is_edge ? edge_in_conflict_[second] : in_conflict_[second]) != 0;
+  const bool neighbours = candidates_.are_neighbours(s);
+  const bool conflict = neighbours ? first_in_conflict && second_in_conflict : first_in_conflict || second_in_conflict;
+  double separation = options_.min_gap;
+  rule.reach = std::max(options_.reach_share * rule.rest_distance, options_.reach_gaps * options_.min_gap);
+  if (neighbours && !conflict) {
+    if (rule.rest_distance <= options_.roundoff) return false;
+    separation = std::min(separation, options_.neighbour_share * rule.rest_distance);
+    rule.reach = options_.reach_share * rule.rest_distance;
+  } else if (!neighbours && conflict) {
+    rule.reach = std::numeric_limits<double>::infinity();
+  }
+  rule.closed = !(distance > separation);
+  rule.stencil.separation = rule.closed ? 0.5 * distance : separation;
+  rule.stencil.activation = std::max(std::min(activation, rule.reach), least_activation * rule.stencil.separation);
+  if (near.least_distance > rule.stencil.activation) return false;
+  if (s.kind == StencilKind::edge_edge) {
+    const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();
+    const double v2 = (patch_.rest.col(s.v[3]) - patch_.rest.col(s.v[2])).squaredNorm();
+    rule.stencil.mollifier_threshold = mollifier_sin2 * u2 * v2;
+  }
+  return true;
+}
+
+void ContactRules::add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
+                                 std::span<const std::uint8_t> moves, Index begin, Index end,
+                                 std::vector<ContactRule>& rules) const {
+  for (Index t = begin; t < end; ++t) {
+    const Triangle& f = patch_.triangles[t];
+    if (!moves[f[0]] && !moves[f[1]] && !moves[f[2]]) continue;
+    for (int k = 0; k < 3; ++k) {
+      ContactRule rule;
+      const Stencil s = altitude_of(f, k);
+      rule.rest_distance = rest_altitudes_[t][k];
+      if (rule.rest_distance <= options_.roundoff) continue;  // without area at rest: it may stay so
+      rule.reach = options_.altitude_share * rule.rest_distance;
+      const Closest at = closest(s, from);
+      rule.distance = at.distance;
+      if (least_distance(s, from, bounds, at.direction) > rule.reach) continue;
+      const double distance = std::sqrt(squared_distance(s, x));
+      if (!(distance > 0)) continue;
+      rule.stencil.stencil = s;
+      const double floor = options_.altitude_floor * rule.rest_distance;
+      rule.closed = !(distance > floor);
+      rule.stencil.separation = rule.closed ? 0.5 * distance : floor;
+      rule.stencil.activation = std::max(rule.reach, least_activation * rule.stencil.separation);
+      rule.own_altitude = true;
+      rules.push_back(rule);
+    }
+  }
+}
+
+}  // namespace unsnarl

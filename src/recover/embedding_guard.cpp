@@ -1,0 +1,46 @@
+#include "recover/embedding_guard.h"
+
+#include <algorithm>
+
+namespace unsnarl {
+
+EmbeddingGuard::EmbeddingGuard(const Patch& patch)
+    : patch_(patch), finder_(patch.triangles, patch.active_count), tolerated_(finder_.find(patch.x)) {}
+
+std::vector<IntersectingPair> EmbeddingGuard::new_pairs(const Positions& x) {
+  std::vector<IntersectingPair> pairs = finder_.find(x);
+  if (tolerated_.empty()) return pairs;
+  const auto known = [&](const IntersectingPair& p) {
+    return std::binary_search(tolerated_.begin(), tolerated_.end(), p,
+                              [](const auto& a, const auto& b) { return a.a != b.a ? a.a < b.a : a.b < b.b; });
+  };
+  std::erase_if(pairs, known);
+  return pairs;
+}
+
+Index EmbeddingGuard::roll_back(Positions& x, const Positions& safe) {
+  // Each round takes back the offenders' vertices; a long chain of them is not worth following.
+  constexpr int rounds = 20;
+  Index count = 0;
+  for (int round = 0;; ++round) {
+    const std::vector<IntersectingPair> pairs = new_pairs(x);
+    if (pairs.empty()) return count;
+    Index put_back = 0;
+    const auto restore = [&](Index v) {
+      if (x.col(v) == safe.col(v)) return;
+      x.col(v) = safe.col(v);
+      ++put_back;
+    };
+    for (const IntersectingPair& pair : pairs) {
+      for (Index v : patch_.triangles[pair.a]) restore(v);
+      for (Index v : patch_.triangles[pair.b]) restore(v);
+    }
+    if (put_back == 0 || round == rounds) {
+      for (Index v = 0; v < patch_.free_count; ++v) restore(v);
+      return count + put_back;
+    }
+    count += put_back;
+  }
+}
+
+}  // namespace unsnarl

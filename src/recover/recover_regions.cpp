@@ -1,0 +1,56 @@
+#include "recover/recover_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "mesh/areas.h"
+#include "scene/independent_batches.h"
+#include "scene/patch.h"
+
+namespace unsnarl {
+namespace {
+
+/// Obstacles are taken in this many h around a region: it hardly leaves the space between start and input.
+constexpr double recovery_reach = 2;
+
+}  // namespace
+
+double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::vector<Index>>& regions,
+                       const RecoverRegionsOptions& options, Recorder& recorder) {
+  index.update();
+  std::vector<double> edge_length(regions.size()), gap(regions.size());
+  std::vector<Box> boxes(regions.size());
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    std::vector<Triangle> faces;
+    for (Index v : regions[r])
+      for (Index t : scene.triangles_of_vertex[v]) faces.push_back(scene.triangles[t]);
+    edge_length[r] = mean_edge_length(scene.rest, faces);
+    boxes[r] = patch_box(scene, regions[r], recovery_reach * edge_length[r]);
+  }
+  std::vector<Patch> patches(regions.size());
+  std::vector<Trajectory> trajectories(regions.size(), recorder.new_trajectory());
+  recorder.begin_stage("recover");
+  double smallest = std::numeric_limits<double>::infinity();
+  run_in_batches(
+      boxes,
+      [&](std::size_t r) {
+        if (options.stop()) return;
+        patches[r] = cut_patch(scene, index, regions[r], recovery_reach * edge_length[r]);
+        patches[r].edge_length = edge_length[r];
+        if (recorder.is_on()) patches[r].trajectory = &trajectories[r];
+        RecoverOptions recovery = options.recover;
+        recovery.min_gap = options.min_gap(regions[r]);
+        gap[r] = recover(patches[r], recovery, options.stop).min_gap;
+      },
+      [&](std::size_t r) {
+        if (std::isfinite(gap[r]) && gap[r] > 0) smallest = std::min(smallest, gap[r]);
+        paste_patch(patches[r], scene, index);
+        recorder.add(std::move(trajectories[r]), "", r, regions[r], scene.x);
+        patches[r] = {};
+      });
+  return smallest;
+}
+
+}  // namespace unsnarl

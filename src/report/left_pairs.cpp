@@ -1,0 +1,127 @@
+#include "report/left_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "contact/intersection_finder.h"
+#include "untangle/strategies.h"
+
+namespace unsnarl {
+namespace {
+
+class Explanation {
+ public:
+  Explanation(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options, Status limit,
+              const AttemptLog& tried, const Positions& x)
+      : prepared_(prepared), diagnosis_(diagnosis), options_(options), limit_(limit), attempts_(tried), x_(x) {}
+
+  LeftReason reason(const IntersectingPair& pair) const {
+    if (const auto obstruction = obstruction_of(prepared_, diagnosis_.components, diagnosis_.fixed, pair))
+      return reason_of(*obstruction);
+    if (options_.each_component && are_of_two_components(diagnosis_.components, pair))
+      return LeftReason::between_components;
+    if (options_.goal == Goal::disjoint && pair.kind != PairClass::disjoint) return LeftReason::goal;
+    if (!meets_at(attempts_.solved, pair)) {
+      if (differs_by_rounding(pair)) return LeftReason::rounding;
+      return any_vertex(pair, [&](Index v) { return attempts_.is_too_far[v] != 0; }) ? LeftReason::displacement
+                                                                                     : LeftReason::taken_back;
+    }
+    if (all_vertices(pair, [&](Index v) { return attempts_.is_too_far[v] || is_fixed(v); }))
+      return LeftReason::displacement;
+    const bool is_cut_short = furthest_strategy(pair) < last_strategy() ||
+                              any_vertex(pair, [&](Index v) { return attempts_.is_cut_short[v] != 0; });
+    return is_cut_short ? reason_of(limit_) : LeftReason::unresolved;
+  }
+
+  /// Number of the furthest strategy that the pair climbed to; -1: none.
+  int furthest_strategy(const IntersectingPair& pair) const {
+    int furthest = -1;
+    for (Index t : {pair.a, pair.b})
+      for (Index v : prepared_.triangles()[t]) furthest = std::max<int>(furthest, attempts_.strategy[v]);
+    return furthest;
+  }
+
+ private:
+  static LeftReason reason_of(Obstruction::Kind kind) {
+    switch (kind) {
+      case Obstruction::Kind::closed_non_orientable: return LeftReason::closed_non_orientable;
+      case Obstruction::Kind::duplicate_faces: return LeftReason::duplicate_faces;
+      case Obstruction::Kind::fixed_faces: return LeftReason::fixed_faces;
+      case Obstruction::Kind::between_components: return LeftReason::between_components;
+    }
+    return LeftReason::unresolved;
+  }
+  /// `status`: that of the limit that ended the work, or another.
+  static LeftReason reason_of(Status status) {
+    if (status == Status::time_limit) return LeftReason::time_limit;
+    if (status == Status::memory_limit) return LeftReason::memory_limit;
+    if (status == Status::cancelled) return LeftReason::cancelled;
+    return LeftReason::unresolved;
+  }
+
+  bool is_fixed(Index v) const { return !diagnosis_.fixed.empty() && diagnosis_.fixed[v]; }
+  template <class Condition>
+  bool any_vertex(const IntersectingPair& pair, Condition&& condition) const {
+    const Triangle &a = prepared_.triangles()[pair.a], &b = prepared_.triangles()[pair.b];
+    return std::any_of(a.begin(), a.end(), condition) || std::any_of(b.begin(), b.end(), condition);
+  }
+  template <class Condition>
+  bool all_vertices(const IntersectingPair& pair, Condition&& condition) const {
+    return !any_vertex(pair, [&](Index v) { return !condition(v); });
+  }
+
+  bool meets_at(const Positions& x, const IntersectingPair& pair) const {
+    PairClass kind;
+    return intersects(x, prepared_.triangles()[pair.a], prepared_.triangles()[pair.b], kind);
+  }
+  bool differs_by_rounding(const IntersectingPair& pair) const {
+    constexpr double float32_unit = std::numeric_limits<float>::epsilon();
+    return all_vertices(pair, [&](Index v) {
+      for (int k = 0; k < 3; ++k)
+        if (std::abs(x_(k, v) - attempts_.solved(k, v)) > float32_unit * std::abs(x_(k, v))) return false;
+      return true;
+    });
+  }
+
+  const PreparedSurface& prepared_;
+  const Diagnosis& diagnosis_;
+  const RepairOptions& options_;
+  Status limit_;
+  const AttemptLog& attempts_;
+  const Positions& x_;
+};
+
+}  // namespace
+
+void explain_left_pairs(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options,
+                        Status limit, const AttemptLog& tried, const Acceptance::Pairs& left, const Positions& x,
+                        RepairReport& report) {
+  struct Why {
+    LeftReason reason;
+    int strategy;
+  };
+  const Explanation explanation(prepared, diagnosis, options, limit, tried, x);
+  const std::vector<Index>& polygon = prepared.triangulation.polygon;
+  std::map<std::pair<Index, Index>, Why>
+      why;  // of two faces: the first reason that holds for a pair of their triangles
+  for (const IntersectingPair& pair : left.triangles) {
+    const Why own = {explanation.reason(pair), explanation.furthest_strategy(pair)};
+    auto& of_faces = why.try_emplace(std::minmax(polygon[pair.a], polygon[pair.b]), own).first->second;
+    if (own.reason < of_faces.reason) of_faces = own;
+  }
+  for (const IntersectingPair& pair : left.of_faces) {
+    const auto found = why.find({pair.a, pair.b});
+    const Why reason = found != why.end() ? found->second : Why{LeftReason::other_diagonal, -1};
+    ++report.left_by_reason[static_cast<std::size_t>(reason.reason)];
+    if (report.left.size() == most_left_pairs_listed) continue;
+    const bool names_strategy = reason.reason == LeftReason::unresolved && reason.strategy >= 0;
+    report.left.push_back(
+        {pair.a, pair.b, pair.kind, reason.reason, std::string(names_strategy ? strategy_name(reason.strategy) : "")});
+  }
+}
+
+}  // namespace unsnarl

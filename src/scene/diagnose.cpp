@@ -1,0 +1,94 @@
+#include "scene/diagnose.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "scene/topology.h"
+
+namespace unsnarl {
+namespace {
+
+/// What the fixed vertices of a triangle span, as a triangle that uses some of them twice; none: nothing is fixed.
+std::optional<Triangle> fixed_part(const Triangle& t, std::span<const std::uint8_t> fixed) {
+  std::optional<Triangle> part;
+  int count = 0;
+  for (Index v : t) {
+    if (fixed.empty() || !fixed[v]) continue;
+    if (!part) part = Triangle{v, v, v};
+    std::fill(part->begin() + count++, part->end(), v);
+  }
+  return part;
+}
+
+void add_unique_sorted(std::vector<std::int32_t>& faces) {
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+}
+
+}  // namespace
+
+std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared, const Components& components,
+                                                std::span<const std::uint8_t> fixed, const IntersectingPair& pair) {
+  if (!are_of_two_components(components, pair) &&
+      components.list[components.component_of_triangle[pair.a]].obstructed())
+    return Obstruction::Kind::closed_non_orientable;
+  if (pair.kind == PairClass::duplicate) return Obstruction::Kind::duplicate_faces;
+  const std::optional<Triangle> a = fixed_part(prepared.triangles()[pair.a], fixed);
+  const std::optional<Triangle> b = fixed_part(prepared.triangles()[pair.b], fixed);
+  PairClass kind;
+  if (a && b && intersects(prepared.rest, *a, *b, kind)) return Obstruction::Kind::fixed_faces;
+  return std::nullopt;
+}
+
+Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
+                   IntersectionFinder& finder) {
+  Diagnosis result;
+  const std::span<const Triangle> triangles = prepared.triangles();
+  const std::vector<Index>& polygon = prepared.triangulation.polygon;
+  EdgeTable edges = build_edges(triangles);
+  result.components = find_components(triangles, prepared.weld_map.count, edges);
+  result.topology = describe_topology(surface, prepared.weld_map, prepared.triangulation, edges, result.components);
+  result.edges = std::move(edges.edges);
+  result.pairs = finder.find(prepared.rest);
+
+  result.fixed.assign(fixed.begin(), fixed.end());
+
+  for (Index c = 0; c < result.components.count(); ++c) {
+    const Component& component = result.components.list[c];
+    if (!component.obstructed()) continue;
+    const Index face = polygon[component.first_triangle];
+    result.obstructions.push_back(
+        {Obstruction::Kind::closed_non_orientable,
+         {face},
+         "the component of face " + std::to_string(face) + " (" + std::to_string(component.triangles) +
+             " triangles) is closed and non-orientable: no such surface can be embedded in space"});
+  }
+  std::vector<std::int32_t> fixed_faces;
+  std::vector<std::vector<Index>> duplicates;
+  if (result.topology.duplicate_faces > 0) duplicates = duplicate_triangles(triangles);
+  for (const std::vector<Index>& group : duplicates) {
+    Obstruction obstruction{Obstruction::Kind::duplicate_faces, {}, {}};
+    for (Index t : group) obstruction.faces.push_back(polygon[t]);
+    std::string list;
+    for (Index face : obstruction.faces) list += (list.empty() ? "" : ", ") + std::to_string(face);
+    obstruction.message = "faces " + list + " lie on the same three vertices: moving vertices cannot part them";
+    result.obstructions.push_back(std::move(obstruction));
+  }
+  for (const IntersectingPair& pair : result.pairs) {
+    const std::optional<Obstruction::Kind> kind = obstruction_of(prepared, result.components, fixed, pair);
+    if (!kind) continue;
+    result.obstructed.push_back(pair);
+    if (*kind == Obstruction::Kind::fixed_faces)
+      fixed_faces.insert(fixed_faces.end(), {polygon[pair.a], polygon[pair.b]});
+  }
+  if (!fixed_faces.empty()) {
+    add_unique_sorted(fixed_faces);
+    const std::string count = std::to_string(fixed_faces.size());
+    result.obstructions.push_back({Obstruction::Kind::fixed_faces, std::move(fixed_faces),
+                                   count + " faces intersect each other in what is fixed of them"});
+  }
+  return result;
+}
+
+}  // namespace unsnarl

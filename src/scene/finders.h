@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact/intersection_finder.h"
+#include "scene/rounding.h"
+
+namespace unsnarl {
+
+/// The two states in which a surface is judged, as it is and rounded to float32, have a finder each: one that went from
+/// state to state would decide everything anew every time.
+class Finders {
+ public:
+  /// The span must outlive this.
+  explicit Finders(std::span<const Triangle> triangles) : as_is(triangles) {}
+
+  IntersectionFinder as_is;
+  /// The pairs at these positions once they are rounded to float32.
+  std::vector<IntersectingPair> find_rounded(const Positions& x) {
+    // A copy saves building a tree, and deciding again whatever float32 holds as it is.
+    if (!rounded_) rounded_ = as_is;
+    return rounded_->find(rounded_to_float32(x));
+  }
+
+ private:
+  std::optional<IntersectionFinder> rounded_;
+};
+
+}  // namespace unsnarl

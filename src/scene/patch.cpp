@@ -1,0 +1,87 @@
+#include "scene/patch.h"
+
+#include <algorithm>
+
+#include "contact/bvh.h"
+
+namespace unsnarl {
+namespace {
+
+void sort_unique(std::vector<Index>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+}  // namespace
+
+Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach) {
+  Patch patch;
+  patch.free_count = static_cast<Index>(free_vertices.size());
+  for (Index v : free_vertices)
+    patch.faces.insert(patch.faces.end(), scene.triangles_of_vertex[v].begin(), scene.triangles_of_vertex[v].end());
+  sort_unique(patch.faces);
+  patch.active_count = static_cast<Index>(patch.faces.size());
+
+  // One query for all, and then who is near any: a query for each would find the same obstacles again and again.
+  std::vector<Box> boxes;
+  Box all;
+  for (Index t : patch.faces) {
+    Box box = box_of(scene.x, scene.triangles[t]);
+    box.extend(box_of(scene.rest, scene.triangles[t]));
+    boxes.push_back(box.inflated(reach));
+    all.extend(boxes.back());
+  }
+  const Bvh active(boxes);
+  std::vector<Index> near, obstacles;
+  index.query(all, near);
+  std::erase_if(near, [&](Index t) { return !active.overlaps_any(box_of(scene.x, scene.triangles[t])); });
+  std::sort(near.begin(), near.end());
+  std::set_difference(near.begin(), near.end(), patch.faces.begin(), patch.faces.end(), std::back_inserter(obstacles));
+  patch.faces.insert(patch.faces.end(), obstacles.begin(), obstacles.end());
+
+  std::vector<Index> fixed;
+  for (Index t : patch.faces)
+    for (Index v : scene.triangles[t]) fixed.push_back(v);
+  sort_unique(fixed);
+  patch.vertices.assign(free_vertices.begin(), free_vertices.end());
+  std::set_difference(fixed.begin(), fixed.end(), free_vertices.begin(), free_vertices.end(),
+                      std::back_inserter(patch.vertices));
+
+  const auto first_fixed = patch.vertices.begin() + patch.free_count;
+  auto local = [&](Index v) {
+    auto it = std::lower_bound(patch.vertices.begin(), first_fixed, v);
+    if (it == first_fixed || *it != v) it = std::lower_bound(first_fixed, patch.vertices.end(), v);
+    return static_cast<Index>(it - patch.vertices.begin());
+  };
+  patch.triangles.reserve(patch.faces.size());
+  for (Index t : patch.faces) {
+    const Triangle& corners = scene.triangles[t];
+    patch.triangles.push_back({local(corners[0]), local(corners[1]), local(corners[2])});
+  }
+  patch.rest.resize(3, patch.vertices.size());
+  patch.x.resize(3, patch.vertices.size());
+  for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
+    patch.x.col(k) = scene.x.col(patch.vertices[k]);
+    const bool is_free = static_cast<Index>(k) < patch.free_count;
+    patch.rest.col(k) = (is_free ? scene.rest : scene.x).col(patch.vertices[k]);
+  }
+  return patch;
+}
+
+Box patch_box(const Scene& scene, std::span<const Index> free_vertices, double reach) {
+  Box box;
+  for (Index v : free_vertices)
+    for (Index t : scene.triangles_of_vertex[v]) {
+      box.extend(box_of(scene.x, scene.triangles[t]));
+      box.extend(box_of(scene.rest, scene.triangles[t]));
+    }
+  return box.inflated(reach);
+}
+
+void paste_patch(const Patch& patch, Scene& scene, SceneIndex& index) {
+  if (!patch.x.leftCols(patch.free_count).allFinite()) return;
+  for (Index k = 0; k < patch.free_count; ++k) scene.x.col(patch.vertices[k]) = patch.x.col(k);
+  index.mark_moved({patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
+}
+
+}  // namespace unsnarl

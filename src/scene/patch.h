@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geometry/box.h"
+#include "geometry/types.h"
+#include "scene/scene.h"
+#include "scene/scene_index.h"
+
+namespace unsnarl {
+
+class Trajectory;
+
+/// A small surface of its own, cut out of the whole: what may move, and what stands still around it.
+/// Every solver works on patches and knows nothing of the surface they come from.
+struct Patch {
+  /// Vertices [0, free_count) may move; the rest never do.
+  Index free_count = 0;
+  /// Triangles [0, active_count) have a free vertex; the rest are obstacles nearby.
+  Index active_count = 0;
+  Positions rest;                    ///< where the vertices are in the input; for fixed ones equal to x
+  Positions x;                       ///< where they are now
+  std::vector<Triangle> triangles;   ///< of vertices of the patch
+  std::vector<Index> vertices;       ///< patch vertex -> vertex of the whole, ascending within the free and the fixed
+  std::vector<Index> faces;          ///< patch triangle -> triangle of the whole, ascending within active and obstacles
+  double edge_length = 0;            ///< h: mean edge of the intersecting faces at rest (or of all active ones)
+  Trajectory* trajectory = nullptr;  ///< where solvers note their iterations; none: nowhere. Not owned
+};
+
+/// Cuts out the patch with these free vertices (ascending, none fixed). Obstacles: all triangles within `reach` (a
+/// length) of the box of an active triangle. `edge_length` is left to the caller.
+Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach);
+
+/// Box of everything cut_patch could take in with this reach.
+Box patch_box(const Scene& scene, std::span<const Index> free_vertices, double reach);
+
+/// Takes the free vertices' positions over into the scene; none where one is not finite (squares of coordinates beyond
+/// 2^500 overflow).
+void paste_patch(const Patch& patch, Scene& scene, SceneIndex& index);
+
+}  // namespace unsnarl

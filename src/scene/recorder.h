@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/trajectory.h"
+#include "unsnarl/recording.h"
+
+namespace unsnarl {
+
+/// Gathers the trajectories of all regions into the history and the frames of a repair.
+///
+/// Regions are added in the order in which they are committed, so that the recording does not depend on the number of
+/// threads. Within a stage (a strategy, a recovery) those whose vertices do not overlap play at the same time; one that
+/// overlaps an earlier one plays after it.
+class Recorder {
+ public:
+  /// input: positions of the scene. Throws std::invalid_argument where options make no sense.
+  Recorder(const RecordOptions& options, Positions input);
+
+  bool is_on() const { return options_.any(); }
+  Trajectory new_trajectory() const { return Trajectory(options_.frames > 0 ? trajectory_budget : 0); }
+
+  void begin_stage(std::string phase);
+  /// What led these vertices of the scene to where they are in x.
+  void add(Trajectory trajectory, std::string strategy, std::size_t region, std::span<const Index> vertices,
+           const Positions& x);
+
+  struct Stage {
+    struct Track {
+      std::string strategy;
+      std::size_t region = 0;
+      std::vector<IterationRecord> iterations;
+      std::vector<Index> vertices;  // of the scene
+      std::vector<Trajectory::State> states;
+    };
+    std::string phase;
+    std::vector<Track> tracks;
+  };
+  /// All that was recorded so far; cheap to copy.
+  using Stages = std::vector<std::shared_ptr<Stage>>;
+  const Stages& stages() const { return stages_; }
+  /// Positions at the start.
+  const Positions& input() const { return input_; }
+  const RecordOptions& options() const { return options_; }
+  /// Forgets what came after.
+  void restore(Stages stages) { stages_ = std::move(stages); }
+
+  std::vector<RegionHistory> history() const;
+
+ private:
+  static constexpr std::size_t trajectory_budget = std::size_t{256} << 20;  // bytes of one region's states ...
+  static constexpr std::size_t total_budget = std::size_t{512} << 20;       // ... of all together
+
+  void thin_out();
+
+  RecordOptions options_;
+  Positions input_;
+  Stages stages_;
+  std::size_t bytes_ = 0;  // of all states, forgotten ones included
+  int stride_ = 1;         // only every so many-th iteration of a track is kept, and its end
+};
+
+}  // namespace unsnarl

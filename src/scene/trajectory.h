@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "scene/patch.h"
+#include "unsnarl/recording.h"
+
+namespace unsnarl {
+
+/// The iterations of the solvers on one patch, and the states of its free vertices on the way.
+class Trajectory {
+ public:
+  struct State {
+    int iteration = 0;
+    Positions x;  ///< of the free vertices
+
+    std::size_t bytes() const { return sizeof(double) * static_cast<std::size_t>(x.size()); }
+  };
+
+  /// state_budget: bytes that the states may take; where they are more, every second one is left out. 0: no states.
+  explicit Trajectory(std::size_t state_budget = 0) : state_budget_(state_budget) {}
+
+  /// The record's step is measured here.
+  void add(const Patch& patch, const Positions& x, IterationRecord record);
+
+  /// How far a trajectory had got.
+  struct Mark {
+    std::size_t iterations = 0;
+    Positions last;
+  };
+  Mark mark() const { return {iterations.size(), last_}; }
+  /// Forgets what came after the mark.
+  void rewind(Mark mark);
+  void clear() { rewind({}); }
+  /// Forgets what came after the iteration with the fewest pairs (the first of these), and states where there are many:
+  /// for tries that failed, of which something may still be taken.
+  void end_at_fewest_pairs();
+
+  std::vector<IterationRecord> iterations;
+  std::vector<State> states;  ///< ascending by iteration
+
+ private:
+  void thin_out();
+
+  std::size_t state_budget_;
+  int stride_ = 1;  // states of every so many-th iteration are kept
+  Positions last_;  // the free vertices where they were recorded last
+};
+
+// What solvers call; nothing happens on a patch that has no trajectory.
+
+/// The state reached by an iteration, x of the patch's vertices.
+inline void record(const Patch& patch, const Positions& x, const IterationRecord& iteration) {
+  if (patch.trajectory) patch.trajectory->add(patch, x, iteration);
+}
+/// Adds to what was recorded last.
+inline void record_energy(const Patch& patch, EnergyTerm term, double value) {
+  if (patch.trajectory && !patch.trajectory->iterations.empty()) patch.trajectory->iterations.back()[term] = value;
+}
+
+/// A try that may be given up: unless kept, its iterations are forgotten when it goes out of scope.
+class RecordedTry {
+ public:
+  explicit RecordedTry(const Patch& patch)
+      : trajectory_(patch.trajectory), begin_(trajectory_ ? trajectory_->mark() : Trajectory::Mark{}) {}
+  ~RecordedTry() {
+    if (trajectory_) trajectory_->rewind(std::move(begin_));
+  }
+  RecordedTry(const RecordedTry&) = delete;
+  RecordedTry& operator=(const RecordedTry&) = delete;
+  void keep() { trajectory_ = nullptr; }
+
+ private:
+  Trajectory* trajectory_;
+  Trajectory::Mark begin_;
+};
+
+}  // namespace unsnarl

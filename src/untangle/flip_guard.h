@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/patch.h"
+
+namespace unsnarl {
+
+/// Keeps active faces of a patch from turning over while a local strategy moves it: the area vector of each keeps at
+/// least a share of its length in the direction it has at rest. Faces that `may_turn`, have no area at rest or are
+/// below that share already are left alone.
+class FlipGuard {
+ public:
+  /// may_turn: per active triangle. The patch must outlive this.
+  FlipGuard(const Patch& patch, std::span<const std::uint8_t> may_turn);
+
+  /// Pushes the free corners of the faces that are below the share until they are not, one face after the other
+  /// (position-based dynamics); gives up after a few rounds where faces work against each other. False: all are above.
+  bool project(Positions& x) const;
+
+ private:
+  struct Kept {
+    Triangle corners;
+    Vec3 normal;      // at rest
+    double size = 0;  // of the area vector at rest
+  };
+  Index free_count_ = 0;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace unsnarl

@@ -1,0 +1,352 @@
+#include "untangle/local_solver.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+#include "contact/intersection_finder.h"
+#include "energy/minkowski_penalty.h"
+#include "scene/trajectory.h"
+#include "untangle/contours.h"
+#include "untangle/flip_guard.h"
+
+namespace unsnarl {
+namespace {
+
+/// Cotangent weight of an equilateral mesh; uniform weights keep slivers harmless.
+constexpr double laplacian_weight = 0.57735026918962573;
+
+double area(const Positions& x, const Triangle& t) {
+  const Vec3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// The metric in which directions are taken: Laplacian + area / range^2 on the free vertices, the others held.
+class Metric {
+ public:
+  Metric(const Patch& patch, const EdgeTable& edges, double range) {
+    const Index n = patch.free_count;
+    std::vector<double> diagonal(n, 0);
+    for (Index t = 0; t < patch.active_count; ++t) {
+      const double share = area(patch.x, patch.triangles[t]) / 3;
+      for (Index v : patch.triangles[t])
+        if (v < n) diagonal[v] += share / (range * range);
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const auto& [u, v] : edges.edges) {
+      if (u < n) diagonal[u] += laplacian_weight;
+      if (v < n) diagonal[v] += laplacian_weight;
+      if (u < n && v < n) entries.emplace_back(v, u, -laplacian_weight);  // lower triangle, u < v
+    }
+    for (Index v = 0; v < n; ++v) entries.emplace_back(v, v, diagonal[v] > 0 ? diagonal[v] : 1);
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    factor_.compute(matrix);
+  }
+  bool ok() const { return factor_.info() == Eigen::Success; }
+  /// Free columns of force -> direction.
+  Eigen::MatrixX3d solve(const Positions& force, Index n) const {
+    Eigen::MatrixX3d direction(n, 3);
+    oneapi::tbb::parallel_for(
+        0, 3, [&](int k) { direction.col(k) = factor_.solve(Eigen::VectorXd(force.row(k).leftCols(n).transpose())); });
+    return direction;
+  }
+
+ private:
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+/// The Minkowski penalty of all pairs within a margin of each other.
+class PenaltyForce {
+ public:
+  PenaltyForce(const Patch& patch, double margin)
+      : patch_(patch),
+        margin_(margin),
+        penalty_(patch.triangles, {.margin = margin}),
+        tree_(patch.triangles, patch.active_count) {}
+
+  void set_margin(double margin) {
+    margin_ = margin;
+    penalty_ = MinkowskiPenalty(patch_.triangles, {.margin = margin});
+  }
+
+  void add(const Positions& x, Positions& force) {
+    tree_.update(x, 0.5 * margin_);
+    std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
+    tree_.self_pairs([&](Index task, Index a, Index b) { found[task].push_back({a, b}); });
+    penalty_.pairs.clear();
+    for (const auto& list : found) penalty_.pairs.insert(penalty_.pairs.end(), list.begin(), list.end());
+    std::sort(penalty_.pairs.begin(), penalty_.pairs.end());
+    penalty_.value_and_gradient(x, force, -1);
+  }
+  const MinkowskiPenalty& penalty() const { return penalty_; }
+
+ private:
+  const Patch& patch_;
+  double margin_;
+  MinkowskiPenalty penalty_;
+  FaceTree tree_;
+};
+
+/// Depth of the deepest of these pairs, without any margin.
+double deepest_overlap(const Patch& patch, const Positions& x, std::span<const IntersectingPair> pairs) {
+  double deepest = 0;
+  for (const IntersectingPair& pair : pairs)
+    deepest = std::max(deepest, overlap_depth(x, patch.triangles[pair.a], patch.triangles[pair.b]));
+  return deepest;
+}
+
+enum class CurveForce { per_curve, per_crossing };
+
+/// Pushes the two sheets of every intersection curve apart, each curve in one direction or each of its crossings in its
+/// own.
+void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& edges,
+                       std::span<const IntersectingPair> pairs, const MinkowskiPenalty& penalty, CurveForce kind,
+                       Positions& force) {
+  const Contours contours = trace_contours(x, patch.triangles, edges, pairs);
+  std::vector<Vec3> direction(contours.count, Vec3::Zero());
+  for (const Crossing& c : contours.crossings) direction[c.contour] += c.side * c.direction;
+  for (Vec3& d : direction) {
+    const double size = d.norm();
+    d = size > 0 ? Vec3(d / size) : Vec3(0, 0, 1);
+  }
+  for (const Crossing& c : contours.crossings) {
+    const Vec3 push = kind == CurveForce::per_curve ? Vec3(c.side * direction[c.contour]) : c.direction;
+    const auto [u, v] = edges.edges[c.edge];
+    force.col(u) += (1 - c.along) * push;
+    force.col(v) += c.along * push;
+    for (int k = 0; k < 3; ++k) force.col(patch.triangles[c.face][k]) -= c.weights[k] * push;
+  }
+  for (const IntersectingPair& pair : contours.uncrossed) {
+    const Penetration p = penalty.evaluate(x, pair.a, pair.b);
+    if (!(p.depth > 0)) continue;
+    for (int k = 0; k < 3; ++k) {
+      force.col(patch.triangles[pair.a][k]) += p.weight_a[k] * p.normal;
+      force.col(patch.triangles[pair.b][k]) -= p.weight_b[k] * p.normal;
+    }
+  }
+}
+
+/// How far a strategy has got.
+struct Try {
+  Positions x, best;
+  LocalMethod method;
+  std::size_t pairs_left = not_counted;  // in best
+  int iterations = 0;
+  double reference = std::numeric_limits<double>::infinity();  // pairs at the last progress
+  int waited = 0;                                              // iterations since
+  Trajectory::Mark mark;
+};
+
+std::vector<std::uint8_t> in_conflict(const Patch& patch, std::span<const IntersectingPair> pairs) {
+  std::vector<std::uint8_t> result(patch.triangles.size(), 0);
+  for (const IntersectingPair& pair : pairs) result[pair.a] = result[pair.b] = 1;
+  return result;
+}
+
+/// x <- (M + range^2 L)^-1 M x with the border held: rounds off everything smaller than the range.
+void smooth(const Patch& patch, const Metric& metric, double range, Positions& x) {
+  const Index n = patch.free_count;
+  Positions pull = Positions::Zero(3, x.cols());
+  for (Index t = 0; t < patch.active_count; ++t) {
+    const double share = area(patch.x, patch.triangles[t]) / 3 / (range * range);
+    for (Index v : patch.triangles[t])
+      if (v < n) pull.col(v) += share * x.col(v);
+  }
+  // The held neighbours' share of the Laplacian.
+  std::vector<Edge> done;
+  for (Index t = 0; t < patch.active_count; ++t)
+    for (int k = 0; k < 3; ++k) {
+      Index u = patch.triangles[t][k], v = patch.triangles[t][(k + 1) % 3];
+      if (u > v) std::swap(u, v);
+      if (u < n && v >= n) done.push_back({u, v});
+    }
+  std::sort(done.begin(), done.end());
+  done.erase(std::unique(done.begin(), done.end()), done.end());
+  for (const auto& [u, v] : done) pull.col(u) += laplacian_weight * x.col(v);
+  x.leftCols(n) = metric.solve(pull, n).transpose();
+}
+
+}  // namespace
+
+double jitter_of(Index v, int k) {
+  // splitmix64
+  std::uint64_t z = (static_cast<std::uint64_t>(v) * 3 + static_cast<std::uint64_t>(k) + 1) * 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  z ^= z >> 31;
+  return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
+}
+
+void add_jitter(const Patch& patch, std::span<const Edge> edges, double share, Positions& x) {
+  std::vector<double> reach(patch.free_count, patch.edge_length);
+  for (const auto& [u, v] : edges) {
+    const double length = (patch.x.col(u) - patch.x.col(v)).norm();
+    if (!(length > 0)) continue;
+    for (Index end : {u, v})
+      if (end < patch.free_count) reach[end] = std::min(reach[end], length);
+  }
+  for (Index v = 0; v < patch.free_count; ++v)
+    for (int k = 0; k < 3; ++k) x(k, v) += share * reach[v] * jitter_of(v, k);
+}
+
+std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs,
+                                             std::span<const IntersectingPair> tolerated) {
+  std::erase_if(pairs, [&](const IntersectingPair& pair) {
+    const auto it = std::lower_bound(tolerated.begin(), tolerated.end(), pair, [](const auto& p, const auto& q) {
+      return std::tie(p.a, p.b) < std::tie(q.a, q.b);
+    });
+    return it != tolerated.end() && it->a == pair.a && it->b == pair.b;
+  });
+  return pairs;
+}
+
+bool has_squeezed_face(const Patch& patch, const Positions& start, const Positions& x, double floor) {
+  for (Index t = 0; t < patch.active_count; ++t)
+    if (area(x, patch.triangles[t]) < floor * area(start, patch.triangles[t])) return true;
+  return false;
+}
+
+void shrink_displacement(Patch& patch, const Positions& start, int bisections,
+                         const std::function<bool(const Positions&)>& is_clean) {
+  const Index n = patch.free_count;
+  const Positions whole = patch.x;
+  double dirty = 0, clean = 1;
+  Positions x = whole;
+  for (int k = 0; k < bisections; ++k) {
+    const double middle = 0.5 * (dirty + clean);
+    x.leftCols(n) = start.leftCols(n) + middle * (whole.leftCols(n) - start.leftCols(n));
+    if (is_clean(x)) {
+      clean = middle;
+      patch.x = x;
+    } else {
+      dirty = middle;
+    }
+  }
+}
+
+LocalResult solve_locally(Patch& patch, const LocalStrategy& strategy, std::span<const IntersectingPair> tolerated,
+                          const LocalOptions& options, const std::function<bool()>& stop) {
+  LocalResult result;
+  const Index n = patch.free_count;
+  const double h = patch.edge_length;
+  if (n == 0 || !(h > 0)) return result;
+  const Positions start = patch.x;
+  const EdgeTable edges = build_edges(patch.triangles);
+  const Metric metric(patch, edges, strategy.locality * h);
+  if (!metric.ok()) return result;
+  IntersectionFinder finder(patch.triangles, patch.active_count);
+  PenaltyForce penalty(patch, options.margin * h);
+
+  std::optional<FlipGuard> guard;
+  if (options.sides != KeepSides::no) guard.emplace(patch, in_conflict(patch, finder.find(start)));
+
+  auto is_clean = [&](const Positions& y) {
+    return blocking_pairs(finder.find(y), tolerated).empty() && !has_squeezed_face(patch, start, y, options.area_floor);
+  };
+  std::size_t initial_pairs = 0;
+  double at_least = options.shallow_floor * h;  // overlap that steps are for: as little as there is would never end
+  std::optional<Try> before_keeping;            // where the guard was first needed
+  // Iterations without progress after which a try is left.
+  const auto patience = [&](const Try& t) {
+    if (t.method == LocalMethod::shorten) return options.shorten_patience;
+    return t.iterations > strategy.max_iterations ? options.patience : options.despair;
+  };
+  // Goes on with a try until it is clean (true) or left.
+  const auto go_on = [&](Try& t) {
+    bool clean = false;
+    while (!(stop && stop())) {
+      if (t.waited >= patience(t)) break;
+      const std::vector<IntersectingPair> pairs = blocking_pairs(finder.find(t.x), tolerated);
+      record(patch, t.x, {.pairs = pairs.size()});
+      clean = pairs.empty();
+      if (clean) break;
+      if (t.iterations == 0) t.pairs_left = initial_pairs = pairs.size();
+      if (static_cast<double>(pairs.size()) <= (1 - options.progress) * t.reference) {
+        t.reference = static_cast<double>(pairs.size());
+        t.waited = 0;
+      }
+      if (pairs.size() < t.pairs_left && !has_squeezed_face(patch, start, t.x, options.area_floor)) {
+        t.pairs_left = pairs.size();
+        t.best = t.x;
+      }
+      const int iteration = t.iterations++;
+      ++t.waited;
+      if (t.method == LocalMethod::smoothing) {
+        smooth(patch, metric, strategy.locality * h, t.x);
+        if (pairs.size() * 5 <= initial_pairs) t.method = LocalMethod::contour;
+        continue;
+      }
+      Positions force = Positions::Zero(3, t.x.cols());
+      double limit = strategy.step * h;
+      if (t.method == LocalMethod::shallow) {
+        const double deepest = std::max({deepest_overlap(patch, t.x, pairs), at_least, options.min_gap});
+        if (iteration == 0) {
+          at_least = deepest;
+          penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
+        }
+        limit = std::min(limit, options.shallow_step * deepest);
+        // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.
+        if (iteration % 2 == 0)
+          penalty.add(t.x, force);
+        else
+          add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), CurveForce::per_curve, force);
+      } else {
+        const CurveForce kind = t.method == LocalMethod::shorten ? CurveForce::per_crossing : CurveForce::per_curve;
+        add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), kind, force);
+      }
+      Eigen::MatrixX3d direction = metric.solve(force, n);
+      const double size = direction.rowwise().norm().maxCoeff();
+      if (!(size > 0) || !std::isfinite(size)) break;
+      direction *= limit / size;
+      t.x.leftCols(n) += direction.transpose();
+      if (!guard) continue;
+      const bool is_first = options.sides == KeepSides::at_first && !before_keeping;
+      const Positions unkept = is_first ? t.x : Positions();
+      if (!guard->project(t.x) || !is_first) continue;
+      before_keeping = t;
+      before_keeping->x = unkept;
+      if (patch.trajectory) before_keeping->mark = patch.trajectory->mark();
+    }
+    // Too far: somewhat back there may be room for the faces.
+    constexpr int parts = 16;
+    const Positions whole = t.x;
+    for (int part = parts - 1; clean && has_squeezed_face(patch, start, t.x, options.area_floor); --part) {
+      t.x.leftCols(n) = start.leftCols(n) + (static_cast<double>(part) / parts) * (whole - start).leftCols(n);
+      clean = part > 0 && blocking_pairs(finder.find(t.x), tolerated).empty();
+    }
+    return clean;
+  };
+
+  // patch.x stays what the metric was made of.
+  Try current{.x = start, .best = start, .method = strategy.method, .mark = {}};
+  if (strategy.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.jitter, current.x);
+  result.clean = go_on(current);
+  result.iterations = current.iterations;
+  if (!result.clean && before_keeping && current.pairs_left > options.few_enough) {
+    // Up to there it would go the same way.
+    result.iterations -= before_keeping->iterations;
+    current = std::move(*before_keeping);
+    guard.reset();
+    if (patch.trajectory) patch.trajectory->rewind(std::move(current.mark));
+    result.clean = go_on(current);
+    result.iterations += current.iterations;
+  }
+  if (!result.clean) {
+    result.pairs_left = current.pairs_left;
+    patch.x = current.best;
+    return result;
+  }
+  result.pairs_left = 0;
+  patch.x = current.x;
+  shrink_displacement(patch, start, options.bisections, is_clean);
+  result.displacement = (patch.x - start).leftCols(n).colwise().norm().maxCoeff();
+  return result;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+
+#include "scene/patch.h"
+#include "unsnarl/intersections.h"
+
+namespace unsnarl {
+
+/// How a local strategy finds its direction.
+enum class LocalMethod {
+  shallow,    ///< the Minkowski penalty (paper §3.2) and `contour` in turn, steps and margin as small as the overlaps
+  contour,    ///< one direction for each intersection curve, its two sheets pushed apart along it
+  shorten,    ///< one for each crossing, that shortens the curve: slow, but it gets through what hems the sheets in
+  smoothing,  ///< implicit smoothing until few crossings are left, then `contour`
+};
+
+/// One way to untangle a small patch. Lengths in units of the patch's h.
+struct LocalStrategy {
+  LocalMethod method;
+  double step;         ///< largest vertex motion of an iteration, h
+  double locality;     ///< range of the direction's smoothing, h
+  int max_iterations;  ///< beyond which it goes on only as long as it makes progress (`shorten`: at once)
+};
+
+/// Whether faces that intersect nothing at the start are kept from turning over (FlipGuard).
+enum class KeepSides {
+  no,
+  yes,
+  at_first,  ///< where that fails, no longer, from where the first of them had to be kept on
+};
+
+struct LocalOptions {
+  double margin = 0.03;  ///< h: the penalty acts until the faces are this far apart; 28 iterations against 61 without
+  double jitter = 1e-3;  ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
+  double area_floor = 1e-3;     ///< a face thinner than this share of its area at the start is not accepted
+  double shallow_margin = 0.5;  ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
+  double shallow_step = 1;      ///< of the deepest overlap, now or at the start: its steps
+  /// h: the overlap that faces are taken to have at least, also where they do no more than touch. (Where the margin
+  /// counted as overlap, needles that ran into each other by 1e-5 h were thrown about by 0.02 h, and never came apart.)
+  double shallow_floor = 1e-4;
+  double min_gap = 0;  ///< length: the same, since they will have to be that far apart
+  KeepSides sides = KeepSides::no;
+  std::size_t few_enough = 0;  ///< pairs; with KeepSides::at_first, a try that leaves no more is left at that
+  /// Progress is when the number of pairs falls by this share ...
+  double progress = 0.1;
+  /// ... within so many iterations: what a strategy needs that to go on beyond its iterations. On the 22 of 61 meshes
+  /// where some strategy fails, with 8: 10 % more time, and a curled body moves 15 % farther.
+  int patience = 12;
+  /// Or within so many: else it is left early. With 15: the same time, and two bodies move 10 and 35 % farther.
+  int despair = 30;
+  /// In place of both for `shorten`. With 30 a tangle of layered cloth keeps pairs; with 100 some sheets move a third
+  /// farther.
+  int shorten_patience = 60;
+  int bisections = 5;  ///< of the displacement back to the start; the smallest clean one is kept
+};
+
+/// Of pairs: the solver did not get so far.
+constexpr std::size_t not_counted = std::numeric_limits<std::size_t>::max();
+
+struct LocalResult {
+  bool clean = false;
+  int iterations = 0;
+  std::size_t pairs_left = not_counted;  ///< in patch.x
+  double displacement = 0;               ///< largest vertex motion, length
+};
+
+/// Tries to move the patch's free vertices, from patch.x on, until no active triangle intersects another, except in the
+/// `tolerated` pairs (of patch triangles, sorted): those of other regions nearby. Where it
+/// fails, patch.x is the state with the fewest pairs.
+LocalResult solve_locally(Patch& patch, const LocalStrategy& strategy, std::span<const IntersectingPair> tolerated = {},
+                          const LocalOptions& options = {}, const std::function<bool()>& stop = {});
+
+/// Unit-free pseudo-random number in [-1, 1], the same everywhere, for vertex `v`, coordinate `k`.
+double jitter_of(Index v, int k);
+
+/// Moves the free vertices of x at random by up to `share` of the shortest edge (at patch.x) at each, or of h if
+/// shorter.
+void add_jitter(const Patch& patch, std::span<const Edge> edges, double share, Positions& x);
+
+/// Pairs of the patch's active triangles that are not tolerated.
+std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs,
+                                             std::span<const IntersectingPair> tolerated);
+
+/// True where some active triangle has less than `floor` times its area at `start` (and had any).
+bool has_squeezed_face(const Patch& patch, const Positions& start, const Positions& x, double floor);
+
+/// Bisects the displacement from `start` to patch.x, keeping the smallest clean one in patch.x.
+void shrink_displacement(Patch& patch, const Positions& start, int bisections,
+                         const std::function<bool(const Positions&)>& is_clean);
+
+}  // namespace unsnarl

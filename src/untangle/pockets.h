@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace unsnarl {
+
+/// What hangs together in a scene. (Components know more, but take the edges of all faces to find.)
+struct ConnectedParts {
+  explicit ConnectedParts(const Scene& scene);
+  std::vector<Index> of_vertex;
+  std::vector<Index> face_count;  ///< of each part
+};
+
+/// How deep a conflict is, in edges of the mesh. Where a surface runs through another the intersecting faces, with the
+/// vertices `core` (ascending), cut a pocket off it. The depth is the largest number of edges between a vertex of a
+/// pocket and those faces, but no more than half its girth, for it may leave sideways; 0 where nothing is cut off. What
+/// is not connected to the core changes nothing. The cost follows the surroundings of that width.
+int pocket_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core);
+
+}  // namespace unsnarl

@@ -1,0 +1,46 @@
+#include "untangle/untangle_whole.h"
+
+#include <chrono>
+#include <utility>
+
+#include "mesh/areas.h"
+#include "scene/trajectory.h"
+#include "untangle/local_solver.h"
+#include "untangle/paper_untangle.h"
+
+namespace unsnarl {
+
+LadderResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
+                            std::span<const IntersectingPair> ignored, const LadderOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  index.update();
+  std::vector<Index> free;
+  for (Index v = 0; v < scene.vertex_count(); ++v)
+    if (!scene.fixed[v] && !scene.triangles_of_vertex[v].empty()) free.push_back(v);
+  Patch patch = cut_patch(scene, index, free, 0);
+  patch.edge_length = mean_edge_length(scene.rest, scene.triangles);
+  Trajectory trajectory;
+  if (options.recorder && options.recorder->is_on()) {
+    trajectory = options.recorder->new_trajectory();
+    patch.trajectory = &trajectory;
+  }
+  const PaperResult untangled = paper_untangle(patch, {}, options.stop);
+  paste_patch(patch, scene, index);
+  LadderResult result;
+  RegionReport report;
+  report.strategy = "paper";
+  report.faces = static_cast<std::size_t>(patch.active_count);
+  report.pairs = pairs;
+  report.iterations = untangled.iterations;
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (options.recorder) {
+    options.recorder->begin_stage("untangle");
+    options.recorder->add(std::move(trajectory), report.strategy, options.first_region, free, scene.x);
+  }
+  result.regions.push_back(report);
+  result.moved.push_back(std::move(free));
+  result.left = blocking_pairs(index.find_pairs(), ignored);
+  return result;
+}
+
+}  // namespace unsnarl

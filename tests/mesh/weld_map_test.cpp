@@ -1,0 +1,240 @@
+#include "mesh/weld_map.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh/shapes.h"
+
+namespace unsnarl {
+namespace {
+
+using namespace shapes;
+
+void expect_consistent(const Surface& s, const WeldMap& id) {
+  ASSERT_EQ(id.vertex_of.size(), s.positions.size() / 3);
+  ASSERT_EQ(static_cast<std::size_t>(id.count), id.first.size());
+  EXPECT_EQ(id.merged, id.vertex_of.size() - id.first.size());
+  Index next = 0;
+  for (std::size_t v = 0; v < id.vertex_of.size(); ++v) {
+    ASSERT_LE(id.vertex_of[v], next);
+    if (id.vertex_of[v] == next) {
+      EXPECT_EQ(id.first[next++], static_cast<Index>(v));
+    }
+  }
+}
+
+Index count_of(const Surface& s, Weld weld = Weld::seams, double tolerance = 0) {
+  const WeldMap id = weld(s, weld, tolerance);
+  expect_consistent(s, id);
+  return id.count;
+}
+
+TEST(WeldMap, NoneKeepsEveryVertex) {
+  EXPECT_EQ(count_of(exploded(cube()), Weld::none), 24);
+}
+
+TEST(WeldMap, CornersOfASoupBecomeTheOctahedron) {
+  const Surface s = exploded(octahedron());
+  EXPECT_EQ(count_of(s), 6);
+  const WeldMap id = weld(s);
+  for (std::size_t v = 0; v < id.vertex_of.size(); ++v)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(s.positions[3 * v + k], s.positions[3 * id.first[id.vertex_of[v]] + k]);
+}
+
+TEST(WeldMap, SixSeparateQuadsBecomeACube) {
+  EXPECT_EQ(count_of(exploded(cube())), 8);
+}
+
+TEST(WeldMap, MinusZeroIsZero) {
+  Surface s = exploded(cube());
+  for (std::size_t i = 0; i < s.positions.size(); i += 2)
+    if (s.positions[i] == 0) s.positions[i] = -0.0;
+  EXPECT_EQ(count_of(s), 8);
+  EXPECT_EQ(count_of(s, Weld::all), 8);
+}
+
+TEST(WeldMap, ClosedSolidsThatTouchStayApart) {
+  Surface s = cube();
+  append(s, cube(), 1, 0, 0);  // share a face by position
+  append(s, cube(), 0, 1, 1);  // an edge
+  EXPECT_EQ(count_of(s), 24);
+  EXPECT_EQ(count_of(s, Weld::all), 18);
+}
+
+TEST(WeldMap, SoupOfCubesTouchingInAFaceStaysTwoCubes) {
+  Surface s = exploded(cube());
+  append(s, exploded(cube()), 1, 0, 0);
+  EXPECT_EQ(count_of(s), 16);
+}
+
+TEST(WeldMap, SoupOfCubesTouchingInAnEdgeStaysTwoCubes) {
+  Surface s = exploded(cube());
+  append(s, exploded(cube()), 1, 1, 0);
+  EXPECT_EQ(count_of(s), 16);
+}
+
+TEST(WeldMap, SoupOfCubesTouchingInACornerStaysTwoCubes) {
+  Surface s = exploded(cube());
+  append(s, exploded(cube()), 1, 1, 1);
+  EXPECT_EQ(count_of(s), 16);
+}
+
+TEST(WeldMap, TwoCopiesOfASolidStayTwo) {
+  Surface s = exploded(octahedron());
+  append(s, exploded(octahedron()));
+  EXPECT_EQ(count_of(s), 12);
+}
+
+/// A strip of quads in the plane z = 0, front and back as separate sheets.
+Surface card(Index n, bool soup) {
+  Surface front, back;
+  for (Index i = 0; i <= n; ++i)
+    for (Index j = 0; j < 2; ++j) {
+      add_vertex(front, i, j, 0);
+      add_vertex(back, i, j, 0);
+    }
+  for (Index i = 0; i < n; ++i) {
+    add_face(front, {2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+    add_face(back, {2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2});
+  }
+  Surface s = soup ? exploded(front) : front;
+  append(s, soup ? exploded(back) : back);
+  return s;
+}
+
+TEST(WeldMap, TwoSidedCardIsNotGlued) {
+  EXPECT_EQ(count_of(card(4, false)), 20);
+}
+TEST(WeldMap, TwoSidedCardAsSoupBecomesTwoSheets) {
+  EXPECT_EQ(count_of(card(4, true)), 20);
+}
+
+TEST(WeldMap, TwoSidedCardHangingOnOneEdgeIsNotGlued) {
+  // Front and back share the vertices of one end, so that they are one shell.
+  Surface s = card(4, false);
+  for (Index& v : s.corners)
+    if (v == 10 || v == 11) v -= 10;
+  EXPECT_EQ(count_of(s), 20);  // 18 and the two that are not used now
+}
+
+TEST(WeldMap, SeamOfASheetIsGluedAlsoWhereOrientationsDiffer) {
+  for (const bool flipped : {false, true}) {
+    Surface s;
+    for (int i = 0; i < 2; ++i) {
+      add_vertex(s, 0, 0, 0);
+      add_vertex(s, 0, 1, 0);
+      add_vertex(s, i == 0 ? -1 : 1, 0, 0);
+    }
+    add_face(s, {0, 2, 1});
+    add_face(s, flipped ? std::vector<Index>{3, 5, 4} : std::vector<Index>{3, 4, 5});
+    EXPECT_EQ(count_of(s), 4);
+  }
+}
+
+TEST(WeldMap, PagesOnOneSpineAreGluedToIt) {
+  for (const int pages : {3, 4, 5, 12}) {
+    Surface s;
+    for (int i = 0; i < pages; ++i) {
+      const Index a = add_vertex(s, 0, 0, 0), b = add_vertex(s, 0, 0, 1), c = add_vertex(s, 1, i, 0.5);
+      add_face(s, i % 2 == 0 ? std::vector<Index>{a, b, c} : std::vector<Index>{b, a, c});
+    }
+    EXPECT_EQ(count_of(s), 2 + pages);
+  }
+}
+
+TEST(WeldMap, PinchedInteriorIsNotGlued) {
+  // Two pyramids whose apexes meet, joined by nothing else: interior vertices, hence apart.
+  Surface s;
+  for (int side = 0; side < 2; ++side) {
+    const Index apex = add_vertex(s, 0, 0, 0);
+    const double z = side == 0 ? 1 : -1;
+    const Index a = add_vertex(s, 1, 0, z);
+    add_vertex(s, 0, 1, z);
+    add_vertex(s, -1, -1, z);
+    for (Index k = 0; k < 3; ++k) add_face(s, {apex, a + k, a + (k + 1) % 3});
+  }
+  EXPECT_EQ(count_of(s), 8);
+  EXPECT_EQ(count_of(s, Weld::all), 7);
+}
+
+TEST(WeldMap, SheetWrappedTwiceKeepsBothLayers) {
+  const Index n = 8;  // quads a turn, sampled on the same points in both turns
+  Surface s;
+  for (Index i = 0; i <= 2 * n; ++i)
+    for (Index j = 0; j < 3; ++j) add_vertex(s, std::cos((i % n) * 0.7), std::sin((i % n) * 0.7), j);
+  for (Index i = 0; i < 2 * n; ++i)
+    for (Index j = 0; j < 2; ++j) add_face(s, {3 * i + j, 3 * i + 3 + j, 3 * i + 4 + j, 3 * i + 1 + j});
+  // The ends of the sheet meet each other (a closed double loop), the layers stay apart.
+  EXPECT_EQ(count_of(s), 6 * n);
+}
+
+TEST(WeldMap, PoleSplitAlongAZeroLengthEdgeIsOne) {
+  // A fan whose apex was split for texture coordinates, with a zero-area quad side there.
+  Surface s;
+  s.positions = {0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0};
+  add_face(s, {0, 2, 3});
+  add_face(s, {1, 0, 3, 4});
+  EXPECT_EQ(count_of(s), 4);
+}
+
+TEST(WeldMap, InteriorEdgeOfLengthZeroIsOneVertex) {
+  // A hexagonal fan whose centre was split: two triangles without area around the short edge.
+  Surface s;
+  for (int k = 0; k < 6; ++k) add_vertex(s, std::cos(k * 1.047), std::sin(k * 1.047), 0);
+  const Index a = add_vertex(s, 0, 0, 0), b = add_vertex(s, 0, 0, 0);
+  for (Index k = 0; k < 6; ++k) add_face(s, {k, (k + 1) % 6, k < 3 ? a : b});
+  add_face(s, {a, 3, b});
+  add_face(s, {b, 0, a});
+  EXPECT_EQ(count_of(s), 7);
+  EXPECT_EQ(count_of(s, Weld::none), 8);
+}
+
+TEST(WeldMap, CollapsedCrossSectionOfATubeStaysARing) {
+  Surface s;
+  for (Index i = 0; i < 3; ++i)
+    for (Index j = 0; j < 5; ++j) {
+      const double r = i == 1 ? 0 : 1;
+      add_vertex(s, r * std::cos(j * 1.257), r * std::sin(j * 1.257), i);
+    }
+  for (Index i = 0; i < 2; ++i)
+    for (Index j = 0; j < 5; ++j) add_face(s, {5 * i + j, 5 * i + (j + 1) % 5, 5 * i + 5 + (j + 1) % 5, 5 * i + 5 + j});
+  EXPECT_EQ(count_of(s), 15);
+}
+
+TEST(WeldMap, PartsOfASoupThatMeetInSingleBorderVerticesAreJoined) {
+  // The border x = 0 is one edge on one side and two on the other.
+  Surface s;
+  s.positions = {-1, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
+  add_face(s, {0, 1, 2});
+  add_face(s, {3, 4, 5});
+  add_face(s, {6, 7, 8});
+  EXPECT_EQ(count_of(s), 5);
+  // With ids that say what is connected, parts that merely touch stay apart.
+  s.corners = {0, 1, 2, 3, 4, 5, 5, 4, 8};
+  const WeldMap id = weld(s);
+  EXPECT_NE(id.vertex_of[1], id.vertex_of[3]);
+  EXPECT_NE(id.vertex_of[2], id.vertex_of[8]);
+}
+
+TEST(WeldMap, ToleranceJoinsNearCorners) {
+  Surface s = exploded(cube());
+  for (std::size_t i = 0; i < s.positions.size(); ++i) s.positions[i] += 1e-7 * static_cast<double>(i);
+  EXPECT_EQ(count_of(s), 24);
+  EXPECT_EQ(count_of(s, Weld::seams, 2e-5), 8);
+  EXPECT_EQ(count_of(s, Weld::all, 2e-5), 8);
+  EXPECT_EQ(count_of(s, Weld::all, 1e-8), 24);
+}
+
+TEST(WeldMap, ToleranceWorksAcrossCellsAndFarFromTheOrigin) {
+  Surface s;
+  add_vertex(s, 1e9, -0.001, 0);
+  add_vertex(s, 1e9, 0.001, 0);
+  add_vertex(s, 1e9, 0.1, 0);
+  EXPECT_EQ(count_of(s, Weld::all, 0.01), 2);
+}
+
+TEST(WeldMap, NothingIn) {
+  EXPECT_EQ(count_of(Surface{}), 0);
+}
+
+}  // namespace
+}  // namespace unsnarl

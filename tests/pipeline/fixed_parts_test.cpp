@@ -1,0 +1,144 @@
+// Scenes around parts that must not move (paper §4.2), and components repaired one by one, judged by CGAL.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh/triangulation.h"
+#include "oracle/intersections_oracle.h"
+#include "samples/samples.h"
+#include "scene/shapes.h"
+#include "unsnarl/parts.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+namespace {
+
+using shapes::Shape;
+
+std::vector<IntersectingPair> judged(const Surface& surface, const std::vector<double>& positions) {
+  return oracle::intersections_by_cgal(positions, triangulate(surface).triangles);
+}
+
+std::vector<std::uint8_t> component_flags(const Surface& surface, std::int32_t component) {
+  return vertices_of_faces(surface, faces_in_parts(surface, {}, {.components = {component}}));
+}
+
+/// Whether flagged vertices are bit-identical; and some other has moved.
+void expect_only_others_moved(const Surface& surface, const RepairResult& result,
+                              const std::vector<std::uint8_t>& fixed) {
+  std::size_t fixed_moved = 0, others_moved = 0;
+  for (std::size_t v = 0; v < fixed.size(); ++v) {
+    const bool same = std::equal(&surface.positions[3 * v], &surface.positions[3 * v] + 3, &result.positions[3 * v]);
+    (fixed[v] ? fixed_moved : others_moved) += !same;
+  }
+  EXPECT_EQ(fixed_moved, 0u);
+  EXPECT_GT(others_moved, 0u);
+}
+
+TEST(FixedParts, balls_give_way_to_an_anchor) {
+  const Surface surface = make_sample("anchored_balls", 20);
+  RepairOptions options;
+  options.fixed = component_flags(surface, 0);
+  const RepairResult result = repair(surface, options);
+  ASSERT_EQ(result.status, Status::embedded) << to_string(result.status);
+  EXPECT_TRUE(judged(surface, result.positions).empty());
+  expect_only_others_moved(surface, result, options.fixed);
+}
+
+TEST(FixedParts, a_fixed_vertex_fixes_those_identified_with_it) {
+  // The lower sheet's corners are written anew for every face, and only the first writing of each is fixed.
+  const Surface whole = shapes::crossing_bumps(10, 0.3).surface();
+  const std::size_t lower_faces = whole.view().face_count() / 2;
+  Surface soup;
+  for (const std::int32_t v : whole.corners) {
+    soup.corners.push_back(static_cast<std::int32_t>(soup.corners.size()));
+    for (int k = 0; k < 3; ++k) soup.positions.push_back(whole.positions[3 * static_cast<std::size_t>(v) + k]);
+  }
+  std::vector<std::uint8_t> seen(whole.view().vertex_count(), 0);
+  RepairOptions options;
+  for (std::size_t c = 0; c < soup.corners.size(); ++c) {
+    std::uint8_t& known = seen[static_cast<std::size_t>(whole.corners[c])];
+    options.fixed.push_back(c < 3 * lower_faces && !known);
+    known = 1;
+  }
+  const RepairResult result = repair(soup, options);
+  ASSERT_EQ(result.status, Status::embedded) << to_string(result.status);
+  std::vector<std::uint8_t> lower(soup.corners.size(), 0);
+  std::fill_n(lower.begin(), 3 * lower_faces, 1);
+  expect_only_others_moved(soup, result, lower);
+}
+
+TEST(FixedParts, fixed_faces_through_each_other_are_named_and_block_nothing) {
+  // Two fixed squares through each other, a sheet through both, and a crossing far away.
+  Shape shape = shapes::crossed_squares();
+  const std::size_t fixed_vertices = shape.points.size();
+  shape.add(shapes::bumpy_sheet(12, 0.9), {0.13, 0.21, -0.7});
+  shape.add(shapes::crossing_bumps(8, 0.3), {30, 0, 0});
+  const Surface surface = shape.surface();
+  RepairOptions options;
+  options.fixed.assign(surface.view().vertex_count(), 0);
+  std::fill_n(options.fixed.begin(), fixed_vertices, 1);
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::obstructed) << to_string(result.status);
+  ASSERT_EQ(result.report.obstructions.size(), 1u);
+  EXPECT_EQ(result.report.obstructions[0].kind, Obstruction::Kind::fixed_faces);
+  for (const IntersectingPair& pair : judged(surface, result.positions)) {
+    EXPECT_LT(pair.a, 4);
+    EXPECT_LT(pair.b, 4);
+  }
+  expect_only_others_moved(surface, result, options.fixed);
+}
+
+TEST(EachComponent, is_repaired_as_if_alone) {
+  const Surface sheet = make_sample("folded_sheet", 16), limb = make_sample("helicoid_overlapping", 20);
+  for (const double apart : {0.3, 100.0}) {
+    Surface both = sheet;
+    const auto first = static_cast<std::int32_t>(sheet.view().vertex_count());
+    for (std::size_t i = 0; i < limb.positions.size(); ++i)
+      both.positions.push_back(limb.positions[i] + (i % 3 == 0 ? apart : 0.0));
+    Surface moved = limb;
+    moved.positions.assign(both.positions.begin() + 3 * first, both.positions.end());
+    if (both.offsets.empty())
+      for (std::size_t i = 0; i <= sheet.corners.size(); i += 3) both.offsets.push_back(static_cast<std::int32_t>(i));
+    for (std::size_t f = 0; f < limb.view().face_count(); ++f) {
+      for (const std::int32_t v : limb.view().face(f)) both.corners.push_back(v + first);
+      both.offsets.push_back(static_cast<std::int32_t>(both.corners.size()));
+    }
+    RepairOptions options;
+    options.each_component = true;
+    const RepairResult result = repair(both, options);
+    const RepairResult alone = repair(sheet), other = repair(moved);
+    EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), result.positions.begin()));
+    EXPECT_TRUE(std::equal(other.positions.begin(), other.positions.end(), result.positions.begin() + 3 * first));
+    const std::vector<IntersectingPair> left = judged(both, result.positions);
+    EXPECT_EQ(result.report.after.total() == 0, left.empty());
+    ASSERT_EQ(result.report.components.size(), 2u);
+    for (const ComponentReport& component : result.report.components) {
+      EXPECT_GT(component.pairs_before, 0u);
+      EXPECT_EQ(component.pairs_after, 0u);
+    }
+    if (apart > 50) {
+      EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
+      EXPECT_TRUE(result.report.obstructions.empty());
+    } else {
+      EXPECT_FALSE(left.empty()) << "the two should run through each other";
+      EXPECT_EQ(result.status, Status::obstructed) << to_string(result.status);
+      ASSERT_EQ(result.report.obstructions.size(), 1u);
+      EXPECT_EQ(result.report.obstructions[0].kind, Obstruction::Kind::between_components);
+    }
+  }
+}
+
+TEST(EachComponent, leaves_what_only_runs_through_others) {
+  const Surface surface = shapes::crossing_bumps(8, 0.3).surface();
+  RepairOptions options;
+  options.each_component = true;
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::obstructed);
+  EXPECT_TRUE(result.positions == surface.positions);
+  EXPECT_EQ(result.report.after.by_class, result.report.before.by_class);
+  EXPECT_GT(result.report.after.total(), 0u);
+}
+
+}  // namespace
+}  // namespace unsnarl

@@ -1,0 +1,178 @@
+#include "recover/contact_rules.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace unsnarl {
+namespace {
+
+/// A fixed face in the plane z = 0 and a small free one above it, the nearest corner (vertex 0) at `height`; at rest at
+/// `rest_height`.
+Patch face_over_face(double height, double rest_height) {
+  Patch patch;
+  patch.free_count = 3;
+  patch.active_count = 1;
+  patch.triangles = {{0, 1, 2}, {3, 4, 5}};
+  patch.x.resize(3, 6);
+  patch.x << 0, 1, 0, -9, 9, 0,  //
+      0, 0, 1, -9, -9, 9,        //
+      height, 5, 5, 0, 0, 0;
+  patch.rest = patch.x;
+  patch.rest(2, 0) = rest_height;
+  patch.edge_length = 1;
+  return patch;
+}
+
+/// Every vertex may go so far from where it is.
+MotionBounds anywhere_within(std::vector<double> around) {
+  MotionBounds bounds;
+  bounds.reset(static_cast<Index>(around.size()));
+  bounds.around = std::move(around);
+  return bounds;
+}
+
+ContactRule rule_of_vertex_0(const Patch& patch, std::vector<std::uint8_t> in_conflict) {
+  ContactRuleOptions options;
+  options.min_gap = 0.01;
+  options.roundoff = 1e-13;
+  ContactRules rules(patch, std::move(in_conflict), options);
+  const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
+  std::vector<ContactRule> found;
+  rules.gather(patch.x, 1, anywhere_within(std::vector<double>(6, 1)), moves, found);
+  for (const ContactRule& rule : found) {
+    if (rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}}) return rule;
+  }
+  ADD_FAILURE() << "the vertex over the face has no rule";
+  return {};
+}
+
+TEST(ContactRules, AGapOnceWideEnoughNeverMayShrinkBelowTheWantedOne) {
+  const ContactRule rule = rule_of_vertex_0(face_over_face(0.015, 0.5), {0, 0});
+  EXPECT_FALSE(rule.closed);
+  EXPECT_EQ(rule.stencil.separation, 0.01);
+}
+
+TEST(ContactRules, AClosedGapMayNotCloseFartherThanHalf) {
+  const ContactRule rule = rule_of_vertex_0(face_over_face(0.004, 0.5), {0, 0});
+  EXPECT_TRUE(rule.closed);
+  EXPECT_DOUBLE_EQ(rule.stencil.separation, 0.002);
+}
+
+TEST(ContactRules, TheBarrierLeavesARestShapeWithoutConflictAlone) {
+  const ContactRule thin = rule_of_vertex_0(face_over_face(0.2, 0.2), {0, 0});
+  EXPECT_DOUBLE_EQ(thin.reach, 0.1);
+  EXPECT_DOUBLE_EQ(thin.rest_distance, 0.2);
+  const ContactRule thinner = rule_of_vertex_0(face_over_face(0.2, 0.001), {0, 0});
+  EXPECT_DOUBLE_EQ(thinner.reach, 0.03);  // the wanted gap comes first
+  const ContactRule crossing = rule_of_vertex_0(face_over_face(0.2, 0.001), {1, 1});
+  EXPECT_TRUE(std::isinf(crossing.reach));
+}
+
+/// Two faces over the edge (0, 1); vertex 3 folded back over the first, `height` above it at rest.
+Patch folded_pair(double height) {
+  Patch patch;
+  patch.free_count = 4;
+  patch.active_count = 2;
+  patch.triangles = {{0, 1, 2}, {1, 0, 3}};
+  patch.x.resize(3, 4);
+  patch.x << 0, 1, 0.5, 0.5,  //
+      0, 0, 1, 0.5,           //
+      0, 0, 0, 0.2;
+  patch.rest = patch.x;
+  patch.rest(2, 3) = height;
+  patch.edge_length = 1;
+  return patch;
+}
+
+std::vector<ContactRule> rules_of(const Patch& patch, std::vector<std::uint8_t> in_conflict) {
+  ContactRuleOptions options;
+  options.min_gap = 0.01;
+  options.roundoff = 1e-13;
+  ContactRules rules(patch, std::move(in_conflict), options);
+  std::vector<ContactRule> found;
+  rules.gather(patch.x, 1, anywhere_within(std::vector<double>(4, 1)), std::vector<std::uint8_t>(4, 1), found);
+  std::erase_if(found, [](const ContactRule& rule) { return rule.stencil.stencil.kind != StencilKind::vertex_face; });
+  return found;
+}
+
+TEST(ContactRules, NeighboursKeepAShareOfTheirRestDistance) {
+  const std::vector<ContactRule> rules = rules_of(folded_pair(0.004), {0, 0});
+  ASSERT_EQ(rules.size(), 2u);
+  for (const ContactRule& rule : rules) {
+    EXPECT_LE(rule.stencil.separation, 0.01);
+    EXPECT_DOUBLE_EQ(rule.reach, 0.5 * rule.rest_distance);
+    if (rule.stencil.stencil.v[0] == 3) {
+      EXPECT_NEAR(rule.stencil.separation, 0.001, 1e-12);
+    }
+  }
+}
+
+TEST(ContactRules, FlatFoldsWantAGapOnlyWhereTheyAreInConflict) {
+  for (const ContactRule& rule : rules_of(folded_pair(0), {1, 1})) EXPECT_GT(rule.stencil.separation, 0.009);
+  // Without an intersection at rest (zero-area faces) a distance of zero is legitimate: no rule.
+  for (const ContactRule& rule : rules_of(folded_pair(0), {0, 0})) EXPECT_NE(rule.stencil.stencil.v[0], 3);
+}
+
+TEST(ContactRules, ListWhatMayComeNearByMovingAsFarAsAllowed) {
+  // Vertex 0 is 0.2 over the face, as at rest: its reach is 0.1, so that with the face it must approach by 0.1.
+  const Patch patch = face_over_face(0.2, 0.2);
+  const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
+  const auto is_listed = [&](double room) {
+    ContactRuleOptions options;
+    options.min_gap = 0.01;
+    ContactRules rules(patch, {0, 0}, options);
+    std::vector<ContactRule> found;
+    rules.gather(patch.x, 1, anywhere_within({room, 0, 0, 0, 0, 0}), moves, found);
+    return std::any_of(found.begin(), found.end(), [](const ContactRule& rule) {
+      return rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}};
+    });
+  };
+  EXPECT_FALSE(is_listed(0));
+  EXPECT_FALSE(is_listed(0.09));
+  EXPECT_TRUE(is_listed(0.11));
+}
+
+TEST(ContactRules, AroundAVertexJudgeClosedWhereItIsNow) {
+  // Vertex 0 started 0.2 over the face, whose bounds begin 0.195 below where it is now.
+  Patch patch = face_over_face(0.2, 0.5);
+  ContactRuleOptions options;
+  options.min_gap = 0.01;
+  options.roundoff = 1e-13;
+  ContactRules rules(patch, {0, 0}, options);
+  const std::vector<std::uint8_t> moves(6, 1);
+  MotionBounds bounds = anywhere_within(std::vector<double>(6, 0.2));
+  std::vector<ContactRule> found;
+  const Positions from = patch.x;
+  rules.gather(from, 0.1, bounds, moves, found);
+  const std::size_t count = found.size();
+  for (Index v : {3, 4, 5}) patch.x(2, v) += 0.195;
+  rules.gather_around(std::vector<Index>{0}, from, patch.x, 0.1, bounds, found);
+  EXPECT_EQ(found.size(), count);
+  const auto over_face = std::find_if(found.begin(), found.end(), [](const ContactRule& rule) {
+    return rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}};
+  });
+  ASSERT_NE(over_face, found.end());
+  EXPECT_NEAR(over_face->distance, 0.2, 1e-12);
+  EXPECT_TRUE(over_face->closed);
+  EXPECT_NEAR(over_face->stencil.separation, 0.0025, 1e-12);
+  // Where nothing may come any more there is no rule either.
+  for (Index v = 0; v < 6; ++v) bounds.around[v] = 0;
+  rules.gather_around(std::vector<Index>{0, 1, 2, 3, 4, 5}, from, from, 0.1, bounds, found);
+  EXPECT_TRUE(found.empty());
+}
+
+TEST(ContactRules, FacesGuardTheirOwnAltitudes) {
+  Patch patch = face_over_face(3, 3);
+  patch.x.col(0) = 0.5 * (patch.x.col(1) + patch.x.col(2)) + Vec3(0, 0, 0.02);  // squeezed
+  ContactRules rules(patch, {0, 0}, {});
+  const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
+  std::vector<ContactRule> found;
+  rules.gather(patch.x, 0.01, anywhere_within(std::vector<double>(6, 0)), moves, found);
+  int altitudes = 0;
+  for (const ContactRule& rule : found) altitudes += rule.own_altitude;
+  EXPECT_GE(altitudes, 1);
+}
+
+}  // namespace
+}  // namespace unsnarl

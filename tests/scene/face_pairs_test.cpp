@@ -1,0 +1,53 @@
+#include "scene/face_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include "unsnarl/certify.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr FindOptions both = {.both_diagonals = true};
+
+/// A saddle whose diagonals pass each other at a distance of 1, and an upright face that ends between them.
+Surface saddle_and_blade() {
+  return {
+      {0, 0, 0, 4, 0, 1, 4, 4, 0, 0, 4, 1, 1.9, 2.1, 0.6, 2.2, 1.9, 0.5, 2, 2, 3}, {0, 1, 2, 3, 4, 5, 6}, {0, 4, 7}};
+}
+
+TEST(FacePairs, the_other_diagonal_of_a_quad_counts_where_asked_for) {
+  const Surface surface = saddle_and_blade();
+  EXPECT_TRUE(find_intersections(surface).empty());
+  EXPECT_EQ(find_intersections(surface, both), (std::vector<IntersectingPair>{{0, 1, PairClass::disjoint}}));
+  EXPECT_FALSE(certify(surface, surface.positions, both).embedded());
+}
+
+TEST(FacePairs, flat_and_concave_quads_are_no_trouble) {
+  // Two flat quads side by side, and one whose other diagonal lies outside.
+  const Surface surface = {
+      {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0, 9, 0, 0, 11, 0, 0, 9.3, 0.3, 0, 9, 2, 0},
+      {0, 1, 2, 3, 1, 4, 5, 2, 6, 7, 8, 9},
+      {0, 4, 8, 12}};
+  EXPECT_TRUE(find_intersections(surface, both).empty());
+  RepairOptions options;
+  options.find = both;
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::embedded);
+  EXPECT_TRUE(result.positions == surface.positions);
+}
+
+TEST(FacePairs, repair_holds_for_either_diagonal) {
+  const Surface surface = saddle_and_blade();
+  RepairOptions options;
+  options.find = both;
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
+  EXPECT_EQ(result.report.before.total(), 1u);
+  EXPECT_EQ(find_intersections({result.positions, surface.corners, surface.offsets}, both).size(), 0u);
+  // Nobody asked: it is embedded as it is cut.
+  EXPECT_TRUE(repair(surface).positions == surface.positions);
+}
+
+}  // namespace
+}  // namespace unsnarl
