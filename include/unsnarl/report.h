@@ -57,6 +57,12 @@ struct RegionReport {
   std::size_t pairs = 0;  ///< intersecting pairs it started with
   int iterations = 0;
   double seconds = 0;
+  /// Depth of the tangle: how far the separation that was found moved a vertex, at most / bounding-box diagonal.
+  double depth_rel = 0;
+  /// How far one of its vertices is from rest after the recovery, at most / bounding-box diagonal, and which vertex of
+  /// the input that is; -1: none moved.
+  double displacement_rel = 0;
+  std::int32_t farthest_vertex = -1;
 };
 
 /// A component with self-intersections of its own, before or after.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "mesh/areas.h"
-#include "pipeline/closer_ways.h"
 #include "pipeline/gap.h"
 #include "pipeline/restore_to_rest.h"
 #include "recover/recover.h"
@@ -13,6 +12,7 @@
 #include "scene/rounding.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/local_solver.h"
+#include "untangle/strategies.h"
 #include "untangle/untangle_whole.h"
 
 namespace unsnarl {
@@ -43,62 +43,54 @@ bool SceneRepair::has_work(Finders& finders) const {
 
 void SceneRepair::work(Finders& finders) {
   const Checkpoint start = checkpoint();
-  const bool starts_at_rest = std::exchange(is_at_rest_, false);
-  const Rounds rounds = work_in_rounds(finders, starts_at_rest);
+  const Rounds rounds = work_in_rounds(finders);
   if (rounds.resolved || !rounds.before_rounding || !may_give_up_float32()) return;
   float32_ = false;
   if (!rounds.some_are_stuck && !job_.limits.reached()) {
     restore(start);
-    if (work_in_rounds(finders, starts_at_rest).resolved) return;
+    if (work_in_rounds(finders).resolved) return;
   }
   restore(*rounds.before_rounding);
   scene_.x = as_written(scene_.x);
 }
 
-SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders, bool starts_at_rest) {
+SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders) {
   Rounds result;
   SceneIndex index(scene_, finders.as_is);
   const std::vector<IntersectingPair> ignored = ignored_;
   std::vector<std::uint8_t> is_stuck(job_.diagnosis.components.count(), 0);
   for (int round = 0; round < rounding_rounds && !job_.limits.reached(); ++round) {
     job_.phases.start("untangle");
-    LadderOptions ladder = ladder_options();
-    if (round > 0) {
-      // What rounding brought comes apart only where it is given room for it; else there is float64.
-      ladder.min_gap = [this](std::span<const Index> vertices) { return wanted_gap(vertices); };
-      if (may_give_up_float32()) ladder.strategies = LadderOptions::Strategies::gentle;
-    }
-    LadderResult climbed = untangle(index, ignored_, ladder);
-    if (ladder.strategies == LadderOptions::Strategies::gentle && !climbed.left.empty()) break;
+    EscalationOptions escalation = escalation_options();
+    // What rounding brought comes apart only where it is given room for it; else there is float64.
+    const bool may_fail = round > 0 && may_give_up_float32();
+    if (round > 0) escalation.min_gap = [this](std::span<const Index> vertices) { return wanted_gap(vertices); };
+    if (may_fail) escalation.tiers = local_tiers();
+    EscalationResult untangled = untangle(index, ignored_, escalation);
+    if (may_fail && !untangled.left.empty()) break;
     if (job_.options.recover) {
       job_.phases.start("recover");
-      report_progress(0.7, climbed.left.size());
-      smallest_gap_ = std::min(smallest_gap_, recover(merge_overlapping(climbed.moved, scene_.vertex_count()), index));
-      if (starts_at_rest && round == 0 && !job_.options.paper) {
-        ladder.strategies = LadderOptions::Strategies::second_way;
-        ladder.tried = nullptr;
-        const SecondWay way = {[&](auto known) { return untangle(index, known, ladder); },
-                               [&](const auto& regions) { return recover(regions, index); }, job_.limits.stopper()};
-        smallest_gap_ =
-            std::min(smallest_gap_, take_closer_ways(scene_, index, climbed, pairs_, ignored_, way, job_.recorder));
-      }
+      report_progress(0.7, untangled.left.size());
+      smallest_gap_ =
+          std::min(smallest_gap_, recover(merge_overlapping(untangled.moved, scene_.vertex_count()), index));
     }
-    job_.regions.insert(job_.regions.end(), climbed.regions.begin(), climbed.regions.end());
-    moved_.insert(moved_.end(), climbed.moved.begin(), climbed.moved.end());
+    measure_regions(untangled);
+    job_.regions.insert(job_.regions.end(), untangled.regions.begin(), untangled.regions.end());
+    moved_.insert(moved_.end(), untangled.moved.begin(), untangled.moved.end());
     job_.phases.start("certify");
-    report_progress(0.9, climbed.left.size());
+    report_progress(0.9, untangled.left.size());
     for (Index v = 0; v < scene_.vertex_count(); ++v)
       if (!scene_.triangles_of_vertex[v].empty()) job_.tried.solved.col(v) = scene_.x.col(v);
     result.before_rounding = checkpoint();
-    result.some_are_stuck |= !climbed.left.empty();
+    result.some_are_stuck |= !untangled.left.empty();
     scene_.x = as_written(scene_.x);
     // Components on which pairs are left are let be, and the others go on without them.
-    for (const IntersectingPair& pair : climbed.left)
+    for (const IntersectingPair& pair : untangled.left)
       is_stuck[component_of(pair.a)] = is_stuck[component_of(pair.b)] = 1;
     const auto goes_on = [&](const IntersectingPair& pair) {
       return !is_stuck[component_of(pair.a)] && !is_stuck[component_of(pair.b)];
     };
-    if (!climbed.left.empty()) {
+    if (!untangled.left.empty()) {
       std::vector<IntersectingPair> left = blocking_pairs(finders.as_is.find(scene_.x), ignored_);
       std::erase_if(left, goes_on);
       ignored_.insert(ignored_.end(), left.begin(), left.end());
@@ -118,24 +110,39 @@ SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders, bool starts_at
   return result;
 }
 
-LadderOptions SceneRepair::ladder_options() {
-  LadderOptions ladder;
-  ladder.stop = job_.limits.stopper();
-  ladder.recorder = &job_.recorder;
-  ladder.first_region = job_.regions.size();
-  ladder.tried = &job_.tried;
-  if (job_.options.max_displacement_rel > 0) ladder.accept = [this](Patch& patch) { return stays_near(patch); };
-  ladder.on_progress = [this](std::size_t left) {
+EscalationOptions SceneRepair::escalation_options() {
+  EscalationOptions escalation;
+  escalation.tiers = default_tiers();
+  escalation.stop = job_.limits.stopper();
+  escalation.recorder = &job_.recorder;
+  escalation.first_region = job_.regions.size();
+  escalation.attempts = &job_.tried;
+  if (job_.options.max_displacement_rel > 0) escalation.accept = [this](Patch& patch) { return stays_near(patch); };
+  escalation.on_progress = [this](std::size_t left) {
     const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
     report_progress(0.7 * (1 - std::min(1.0, static_cast<double>(left) / all)), left);
   };
-  return ladder;
+  return escalation;
 }
 
-LadderResult SceneRepair::untangle(SceneIndex& index, std::span<const IntersectingPair> ignored,
-                                   const LadderOptions& ladder) {
-  return job_.options.paper ? untangle_whole(scene_, index, pairs_.size(), ignored, ladder)
-                            : climb_ladder(scene_, index, ignored, ladder);
+EscalationResult SceneRepair::untangle(SceneIndex& index, std::span<const IntersectingPair> ignored,
+                                       const EscalationOptions& escalation) {
+  return job_.options.paper ? untangle_whole(scene_, index, pairs_.size(), ignored, escalation)
+                            : escalate(scene_, index, ignored, escalation);
+}
+
+void SceneRepair::measure_regions(EscalationResult& untangled) const {
+  if (!(job_.diagonal > 0)) return;
+  for (std::size_t k = 0; k < untangled.moved.size(); ++k) {
+    RegionReport& region = untangled.regions[k];
+    region.depth_rel = untangled.depths[k] / job_.diagonal;
+    for (Index v : untangled.moved[k]) {
+      const double displacement_rel = (scene_.x.col(v) - scene_.rest.col(v)).norm() / job_.diagonal;
+      if (!(displacement_rel > region.displacement_rel)) continue;
+      region.displacement_rel = displacement_rel;
+      region.farthest_vertex = job_.prepared.weld_map.first[v];
+    }
+  }
 }
 
 double SceneRepair::recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index) {

@@ -12,7 +12,7 @@
 #include "scene/patch.h"
 #include "scene/scene.h"
 #include "scene/scene_index.h"
-#include "untangle/ladder.h"
+#include "untangle/escalation.h"
 
 namespace unsnarl {
 
@@ -66,7 +66,7 @@ class SceneRepair {
     bool some_are_stuck = false;                // no strategy resolves some component
     std::optional<Checkpoint> before_rounding;  // the last state without pairs, but of what is stuck
   };
-  Rounds work_in_rounds(Finders& finders, bool starts_at_rest);
+  Rounds work_in_rounds(Finders& finders);
 
   bool chooses_float32() const;
   bool may_give_up_float32() const { return float32_ && !job_.options.precision; }
@@ -77,8 +77,11 @@ class SceneRepair {
   bool can_be_parted(const IntersectingPair& pair) const;
   Index component_of(Index t) const { return job_.diagnosis.components.component_of_vertex[scene_.triangles[t][0]]; }
 
-  LadderOptions ladder_options();
-  LadderResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored, const LadderOptions& ladder);
+  EscalationOptions escalation_options();
+  EscalationResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored,
+                            const EscalationOptions& escalation);
+  /// Says of each region how deep it was and how far it went.
+  void measure_regions(EscalationResult& untangled) const;
   double recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index);
   bool stays_near(Patch& patch);
   void report_progress(double fraction, std::size_t pairs_left);
@@ -86,7 +89,6 @@ class SceneRepair {
   const Job& job_;
   Scene scene_;
   std::vector<IntersectingPair> pairs_, ignored_;
-  bool is_at_rest_ = true;  // so that pairs_ are those of the scene
   bool float32_;
   std::vector<std::vector<Index>> moved_;  // what regions freed
   double smallest_gap_ = std::numeric_limits<double>::infinity();

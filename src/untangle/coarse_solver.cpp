@@ -10,15 +10,12 @@
 #include "scene/trajectory.h"
 #include "untangle/coarse_scene.h"
 #include "untangle/conflict_regions.h"
-#include "untangle/ladder.h"
+#include "untangle/escalation.h"
 #include "untangle/local_solver.h"
+#include "untangle/strategies.h"
 
 namespace unsnarl {
 namespace {
-
-/// Share of the pairs of the coarse mesh that may be left without trying wild strategies: the fine mesh resolves them.
-/// With 0: twice the time, the same result.
-constexpr double good_enough = 0.05;
 
 /// h of the fine mesh: the gap that is kept on the coarse one, so that what it carries does not overlap. On two bodies
 /// with 910 and 722 pairs 428 and 53 are left with 0, 60 and 0 with this; with 0.2 the recovery takes four times as
@@ -41,11 +38,10 @@ int untangle_and_recover(Scene& scene, double min_gap, const std::function<bool(
   SceneIndex index(scene);
   const std::vector<IntersectingPair> pairs = index.find_pairs();
   const std::vector<IntersectingPair> fixed = fixed_pairs(scene, pairs);
-  LadderOptions ladder;
-  ladder.stop = stop;
-  ladder.strategies = LadderOptions::Strategies::of_coarser_mesh;
-  ladder.good_enough = static_cast<std::size_t>(good_enough * static_cast<double>(pairs.size() - fixed.size()));
-  const LadderResult climbed = climb_ladder(scene, index, fixed, ladder);
+  EscalationOptions escalation;
+  escalation.tiers = coarse_mesh_tiers();
+  escalation.stop = stop;
+  const EscalationResult climbed = escalate(scene, index, fixed, escalation);
   RecoverRegionsOptions recovery;
   recovery.min_gap = [&](std::span<const Index>) { return min_gap; };
   recovery.stop = stop ? stop : [] { return false; };

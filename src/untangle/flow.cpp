@@ -28,7 +28,7 @@ namespace {
 // A ladder of restarts solved 49 of 50 tuning meshes and 16 of 18 others; one run with shrinking locality only 33
 // of 50. The last three are for deep immersions: figure-8 torus 8 % mean displacement in 50 iterations, spindle torus
 // 10 % in 27, Whitney umbrella 16 % in 70. Weaker Gaussian weights (1 instead of 3) leave the first two half done.
-constexpr std::array<FlowRung, 9> strategies{{
+constexpr std::array<FlowSettings, 9> strategies{{
     {.name = "flow -1",
      .max_iterations = 40,
      .locality = 1000,
@@ -161,7 +161,7 @@ class LaplacianMetric {
 /// The shape-level term: which clusters repel, how far, and the force on the vertices.
 class ShapeRepulsion {
  public:
-  ShapeRepulsion(const Patch& patch, const FlowRung& strategy, const FlowOptions& options, double spacing)
+  ShapeRepulsion(const Patch& patch, const FlowSettings& strategy, const FlowOptions& options, double spacing)
       : patch_(patch),
         strategy_(strategy),
         options_(options),
@@ -239,7 +239,7 @@ class ShapeRepulsion {
   }
 
   const Patch& patch_;
-  const FlowRung& strategy_;
+  const FlowSettings& strategy_;
   const FlowOptions& options_;
   FlowSamples samples_;
   GaussianContact<3> gaussian_;
@@ -248,7 +248,7 @@ class ShapeRepulsion {
 
 class Flow {
  public:
-  Flow(Patch& patch, const FlowRung& strategy, const std::function<bool()>& stop,
+  Flow(Patch& patch, const FlowSettings& strategy, const std::function<bool()>& stop,
        std::span<const IntersectingPair> tolerated, const FlowOptions& options)
       : patch_(patch),
         strategy_(strategy),
@@ -344,7 +344,7 @@ class Flow {
     full_ = best_ = patch_.x;
     // Recovery does not get far from faces squeezed to slivers: they are the answer only where nothing better comes.
     for (const auto& [step_rel, locality_rel] : options_.recession_strides) {
-      const LocalStrategy contour{LocalMethod::contour, std::max(options_.finish_step, step_rel * diagonal_ / h_),
+      const LocalSettings contour{LocalMethod::contour, std::max(options_.finish_step, step_rel * diagonal_ / h_),
                                   std::max(4.0, locality_rel * diagonal_ / h_), options_.recession_iterations};
       for (const double share : options_.recession_shares) {
         if (stop_ && stop_()) break;
@@ -450,13 +450,13 @@ class Flow {
   bool finish(Positions& x) {
     finish_tried_ = find(x).size();
     for (const double locality : options_.finish_localities) {
-      const LocalStrategy strategy{LocalMethod::contour, options_.finish_step, locality, options_.finish_iterations};
+      const LocalSettings strategy{LocalMethod::contour, options_.finish_step, locality, options_.finish_iterations};
       if (solve_contours(x, strategy, 0, nullptr)) return true;
     }
     return false;
   }
 
-  bool solve_contours(Positions& x, const LocalStrategy& strategy, double jitter, int* iterations) {
+  bool solve_contours(Positions& x, const LocalSettings& strategy, double jitter, int* iterations) {
     std::vector<IntersectingPair> ignored(tolerated_.begin(), tolerated_.end());
     for (const IntersectingPair& pair : blocking_pairs(finder_.find(x), tolerated_)) {
       if (pair.kind == PairClass::duplicate) ignored.push_back(pair);
@@ -510,7 +510,7 @@ class Flow {
   }
 
   Patch& patch_;
-  const FlowRung& strategy_;
+  const FlowSettings& strategy_;
   const std::function<bool()>& stop_;
   std::span<const IntersectingPair> tolerated_;
   const FlowOptions& options_;
@@ -539,11 +539,11 @@ class Flow {
 
 }  // namespace
 
-std::span<const FlowRung> default_flow_strategies() {
+std::span<const FlowSettings> flow_variants() {
   return strategies;
 }
 
-FlowResult flow(Patch& patch, const FlowRung& strategy, const std::function<bool()>& stop,
+FlowResult flow(Patch& patch, const FlowSettings& strategy, const std::function<bool()>& stop,
                 std::span<const IntersectingPair> tolerated, const FlowOptions& options) {
   return Flow(patch, strategy, stop, tolerated, options).run();
 }

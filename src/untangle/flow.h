@@ -22,7 +22,7 @@ enum class FlowWeights {
 /// by L-BFGS in the metric 2 lambda_arap (L + locality A/S): L the Laplacian of ARAP's weights, A/S the vertices'
 /// shares of the area. (Trefoil tube: 226 pairs left after 299 iterations in the plain metric, none after 9 in this
 /// one.)
-struct FlowRung {
+struct FlowSettings {
   std::string_view name;
   int max_iterations = 200;
   /// Large: forces stay local; 1: they move whole limbs.
@@ -97,7 +97,7 @@ struct FlowOptions {
 };
 
 /// The ladder of the default configuration, gentlest first; every strategy restarts from rest.
-std::span<const FlowRung> default_flow_strategies();
+std::span<const FlowSettings> flow_variants();
 
 struct FlowResult {
   bool clean = false;  ///< no active triangle intersects another (but for the tolerated pairs), none is squeezed
@@ -110,7 +110,7 @@ struct FlowResult {
 /// the active triangles. Fixed vertices and obstacles repel but stand still. Pairs of faces on the same three vertices
 /// and `tolerated` pairs (sorted, of patch triangles) are let be. Where it fails, patch.x is the state with the fewest
 /// pairs. `stop` is asked once an iteration; true ends the flow as a failure.
-FlowResult flow(Patch& patch, const FlowRung& strategy, const std::function<bool()>& stop = {},
+FlowResult flow(Patch& patch, const FlowSettings& strategy, const std::function<bool()>& stop = {},
                 std::span<const IntersectingPair> tolerated = {}, const FlowOptions& options = {});
 
 }  // namespace unsnarl

@@ -230,7 +230,7 @@ void shrink_displacement(Patch& patch, const Positions& start, int bisections,
   }
 }
 
-LocalResult solve_locally(Patch& patch, const LocalStrategy& strategy, std::span<const IntersectingPair> tolerated,
+LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span<const IntersectingPair> tolerated,
                           const LocalOptions& options, const std::function<bool()>& stop) {
   LocalResult result;
   const Index n = patch.free_count;

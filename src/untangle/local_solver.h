@@ -17,7 +17,7 @@ enum class LocalMethod {
 };
 
 /// One way to untangle a small patch. Lengths in units of the patch's h.
-struct LocalStrategy {
+struct LocalSettings {
   LocalMethod method;
   double step;         ///< largest vertex motion of an iteration, h
   double locality;     ///< range of the direction's smoothing, h
@@ -69,7 +69,7 @@ struct LocalResult {
 /// Tries to move the patch's free vertices, from patch.x on, until no active triangle intersects another, except in the
 /// `tolerated` pairs (of patch triangles, sorted): those of other regions nearby. Where it
 /// fails, patch.x is the state with the fewest pairs.
-LocalResult solve_locally(Patch& patch, const LocalStrategy& strategy, std::span<const IntersectingPair> tolerated = {},
+LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span<const IntersectingPair> tolerated = {},
                           const LocalOptions& options = {}, const std::function<bool()>& stop = {});
 
 /// Unit-free pseudo-random number in [-1, 1], the same everywhere, for vertex `v`, coordinate `k`.

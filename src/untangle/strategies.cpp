@@ -1,116 +1,140 @@
 #include "untangle/strategies.h"
 
-#include <algorithm>
-#include <array>
+#include <utility>
 #include <vector>
+
+#include "untangle/coarse_solver.h"
+#include "untangle/flow.h"
+#include "untangle/local_solver.h"
+#include "untangle/placement.h"
 
 namespace unsnarl {
 namespace {
 
-/// Gentle strategies hold vertices with more neighbours than this. The needles of a CAD export met at two of 1900.
+/// Neighbours beyond which the first strategies hold a vertex. The needles of a CAD export met at two of 1900.
 constexpr std::size_t hub_valence = 100;
 
-/// Regions at least so deep, in edges, are untangled on a coarser mesh where gentle strategies fail, without shortening
-/// curves on the fine one (that took fine bodies up to 60 % longer, and brought one of all closer) ...
+/// Edges: tangles at least so deep go by a coarse mesh where local strategies fail ...
 constexpr int deep = 10;
-/// ... and so deep before these. (A curled body, 27 deep: gentle strategies end 20 % closer, with 2 turned faces,
-/// not 39. Every face cut in four, 54 deep: with the coarser mesh first it ends a quarter closer. Measured when
-/// recovery still put turned faces back, not since.)
+/// ... and so deep before these.
 constexpr int very_deep = 32;
 
-constexpr LocalStrategy shallow = {LocalMethod::shallow, 0.1, 1, 20};
-constexpr LocalStrategy contour = {LocalMethod::contour, 0.1, 2, 60};
-constexpr LocalStrategy long_contour = {LocalMethod::contour, 0.3, 4, 60};
-constexpr LocalStrategy shorten = {LocalMethod::shorten, 0.1, 2, 60};
-constexpr LocalStrategy long_shorten = {LocalMethod::shorten, 0.3, 4, 60};
-constexpr LocalStrategy smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
-constexpr LocalStrategy wide_smoothing = {LocalMethod::smoothing, 0.1, 5, 100};
+Strategy local(std::string name, int rings, LocalSettings settings, std::size_t hubs = no_hubs) {
+  const auto solve = [settings](Patch& patch, const Task& task) {
+    LocalOptions options;
+    options.few_enough = task.few_enough;
+    options.min_gap = task.min_gap;
+    // What is inside out has to flip, and what surrounds it may have to: then nothing is kept.
+    switch (settings.method) {
+      case LocalMethod::shallow: options.sides = KeepSides::yes; break;  // wider strategies may still keep them
+      case LocalMethod::contour:
+      case LocalMethod::shorten: options.sides = KeepSides::at_first; break;
+      case LocalMethod::smoothing: break;  // it rounds off whatever there is
+    }
+    return solve_locally(patch, settings, task.tolerated, options, task.stop).iterations;
+  };
+  return {.name = std::move(name), .rings = rings, .hub_valence = hubs, .solve = solve};
+}
 
-constexpr Strategy coarser(int least_depth) {
-  return {"coarser", by_depth, nullptr, nullptr, no_hubs, least_depth};
+Strategy flow_of(std::string name, Extent extent, int rings, const FlowSettings& settings) {
+  const auto solve = [&settings](Patch& patch, const Task& task) {
+    Positions rest = patch.x;  // it starts from, and is elastic about, where the region is now
+    rest.swap(patch.rest);
+    const int iterations = flow(patch, settings, task.stop, task.tolerated).iterations;
+    rest.swap(patch.rest);
+    return iterations;
+  };
+  return {.name = std::move(name), .extent = extent, .rings = rings, .reach = 20, .solve = solve};
+}
+
+Strategy coarse(int least_depth) {
+  const auto solve = [](Patch& patch, const Task& task) {
+    return solve_on_coarser_mesh(patch, task.tolerated, task.stop).iterations;
+  };
+  return {.name = "coarser", .extent = Extent::depth, .reach = 20, .least_depth = least_depth, .solve = solve};
+}
+
+Strategy placing() {
+  const auto solve = [](Patch& patch, const Task& task) { return place(patch, task.tolerated, {}, task.stop); };
+  return {.name = "placement", .extent = Extent::tied_components, .reach = 20, .solve = solve};
+}
+
+const LocalSettings contour = {LocalMethod::contour, 0.1, 2, 60};
+
+/// What moves hardly more than the overlap.
+Tier shallow_tier() {
+  return {local("shallow-0", 0, {LocalMethod::shallow, 0.1, 1, 20}, hub_valence),
+          local("contour-2", 2, contour, hub_valence), local("contour-4", 4, contour, hub_valence)};
+}
+
+/// Layers that are hemmed in from both sides come apart crossing by crossing. Few rings: with 4 and 8, 2 and 6, or 8
+/// and 16 what contours leave of twelve meshes moves 13 to 19 % farther.
+Tier layers_tier() {
+  return {local("contour-8", 8, {LocalMethod::contour, 0.3, 4, 60}),
+          local("shorten-2", 2, {LocalMethod::shorten, 0.1, 2, 60}),
+          local("shorten-4", 4, {LocalMethod::shorten, 0.3, 4, 60})};
+}
+
+Tier smoothing_tier() {
+  return {
+      local("smoothing-4", 4, {LocalMethod::smoothing, 0.1, 3, 60}),
+      local("smoothing-8", 8, {LocalMethod::smoothing, 0.1, 5, 100}),
+      local("fill-8", 8, {LocalMethod::smoothing, 0.1, 12, 100}),
+      local("fill-16", 16, {LocalMethod::smoothing, 0.1, 24, 100}),
+  };
+}
+
+const FlowSettings& flow_named(std::string_view name) {
+  for (const FlowSettings& settings : flow_variants())
+    if (settings.name == name) return settings;
+  return flow_variants().front();
+}
+
+Tier regional_flow_tier() {
+  const FlowSettings& settings = flow_named("flow 1b");
+  return {flow_of("flow-8", Extent::rings, 8, settings), flow_of("flow-16", Extent::rings, 16, settings)};
+}
+
+Tier whole_component_tier() {
+  Tier tier;
+  for (const FlowSettings& settings : flow_variants())
+    if (settings.line_search)
+      tier.push_back(flow_of(std::string(settings.name), Extent::whole_components, 0, settings));
+  return tier;
 }
 
 }  // namespace
 
-std::span<const Strategy> gentle_strategies() {
-  static const std::array<Strategy, 6> strategies = {{
-      {"shallow-0", 0, &shallow, nullptr, hub_valence},
-      {"contour-2", 2, &contour, nullptr, hub_valence},
-      {"contour-4", 4, &contour, nullptr, hub_valence},
-      {"contour-8", 8, &long_contour, nullptr},
-      // Few rings: with 4 and 8, 2 and 6, or 8 and 16 what contours leave of twelve meshes moves 13 to 19 % farther
-      // (measured at any depth).
-      {"shorten-2", 2, &shorten, nullptr, no_hubs, 0, deep},
-      {"shorten-4", 4, &long_shorten, nullptr, no_hubs, 0, deep},
-  }};
-  return strategies;
+std::span<const Tier> default_tiers() {
+  static const std::vector<Tier> tiers = {{coarse(very_deep)},  shallow_tier(),        {placing()},
+                                          layers_tier(),        {coarse(deep)},        smoothing_tier(),
+                                          regional_flow_tier(), whole_component_tier()};
+  return tiers;
 }
 
-std::span<const Strategy> wild_strategies() {
-  static const FlowRung& flow = *std::find_if(default_flow_strategies().begin(), default_flow_strategies().end(),
-                                              [](const FlowRung& strategy) { return strategy.name == "flow 1b"; });
-  static const std::array<Strategy, 6> strategies = {{
-      coarser(deep),
-      {"smoothing-4", 4, &smoothing, nullptr},
-      {"flow-8", 8, nullptr, &flow},
-      {"smoothing-8", 8, &wide_smoothing, nullptr},
-      {"flow-16", 16, nullptr, &flow},
-      // Of what a coarser mesh had left, 32 pairs: in 0.1 s, where flows of the component kept 103 after 70 s. (With
-      // 8 rings they are left here too.)
-      {"coarser-16", 16, nullptr, nullptr},
-  }};
-  return strategies;
+std::span<const Tier> local_tiers() {
+  static const std::vector<Tier> tiers = {shallow_tier(), layers_tier()};
+  return tiers;
 }
 
-std::span<const Strategy> wild_strategies_of_coarser_mesh() {
-  const std::span<const Strategy> all = wild_strategies();
-  const auto is_left_out = [](const Strategy& strategy) {
-    return strategy.is_on_coarser_mesh() && strategy.rings != by_depth;
-  };
-  return {all.begin(), std::find_if(all.begin(), all.end(), is_left_out)};
-}
-
-std::span<const Strategy> whole_component_strategies() {
-  static const std::vector<Strategy> strategies = [] {
-    std::vector<Strategy> all;
-    for (const FlowRung& flow : default_flow_strategies())
-      if (flow.line_search) all.push_back({flow.name, whole_component, nullptr, &flow});
-    return all;
-  }();
-  return strategies;
-}
-
-std::span<const Strategy> coarser_first() {
-  static constexpr std::array<Strategy, 1> strategies = {coarser(very_deep)};
-  return strategies;
-}
-
-std::span<const Strategy> coarser_first_again() {
-  static constexpr std::array<Strategy, 1> strategies = {coarser(deep)};
-  return strategies;
-}
-
-std::span<const Strategy> second_way_strategies() {
-  return whole_component_strategies().first(2);
-}
-
-bool frees_whole_components(std::string_view strategy) {
-  const std::span<const Strategy> whole = whole_component_strategies();
-  return std::any_of(whole.begin(), whole.end(), [&](const Strategy& r) { return r.name == strategy; });
+std::span<const Tier> coarse_mesh_tiers() {
+  static const std::vector<Tier> tiers = {{coarse(deep)}, shallow_tier(),   {placing()},
+                                          layers_tier(),  smoothing_tier(), regional_flow_tier()};
+  return tiers;
 }
 
 std::string_view strategy_name(int number) {
-  auto left = static_cast<std::size_t>(number);
-  for (const std::span<const Strategy> strategies : {gentle_strategies(), wild_strategies()}) {
-    if (left < strategies.size()) return strategies[left].name;
-    left -= strategies.size();
+  for (const Tier& tier : default_tiers()) {
+    if (number < static_cast<int>(tier.size())) return tier[static_cast<std::size_t>(number)].name;
+    number -= static_cast<int>(tier.size());
   }
-  return whole_component_strategies()[left].name;
+  return {};
 }
 
 int last_strategy() {
-  return static_cast<int>(gentle_strategies().size() + wild_strategies().size() + whole_component_strategies().size()) -
-         1;
+  int count = 0;
+  for (const Tier& tier : default_tiers()) count += static_cast<int>(tier.size());
+  return count - 1;
 }
 
 }  // namespace unsnarl

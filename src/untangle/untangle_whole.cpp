@@ -10,8 +10,8 @@
 
 namespace unsnarl {
 
-LadderResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
-                            std::span<const IntersectingPair> ignored, const LadderOptions& options) {
+EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
+                            std::span<const IntersectingPair> ignored, const EscalationOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   index.update();
   std::vector<Index> free;
@@ -24,9 +24,11 @@ LadderResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
     trajectory = options.recorder->new_trajectory();
     patch.trajectory = &trajectory;
   }
+  const Positions start = patch.x;
   const PaperResult untangled = paper_untangle(patch, {}, options.stop);
+  const double motion = (patch.x - start).colwise().norm().maxCoeff();
   paste_patch(patch, scene, index);
-  LadderResult result;
+  EscalationResult result;
   RegionReport report;
   report.strategy = "paper";
   report.faces = static_cast<std::size_t>(patch.active_count);
@@ -38,6 +40,7 @@ LadderResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
     options.recorder->add(std::move(trajectory), report.strategy, options.first_region, free, scene.x);
   }
   result.regions.push_back(report);
+  result.depths.push_back(motion);
   result.moved.push_back(std::move(free));
   result.left = blocking_pairs(index.find_pairs(), ignored);
   return result;

@@ -58,8 +58,8 @@ Shape octahedron() {
   return shape;
 }
 
-const FlowRung& recession_strategy() {
-  for (const FlowRung& strategy : default_flow_strategies()) {
+const FlowSettings& recession_strategy() {
+  for (const FlowSettings& strategy : flow_variants()) {
     if (strategy.recedes) return strategy;
   }
   throw std::logic_error("no strategy recedes");

@@ -134,7 +134,7 @@ std::size_t count_pairs(const Patch& patch) {
 // Climbs the ladder; the last strategy's result.
 FlowResult climb(Patch& patch) {
   FlowResult result;
-  for (const FlowRung& strategy : default_flow_strategies()) {
+  for (const FlowSettings& strategy : flow_variants()) {
     result = flow(patch, strategy);
     if (result.clean) break;
   }
@@ -176,7 +176,7 @@ TEST(Flow, OpensAFigureEightTorus) {
   Patch patch = patch_of(figure_eight_torus());
   ASSERT_GT(count_pairs(patch), 0u);
   FlowResult result;
-  for (const FlowRung& strategy : default_flow_strategies()) {
+  for (const FlowSettings& strategy : flow_variants()) {
     if (strategy.locality > 10) continue;  // too gentle for this
     result = flow(patch, strategy);
     if (result.clean) break;
@@ -188,9 +188,9 @@ TEST(Flow, OpensAFigureEightTorus) {
 
 TEST(Flow, GivesUpEarlyWhereAStrategyHasNoEffect) {
   Patch patch = patch_of(figure_eight_torus());
-  const FlowResult result = flow(patch, default_flow_strategies()[1]);
+  const FlowResult result = flow(patch, flow_variants()[1]);
   EXPECT_FALSE(result.clean);
-  EXPECT_LT(result.iterations, default_flow_strategies()[1].max_iterations);
+  EXPECT_LT(result.iterations, flow_variants()[1].max_iterations);
   EXPECT_EQ(count_pairs(patch), result.pairs_left);
 }
 
@@ -255,7 +255,7 @@ TEST(Flow, OpensFoldsAndOneVertexCrossings) {
 
 TEST(Flow, LeavesCleanInputAlone) {
   Patch patch = patch_of(sphere(Vec3(0, 0, 0), 1, 8));
-  const FlowResult result = flow(patch, default_flow_strategies()[0]);
+  const FlowResult result = flow(patch, flow_variants()[0]);
   EXPECT_TRUE(result.clean);
   EXPECT_EQ(result.iterations, 0);
   EXPECT_EQ(patch.x, patch.rest);
@@ -266,11 +266,11 @@ TEST(Flow, DuplicateFacesAndToleratedPairsAreLetBe) {
   shape.triangles.push_back({shape.triangles[5][1], shape.triangles[5][2], shape.triangles[5][0]});
   Patch patch = patch_of(shape);
   ASSERT_EQ(count_pairs(patch), 1u);
-  EXPECT_TRUE(flow(patch, default_flow_strategies()[0]).clean);
+  EXPECT_TRUE(flow(patch, flow_variants()[0]).clean);
 
   Patch tangled = patch_of(limb_and_sheet());
   const std::vector<IntersectingPair> pairs = IntersectionFinder(tangled.triangles).find(tangled.x);
-  const FlowResult result = flow(tangled, default_flow_strategies()[0], {}, pairs);
+  const FlowResult result = flow(tangled, flow_variants()[0], {}, pairs);
   EXPECT_TRUE(result.clean);
   EXPECT_EQ(tangled.x, tangled.rest);
 }
@@ -279,7 +279,7 @@ TEST(Flow, StopsWhenToldToAndKeepsTheBestState) {
   Patch patch = patch_of(figure_eight_torus());
   const std::size_t before = count_pairs(patch);
   int asked = 0;
-  const FlowResult result = flow(patch, default_flow_strategies()[2], [&] { return ++asked > 100; });
+  const FlowResult result = flow(patch, flow_variants()[2], [&] { return ++asked > 100; });
   EXPECT_FALSE(result.clean);
   EXPECT_GT(result.iterations, 0);
   EXPECT_LE(result.iterations, 100) << "it asks once an iteration at least";
@@ -293,7 +293,7 @@ TEST(Flow, GivesTheSameBytesAtAnyThreadCount) {
   for (const std::size_t threads : {1, 2, 4}) {
     const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
     Patch patch = patch_of(thick_trefoil());
-    flow(patch, default_flow_strategies()[2]);
+    flow(patch, flow_variants()[2]);
     results.push_back(patch.x);
   }
   EXPECT_EQ(results[0], results[1]);

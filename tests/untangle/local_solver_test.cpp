@@ -40,13 +40,13 @@ Patch with_held_border(const Shape& shape, Index n) {
   return patch;
 }
 
-constexpr LocalStrategy shallow = {LocalMethod::shallow, 0.1, 1, 60};
-constexpr LocalStrategy contour = {LocalMethod::contour, 0.1, 2, 60};
-constexpr LocalStrategy shorten = {LocalMethod::shorten, 0.1, 2, 60};
-constexpr LocalStrategy smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
+constexpr LocalSettings shallow = {LocalMethod::shallow, 0.1, 1, 60};
+constexpr LocalSettings contour = {LocalMethod::contour, 0.1, 2, 60};
+constexpr LocalSettings shorten = {LocalMethod::shorten, 0.1, 2, 60};
+constexpr LocalSettings smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
 
 TEST(LocalSolver, each_method_clears_a_shallow_crossing) {
-  for (const LocalStrategy& strategy : {shallow, contour, shorten, smoothing}) {
+  for (const LocalSettings& strategy : {shallow, contour, shorten, smoothing}) {
     SCOPED_TRACE(static_cast<int>(strategy.method));
     Patch patch = with_held_border(shapes::crossing_bumps(12, 0.3), 12);
     const Positions start = patch.x;

@@ -1,4 +1,4 @@
-#include "untangle/ladder.h"
+#include "untangle/escalation.h"
 
 #include <gtest/gtest.h>
 
@@ -7,24 +7,26 @@
 #include <cmath>
 
 #include "scene/shapes.h"
+#include "untangle/strategies.h"
 
 namespace unsnarl {
 namespace {
 
 using shapes::Shape;
 
-LadderResult climb(Scene& scene, std::span<const IntersectingPair> ignored, const LadderOptions& options) {
+EscalationResult untangle(Scene& scene, std::span<const IntersectingPair> ignored, EscalationOptions options) {
   SceneIndex index(scene);
-  return climb_ladder(scene, index, ignored, options);
+  if (options.tiers.empty()) options.tiers = default_tiers();
+  return escalate(scene, index, ignored, options);
 }
 
-TEST(Ladder, clears_a_crossing_and_says_how) {
+TEST(Escalation, clears_a_crossing_and_says_how) {
   const Shape shape = shapes::crossing_bumps(14, 0.3);
   Scene scene = shapes::scene_of(shape);
   std::vector<std::size_t> left;
-  LadderOptions options;
+  EscalationOptions options;
   options.on_progress = [&](std::size_t pairs) { left.push_back(pairs); };
-  const LadderResult result = climb(scene, {}, options);
+  const EscalationResult result = untangle(scene, {}, options);
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
   ASSERT_EQ(result.regions.size(), 1u);
@@ -43,21 +45,21 @@ TEST(Ladder, clears_a_crossing_and_says_how) {
   EXPECT_TRUE(scene.rest == shape.positions());
 }
 
-// Too deep for the gentle strategies: those that failed are not reported, and leave no trace.
-TEST(Ladder, a_region_climbs_until_a_strategy_resolves_it) {
+// Too deep for the first strategies: those that failed are not reported, and leave no trace.
+TEST(Escalation, a_region_escalates_until_a_strategy_resolves_it) {
   const Shape shape = shapes::crossing_bumps(14, 3.5);
   Scene scene = shapes::scene_of(shape), shallow = shapes::scene_of(shapes::crossing_bumps(14, 0.3));
-  const LadderResult result = climb(scene, {}, {}), gentle = climb(shallow, {}, {});
+  const EscalationResult result = untangle(scene, {}, {}), shallow_result = untangle(shallow, {}, {});
   EXPECT_TRUE(result.left.empty());
   ASSERT_EQ(result.regions.size(), 1u);
-  ASSERT_EQ(gentle.regions.size(), 1u);
-  EXPECT_NE(result.regions[0].strategy, gentle.regions[0].strategy);
+  ASSERT_EQ(shallow_result.regions.size(), 1u);
+  EXPECT_NE(result.regions[0].strategy, shallow_result.regions[0].strategy);
   EXPECT_EQ(result.regions[0].pairs, shapes::pairs_of(shape).size());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
 }
 
 // Two wide bumps run through each other many edges deep: the mesh with edges twice as long goes first.
-TEST(Ladder, deep_conflicts_start_on_a_coarser_mesh) {
+TEST(Escalation, deep_conflicts_start_on_a_coarser_mesh) {
   const auto bump = [](double height) {
     return shapes::grid(100, 100, false, [=](double i, double j) {
       const double x = i - 50, y = j - 50;
@@ -67,7 +69,7 @@ TEST(Ladder, deep_conflicts_start_on_a_coarser_mesh) {
   Shape shape = bump(16);
   shape.add(bump(-16), {0.31, 0.17, 20});
   Scene scene = shapes::scene_of(shape);
-  const LadderResult result = climb(scene, {}, {});
+  const EscalationResult result = untangle(scene, {}, {});
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
   ASSERT_FALSE(result.regions.empty());
@@ -82,26 +84,26 @@ TEST(Ladder, deep_conflicts_start_on_a_coarser_mesh) {
   EXPECT_LT(std::count(is_free.begin(), is_free.end(), 1), scene.vertex_count());
 }
 
-TEST(Ladder, nothing_to_do_moves_nothing) {
+TEST(Escalation, nothing_to_do_moves_nothing) {
   Scene scene = shapes::scene_of(shapes::bumpy_sheet(5, 0.5));
-  const LadderResult result = climb(scene, {}, {});
+  const EscalationResult result = untangle(scene, {}, {});
   EXPECT_TRUE(result.regions.empty());
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(scene.x == scene.rest);
 }
 
-TEST(Ladder, regions_apart_do_not_feel_each_other) {
+TEST(Escalation, regions_apart_do_not_feel_each_other) {
   const Shape shallow = shapes::crossing_bumps(12, 0.2), deeper = shapes::crossing_bumps(12, 0.8);
   Scene alone = shapes::scene_of(shallow);
-  climb(alone, {}, {});
+  untangle(alone, {}, {});
   Scene both = shapes::scene_of(Shape(shallow).add(deeper, {60, 0, 0}));
-  const LadderResult result = climb(both, {}, {});
+  const EscalationResult result = untangle(both, {}, {});
   EXPECT_TRUE(result.left.empty());
   EXPECT_EQ(result.regions.size(), 2u);
   EXPECT_TRUE(both.x.leftCols(alone.x.cols()) == alone.x);
 }
 
-TEST(Ladder, ignored_pairs_are_let_be) {
+TEST(Escalation, ignored_pairs_are_tolerated) {
   const Shape shape = Shape(shapes::crossing_bumps(12, 0.2)).add(shapes::crossed_squares(), {60, 0, 0});
   const Index squares = static_cast<Index>(shapes::crossing_bumps(12, 0.2).triangles.size());
   std::vector<IntersectingPair> ignored;
@@ -109,19 +111,19 @@ TEST(Ladder, ignored_pairs_are_let_be) {
     if (pair.a >= squares) ignored.push_back(pair);
   ASSERT_FALSE(ignored.empty());
   Scene scene = shapes::scene_of(shape);
-  const LadderResult result = climb(scene, ignored, {});
+  const EscalationResult result = untangle(scene, ignored, {});
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles) == ignored);
   EXPECT_TRUE(scene.x.rightCols(8) == scene.rest.rightCols(8));
 }
 
-TEST(Ladder, fixed_vertices_stay) {
+TEST(Escalation, fixed_vertices_stay) {
   const Shape shape = shapes::crossing_bumps(12, 0.3);
   std::vector<std::uint8_t> fixed(shape.points.size(), 0);
   std::fill(fixed.begin(), fixed.begin() + static_cast<std::ptrdiff_t>(fixed.size() / 2),
             std::uint8_t{1});  // a whole sheet
   Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
-  const LadderResult result = climb(scene, {}, {});
+  const EscalationResult result = untangle(scene, {}, {});
   EXPECT_TRUE(result.left.empty());
   const Index half = scene.vertex_count() / 2;
   EXPECT_TRUE(scene.x.leftCols(half) == scene.rest.leftCols(half));
@@ -129,14 +131,14 @@ TEST(Ladder, fixed_vertices_stay) {
 }
 
 // One pair of faces cannot move: all around it is cleared all the same.
-TEST(Ladder, what_cannot_be_resolved_keeps_what_was_gained) {
+TEST(Escalation, what_cannot_be_resolved_keeps_what_was_gained) {
   const Shape shape = shapes::crossing_bumps(12, 0.3);
   const auto pairs = shapes::pairs_of(shape);
   std::vector<std::uint8_t> fixed(shape.points.size(), 0);
   for (const Index t : {pairs[0].a, pairs[0].b})
     for (const Index v : shape.triangles[t]) fixed[v] = 1;
   Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
-  const LadderResult result = climb(scene, {}, {});
+  const EscalationResult result = untangle(scene, {}, {});
   EXPECT_FALSE(result.left.empty());
   EXPECT_LT(2 * result.left.size(), pairs.size());
   EXPECT_TRUE(result.left == shapes::pairs_at(scene.x, scene.triangles));
@@ -167,24 +169,24 @@ Scene stubborn(const Shape& shape, const Shape& far_away = {}) {
 }
 
 // Neither what is gained here nor what is given up there depends on the other.
-TEST(Ladder, stubborn_parts_apart_do_not_feel_each_other) {
+TEST(Escalation, stubborn_parts_apart_do_not_feel_each_other) {
   const std::array<Shape, 2> shapes = {shapes::crossing_bumps(7, 0.3), shapes::crossing_bumps(6, 1.5)};
   for (const Shape& here : shapes) {
     Scene alone = stubborn(here);
-    const LadderResult result = climb(alone, {}, {});
+    const EscalationResult result = untangle(alone, {}, {});
     Scene both = stubborn(here, shapes[0]);
-    const LadderResult result_of_both = climb(both, {}, {});
+    const EscalationResult result_of_both = untangle(both, {}, {});
     EXPECT_GT(result.left.size(), 0u);
     EXPECT_GT(result_of_both.left.size(), result.left.size());
     EXPECT_TRUE(both.x.leftCols(alone.x.cols()) == alone.x);
   }
 }
 
-TEST(Ladder, stopping_leaves_the_rest_as_it_is) {
+TEST(Escalation, stopping_leaves_the_rest_as_it_is) {
   Scene scene = shapes::scene_of(shapes::crossing_bumps(12, 0.3));
-  LadderOptions options;
+  EscalationOptions options;
   options.stop = [] { return true; };
-  const LadderResult result = climb(scene, {}, options);
+  const EscalationResult result = untangle(scene, {}, options);
   EXPECT_TRUE(result.left == shapes::pairs_at(scene.rest, scene.triangles));
   EXPECT_TRUE(result.moved.empty());
   EXPECT_TRUE(scene.x == scene.rest);

@@ -1,0 +1,375 @@
+#include "untangle/escalation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "contact/intersection_finder.h"
+#include "mesh/areas.h"
+#include "scene/independent_batches.h"
+#include "scene/trajectory.h"
+#include "untangle/conflict_regions.h"
+#include "untangle/local_solver.h"
+#include "untangle/placement.h"
+#include "untangle/pockets.h"
+
+namespace unsnarl {
+namespace {
+
+/// How often the obstacles are taken in from farther away, for candidates that moved farther than they reached: of 254
+/// regions that local strategies resolved 6 did, none twice.
+constexpr int reach_rounds = 3;
+
+/// Rings around what a large region has moved that recovery may move too.
+constexpr int recovery_rings = 4;
+
+/// What the progress rule looks at.
+struct Pairs {
+  std::size_t disjoint = 0, total = 0;
+
+  explicit Pairs(std::span<const IntersectingPair> pairs)
+      : disjoint(static_cast<std::size_t>(std::count_if(
+            pairs.begin(), pairs.end(), [](const auto& pair) { return pair.kind == PairClass::disjoint; }))),
+        total(pairs.size()) {}
+  bool fell_from(const Pairs& before) const { return total < before.total && disjoint <= before.disjoint; }
+  bool is_below(double share, const Pairs& before) const {
+    return static_cast<double>(total) < share * static_cast<double>(before.total);
+  }
+};
+
+/// A region that a strategy is tried on, and its candidate.
+struct Attempt {
+  ConflictRegion region;
+  std::vector<Index> free;
+  double edge_length = 0;
+  double reach = 0;  // how far around the patch obstacles are taken in
+  Patch patch;
+  Positions start;
+  Trajectory trajectory;
+  int iterations = 0;
+  double seconds = 0;
+  Pairs before{{}}, left{{}};
+  bool is_sound = false;     // no face is squeezed
+  bool is_rejected = false;  // without pairs, but not accepted
+
+  bool is_clean() const { return is_sound && left.total == 0; }
+  double motion() const {
+    return std::sqrt((patch.x - start).leftCols(patch.free_count).colwise().squaredNorm().maxCoeff());
+  }
+};
+
+class Escalation {
+ public:
+  Escalation(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
+             const EscalationOptions& options)
+      : scene_(scene), index_(index), ignored_(ignored), options_(options), level_(scene.vertex_count(), 0) {
+    for (const Tier& tier : options.tiers)
+      for (const Strategy& strategy : tier) levels_.push_back({&strategy, &strategy == &tier.back()});
+  }
+
+  EscalationResult run() {
+    find_pairs();
+    initial_pairs_ = pairs_;
+    while (!pairs_.empty() && !stopped()) {
+      const Index level = escalate_lowest();
+      if (level == last()) break;
+      try_strategy(level);
+      if (levels_[level].ends_tier) keep_best_candidates(level, options_.worthwhile_share);
+      find_pairs();
+    }
+    if (!stopped()) {
+      keep_best_candidates(last() - 1, 1);
+      find_pairs();
+    }
+    note_what_is_left();
+    return std::move(result_);
+  }
+
+ private:
+  struct Level {
+    const Strategy* strategy;
+    bool ends_tier;
+  };
+  Index last() const { return static_cast<Index>(levels_.size()); }
+  bool stopped() const { return options_.stop && options_.stop(); }
+
+  void find_pairs() {
+    pairs_ = blocking_pairs(index_.find_pairs(), ignored_);
+    if (options_.on_progress) options_.on_progress(pairs_.size());
+  }
+
+  Index level_of(const ConflictRegion& region) const {
+    Index level = 0;
+    for (Index v : region.core) level = std::max(level, level_[v]);
+    return level;
+  }
+
+  /// The lowest level of any region: what is tried now. The regions there will go on with the next one, unless
+  /// something of the candidates is kept.
+  Index escalate_lowest() {
+    const std::vector<ConflictRegion> regions = conflict_regions(scene_, pairs_);
+    Index lowest = last();
+    for (const ConflictRegion& region : regions) lowest = std::min(lowest, level_of(region));
+    is_tried_.assign(scene_.vertex_count(), 0);
+    for (const ConflictRegion& region : regions) {
+      if (level_of(region) != lowest) continue;
+      for (Index v : region.core) {
+        level_[v] = std::min(lowest + 1, last());
+        is_tried_[v] = 1;
+      }
+    }
+    return lowest;
+  }
+
+  void try_strategy(Index level) {
+    const Strategy& strategy = *levels_[level].strategy;
+    if (options_.recorder) options_.recorder->begin_stage("untangle");
+    std::vector<Attempt> attempts = gather_attempts(strategy);
+    note_attempts(attempts, level);
+    index_.update();
+    for (int round = 0; round < reach_rounds && !attempts.empty() && !stopped(); ++round) {
+      std::vector<Box> boxes;
+      for (const Attempt& attempt : attempts) boxes.push_back(patch_box(scene_, attempt.free, 2 * attempt.reach));
+      std::vector<Attempt> again;
+      run_in_batches(
+          boxes, [&](std::size_t i) { run(attempts[i], strategy); },
+          [&](std::size_t i) {
+            if (!judge(attempts[i], strategy, level)) again.push_back(std::move(attempts[i]));
+          });
+      attempts = std::move(again);
+    }
+  }
+
+  /// The regions that are tried now, each with its free vertices; one whose free vertices reach another's core takes it
+  /// in.
+  std::vector<Attempt> gather_attempts(const Strategy& strategy) {
+    const std::vector<ConflictRegion> regions = conflict_regions(scene_, pairs_, strategy.hub_valence);
+    std::vector<Index> region_of_core(scene_.vertex_count(), -1);
+    for (std::size_t r = 0; r < regions.size(); ++r)
+      for (Index v : regions[r].core) region_of_core[v] = static_cast<Index>(r);
+    std::vector<std::uint8_t> is_taken(regions.size(), 0);
+    std::vector<Attempt> attempts;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      const auto is_tried = [&](Index v) { return is_tried_[v] != 0; };
+      if (is_taken[r] || !std::any_of(regions[r].core.begin(), regions[r].core.end(), is_tried)) continue;
+      Attempt attempt;
+      ConflictRegion& region = attempt.region = regions[r];
+      if (strategy.extent == Extent::whole_components && was_rejected(region)) continue;
+      const int depth = strategy.least_depth > 0 ? depth_of(region, strategy.least_depth) : 0;
+      if (depth < strategy.least_depth) continue;
+      is_taken[r] = 1;
+      for (bool has_grown = true; has_grown;) {
+        has_grown = false;
+        attempt.free = free_vertices(strategy, region, depth);
+        for (Index v : attempt.free) {
+          const Index other = region_of_core[v];
+          if (other < 0 || is_taken[other]) continue;
+          is_taken[other] = 1;
+          has_grown = true;
+          region.core.insert(region.core.end(), regions[other].core.begin(), regions[other].core.end());
+          region.pairs.insert(region.pairs.end(), regions[other].pairs.begin(), regions[other].pairs.end());
+        }
+        std::sort(region.core.begin(), region.core.end());
+        std::sort(region.pairs.begin(), region.pairs.end());
+      }
+      if (attempt.free.empty()) continue;
+      std::vector<Triangle> core_faces;
+      for (const IntersectingPair& pair : region.pairs)
+        for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
+      attempt.edge_length = mean_equilateral_side(scene_.rest, core_faces);
+      attempt.reach = strategy.reach * attempt.edge_length;
+      attempts.push_back(std::move(attempt));
+    }
+    return attempts;
+  }
+
+  std::vector<Index> free_vertices(const Strategy& strategy, const ConflictRegion& region, int depth) {
+    switch (strategy.extent) {
+      case Extent::rings: return dilate(scene_, region.core, strategy.rings, strategy.hub_valence);
+      case Extent::depth:
+        return dilate(scene_, region.core, static_cast<int>(options_.rings_per_depth * depth), strategy.hub_valence);
+      case Extent::tied_components: return vertices_of_tied_components(scene_, parts(), region, initial_pairs_);
+      case Extent::whole_components:
+        return dilate(scene_, region.core, std::numeric_limits<int>::max(), strategy.hub_valence);
+    }
+    return {};
+  }
+
+  const ConnectedParts& parts() {
+    if (!parts_) parts_.emplace(scene_);
+    return *parts_;
+  }
+
+  /// 0 where it cannot be so deep as `least`.
+  int depth_of(const ConflictRegion& region, int least) {
+    if (region.core.size() / 2 < static_cast<std::size_t>(least)) return 0;
+    return pocket_depth(scene_, parts(), region.core);
+  }
+
+  /// A part of it was resolved in a way that was not accepted; the whole will hardly be.
+  bool was_rejected(const ConflictRegion& region) const {
+    return std::any_of(region.core.begin(), region.core.end(), [&](Index v) { return rejected_.count(v) > 0; });
+  }
+
+  void run(Attempt& attempt, const Strategy& strategy) const {
+    if (stopped()) return;
+    const auto begin = std::chrono::steady_clock::now();
+    Patch& patch = attempt.patch = cut_patch(scene_, index_, attempt.free, attempt.reach);
+    patch.edge_length = attempt.edge_length;
+    attempt.start = patch.x;
+    if (options_.recorder && options_.recorder->is_on()) {
+      attempt.trajectory = options_.recorder->new_trajectory();
+      patch.trajectory = &attempt.trajectory;
+    }
+    IntersectionFinder finder(patch.triangles, patch.active_count);
+    std::vector<IntersectingPair> own, tolerated;
+    for (const IntersectingPair& pair : finder.find(patch.x))
+      (is_of_region(patch, attempt.region, pair) ? own : tolerated).push_back(pair);
+    attempt.before = Pairs(own);
+    Task task{.tolerated = tolerated, .stop = options_.stop};
+    if (!options_.accept && !own.empty())
+      task.few_enough = static_cast<std::size_t>(options_.gain_share * static_cast<double>(own.size() - 1));
+    if (options_.min_gap) task.min_gap = options_.min_gap(attempt.free);
+    attempt.iterations += strategy.solve(patch, task);
+    attempt.left = Pairs(blocking_pairs(finder.find(patch.x), tolerated));
+    attempt.is_sound = !has_squeezed_face(patch, attempt.start, patch.x, options_.area_floor);
+    attempt.is_rejected = attempt.is_clean() && options_.accept && !options_.accept(patch);
+    patch.trajectory = nullptr;
+    attempt.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  /// Pairs of active triangles that are not the region's belong to other regions or are tolerated.
+  static bool is_of_region(const Patch& patch, const ConflictRegion& region, const IntersectingPair& pair) {
+    const auto [a, b] = std::minmax(patch.faces[pair.a], patch.faces[pair.b]);
+    return std::binary_search(region.pairs.begin(), region.pairs.end(), IntersectingPair{a, b, pair.kind});
+  }
+
+  /// The progress rule: keeps the candidate, remembers it, or forgets it. False: it moved farther than the obstacles
+  /// that it knew, and is to be computed again with more of them.
+  bool judge(Attempt& attempt, const Strategy& strategy, Index level) {
+    if (!attempt.is_sound || !attempt.left.fell_from(attempt.before)) return true;
+    if (attempt.is_rejected) {
+      rejected_.insert(attempt.region.core.begin(), attempt.region.core.end());
+      if (options_.attempts)
+        for (Index v : attempt.region.core) options_.attempts->is_too_far[v] = 1;
+      return true;
+    }
+    if (options_.accept && !attempt.is_clean()) return true;
+    const double motion = attempt.motion();
+    if (motion > attempt.reach) {
+      attempt.reach = 2 * motion;
+      return false;
+    }
+    if (!attempt.is_clean()) attempt.trajectory.end_at_fewest_pairs();
+    if (attempt.is_clean() || attempt.left.is_below(options_.gain_share, attempt.before)) {
+      keep(attempt, strategy);
+    } else {
+      const Index key = attempt.region.core.front();
+      const auto known = best_.find(key);
+      if (known == best_.end() || !is_current(known->second.attempt) ||
+          attempt.left.total < known->second.attempt.left.total)
+        best_.insert_or_assign(key, Best{std::move(attempt), level});
+    }
+    return true;
+  }
+
+  /// Nothing has moved there since the candidate was made.
+  bool is_current(const Attempt& attempt) const {
+    for (std::size_t k = 0; k < attempt.free.size(); ++k)
+      if (scene_.x.col(attempt.free[k]) != attempt.start.col(k)) return false;
+    return true;
+  }
+
+  /// Of the candidates of regions that have been through the strategies up to this level, those that leave at most this
+  /// share of the pairs.
+  void keep_best_candidates(Index level, double share) {
+    for (auto it = best_.begin(); it != best_.end();) {
+      Best& best = it->second;
+      const bool is_due = level_of(best.attempt.region) > level;
+      if (is_due && is_current(best.attempt) && best.attempt.left.is_below(share, best.attempt.before))
+        keep(best.attempt, *levels_[best.level].strategy);
+      else if (!is_due || is_current(best.attempt)) {
+        ++it;
+        continue;
+      }
+      it = best_.erase(it);
+    }
+  }
+
+  void keep(Attempt& attempt, const Strategy& strategy) {
+    result_.depths.push_back(attempt.motion());
+    paste_patch(attempt.patch, scene_, index_);
+    for (Index v : attempt.free) level_[v] = 0;
+    RegionReport report;
+    report.strategy = strategy.name;
+    report.faces = static_cast<std::size_t>(attempt.patch.active_count);
+    report.pairs = attempt.before.total - attempt.left.total;
+    report.iterations = attempt.iterations;
+    report.seconds = attempt.seconds;
+    if (options_.recorder)
+      options_.recorder->add(std::move(attempt.trajectory), strategy.name,
+                             options_.first_region + result_.regions.size(), attempt.free, scene_.x);
+    result_.regions.push_back(std::move(report));
+    result_.moved.push_back(strategy.extent == Extent::depth ? moved_surroundings(attempt) : std::move(attempt.free));
+  }
+
+  /// What is elsewhere than before and a little around it.
+  std::vector<Index> moved_surroundings(const Attempt& attempt) const {
+    std::vector<Index> moved;
+    for (std::size_t k = 0; k < attempt.free.size(); ++k)
+      if (attempt.patch.x.col(k) != attempt.start.col(k)) moved.push_back(attempt.free[k]);
+    return dilate(scene_, moved, recovery_rings);
+  }
+
+  void note_attempts(const std::vector<Attempt>& attempts, Index level) {
+    if (!options_.attempts) return;
+    for (const Attempt& attempt : attempts)
+      for (Index v : attempt.region.core) {
+        std::int8_t& furthest = options_.attempts->strategy[v];
+        furthest = std::max(furthest, static_cast<std::int8_t>(level));
+      }
+  }
+
+  void note_what_is_left() {
+    if (options_.attempts && stopped())
+      for (const IntersectingPair& pair : pairs_)
+        for (Index t : {pair.a, pair.b})
+          for (Index v : scene_.triangles[t]) options_.attempts->is_cut_short[v] = 1;
+    for (const ConflictRegion& region : conflict_regions(scene_, pairs_)) {
+      RegionReport unresolved;
+      unresolved.strategy = "none";
+      unresolved.pairs = region.pairs.size();
+      result_.regions.push_back(unresolved);
+    }
+    result_.left = pairs_;
+  }
+
+  struct Best {
+    Attempt attempt;
+    Index level;
+  };
+
+  Scene& scene_;
+  SceneIndex& index_;
+  std::span<const IntersectingPair> ignored_;
+  const EscalationOptions& options_;
+  std::vector<Level> levels_;
+  std::vector<IntersectingPair> pairs_, initial_pairs_;
+  std::vector<Index> level_;             // per vertex: the strategy that its conflict is to be tried on next
+  std::vector<std::uint8_t> is_tried_;   // per vertex: in the core of a region that is tried now
+  std::map<Index, Best> best_;           // by the first vertex of the region's core
+  std::optional<ConnectedParts> parts_;  // made when first asked for
+  std::set<Index> rejected_;             // vertices of regions that were resolved in a way that was not accepted
+  EscalationResult result_;
+};
+
+}  // namespace
+
+EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
+                          const EscalationOptions& options) {
+  return Escalation(scene, index, ignored, options).run();
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "scene/patch.h"
+#include "scene/recorder.h"
+#include "scene/scene.h"
+#include "unsnarl/intersections.h"
+#include "unsnarl/report.h"
+#include "untangle/attempt_log.h"
+#include "untangle/strategy.h"
+
+namespace unsnarl {
+
+struct EscalationOptions {
+  /// What is tried, in this order.
+  std::span<const Tier> tiers;
+  /// A candidate that leaves less than this share of a region's pairs is kept at once; the rest is segmented anew and
+  /// starts with the first strategy. With a third, posed bodies end up to 12 % farther, with 0 they take 1.3 times as
+  /// long.
+  double gain_share = 0.1;
+  /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share. With 1,
+  /// a soup of crossings takes a tier for every pair.
+  double worthwhile_share = 0.7;
+  /// Of its area before: a face that is squeezed further makes a candidate worthless.
+  double area_floor = 1e-3;
+  /// Edges freed around a tangle for each edge of its depth (Extent::depth). Of 0.7, 1 and 1.5 the closest on three
+  /// bodies.
+  double rings_per_depth = 1.5;
+
+  std::function<bool()> stop;
+  std::function<void(std::size_t pairs_left)> on_progress;
+  /// Distance that faces have to have in the end (RecoverOptions::min_gap) around these vertices; none: any.
+  std::function<double(std::span<const Index> vertices)> min_gap;
+  /// Asked about a candidate without pairs (from any thread); may improve it. False: the region goes on with the next
+  /// strategy. Regions that are not resolved then stay where they are.
+  std::function<bool(Patch& patch)> accept;
+  Recorder* recorder = nullptr;    ///< notes how regions were resolved; none: nobody does
+  AttemptLog* attempts = nullptr;  ///< notes what was tried; none: nobody does
+  std::size_t first_region = 0;    ///< number that the recorder is given for the first region
+};
+
+struct EscalationResult {
+  std::vector<RegionReport> regions;      ///< what was kept of each strategy, and last the regions that none resolved
+  std::vector<std::vector<Index>> moved;  ///< vertices freed for each of the former, for recovery
+  std::vector<double> depths;             ///< how far each of these candidates moved a vertex, at most: a length
+  std::vector<IntersectingPair> left;     ///< pairs of triangles that remain
+};
+
+/// Untangles the scene region by region, everything outside the region held. A region goes from strategy to strategy
+/// until a candidate has so few pairs that it is kept; what is left of it is segmented anew and starts from the first
+/// strategy. Only candidates with fewer pairs, and no more disjoint ones, are ever kept, so this ends. Regions that lie
+/// apart do not influence each other. Pairs in `ignored` (sorted, of triangles) are tolerated.
+EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
+                          const EscalationOptions& options);
+
+}  // namespace unsnarl

@@ -1,0 +1,262 @@
+#include "untangle/placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "contact/bvh.h"
+#include "contact/bvh_traversal.h"
+#include "contact/intersection_finder.h"
+#include "mesh/areas.h"
+#include "mesh/union_find.h"
+
+namespace unsnarl {
+namespace {
+
+/// A component of the patch that may be placed.
+struct Component {
+  std::vector<Index> vertices, triangles;
+  double diagonal = 0;
+};
+
+/// A one-parameter family of motions, at 0 where the component is.
+struct Motion {
+  Vec3 direction = Vec3::Zero();  // of a translation by the parameter, or zero:
+  Vec3 centre = Vec3::Zero();     // it shrinks toward this point by the share that the parameter is
+
+  bool is_translation() const { return direction != Vec3::Zero(); }
+  Vec3 apply(const Vec3& p, double parameter) const {
+    return is_translation() ? Vec3(p + parameter * direction) : Vec3(p + parameter * (centre - p));
+  }
+};
+
+class Placement {
+ public:
+  Placement(Patch& patch, std::span<const IntersectingPair> tolerated, const PlacementOptions& options)
+      : patch_(patch), tolerated_(tolerated), options_(options), x_(patch.x) {
+    find_components();
+    boxes_.resize(patch.triangles.size());
+    is_present_.assign(patch.triangles.size(), 1);
+    for (std::size_t t = 0; t < boxes_.size(); ++t) boxes_[t] = box_of(x_, patch.triangles[t]);
+    tree_.build(boxes_);
+    for (const Component& component : components_) {
+      for (Index t : component.triangles) is_present_[t] = 0;
+      go_back_to_rest(component);
+    }
+  }
+
+  int run(const std::function<bool()>& stop) {
+    int placed = 0;
+    for (const Component& component : components_) {
+      if (stop && stop()) break;
+      placed += place(component);
+      for (Index t : component.triangles) is_present_[t] = 1;
+    }
+    patch_.x = x_;
+    return placed;
+  }
+
+ private:
+  void find_components() {
+    const std::span<const Triangle> active(patch_.triangles.data(), static_cast<std::size_t>(patch_.active_count));
+    UnionFind sets = vertices_joined_by(active, static_cast<Index>(x_.cols()));
+    std::vector<Index> of_root(x_.cols(), -1);
+    for (Index v = 0; v < patch_.free_count; ++v) {
+      Index& number = of_root[sets.find(v)];
+      if (number < 0) {
+        number = static_cast<Index>(components_.size());
+        components_.emplace_back();
+      }
+      components_[number].vertices.push_back(v);
+    }
+    std::vector<double> area(components_.size(), 0);
+    for (Index t = 0; t < patch_.active_count; ++t) {
+      const Index c = of_root[sets.find(active[t][0])];
+      components_[c].triangles.push_back(t);
+      area[c] += triangle_area(x_, active[t]);
+    }
+    for (Component& component : components_) {
+      Box box;
+      for (Index v : component.vertices) box.extend(Vec3(x_.col(v)));
+      component.diagonal = box.diagonal();
+    }
+    std::vector<Index> order(components_.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return area[a] > area[b]; });
+    std::vector<Component> sorted;
+    for (Index c : order) sorted.push_back(std::move(components_[c]));
+    components_ = std::move(sorted);
+  }
+
+  bool is_tolerated(Index t, Index u) const {
+    const auto [a, b] = std::minmax(t, u);
+    const auto it =
+        std::lower_bound(tolerated_.begin(), tolerated_.end(), IntersectingPair{a, b, PairClass::disjoint},
+                         [](const auto& p, const auto& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
+    return it != tolerated_.end() && it->a == a && it->b == b;
+  }
+
+  /// Of the component where it is in x_: does it meet anything that is present? Its own triangles are not.
+  bool is_free(const Component& component) const {
+    for (Index t : component.triangles) {
+      PairClass kind;
+      const auto meets = [&](Index u) {
+        return is_present_[u] && !is_tolerated(t, u) && intersects(x_, patch_.triangles[t], patch_.triangles[u], kind);
+      };
+      if (tree_.find(box_of(x_, patch_.triangles[t]), meets)) return false;
+    }
+    return true;
+  }
+
+  std::vector<IntersectingPair> contacts_of(const Component& component) const {
+    std::vector<IntersectingPair> contacts;
+    for (Index t : component.triangles)
+      tree_.query(box_of(x_, patch_.triangles[t]), [&](Index u) {
+        PairClass kind;
+        if (is_present_[u] && !is_tolerated(t, u) && intersects(x_, patch_.triangles[t], patch_.triangles[u], kind))
+          contacts.push_back({t, u, kind});
+      });
+    std::sort(contacts.begin(), contacts.end());
+    return contacts;
+  }
+
+  std::vector<Motion> motions_of(const Component& component, std::span<const IntersectingPair> contacts) const {
+    std::vector<Motion> motions;
+    const auto add_both_ways = [&](const Vec3& d) {
+      const double length = d.norm();
+      if (!(length > 0)) return;
+      motions.push_back({.direction = d / length});
+      motions.push_back({.direction = -d / length});
+    };
+    const std::size_t stride = contacts.size() / options_.most_contacts + 1;
+    for (std::size_t k = 0; k < contacts.size(); k += stride) {
+      add_both_ways(area_vector(x_, patch_.triangles[contacts[k].a]));
+      add_both_ways(area_vector(x_, patch_.triangles[contacts[k].b]));
+    }
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k)
+          if (std::tie(i, j, k) > std::tuple(0, 0, 0)) add_both_ways(Vec3(i, j, k));
+    const std::size_t step = component.vertices.size() / options_.most_centres + 1;
+    for (std::size_t k = 0; k < component.vertices.size(); k += step)
+      motions.push_back({.centre = x_.col(component.vertices[k])});
+    return motions;
+  }
+
+  void move(const Component& component, const Positions& from, const Motion& motion, double parameter) {
+    for (std::size_t k = 0; k < component.vertices.size(); ++k)
+      x_.col(component.vertices[k]) = motion.apply(from.col(static_cast<Index>(k)), parameter);
+  }
+
+  /// Unless it intersects itself there.
+  void go_back_to_rest(const Component& component) {
+    for (Index v : component.vertices) x_.col(v) = patch_.rest.col(v);
+    update_boxes(component);
+    std::vector<std::uint8_t> is_own(boxes_.size(), 0);
+    for (Index t : component.triangles) is_own[t] = 1;
+    const auto intersects_own = [&](Index t) {
+      return tree_.find(boxes_[t], [&](Index u) {
+        PairClass kind;
+        return u > t && is_own[u] && !is_tolerated(t, u) &&
+               intersects(x_, patch_.triangles[t], patch_.triangles[u], kind);
+      });
+    };
+    if (!std::any_of(component.triangles.begin(), component.triangles.end(), intersects_own)) return;
+    for (Index v : component.vertices) x_.col(v) = patch_.x.col(v);
+    update_boxes(component);
+  }
+
+  void update_boxes(const Component& component) {
+    for (Index t : component.triangles) boxes_[t] = box_of(x_, patch_.triangles[t]);
+    tree_.refit(boxes_, component.triangles);
+  }
+
+  /// True where it is at a free place then.
+  bool place(const Component& component) {
+    const std::vector<IntersectingPair> contacts = contacts_of(component);
+    if (contacts.empty()) return true;
+    if (component.triangles.size() > options_.most_faces) return false;
+    Positions from(3, static_cast<Index>(component.vertices.size()));
+    for (std::size_t k = 0; k < component.vertices.size(); ++k)
+      from.col(static_cast<Index>(k)) = x_.col(component.vertices[k]);
+    Positions best = from;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Motion& motion : motions_of(component, contacts)) {
+      // Root mean square of the displacement at parameter 1.
+      const double rate =
+          motion.is_translation() ? 1 : std::sqrt((from.colwise() - motion.centre).colwise().squaredNorm().mean());
+      if (!(rate > 0)) continue;
+      const double last = motion.is_translation() ? component.diagonal : options_.most_shrink;
+      double blocked = 0, parameter = options_.first_step * last;
+      bool free = false;
+      for (; parameter <= last && parameter * rate < least; parameter *= options_.growth) {
+        move(component, from, motion, parameter);
+        free = is_free(component);
+        if (free) break;
+        blocked = parameter;
+      }
+      if (!free) continue;
+      for (int k = 0; k < options_.bisections; ++k) {
+        const double middle = 0.5 * (blocked + parameter);
+        move(component, from, motion, middle);
+        (is_free(component) ? parameter : blocked) = middle;
+      }
+      for (const double share : {1 + options_.margin, 1.0}) {
+        move(component, from, motion, share * parameter);
+        if (is_free(component)) break;
+      }
+      if (!(parameter * rate < least)) continue;
+      least = parameter * rate;
+      for (std::size_t k = 0; k < component.vertices.size(); ++k)
+        best.col(static_cast<Index>(k)) = x_.col(component.vertices[k]);
+    }
+    const bool found = std::isfinite(least);
+    for (std::size_t k = 0; k < component.vertices.size(); ++k)
+      x_.col(component.vertices[k]) = found ? best.col(static_cast<Index>(k)) : patch_.x.col(component.vertices[k]);
+    update_boxes(component);
+    return found;
+  }
+
+  Patch& patch_;
+  std::span<const IntersectingPair> tolerated_;
+  const PlacementOptions& options_;
+  Positions x_;
+  std::vector<Component> components_;     // largest first
+  std::vector<std::uint8_t> is_present_;  // per triangle; those of components that are to be placed are not
+  std::vector<Box> boxes_;
+  Bvh tree_;
+};
+
+}  // namespace
+
+int place(Patch& patch, std::span<const IntersectingPair> tolerated, const PlacementOptions& options,
+          const std::function<bool()>& stop) {
+  return Placement(patch, tolerated, options).run(stop);
+}
+
+std::vector<Index> vertices_of_tied_components(const Scene& scene, const ConnectedParts& parts,
+                                               const ConflictRegion& region,
+                                               std::span<const IntersectingPair> initial_pairs) {
+  const auto part_of = [&](Index t) { return parts.of_vertex[scene.triangles[t][0]]; };
+  UnionFind tied(parts.face_count.size());
+  bool is_between = false;
+  for (const IntersectingPair& pair : region.pairs)
+    is_between |= tied.unite(part_of(pair.a), part_of(pair.b)) || part_of(pair.a) != part_of(pair.b);
+  if (!is_between) return {};
+  for (const IntersectingPair& pair : initial_pairs) tied.unite(part_of(pair.a), part_of(pair.b));
+  const Index group = tied.find(part_of(region.pairs.front().a));
+  std::vector<std::uint8_t> is_free(parts.face_count.size(), 0);
+  for (std::size_t part = 0; part < is_free.size(); ++part)
+    is_free[part] = tied.find(static_cast<Index>(part)) == group;
+  for (Index v = 0; v < scene.vertex_count(); ++v)
+    if (scene.fixed[v]) is_free[parts.of_vertex[v]] = 0;
+  std::vector<Index> vertices;
+  for (Index v = 0; v < scene.vertex_count(); ++v)
+    if (is_free[parts.of_vertex[v]]) vertices.push_back(v);
+  return vertices;
+}
+
+}  // namespace unsnarl

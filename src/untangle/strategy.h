@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/patch.h"
+#include "unsnarl/intersections.h"
+#include "untangle/conflict_regions.h"
+
+namespace unsnarl {
+
+/// What a strategy is told besides the patch.
+struct Task {
+  std::span<const IntersectingPair> tolerated;  ///< pairs of patch triangles, sorted, that it need not resolve
+  std::size_t few_enough = 0;                   ///< pairs: a candidate that leaves no more is kept
+  double min_gap = 0;                           ///< length: how far apart faces will have to be
+  const std::function<bool()>& stop;            ///< true: give up; may be empty
+};
+
+/// Which vertices of a conflict region a strategy moves.
+enum class Extent : std::uint8_t {
+  rings,             ///< those at most Strategy::rings edges from the intersecting faces
+  depth,             ///< a multiple of the depth of the tangle around them (see tangle depth)
+  tied_components,   ///< all of the components that are tied together by pairs, now or at first
+  whole_components,  ///< all that is connected to the intersecting faces
+};
+
+/// One way to resolve a conflict region: region in, candidate out.
+struct Strategy {
+  std::string name;
+  Extent extent = Extent::rings;
+  int rings = 0;     ///< edges, for Extent::rings
+  double reach = 4;  ///< h: obstacles are taken in this far around; a candidate that moves farther is computed again
+  std::size_t hub_valence = no_hubs;
+  int least_depth = 0;  ///< edges: tangles less deep are left to other strategies
+  /// Moves the free vertices of patch.x, from where they are, to a state with fewer intersecting pairs, if it finds
+  /// one. Returns the number of its iterations. What the candidate is worth is decided by the escalation.
+  std::function<int(Patch& patch, const Task& task)> solve;
+};
+
+/// Strategies that are tried in this order; the best candidate of a tier is kept if it is worth while.
+using Tier = std::vector<Strategy>;
+
+}  // namespace unsnarl
