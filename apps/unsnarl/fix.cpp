@@ -15,6 +15,7 @@
 #include "surface_files.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/page.h"
 #include "unsnarl/pictures.h"
 #include "unsnarl/report_json.h"
 #include "unsnarl/stage_clock.h"
