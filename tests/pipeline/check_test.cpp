@@ -13,8 +13,8 @@ namespace {
 
 // Two crossing bumps, the same far away with a deeper crossing, and a sheet that meets nothing.
 Surface two_places() {
-  shapes::Shape shape = shapes::crossing_bumps(9, 0.2);
-  shape.add(shapes::crossing_bumps(9, 0.6), {50, 0, 0});
+  shapes::Shape shape = shapes::crossing_bumps(10, 0.4);
+  shape.add(shapes::crossing_bumps(10, 1.2), {50, 0, 0});
   shape.add(shapes::bumpy_sheet(3, 0), {0, 50, 0});
   return shape.surface();
 }

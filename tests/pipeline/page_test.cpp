@@ -59,7 +59,7 @@ TEST(ViewPage, refuses_what_makes_no_sense) {
   const Surface surface = shapes::bumpy_sheet(3, 0.5).surface();
   PageSource source = source_of(surface);
   EXPECT_THROW(view_page("<body></body>", source), std::invalid_argument);
-  source.report = "{";
+  source.report.push_back('{');
   EXPECT_THROW(view_page(page_template, source), std::invalid_argument);
   source.report.clear();
   source.after = std::span(surface.positions).first(3);
