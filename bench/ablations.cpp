@@ -16,7 +16,6 @@
 #include "render/picture.h"
 #include "render/png.h"
 #include "report/measure.h"
-#include "samples/samples.h"
 #include "samples/tube.h"
 #include "scene/diagnose.h"
 #include "scene/patch.h"
@@ -24,6 +23,7 @@
 #include "unsnarl/certify.h"
 #include "unsnarl/document.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/samples.h"
 #include "untangle/paper_untangle.h"
 
 namespace unsnarl {

@@ -7,7 +7,7 @@ if(PAGE)
     message(FATAL_ERROR "${PAGE} contains what ends the string literal")
   endif()
 endif()
-file(WRITE ${SOURCE} "#include \"viewer_template.h\"
+file(WRITE ${SOURCE} "#include \"viewer.h\"
 
 #include <string_view>
 

@@ -16,13 +16,13 @@
 #include <string>
 #include <thread>
 
-#include "mesh/triangulation.h"
-#include "report/measure.h"
-#include "report/report_json.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/report.h"
+#include "unsnarl/report_json.h"
+#include "unsnarl/stage_clock.h"
 #include "unsnarl/version.h"
 
 namespace py = pybind11;
@@ -162,7 +162,7 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
                     double time_limit, double memory_limit, bool recover, bool paper, bool each_component,
                     const std::string& weld, double weld_tolerance, bool both_diagonals, int threads,
                     const py::object& progress) {
-  const auto begin = std::chrono::steady_clock::now();
+  const StageClock clock;
   const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
   RepairOptions options;
   options.find = find_options(weld, weld_tolerance, both_diagonals, threads);
@@ -183,10 +183,9 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
   ReportFiles files;
   files.vertices = surface.vertex_count();
   files.faces = surface.face_count();
-  files.triangulation = triangulate(surface).statistics.describe();
-  files.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  files.whole = clock.stage("repair");
   return py::make_tuple(array_of(result.positions), std::string(to_string(result.status)),
-                        report_json(result, options, files).dump());
+                        report_json(result, options, files));
 }
 
 Array<std::int32_t> py_component_of_faces(const Array<double>& positions, const Array<std::int32_t>& corners,

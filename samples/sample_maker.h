@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "samples/samples.h"
+#include "unsnarl/samples.h"
 
 namespace unsnarl {
 

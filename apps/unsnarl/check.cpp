@@ -3,183 +3,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <set>
 
-#include "geometry/box.h"
-#include "intersecting_faces.h"
-#include "mesh/components.h"
-#include "mesh/union_find.h"
 #include "mesh_input.h"
-#include "pipeline/threads.h"
-#include "report/exit_code.h"
-#include "report/report_json.h"
-#include "scene/face_pairs.h"
-#include "scene/prepared_surface.h"
-#include "scene/topology.h"
 #include "staged_output.h"
 #include "standard_streams.h"
-#include "unsnarl/version.h"
+#include "unsnarl/check.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/report_json.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
 namespace {
 
-constexpr int check_schema_version = 1;
 constexpr std::size_t places_in_text = 10;  // the JSON has all of them
 constexpr std::size_t components_in_text = 20;
-
-/// A group of intersecting faces that hang together, by pairs or by vertices.
-struct Place {
-  std::size_t pairs = 0;
-  std::vector<Index> faces;
-  Box box;
-};
-
-/// A component; its number in the list is what --fix-component takes.
-struct ComponentFindings {
-  Index first_face = 0;
-  std::size_t faces = 0;
-  std::size_t pairs_within = 0, pairs_with_others = 0;
-  Box box;
-};
-
-/// All that `check` finds out.
-struct Findings {
-  std::vector<IntersectingPair> pairs;
-  PairCounts counts;
-  std::vector<Index> faces;   // in any pair
-  std::vector<Place> places;  // most pairs first
-  Topology topology;
-  std::vector<ComponentFindings> components;
-  std::size_t obstructed_components = 0;
-  std::size_t intersecting_components = 0;
-  std::size_t pairs_within_components = 0;
-  std::string triangulation;
-};
-
-void extend_by_face(Box& box, const SurfaceView& surface, Index f) {
-  for (const Index v : surface.face(f)) {
-    const double* p = &surface.positions[3 * static_cast<std::size_t>(v)];
-    box.extend(Vec3(p[0], p[1], p[2]));
-  }
-}
-
-std::vector<Place> find_places(const SurfaceView& surface, const WeldMap& weld_map,
-                               const std::vector<IntersectingPair>& pairs, const std::vector<Index>& faces) {
-  UnionFind sets(surface.face_count());
-  for (const IntersectingPair& pair : pairs) sets.unite(pair.a, pair.b);
-  std::vector<Index> face_at(static_cast<std::size_t>(weld_map.count), -1);
-  for (Index f : faces)
-    for (Index corner : surface.face(f)) {
-      Index& other = face_at[weld_map.vertex_of[corner]];
-      if (other >= 0) sets.unite(other, f);
-      other = f;
-    }
-  std::vector<Index> place_of(surface.face_count(), -1);
-  std::vector<Place> places;
-  for (Index f : faces) {
-    Index& place = place_of[sets.find(f)];
-    if (place < 0) {
-      place = static_cast<Index>(places.size());
-      places.emplace_back();
-    }
-    places[place].faces.push_back(f);
-    extend_by_face(places[place].box, surface, f);
-  }
-  for (const IntersectingPair& pair : pairs) ++places[place_of[sets.find(pair.a)]].pairs;
-  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.pairs > b.pairs; });
-  return places;
-}
-
-Findings examine(const SurfaceView& surface, const FindOptions& options) {
-  Findings found;
-  const ThreadLimit threads(options.threads);
-  const PreparedSurface prepared = prepare(surface, options);
-  found.pairs = FacePairFinder(prepared).find(prepared.rest);
-  found.counts = count_by_class(found.pairs);
-  found.faces = faces_in(found.pairs);
-
-  const WeldMap& weld_map = prepared.weld_map;
-  const Triangulation& triangulation = prepared.triangulation;
-  const EdgeTable edges = build_edges(triangulation.triangles);
-  const Components components = find_components(triangulation.triangles, weld_map.count, edges);
-  found.triangulation = triangulation.statistics.describe();
-  found.topology = describe_topology(surface, weld_map, triangulation, edges, components);
-  for (const Component& component : components.list) found.obstructed_components += component.obstructed();
-
-  std::set<Index> involved;
-  const auto component_of = [&](Index f) {
-    return components.component_of_vertex[weld_map.vertex_of[surface.face(f)[0]]];
-  };
-  found.components.resize(components.list.size());
-  for (Index f = static_cast<Index>(surface.face_count()); f-- > 0;) {
-    if (component_of(f) < 0) continue;
-    ComponentFindings& component = found.components[component_of(f)];
-    component.first_face = f;
-    ++component.faces;
-    extend_by_face(component.box, surface, f);
-  }
-  for (const IntersectingPair& pair : found.pairs) {
-    const Index a = component_of(pair.a), b = component_of(pair.b);
-    involved.insert({a, b});
-    found.pairs_within_components += a == b;
-    for (const Index c : {a, b}) found.components[c].pairs_with_others += a != b;
-    if (a == b) ++found.components[a].pairs_within;
-  }
-  found.intersecting_components = involved.size();
-  found.places = find_places(surface, weld_map, found.pairs, found.faces);
-  return found;
-}
-
-nlohmann::ordered_json as_json(const Findings& found, const CheckOptions& options, const Document& document) {
-  nlohmann::ordered_json json;
-  json["schema"] = "unsnarl-check";
-  json["schema_version"] = check_schema_version;
-  json["version"] = version;
-  const SurfaceView surface = document.surface();
-  json["input"] = {
-      {"path", options.input},         {"format", to_string(document.format())}, {"vertices", surface.vertex_count()},
-      {"faces", surface.face_count()}, {"triangulation", found.triangulation},   {"notes", document.notes()}};
-  json["options"] = {{"goal", to_string(options.goal_wanted())},
-                     {"weld", to_string(options.find().weld)},
-                     {"weld_tolerance", options.weld_tolerance}};
-  json["pairs"] = pair_counts_json(found.counts);
-  json["intersecting_faces"] = found.faces.size();
-  json["components"] = {{"total", found.topology.components},
-                        {"intersecting", found.intersecting_components},
-                        {"pairs_within", found.pairs_within_components},
-                        {"pairs_between", found.pairs.size() - found.pairs_within_components},
-                        {"closed_non_orientable", found.obstructed_components},
-                        {"list", nlohmann::ordered_json::array()}};
-  for (const ComponentFindings& component : found.components)
-    json["components"]["list"].push_back({{"first_face", component.first_face},
-                                          {"faces", component.faces},
-                                          {"pairs_within", component.pairs_within},
-                                          {"pairs_with_others", component.pairs_with_others},
-                                          {"min", {component.box.lo[0], component.box.lo[1], component.box.lo[2]}},
-                                          {"max", {component.box.hi[0], component.box.hi[1], component.box.hi[2]}}});
-  json["topology"] = topology_json(found.topology);
-  json["places"] = nlohmann::ordered_json::array();
-  for (const Place& place : found.places)
-    json["places"].push_back({{"pairs", place.pairs},
-                              {"faces", place.faces.size()},
-                              {"first_face", place.faces.front()},
-                              {"min", {place.box.lo[0], place.box.lo[1], place.box.lo[2]}},
-                              {"max", {place.box.hi[0], place.box.hi[1], place.box.hi[2]}}});
-  return json;
-}
 
 std::string counted(std::size_t number, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", number, number == 1 ? one : many);
 }
 
-std::string extent(const Box& box) {
-  return fmt::format("x {:.4g} to {:.4g}, y {:.4g} to {:.4g}, z {:.4g} to {:.4g}", box.lo[0], box.hi[0], box.lo[1],
-                     box.hi[1], box.lo[2], box.hi[2]);
+std::string extent(const Bounds& box) {
+  return fmt::format("x {:.4g} to {:.4g}, y {:.4g} to {:.4g}, z {:.4g} to {:.4g}", box.min[0], box.max[0], box.min[1],
+                     box.max[1], box.min[2], box.max[2]);
 }
 
-std::string as_text(const Findings& found, const CheckOptions& options, const Document& document) {
+std::string as_text(const CheckReport& found, const CheckOptions& options, const Document& document) {
   const SurfaceView surface = document.surface();
   const Topology& t = found.topology;
   std::string text;
@@ -193,19 +41,19 @@ std::string as_text(const Findings& found, const CheckOptions& options, const Do
   const auto defect = [&](std::size_t number, std::string_view one, std::string_view many) {
     if (number > 0) line("  note:       " + counted(number, one, many));
   };
-  defect(t.duplicate_vertices, "vertex counts as one with an earlier one (same position on a seam)",
-         "vertices count as one with an earlier one (same position on a seam)");
+  defect(t.duplicate_vertices, "vertex welded to an earlier one (same position on a seam)",
+         "vertices welded to an earlier one (same position on a seam)");
   defect(t.non_manifold_vertices, "non-manifold vertex", "non-manifold vertices");
   defect(t.duplicate_faces, "face on the same three vertices as another", "faces on the same three vertices as others");
   defect(t.zero_area_faces, "face without area", "faces without area");
   defect(t.unused_vertices, "vertex of no face", "vertices of no face");
-  defect(found.obstructed_components, "closed non-orientable component, which has no embedding in space",
+  defect(found.closed_non_orientable, "closed non-orientable component, which has no embedding in space",
          "closed non-orientable components, which have no embedding in space");
   if (found.components.size() > 1)
     for (std::size_t i = 0; i < std::min(found.components.size(), components_in_text); ++i) {
       const ComponentFindings& c = found.components[i];
       line(fmt::format("  component {:<3} {:>6} {:<5} {:>5} pairs within {:>5} with others; {}", i, c.faces,
-                       c.faces == 1 ? "face" : "faces", c.pairs_within, c.pairs_with_others, extent(c.box)));
+                       c.faces == 1 ? "face" : "faces", c.pairs_within, c.pairs_with_others, extent(c.bounds)));
     }
   if (found.components.size() > components_in_text)
     line(fmt::format("  and {} more (--json lists all)", found.components.size() - components_in_text));
@@ -222,13 +70,23 @@ std::string as_text(const Findings& found, const CheckOptions& options, const Do
       line(fmt::format("  {:<10} {:>9}", pair_class_names[i], found.counts.by_class[i]));
   line(counted(found.places.size(), "place:", "places:"));
   for (std::size_t i = 0; i < std::min(found.places.size(), places_in_text); ++i) {
-    const Place& place = found.places[i];
+    const ConflictPlace& place = found.places[i];
     line(fmt::format("  {:>5} {:<5} {:>5} {:<5} {}", place.pairs, place.pairs == 1 ? "pair" : "pairs",
-                     place.faces.size(), place.faces.size() == 1 ? "face" : "faces", extent(place.box)));
+                     place.faces.size(), place.faces.size() == 1 ? "face" : "faces", extent(place.bounds)));
   }
   if (found.places.size() > places_in_text)
     line(fmt::format("  and {} more (--json lists all)", found.places.size() - places_in_text));
   return text;
+}
+
+ReportFiles described(const CheckOptions& options, const Document& document) {
+  ReportFiles files;
+  files.input = options.input;
+  files.format = to_string(document.format());
+  files.vertices = document.surface().view().vertex_count();
+  files.faces = document.surface().view().face_count();
+  files.notes = document.notes();
+  return files;
 }
 
 std::string pairs_table(const std::vector<IntersectingPair>& pairs) {
@@ -262,14 +120,15 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
 
 int run_check(const CheckOptions& options, Interruption& interruption) {
   const Document document = read_mesh(options.input, format_from_name(options.format));
-  const Findings found = examine(document.surface(), options.find());
+  const CheckReport found = check(document.surface(), options.find());
   if (!options.pairs.empty()) {
     if (options.pairs == standard_stream || (options.input != standard_stream && options.pairs == options.input))
       throw UsageError("--pairs needs a file of its own");
     write_file(options.pairs, pairs_table(found.pairs), interruption);
   }
   if (options.json) {
-    write_to_stream(standard_stream, as_json(found, options, document).dump(2) + "\n");
+    write_to_stream(standard_stream,
+                    check_json(found, options.goal_wanted(), options.find(), described(options, document)) + "\n");
   } else if (!options.quiet) {
     for (const std::string& note : document.notes()) tell("note: " + note + "\n");
     write_to_stream(standard_stream, as_text(found, options, document));

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "unsnarl/document.h"
+
 namespace unsnarl::app {
 
 CLI::Validator one_of(std::vector<std::string> words) {
@@ -12,7 +14,7 @@ CLI::Validator not_negative() {
 }
 
 void add_mesh_options(CLI::App& command, MeshOptions& options) {
-  command.add_option("IN", options.input, "Mesh file: obj, off, ply, stl, glb or gltf; '-' for standard input")
+  command.add_option("IN", options.input, "Mesh file: " + format_names(" or ") + "; '-' for standard input")
       ->required();
   command.add_option("--format", options.format, "Format of the mesh, where its name does not tell")
       ->type_name("FORMAT");
@@ -34,8 +36,8 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
       ->check(not_negative())
       ->type_name("LENGTH");
   command.add_flag("--both-diagonals", options.both_diagonals,
-                   "Quads may be cut along either diagonal by who reads the file: faces intersect where they do for\n"
-                   "any choice. Else a quad counts as cut from its first corner (or its second, if that folds)");
+                   "Programs that read the file may split quads along either diagonal: faces intersect where they do\n"
+                   "for any choice. Else a quad is split from its first corner (or its second, if that folds)");
   command.add_option("--threads", options.threads, "Threads to use; 0: as many as the machine has")
       ->check(CLI::Range(0, 1024).description(""))
       ->type_name("N");

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
 #include <new>
 
 #include "fix_summary.h"
@@ -11,36 +9,23 @@
 #include "memory_guard.h"
 #include "mesh_input.h"
 #include "pictures.h"
-#include "pipeline/certifier.h"
-#include "pipeline/threads.h"
 #include "progress.h"
-#include "render/picture.h"
-#include "render/png.h"
-#include "report/exit_code.h"
-#include "report/process_usage.h"
-#include "report/recording_json.h"
-#include "report/report_json.h"
-#include "scene/face_pairs.h"
-#include "scene/prepared_surface.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
+#include "unsnarl/certify.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/page.h"
+#include "unsnarl/pictures.h"
+#include "unsnarl/report_json.h"
+#include "unsnarl/stage_clock.h"
 #include "usage_error.h"
-#include "view_page.h"
+#include "viewer.h"
 
 namespace unsnarl::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
@@ -95,13 +80,12 @@ bool is_to_be_written(const RepairResult& result, const Surface& input, bool kee
   }
 }
 
-/// What the file that was written holds, against what the status promises. Empty: the promise is kept.
+/// The promise of the status that the file just written breaks. Empty: none.
 std::string broken_promise(const RepairResult& result, const RepairOptions& options, const Surface& input,
                            const Surface& read_back) {
   if (read_back.corners != input.corners || read_back.offsets != input.offsets ||
       read_back.positions.size() != input.positions.size())
     return "its faces are not those of the input";
-  const ThreadLimit threads(options.find.threads);
   const Certificate certificate = Certifier(input, options.find).certify(read_back.positions);
   if (!certificate.seams_closed) return "a seam of the input is open in it";
   const PairCounts &after = certificate.pairs, &before = result.report.before;
@@ -137,7 +121,7 @@ class Fix {
     files_.vertices = surface().view().vertex_count();
     files_.faces = surface().view().face_count();
     files_.notes = document_.notes();
-    files_.before_repair.push_back({"read", clock_.seconds(), cpu_seconds(), peak_memory_mb()});
+    files_.before_repair.push_back(clock_.stage("read"));
   }
 
   int run() {
@@ -157,14 +141,13 @@ class Fix {
     interruption_.set_handler(nullptr);
     display_.clear();
 
-    const Stopwatch writing;
-    const double cpu_before = cpu_seconds();
+    const StageClock writing;
     if (is_to_be_written(result_, surface(), options_.keep_partial)) write_output();
-    files_.after_repair.push_back({"write", writing.seconds(), cpu_seconds() - cpu_before, peak_memory_mb()});
+    files_.after_repair.push_back(writing.stage("write"));
 
     write_pictures();
     write_recording();
-    files_.seconds = clock_.seconds();
+    files_.whole = clock_.stage("fix");
     write_report();
     write_view();
     if (!options_.quiet) {
@@ -225,11 +208,9 @@ class Fix {
 
   void write_pictures() {
     if (options_.highlight.empty() && options_.picture.empty()) return;
-    const PreparedSurface prepared = prepare(surface(), repair_options_.find);
-    FacePairFinder finder(prepared);
-    const auto pairs_at = [&](std::span<const double> positions) { return finder.find(prepared.gather(positions)); };
-    const std::vector<IntersectingPair> pairs_before = pairs_at(surface().positions);
-    const std::vector<IntersectingPair> pairs_after = pairs_at(result_.positions);
+    Certifier certifier(surface(), repair_options_.find);
+    const std::vector<IntersectingPair> pairs_before = certifier.find_intersections(surface().positions);
+    const std::vector<IntersectingPair> pairs_after = certifier.find_intersections(result_.positions);
     if (!options_.highlight.empty())
       write_file(options_.highlight, highlight_file(surface(), result_.positions, pairs_before, pairs_after),
                  interruption_);
@@ -247,24 +228,20 @@ class Fix {
       picture.after_label = label("after", pairs_after.size());
       const SurfaceView before = surface();
       const SurfaceView after = {result_.positions, before.corners, before.offsets};
-      write_file(options_.picture,
-                 encode_png(render_pair(before, faces_in(pairs_before), after, faces_in(pairs_after), picture)),
+      write_file(options_.picture, picture_png(before, faces_in(pairs_before), after, faces_in(pairs_after), picture),
                  interruption_);
     }
   }
 
   void write_recording() {
     if (options_.record.empty()) return;
-    write_file(options_.record, recording_json(result_, surface()).dump() + "\n", interruption_);
+    write_file(options_.record, recording_json(result_, surface()) + "\n", interruption_);
   }
 
   void write_report() {
-    if (options_.report.empty() && options_.view.empty()) return;
-    files_.triangulation = triangulate(surface()).statistics.describe();
-    if (!options_.report.empty()) write_file(options_.report, report().dump(2) + "\n", interruption_);
+    if (options_.report.empty()) return;
+    write_file(options_.report, report_json(result_, repair_options_, files_) + "\n", interruption_);
   }
-
-  nlohmann::ordered_json report() const { return report_json(result_, repair_options_, files_); }
 
   void write_view() {
     if (options_.view.empty()) return;
@@ -275,12 +252,12 @@ class Fix {
     source.after = result_.positions;
     source.find = repair_options_.find;
     source.goal = repair_options_.goal;
-    source.report = report();
+    source.report = report_json(result_, repair_options_, files_);
     source.frames = result_.frames;
-    write_file(options_.view, view_page(source), interruption_);
+    write_file(options_.view, view_page(viewer_template(), source), interruption_);
   }
 
-  Stopwatch clock_;
+  StageClock clock_;
   const FixOptions& options_;
   Interruption& interruption_;
   std::string output_;

@@ -26,7 +26,7 @@ struct FixOptions : MeshOptions {
 };
 void add_fix_options(CLI::App& command, FixOptions& options);
 
-/// What the options mean for this mesh. Lives no longer than `document`. Throws UsageError, FileError.
+/// The options for this mesh. They refer to `document`. Throws UsageError, FileError.
 RepairOptions repair_options(const FixOptions& options, const Document& document);
 
 /// Reads, repairs, writes to a temporary file, reads it back, certifies what was read, renames. Returns the exit code.

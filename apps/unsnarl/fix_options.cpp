@@ -3,7 +3,6 @@
 #include "fix.h"
 #include "mesh_input.h"
 #include "pictures.h"
-#include "report/measure.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -74,7 +73,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       command.add_flag("--each", options.each,
                        "Repair every component as if it were alone. Where two run through each other they may go on\n"
                        "doing so: this is reported as 'obstructed' (exit code 7), and the result is written");
-  command.add_flag("--together", options.together, "Repair the scene: components too are parted (default)")
+  command.add_flag("--together", options.together, "Repair the scene: components too are separated (default)")
       ->excludes(each)
       ->group(what);
   each->group(what);

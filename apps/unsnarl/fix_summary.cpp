@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "mesh_input.h"
-#include "report/process_usage.h"
 
 namespace unsnarl::app {
 namespace {
@@ -26,7 +25,7 @@ std::string_view explanation(Status status, Goal goal) {
                                : "no faces that share no vertex intersect any more";
     case Status::reduced: return "reduced: some self-intersections are left";
     case Status::no_progress: return "no progress: nothing better than the input was found";
-    case Status::obstructed: return "obstructed: what is left no motion that is allowed can resolve";
+    case Status::obstructed: return "obstructed: no allowed motion resolves the pairs that are left";
     case Status::time_limit: return "stopped at the time limit";
     case Status::memory_limit: return "stopped at the memory limit";
     case Status::displacement_exceeded:
@@ -43,13 +42,13 @@ std::string_view why(LeftReason reason) {
     case LeftReason::fixed_faces: return "in what is fixed of them";
     case LeftReason::between_components: return "between components, which --each leaves";
     case LeftReason::goal: return "of faces that share a vertex, which --goal disjoint leaves";
-    case LeftReason::rounding: return "parted by less than the digits of the file can say";
-    case LeftReason::displacement: return "that part only where something moves farther than allowed";
-    case LeftReason::taken_back: return "that part only at the cost of more pairs elsewhere";
+    case LeftReason::rounding: return "separated by less than the digits of the file can tell apart";
+    case LeftReason::displacement: return "that separate only where a vertex moves farther than allowed";
+    case LeftReason::taken_back: return "that separate only at the cost of more pairs elsewhere";
     case LeftReason::time_limit: return "not yet resolved at the time limit";
     case LeftReason::memory_limit: return "not yet resolved at the memory limit";
     case LeftReason::cancelled: return "not yet resolved when interrupted";
-    case LeftReason::unresolved: return "that no strategy of the ladder could part";
+    case LeftReason::unresolved: return "that no strategy separated";
     case LeftReason::other_diagonal: return "along the other diagonals of quads alone";
   }
   return "for an unknown reason";
@@ -84,7 +83,7 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
                      100 * (1 - r.untouched_share), 100 * r.displacement_max_rel, 100 * r.displacement_mean_rel));
   for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
   line(fmt::format("  {}{}; {:.2f} s, {:.0f} MB", explanation(result.status, options.goal), float32_remark(result),
-                   files.seconds, peak_memory_mb()));
+                   files.whole.seconds, files.whole.peak_memory_mb));
   line("  " + fate_of_output(result.status, files.output));
   return text;
 }

@@ -2,12 +2,12 @@
 
 #include <string>
 
-#include "report/report_json.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/report_json.h"
 
 namespace unsnarl::app {
 
-/// What `fix` tells a person at the end, several lines.
+/// The summary that `fix` ends with, several lines.
 std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files);
 
 }  // namespace unsnarl::app

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "report/exit_code.h"
+#include "unsnarl/exit_code.h"
 
 namespace unsnarl::app {
 namespace {

@@ -1,16 +1,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
-#include "geometry/types.h"
 #include "unsnarl/intersections.h"
 
 namespace unsnarl::app {
 
 /// Ids of the faces in any pair, ascending.
-inline std::vector<Index> faces_in(const std::vector<IntersectingPair>& pairs) {
-  std::vector<Index> faces;
+inline std::vector<std::int32_t> faces_in(const std::vector<IntersectingPair>& pairs) {
+  std::vector<std::int32_t> faces;
   faces.reserve(2 * pairs.size());
   for (const IntersectingPair& pair : pairs) {
     faces.push_back(pair.a);

@@ -12,10 +12,10 @@
 #include "check.h"
 #include "fix.h"
 #include "interruption.h"
-#include "report/exit_code.h"
 #include "sample.h"
 #include "standard_streams.h"
 #include "unsnarl/document.h"
+#include "unsnarl/exit_code.h"
 #include "unsnarl/version.h"
 #include "usage_error.h"
 #include "view.h"
@@ -99,7 +99,7 @@ ExitCode explain_error() {
   }
 }
 
-/// Where an error finds no way out (in a thread that has just run out of memory, say).
+/// The handler of errors that nothing catches (in a thread that has just run out of memory, say).
 [[noreturn]] void explain_and_end() {
   Interruption::end_process(std::current_exception() ? explain_error() : exit_internal_error);
 }

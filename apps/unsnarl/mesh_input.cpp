@@ -15,8 +15,7 @@ namespace unsnarl::app {
 std::optional<Format> format_from_name(const std::string& name) {
   if (name.empty()) return {};
   const std::optional<Format> format = format_from_extension(name);
-  if (!format)
-    throw UsageError(fmt::format("--format {}: no such format; choose obj, off, ply, stl, glb or gltf", name));
+  if (!format) throw UsageError(fmt::format("--format {}: no such format; choose {}", name, format_names(" or ")));
   return format;
 }
 

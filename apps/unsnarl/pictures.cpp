@@ -4,10 +4,8 @@
 
 #include <filesystem>
 
-#include "render/animation.h"
-#include "render/gif.h"
-#include "render/png.h"
 #include "staged_output.h"
+#include "unsnarl/pictures.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -30,20 +28,12 @@ void prepare_picture_folder(const std::string& path) {
 
 void write_animation(const std::string& path, const SurfaceView& surface, const RepairResult& result,
                      Interruption& interruption) {
-  if (picture_kind(path) == PictureKind::gif) {
-    std::vector<Image> images;
-    std::vector<double> delays;
-    render_animation(surface, result.frames, {}, [&](Image image, double seconds) {
-      images.push_back(std::move(image));
-      delays.push_back(seconds);
-    });
-    write_file(path, encode_gif(images, delays), interruption);
-  } else {
-    int number = 0;
-    render_animation(surface, result.frames, {}, [&](const Image& image, double) {
-      write_file((fs::path(path) / fmt::format("{:04}.png", number++)).string(), encode_png(image), interruption);
-    });
-  }
+  if (picture_kind(path) == PictureKind::gif)
+    return write_file(path, animation_gif(surface, result.frames), interruption);
+  int number = 0;
+  animation_pngs(surface, result.frames, {}, [&](const std::string& png) {
+    write_file((fs::path(path) / fmt::format("{:04}.png", number++)).string(), png, interruption);
+  });
 }
 
 }  // namespace unsnarl::app

@@ -7,7 +7,7 @@
 
 namespace unsnarl::app {
 
-/// What --picture asks for, by its name.
+/// The kind of picture that --picture asks for, by its name.
 enum class PictureKind {
   still,   ///< before and after, PNG
   gif,     ///< *.gif: an animation

@@ -9,11 +9,11 @@
 
 #include "command_options.h"
 #include "mesh_input.h"
-#include "report/exit_code.h"
-#include "samples/samples.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/samples.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {

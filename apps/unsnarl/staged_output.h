@@ -21,7 +21,7 @@ class StagedOutput {
 
   /// Replaces what was written before. Throws WriteError.
   void write(const std::vector<OutputFile>& files);
-  /// Where the main file lies until commit().
+  /// The place of the main file until commit().
   std::filesystem::path main_file() const { return folder_ / target_.filename(); }
   /// Final places of the files written.
   std::vector<std::filesystem::path> targets() const;

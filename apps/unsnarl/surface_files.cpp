@@ -27,7 +27,7 @@ void append_faces(std::string& text, const SurfaceView& surface) {
   for (std::size_t f = 0; f < surface.face_count(); ++f) {
     const auto corners = surface.face(f);
     fmt::format_to(std::back_inserter(text), "{}", corners.size());
-    for (Index v : corners) fmt::format_to(std::back_inserter(text), " {}", v);
+    for (std::int32_t v : corners) fmt::format_to(std::back_inserter(text), " {}", v);
     text += '\n';
   }
 }
@@ -64,7 +64,7 @@ std::string surface_file(const SurfaceView& surface, Format format, const std::s
         if (!groups.empty() && (f == 0 || components[f] != components[f - 1]))
           text += "g " + groups[std::min(static_cast<std::size_t>(components[f]), groups.size() - 1)] + "\n";
         text += 'f';
-        for (Index v : surface.face(f)) fmt::format_to(std::back_inserter(text), " {}", v + 1);
+        for (std::int32_t v : surface.face(f)) fmt::format_to(std::back_inserter(text), " {}", v + 1);
         text += '\n';
       }
       return text;
@@ -99,7 +99,7 @@ std::string highlight_file(const SurfaceView& surface, std::span<const double> p
   for (std::size_t f = 0; f < surface.face_count(); ++f) {
     const auto corners = surface.face(f);
     append_little_endian(bytes, static_cast<std::int32_t>(corners.size()));
-    for (Index v : corners) append_little_endian(bytes, v);
+    for (std::int32_t v : corners) append_little_endian(bytes, v);
     const Colour& colour = count_after[f] > 0 ? after_colour : count_before[f] > 0 ? before_colour : untouched_colour;
     for (const std::uint8_t channel : colour) bytes += static_cast<char>(channel);
     append_little_endian(bytes, count_before[f]);

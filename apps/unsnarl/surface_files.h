@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "geometry/types.h"
 #include "unsnarl/document.h"
 #include "unsnarl/intersections.h"
 

@@ -4,25 +4,35 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "mesh_input.h"
-#include "report/exit_code.h"
 #include "staged_output.h"
 #include "standard_streams.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/page.h"
+#include "unsnarl/report_json.h"
 #include "usage_error.h"
-#include "view_page.h"
+#include "viewer.h"
 
 namespace unsnarl::app {
 namespace {
 
-nlohmann::ordered_json read_report(const std::string& path) {
-  if (path.empty()) return nullptr;
+std::string read_report(const std::string& path) {
+  if (path.empty()) return {};
   std::ifstream file(path);
   if (!file) throw FileError(path + ": cannot open; --report needs the report that 'unsnarl fix --report' wrote");
-  nlohmann::ordered_json report = nlohmann::ordered_json::parse(file, nullptr, false);
-  if (!report.is_object() || report.value("schema", "") != "unsnarl-report")
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
+  if (!report.is_object() || report.value("schema", nlohmann::json()) != "unsnarl-report")
     throw FileError(path + ": this is not a report of 'unsnarl fix'");
-  return report;
+  if (const auto schema = report.value("schema_version", nlohmann::json()); schema != report_schema_version)
+    throw FileError(
+        fmt::format("{}: this report has schema version {}, this program reads {}; write it anew with "
+                    "'unsnarl fix --report'",
+                    path, schema.dump(), report_schema_version));
+  return text;
 }
 
 Document read_repaired(const ViewOptions& options, const Surface& input) {
@@ -78,7 +88,7 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
   source.find = options.find();
   source.goal = options.goal_wanted();
   source.report = read_report(options.report);
-  const std::string page = view_page(source);
+  const std::string page = view_page(viewer_template(), source);
   write_file(options.output, page, interruption);
   if (!options.quiet && options.output != standard_stream)
     tell(fmt::format("wrote {} ({:.1f} MB); open it in a browser\n", options.output, 1e-6 * page.size()));

@@ -1,21 +1,23 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <vector>
 
 #include "unsnarl/intersections.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
 
-/// What an exact check of given positions found. Vertices are identified and polygons cut by the *input*, so vertices
+/// Findings of an exact check of given positions. Welding and triangulation are those of the *input*, so vertices
 /// that have come to coincide since intersect.
 struct Certificate {
   PairCounts pairs;                     ///< intersecting pairs of faces
   PairCounts pairs_float32;             ///< the same after rounding all positions to float32; what is beyond its range
                                         ///< counts as one degenerate pair
   std::size_t new_zero_area_faces = 0;  ///< triangles without area that had some in the input
-  bool seams_closed = true;             ///< vertices that count as one are at one position
+  bool seams_closed = true;             ///< welded vertices are at one position
 
   /// The promise: no two faces meet anywhere but in the hull of the vertices they share.
   bool embedded() const { return pairs.total() == 0 && new_zero_area_faces == 0 && seams_closed; }
@@ -26,5 +28,28 @@ struct Certificate {
 ///
 /// Throws std::invalid_argument when the number of positions differs or a coordinate is not finite.
 Certificate certify(const SurfaceView& input, std::span<const double> positions, const FindOptions& options = {});
+
+/// The same for several sets of positions of one input, search by search. The arrays of the input must outlive it.
+class Certifier {
+ public:
+  /// Throws as find_intersections does.
+  explicit Certifier(const SurfaceView& input, const FindOptions& options = {});
+  Certifier(Certifier&&) noexcept;
+  Certifier& operator=(Certifier&&) noexcept;
+  ~Certifier();
+
+  // Each takes 3 n doubles and throws std::invalid_argument as certify() does.
+
+  /// All pairs of faces that intersect at these positions, sorted by (a, b).
+  std::vector<IntersectingPair> find_intersections(std::span<const double> positions);
+  /// Everything but Certificate::pairs_float32, which stays empty.
+  Certificate certify(std::span<const double> positions);
+  /// Certificate::pairs_float32.
+  PairCounts pairs_in_float32(std::span<const double> positions);
+
+ private:
+  class Search;
+  std::unique_ptr<Search> search_;
+};
 
 }  // namespace unsnarl

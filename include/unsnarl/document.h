@@ -18,6 +18,8 @@ enum class Format : std::uint8_t { obj, off, ply, stl, glb, gltf };
 std::string_view to_string(Format format);
 /// By the extension of a path ("a/b.OBJ"), or by the bare name of a format ("obj"). Case does not matter.
 std::optional<Format> format_from_extension(std::string_view path);
+/// The names of all formats: "obj, off, ply, stl, glb, gltf". before_last stands between the last two.
+std::string format_names(std::string_view before_last = ", ");
 
 /// A file cannot be read or makes no sense. The message says what, where (line or byte, face and vertex as the format
 /// counts them) and what to do.

@@ -9,7 +9,7 @@
 
 namespace unsnarl {
 
-/// What repair() notes on its way. Never changes the result.
+/// The notes that repair() takes on its way. They never change the result.
 struct RecordOptions {
   bool history = false;  ///< the iterations of every region: RepairReport::history
   /// Most frames to keep in RepairResult::frames; 0: none, else >= 2. Where there are more, every second one is left
@@ -32,7 +32,7 @@ struct IterationRecord {
   std::size_t pairs = 0;  ///< intersecting pairs of triangles left in the region
   double step = 0;        ///< largest motion of a vertex since the iteration before, length
   double min_gap =
-      none;  ///< smallest distance within the barrier's reach, length; NaN: nothing is near, or not watched
+      none;  ///< smallest distance within the barrier's reach, length; NaN: nothing is near, or without a barrier
   /// Weighted terms of the objective, by EnergyTerm; NaN: the method does not have it. Weights and units are the
   /// method's own: compare within a region and phase only.
   std::array<double, energy_term_count> energy = {none, none, none, none, none, none, none};

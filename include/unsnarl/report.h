@@ -9,6 +9,7 @@
 
 #include "unsnarl/intersections.h"
 #include "unsnarl/recording.h"
+#include "unsnarl/surface.h"
 
 namespace unsnarl {
 
@@ -27,6 +28,10 @@ std::string_view to_string(Status status);
 
 /// Number format the repaired positions must stay embedded in.
 enum class Precision : std::uint8_t { float32, float64 };
+std::string_view to_string(Precision precision);
+
+/// Diagonal of the bounding box, in the units of the positions; 0 without vertices. The unit of every length `*_rel`.
+double diagonal_of(const SurfaceView& surface);
 
 /// Something that no motion of the vertices can resolve, or that the options forbid to.
 struct Obstruction {
@@ -79,14 +84,14 @@ enum class LeftReason : std::uint8_t {
   fixed_faces,            ///< what their fixed vertices span intersects
   between_components,     ///< of different components, which RepairOptions::each_component leaves
   goal,                   ///< of a class that RepairOptions::goal does not ask for
-  rounding,               ///< were parted, by less than the digits of the result can say
-  displacement,           ///< were parted, but something had moved farther than allowed
-  taken_back,             ///< were parted, but with all that there was to it there were more pairs than before
+  rounding,               ///< were separated, by less than the digits of the result can tell apart
+  displacement,           ///< were separated, but a vertex had moved farther than allowed
+  taken_back,             ///< were separated, but the whole result had more pairs than the input
   time_limit,             ///< not resolved when the limit was reached
   memory_limit,
   cancelled,
-  unresolved,      ///< no strategy of the ladder could part them
-  other_diagonal,  ///< only meet where quads are cut along their other diagonals (FindOptions::both_diagonals)
+  unresolved,      ///< no strategy separated them
+  other_diagonal,  ///< meet only where quads are split along their other diagonals (FindOptions::both_diagonals)
 };
 inline constexpr std::size_t left_reason_count = static_cast<std::size_t>(LeftReason::other_diagonal) + 1;
 std::string_view to_string(LeftReason reason);
@@ -110,6 +115,7 @@ struct StageReport {
 
 struct RepairReport {
   Topology topology;
+  std::string triangulation;  ///< how the input's polygons were split into triangles, one sentence
   PairCounts before, after;
   std::vector<Obstruction> obstructions;
   /// The pairs of `after`, sorted: the first most_left_pairs_listed of them. Empty where memory ran out at the end.
@@ -121,14 +127,14 @@ struct RepairReport {
   /// share no vertex (obstructions aside). Seldom reached, because a whole neighbourhood has to make way.
   double displacement_lower_bound_rel = 0;
   double untouched_share = 1;                          ///< share of vertices that are bit-identical to the input
-  std::size_t flipped_triangles = 0;                   ///< normals turned by more than 90 degrees
+  std::size_t flipped_triangles = 0;                   ///< normals rotated by more than 90 degrees
   std::size_t flipped_triangles_without_conflict = 0;  ///< of these: not in an intersecting pair of the input
-  double min_gap_rel = 0;                              ///< smallest gap met while contacts were watched; 0: not watched
+  double min_gap_rel = 0;                              ///< smallest gap met in recovery; 0: no contact was active
   double volume_change_rel = 0;                        ///< signed volume of closed components, after / before - 1
   double area_change_rel = 0;
-  /// Edge lengths, max(after / before, before / after) over the edges of the triangles that the faces are cut into: the
-  /// largest, and the 99.9th percentile, which single needles do not decide. Edges without length in the input do not
-  /// count; infinite where one has none left.
+  /// Edge lengths, max(after / before, before / after) over the edges of the triangles that the faces are split into:
+  /// the largest, and the 99.9th percentile, which single needles do not decide. Edges without length in the input do
+  /// not count; infinite where one has none left.
   double edge_stretch_max = 1, edge_stretch_p999 = 1;
   bool float32_embedded = false;             ///< holds after rounding all positions to float32
   Precision precision = Precision::float64;  ///< the format in which the result was made to hold

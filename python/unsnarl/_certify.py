@@ -17,7 +17,7 @@ class Certificate(NamedTuple):
     pairs: dict[str, int]  #: intersecting pairs of faces by kind, see Intersections.kinds
     pairs_float32: dict[str, int]  #: the same after rounding to float32
     new_zero_area_faces: int  #: triangles without area that had some in the input
-    seams_closed: bool  #: vertices that count as one are at one position
+    seams_closed: bool  #: welded vertices are at one position
 
 
 def certify(
@@ -32,8 +32,8 @@ def certify(
 ) -> Certificate:
     """Decides exactly whether the positions `moved` (n, 3) embed the faces of the mesh (V, F).
 
-    Which vertices count as one and how polygons are cut is decided on V, so vertices that have come to coincide since
-    intersect; find_intersections(moved, F) would take them for one.
+    Vertices are welded and polygons split on V, so vertices that have come to coincide since intersect;
+    find_intersections(moved, F) might weld them.
 
     V and F (None where V is a mesh), weld, weld_tolerance, both_diagonals, threads and errors: as for
     find_intersections.

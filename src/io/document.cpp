@@ -2,33 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 
+#include "io/formats.h"
 #include "io/mesh_file.h"
 
 namespace unsnarl {
 namespace {
-
-constexpr std::array<std::pair<Format, std::string_view>, 6> format_names = {{{Format::obj, "obj"},
-                                                                              {Format::off, "off"},
-                                                                              {Format::ply, "ply"},
-                                                                              {Format::stl, "stl"},
-                                                                              {Format::glb, "glb"},
-                                                                              {Format::gltf, "gltf"}}};
-
-std::unique_ptr<MeshFile> parse_file(std::string bytes, Format format, const std::filesystem::path& folder) {
-  switch (format) {
-    case Format::obj: return parse_obj(std::move(bytes));
-    case Format::off: return parse_off(std::move(bytes));
-    case Format::ply: return parse_ply(std::move(bytes));
-    case Format::stl: return parse_stl(std::move(bytes));
-    case Format::glb: return parse_glb(std::move(bytes), folder);
-    case Format::gltf: return parse_gltf(std::move(bytes), folder);
-  }
-  throw std::invalid_argument("unknown format");
-}
 
 void check_positions(const Surface& surface, std::span<const double> positions) {
   if (positions.size() != surface.positions.size()) {
@@ -45,7 +26,7 @@ void check_positions(const Surface& surface, std::span<const double> positions) 
 }  // namespace
 
 std::string_view to_string(Format format) {
-  return format_names[static_cast<std::size_t>(format)].second;
+  return formats[static_cast<std::size_t>(format)].name;
 }
 
 std::optional<Format> format_from_extension(std::string_view path) {
@@ -53,10 +34,19 @@ std::optional<Format> format_from_extension(std::string_view path) {
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  for (const auto& [format, name] : format_names) {
-    if (extension == name) return format;
+  for (const FormatEntry& entry : formats) {
+    if (extension == entry.name) return entry.format;
   }
   return std::nullopt;
+}
+
+std::string format_names(std::string_view before_last) {
+  std::string text;
+  for (const FormatEntry& entry : formats) {
+    if (!text.empty()) text += &entry == &formats.back() ? before_last : ", ";
+    text += entry.name;
+  }
+  return text;
 }
 
 Document::Document(Format format, std::unique_ptr<MeshFile> file) : format_(format), file_(std::move(file)) {}
@@ -67,8 +57,8 @@ Document::~Document() = default;
 Document Document::read(const std::filesystem::path& path, std::optional<Format> format) {
   if (!format) format = format_from_extension(path.string());
   if (!format) {
-    throw FileError(fmt::format("{}: the extension does not tell the format; name one of obj, off, ply, stl, glb, gltf",
-                                path.string()));
+    throw FileError(
+        fmt::format("{}: the extension does not tell the format; name one of {}", path.string(), format_names()));
   }
   std::string bytes = read_file(path);
   try {
@@ -79,7 +69,9 @@ Document Document::read(const std::filesystem::path& path, std::optional<Format>
 }
 
 Document Document::parse(std::string bytes, Format format, const std::filesystem::path& folder) {
-  return Document(format, parse_file(std::move(bytes), format, folder));
+  const auto entry = static_cast<std::size_t>(format);
+  if (entry >= formats.size()) throw std::invalid_argument("unknown format");
+  return Document(format, formats[entry].parse(std::move(bytes), folder));
 }
 
 Format Document::format() const {

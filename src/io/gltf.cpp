@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "io/formats.h"
 #include "io/gltf_file.h"
 #include "io/surface_builder.h"
 

@@ -67,7 +67,7 @@ std::size_t GltfAccessors::index(const AccessorLayout& indices, std::size_t i) c
   }
 }
 
-/// What the accessor itself says.
+/// The accessor's own properties.
 AccessorLayout GltfAccessors::layout(std::size_t id, std::string_view type, const std::string& name) const {
   if (id >= accessors_.size()) {
     throw FileError(fmt::format("{} does not exist, the file has {}; it is damaged", name, accessors_.size()));
@@ -83,7 +83,7 @@ AccessorLayout GltfAccessors::layout(std::size_t id, std::string_view type, cons
   return result;
 }
 
-/// Where its elements are, by its view and buffer; all of them are there.
+/// Places of its elements, by its view and buffer; all of them are there.
 void GltfAccessors::locate(AccessorLayout& layout, std::size_t id, const std::string& name) const {
   const Value& accessor = accessors_[id];
   if (!accessor["bufferView"]) {

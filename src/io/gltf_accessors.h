@@ -11,7 +11,7 @@
 
 namespace unsnarl {
 
-/// Where the elements of an accessor lie.
+/// Places of the elements of an accessor.
 struct AccessorLayout {
   std::size_t buffer = 0, start = 0, stride = 0, count = 0;
   std::size_t component_type = 0;  ///< as the file writes it

@@ -23,7 +23,7 @@ struct TextEdit {
   std::string text;
 };
 
-/// Where JSON and binary data lie in a GLB file (or, for a .gltf file, that all of it is JSON).
+/// Places of the JSON and binary data in a GLB file (a .gltf file is all JSON).
 struct GltfContainer {
   ByteRange json;
   std::optional<ByteRange> binary;

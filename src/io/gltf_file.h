@@ -50,7 +50,7 @@ class GltfFile final : public MeshFile {
     return block.layout.start + (vertex - block.first_vertex) * block.layout.stride;
   }
   Local stored(const GltfBlock& block, std::size_t vertex) const;
-  /// What to store for a vertex that should be at positions[3 vertex ...]; the stored numbers where it did not move.
+  /// The numbers to store for a vertex that should be at positions[3 vertex ...]; those stored where it did not move.
   Local wanted(const GltfBlock& block, std::size_t vertex, std::span<const double> positions) const;
   /// Turns stored normals with the faces around them, in the space of their meshes.
   void turn_normals(std::span<const double> positions, std::map<std::size_t, std::string>& changed) const;

@@ -28,7 +28,7 @@ class Placement {
   bool is_identity_ = true, is_invertible_ = true;
 };
 
-/// Where a mesh stands: the first place that the default scene gives it.
+/// Placement of a mesh: the first that the default scene gives it.
 struct MeshPlace {
   Placement placement;
   std::string node;           ///< name of the node; empty: the scene does not show the mesh

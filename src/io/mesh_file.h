@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,13 +30,6 @@ class MeshFile {
   bool stores_float32 = false;
   bool recompute_normals = false;  ///< patched() updates stored vertex normals too
 };
-
-std::unique_ptr<MeshFile> parse_obj(std::string bytes);
-std::unique_ptr<MeshFile> parse_off(std::string bytes);
-std::unique_ptr<MeshFile> parse_ply(std::string bytes);
-std::unique_ptr<MeshFile> parse_stl(std::string bytes);
-std::unique_ptr<MeshFile> parse_glb(std::string bytes, const std::filesystem::path& folder);
-std::unique_ptr<MeshFile> parse_gltf(std::string bytes, const std::filesystem::path& folder);
 
 /// Reads a regular file whole. Throws FileError (missing, a folder, a pipe, unreadable).
 std::string read_file(const std::filesystem::path& path);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "io/coordinate_text_file.h"
+#include "io/formats.h"
 #include "io/surface_builder.h"
 #include "io/text_scanner.h"
 
@@ -149,7 +150,7 @@ class ObjParser {
 
 }  // namespace
 
-std::unique_ptr<MeshFile> parse_obj(std::string bytes) {
+std::unique_ptr<MeshFile> parse_obj(std::string bytes, const std::filesystem::path&) {
   auto file = std::make_unique<CoordinateTextFile>();
   file->bytes = std::move(bytes);
   ObjParser(*file).parse();

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "io/coordinate_text_file.h"
+#include "io/formats.h"
 #include "io/surface_builder.h"
 #include "io/text_scanner.h"
 
@@ -164,7 +165,7 @@ class OffParser {
 
 }  // namespace
 
-std::unique_ptr<MeshFile> parse_off(std::string bytes) {
+std::unique_ptr<MeshFile> parse_off(std::string bytes, const std::filesystem::path&) {
   auto file = std::make_unique<CoordinateTextFile>();
   file->bytes = std::move(bytes);
   OffParser(*file).parse();

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "io/byte_order.h"
+#include "io/formats.h"
 #include "io/mesh_file.h"
 #include "io/ply_header.h"
 #include "io/surface_builder.h"
@@ -76,7 +77,7 @@ class PlyFile final : public MeshFile {
     return result;
   }
 
-  /// Where coordinate i starts.
+  /// Start of coordinate i.
   std::size_t begin(std::size_t i) const { return begins.empty() ? first + i / 3 * stride + within[i % 3] : begins[i]; }
 
   bool ascii = false;
@@ -100,7 +101,7 @@ class PlyFile final : public MeshFile {
   std::span<const std::int32_t> normal_of_corner() const { return surface.corners; }
 };
 
-/// What a body is read from; AsciiSource and BinarySource look the same to the parser below.
+/// Sources of a body: AsciiSource and BinarySource look the same to the parser below.
 class AsciiSource {
  public:
   AsciiSource(std::string_view bytes, const PlyHeader& header) : text_(bytes, {}) { text_.seek(header.size); }
@@ -125,7 +126,7 @@ class AsciiSource {
     return type == PlyScalar::float32 ? static_cast<double>(text_.coordinate<float>(vertex))
                                       : text_.coordinate<double>(vertex);
   }
-  /// Whatever it is; 0 where it is no finite number.
+  /// A number of any type; 0 where it is not finite.
   double number(PlyScalar type) {
     to_next_value();
     double value = 0;
@@ -386,7 +387,7 @@ class BodyParser {
 
 }  // namespace
 
-std::unique_ptr<MeshFile> parse_ply(std::string bytes) {
+std::unique_ptr<MeshFile> parse_ply(std::string bytes, const std::filesystem::path&) {
   auto file = std::make_unique<PlyFile>();
   file->bytes = std::move(bytes);
   const PlyHeader header = parse_ply_header(file->bytes);

@@ -44,7 +44,7 @@ struct PlyHeader {
   std::size_t size = 0;  ///< bytes, including the end of its last line
 };
 
-/// What a PLY file says of its body. Throws FileError, naming the line.
+/// Reads the description of the body of a PLY file. Throws FileError, naming the line.
 PlyHeader parse_ply_header(std::string_view text);
 
 }  // namespace unsnarl

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "io/byte_order.h"
+#include "io/formats.h"
 #include "io/mesh_file.h"
 #include "io/surface_builder.h"
 #include "io/text_scanner.h"
@@ -230,7 +231,7 @@ class AsciiStlFile final : public StlFile {
 
 }  // namespace
 
-std::unique_ptr<MeshFile> parse_stl(std::string bytes) {
+std::unique_ptr<MeshFile> parse_stl(std::string bytes, const std::filesystem::path&) {
   if (bytes.empty()) throw FileError("the file is empty; an STL file has a header at least");
   if (BinaryStlFile::matches(bytes)) {
     auto file = std::make_unique<BinaryStlFile>();

@@ -67,7 +67,7 @@ class TextScanner {
       }
     }
   }
-  /// What is left of this line, without the blanks around it; goes to the next line.
+  /// The rest of this line, without the blanks around it; goes to the next line.
   std::string_view rest_of_line();
   /// The token here (up to white space); steps over it.
   std::string_view token() {

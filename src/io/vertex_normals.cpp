@@ -22,7 +22,7 @@ Vector3d area_vector(std::span<const double> positions, std::span<const std::int
   return sum;
 }
 
-/// What is known about the faces that use a normal.
+/// Properties of the faces that use a normal.
 struct Use {
   Vector3d before = Vector3d::Zero(), after = Vector3d::Zero();
   std::int32_t vertex = -1;

@@ -61,9 +61,7 @@ class PolygonCutter {
   }
 
   /// Positive where a, b, c turn left as seen against the mean normal.
-  double side(Index a, Index b, Index c) const {
-    return turn(normal_, position(a), position(b), position(c));
-  }
+  double side(Index a, Index b, Index c) const { return turn(normal_, position(a), position(b), position(c)); }
 
   template <class Emit>
   void cut_quad(Index a, Index b, Index c, Index d, Emit&& emit) {
@@ -141,7 +139,7 @@ Triangulation triangulate(const SurfaceView& surface, std::span<const Index> ver
   return result;
 }
 
-Triangulation triangulate_otherwise(const SurfaceView& surface, std::span<const Index> vertex_of) {
+Triangulation triangulate_other_diagonals(const SurfaceView& surface, std::span<const Index> vertex_of) {
   Triangulation result;
   PolygonCutter cutter(surface, result.statistics);
   for (std::size_t f = 0; f < surface.face_count(); ++f)

@@ -41,6 +41,6 @@ Triangulation triangulate(const SurfaceView& surface, std::span<const Index> ver
 
 /// The other way to cut the quads that can be cut either way: along the diagonal from the second corner, where neither
 /// diagonal folds. Same precondition; statistics stay empty.
-Triangulation triangulate_otherwise(const SurfaceView& surface, std::span<const Index> vertex_of = {});
+Triangulation triangulate_other_diagonals(const SurfaceView& surface, std::span<const Index> vertex_of = {});
 
 }  // namespace unsnarl

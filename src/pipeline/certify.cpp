@@ -1,22 +1,95 @@
 #include "unsnarl/certify.h"
 
-#include "pipeline/certifier.h"
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "mesh/areas.h"
 #include "pipeline/threads.h"
+#include "scene/face_pairs.h"
+#include "scene/prepared_surface.h"
+#include "scene/rounding.h"
 
 namespace unsnarl {
 
-Certificate certify(const SurfaceView& input, std::span<const double> positions, const FindOptions& options) {
+class Certifier::Search {
+ public:
+  Search(const SurfaceView& input, const FindOptions& options)
+      : input_(input), options_(options), prepared_(prepare(input, options)), finder_(prepared_) {}
+  // The finder refers to the prepared surface.
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
+
+  std::vector<IntersectingPair> pairs_at(std::span<const double> positions) {
+    return finder_.find(gathered(positions));
+  }
+
+  Certificate certify(std::span<const double> positions) {
+    const Positions x = gathered(positions);
+    Certificate certificate;
+    const std::vector<Index>& id = prepared_.weld_map.vertex_of;
+    for (std::size_t v = 0; v < id.size() && options_.weld_tolerance == 0; ++v)
+      for (int k = 0; k < 3; ++k) certificate.seams_closed &= positions[3 * v + k] == x(k, id[v]);
+    certificate.new_zero_area_faces = count_lost_areas(prepared_.rest, x, prepared_.triangles());
+    certificate.pairs = count_by_class(finder_.find(x));
+    return certificate;
+  }
+
+  PairCounts pairs_in_float32(std::span<const double> positions) {
+    const Positions x = gathered(positions);
+    PairCounts pairs = count_by_class(finder_.find(rounded_to_float32(x)));
+    if (!fits_float32(x)) ++pairs[PairClass::degenerate];
+    return pairs;
+  }
+
+  int threads() const { return options_.threads; }
+
+ private:
+  /// The positions of the welded vertices.
+  Positions gathered(std::span<const double> positions) const {
+    if (positions.size() != input_.positions.size())
+      throw std::invalid_argument("there are " + std::to_string(positions.size() / 3) + " positions for a surface of " +
+                                  std::to_string(input_.vertex_count()) + " vertices");
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      if (!std::isfinite(positions[k]))
+        throw std::invalid_argument("vertex " + std::to_string(k / 3) + " has a coordinate that is not finite");
+    return prepared_.gather(positions);
+  }
+
+  SurfaceView input_;
+  FindOptions options_;
+  PreparedSurface prepared_;
+  FacePairFinder finder_;
+};
+
+Certifier::Certifier(const SurfaceView& input, const FindOptions& options) {
   const ThreadLimit threads(options.threads);
+  search_ = std::make_unique<Search>(input, options);
+}
+Certifier::Certifier(Certifier&&) noexcept = default;
+Certifier& Certifier::operator=(Certifier&&) noexcept = default;
+Certifier::~Certifier() = default;
+
+std::vector<IntersectingPair> Certifier::find_intersections(std::span<const double> positions) {
+  const ThreadLimit threads(search_->threads());
+  return search_->pairs_at(positions);
+}
+
+Certificate Certifier::certify(std::span<const double> positions) {
+  const ThreadLimit threads(search_->threads());
+  return search_->certify(positions);
+}
+
+PairCounts Certifier::pairs_in_float32(std::span<const double> positions) {
+  const ThreadLimit threads(search_->threads());
+  return search_->pairs_in_float32(positions);
+}
+
+Certificate certify(const SurfaceView& input, std::span<const double> positions, const FindOptions& options) {
   Certifier certifier(input, options);
   Certificate certificate = certifier.certify(positions);
   certificate.pairs_float32 = certifier.pairs_in_float32(positions);
   return certificate;
-}
-
-std::vector<IntersectingPair> find_intersections(const SurfaceView& surface, const FindOptions& options) {
-  const ThreadLimit threads(options.threads);
-  const PreparedSurface prepared = prepare(surface, options);
-  return FacePairFinder(prepared).find(prepared.rest);
 }
 
 }  // namespace unsnarl

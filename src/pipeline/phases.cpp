@@ -3,21 +3,17 @@
 #include <algorithm>
 #include <string>
 
-#include "report/process_usage.h"
-
 namespace unsnarl {
 
 void Phases::start(std::string_view phase) {
   end();
   phase_ = phase;
-  begin_ = Clock::now();
-  cpu_begin_ = cpu_seconds();
+  clock_ = StageClock();
 }
 
 void Phases::end() {
   if (phase_.empty()) return;
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-  stages_.push_back({std::string(phase_), seconds, cpu_seconds() - cpu_begin_, peak_memory_mb()});
+  stages_.push_back(clock_.stage(std::string(phase_)));
   phase_ = {};
 }
 

@@ -50,6 +50,7 @@ class Repair {
     finders_.emplace(prepared_.triangles());
     diagnosis_ = diagnose(surface_, prepared_, fixed, finders_->as_is);
     result_.report.topology = diagnosis_.topology;
+    result_.report.triangulation = prepared_.triangulation.statistics.describe();
     result_.report.obstructions = diagnosis_.obstructions;
     acceptance_.emplace(prepared_, diagnosis_, options_, *finders_);
     recorder_.emplace(options_.record, prepared_.rest);
@@ -97,7 +98,7 @@ class Repair {
     const Triangulation& cut = prepared_.triangulation;
     std::vector<IntersectingPair> ignored;
     for (const IntersectingPair& pair : diagnosis_.pairs)
-      if (acceptance_->is_set_aside(pair)) ignored.push_back(pair);
+      if (acceptance_->is_tolerated(pair)) ignored.push_back(pair);
     SceneRepair scene(*job_, make_scene(prepared_.rest, cut.triangles, std::move(fixed), diagnosis_.edges),
                       diagnosis_.pairs, std::move(ignored));
     work_on_scene(scene, cut, everything, *finders_);
@@ -114,7 +115,7 @@ class Repair {
       const Index c = component_of[pair.a];
       if (c != component_of[pair.b]) continue;
       pairs[c].push_back({number[pair.a], number[pair.b], pair.kind});
-      if (acceptance_->is_set_aside(pair)) ignored[c].push_back(pairs[c].back());
+      if (acceptance_->is_tolerated(pair)) ignored[c].push_back(pairs[c].back());
     }
     bool float32 = true;
     for (Index c = 0; c < count; ++c) {
@@ -133,7 +134,7 @@ class Repair {
 
   /// `cut`: of the polygons of the component, or of all, into its triangles, which `finders` are of.
   void work_on_scene(SceneRepair& scene, const Triangulation& cut, Index component, Finders& finders) {
-    const bool other_diagonals_matter = !prepared_.otherwise.triangles.empty();
+    const bool other_diagonals_matter = !prepared_.other_diagonals.triangles.empty();
     if (!scene.has_work(finders) && !other_diagonals_matter) return;
     try {
       scene.work(finders);

@@ -21,7 +21,7 @@ std::vector<Triangulation> cuts_by_positions(const SceneRepair& repair, const Jo
   const Components& components = job.diagnosis.components;
   return {of_component(triangulate(result, vertex_of), components, component),
           job.options.find.both_diagonals
-              ? of_component(triangulate_otherwise(result, vertex_of), components, component)
+              ? of_component(triangulate_other_diagonals(result, vertex_of), components, component)
               : Triangulation()};
 }
 
@@ -44,7 +44,7 @@ std::vector<Index> vertices_of(const Job& job, const std::vector<Index>& polygon
 void settle_triangulation(SceneRepair& repair, const Job& job, const Triangulation& cut, Index component,
                           Finders& finders) {
   if (job.surface.offsets.empty() || !repair.is_resolved(finders)) return;
-  const std::vector<Triangulation> input = {cut, job.prepared.otherwise};
+  const std::vector<Triangulation> input = {cut, job.prepared.other_diagonals};
   const std::size_t input_size = unite(input).all.triangles.size();
   SceneRepair::Checkpoint best = repair.checkpoint();
   bool best_holds = false;

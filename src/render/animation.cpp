@@ -21,13 +21,13 @@ namespace {
 constexpr Colour red = {0.80, 0.16, 0.14}, pale_red = {0.93, 0.83, 0.82};
 constexpr Colour blue = {0.20, 0.38, 0.66}, pale_blue = {0.78, 0.83, 0.90};
 
-/// Of the height of the view, that a magnified part may have: then it is magnified three times at least.
+/// Largest side of a magnified part, in heights of the view: it is magnified three times at least.
 constexpr double largest_window = 0.28;
-/// Of the height of the view: six edges of the red faces must be shorter to be magnified where they do not all fit.
+/// In heights of the view: red faces that do not all fit are magnified where six of their edges are shorter.
 constexpr double small_window = 0.1;
-/// Where there are more frames to show, every second one is left out: each takes up to 100 kB of a GIF.
+/// Most frames to show; of more, every second one is left out: each takes up to 100 kB of a GIF.
 constexpr std::size_t most_shown = 50;
-/// Of the diagonal: a frame in which no vertex has moved farther since the last one shown is left out ...
+/// Least motion, in diagonals: a frame in which no vertex has moved farther since the last one shown is left out ...
 constexpr double least_motion_rel = 5e-4;
 
 void check(const SurfaceView& surface, std::span<const RecordedFrame> frames, const AnimationOptions& options) {
@@ -62,7 +62,7 @@ std::vector<double> all_positions(const SurfaceView& surface, std::span<const Re
   return all;
 }
 
-/// What the strip below the surface shows.
+/// The contents of the strip below the surface.
 struct Course {
   std::vector<double> pairs, displacement;  ///< of each frame, divided by their largest values
 };
@@ -157,7 +157,7 @@ void draw_course(Image& image, const Course& course, std::size_t now, Rectangle 
   }
 }
 
-/// What the colours of the course mean, right-aligned at x_end.
+/// The legend of the course's colours, right-aligned at x_end.
 void draw_legend(Image& image, double y, double size, int x_end) {
   double x = x_end;
   for (const auto& [text, colour] : {std::pair{"distance from the input", blue}, {"intersecting pairs", red}}) {
@@ -167,7 +167,7 @@ void draw_legend(Image& image, double y, double size, int x_end) {
   }
 }
 
-/// What to show beside the whole: all conflicts where they lie close together, else the most of them if they are hard
+/// The part to show beside the whole: all conflicts where they lie close together, else most of them if they are hard
 /// to see.
 std::optional<Window> close_up(const Drawable& drawable, const Camera& camera, int width, int height) {
   const auto window = worth_magnifying(drawable, camera, width, height, largest_window);

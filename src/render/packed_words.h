@@ -6,7 +6,7 @@
 
 namespace unsnarl {
 
-/// What the words of a list are expected to be; only the differences are stored.
+/// Predictions of the words of a list; only the differences from them are stored.
 struct Prediction {
   std::size_t stride = 0;  ///< > 0: the word this many places before; before the first: 0
   std::span<const std::uint32_t> like =

@@ -22,7 +22,7 @@ struct PageState {
   std::vector<std::array<Vec3, 2>> curves;  ///< segments of the intersection curves
 };
 
-/// What a page shows. Everything it views must outlive the call of make_page.
+/// The contents of a page. Everything it views must outlive the call of make_page.
 struct PageContent {
   std::string input_name, output_name;  ///< for the reader; any bytes. output_name may be empty
   SurfaceView faces;                    ///< its faces; its positions are `before`'s

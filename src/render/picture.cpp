@@ -15,7 +15,7 @@
 namespace unsnarl {
 namespace {
 
-/// Of the height, that a magnified part may have: then it is magnified 1.5 times at least.
+/// Largest side of a magnified part, in heights of the picture: it is magnified 1.5 times at least.
 constexpr double largest_window = 0.24;
 
 struct Panel {

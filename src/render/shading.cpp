@@ -74,7 +74,7 @@ std::uint8_t to_srgb(float linear) {
   return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
-/// Where one over the depth, which is affine on a plane, bends: outlines, and edges of sheets in front of others.
+/// Bends of one over the depth, which is affine on a plane: outlines, and edges of sheets in front of others.
 float outline(const View& view, int x, int y) {
   const VisibilityBuffer& buffer = view.nearest;
   const auto at = [&](int i, int j) {

@@ -9,7 +9,7 @@ namespace unsnarl {
 Acceptance::Acceptance(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options,
                        Finders& finders)
     : prepared_(prepared), diagnosis_(diagnosis), options_(options), finders_(finders) {
-  if (!prepared.otherwise.triangles.empty()) any_cut_.emplace(prepared);
+  if (!prepared.other_diagonals.triangles.empty()) any_diagonal_.emplace(prepared);
   before_ = pairs_at(prepared.rest);
 }
 
@@ -17,10 +17,10 @@ Acceptance::Pairs Acceptance::pairs_at(const Positions& x) {
   Pairs pairs;
   pairs.triangles = x == prepared_.rest ? diagnosis_.pairs : finders_.as_is.find(x);
   pairs.of_faces = pairs_of_faces(prepared_.triangulation.polygon, pairs.triangles);
-  if (any_cut_) {
-    std::vector<IntersectingPair> of_any_cut = any_cut_->find(x);
-    pairs.by_other_diagonals = of_any_cut.size() > pairs.of_faces.size();
-    pairs.of_faces = std::move(of_any_cut);
+  if (any_diagonal_) {
+    std::vector<IntersectingPair> of_any_diagonal = any_diagonal_->find(x);
+    pairs.by_other_diagonals = of_any_diagonal.size() > pairs.of_faces.size();
+    pairs.of_faces = std::move(of_any_diagonal);
   }
   pairs.faces = count_by_class(pairs.of_faces);
   return pairs;
@@ -28,10 +28,10 @@ Acceptance::Pairs Acceptance::pairs_at(const Positions& x) {
 
 bool Acceptance::is_embedded_in_float32(const Positions& x) {
   if (!fits_float32(x)) return false;
-  return any_cut_ ? any_cut_->find(rounded_to_float32(x)).empty() : finders_.find_rounded(x).empty();
+  return any_diagonal_ ? any_diagonal_->find(rounded_to_float32(x)).empty() : finders_.find_rounded(x).empty();
 }
 
-bool Acceptance::is_set_aside(const IntersectingPair& pair) const {
+bool Acceptance::is_tolerated(const IntersectingPair& pair) const {
   return (options_.goal == Goal::disjoint && pair.kind != PairClass::disjoint) ||
          (options_.each_component && are_of_two_components(diagnosis_.components, pair)) ||
          std::binary_search(diagnosis_.obstructed.begin(), diagnosis_.obstructed.end(), pair);
@@ -46,9 +46,9 @@ bool Acceptance::is_worse(const Pairs& pairs) const {
 }
 
 Status Acceptance::status(const Pairs& pairs, const Positions& x) const {
-  // A pair of the input may be set aside; one that is new counts, unless it is between components that do not.
+  // A pair of the input may be tolerated; a new one counts, unless it is between components that are left alone.
   const auto is_fine = [&](const IntersectingPair& pair) {
-    if (std::binary_search(diagnosis_.pairs.begin(), diagnosis_.pairs.end(), pair)) return is_set_aside(pair);
+    if (std::binary_search(diagnosis_.pairs.begin(), diagnosis_.pairs.end(), pair)) return is_tolerated(pair);
     return options_.each_component && are_of_two_components(diagnosis_.components, pair);
   };
   const bool is_done = std::all_of(pairs.triangles.begin(), pairs.triangles.end(), is_fine) &&

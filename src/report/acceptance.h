@@ -11,7 +11,7 @@
 
 namespace unsnarl {
 
-/// Says what positions of a surface are worth against its input. What it is given must outlive it.
+/// The acceptance test: compares positions of a surface with its input. Its arguments must outlive it.
 class Acceptance {
  public:
   /// `finders`: of the prepared triangles.
@@ -22,16 +22,16 @@ class Acceptance {
     std::vector<IntersectingPair> triangles;  ///< sorted
     std::vector<IntersectingPair> of_faces;   ///< sorted
     PairCounts faces;
-    bool by_other_diagonals = false;  ///< some faces intersect for other diagonals than those that were cut along
+    bool by_other_diagonals = false;  ///< some faces intersect only along the other diagonals of quads
   };
   Pairs pairs_at(const Positions& x);
   /// No two faces intersect once the positions are rounded to float32.
   bool is_embedded_in_float32(const Positions& x);
 
-  /// A pair of the input that is not to be resolved: an obstruction, of a class or between components that do not
-  /// count.
-  bool is_set_aside(const IntersectingPair& pair) const;
-  /// More pairs than the input, in all or of disjoint faces.
+  /// A pair of the input that need not be resolved: an obstruction, of a class that the goal leaves out, or between
+  /// components that are repaired one by one.
+  bool is_tolerated(const IntersectingPair& pair) const;
+  /// More pairs than the input, in total or of disjoint faces.
   bool is_worse(const Pairs& pairs) const;
   /// embedded, obstructed, reduced or no_progress.
   Status status(const Pairs& pairs, const Positions& x) const;
@@ -41,7 +41,7 @@ class Acceptance {
   const Diagnosis& diagnosis_;
   const RepairOptions& options_;
   Finders& finders_;
-  std::optional<FacePairFinder> any_cut_;
+  std::optional<FacePairFinder> any_diagonal_;
   Pairs before_;
 };
 

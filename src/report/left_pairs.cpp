@@ -37,7 +37,7 @@ class Explanation {
     return is_cut_short ? reason_of(limit_) : LeftReason::unresolved;
   }
 
-  /// Number of the furthest strategy that the pair climbed to; -1: none.
+  /// Number of the last strategy tried on the pair; -1: none.
   int furthest_strategy(const IntersectingPair& pair) const {
     int furthest = -1;
     for (Index t : {pair.a, pair.b})
@@ -55,7 +55,7 @@ class Explanation {
     }
     return LeftReason::unresolved;
   }
-  /// `status`: that of the limit that ended the work, or another.
+  /// `status`: the limit that ended the work, or any other.
   static LeftReason reason_of(Status status) {
     if (status == Status::time_limit) return LeftReason::time_limit;
     if (status == Status::memory_limit) return LeftReason::memory_limit;

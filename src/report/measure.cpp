@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "energy/minkowski_penalty.h"
-#include "geometry/box.h"
 #include "mesh/areas.h"
 
 namespace unsnarl {
@@ -36,7 +35,7 @@ void measure_displacement(std::span<const double> before, std::span<const double
   report.untouched_share = static_cast<double>(untouched) / static_cast<double>(n);
 }
 
-/// Sum over closed orientable components of |volume|: after / before - 1 of the component that changed most.
+/// Signed volume after / before - 1 of the closed orientable component for which it is largest in magnitude.
 double volume_change(const PreparedSurface& prepared, const Components& components, const Positions& x) {
   std::vector<std::vector<Triangle>> lists(components.count());
   for (std::size_t t = 0; t < prepared.triangles().size(); ++t) {
@@ -54,9 +53,9 @@ double volume_change(const PreparedSurface& prepared, const Components& componen
   return worst;
 }
 
-/// Largest penetration depth among the pairs that share no vertex and that motion can part. For every direction n, the
-/// triangles overlap by at least their depth along n, and where all vertices move by at most d, by at least depth - 2 d
-/// afterwards: an embedded result has d > depth / 2.
+/// Largest penetration depth among the pairs that share no vertex and that motion can separate. For every direction n,
+/// the triangles overlap by at least their depth along n, and where all vertices move by at most d, by at least depth -
+/// 2 d afterwards: an embedded result has d > depth / 2.
 double deepest_overlap(const PreparedSurface& prepared, const Diagnosis& diagnosis) {
   const std::span<const Triangle> triangles = prepared.triangles();
   double deepest = 0;
@@ -95,13 +94,6 @@ void measure_stretch(const PreparedSurface& prepared, std::size_t edge_count, co
 }
 
 }  // namespace
-
-double diagonal_of(const SurfaceView& surface) {
-  const std::span<const double> x = surface.positions;
-  Box box;
-  for (std::size_t i = 0; i + 2 < x.size(); i += 3) box.extend(Vec3(x[i], x[i + 1], x[i + 2]));
-  return x.empty() ? 0 : box.diagonal();
-}
 
 void measure_change(const SurfaceView& surface, const PreparedSurface& prepared, const Diagnosis& diagnosis,
                     std::span<const double> positions, RepairReport& report) {

@@ -8,11 +8,8 @@
 
 namespace unsnarl {
 
-/// Diagonal of the bounding box; 0 without vertices.
-double diagonal_of(const SurfaceView& surface);
-
-/// Fills displacement and its lower bound, untouched share, turned triangles, volume and area change, edge stretch of a
-/// report. `positions` and the surface's own are 3 n doubles.
+/// Fills displacement and its lower bound, untouched share, flipped triangles, volume and area change, edge stretch of
+/// a report. `positions` and the surface's own are 3 n doubles.
 void measure_change(const SurfaceView& surface, const PreparedSurface& prepared, const Diagnosis& diagnosis,
                     std::span<const double> positions, RepairReport& report);
 

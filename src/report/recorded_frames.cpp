@@ -75,7 +75,7 @@ class Film {
     return true;
   }
 
-  /// Where the vertices are now becomes a frame.
+  /// Appends a frame of the current positions.
   void shoot(Frame frame) {
     std::sort(touched_.begin(), touched_.end());
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());

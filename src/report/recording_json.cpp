@@ -6,6 +6,7 @@
 
 #include "io/base64.h"
 #include "io/byte_order.h"
+#include "unsnarl/report_json.h"
 #include "unsnarl/version.h"
 
 namespace unsnarl {
@@ -21,6 +22,19 @@ std::string packed(const std::vector<Source>& values) {
   for (std::size_t i = 0; i < values.size(); ++i)
     store(bytes.data() + 4 * i, static_cast<Value>(values[i]), std::endian::little);
   return base64_encoded(bytes);
+}
+
+Json frames_json(std::span<const RecordedFrame> frames) {
+  Json json = Json::array();
+  for (const RecordedFrame& frame : frames)
+    json.push_back({{"phase", frame.phase},
+                    {"strategy", frame.strategy},
+                    {"iteration", frame.iteration},
+                    {"pairs", frame.pairs},
+                    {"intersecting", packed<std::int32_t>(frame.intersecting)},
+                    {"vertices", packed<std::int32_t>(frame.vertices)},
+                    {"displacements", packed<float>(frame.displacements)}});
+  return json;
 }
 
 }  // namespace
@@ -54,20 +68,7 @@ Json history_json(std::span<const RegionHistory> history) {
   return json;
 }
 
-Json frames_json(std::span<const RecordedFrame> frames) {
-  Json json = Json::array();
-  for (const RecordedFrame& frame : frames)
-    json.push_back({{"phase", frame.phase},
-                    {"strategy", frame.strategy},
-                    {"iteration", frame.iteration},
-                    {"pairs", frame.pairs},
-                    {"intersecting", packed<std::int32_t>(frame.intersecting)},
-                    {"vertices", packed<std::int32_t>(frame.vertices)},
-                    {"displacements", packed<float>(frame.displacements)}});
-  return json;
-}
-
-Json recording_json(const RepairResult& result, const SurfaceView& surface) {
+std::string recording_json(const RepairResult& result, const SurfaceView& surface) {
   Json json;
   json["schema"] = "unsnarl-recording";
   json["schema_version"] = recording_schema_version;
@@ -78,7 +79,7 @@ Json recording_json(const RepairResult& result, const SurfaceView& surface) {
   json["diagonal"] = result.report.diagonal;
   json["history"] = history_json(result.report.history);
   json["frames"] = frames_json(result.frames);
-  return json;
+  return json.dump();
 }
 
 }  // namespace unsnarl

@@ -1,10 +1,10 @@
-#include "report/report_json.h"
+#include "unsnarl/report_json.h"
 
 #include <algorithm>
 
-#include "report/exit_code.h"
-#include "report/process_usage.h"
 #include "report/recording_json.h"
+#include "report/shared_json.h"
+#include "unsnarl/exit_code.h"
 #include "unsnarl/version.h"
 
 namespace unsnarl {
@@ -56,29 +56,7 @@ Json left_json(const RepairReport& report) {
 
 }  // namespace
 
-Json topology_json(const Topology& t) {
-  return {{"vertices", t.vertices},
-          {"faces", t.faces},
-          {"triangles", t.triangles},
-          {"components", t.components},
-          {"closed_components", t.closed_components},
-          {"non_orientable_components", t.non_orientable_components},
-          {"boundary_edges", t.boundary_edges},
-          {"non_manifold_edges", t.non_manifold_edges},
-          {"non_manifold_vertices", t.non_manifold_vertices},
-          {"duplicate_faces", t.duplicate_faces},
-          {"zero_area_faces", t.zero_area_faces},
-          {"duplicate_vertices", t.duplicate_vertices},
-          {"unused_vertices", t.unused_vertices}};
-}
-
-Json pair_counts_json(const PairCounts& counts) {
-  Json by_class = Json::object();
-  for (std::size_t i = 0; i < pair_class_count; ++i) by_class[std::string(pair_class_names[i])] = counts.by_class[i];
-  return {{"total", counts.total()}, {"by_class", by_class}};
-}
-
-Json report_json(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
+std::string report_json(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
   const RepairReport& r = result.report;
   Json json;
   json["schema"] = "unsnarl-report";
@@ -87,9 +65,9 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
   json["status"] = to_string(result.status);
   json["exit_code"] = static_cast<int>(exit_code_of(result.status));
   const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
-  json["input"] = {{"path", text_or_null(files.input)},    {"format", text_or_null(files.format)},
-                   {"vertices", files.vertices},           {"faces", files.faces},
-                   {"triangulation", files.triangulation}, {"notes", files.notes}};
+  json["input"] = {{"path", text_or_null(files.input)}, {"format", text_or_null(files.format)},
+                   {"vertices", files.vertices},        {"faces", files.faces},
+                   {"triangulation", r.triangulation},  {"notes", files.notes}};
   json["output"] = {{"written", !files.output.empty()}, {"path", text_or_null(files.output)}};
   json["options"] = options_json(options);
   json["topology"] = topology_json(r.topology);
@@ -130,52 +108,9 @@ Json report_json(const RepairResult& result, const RepairOptions& options, const
                                   {"pairs_after", component.pairs_after}});
   if (options.record.any()) json["history"] = history_json(r.history);
   json["stages"] = stages_json(result, files);
-  json["seconds"] = files.seconds;
-  json["peak_memory_mb"] = peak_memory_mb();
-  return json;
-}
-
-std::string_view to_string(Status status) {
-  switch (status) {
-    case Status::embedded: return "embedded";
-    case Status::reduced: return "reduced";
-    case Status::no_progress: return "no_progress";
-    case Status::obstructed: return "obstructed";
-    case Status::time_limit: return "time_limit";
-    case Status::memory_limit: return "memory_limit";
-    case Status::displacement_exceeded: return "displacement_exceeded";
-    case Status::cancelled: return "cancelled";
-  }
-  return "unknown";
-}
-
-std::string_view to_string(Obstruction::Kind kind) {
-  switch (kind) {
-    case Obstruction::Kind::closed_non_orientable: return "closed_non_orientable";
-    case Obstruction::Kind::duplicate_faces: return "duplicate_faces";
-    case Obstruction::Kind::fixed_faces: return "fixed_faces";
-    case Obstruction::Kind::between_components: return "between_components";
-  }
-  return "unknown";
-}
-
-std::string_view to_string(LeftReason reason) {
-  switch (reason) {
-    case LeftReason::closed_non_orientable: return "closed_non_orientable";
-    case LeftReason::duplicate_faces: return "duplicate_faces";
-    case LeftReason::fixed_faces: return "fixed_faces";
-    case LeftReason::between_components: return "between_components";
-    case LeftReason::goal: return "goal";
-    case LeftReason::rounding: return "rounding";
-    case LeftReason::displacement: return "displacement";
-    case LeftReason::taken_back: return "taken_back";
-    case LeftReason::time_limit: return "time_limit";
-    case LeftReason::memory_limit: return "memory_limit";
-    case LeftReason::cancelled: return "cancelled";
-    case LeftReason::unresolved: return "unresolved";
-    case LeftReason::other_diagonal: return "other_diagonal";
-  }
-  return "unknown";
+  json["seconds"] = files.whole.seconds;
+  json["peak_memory_mb"] = files.whole.peak_memory_mb;
+  return text_of(json);
 }
 
 std::string_view to_string(Weld weld) {
@@ -185,10 +120,6 @@ std::string_view to_string(Weld weld) {
     case Weld::all: return "all";
   }
   return "unknown";
-}
-
-std::string_view to_string(Precision precision) {
-  return precision == Precision::float32 ? "float32" : "float64";
 }
 
 std::string_view to_string(Goal goal) {

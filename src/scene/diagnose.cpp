@@ -9,7 +9,7 @@
 namespace unsnarl {
 namespace {
 
-/// What the fixed vertices of a triangle span, as a triangle that uses some of them twice; none: nothing is fixed.
+/// The span of a triangle's fixed vertices, as a triangle that uses some of them twice; none: nothing is fixed.
 std::optional<Triangle> fixed_part(const Triangle& t, std::span<const std::uint8_t> fixed) {
   std::optional<Triangle> part;
   int count = 0;
@@ -72,7 +72,7 @@ Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, 
     for (Index t : group) obstruction.faces.push_back(polygon[t]);
     std::string list;
     for (Index face : obstruction.faces) list += (list.empty() ? "" : ", ") + std::to_string(face);
-    obstruction.message = "faces " + list + " lie on the same three vertices: moving vertices cannot part them";
+    obstruction.message = "faces " + list + " lie on the same three vertices: moving vertices cannot separate them";
     result.obstructions.push_back(std::move(obstruction));
   }
   for (const IntersectingPair& pair : result.pairs) {

@@ -15,8 +15,8 @@ std::vector<T> joined(const std::vector<T>& a, const std::vector<T>& b) {
 
 FacePairFinder::FacePairFinder(const PreparedSurface& surface)
     : surface_(surface),
-      triangles_(joined(surface.triangulation.triangles, surface.otherwise.triangles)),
-      polygon_(joined(surface.triangulation.polygon, surface.otherwise.polygon)),
+      triangles_(joined(surface.triangulation.triangles, surface.other_diagonals.triangles)),
+      polygon_(joined(surface.triangulation.polygon, surface.other_diagonals.polygon)),
       finder_(triangles_.empty() ? surface.triangles() : triangles_) {}
 
 bool FacePairFinder::are_of_one_quad(const IntersectingPair& pair) const {

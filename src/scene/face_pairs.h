@@ -7,8 +7,8 @@
 
 namespace unsnarl {
 
-/// Finds the intersecting pairs of the faces of a surface: of the triangles that they are cut into, and where both
-/// diagonals of quads count, of those that they could be cut into. The surface must outlive it.
+/// Finds the intersecting pairs of the faces of a surface: of the triangles that they are split into, and where both
+/// diagonals of quads count, along either diagonal. The surface must outlive it.
 class FacePairFinder {
  public:
   explicit FacePairFinder(const PreparedSurface& surface);
@@ -17,11 +17,11 @@ class FacePairFinder {
   std::vector<IntersectingPair> find(const Positions& x);
 
  private:
-  /// Triangles of two cuts of the same quad overlap by their nature.
+  /// The triangles of a quad along one diagonal always overlap those along the other.
   bool are_of_one_quad(const IntersectingPair& pair) const;
 
   const PreparedSurface& surface_;
-  std::vector<Triangle> triangles_;  ///< of both cuts; empty: there is but one
+  std::vector<Triangle> triangles_;  ///< along both diagonals; empty: only one counts
   std::vector<Index> polygon_;
   IntersectionFinder finder_;
 };

@@ -9,8 +9,8 @@
 
 namespace unsnarl {
 
-/// The two states in which a surface is judged, as it is and rounded to float32, have a finder each: one that went from
-/// state to state would decide everything anew every time.
+/// One finder for the positions as they are and one for those rounded to float32: a finder that alternated between the
+/// two would decide everything anew every time.
 class Finders {
  public:
   /// The span must outlive this.

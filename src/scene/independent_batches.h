@@ -12,22 +12,22 @@
 
 namespace unsnarl {
 
-/// Runs work on items that may disturb each other where their boxes overlap: in waves of items that do not, each wave
-/// in parallel by `work(i)`, followed by `finish(i)` for its items in order on the calling thread. Of two items that
-/// overlap the earlier one is finished before the later begins; so the result is that of one after the other, at any
-/// thread count.
+/// Runs work on items that may disturb each other where their boxes overlap: in batches of items that do not, each
+/// batch in parallel by `work(i)`, followed by `finish(i)` for its items in order on the calling thread. Of two items
+/// that overlap the earlier one is finished before the later begins; so the result is that of one after the other, at
+/// any thread count.
 template <class Work, class Finish>
 void run_in_batches(std::span<const Box> boxes, Work&& work, Finish&& finish) {
   const std::size_t n = boxes.size();
-  std::vector<std::vector<std::size_t>> earlier(n), waves;
+  std::vector<std::vector<std::size_t>> earlier(n), batches;
   Bvh(boxes).self_pairs([&](Index i, Index j) { earlier[std::max(i, j)].push_back(std::min(i, j)); });
-  std::vector<std::size_t> wave(n, 0);
+  std::vector<std::size_t> batch(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j : earlier[i]) wave[i] = std::max(wave[i], wave[j] + 1);
-    if (wave[i] == waves.size()) waves.emplace_back();
-    waves[wave[i]].push_back(i);
+    for (std::size_t j : earlier[i]) batch[i] = std::max(batch[i], batch[j] + 1);
+    if (batch[i] == batches.size()) batches.emplace_back();
+    batches[batch[i]].push_back(i);
   }
-  for (const std::vector<std::size_t>& items : waves) {
+  for (const std::vector<std::size_t>& items : batches) {
     oneapi::tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t k) { work(items[k]); });
     for (std::size_t i : items) finish(i);
   }

@@ -22,7 +22,7 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
   sort_unique(patch.faces);
   patch.active_count = static_cast<Index>(patch.faces.size());
 
-  // One query for all, and then who is near any: a query for each would find the same obstacles again and again.
+  // One query for all triangles, then a test against each: a query for each would find the same obstacles repeatedly.
   std::vector<Box> boxes;
   Box all;
   for (Index t : patch.faces) {

@@ -12,7 +12,7 @@ namespace unsnarl {
 
 class Trajectory;
 
-/// A small surface of its own, cut out of the whole: what may move, and what stands still around it.
+/// A region as a small surface of its own: free triangles and the obstacles around them.
 /// Every solver works on patches and knows nothing of the surface they come from.
 struct Patch {
   /// Vertices [0, free_count) may move; the rest never do.

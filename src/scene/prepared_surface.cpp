@@ -29,7 +29,8 @@ PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options) 
   PreparedSurface prepared;
   prepared.weld_map = weld(surface, options.weld, options.weld_tolerance);
   prepared.triangulation = triangulate(surface, prepared.weld_map.vertex_of);
-  if (options.both_diagonals) prepared.otherwise = triangulate_otherwise(surface, prepared.weld_map.vertex_of);
+  if (options.both_diagonals)
+    prepared.other_diagonals = triangulate_other_diagonals(surface, prepared.weld_map.vertex_of);
   prepared.rest = prepared.gather(surface.positions);
   return prepared;
 }

@@ -17,21 +17,21 @@ namespace unsnarl {
 struct PreparedSurface {
   WeldMap weld_map;
   Triangulation triangulation;
-  Triangulation otherwise;  ///< quads along their other diagonals; empty unless FindOptions::both_diagonals
-  Positions rest;           ///< of identified vertices
+  Triangulation other_diagonals;  ///< of the quads; empty unless FindOptions::both_diagonals
+  Positions rest;                 ///< of the welded vertices
 
   std::span<const Triangle> triangles() const { return triangulation.triangles; }
-  /// Positions of the file's vertices -> of the identified ones (the first of each).
+  /// Positions of the file's vertices -> of the welded ones (the first of each).
   Positions gather(std::span<const double> positions) const;
-  /// The input's positions, with those of the identified vertices that differ from rest put in their place.
+  /// The input's positions, with those of the welded vertices that differ from rest put in their place.
   std::vector<double> scatter(std::span<const double> input, const Positions& x) const;
 };
 
 /// Throws std::invalid_argument where the surface makes no sense (see require_valid).
 PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options);
 
-/// Pairs of triangles -> pairs of the faces they were cut from (`polygon`, of each triangle), sorted, each once, in the
-/// class of its first occurrence.
+/// Pairs of triangles -> pairs of the faces that they are pieces of (`polygon`, of each triangle), sorted, each once,
+/// in the class of its first occurrence.
 std::vector<IntersectingPair> pairs_of_faces(std::span<const Index> polygon, std::span<const IntersectingPair> pairs);
 
 }  // namespace unsnarl

@@ -24,7 +24,7 @@ class Recorder {
   Trajectory new_trajectory() const { return Trajectory(options_.frames > 0 ? trajectory_budget : 0); }
 
   void begin_stage(std::string phase);
-  /// What led these vertices of the scene to where they are in x.
+  /// Adds the trajectory that led these vertices of the scene to their positions in x.
   void add(Trajectory trajectory, std::string strategy, std::size_t region, std::span<const Index> vertices,
            const Positions& x);
 

@@ -11,7 +11,7 @@ namespace unsnarl {
 inline bool fits_float32(const Positions& x) {
   return x.size() == 0 || x.cwiseAbs().maxCoeff() <= std::numeric_limits<float>::max();
 }
-/// What is beyond float32 becomes its largest number, since predicates need numbers.
+/// Coordinates beyond float32 become its largest number, since predicates need numbers.
 inline Positions rounded_to_float32(const Positions& x) {
   constexpr double largest = std::numeric_limits<float>::max();
   return x.cwiseMax(-largest).cwiseMin(largest).cast<float>().cast<double>();

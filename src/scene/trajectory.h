@@ -49,7 +49,7 @@ class Trajectory {
   Positions last_;  // the free vertices where they were recorded last
 };
 
-// What solvers call; nothing happens on a patch that has no trajectory.
+// Functions for solvers; they do nothing on a patch without a trajectory.
 
 /// The state reached by an iteration, x of the patch's vertices.
 inline void record(const Patch& patch, const Positions& x, const IterationRecord& iteration) {

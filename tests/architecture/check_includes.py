@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks what the sources include.
 
-layers  a file includes only from its own layer or one below; public headers only each other and the standard library
+layers  a file includes only from its own layer or one below; public headers only each other and the standard library;
+        the command line, the Python module and the examples only public headers and files of their own folder
 gpl     the product includes no part of CGAL that is under the GPL, and CGAL at all in one file only
 
 usage: check_includes.py {layers,gpl} PROJECT_DIR
@@ -28,6 +29,8 @@ BELOW = {
                  "report"],
     "samples": ["geometry", "mesh"],
 }
+# They use the library as its users do.
+USERS = ["apps", "python", "examples"]
 THIRD_PARTY = re.compile(r"^(Eigen|CGAL|tbb|oneapi|fmt|nlohmann|CLI|png|zlib|boost|gmp|mpfr|gtest|benchmark)\b")
 CGAL_ONLY_IN = "src/geometry/exact_predicates.cpp"
 # The kernel, its number types and Intersections_3 are under the LGPL.
@@ -35,13 +38,18 @@ CGAL_LGPL = re.compile(
     r"^CGAL/(Exact_predicates_(in)?exact_constructions_kernel|Simple_cartesian|Cartesian|Filtered_kernel|Gmpq|Gmpz|"
     r"Mpzf|MP_Float|Quotient|Interval_nt|FPU|enum|number_utils|Kernel/\w+|Kernel_23/\w+|Intersections_3/\w+|"
     r"Cartesian_converter|Lazy_exact_nt|Exact_rational|intersections|predicates/\w+|Uncertain)\.h$")
-INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def quoted_and_included(path):
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if match := INCLUDE.match(line):
+            yield number, match[1] == '"', match[2]
 
 
 def includes(path):
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-        if match := INCLUDE.match(line):
-            yield number, match[1]
+    for number, _, included in quoted_and_included(path):
+        yield number, included
 
 
 def sources(folder):
@@ -69,6 +77,22 @@ def check_layers(project):
                 if other and other != layer and other not in below:
                     yield (f"{path}:{number}: layer '{layer}' includes '{included}' of layer '{other}'; "
                            f"it may include from {', '.join([layer, *below])}")
+    for user in USERS:
+        for path in sources(project / user):
+            for number, quoted, included in quoted_and_included(path):
+                if included.startswith("unsnarl/") or is_own_or_foreign(project, path, quoted, included):
+                    continue
+                yield (f"{path}:{number}: '{included}'; {user}/ may include unsnarl/* and files of its own folder: "
+                       "what it needs of the library becomes a public header")
+
+
+def is_own_or_foreign(project, path, quoted, included):
+    """A file beside `path`, or a header of a system or third-party library."""
+    if ".." in Path(included).parts:
+        return False
+    if quoted and (path.parent / included).is_file():
+        return True
+    return not quoted and not any((project / root / included).exists() for root in ("", "src", "include"))
 
 
 def check_gpl(project):

@@ -441,6 +441,14 @@ TEST_F(Cli, ReportPictureAndHighlight) {
   EXPECT_NE(contents(folder / "h.ply").find("property int pairs_before"), std::string::npos);
 }
 
+TEST_F(Cli, ReportsNameFilesWithAnyBytes) {
+  const std::string in = file("in\xff.obj", crossing);
+  EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj", "--report", folder / "r.json"}).exit_code, 0);
+  const std::string path = nlohmann::json::parse(contents(folder / "r.json"))["input"]["path"];
+  EXPECT_TRUE(path.ends_with("in\xef\xbf\xbd.obj")) << path;
+  EXPECT_EQ(run({"check", in, "--json"}).exit_code, 1);
+}
+
 TEST_F(Cli, ProgressAsJsonNeverGoesBack) {
   const std::string in = file("in.obj", crossing);
   const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--progress", "json", "--quiet"});

@@ -33,13 +33,13 @@ def quoted_messages():
 class Troubleshooting(unittest.TestCase):
     def test_every_ending_has_a_section(self):
         headings = re.findall(r"^### (\S+)$", PAGE, re.M)
-        for status, _ in enumerators("include/unsnarl/repair.h", "Status"):
+        for status, _ in enumerators("include/unsnarl/report.h", "Status"):
             self.assertIn(status, headings)
-        for kind, _ in enumerators("include/unsnarl/repair.h", "Kind"):
+        for kind, _ in enumerators("include/unsnarl/report.h", "Kind"):
             self.assertIn(kind, headings)
 
     def test_every_exit_code_is_explained(self):
-        codes = {code for _, code in enumerators("src/repair/exit_code.h", "ExitCode")}
+        codes = {code for _, code in enumerators("include/unsnarl/exit_code.h", "ExitCode")}
         self.assertIn("70", codes)
         self.assertEqual(codes, set(re.findall(r"(?:Exit code |^\| )(\d+)\b", PAGE, re.M)))
 

@@ -19,6 +19,11 @@ TEST(Document, FormatByExtension) {
   }
 }
 
+TEST(Document, NamesItsFormats) {
+  EXPECT_EQ(format_names(), "obj, off, ply, stl, glb, gltf");
+  EXPECT_EQ(format_names(" or "), "obj, off, ply, stl, glb or gltf");
+}
+
 TEST(Document, RefusesPositionsThatAreNotItsOwn) {
   const Document document = Document::parse(triangle, Format::obj);
   std::vector<double> positions = document.surface().positions;

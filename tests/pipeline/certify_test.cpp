@@ -114,5 +114,31 @@ TEST(Certify, same_answer_at_any_thread_count) {
   }
 }
 
+TEST(Certifier, does_search_by_search_what_certify_does) {
+  const Surface crossing = shapes::crossing_bumps(6, 0.4).surface();
+  std::vector<double> apart = crossing.positions;
+  for (std::size_t k = crossing.positions.size() / 2 + 2; k < apart.size(); k += 3) apart[k] += 5;
+  Certifier certifier(crossing);
+  for (const std::vector<double>& positions : {apart, crossing.positions, apart}) {
+    const Certificate expected = certify(crossing, positions);
+    EXPECT_EQ(certifier.certify(positions).pairs.by_class, expected.pairs.by_class);
+    EXPECT_EQ(certifier.pairs_in_float32(positions).by_class, expected.pairs_float32.by_class);
+    EXPECT_EQ(certifier.find_intersections(positions).size(), expected.pairs.total());
+  }
+  EXPECT_EQ(certifier.find_intersections(crossing.positions), find_intersections(crossing));
+  EXPECT_TRUE(certifier.find_intersections(apart).empty());
+}
+
+TEST(Certifier, refuses_positions_that_make_no_sense) {
+  const Surface sheet = shapes::bumpy_sheet(4, 0.5).surface();
+  Certifier certifier(sheet);
+  std::vector<double> positions = sheet.positions;
+  positions[3] = std::nan("");
+  EXPECT_THROW(certifier.find_intersections(positions), std::invalid_argument);
+  EXPECT_THROW(certifier.pairs_in_float32(positions), std::invalid_argument);
+  positions.pop_back();
+  EXPECT_THROW(certifier.certify(positions), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace unsnarl

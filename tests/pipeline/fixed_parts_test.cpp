@@ -5,10 +5,10 @@
 
 #include "mesh/triangulation.h"
 #include "oracle/intersections_oracle.h"
-#include "samples/samples.h"
 #include "scene/shapes.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/samples.h"
 
 namespace unsnarl {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "oracle/intersections_oracle.h"
-#include "samples/samples.h"
 #include "scene/prepared_surface.h"
 #include "scene/shapes.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/samples.h"
 
 namespace unsnarl {
 namespace {

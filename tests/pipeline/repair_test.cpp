@@ -13,9 +13,9 @@
 
 #include "mesh/triangulation.h"
 #include "oracle/intersections_oracle.h"
-#include "samples/samples.h"
 #include "scene/shapes.h"
 #include "unsnarl/certify.h"
+#include "unsnarl/samples.h"
 #include "untangle/local_solver.h"
 
 namespace unsnarl {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "samples/samples.h"
 #include "scene/shapes.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/samples.h"
 #include "untangle/strategies.h"
 
 namespace unsnarl {

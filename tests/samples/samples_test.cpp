@@ -1,4 +1,4 @@
-#include "samples/samples.h"
+#include "unsnarl/samples.h"
 
 #include <gtest/gtest.h>
 

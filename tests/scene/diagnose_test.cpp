@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "samples/samples.h"
 #include "scene/shapes.h"
+#include "unsnarl/samples.h"
 
 namespace unsnarl {
 namespace {

@@ -63,7 +63,7 @@ function reportFacts(report) {
     gap ? ['smallest gap met', gap] : null,
     ['area', `${percent(report.area_change_rel)} change`],
     report.volume_change_rel ? ['volume', `${percent(report.volume_change_rel)} change`] : null,
-    report.flipped_triangles ? ['normals turned', plural(report.flipped_triangles, 'triangle', 'triangles')] : null,
+    report.flipped_triangles ? ['flipped', plural(report.flipped_triangles, 'triangle', 'triangles')] : null,
     ['holds in 32 bits', report.float32_embedded ? 'yes' : 'no'],
     ['time', duration(report.seconds)],
   ]);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "unsnarl/repair.h"
+#include "unsnarl/report.h"
 
 namespace unsnarl {
 
-/// Exit codes of the program, the same for all commands.
+/// Exit codes of the program `unsnarl`, the same for all commands.
 enum ExitCode : int {
   exit_embedded = 0,  ///< nothing intersects (any more)
   exit_intersecting = 1,
@@ -17,7 +17,7 @@ enum ExitCode : int {
   exit_internal_error = 70,
 };
 
-/// The one that `unsnarl fix` ends with; stands in the report too.
+/// The exit code of `unsnarl fix`; also in its report.
 constexpr ExitCode exit_code_of(Status status) {
   switch (status) {
     case Status::embedded: return exit_embedded;

@@ -1,33 +1,35 @@
-#include "view_page.h"
+#include "unsnarl/page.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <vector>
 
 #include "contact/intersection_finder.h"
 #include "contact/intersection_segments.h"
-#include "mesh_input.h"
+#include "pipeline/threads.h"
 #include "render/page.h"
 #include "scene/prepared_surface.h"
-#include "usage_error.h"
-#include "viewer_template.h"
 
-namespace unsnarl::app {
+namespace unsnarl {
+namespace {
 
-std::string page_name(const std::string& path) {
-  return path == standard_stream ? "mesh" : std::filesystem::path(path).filename().string();
+nlohmann::ordered_json parsed(const std::string& report) {
+  if (report.empty()) return nullptr;
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(report, nullptr, false);
+  if (json.is_discarded()) throw std::invalid_argument("PageSource::report is not JSON; give what report_json returns");
+  return json;
 }
 
-void require_viewer() {
-  if (viewer_template().empty())
-    throw UsageError(
-        "this build has no viewer: it was made without Node.js or without the viewer's packages. Install nodejs and "
-        "npm, run 'npm ci' in viewer/, then configure and build again with -DUNSNARL_BUILD_VIEWER=ON (./demo does it "
-        "all)");
-}
+}  // namespace
 
-std::string view_page(const PageSource& source) {
-  require_viewer();
+std::string view_page(std::string_view page_template, const PageSource& source) {
+  const ThreadLimit threads(source.find.threads);
   const PreparedSurface prepared = prepare(source.before, source.find);
+  if (!source.after.empty() && source.after.size() != source.before.positions.size())
+    throw std::invalid_argument("PageSource::after has " + std::to_string(source.after.size() / 3) +
+                                " positions for a surface of " + std::to_string(source.before.vertex_count()) +
+                                " vertices");
   IntersectionFinder finder(prepared.triangles());
   std::vector<IntersectingPair> pairs_before, pairs_after;
   const auto state_at = [&](std::span<const double> positions, std::vector<IntersectingPair>& pairs) {
@@ -44,9 +46,9 @@ std::string view_page(const PageSource& source) {
   content.faces = source.before;
   content.before = state_at(source.before.positions, pairs_before);
   if (!source.after.empty()) content.after = state_at(source.after, pairs_after);
-  content.report = source.report;
+  content.report = parsed(source.report);
   content.frames = source.frames;
-  return make_page(viewer_template(), content);
+  return make_page(page_template, content);
 }
 
-}  // namespace unsnarl::app
+}  // namespace unsnarl

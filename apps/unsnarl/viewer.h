@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace unsnarl::app {
+
+/// The page that viewer/ builds, without data. Empty in a build without the viewer.
+std::string_view viewer_template();
+
+/// Throws UsageError where this build has no viewer.
+void require_viewer();
+
+/// The name of a mesh as the page shows it: the last part of its path.
+std::string page_name(const std::string& path);
+
+}  // namespace unsnarl::app

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "unsnarl/intersections.h"
+#include "unsnarl/recording.h"
+#include "unsnarl/repair.h"
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+/// The contents of the page of `unsnarl view`. Everything it views must outlive the call of view_page.
+struct PageSource {
+  std::string input_name, output_name;  ///< for the reader; any bytes. output_name may be empty
+  SurfaceView before;
+  std::span<const double> after = {};     ///< 3 a vertex of `before`; empty: there is only one surface to look at
+  FindOptions find;                       ///< welding
+  Goal goal = Goal::all;                  ///< which pairs are shown
+  std::string report;                     ///< as of report_json; empty: none
+  std::span<const RecordedFrame> frames;  ///< RepairResult::frames; may be empty
+};
+
+/// One HTML file that shows it all, and needs no network: the template with the mesh, its intersections and its
+/// displacements in it. Positions are drawn in 32 bits; displacements are computed in 64.
+///
+/// page_template: HTML with a place for data, as viewer/ builds it.
+/// Throws std::invalid_argument where the template has no such place, the report is no JSON, or the surface makes no
+/// sense (as find_intersections does).
+std::string view_page(std::string_view page_template, const PageSource& source);
+
+}  // namespace unsnarl

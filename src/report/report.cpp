@@ -1,0 +1,61 @@
+#include "unsnarl/report.h"
+
+#include "geometry/box.h"
+
+namespace unsnarl {
+
+std::string_view to_string(Status status) {
+  switch (status) {
+    case Status::embedded: return "embedded";
+    case Status::reduced: return "reduced";
+    case Status::no_progress: return "no_progress";
+    case Status::obstructed: return "obstructed";
+    case Status::time_limit: return "time_limit";
+    case Status::memory_limit: return "memory_limit";
+    case Status::displacement_exceeded: return "displacement_exceeded";
+    case Status::cancelled: return "cancelled";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(Obstruction::Kind kind) {
+  switch (kind) {
+    case Obstruction::Kind::closed_non_orientable: return "closed_non_orientable";
+    case Obstruction::Kind::duplicate_faces: return "duplicate_faces";
+    case Obstruction::Kind::fixed_faces: return "fixed_faces";
+    case Obstruction::Kind::between_components: return "between_components";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(LeftReason reason) {
+  switch (reason) {
+    case LeftReason::closed_non_orientable: return "closed_non_orientable";
+    case LeftReason::duplicate_faces: return "duplicate_faces";
+    case LeftReason::fixed_faces: return "fixed_faces";
+    case LeftReason::between_components: return "between_components";
+    case LeftReason::goal: return "goal";
+    case LeftReason::rounding: return "rounding";
+    case LeftReason::displacement: return "displacement";
+    case LeftReason::taken_back: return "taken_back";
+    case LeftReason::time_limit: return "time_limit";
+    case LeftReason::memory_limit: return "memory_limit";
+    case LeftReason::cancelled: return "cancelled";
+    case LeftReason::unresolved: return "unresolved";
+    case LeftReason::other_diagonal: return "other_diagonal";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(Precision precision) {
+  return precision == Precision::float32 ? "float32" : "float64";
+}
+
+double diagonal_of(const SurfaceView& surface) {
+  const std::span<const double> x = surface.positions;
+  Box box;
+  for (std::size_t i = 0; i + 2 < x.size(); i += 3) box.extend(Vec3(x[i], x[i + 1], x[i + 2]));
+  return x.empty() ? 0 : box.diagonal();
+}
+
+}  // namespace unsnarl

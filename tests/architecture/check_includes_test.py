@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""The include check finds what it forbids, and nothing else. usage: check_includes_test.py"""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import check_includes
+
+
+class Layers(unittest.TestCase):
+    def findings(self, files):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                path = Path(folder, name)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            return list(check_includes.check_layers(Path(folder)))
+
+    def refused(self, name, line, others=()):
+        found = self.findings({name: line + "\n", **{other: "" for other in others}})
+        self.assertEqual(len(found), 1, found)
+        self.assertIn(f"{name}:1:", found[0])
+
+    def accepted(self, name, line, others=()):
+        self.assertEqual(self.findings({name: line + "\n", **{other: "" for other in others}}), [])
+
+    def test_a_layer_includes_nothing_from_above(self):
+        self.refused("src/mesh/a.cpp", '#include "pipeline/b.h"')
+        self.refused("src/report/a.cpp", '#include "render/b.h"')
+        self.accepted("src/pipeline/a.cpp", '#include "mesh/b.h"')
+
+    def test_public_headers_include_public_headers(self):
+        self.refused("include/unsnarl/a.h", '#include "mesh/b.h"')
+        self.refused("include/unsnarl/a.h", "#include <nlohmann/json.hpp>")
+        self.accepted("include/unsnarl/a.h", '#include "unsnarl/b.h"')
+
+    def test_users_of_the_library_include_public_headers(self):
+        for user in ("apps/unsnarl", "python", "examples"):
+            with self.subTest(user=user):
+                self.refused(f"{user}/a.cpp", '#include "report/b.h"')
+                self.refused(f"{user}/a.cpp", '#include "report/b.h"', ["src/report/b.h"])
+                self.refused(f"{user}/a.cpp", "#include <report/b.h>", ["src/report/b.h"])
+                self.refused(f"{user}/a.cpp", '#include "samples/b.h"', ["samples/b.h"])
+                self.refused(f"{user}/a.cpp", '#include "../src/report/b.h"', ["src/report/b.h"])
+                self.refused(f"{user}/a.cpp", "#  include <src/report/b.h>", ["src/report/b.h"])
+                self.accepted(f"{user}/a.cpp", '#include "unsnarl/b.h"')
+                self.accepted(f"{user}/a.cpp", '#include "b.h"', [f"{user}/b.h"])
+                self.accepted(f"{user}/a.cpp", "#include <fmt/format.h>")
+                self.accepted(f"{user}/a.cpp", "#include <vector>")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,74 @@
+#include "unsnarl/check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "scene/shapes.h"
+
+namespace unsnarl {
+namespace {
+
+// Two crossing bumps, the same far away with a deeper crossing, and a sheet that meets nothing.
+Surface two_places() {
+  shapes::Shape shape = shapes::crossing_bumps(10, 0.4);
+  shape.add(shapes::crossing_bumps(10, 1.2), {50, 0, 0});
+  shape.add(shapes::bumpy_sheet(3, 0), {0, 50, 0});
+  return shape.surface();
+}
+
+TEST(Check, finds_what_find_intersections_finds) {
+  const Surface surface = two_places();
+  const CheckReport found = check(surface);
+  EXPECT_EQ(found.pairs, find_intersections(surface));
+  EXPECT_EQ(found.counts.total(), found.pairs.size());
+  for (const IntersectingPair& pair : found.pairs)
+    for (const std::int32_t f : {pair.a, pair.b})
+      EXPECT_TRUE(std::binary_search(found.faces.begin(), found.faces.end(), f));
+  EXPECT_EQ(found.triangulation, std::to_string(surface.view().face_count()) + " triangles as they are");
+}
+
+TEST(Check, places_are_listed_with_most_pairs_first) {
+  const CheckReport found = check(two_places());
+  ASSERT_EQ(found.places.size(), 2u);
+  EXPECT_GT(found.places[0].pairs, found.places[1].pairs);
+  EXPECT_EQ(found.places[0].pairs + found.places[1].pairs, found.pairs.size());
+  EXPECT_EQ(found.places[0].faces.size() + found.places[1].faces.size(), found.faces.size());
+  EXPECT_GT(found.places[0].bounds.min[0], 40);
+  EXPECT_LT(found.places[1].bounds.max[0], 10);
+}
+
+TEST(Check, components_and_their_pairs) {
+  const Surface surface = two_places();
+  const CheckReport found = check(surface);
+  ASSERT_EQ(found.components.size(), 5u);
+  EXPECT_EQ(found.topology.components, 5u);
+  EXPECT_EQ(found.intersecting_components, 4u);
+  EXPECT_EQ(found.pairs_within_components, 0u);
+  EXPECT_EQ(found.closed_non_orientable, 0u);
+  EXPECT_EQ(found.components[0].pairs_with_others, found.places[1].pairs);
+  const ComponentFindings& sheet = found.components[4];
+  EXPECT_EQ(sheet.faces, 18u);
+  EXPECT_EQ(sheet.first_face, static_cast<std::int32_t>(surface.view().face_count()) - 18);
+  EXPECT_EQ(sheet.pairs_within + sheet.pairs_with_others, 0u);
+  EXPECT_EQ(sheet.bounds.min, (std::array{-1.5, 48.5, 0.0}));
+  EXPECT_EQ(sheet.bounds.max, (std::array{1.5, 51.5, 0.0}));
+}
+
+TEST(Check, an_empty_surface_has_nothing) {
+  const CheckReport found = check({});
+  EXPECT_TRUE(found.pairs.empty());
+  EXPECT_TRUE(found.places.empty());
+  EXPECT_TRUE(found.components.empty());
+}
+
+TEST(Check, refuses_what_makes_no_sense) {
+  Surface surface = two_places();
+  surface.corners[4] = 100000;
+  EXPECT_THROW(check(surface), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace unsnarl

@@ -1,0 +1,50 @@
+#include "unsnarl/pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "render/picture.h"
+#include "render/png.h"
+
+namespace unsnarl {
+namespace {
+
+const Surface triangle = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}, {}};
+const std::vector<std::int32_t> red = {0};
+const PictureOptions small = {.width = 128, .height = 64};
+
+std::vector<RecordedFrame> two_frames() {
+  std::vector<RecordedFrame> frames(2);
+  frames[0].phase = "input";
+  frames[1].phase = "result";
+  frames[1].vertices = {1};
+  frames[1].displacements = {0.5, 0, 0};
+  return frames;
+}
+
+TEST(Pictures, pngs_are_those_of_the_pixels) {
+  EXPECT_EQ(picture_png(triangle, red, triangle, {}, small),
+            encode_png(render_pair(triangle, red, triangle, {}, small)));
+  EXPECT_EQ(picture_png(triangle, red, small), encode_png(render_surface(triangle, red, small)));
+  EXPECT_THROW(picture_png(triangle, std::vector<std::int32_t>{1}, small), std::invalid_argument);
+}
+
+TEST(Pictures, animation_as_gif_and_as_pngs) {
+  const AnimationOptions options = {.width = 160, .height = 128};
+  EXPECT_EQ(animation_gif(triangle, two_frames(), options).substr(0, 6), "GIF89a");
+  std::vector<std::string> pngs;
+  animation_pngs(triangle, two_frames(), options, [&](std::string png) { pngs.push_back(std::move(png)); });
+  ASSERT_EQ(pngs.size(), 2u);
+  for (const std::string& png : pngs) EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_NE(pngs[0], pngs[1]);
+}
+
+TEST(Pictures, no_frames) {
+  EXPECT_THROW(animation_gif(triangle, {}), std::invalid_argument);
+  animation_pngs(triangle, {}, {}, [](const std::string&) { FAIL(); });
+}
+
+}  // namespace
+}  // namespace unsnarl

@@ -1,0 +1,74 @@
+#include "unsnarl/report_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/shapes.h"
+#include "unsnarl/stage_clock.h"
+
+namespace unsnarl {
+namespace {
+
+nlohmann::json parsed(const std::string& text) {
+  return nlohmann::json::parse(text);
+}
+
+TEST(ReportJson, holds_what_the_report_holds) {
+  const Surface surface = shapes::crossing_bumps(8, 0.4).surface();
+  const RepairResult result = repair(surface);
+  ReportFiles files;
+  files.faces = surface.view().face_count();
+  files.before_repair.push_back({"read", 1, 2, 3});
+  files.whole = {"fix", 4, 5, 6};
+  const auto json = parsed(report_json(result, {}, files));
+  EXPECT_EQ(json["schema"], "unsnarl-report");
+  EXPECT_EQ(json["schema_version"], report_schema_version);
+  EXPECT_EQ(json["status"], "embedded");
+  EXPECT_EQ(json["exit_code"], 0);
+  EXPECT_TRUE(json["input"]["path"].is_null());
+  EXPECT_EQ(json["input"]["faces"], surface.view().face_count());
+  EXPECT_EQ(json["input"]["triangulation"], result.report.triangulation);
+  EXPECT_EQ(json["before"]["total"], result.report.before.total());
+  ASSERT_EQ(json["regions"].size(), result.report.regions.size());
+  EXPECT_EQ(json["regions"][0]["strategy"], result.report.regions[0].strategy);
+  EXPECT_EQ(json["stages"].size(), result.report.stages.size() + 1);
+  EXPECT_EQ(json["stages"][0]["cpu_seconds"], 2);
+  EXPECT_EQ(json["seconds"], 4);
+  EXPECT_EQ(json["peak_memory_mb"], 6);
+  EXPECT_FALSE(json.contains("history"));
+}
+
+// File names may hold any bytes.
+TEST(ReportJson, what_is_not_utf_8_is_replaced) {
+  ReportFiles files;
+  files.input = "a\xff.obj";
+  EXPECT_EQ(parsed(report_json({}, {}, files))["input"]["path"], "a\xef\xbf\xbd.obj");
+  EXPECT_EQ(parsed(check_json({}, Goal::all, {}, files))["input"]["path"], "a\xef\xbf\xbd.obj");
+}
+
+TEST(CheckJson, holds_every_place) {
+  const Surface surface = shapes::crossing_bumps(8, 0.4).surface();
+  const CheckReport found = check(surface);
+  const auto json = parsed(check_json(found, Goal::disjoint, {.weld = Weld::none}));
+  EXPECT_EQ(json["schema"], "unsnarl-check");
+  EXPECT_EQ(json["options"]["goal"], "disjoint");
+  EXPECT_EQ(json["options"]["weld"], "none");
+  EXPECT_EQ(json["pairs"]["total"], found.pairs.size());
+  ASSERT_EQ(json["places"].size(), found.places.size());
+  EXPECT_EQ(json["places"][0]["min"][0], found.places[0].bounds.min[0]);
+  EXPECT_EQ(json["components"]["list"].size(), 2u);
+}
+
+TEST(StageClock, measures_from_its_construction_on) {
+  const StageClock clock;
+  const StageReport first = clock.stage("first"), second = clock.stage("second");
+  EXPECT_EQ(first.name, "first");
+  EXPECT_GE(first.seconds, 0);
+  EXPECT_GE(second.seconds, first.seconds);
+  EXPECT_GE(second.cpu_seconds, first.cpu_seconds);
+  EXPECT_GT(first.peak_memory_mb, 0);
+}
+
+}  // namespace
+}  // namespace unsnarl
