@@ -8,7 +8,7 @@
 
 namespace unsnarl {
 
-/// What an exact check of given positions found. Vertices are identified and polygons cut by the *input*, so vertices
+/// What an exact check of given positions found. Vertices are welded and polygons cut by the *input*, so vertices
 /// that have come to coincide since intersect.
 struct Certificate {
   PairCounts pairs;                     ///< intersecting pairs of faces

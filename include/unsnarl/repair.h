@@ -44,7 +44,7 @@ class Context {
 };
 
 struct RepairOptions {
-  FindOptions find;  ///< identification of vertices, threads
+  FindOptions find;  ///< how vertices are welded, threads
   Goal goal = Goal::all;
   /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it and a way to it
   /// is found, else float64. float32 counts only where all coordinates are within its range.
@@ -52,7 +52,7 @@ struct RepairOptions {
   /// The positions that a reader of the file to be written will see, given those to be written and whether float32
   /// digits are enough. Unset: rounded to `precision`. The result is certified as it returns them.
   std::function<std::vector<double>(std::span<const double> positions, bool float32)> as_written;
-  /// One flag a vertex, nonzero: must not move, nor those identified with it. Empty: all may move.
+  /// One flag a vertex, nonzero: must not move, nor those welded to it. Empty: all may move.
   std::vector<std::uint8_t> fixed;
   bool each_component = false;      ///< repair every component as if alone; what runs through others may do so still
   double min_gap_rel = 0;           ///< wanted gap between sheets / bounding-box diagonal; 0: a few float32 units

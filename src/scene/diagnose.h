@@ -19,7 +19,7 @@ struct Diagnosis {
   std::vector<IntersectingPair> pairs;  ///< of triangles, sorted
   std::vector<Obstruction> obstructions;
   std::vector<IntersectingPair> obstructed;  ///< those pairs that no motion can resolve; a subset of `pairs`, sorted
-  std::vector<std::uint8_t> fixed;           ///< one flag an identified vertex; empty: none
+  std::vector<std::uint8_t> fixed;           ///< one flag a welded vertex; empty: none
 };
 
 inline bool are_of_two_components(const Components& components, const IntersectingPair& pair) {
@@ -30,7 +30,7 @@ inline bool are_of_two_components(const Components& components, const Intersecti
 std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared, const Components& components,
                                                 std::span<const std::uint8_t> fixed, const IntersectingPair& pair);
 
-/// `fixed`: one flag an identified vertex; empty: none. `finder`: of the prepared triangles.
+/// `fixed`: one flag a welded vertex; empty: none. `finder`: of the prepared triangles.
 Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
                    IntersectionFinder& finder);
 

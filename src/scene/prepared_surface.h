@@ -18,12 +18,12 @@ struct PreparedSurface {
   WeldMap weld_map;
   Triangulation triangulation;
   Triangulation otherwise;  ///< quads along their other diagonals; empty unless FindOptions::both_diagonals
-  Positions rest;           ///< of identified vertices
+  Positions rest;           ///< of welded vertices
 
   std::span<const Triangle> triangles() const { return triangulation.triangles; }
-  /// Positions of the file's vertices -> of the identified ones (the first of each).
+  /// Positions of the file's vertices -> of the welded ones (the first of each).
   Positions gather(std::span<const double> positions) const;
-  /// The input's positions, with those of the identified vertices that differ from rest put in their place.
+  /// The input's positions, with those of the welded vertices that differ from rest put in their place.
   std::vector<double> scatter(std::span<const double> input, const Positions& x) const;
 };
 

@@ -8,7 +8,7 @@
 
 namespace unsnarl {
 
-/// The whole surface as the solvers see it: identified vertices, triangles, where they were and where they are.
+/// The whole surface as the solvers see it: welded vertices, triangles, where they were and where they are.
 struct Scene {
   Positions rest;  ///< the input
   Positions x;     ///< now
