@@ -9,8 +9,8 @@
 
 namespace unsnarl {
 
-/// Sets of faces whose corners lie at the same places, as of two-sided hair cards. Nothing may be welded that would make
-/// them share vertices they do not share in the file.
+/// Sets of faces whose corners lie at the same places, as of two-sided hair cards. Nothing may be welded that would
+/// make them share vertices they do not share in the file.
 class CoincidentFaces {
  public:
   /// One face of a set, at one of its vertices.
@@ -27,7 +27,7 @@ class CoincidentFaces {
   std::span<const Corner> corners_at(Index vertex) const;
 
  private:
-  std::vector<Index> set_of_;  // by face; -1 where no other face has equal corners
+  std::vector<Index> set_of_;    // by face; -1 where no other face has equal corners
   std::vector<Corner> corners_;  // sorted; nearly always empty
 };
 
