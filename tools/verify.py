@@ -14,7 +14,7 @@ What is checked, and said line by line:
   float32     both also hold with all positions rounded to float32 (with --float32)
 
 Which vertices count as one and how polygons are cut into triangles is decided by IN, by the rules that the headers
-src/mesh/identification.h and src/mesh/triangulation.h state. All geometry is decided in integers: coordinates are
+src/mesh/weld_map.h and src/mesh/triangulation.h state. All geometry is decided in integers: coordinates are
 scaled by one power of two. Only the standard library is needed.
 
 Exit codes: 0 all holds, 1 something does not, 2 the command line makes no sense, 3 a file cannot be read.
@@ -23,12 +23,12 @@ import argparse
 import math
 import sys
 
-from verification.identification import identify
 from verification.intersections import Detector, scaled_to_integers
 from verification.mesh import Unreadable, float32
 from verification.mesh_files import read
 from verification.triangulation import triangulate
 from verification.vectors import cross, minus, sides
+from verification.weld_map import weld_map
 
 CLASSES = ('disjoint', 'one_vertex', 'folded', 'duplicate', 'degenerate')
 
@@ -63,7 +63,7 @@ class Verification:
         self.before, self.after, self.options, self.findings = before, after, options, []
         if self.check_faces():
             self.check_file()
-            self.vertex_of = identify(before, options.weld, options.weld_tolerance)
+            self.vertex_of = weld_map(before, options.weld, options.weld_tolerance)
             self.triangles = triangulate(before, self.vertex_of)
             self.check_seams()
             self.check_fixed()

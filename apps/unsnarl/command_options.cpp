@@ -26,8 +26,8 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
       ->type_name("all|disjoint");
   command
       .add_option("--weld", options.weld,
-                  "Which vertices at equal positions count as one: 'seams', those within one shell (default:\n"
-                  "texture seams, corners in STL), 'all', or 'none'. The file keeps them apart in any case")
+                  "Which vertices at equal positions count as one: 'seams', ends of open edges that coincide\n"
+                  "(default: texture seams, corners in STL), 'all', or 'none'. The file keeps them apart anyway")
       ->check(one_of({"none", "seams", "all"}))
       ->type_name("none|seams|all");
   command

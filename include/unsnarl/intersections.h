@@ -42,7 +42,7 @@ struct PairCounts {
 /// Which vertices count as one. Decided on the input; never changes the file.
 enum class Weld : std::uint8_t {
   none,   ///< every vertex by itself
-  seams,  ///< vertices at exactly equal positions within one shell (UV seams, STL corners, split normals)
+  seams,  ///< ends of open edges (of one face) at exactly equal positions: UV seams, split normals, STL corners
   all,    ///< all vertices at exactly equal positions
 };
 

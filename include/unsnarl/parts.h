@@ -28,7 +28,7 @@ class UnknownPart : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Component of each face (faces joined by a shared vertex, after weld_map), numbered from 0 in the order of
+/// Component of each face (faces joined by a shared vertex, after welding), numbered from 0 in the order of
 /// their first faces, as `unsnarl check` lists them; -1 for a face without any triangle. Throws as
 /// find_intersections does.
 std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const FindOptions& options = {});
@@ -40,7 +40,7 @@ std::vector<std::uint8_t> faces_in_parts(const SurfaceView& surface, std::span<c
 /// One flag a vertex: a flagged face uses it.
 std::vector<std::uint8_t> vertices_of_faces(const SurfaceView& surface, std::span<const std::uint8_t> faces);
 
-/// One flag a vertex: it lies on an edge of one face only, after weld_map, so that seams do not count.
+/// One flag a vertex: it lies on an edge of one face only, after welding, so that seams do not count.
 std::vector<std::uint8_t> boundary_vertices(const SurfaceView& surface, const FindOptions& options = {});
 
 }  // namespace unsnarl

@@ -47,7 +47,7 @@ struct Obstruction {
 };
 std::string_view to_string(Obstruction::Kind kind);
 
-/// Connectivity of the input, after weld_map.
+/// Connectivity of the input, after welding.
 struct Topology {
   std::size_t vertices = 0, faces = 0, triangles = 0, components = 0;
   std::size_t boundary_edges = 0, non_manifold_edges = 0, non_manifold_vertices = 0;

@@ -61,8 +61,8 @@ def find_intersections(
         Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh or pyvista
         alone. See the documentation of the package.
     weld
-        Which vertices are welded: "none"; "seams", those at exactly equal positions within one shell (UV seams, split
-        normals); "all" at exactly equal positions.
+        Which vertices count as one: "none"; "seams", the ends of open edges (of one face) at exactly equal positions
+        (UV seams, split normals); "all" at exactly equal positions.
     weld_tolerance
         Length in the units of V: vertices this close count as equal. 0: only exactly equal ones.
     both_diagonals

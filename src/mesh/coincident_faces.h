@@ -9,8 +9,8 @@
 
 namespace unsnarl {
 
-/// Sets of faces whose corners lie at the same places, as of two-sided hair cards. Nothing may be glued that would make
-/// them share vertices they do not share in the file.
+/// Sets of faces whose corners lie at the same places, as of two-sided hair cards. Nothing may be welded that would
+/// make them share vertices they do not share in the file.
 class CoincidentFaces {
  public:
   /// One face of a set, at one of its vertices.
@@ -24,13 +24,11 @@ class CoincidentFaces {
 
   /// Two different faces of one set?
   bool coincide(Index f, Index g) const { return f != g && set_of_[f] >= 0 && set_of_[f] == set_of_[g]; }
-  /// Sorted; nearly always empty.
-  std::span<const Corner> corners() const { return corners_; }
   std::span<const Corner> corners_at(Index vertex) const;
 
  private:
-  std::vector<Index> set_of_;  // by face; -1 where no other face has equal corners
-  std::vector<Corner> corners_;
+  std::vector<Index> set_of_;    // by face; -1 where no other face has equal corners
+  std::vector<Corner> corners_;  // sorted; nearly always empty
 };
 
 }  // namespace unsnarl

@@ -7,29 +7,29 @@
 namespace unsnarl {
 namespace {
 
-/// More edges than this at one place are glued without looking for a pairing: the search is exponential, and no
-/// two-sheet seam has so many.
+/// More edges than this at one place are ambiguous without a search for a pairing, which is exponential: no two-sheet
+/// seam has so many.
 constexpr std::size_t max_edges_to_pair = 8;
 /// Rounds of letting grown shells settle edges; each is linear. Two or three suffice for files of touching solids.
 constexpr int max_rounds = 32;
 
 /// With ends of different position classes.
-struct BoundaryEdge : OpenSide {
+struct DirectedEdge : OpenSide {
   bool forward;  // the class of `from` is the smaller one
 };
 
 class SeamEdges {
  public:
-  SeamEdges(std::span<const OpenSide> boundary, std::span<const Index> class_of, const CoincidentFaces& coincident,
-            UnionFind& shells, UnionFind& glued)
-      : class_of_(class_of), coincident_(coincident), shells_(shells), glued_(glued) {
-    for (const auto& [face, from, to] : boundary)
-      // An edge of no length has no direction to glue along; steps (c) and (d) join its ends.
+  SeamEdges(std::span<const OpenSide> open, std::span<const Index> class_of, const CoincidentFaces& coincident,
+            UnionFind& shells, UnionFind& welded)
+      : class_of_(class_of), coincident_(coincident), shells_(shells), welded_(welded) {
+    for (const auto& [face, from, to] : open)
+      // An edge of length zero has no direction to weld along.
       if (class_of_[from] != class_of_[to]) edges_.push_back({{face, from, to}, class_of_[from] < class_of_[to]});
     group_edges();
   }
 
-  void glue_all() {
+  void weld_all(Ambiguous ambiguous) {
     settled_.assign(edges_.size(), 0);
     std::vector<std::array<Index, 2>> open;
     for (const auto& [begin, end] : groups_) {
@@ -43,26 +43,27 @@ class SeamEdges {
       changed = false;
       std::erase_if(open, [&](const auto& group) { return settle_group(group[0], group[1], changed); });
     }
-    for (const auto& [begin, end] : open) glue_together(begin, end);
+    if (ambiguous == Ambiguous::weld)
+      for (const auto& [begin, end] : open) weld_together(begin, end);
   }
 
  private:
-  /// Sorts the boundary edges by place, and in a place by face.
+  /// Sorts the open edges by place, and in a place by face.
   void group_edges() {
     std::vector<Index> begin(class_of_.size() + 1, 0);
-    const auto key = [&](const BoundaryEdge& e) {
+    const auto key = [&](const DirectedEdge& e) {
       const Index a = class_of_[e.from], b = class_of_[e.to];
       return e.forward ? std::pair(a, b) : std::pair(b, a);
     };
-    for (const BoundaryEdge& e : edges_) ++begin[key(e).first + 1];
+    for (const DirectedEdge& e : edges_) ++begin[key(e).first + 1];
     for (std::size_t c = 1; c < begin.size(); ++c) begin[c] += begin[c - 1];
-    std::vector<BoundaryEdge> sorted(edges_.size());
+    std::vector<DirectedEdge> sorted(edges_.size());
     std::vector<Index> next(begin.begin(), begin.end() - 1);
-    for (const BoundaryEdge& e : edges_) sorted[next[key(e).first]++] = e;
+    for (const DirectedEdge& e : edges_) sorted[next[key(e).first]++] = e;
     edges_ = std::move(sorted);
     for (std::size_t c = 0; c + 1 < begin.size(); ++c) {
       const auto first = edges_.begin() + begin[c], last = edges_.begin() + begin[c + 1];
-      std::sort(first, last, [&](const BoundaryEdge& a, const BoundaryEdge& b) {
+      std::sort(first, last, [&](const DirectedEdge& a, const DirectedEdge& b) {
         const Index ka = key(a).second, kb = key(b).second;
         if (ka != kb) return ka < kb;
         return a.face != b.face ? a.face < b.face : a.from < b.from;
@@ -77,11 +78,11 @@ class SeamEdges {
     }
   }
 
-  void glue(Index i, Index j) {
-    const BoundaryEdge &a = edges_[i], &b = edges_[j];
+  void weld(Index i, Index j) {
+    const DirectedEdge &a = edges_[i], &b = edges_[j];
     const bool same = a.forward == b.forward;
-    glued_.unite(a.from, same ? b.from : b.to);
-    glued_.unite(a.to, same ? b.to : b.from);
+    welded_.unite(a.from, same ? b.from : b.to);
+    welded_.unite(a.to, same ? b.to : b.from);
     shells_.unite(a.from, b.from);
   }
 
@@ -118,19 +119,19 @@ class SeamEdges {
     return false;
   }
 
-  /// Glues the edges if it is clear which belong together.
+  /// Welds the edges if it is clear which belong together.
   bool settle(const std::vector<Index>& edges) {
     if (edges.size() < 2) return false;
     if (edges.size() == 2) {  // two sheets with inconsistent orientation have a seam too
       if (coincident_.coincide(edges_[edges[0]].face, edges_[edges[1]].face)) return false;
-      glue(edges[0], edges[1]);
+      weld(edges[0], edges[1]);
       return true;
     }
     if (edges.size() > max_edges_to_pair || edges.size() % 2 != 0) return false;
     std::vector<Index> left = edges;
     std::vector<std::pair<Index, Index>> way, pairs;
     if (count_pairings(left, way, pairs) != 1) return false;
-    for (const auto& [i, j] : pairs) glue(i, j);
+    for (const auto& [i, j] : pairs) weld(i, j);
     return true;
   }
 
@@ -163,8 +164,8 @@ class SeamEdges {
     return false;
   }
 
-  /// No pairing is clear: glue all that stay clear of coincident faces, in the order of the faces.
-  void glue_together(Index begin, Index end) {
+  /// No pairing is clear: welds all that stay clear of coincident faces, in the order of the faces.
+  void weld_together(Index begin, Index end) {
     std::size_t open = 0;
     for (Index e = begin; e < end; ++e) open += settled_[e] == 0;
     if (open == 0) return;
@@ -180,7 +181,7 @@ class SeamEdges {
       if (cluster == clusters.end()) {
         clusters.push_back({e});
       } else {
-        glue(cluster->front(), e);
+        weld(cluster->front(), e);
         cluster->push_back(e);
       }
     }
@@ -188,17 +189,17 @@ class SeamEdges {
 
   std::span<const Index> class_of_;
   const CoincidentFaces& coincident_;
-  UnionFind &shells_, &glued_;
-  std::vector<BoundaryEdge> edges_;
+  UnionFind &shells_, &welded_;
+  std::vector<DirectedEdge> edges_;
   std::vector<std::array<Index, 2>> groups_;  // [begin, end) of edges at one place, two or more
   std::vector<std::uint8_t> settled_;         // by edge
 };
 
 }  // namespace
 
-void glue_seam_edges(std::span<const OpenSide> boundary, std::span<const Index> class_of,
-                     const CoincidentFaces& coincident, UnionFind& shells, UnionFind& glued) {
-  SeamEdges(boundary, class_of, coincident, shells, glued).glue_all();
+void weld_seam_edges(std::span<const OpenSide> open, std::span<const Index> class_of, const CoincidentFaces& coincident,
+                     Ambiguous ambiguous, UnionFind& shells, UnionFind& welded) {
+  SeamEdges(open, class_of, coincident, shells, welded).weld_all(ambiguous);
 }
 
 }  // namespace unsnarl

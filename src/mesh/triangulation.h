@@ -26,14 +26,14 @@ struct CutStatistics {
 
 /// A surface cut into triangles.
 struct Triangulation {
-  std::vector<Triangle> triangles;  ///< of identified vertices (or file vertices, if no map was given)
+  std::vector<Triangle> triangles;  ///< of welded vertices (or file vertices, if no map was given)
   std::vector<Index> polygon;       ///< face of the surface that each triangle comes from, ascending
   CutStatistics statistics;
 };
 
 /// Cuts every polygon once, by the positions given: a quad along the diagonal from its first corner, or along the other
 /// where that one folds and the other does not; a larger polygon by ear clipping in its mean plane, as it is often
-/// concave. `vertex_of` (file vertex -> identified vertex, see WeldMap) renames the corners after the cut;
+/// concave. `vertex_of` (file vertex -> welded vertex, see WeldMap) renames the corners after the cut;
 /// triangles with a repeated vertex are then left out and counted. Empty: no renaming.
 ///
 /// Precondition: valid ids, finite coordinates. The result does not depend on the number of threads.

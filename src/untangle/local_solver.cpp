@@ -14,6 +14,7 @@
 #include "scene/trajectory.h"
 #include "untangle/contours.h"
 #include "untangle/flip_guard.h"
+#include "untangle/zero_length_edges.h"
 
 namespace unsnarl {
 namespace {
@@ -325,6 +326,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
 
   // patch.x stays what the metric was made of.
   Try current{.x = start, .best = start, .method = strategy.method, .mark = {}};
+  open_zero_length_edges(patch, edges.edges, options.opening, current.x);
   if (strategy.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.jitter, current.x);
   result.clean = go_on(current);
   result.iterations = current.iterations;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/lens.h"
 #include "mesh/shapes.h"
 
 namespace unsnarl {
@@ -22,8 +23,8 @@ void expect_consistent(const Surface& s, const WeldMap& id) {
   }
 }
 
-Index count_of(const Surface& s, Weld weld = Weld::seams, double tolerance = 0) {
-  const WeldMap id = weld(s, weld, tolerance);
+Index count_of(const Surface& s, Weld kind = Weld::seams, double tolerance = 0) {
+  const WeldMap id = weld(s, kind, tolerance);
   expect_consistent(s, id);
   return id.count;
 }
@@ -130,15 +131,45 @@ TEST(WeldMap, SeamOfASheetIsGluedAlsoWhereOrientationsDiffer) {
   }
 }
 
-TEST(WeldMap, PagesOnOneSpineAreGluedToIt) {
-  for (const int pages : {3, 4, 5, 12}) {
-    Surface s;
-    for (int i = 0; i < pages; ++i) {
-      const Index a = add_vertex(s, 0, 0, 0), b = add_vertex(s, 0, 0, 1), c = add_vertex(s, 1, i, 0.5);
-      add_face(s, i % 2 == 0 ? std::vector<Index>{a, b, c} : std::vector<Index>{b, a, c});
-    }
-    EXPECT_EQ(count_of(s), 2 + pages);
+/// Pages that meet in one edge, of one face or of two (with a vertex of two faces, so that ids say what is connected).
+Surface pages_on_a_spine(int pages, int faces_of_a_page) {
+  Surface s;
+  for (int i = 0; i < pages; ++i) {
+    const Index a = add_vertex(s, 0, 0, 0), b = add_vertex(s, 0, 0, 1), c = add_vertex(s, 1, i, 0.5);
+    add_face(s, i % 2 == 0 ? std::vector<Index>{a, b, c} : std::vector<Index>{b, a, c});
+    if (faces_of_a_page == 2) add_face(s, {c, b, add_vertex(s, 2, 2 * i, 1)});
   }
+  return s;
+}
+
+TEST(WeldMap, PagesOfASoupAreWeldedToTheirSpine) {
+  for (const int pages : {3, 4, 5, 12}) EXPECT_EQ(count_of(pages_on_a_spine(pages, 1)), 2 + pages);
+}
+
+TEST(WeldMap, SheetsStayApartWhereSeamsAreAmbiguous) {
+  for (const int pages : {3, 4, 5, 12}) EXPECT_EQ(count_of(pages_on_a_spine(pages, 2)), 4 * pages);
+  EXPECT_EQ(count_of(pages_on_a_spine(2, 2)), 6);
+}
+
+TEST(WeldMap, EdgesOfOneShellFindTheirPartnersFirst) {
+  // Two cubes cut open along the edge in which they touch.
+  Surface s;
+  for (const double d : {0.0, 1.0}) append(s, cube(), d, d, 0);
+  // Vertices 3 and 7 of the first cube, 0 and 4 of the second (ids 8 and 12): copies for one face each.
+  const Index copies[] = {add_vertex(s, 1, 1, 0), add_vertex(s, 1, 1, 1), add_vertex(s, 1, 1, 0),
+                          add_vertex(s, 1, 1, 1)};
+  const auto use_copies = [&](Index face, Index first, Index second, const Index* copy) {
+    for (Index k = s.offsets[face]; k < s.offsets[face + 1]; ++k) {
+      if (s.corners[k] == first) s.corners[k] = copy[0];
+      if (s.corners[k] == second) s.corners[k] = copy[1];
+    }
+  };
+  use_copies(3, 3, 7, copies);
+  use_copies(8, 8, 12, copies + 2);
+  const WeldMap map = weld(s);
+  EXPECT_EQ(map.count, 16);
+  EXPECT_EQ(map.vertex_of[3], map.vertex_of[16]);
+  EXPECT_NE(map.vertex_of[3], map.vertex_of[8]);
 }
 
 TEST(WeldMap, PinchedInteriorIsNotGlued) {
@@ -167,25 +198,46 @@ TEST(WeldMap, SheetWrappedTwiceKeepsBothLayers) {
   EXPECT_EQ(count_of(s), 6 * n);
 }
 
-TEST(WeldMap, PoleSplitAlongAZeroLengthEdgeIsOne) {
-  // A fan whose apex was split for texture coordinates, with a zero-area quad side there.
+TEST(WeldMap, VerticesOfOneShellWithoutACommonOpenEdgeStayApart) {
+  // A strip of three quads bent to a ring whose ends touch in one corner.
+  Surface s;
+  s.positions = {0, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 0, 1, 0, 0, 2};
+  for (Index i = 0; i < 3; ++i) add_face(s, {2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+  EXPECT_EQ(count_of(s), 8);
+  EXPECT_EQ(count_of(s, Weld::all), 7);
+}
+
+TEST(WeldMap, InnerVerticesEdgesAndFansOfOneShellStayApart) {
+  for (const LensPinch pinch : {LensPinch::vertices, LensPinch::edges, LensPinch::fans, LensPinch::all}) {
+    const Surface s = lens(6, pinch);
+    EXPECT_EQ(count_of(s), static_cast<Index>(s.positions.size() / 3));
+    EXPECT_LT(count_of(s, Weld::all), static_cast<Index>(s.positions.size() / 3));
+  }
+}
+
+TEST(WeldMap, TheEndsOfAnEdgeOfLengthZeroAreTwoVertices) {
+  for (const LensPinch pinch : {LensPinch::ends_of_an_edge, LensPinch::fan_in_a_point}) {
+    const Surface s = lens(6, pinch);
+    EXPECT_EQ(count_of(s), static_cast<Index>(s.positions.size() / 3));
+  }
+  // On the border too: a fan whose apex was split.
   Surface s;
   s.positions = {0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0};
   add_face(s, {0, 2, 3});
   add_face(s, {1, 0, 3, 4});
-  EXPECT_EQ(count_of(s), 4);
+  EXPECT_EQ(count_of(s), 5);
 }
 
-TEST(WeldMap, InteriorEdgeOfLengthZeroIsOneVertex) {
-  // A hexagonal fan whose centre was split: two triangles without area around the short edge.
+TEST(WeldMap, ChartsThatMeetInAPointAreOneSurface) {
+  // A disc of six quads in three charts of two: their borders meet in the middle, of which each has a copy.
   Surface s;
-  for (int k = 0; k < 6; ++k) add_vertex(s, std::cos(k * 1.047), std::sin(k * 1.047), 0);
-  const Index a = add_vertex(s, 0, 0, 0), b = add_vertex(s, 0, 0, 0);
-  for (Index k = 0; k < 6; ++k) add_face(s, {k, (k + 1) % 6, k < 3 ? a : b});
-  add_face(s, {a, 3, b});
-  add_face(s, {b, 0, a});
+  const auto rim = [&](int k) { return add_vertex(s, std::cos(k % 6 * 1.047), std::sin(k % 6 * 1.047), 0); };
+  for (int chart = 0; chart < 3; ++chart) {
+    const Index middle = add_vertex(s, 0, 0, 0), a = rim(2 * chart), b = rim(2 * chart + 1), c = rim(2 * chart + 2);
+    add_face(s, {middle, a, b});
+    add_face(s, {middle, b, c});
+  }
   EXPECT_EQ(count_of(s), 7);
-  EXPECT_EQ(count_of(s, Weld::none), 8);
 }
 
 TEST(WeldMap, CollapsedCrossSectionOfATubeStaysARing) {

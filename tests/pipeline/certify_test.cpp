@@ -38,7 +38,7 @@ TEST(Certify, touching_after_rounding) {
 }
 
 // Vertices that come to lie in one place later were not one in the input: they touch, and touching is intersecting.
-TEST(Certify, identification_is_decided_on_the_input) {
+TEST(Certify, welding_is_decided_on_the_input) {
   Surface apart;
   apart.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0, -1, 1, -1, 0, 1};
   apart.corners = {0, 1, 2, 3, 4, 5};

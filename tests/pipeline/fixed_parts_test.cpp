@@ -45,7 +45,7 @@ TEST(FixedParts, balls_give_way_to_an_anchor) {
   expect_only_others_moved(surface, result, options.fixed);
 }
 
-TEST(FixedParts, a_fixed_vertex_fixes_those_identified_with_it) {
+TEST(FixedParts, a_fixed_vertex_fixes_those_welded_to_it) {
   // The lower sheet's corners are written anew for every face, and only the first writing of each is fixed.
   const Surface whole = shapes::crossing_bumps(10, 0.3).surface();
   const std::size_t lower_faces = whole.view().face_count() / 2;

@@ -20,7 +20,7 @@ namespace {
 
 using shapes::Shape;
 
-/// By CGAL, on the triangles and the identified vertices of the input.
+/// By CGAL, on the triangles and the welded vertices of the input.
 std::vector<IntersectingPair> judged(const PreparedSurface& input, const std::vector<double>& positions) {
   const Positions x = input.gather(positions);
   return oracle::intersections_by_cgal({x.data(), static_cast<std::size_t>(x.size())}, input.triangulation.triangles);

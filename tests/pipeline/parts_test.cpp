@@ -47,7 +47,7 @@ TEST(Parts, NamesMeanFaces) {
   EXPECT_EQ(faces(document, {}), Flags(5, 0));
 }
 
-TEST(Parts, ComponentsAreCountedAfterIdentification) {
+TEST(Parts, ComponentsAreCountedAfterWelding) {
   const Document document = two_squares();
   EXPECT_EQ(component_of_faces(document.surface()), (std::vector<std::int32_t>{0, 0, 0, 0, 1}));
   EXPECT_EQ(component_of_faces(document.surface(), {.weld = Weld::none}), (std::vector<std::int32_t>{0, 0, 1, 1, 2}));

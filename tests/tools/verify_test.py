@@ -13,7 +13,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'tools'))
 import verify  # noqa: E402
-from verification.identification import identify  # noqa: E402
+from verification.weld_map import weld_map  # noqa: E402
 from verification.intersections import Detector, meet_outside_hull  # noqa: E402
 from verification.mesh import Mesh  # noqa: E402
 from verification.triangulation import cut  # noqa: E402
@@ -252,17 +252,25 @@ class VerifyTest(unittest.TestCase):
         expected = [(i, j, detector.kind(i, j)) for i in range(120) for j in range(i + 1, 120)]
         self.assertEqual(detector.find(), [pair for pair in expected if pair[2]])
 
-    def test_identification(self):
+    def test_weld_map(self):
         def vertices_of(faces, positions, weld='seams', tolerance=0):
             mesh = Mesh()
             mesh.positions, mesh.faces = positions, faces
-            return len(set(identify(mesh, weld, tolerance)))
+            return len(set(weld_map(mesh, weld, tolerance)))
         square = [(0., 0., 0.), (1., 0., 0.), (1., 1., 0.), (0., 1., 0.)]
         soup = [square[v] for v in (0, 1, 2, 0, 2, 3)]
         self.assertEqual(vertices_of([(0, 1, 2), (3, 4, 5)], soup), 4)
         self.assertEqual(vertices_of([(0, 1, 2), (3, 4, 5)], soup, 'none'), 6)
         self.assertEqual(vertices_of([(0, 1, 2, 3), (7, 6, 5, 4)], square + square), 8)  # coincident sheets
         self.assertEqual(vertices_of([(0, 1, 2, 3), (7, 6, 5, 4)], square + square, 'all'), 4)
+        # A closed surface, two inner vertices of which (0 and 1) lie at one position; and a book of four pages.
+        octahedron = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+        self.assertEqual(vertices_of(octahedron, [(0., 0., 0.)] * 2 + square), 6)
+        for pages, count in ((2, 6), (4, 16)):
+            book = [p for k in range(pages) for p in ((0., 0., 0.), (0., 0., 1.), (1., k, 0.), (2., k, 1.))]
+            faces = [f for v in range(0, 4 * pages, 4)
+                     for f in ((v + v // 4 % 2, v + 1 - v // 4 % 2, v + 2), (v + 2, v + 1, v + 3))]
+            self.assertEqual(vertices_of(faces, book), count)
         near = soup[:3] + [(x + 1e-3, y, z) for x, y, z in soup[3:]]
         self.assertEqual(vertices_of([(0, 1, 2), (3, 4, 5)], near), 6)
         self.assertEqual(vertices_of([(0, 1, 2), (3, 4, 5)], near, 'seams', 0.01), 4)

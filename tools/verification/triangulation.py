@@ -34,7 +34,7 @@ def cut(face, p):
 
 
 def triangulate(mesh, vertex_of):
-    """(triangle of identified vertices, its face)."""
+    """(triangle of welded vertices, its face)."""
     triangles = []
     for f, face in enumerate(mesh.faces):
         for t in cut(face, mesh.positions):

@@ -1,4 +1,4 @@
-"""Which vertices count as one, by the rule that src/mesh/identification.h states."""
+"""Which vertices count as one, by the rule that src/mesh/weld_map.h states."""
 import math
 from collections import defaultdict
 
@@ -61,11 +61,11 @@ def open_sides(faces, rename):
 
 
 class Seams:
-    """The rule of Weld::seams, in its steps (a) to (e)."""
+    """The rule of Weld::seams, in its steps (a) to (c)."""
 
     def __init__(self, mesh, class_of):
         self.faces, self.class_of, n = mesh.faces, class_of, len(mesh.positions)
-        self.glued, self.shells = Sets(n), Sets(n)
+        self.welded, self.shells = Sets(n), Sets(n)
         for face in self.faces:  # (a)
             for v in face[1:]:
                 self.shells.unite(face[0], v)
@@ -79,22 +79,20 @@ class Seams:
         for f in self.twins:
             for v in set(self.faces[f]):
                 self.twins_at[v].append(f)
-        boundary = open_sides(self.faces, lambda v: v)
-        self.glue_edges([side for side in boundary if class_of[side[1]] != class_of[side[2]]])
-        self.glue_within_shells({v for _, a, b in boundary for v in (a, b)})
-        self.glue_collapsed_edges()
+        ambiguous = self.weld_edges([side for side in open_sides(self.faces, lambda v: v)
+                                     if class_of[side[1]] != class_of[side[2]]])
         owner = {}
-        if all(owner.setdefault(v, f) == f for f, face in enumerate(self.faces) for v in face):  # (e)
-            ends = {self.glued.find(v) for side in open_sides(self.faces, self.glued.find) for v in side[1:]}
-            self.glue_equal([v for v in range(n) if self.glued.find(v) in ends], lambda v: 0)
+        if all(owner.setdefault(v, f) == f for f, face in enumerate(self.faces) for v in face):  # (c)
+            self.weld_ambiguous(ambiguous)
+            self.weld_open_vertices()
 
     def coincide(self, f, g):
         return f != g and f in self.twins and self.twins.get(g) == self.twins[f]
 
-    def glue(self, s, t):
+    def weld(self, s, t):
         same = (self.class_of[s[1]] < self.class_of[s[2]]) == (self.class_of[t[1]] < self.class_of[t[2]])
-        self.glued.unite(s[1], t[1] if same else t[2])
-        self.glued.unite(s[2], t[2] if same else t[1])
+        self.welded.unite(s[1], t[1] if same else t[2])
+        self.welded.unite(s[2], t[2] if same else t[1])
         self.shells.unite(s[1], t[1])
 
     def are_partners(self, s, t):
@@ -103,7 +101,7 @@ class Seams:
 
     def settle(self, edges):
         if len(edges) == 2 and not self.coincide(edges[0][0], edges[1][0]):
-            self.glue(*edges)
+            self.weld(*edges)
             return True
         if len(edges) < 3 or len(edges) > 8 or len(edges) % 2:
             return False
@@ -112,18 +110,19 @@ class Seams:
         if way is None or next(ways, None) is not None:
             return False
         for pair in way:
-            self.glue(*pair)
+            self.weld(*pair)
         return True
 
-    def glue_edges(self, boundary):  # (b)
+    def weld_edges(self, open_edges):  # (b)
+        """Returns the places where more than one pairing is possible, or none: (all edges, those still apart)."""
         places = defaultdict(list)
-        for side in boundary:
+        for side in open_edges:
             places[tuple(sorted((self.class_of[side[1]], self.class_of[side[2]])))].append(side)
         places = [sorted(places[key]) for key in sorted(places) if len(places[key]) > 1]
         for edges in places:
             if len(edges) == 2:
                 self.settle(edges)
-        crowded = [(edges, list(edges)) for edges in places if len(edges) > 2]  # all, those still open
+        crowded = [(edges, list(edges)) for edges in places if len(edges) > 2]
         changed = bool(crowded)
         for _ in range(32):
             if not changed:
@@ -145,79 +144,46 @@ class Seams:
                 if rest:
                     left_over.append((edges, rest))
             crowded = left_over
-        for edges, rest in crowded:  # no pairing is clear: all that stay clear of coincident faces
+        return crowded
+
+    def weld_ambiguous(self, crowded):  # (c), first part
+        for edges, rest in crowded:
             clusters = []
             for side in edges if len(rest) % 2 else rest:
                 for cluster in clusters:
                     if not any(self.coincide(side[0], other[0]) for other in cluster):
-                        self.glue(cluster[0], side)
+                        self.weld(cluster[0], side)
                         cluster.append(side)
                         break
                 else:
                     clusters.append([side])
 
-    def glue_within_shells(self, on_boundary):  # (c)
-        collapsed = {v for face in self.faces for side in sides(face) for v in side
-                     if side[0] != side[1] and self.class_of[side[0]] == self.class_of[side[1]]}
-        chosen = [v for v in range(len(self.class_of)) if v not in collapsed or v in on_boundary]
-        self.glue_equal(chosen, self.shells.find)
-
-    def glue_equal(self, chosen, group_of):
-        places = defaultdict(list)
-        for v in chosen:
-            places[self.class_of[v]].append(v)
-        for key in sorted(places):
-            members = places[key]
-            if len(members) < 2:
-                continue
-            groups = defaultdict(lambda: defaultdict(list))
-            for v in members:
-                groups[group_of(v)][self.glued.find(v)].append(v)
-            for group in sorted(groups):
-                clusters = []
-                for root in sorted(groups[group]):
-                    twins = [f for v in groups[group][root] for f in self.twins_at.get(v, ())]
-                    for cluster_root, cluster_twins in clusters:
-                        if not any(self.coincide(f, g) for f in twins for g in cluster_twins):
-                            self.glued.unite(cluster_root, root)
-                            cluster_twins += twins
-                            break
-                    else:
-                        clusters.append((root, twins))
-
-    def glue_collapsed_edges(self):  # (d)
-        find = self.glued.find
-        edges = {(min(a, b), max(a, b)) for face in self.faces for a, b in
-                 ((find(v), find(w)) for v, w in sides(face) if self.class_of[v] == self.class_of[w]) if a != b}
-        pieces, euler, twins = Sets(len(self.class_of)), defaultdict(int), defaultdict(dict)
-        for a, b in edges:
-            pieces.unite(a, b)
-        inside = {v for edge in edges for v in edge}
-        for v in inside:
-            euler[pieces.find(v)] += 1
-        for a, _ in edges:
-            euler[pieces.find(a)] -= 1
-        for face in self.faces:
-            corners = {find(v) for v in face}
-            piece = {pieces.find(v) for v in corners}
-            if len(corners) > 2 and len(piece) == 1 and corners <= inside:
-                euler[piece.pop()] += 1
-        broken = set()
-        for f, classes in self.twins.items():
-            for v in map(find, self.faces[f]):
-                if v in inside and twins[pieces.find(v)].setdefault(classes, v) != v:
-                    broken.add(pieces.find(v))
-        for a, b in sorted(edges):
-            if euler[pieces.find(a)] == 1 and pieces.find(a) not in broken:
-                self.glued.unite(a, b)
+    def weld_open_vertices(self):  # (c), second part
+        find = self.welded.find
+        ends = {find(v) for side in open_sides(self.faces, find) for v in side[1:]}
+        places = defaultdict(lambda: defaultdict(list))
+        for v in range(len(self.class_of)):
+            if find(v) in ends:
+                places[self.class_of[v]][find(v)].append(v)
+        for place in sorted(places):
+            clusters = []
+            for root in sorted(places[place]):
+                twins = [f for v in places[place][root] for f in self.twins_at.get(v, ())]
+                for cluster_root, cluster_twins in clusters:
+                    if not any(self.coincide(f, g) for f in twins for g in cluster_twins):
+                        self.welded.unite(cluster_root, root)
+                        cluster_twins += twins
+                        break
+                else:
+                    clusters.append((root, twins))
 
 
-def identify(mesh, weld, tolerance):
+def weld_map(mesh, weld, tolerance):
     """The first vertex that each vertex counts as."""
     if weld == 'none':
         return list(range(len(mesh.positions)))
     classes = position_classes(mesh.positions, tolerance)
     if weld == 'all':
         return classes
-    glued = Seams(mesh, classes).glued
-    return [glued.find(v) for v in range(len(mesh.positions))]
+    welded = Seams(mesh, classes).welded
+    return [welded.find(v) for v in range(len(mesh.positions))]
