@@ -11,8 +11,7 @@ constexpr double rank_one_ratio = 1e-12;
 
 }  // namespace
 
-ArapTriangle::ArapTriangle(const Positions& rest, std::span<const Triangle> triangles,
-                           double rotation_damping)
+ArapTriangle::ArapTriangle(const Positions& rest, std::span<const Triangle> triangles, double rotation_damping)
     : triangles_(triangles.begin(), triangles.end()), rotation_damping_(rotation_damping) {
   rest_edges_.reserve(triangles_.size());
   for (const Triangle& t : triangles_) {
@@ -77,8 +76,7 @@ double ArapTriangle::linearise(const Positions& x, Index t, double weight, Posit
   strain.stiffness = weight * edge_weight;
   strain.uniform = rotation_damping_;
   e -= strain.rotation * rest_edges_[t];
-  for (int k = 0; k < 3; ++k)
-    gradient.col(triangles_[t][k]) += weight * edge_weight * (e.col((k + 2) % 3) - e.col(k));
+  for (int k = 0; k < 3; ++k) gradient.col(triangles_[t][k]) += weight * edge_weight * (e.col((k + 2) % 3) - e.col(k));
   return 0.5 * weight * edge_weight * e.squaredNorm();
 }
 

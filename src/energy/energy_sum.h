@@ -137,7 +137,7 @@ class EnergySum {
   }
 
   std::tuple<Part<Energies>...> parts_;
-  std::array<HessianTerms, most_parts> terms_;               // of each task
+  std::array<HessianTerms, most_parts> terms_;                   // of each task
   std::array<std::array<double, count>, most_parts> sums_ = {};  // the same
   ScatteredSum scattered_;
 };

@@ -14,8 +14,7 @@ struct MovingVertices {
   std::vector<Index> slot;          ///< vertex -> unknown or -1
 
   MovingVertices() = default;
-  explicit MovingVertices(std::vector<std::uint8_t> which)
-      : moves(std::move(which)), slot(moves.size(), -1) {
+  explicit MovingVertices(std::vector<std::uint8_t> which) : moves(std::move(which)), slot(moves.size(), -1) {
     for (std::size_t v = 0; v < moves.size(); ++v) {
       if (!moves[v]) continue;
       slot[v] = static_cast<Index>(vertices.size());

@@ -8,7 +8,9 @@
 #include "recover/contact_rules.h"
 #include "recover/embedding_guard.h"
 #include "recover/open_gaps.h"
+#include "recover/recovery_problem.h"
 #include "recover/snap_to_rest.h"
+#include "recover/unflip_faces.h"
 
 namespace unsnarl {
 namespace {
@@ -46,6 +48,8 @@ class Recovery {
   /// The free vertices that are not at rest, and some rings around them.
   std::vector<std::uint8_t> contact_region() const;
   void step(const std::vector<std::uint8_t>& moves, double activation, int steps, const RecoverOptions::Stop& stop);
+  void open();
+  void unflip();
   void snap(std::span<const std::uint8_t> moves);
   void measure_gap(double radius);
   OrientedFaces orientation_of_all() {
@@ -59,6 +63,7 @@ class Recovery {
   RecoverResult result_;
   const double h_;
   const Positions start_;
+  const double start_motion_;  // of the farthest vertex
   EmbeddingGuard guard_;
   ContactRules rules_;
   const IndexLists neighbours_;
@@ -73,6 +78,7 @@ Recovery::Recovery(Patch& patch, const RecoverOptions& options, const std::funct
       stop_(stop),
       h_(edge_length_of(patch)),
       start_(patch.x),
+      start_motion_((patch.x - patch.rest).colwise().norm().maxCoeff()),
       guard_(patch),
       rules_(contact_rules_of(patch, options.min_gap)),
       neighbours_(vertex_neighbours(rules_.candidates().edges().edges, static_cast<Index>(patch.x.cols()))),
@@ -124,6 +130,25 @@ void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, i
   result_.stopped |= done.stopped;
 }
 
+void Recovery::open() {
+  OpenGapsOptions open;
+  const double min_gap = rules_.options().min_gap;
+  open.target = std::max(std::min(options_.open_target * h_, options_.activation_motion * start_motion_),
+                         options_.least_gaps * min_gap);
+  open.max_rounds = options_.open_rounds;
+  open.step_cap = open.target;  // five of them end as close, but look 11 gaps around, not 3: up to 9 GB, not 2
+  open_gaps(patch_.x, rules_, orientation_of_all(), guard_, everything(), open);
+}
+
+void Recovery::unflip() {
+  const int rings = options_.unflip_rings;
+  if (rings == 0 || flipped_faces(patch_, objective_.orientation()).empty()) return;
+  guard_.roll_back(patch_.x, safe_);
+  if (unflip_faces(patch_, neighbours_, objective_.orientation(), guard_, rings) == 0) return;
+  open();
+  safe_ = patch_.x;
+}
+
 void Recovery::snap(std::span<const std::uint8_t> moves) {
   guard_.roll_back(patch_.x, safe_);
   std::vector<double> reach(moves.size(), 0);
@@ -155,18 +180,13 @@ void Recovery::measure_gap(double radius) {
 
 RecoverResult Recovery::run() {
   const double min_gap = rules_.options().min_gap;
-  const double start_motion = (start_ - patch_.rest).colwise().norm().maxCoeff();
   const auto activation_of = [&](double share_of_h) {
-    return std::max(std::min(share_of_h * h_, options_.activation_motion * start_motion),
-                    options_.activation_gaps * min_gap);
+    return std::max(std::min(share_of_h * h_, options_.activation_motion * start_motion_),
+                    options_.least_gaps * min_gap);
   };
   double activation = activation_of(options_.activation);
 
-  OpenGapsOptions open;
-  open.target = std::max(std::min(options_.open_target * h_, options_.activation_motion * start_motion), 3 * min_gap);
-  open.max_rounds = options_.open_rounds;
-  open.step_cap = open.target;  // five of them end as close, but look 11 gaps around, not 3: up to 9 GB, not 2
-  open_gaps(patch_.x, rules_, orientation_of_all(), guard_, everything(), open);
+  open();
   safe_ = patch_.x;
   const Positions opened = patch_.x;
 
@@ -175,9 +195,10 @@ RecoverResult Recovery::run() {
   const double last_activation =
       activation_of(options_.activation * std::pow(options_.activation_factor, options_.stages - 1));
   for (bool last = options_.stages == 0; !last && !result_.stopped;) {
+    last = activation <= 1.001 * last_activation;
+    if (last) unflip();
     const std::vector<std::uint8_t> moves = contact_region();
     if (std::find(moves.begin(), moves.end(), 1) == moves.end()) break;
-    last = activation <= 1.001 * last_activation;
     step(moves, activation, options_.max_steps - result_.iterations, last ? options_.fine : options_.coarse);
     activation = std::max(activation * options_.activation_factor, last_activation);
   }
@@ -209,6 +230,7 @@ RecoverOptions RecoverOptions::paper() {
   options.scalar_jacobi = true;
   options.step.shorten_all = true;
   options.objective.time_step = 1;
+  options.unflip_rings = 0;
   options.most_farther = std::numeric_limits<double>::infinity();
   return options;
 }

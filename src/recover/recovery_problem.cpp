@@ -103,6 +103,13 @@ std::vector<std::uint8_t> RecoveryProblem::touched_parts() {
 
 bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
   const double cap = options_.cap * h_;
+  if (options_.shorten_all) {
+    const double longest = std::sqrt(step.colwise().squaredNorm().maxCoeff());
+    step *= std::min(1.0, cap / longest);
+    contacts_.follow(patch_.x, spread(step), moving());
+    step *= largest_step(contacts_.in_the_way(), patch_.x, displacement_);
+    return longest > cap;
+  }
   const std::size_t parts = static_cast<std::size_t>(part_count_);
   const auto longest_of = [&](const Eigen::Matrix3Xd& p) {
     std::vector<double> longest(parts, 0);
@@ -128,10 +135,6 @@ bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
     }
   }
   contacts_.follow(patch_.x, spread(step), moving());
-  if (options_.shorten_all) {
-    step *= largest_step(contacts_.in_the_way(), patch_.x, displacement_);
-    return limited;
-  }
   if (!limited) return false;
   // Parts that go farther than the cap stop as a whole where one of their vertices would collide.
   const std::vector<double> longest = longest_of(step);

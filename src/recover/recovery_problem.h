@@ -12,18 +12,6 @@
 
 namespace unsnarl {
 
-/// How far a step may go. h is the patch's edge length.
-struct StepOptions {
-  /// Longest motion of a vertex in a step, in h, beyond the translation of its part where that is free. 1: fine meshes
-  /// end 5 % closer, others 0.2 % farther with a fifth more flipped faces; 2: fine meshes end 5 % farther. A fifth of
-  /// what the Newton step wants, where that is more: surfaces far from their rest shape end 16 % farther.
-  double cap = 0.5;
-  /// Share of its area along its rest normal that a face keeps in a step. Flipped on twelve bodies: 29; 0.05: 71; 0.4:
-  /// 65.
-  double kept_area = 0.2;
-  bool shorten_all = false;  ///< a collision shortens the step of every vertex, not only of those that collide
-};
-
 /// The objective of the recovery over the vertices that move, for Newton's method. Trial steps are filtered by
 /// continuous collision detection, vertex by vertex: what would collide goes as far as that allows, the rest all the
 /// way.

@@ -64,7 +64,9 @@ TEST(OrientationPenalty, DerivativesAgreeWithFiniteDifferences) {
     const double step = 1e-6;
     const Positions ahead = x + step * along, behind = x - step * along;
     const auto force = [&](const Positions& y) {
-      return linearise_all(penalty, y, 1).gradient.cwiseProduct(along).sum() / along.squaredNorm();
+      const Linearised at = linearise_all(penalty, y, 1);
+      const Positions g = at.hessian.rank_ones.at(0).g.leftCols<3>();
+      return at.gradient.cwiseProduct(g).sum() / g.squaredNorm();
     };
     const double travelled = area_share(rest, ahead) - area_share(rest, behind);
     EXPECT_NEAR((force(ahead) - force(behind)) / travelled, term.stiffness, 1e-3 * term.stiffness);

@@ -195,7 +195,7 @@ TEST(Recover, AGapNearTheWantedOneIsKept) {
   // lists gathered there must not allow for less.
   Patch patch = crossing_bumps(12, 0.8, 0.1);
   RecoverOptions options = with_gap(0.02);
-  options.activation_gaps = 1.5;
+  options.least_gaps = 1.5;
   recover(patch, options);
   recover(patch, options);
   EXPECT_GE(gap_of(patch, 1), 0.02);
