@@ -37,7 +37,7 @@ Objective::Objective(const Patch& patch, const EdgeTable& edges, const Objective
   OrientationPenalty::Options flips;
   flips.activation = options.flip_activation;
   orientation.energy = OrientationPenalty(patch.rest, active, flips);
-  orientation.weight = options.flip_weight * contact_force;
+  orientation.weight = flip_weight_ = options.flip_weight * contact_force;
   sum_.part<IpcBarrier>().weight = contact_force;
 }
 

@@ -33,6 +33,9 @@ class Objective {
   /// The contacts that may be active where the objective is evaluated next.
   std::vector<BarrierStencil>& contacts() { return sum_.part<IpcBarrier>().energy.stencils; }
 
+  /// Multiplies the weight of the penalty of flipped faces, against that of the options.
+  void scale_flip_penalty(double factor) { sum_.part<OrientationPenalty>().weight = factor * flip_weight_; }
+
   double value(const Positions& x);
   /// The value; replaces the gradient (all vertices, of use for those that move) and the Hessian (over the unknowns).
   double linearise(const Positions& x, Positions& gradient, Hessian& hessian);
@@ -42,6 +45,7 @@ class Objective {
  private:
   EnergySum<QuadraticPull, ArapTriangle, Bending, OrientationPenalty, IpcBarrier> sum_;
   MovingVertices moving_;
+  double flip_weight_ = 0;  // of the options
 };
 
 }  // namespace unsnarl

@@ -10,7 +10,6 @@
 #include "recover/open_gaps.h"
 #include "recover/recovery_problem.h"
 #include "recover/snap_to_rest.h"
-#include "recover/unflip_faces.h"
 
 namespace unsnarl {
 namespace {
@@ -19,6 +18,9 @@ namespace {
 constexpr double roundoff_ulps = 64;
 /// The same for the least gap that can be asked for.
 constexpr double least_gap_ulps = 1024;
+
+/// Newton steps in a round of unflip(), at most.
+constexpr int unflip_steps = 30;
 
 double edge_length_of(const Patch& patch) {
   const std::span<const Triangle> active(patch.triangles.data(), static_cast<std::size_t>(patch.active_count));
@@ -45,11 +47,16 @@ class Recovery {
  private:
   /// Per vertex: whether it is free.
   std::vector<std::uint8_t> everything() const;
+  /// Free vertices among `front` and in so many rings around those.
+  std::vector<std::uint8_t> rings_around(std::vector<Index> front, int rings) const;
   /// The free vertices that are not at rest, and some rings around them.
   std::vector<std::uint8_t> contact_region() const;
   void step(const std::vector<std::uint8_t>& moves, double activation, int steps, const RecoverOptions::Stop& stop);
   void open();
-  void unflip();
+  /// Active faces that are flipped.
+  std::vector<Index> flipped_faces() const;
+  /// Steps around flipped faces with an ever heavier penalty of these; kept where fewer are left.
+  void unflip(double activation);
   void snap(std::span<const std::uint8_t> moves);
   void measure_gap(double radius);
   OrientedFaces orientation_of_all() {
@@ -92,25 +99,33 @@ std::vector<std::uint8_t> Recovery::everything() const {
   return moves;
 }
 
-std::vector<std::uint8_t> Recovery::contact_region() const {
+std::vector<std::uint8_t> Recovery::rings_around(std::vector<Index> front, int rings) const {
   std::vector<std::uint8_t> moves(static_cast<std::size_t>(patch_.x.cols()), 0);
-  std::vector<Index> front, previous;
-  const auto release = [&](Index v) {
-    if (v >= patch_.free_count || moves[v]) return;
-    moves[v] = 1;
-    front.push_back(v);
-  };
-  for (Index v = 0; v < patch_.free_count; ++v) {
-    if (patch_.x.col(v) != patch_.rest.col(v)) release(v);
-  }
-  for (int ring = 0; ring < options_.contact_rings; ++ring) {
-    previous.swap(front);
-    front.clear();
-    for (Index v : previous) {
-      for (Index w : neighbours_[v]) release(w);
+  std::vector<Index> next;
+  for (int ring = 0;; ++ring) {
+    next.clear();
+    for (Index v : front) {
+      if (v >= patch_.free_count || moves[v]) continue;
+      moves[v] = 1;
+      next.insert(next.end(), neighbours_[v].begin(), neighbours_[v].end());
     }
+    if (ring == rings) return moves;
+    front.swap(next);
   }
-  return moves;
+}
+
+std::vector<std::uint8_t> Recovery::contact_region() const {
+  std::vector<Index> elsewhere;
+  for (Index v = 0; v < patch_.free_count; ++v)
+    if (patch_.x.col(v) != patch_.rest.col(v)) elsewhere.push_back(v);
+  return rings_around(std::move(elsewhere), options_.contact_rings);
+}
+
+std::vector<Index> Recovery::flipped_faces() const {
+  std::vector<Index> flipped;
+  for (Index t = 0; t < patch_.active_count; ++t)
+    if (objective_.orientation().is_flipped(patch_.x, t)) flipped.push_back(t);
+  return flipped;
 }
 
 void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int steps,
@@ -140,13 +155,24 @@ void Recovery::open() {
   open_gaps(patch_.x, rules_, orientation_of_all(), guard_, everything(), open);
 }
 
-void Recovery::unflip() {
-  const int rings = options_.unflip_rings;
-  if (rings == 0 || flipped_faces(patch_, objective_.orientation()).empty()) return;
-  guard_.roll_back(patch_.x, safe_);
-  if (unflip_faces(patch_, neighbours_, objective_.orientation(), guard_, rings) == 0) return;
-  open();
-  safe_ = patch_.x;
+void Recovery::unflip(double activation) {
+  std::vector<Index> flipped = flipped_faces();
+  double factor = options_.unflip_factor;
+  for (int round = 0; round < options_.unflip_rounds && !flipped.empty() && !result_.stopped; ++round) {
+    std::vector<Index> corners;
+    for (Index t : flipped) corners.insert(corners.end(), patch_.triangles[t].begin(), patch_.triangles[t].end());
+    const Positions before = patch_.x;
+    objective_.scale_flip_penalty(factor);
+    step(rings_around(std::move(corners), options_.unflip_rings), activation, unflip_steps, options_.fine);
+    objective_.scale_flip_penalty(1);
+    std::vector<Index> left = flipped_faces();
+    if (left.size() < flipped.size()) {
+      flipped = std::move(left);
+    } else {
+      patch_.x = before;
+    }
+    factor *= options_.unflip_factor;
+  }
 }
 
 void Recovery::snap(std::span<const std::uint8_t> moves) {
@@ -196,12 +222,12 @@ RecoverResult Recovery::run() {
       activation_of(options_.activation * std::pow(options_.activation_factor, options_.stages - 1));
   for (bool last = options_.stages == 0; !last && !result_.stopped;) {
     last = activation <= 1.001 * last_activation;
-    if (last) unflip();
     const std::vector<std::uint8_t> moves = contact_region();
     if (std::find(moves.begin(), moves.end(), 1) == moves.end()) break;
     step(moves, activation, options_.max_steps - result_.iterations, last ? options_.fine : options_.coarse);
     activation = std::max(activation * options_.activation_factor, last_activation);
   }
+  unflip(last_activation);
   guard_.roll_back(patch_.x, safe_);
   safe_ = patch_.x;
   const double motion = (patch_.x - patch_.rest).norm();
@@ -230,7 +256,7 @@ RecoverOptions RecoverOptions::paper() {
   options.scalar_jacobi = true;
   options.step.shorten_all = true;
   options.objective.time_step = 1;
-  options.unflip_rings = 0;
+  options.unflip_rounds = 0;
   options.most_farther = std::numeric_limits<double>::infinity();
   return options;
 }

@@ -133,6 +133,19 @@ TEST(Objective, TermsSumToTheValue) {
   EXPECT_NEAR(sum, value, 1e-12 * value);
 }
 
+TEST(Objective, ThePenaltyOfFlippedFacesCanBeScaled) {
+  const Patch patch = fan_over_face();
+  Assembled assembled(patch);
+  Positions x = patch.rest;
+  x.col(1) = Vec3(-0.4, 0.3, 0.2);
+  assembled.gradient(x);
+  const double once = assembled.objective.terms()[EnergyTerm::orientation];
+  assembled.objective.scale_flip_penalty(5);
+  assembled.expect_derivatives(x, 1e-6, 2e-3);
+  assembled.gradient(x);
+  EXPECT_DOUBLE_EQ(assembled.objective.terms()[EnergyTerm::orientation], 5 * once);
+}
+
 TEST(Objective, RunsOverTheElementsOfMovingVertices) {
   const Patch patch = fan_over_face();
   Assembled assembled(patch);
