@@ -1,7 +1,6 @@
 #include "energy/arap_triangle.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace unsnarl {
 namespace {
@@ -12,8 +11,8 @@ constexpr double rank_one_ratio = 1e-12;
 
 }  // namespace
 
-ArapTriangle::ArapTriangle(const Positions& rest, std::span<const Triangle> triangles, double weight)
-    : triangles_(triangles.begin(), triangles.end()), weight_(weight) {
+ArapTriangle::ArapTriangle(const Positions& rest, std::span<const Triangle> triangles, double rotation_damping)
+    : triangles_(triangles.begin(), triangles.end()), rotation_damping_(rotation_damping) {
   rest_edges_.reserve(triangles_.size());
   for (const Triangle& t : triangles_) {
     Eigen::Matrix3d e;
@@ -61,68 +60,24 @@ Eigen::Matrix3d ArapTriangle::edges(const Positions& x, Index t) const {
   return e;
 }
 
-double ArapTriangle::triangle_energy(const Positions& x, Index t) const {
+double ArapTriangle::value(const Positions& x, Index t) const {
   Eigen::Matrix3d e = edges(x, t);
   e -= fitted_rotation(e, t) * rest_edges_[t];
-  return 0.5 * weight_ * e.squaredNorm();
+  return 0.5 * edge_weight * e.squaredNorm();
 }
 
-// The three edge vectors sum to zero, so their squares are those of two orthonormal combinations:
-// a = (e_0 - e_1) / sqrt 2 = (2 x_1 - x_0 - x_2) / sqrt 2,  b = (e_0 + e_1 - 2 e_2) / sqrt 6 = 3 (x_2 - x_0) / sqrt 6.
-namespace {
-constexpr double combine_a = std::numbers::sqrt2 / 2;
-constexpr double combine_b = 1.2247448713915890;  // 3 / sqrt 6
-constexpr double coefficient_a[3] = {-combine_a, 2 * combine_a, -combine_a};
-constexpr double coefficient_b[3] = {-combine_b, 0, combine_b};
-}  // namespace
-
-double ArapTriangle::linearise(const Positions& x, Index t, Eigen::Matrix3d& forces, Strain& strain) const {
+double ArapTriangle::linearise(const Positions& x, Index t, double weight, Positions& gradient,
+                               HessianTerms& hessian) const {
   Eigen::Matrix3d e = edges(x, t);
-  const Eigen::Matrix<double, 2, 3>& e0 = rest_edges_[t];
+  HessianTerms::Strain& strain = hessian.strains.emplace_back();
+  strain.vertices = triangles_[t];
   strain.rotation = fitted_rotation(e, t);
-  const Eigen::Vector2d a = combine_a * (e0.col(0) - e0.col(1));
-  const Eigen::Vector2d b = (e0.col(0) + e0.col(1) - 2 * e0.col(2)) * (combine_a / std::numbers::sqrt3);
-  strain.turn = Eigen::Vector4d(-a[1], a[0], -b[1], b[0]).normalized();
-  e -= strain.rotation * e0;
-  for (int k = 0; k < 3; ++k) forces.col(k) = weight_ * (e.col((k + 2) % 3) - e.col(k));
-  return 0.5 * weight_ * e.squaredNorm();
-}
-
-Eigen::Matrix3d ArapTriangle::Strain::apply(const Eigen::Matrix3d& v) const {
-  const Vec3 a = combine_a * (2 * v.col(1) - v.col(0) - v.col(2));
-  const Vec3 b = combine_b * (v.col(2) - v.col(0));
-  Eigen::Vector4d y;
-  y << rotation.transpose() * a, rotation.transpose() * b;
-  y -= turn.dot(y) * turn;
-  const Vec3 back_a = rotation * y.head<2>();
-  const Vec3 back_b = rotation * y.tail<2>();
-  Eigen::Matrix3d result;
-  for (int k = 0; k < 3; ++k) result.col(k) = coefficient_a[k] * back_a + coefficient_b[k] * back_b;
-  return result;
-}
-
-Eigen::Matrix3d ArapTriangle::Strain::block(int k) const {
-  const double a = coefficient_a[k];
-  const double b = coefficient_b[k];
-  const Eigen::Vector2d t = a * turn.head<2>() + b * turn.tail<2>();
-  return rotation * ((a * a + b * b) * Eigen::Matrix2d::Identity() - t * t.transpose()) * rotation.transpose();
-}
-
-double ArapTriangle::value(const Positions& x) const {
-  double sum = 0;
-  for (Index t = 0; t < size(); ++t) sum += triangle_energy(x, t);
-  return sum;
-}
-
-double ArapTriangle::value_and_gradient(const Positions& x, double scale, Positions& g) const {
-  double sum = 0;
-  Eigen::Matrix3d forces;
-  Strain strain;
-  for (Index t = 0; t < size(); ++t) {
-    sum += linearise(x, t, forces, strain);
-    for (int k = 0; k < 3; ++k) g.col(triangles_[t][k]) += scale * forces.col(k);
-  }
-  return sum;
+  strain.turn = HessianTerms::Strain::turn_of(rest_edges_[t]);
+  strain.stiffness = weight * edge_weight;
+  strain.uniform = rotation_damping_;
+  e -= strain.rotation * rest_edges_[t];
+  for (int k = 0; k < 3; ++k) gradient.col(triangles_[t][k]) += weight * edge_weight * (e.col((k + 2) % 3) - e.col(k));
+  return 0.5 * weight * edge_weight * e.squaredNorm();
 }
 
 }  // namespace unsnarl

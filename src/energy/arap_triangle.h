@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "energy/hessian.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -13,37 +14,22 @@ namespace unsnarl {
 ///
 ///   E = sum_t w/2 sum_k |e_k - R_t e0_k|^2,   R_t the rotation that fits the three edges best.
 ///
-/// One weight w for all edges (1/sqrt(3) is the cotangent weight of an equilateral triangle), so that slivers and
+/// One weight w for all edges, 1/sqrt(3): the cotangent weight of an equilateral triangle, so that slivers and
 /// triangles without area at rest are harmless. Zero and stationary for every rigid motion of the rest shape; scales as
-/// length squared.
+/// length squared. An ElementEnergy (energy_sum.h).
 class ArapTriangle {
  public:
+  static constexpr double edge_weight = 0.57735026918962576;
+
   ArapTriangle() = default;
-  ArapTriangle(const Positions& rest, std::span<const Triangle> triangles, double weight = 0.57735026918962576);
+  /// rotation_damping: share of the Hessian with the rotations held, in [0, 1]; the rest is Gauss-Newton, the strains
+  /// in the plane of the triangle.
+  ArapTriangle(const Positions& rest, std::span<const Triangle> triangles, double rotation_damping = 0);
 
-  double weight() const { return weight_; }
   Index size() const { return static_cast<Index>(triangles_.size()); }
-  const Triangle& triangle(Index t) const { return triangles_[t]; }
-
-  double value(const Positions& x) const;
-  /// Adds `scale` times the gradient to g.
-  double value_and_gradient(const Positions& x, double scale, Positions& g) const;
-  double triangle_energy(const Positions& x, Index t) const;
-
-  /// Gauss-Newton part of the Hessian of one triangle: the strains in its plane. Motions of the three corners along the
-  /// normal and turns in the plane cost nothing, as at rest.
-  class Strain {
-   public:
-    /// Corner k of the result: sum_l H_kl v_l / weight.
-    Eigen::Matrix3d apply(const Eigen::Matrix3d& v) const;
-    /// Diagonal block of corner k / weight.
-    Eigen::Matrix3d block(int k) const;
-
-    Eigen::Matrix<double, 3, 2> rotation;  // of the rest frame
-    Eigen::Vector4d turn;                  // unit: the infinitesimal turn in the plane, in the coordinates below
-  };
-  /// Energy of triangle t, its derivatives in the three corners, and its strain.
-  double linearise(const Positions& x, Index t, Eigen::Matrix3d& forces, Strain& strain) const;
+  const Triangle& vertices(Index t) const { return triangles_[t]; }
+  double value(const Positions& x, Index t) const;
+  double linearise(const Positions& x, Index t, double weight, Positions& gradient, HessianTerms& hessian) const;
 
  private:
   Eigen::Matrix3d edges(const Positions& x, Index t) const;
@@ -51,7 +37,7 @@ class ArapTriangle {
 
   std::vector<Triangle> triangles_;
   std::vector<Eigen::Matrix<double, 2, 3>> rest_edges_;  // in a frame of the triangle's own; edge k: corner k to k + 1
-  double weight_ = 0;
+  double rotation_damping_ = 0;
 };
 
 }  // namespace unsnarl

@@ -80,31 +80,21 @@ Bending::Bending(const Positions& rest, const Positions& start, std::span<const 
   }
 }
 
-double Bending::residual(const Positions& x, Index e, Eigen::Matrix<double, 3, 4>* gradient) const {
+double Bending::value(const Positions& x, Index e) const {
   const Hinge& h = hinges_[e];
-  const Vec3 x0 = x.col(h[0]), x1 = x.col(h[1]), x2 = x.col(h[2]), x3 = x.col(h[3]);
-  const double angle = gradient ? hinge_angle(x0, x1, x2, x3, *gradient) : hinge_angle(x0, x1, x2, x3);
-  return angle - rest_angles_[e];
+  const double r = hinge_angle(x.col(h[0]), x.col(h[1]), x.col(h[2]), x.col(h[3])) - rest_angles_[e];
+  return 0.5 * weights_[e] * r * r;
 }
 
-double Bending::value(const Positions& x) const {
-  double sum = 0;
-  for (Index e = 0; e < size(); ++e) {
-    const double r = residual(x, e, nullptr);
-    sum += weights_[e] * r * r;
-  }
-  return 0.5 * sum;
-}
-
-double Bending::value_and_gradient(const Positions& x, double scale, Positions& g) const {
-  double sum = 0;
-  Eigen::Matrix<double, 3, 4> gradient;
-  for (Index e = 0; e < size(); ++e) {
-    const double r = residual(x, e, &gradient);
-    sum += weights_[e] * r * r;
-    for (int k = 0; k < 4; ++k) g.col(hinges_[e][k]) += scale * weights_[e] * r * gradient.col(k);
-  }
-  return 0.5 * sum;
+double Bending::linearise(const Positions& x, Index e, double weight, Positions& gradient,
+                          HessianTerms& hessian) const {
+  const Hinge& h = hinges_[e];
+  HessianTerms::RankOne& term = hessian.rank_ones.emplace_back();
+  const double r = hinge_angle(x.col(h[0]), x.col(h[1]), x.col(h[2]), x.col(h[3]), term.g) - rest_angles_[e];
+  term.vertices = h;
+  term.stiffness = weight * weights_[e];
+  for (int k = 0; k < 4; ++k) gradient.col(h[k]) += term.stiffness * r * term.g.col(k);
+  return 0.5 * term.stiffness * r * r;
 }
 
 }  // namespace unsnarl

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "energy/hessian.h"
 #include "geometry/types.h"
 #include "mesh/adjacency.h"
 
@@ -29,7 +30,8 @@ double hinge_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x
 /// weigh nothing.
 ///
 /// Rest angles are taken modulo a full turn nearest to the angle at `start`: a hinge that had to be folded the other
-/// way round is pulled to the near side of its rest shape instead of the long way back.
+/// way round is pulled to the near side of its rest shape instead of the long way back. An ElementEnergy
+/// (energy_sum.h).
 class Bending {
  public:
   struct Options {
@@ -41,15 +43,10 @@ class Bending {
   Bending(const Positions& rest, const Positions& start, std::span<const Hinge> hinges, const Options& options);
 
   Index size() const { return static_cast<Index>(hinges_.size()); }
-  const Hinge& hinge(Index e) const { return hinges_[e]; }
-  double weight(Index e) const { return weights_[e]; }
-
-  double value(const Positions& x) const;
-  /// Adds `scale` times the gradient to g.
-  double value_and_gradient(const Positions& x, double scale, Positions& g) const;
-  /// angle - rest angle of hinge e, and the gradient of the angle. The Hessian's Gauss-Newton part is
-  /// weight(e) * gradient gradient^T.
-  double residual(const Positions& x, Index e, Eigen::Matrix<double, 3, 4>* gradient) const;
+  const Hinge& vertices(Index e) const { return hinges_[e]; }
+  double value(const Positions& x, Index e) const;
+  /// The Hessian is its Gauss-Newton part, w_e times the gradient of the angle squared.
+  double linearise(const Positions& x, Index e, double weight, Positions& gradient, HessianTerms& hessian) const;
 
  private:
   std::vector<Hinge> hinges_;

@@ -1,7 +1,5 @@
 #include "energy/ipc_barrier.h"
 
-#include "geometry/parallel_lists.h"
-
 namespace unsnarl {
 namespace {
 
@@ -20,73 +18,48 @@ Edges edges_of(const Stencil& s, const Positions& x) {
 
 }  // namespace
 
-double IpcBarrier::value(const Positions& x, std::span<const BarrierStencil> stencils) const {
-  double sum = 0;
-  for (const BarrierStencil& s : stencils) {
-    const double distance = std::sqrt(squared_distance(s.stencil, x));
-    if (distance >= s.activation) continue;
-    const double width = s.activation - s.separation;
-    double energy = width * barrier((distance - s.separation) / width);
-    if (s.mollifier_threshold > 0) energy *= mollifier(edges_of(s.stencil, x).c, s.mollifier_threshold);
-    sum += energy;
-  }
-  return force_scale_ * sum;
-}
-
-double IpcBarrier::evaluate(const Positions& x, std::span<const BarrierStencil> stencils,
-                            std::vector<BarrierContact>& contacts) const {
-  constexpr Index chunk = 2048;  // stencils a task
-  gather_in_chunks(static_cast<Index>(stencils.size()), chunk, contacts,
-                   [&](Index begin, Index end, std::vector<BarrierContact>& list) {
-                     BarrierContact contact;
-                     for (Index i = begin; i < end; ++i) {
-                       if (!evaluate(x, stencils[i], contact)) continue;
-                       contact.stencil = i;
-                       list.push_back(contact);
-                     }
-                   });
-  double sum = 0;
-  for (const BarrierContact& contact : contacts) sum += contact.energy;
-  return force_scale_ * sum;
-}
-
-bool IpcBarrier::evaluate(const Positions& x, const BarrierStencil& s, BarrierContact& contact) const {
-  contact.closest = closest(s.stencil, x);
-  if (contact.closest.distance >= s.activation) return false;
+double IpcBarrier::value(const Positions& x, Index index) const {
+  const BarrierStencil& s = stencils[index];
+  const double distance = std::sqrt(squared_distance(s.stencil, x));
+  if (distance >= s.activation) return 0;
   const double width = s.activation - s.separation;
-  const double y = (contact.closest.distance - s.separation) / width;
+  const double energy = width * barrier((distance - s.separation) / width);
+  return s.mollifier_threshold > 0 ? energy * mollifier(edges_of(s.stencil, x).c, s.mollifier_threshold) : energy;
+}
+
+double IpcBarrier::linearise(const Positions& x, Index index, double weight, Positions& gradient,
+                             HessianTerms& hessian) const {
+  const BarrierStencil& s = stencils[index];
+  const Stencil& stencil = s.stencil;
+  const Closest at = closest(stencil, x);
+  if (at.distance >= s.activation) return 0;
+  const double width = s.activation - s.separation;
+  const double y = (at.distance - s.separation) / width;
   const double energy = width * barrier(y);
   double factor = 1;
-  contact.mollified = false;
   if (s.mollifier_threshold > 0) {
-    const Edges e = edges_of(s.stencil, x);
+    const Edges e = edges_of(stencil, x);
     if (e.c < s.mollifier_threshold) {
       factor = mollifier(e.c, s.mollifier_threshold);
-      contact.mollified = true;
       // d|u x v|^2 = 2 (|v|^2 u - (u.v) v) . du + 2 (|u|^2 v - (u.v) u) . dv
-      const double slope = 2 * force_scale_ * energy * mollifier_derivative(e.c, s.mollifier_threshold);
-      contact.twist.col(0) = slope * (e.v.squaredNorm() * e.u - e.u.dot(e.v) * e.v);
-      contact.twist.col(1) = slope * (e.u.squaredNorm() * e.v - e.u.dot(e.v) * e.u);
+      const double slope = 2 * weight * energy * mollifier_derivative(e.c, s.mollifier_threshold);
+      const Vec3 in_u = slope * (e.v.squaredNorm() * e.u - e.u.dot(e.v) * e.v);
+      const Vec3 in_v = slope * (e.u.squaredNorm() * e.v - e.u.dot(e.v) * e.u);
+      gradient.col(stencil.v[0]) -= in_u;
+      gradient.col(stencil.v[1]) += in_u;
+      gradient.col(stencil.v[2]) -= in_v;
+      gradient.col(stencil.v[3]) += in_v;
     }
   }
-  contact.energy = factor * energy;
-  contact.force = force_scale_ * factor * barrier_derivative(y);
-  contact.stiffness = force_scale_ * factor * barrier_second_derivative(y) / width;
-  return true;
-}
-
-void IpcBarrier::add_gradient(std::span<const BarrierStencil> stencils, std::span<const BarrierContact> contacts,
-                              double scale, Positions& g) {
-  for (const BarrierContact& contact : contacts) {
-    const Stencil& s = stencils[contact.stencil].stencil;
-    const Vec3 force = scale * contact.force * contact.closest.direction;
-    for (int i = 0; i < s.size(); ++i) g.col(s.v[i]) += contact.closest.weights[i] * force;
-    if (!contact.mollified) continue;
-    g.col(s.v[0]) -= scale * contact.twist.col(0);
-    g.col(s.v[1]) += scale * contact.twist.col(0);
-    g.col(s.v[2]) -= scale * contact.twist.col(1);
-    g.col(s.v[3]) += scale * contact.twist.col(1);
+  HessianTerms::RankOne& term = hessian.rank_ones.emplace_back();
+  term.vertices = stencil.v;
+  term.stiffness = weight * factor * barrier_second_derivative(y) / width;
+  const double force = weight * factor * barrier_derivative(y);
+  for (int i = 0; i < stencil.size(); ++i) {
+    term.g.col(i) = at.weights[i] * at.direction;
+    gradient.col(stencil.v[i]) += force * term.g.col(i);
   }
+  return weight * factor * energy;
 }
 
 }  // namespace unsnarl

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/distances.h"
+#include "energy/hessian.h"
 
 namespace unsnarl {
 
@@ -44,36 +45,17 @@ struct BarrierStencil {
   double mollifier_threshold = 0;
 };
 
-/// What one active stencil contributes to the derivatives.
-struct BarrierContact {
-  Index stencil = 0;  ///< position in the list
-  Closest closest;
-  double energy = 0;     ///< force_scale left out
-  double force = 0;      ///< derivative of the energy in the distance, <= 0
-  double stiffness = 0;  ///< its second: the Hessian's Gauss-Newton part is stiffness (w n)(w n)^T
-  bool mollified = false;
-  Eigen::Matrix<double, 3, 2> twist;  ///< mollified: derivative through |u x v|^2 in the edge vectors u and v
-};
+/// E = sum_s m_s (activation_s - separation_s) B(y_s) over a list of stencils, m_s the mollifier: with a weight that is
+/// a force, the force of a contact depends on y alone, however small the activation distance. An ElementEnergy
+/// (energy_sum.h).
+struct IpcBarrier {
+  std::vector<BarrierStencil> stencils;
 
-/// E = force_scale * sum_s m_s (activation_s - separation_s) B(y_s): the force of a contact depends on y alone, however
-/// small the activation distance.
-class IpcBarrier {
- public:
-  explicit IpcBarrier(double force_scale = 1) : force_scale_(force_scale) {}
-
-  double value(const Positions& x, std::span<const BarrierStencil> stencils) const;
-  /// The same; replaces `contacts` by the active stencils.
-  double evaluate(const Positions& x, std::span<const BarrierStencil> stencils,
-                  std::vector<BarrierContact>& contacts) const;
-  /// Adds `scale` times the gradient to g.
-  static void add_gradient(std::span<const BarrierStencil> stencils, std::span<const BarrierContact> contacts,
-                           double scale, Positions& g);
-
- private:
-  /// False: not active.
-  bool evaluate(const Positions& x, const BarrierStencil& stencil, BarrierContact& contact) const;
-
-  double force_scale_;
+  Index size() const { return static_cast<Index>(stencils.size()); }
+  const std::array<Index, 4>& vertices(Index s) const { return stencils[s].stencil.v; }
+  double value(const Positions& x, Index s) const;
+  /// The Hessian is its Gauss-Newton part: the second derivative in the distance times the gradient of that squared.
+  double linearise(const Positions& x, Index s, double weight, Positions& gradient, HessianTerms& hessian) const;
 };
 
 }  // namespace unsnarl

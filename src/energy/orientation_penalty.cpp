@@ -20,7 +20,7 @@ OrientationPenalty::OrientationPenalty(const Positions& rest, std::span<const Tr
     for (int k = 0; k < 3; ++k) longest = std::max(longest, (rest.col(t[k]) - rest.col(t[(k + 1) % 3])).norm());
     if (squared > 0 && longest > 0 && std::isfinite(1 / squared)) {
       kept.normal = area / squared;
-      kept.weight = options.scale * std::sqrt(squared) / longest;
+      kept.weight = std::sqrt(squared) / longest;
     }
     triangles_.push_back(kept);
   }
@@ -34,26 +34,34 @@ double OrientationPenalty::value(const Positions& x, Index t) const {
   return missing > 0 ? kept.weight * most * (missing - 0.5 * most) : 0;
 }
 
-bool OrientationPenalty::evaluate(const Positions& x, Index t, Term& term) const {
+double OrientationPenalty::linearise(const Positions& x, Index t, double weight, Positions& gradient,
+                                     HessianTerms& hessian) const {
   const Kept& kept = triangles_[t];
-  if (!(kept.weight > 0)) return false;
+  if (!(kept.weight > 0)) return 0;
   const double missing = 1 - kept.normal.dot(area_vector(x, kept.corners)) / activation_;
-  if (!(missing > 0)) return false;
+  if (!(missing > 0)) return 0;
   const double most = std::min(missing, most_);
-  term.value = kept.weight * most * (missing - 0.5 * most);
-  term.force = -kept.weight * most / activation_;
-  term.stiffness = kept.weight / (activation_ * activation_) * (most / missing);
+  const double scale = weight * kept.weight;
+  HessianTerms::RankOne& term = hessian.rank_ones.emplace_back();
+  term.stiffness = scale / (activation_ * activation_) * (most / missing);
   for (int k = 0; k < 3; ++k) {
     const Vec3 opposite = x.col(kept.corners[(k + 2) % 3]) - x.col(kept.corners[(k + 1) % 3]);
-    term.gradient.col(k) = kept.normal.cross(opposite);
+    term.vertices[k] = kept.corners[k];
+    term.g.col(k) = kept.normal.cross(opposite);
+    gradient.col(kept.corners[k]) -= scale * most / activation_ * term.g.col(k);
   }
-  return true;
+  return scale * most * (missing - 0.5 * most);
+}
+
+bool OrientationPenalty::is_flipped(const Positions& x, Index t) const {
+  const Kept& kept = triangles_[t];
+  return kept.weight > 0 && kept.normal.dot(area_vector(x, kept.corners)) < 0;
 }
 
 bool OrientationPenalty::filter(const Positions& x, std::span<const Index> which, double share, double factor,
                                 Positions& p) const {
   constexpr int rounds = 30;
-  const auto turns = [&](Index t) {
+  const auto flips = [&](Index t) {
     const Kept& kept = triangles_[t];
     if (!(kept.weight > 0)) return false;
     const double now = kept.normal.dot(area_vector(x, kept.corners));
@@ -62,12 +70,12 @@ bool OrientationPenalty::filter(const Positions& x, std::span<const Index> which
     const Vec3 a = moved(0);
     return kept.normal.dot((moved(1) - a).cross(moved(2) - a)) < share * now;
   };
-  std::vector<Index> turning;
+  std::vector<Index> flipping;
   for (int round = 0;; ++round) {
-    turning.clear();
-    std::copy_if(which.begin(), which.end(), std::back_inserter(turning), turns);
-    if (turning.empty()) return round > 0;
-    for (Index t : turning)
+    flipping.clear();
+    std::copy_if(which.begin(), which.end(), std::back_inserter(flipping), flips);
+    if (flipping.empty()) return round > 0;
+    for (Index t : flipping)
       for (Index v : triangles_[t].corners) p.col(v) *= round < rounds ? factor : 0;
   }
 }

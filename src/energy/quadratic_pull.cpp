@@ -23,24 +23,4 @@ std::vector<double> vertex_areas(const Positions& x, std::span<const Triangle> t
   return areas;
 }
 
-double QuadraticPull::value(const Positions& x) const {
-  double sum = 0;
-  for (std::size_t v = 0; v < mass.size(); ++v) {
-    const auto i = static_cast<Index>(v);
-    sum += mass[v] * (x.col(i) - rest.col(i)).squaredNorm();
-  }
-  return 0.5 * sum;
-}
-
-double QuadraticPull::value_and_gradient(const Positions& x, double scale, Positions& g) const {
-  double sum = 0;
-  for (std::size_t v = 0; v < mass.size(); ++v) {
-    const auto i = static_cast<Index>(v);
-    const Vec3 d = x.col(i) - rest.col(i);
-    sum += mass[v] * d.squaredNorm();
-    g.col(i) += scale * mass[v] * d;
-  }
-  return 0.5 * sum;
-}
-
 }  // namespace unsnarl

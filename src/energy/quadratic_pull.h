@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
+#include "energy/hessian.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -12,14 +14,21 @@ namespace unsnarl {
 std::vector<double> vertex_areas(const Positions& x, std::span<const Triangle> triangles, double floor_rel = 1e-3);
 
 /// E = 1/2 sum_v m_v |x_v - rest_v|^2 over the vertices [0, mass.size()) (the quadratic penalty of paper §3.4).
-/// With m an area it scales as length to the fourth power.
+/// With m an area it scales as length to the fourth power. An ElementEnergy (energy_sum.h).
 struct QuadraticPull {
   std::vector<double> mass;
   Positions rest;
+  /// Added to its Hessian, per mass and weight: the inverse of an artificial time step (paper §3.5.1). 0: none.
+  double damping = 0;
 
-  double value(const Positions& x) const;
-  /// Adds `scale` times the gradient to g.
-  double value_and_gradient(const Positions& x, double scale, Positions& g) const;
+  Index size() const { return static_cast<Index>(mass.size()); }
+  std::array<Index, 1> vertices(Index v) const { return {v}; }
+  double value(const Positions& x, Index v) const { return 0.5 * mass[v] * (x.col(v) - rest.col(v)).squaredNorm(); }
+  double linearise(const Positions& x, Index v, double weight, Positions& gradient, HessianTerms& hessian) const {
+    gradient.col(v) += weight * mass[v] * (x.col(v) - rest.col(v));
+    hessian.diagonals.push_back({v, weight * mass[v] * (1 + damping)});
+    return weight * value(x, v);
+  }
 };
 
 }  // namespace unsnarl

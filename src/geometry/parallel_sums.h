@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "geometry/types.h"
@@ -42,13 +43,16 @@ double sum_in_chunks(Index count, Index chunk, Sum&& sum) {
 /// Adds up 3-vectors that many indices contribute to: elements scatter to their vertices. Keeps its workspace.
 class ScatteredSum {
  public:
+  static constexpr Index most_parts = 8;
+
   /// `add(begin, end, columns)` adds the contributions of [begin, end) to the columns; their sum is added to `out`.
-  /// From `chunk` indices on in up to eight parts at a time.
+  /// From `chunk` indices on in up to `most_parts` parts at a time. `add(begin, end, columns, part)` also gets the
+  /// number of its part, for what it adds elsewhere.
   template <class Add>
   void operator()(Index count, Index chunk, Positions& out, Add&& add) {
     const Index parts = std::min(most_parts, (count + chunk - 1) / chunk);
     if (parts <= 1) {
-      add(Index{0}, count, out);
+      call(add, Index{0}, count, out, Index{0});
       return;
     }
     const auto begin_of = [&](Index part) {
@@ -57,7 +61,7 @@ class ScatteredSum {
     oneapi::tbb::parallel_for(Index{0}, parts, [&](Index part) {
       Positions& columns = part_[part];
       columns.setZero(3, out.cols());
-      add(begin_of(part), begin_of(part + 1), columns);
+      call(add, begin_of(part), begin_of(part + 1), columns, part);
     });
     const Index n = static_cast<Index>(out.cols());
     const Index columns_a_task = 4096;
@@ -70,7 +74,15 @@ class ScatteredSum {
   }
 
  private:
-  static constexpr Index most_parts = 8;
+  template <class Add>
+  static void call(Add& add, Index begin, Index end, Positions& columns, Index part) {
+    if constexpr (std::is_invocable_v<Add&, Index, Index, Positions&, Index>) {
+      add(begin, end, columns, part);
+    } else {
+      add(begin, end, columns);
+    }
+  }
+
   std::array<Positions, most_parts> part_;
 };
 

@@ -95,7 +95,7 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   rule.reach = std::max(options_.reach_share * rule.rest_distance, options_.reach_gaps * options_.min_gap);
   if (neighbours && !conflict) {
     if (rule.rest_distance <= options_.roundoff) return false;
-    separation = std::min(separation, options_.neighbour_share * rule.rest_distance);
+    separation = std::min(separation, options_.rest_share * rule.rest_distance);
     rule.reach = options_.reach_share * rule.rest_distance;
   } else if (!neighbours && conflict) {
     rule.reach = std::numeric_limits<double>::infinity();
@@ -123,7 +123,7 @@ void ContactRules::add_altitudes(const Positions& from, const Positions& x, cons
       const Stencil s = altitude_of(f, k);
       rule.rest_distance = rest_altitudes_[t][k];
       if (rule.rest_distance <= options_.roundoff) continue;  // without area at rest: it may stay so
-      rule.reach = options_.altitude_share * rule.rest_distance;
+      rule.reach = options_.rest_share * rule.rest_distance;
       const Closest at = closest(s, from);
       rule.distance = at.distance;
       if (least_distance(s, from, bounds, at.direction) > rule.reach) continue;

@@ -7,7 +7,7 @@
 
 namespace unsnarl {
 
-/// Watches that a moving patch gains no intersecting pair over those it had at the start (none, or obstructions such as
+/// Checks that a moving patch gains no intersecting pair over those it had at the start (none, or obstructions such as
 /// duplicate faces). Exact. The patch's triangles must outlive it.
 class EmbeddingGuard {
  public:

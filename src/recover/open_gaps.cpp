@@ -8,7 +8,7 @@
 namespace unsnarl {
 namespace {
 
-// Computed differences point the right way only this many times above the round-off of a distance.
+/// Computed differences point the right way only this many times above the round-off of a distance.
 constexpr double direction_margin = 1e4;
 
 /// The distance wanted for a stencil.
@@ -30,7 +30,7 @@ Vec3 exact_direction(const Stencil& s, const Positions& x) {
 
 }  // namespace
 
-OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& upright, EmbeddingGuard& guard,
+OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented, EmbeddingGuard& guard,
                          std::span<const std::uint8_t> moves, const OpenGapsOptions& options) {
   OpenGapsResult result;
   const double roundoff = rules.options().roundoff;
@@ -75,14 +75,14 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
       const double length = p.col(v).norm();
       if (length > options.step_cap) p.col(v) *= options.step_cap / length;
     }
-    // Distances of the order of round-off tell CCD nothing; there the exact guard watches.
+    // Distances of the order of round-off tell CCD nothing; there the exact guard checks.
     bool doubtful = false;
     filter.clear();
     for (const ContactRule& rule : close) {
       doubtful |= rule.distance <= direction_margin * roundoff;
       if (rule.distance > roundoff) filter.push_back({rule.stencil.stencil, rule.stencil.separation});
     }
-    filter_step(filter, upright, x, p, OnCollision::shorten);
+    filter_step(filter, oriented, x, p, OnCollision::shorten);
     safe = x;
     x += p;
     if (doubtful) guard.roll_back(x, safe);

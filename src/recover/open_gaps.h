@@ -24,7 +24,7 @@ struct OpenGapsResult {
 /// closest points, or, where round-off hides it, along the normal on the side that the exact orientation predicate
 /// says. Every round goes through the vertex-wise filter_step and, where a gap is of the order of round-off, the exact
 /// guard.
-OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& upright, EmbeddingGuard& guard,
+OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented, EmbeddingGuard& guard,
                          std::span<const std::uint8_t> moves, const OpenGapsOptions& options);
 
 }  // namespace unsnarl

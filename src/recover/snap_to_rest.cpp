@@ -5,7 +5,7 @@
 namespace unsnarl {
 
 Index snap_to_rest(Positions& x, const Positions& rest, std::span<const double> reach, ContactRules& rules,
-                   const OrientedFaces& upright, EmbeddingGuard& guard, std::span<const std::uint8_t> moves,
+                   const OrientedFaces& oriented, EmbeddingGuard& guard, std::span<const std::uint8_t> moves,
                    int rounds) {
   std::vector<ContactRule> close;
   std::vector<SeparatedStencil> filter;
@@ -32,7 +32,7 @@ Index snap_to_rest(Positions& x, const Positions& rest, std::span<const double> 
     rules.gather(x, rules.options().min_gap, bounds, trying, close);
     filter.clear();
     for (const ContactRule& rule : close) filter.push_back({rule.stencil.stencil, rule.stencil.separation});
-    filter_step(filter, upright, x, p, OnCollision::stay);
+    filter_step(filter, oriented, x, p, OnCollision::stay);
     safe = x;
     Index moved = 0;
     for (Index v = 0; v < x.cols(); ++v) {

@@ -7,7 +7,7 @@
 
 namespace unsnarl {
 
-/// The faces that a step must not turn over.
+/// The faces that a step must not flip.
 struct OrientedFaces {
   const OrientationPenalty& orientation;
   std::span<const Index> faces;  ///< of those the penalty was made with
@@ -15,9 +15,8 @@ struct OrientedFaces {
 };
 
 /// Shortens the displacements p, vertex by vertex, until no stencil collides (see filter_displacements) and none of the
-/// faces turns over: what one of the two shortens may bring about the other. Where that does not settle, faces may
-/// turn.
-void filter_step(std::span<const SeparatedStencil> stencils, const OrientedFaces& upright, const Positions& x,
+/// faces flips: either may follow from shortening for the other. Where that does not settle, faces may flip.
+void filter_step(std::span<const SeparatedStencil> stencils, const OrientedFaces& oriented, const Positions& x,
                  Positions& p, OnCollision on_collision, const CcdOptions& options = {});
 
 }  // namespace unsnarl

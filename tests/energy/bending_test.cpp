@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "energy/finite_differences.h"
+#include "energy/energy_checks.h"
 
 namespace unsnarl {
 namespace {
@@ -55,41 +55,47 @@ TEST(Bending, GradientAgreesWithFiniteDifferences) {
   const Positions rest = random_positions(1, 5);
   const Positions x = rest + 0.1 * random_positions(2, 5);
   const Bending energy(rest, x, hinges, {});
-  Positions g = Positions::Zero(3, 5);
-  const double value = energy.value_and_gradient(x, 3, g);
-  EXPECT_DOUBLE_EQ(value, energy.value(x));
-  expect_gradient([&](const Positions& y) { return 3 * energy.value(y); }, x, g, 1e-6, 1e-4 * g.norm());
+  expect_derivatives(energy, x, 1e-6, 1e-4 * linearise_all(energy, x, 1).gradient.norm());
+}
+
+TEST(Bending, HessianIsExactAtRest) {
+  const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
+  const Positions rest = bent(0.3);
+  const Bending energy(rest, rest, hinges, {});
+  const Eigen::MatrixXd differences =
+      difference_hessian([&](const Positions& x) { return linearise_all(energy, x, 2).gradient; }, rest, 1e-6);
+  EXPECT_LT((dense(linearise_all(energy, rest, 2).hessian, 4) - differences).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST(Bending, InvariantUnderRigidMotionAndScaling) {
   const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
   const Positions rest = bent(0.3), x = bent(1.2);
-  const double value = Bending(rest, x, hinges, {}).value(x);
+  const double value = total_value(Bending(rest, x, hinges, {}), x);
   EXPECT_GT(value, 0);
-  EXPECT_LT(Bending(rest, rest, hinges, {}).value(rest), 1e-28);
+  EXPECT_LT(total_value(Bending(rest, rest, hinges, {}), rest), 1e-28);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(3, -1, 2).normalized()).toRotationMatrix();
   const Positions moved = (turn * x).colwise() + Vec3(1, 2, 3);
-  EXPECT_NEAR(Bending(rest, moved, hinges, {}).value(moved), value, 1e-12);
+  EXPECT_NEAR(total_value(Bending(rest, moved, hinges, {}), moved), value, 1e-12);
   Bending::Options scaled;
   scaled.edge_length = 5;
-  EXPECT_NEAR(Bending(5 * rest, 5 * x, hinges, scaled).value(5 * x), value, 1e-12);
+  EXPECT_NEAR(total_value(Bending(5 * rest, 5 * x, hinges, scaled), 5 * x), value, 1e-12);
 }
 
 TEST(Bending, RestAngleIsTakenOnTheSideOfTheStart) {
   // At rest almost folded to one side, at the start almost folded to the other: the nearest way is through the fold.
   const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
   const Bending energy(bent(3.0), bent(-3.0), hinges, {});
-  EXPECT_NEAR(std::abs(energy.residual(bent(-3.0), 0, nullptr)), 2 * std::numbers::pi - 6, 1e-12);
+  const double stiffness = linearise_all(energy, bent(-3.0), 1).hessian.rank_ones[0].stiffness;
+  const double residual = 2 * std::numbers::pi - 6;
+  EXPECT_NEAR(energy.value(bent(-3.0), 0), 0.5 * stiffness * residual * residual, 1e-12);
 }
 
 TEST(Bending, SliversStayAsSoftAsOrdinaryHinges) {
   Positions thin = bent(0);
   thin(0, 2) = -1e-2;
   const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
-  Eigen::Matrix<double, 3, 4> gradient;
-  const Bending energy(thin, thin, hinges, {});
-  energy.residual(thin, 0, &gradient);
-  EXPECT_LT(energy.weight(0) * gradient.squaredNorm(), 50);
+  const HessianTerms terms = linearise_all(Bending(thin, thin, hinges, {}), thin, 1).hessian;
+  EXPECT_LT(terms.rank_ones[0].stiffness * terms.rank_ones[0].g.squaredNorm(), 50);
   thin(0, 2) = -1e-6;
   EXPECT_EQ(Bending(thin, thin, hinges, {}).size(), 0);
 }

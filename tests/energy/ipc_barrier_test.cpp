@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "energy/finite_differences.h"
+#include "energy/energy_checks.h"
 
 namespace unsnarl {
 namespace {
@@ -41,17 +41,13 @@ BarrierStencil stencil(StencilKind kind, double separation, double activation, d
 }
 
 void expect_barrier_gradient(const BarrierStencil& s, const Positions& x) {
-  const IpcBarrier energy(2.5);
-  std::vector<BarrierContact> contacts;
-  const double value = energy.evaluate(x, {&s, 1}, contacts);
-  EXPECT_NEAR(value, energy.value(x, {&s, 1}), 1e-12 * value);
-  ASSERT_EQ(contacts.size(), 1u);
-  EXPECT_GE(contacts[0].stiffness, 0);  // rank one with a factor of this sign: positive semidefinite
-  Positions g = Positions::Zero(3, x.cols());
-  IpcBarrier::add_gradient({&s, 1}, contacts, 3, g);
-  expect_gradient([&](const Positions& y) { return 3 * energy.value(y, {&s, 1}); }, x, g, 1e-7, 1e-4 * (1 + g.norm()));
+  const IpcBarrier energy{{s}};
+  const Linearised at = linearise_all(energy, x, 1);
+  ASSERT_EQ(at.hessian.rank_ones.size(), 1u);
+  EXPECT_GE(at.hessian.rank_ones[0].stiffness, 0);  // rank one with a factor of this sign: positive semidefinite
+  expect_derivatives(energy, x, 1e-7, 1e-4 * (1 + at.gradient.norm()));
   // No force on the whole: translations cost nothing.
-  EXPECT_LT(g.rowwise().sum().norm(), 1e-10 * (1 + g.norm()));
+  EXPECT_LT(at.gradient.rowwise().sum().norm(), 1e-10 * (1 + at.gradient.norm()));
 }
 
 TEST(IpcBarrier, GradientOfVertexOverFaceEdgeAndCorner) {
@@ -73,18 +69,18 @@ TEST(IpcBarrier, GradientOfCrossingAndNearlyParallelEdges) {
   // Exactly parallel: the mollifier is zero, with zero slope in the distance.
   x << Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, 0, 0.05), Vec3(1, 0, 0.05);
   const BarrierStencil s = stencil(StencilKind::edge_edge, 0.01, 0.1, 1e-3 * 16);
-  EXPECT_EQ(IpcBarrier(1).value(x, {&s, 1}), 0);
+  EXPECT_EQ(IpcBarrier{{s}}.value(x, 0), 0);
 }
 
 TEST(IpcBarrier, ZeroBeyondActivationAndInfiniteAtSeparation) {
   Positions x(3, 4);
   x << Vec3(0.3, 0.3, 0.2), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0);
-  std::vector<BarrierContact> contacts;
   const BarrierStencil far = stencil(StencilKind::vertex_face, 0.01, 0.1);
-  EXPECT_EQ(IpcBarrier(1).evaluate(x, {&far, 1}, contacts), 0);
-  EXPECT_TRUE(contacts.empty());
+  const Linearised at = linearise_all(IpcBarrier{{far}}, x, 1);
+  EXPECT_EQ(at.value, 0);
+  EXPECT_TRUE(at.hessian.rank_ones.empty());
   const BarrierStencil closed = stencil(StencilKind::vertex_face, 0.2, 0.4);
-  EXPECT_TRUE(std::isinf(IpcBarrier(1).value(x, {&closed, 1})));
+  EXPECT_TRUE(std::isinf(IpcBarrier{{closed}}.value(x, 0)));
 }
 
 TEST(IpcBarrier, ForceDependsOnTheRatioAlone) {
@@ -93,11 +89,10 @@ TEST(IpcBarrier, ForceDependsOnTheRatioAlone) {
   x << Vec3(0.3, 0.3, 0.05), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0);
   const BarrierStencil s = stencil(StencilKind::vertex_face, 0.01, 0.1);
   const BarrierStencil scaled = stencil(StencilKind::vertex_face, 0.05, 0.5);
-  std::vector<BarrierContact> contacts, scaled_contacts;
-  const double value = IpcBarrier(1).evaluate(x, {&s, 1}, contacts);
-  const double scaled_value = IpcBarrier(1).evaluate(5 * x, {&scaled, 1}, scaled_contacts);
-  EXPECT_NEAR(scaled_value, 5 * value, 1e-12);
-  EXPECT_NEAR(scaled_contacts[0].force, contacts[0].force, 1e-12);
+  const Linearised one = linearise_all(IpcBarrier{{s}}, x, 1);
+  const Linearised five = linearise_all(IpcBarrier{{scaled}}, 5 * x, 1);
+  EXPECT_NEAR(five.value, 5 * one.value, 1e-12);
+  EXPECT_LT((five.gradient - one.gradient).norm(), 1e-12);
 }
 
 }  // namespace

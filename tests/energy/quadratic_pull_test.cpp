@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "energy/finite_differences.h"
+#include "energy/energy_checks.h"
 
 namespace unsnarl {
 namespace {
@@ -23,13 +23,21 @@ TEST(QuadraticPull, VertexAreasSumToTheSurface) {
 TEST(QuadraticPull, GradientAgreesWithFiniteDifferences) {
   const QuadraticPull energy{{0.5, 2, 1}, random_positions(1, 3)};
   const Positions x = random_positions(2, 3);
-  Positions g = Positions::Zero(3, 3);
-  const double value = energy.value_and_gradient(x, 2, g);
-  EXPECT_DOUBLE_EQ(value, energy.value(x));
-  expect_gradient([&](const Positions& y) { return 2 * energy.value(y); }, x, g, 1e-6, 1e-8);
-  EXPECT_EQ(energy.value(energy.rest), 0);
+  expect_derivatives(energy, x, 1e-6, 1e-8);
+  EXPECT_EQ(total_value(energy, energy.rest), 0);
   const QuadraticPull scaled{{0.5, 2, 1}, 3 * energy.rest};
-  EXPECT_NEAR(scaled.value(3 * x), 9 * value, 1e-12);
+  EXPECT_NEAR(total_value(scaled, 3 * x), 9 * total_value(energy, x), 1e-12);
+}
+
+TEST(QuadraticPull, DampingIsInTheHessianAlone) {
+  const QuadraticPull energy{{0.5, 2}, random_positions(1, 2)};
+  const QuadraticPull damped{{0.5, 2}, energy.rest, 3};
+  const Positions x = random_positions(2, 2);
+  const Linearised a = linearise_all(energy, x, 2), b = linearise_all(damped, x, 2);
+  EXPECT_EQ(a.gradient, b.gradient);
+  const Eigen::VectorXd diagonal = dense(a.hessian, 2).diagonal();
+  EXPECT_EQ(diagonal, Eigen::VectorXd((Eigen::VectorXd(6) << 1, 1, 1, 4, 4, 4).finished()));
+  EXPECT_LT((dense(b.hessian, 2).diagonal() - 4 * diagonal).norm(), 1e-12);
 }
 
 }  // namespace

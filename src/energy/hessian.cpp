@@ -1,0 +1,155 @@
+#include "energy/hessian.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <numbers>
+
+namespace unsnarl {
+namespace {
+
+constexpr Index chunk = 1024;  // unknowns or terms a task
+
+/// Share of its trace that is added to a block, so that it has an inverse to working precision: stiff contacts and
+/// collapsed faces leave only one direction of it.
+constexpr double regularisation = 1e-12;
+
+// The three edge vectors e_k = v_(k+1) - v_k sum to zero, so their squares are those of two orthonormal combinations:
+// a = (e_0 - e_1) / sqrt 2 = (2 v_1 - v_0 - v_2) / sqrt 2,  b = (e_0 + e_1 - 2 e_2) / sqrt 6 = 3 (v_2 - v_0) / sqrt 6.
+constexpr double combine_a = std::numbers::sqrt2 / 2;
+constexpr double combine_b = 1.2247448713915890;  // 3 / sqrt 6
+constexpr double coefficient_a[3] = {-combine_a, 2 * combine_a, -combine_a};
+constexpr double coefficient_b[3] = {-combine_b, 0, combine_b};
+
+/// Through its Cholesky factor: positive definite whatever the block's condition. (With cofactors it was not, around
+/// collapsed faces, and no step was taken at all.)
+Eigen::Matrix3d inverse_of(Eigen::Matrix3d block) {
+  block.diagonal().array() += regularisation * block.trace();
+  const Eigen::LLT<Eigen::Matrix3d> factor(block);
+  if (factor.info() != Eigen::Success) return Vec3(block.diagonal().cwiseInverse()).asDiagonal();
+  const Eigen::Matrix3d inverse_factor = factor.matrixL().solve(Eigen::Matrix3d::Identity());
+  return inverse_factor.transpose() * inverse_factor;
+}
+
+void add_strain(const HessianTerms::Strain& t, const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) {
+  Eigen::Matrix3d corners;
+  for (int k = 0; k < 3; ++k) {
+    if (t.vertices[k] >= 0) {
+      corners.col(k) = v.col(t.vertices[k]);
+    } else {
+      corners.col(k).setZero();
+    }
+  }
+  corners = t.apply(corners);
+  for (int k = 0; k < 3; ++k) {
+    if (t.vertices[k] >= 0) result.col(t.vertices[k]) += corners.col(k);
+  }
+}
+
+void add_rank_one(const HessianTerms::RankOne& t, const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) {
+  double dot = 0;
+  for (int k = 0; k < 4; ++k) {
+    if (t.vertices[k] >= 0) dot += t.g.col(k).dot(v.col(t.vertices[k]));
+  }
+  dot *= t.stiffness;
+  for (int k = 0; k < 4; ++k) {
+    if (t.vertices[k] >= 0) result.col(t.vertices[k]) += dot * t.g.col(k);
+  }
+}
+
+}  // namespace
+
+Eigen::Vector4d HessianTerms::Strain::turn_of(const Eigen::Matrix<double, 2, 3>& e0) {
+  const Eigen::Vector2d a = combine_a * (e0.col(0) - e0.col(1));
+  const Eigen::Vector2d b = (e0.col(0) + e0.col(1) - 2 * e0.col(2)) * (combine_a / std::numbers::sqrt3);
+  return Eigen::Vector4d(-a[1], a[0], -b[1], b[0]).normalized();
+}
+
+Eigen::Matrix3d HessianTerms::Strain::apply(const Eigen::Matrix3d& v) const {
+  const Vec3 a = combine_a * (2 * v.col(1) - v.col(0) - v.col(2));
+  const Vec3 b = combine_b * (v.col(2) - v.col(0));
+  Eigen::Vector4d y;
+  y << rotation.transpose() * a, rotation.transpose() * b;
+  y -= turn.dot(y) * turn;
+  y *= (1 - uniform) * stiffness;
+  const Vec3 back_a = rotation * y.head<2>() + (uniform * stiffness) * a;
+  const Vec3 back_b = rotation * y.tail<2>() + (uniform * stiffness) * b;
+  Eigen::Matrix3d result;
+  for (int k = 0; k < 3; ++k) result.col(k) = coefficient_a[k] * back_a + coefficient_b[k] * back_b;
+  return result;
+}
+
+Eigen::Matrix3d HessianTerms::Strain::block(int k) const {
+  const double a = coefficient_a[k];
+  const double b = coefficient_b[k];
+  const Eigen::Vector2d t = a * turn.head<2>() + b * turn.tail<2>();
+  const Eigen::Matrix2d in_plane = (a * a + b * b) * Eigen::Matrix2d::Identity() - t * t.transpose();
+  return stiffness * ((1 - uniform) * rotation * in_plane * rotation.transpose() +
+                      uniform * (a * a + b * b) * Eigen::Matrix3d::Identity());
+}
+
+void HessianTerms::clear() {
+  diagonals.clear();
+  rank_ones.clear();
+  strains.clear();
+}
+
+void Hessian::assemble(std::span<const HessianTerms> parts, std::span<const Index> slot, Index unknowns) {
+  terms_.clear();
+  diagonal_.assign(static_cast<std::size_t>(unknowns), 0);
+  const auto take = [&](const auto& from, auto& to) {
+    for (auto term : from) {
+      for (Index& v : term.vertices)
+        if (v >= 0) v = slot[v];
+      to.push_back(term);
+    }
+  };
+  for (const HessianTerms& part : parts) {
+    for (const HessianTerms::Diagonal& term : part.diagonals)
+      if (slot[term.vertex] >= 0) diagonal_[slot[term.vertex]] += term.factor;
+    take(part.rank_ones, terms_.rank_ones);
+    take(part.strains, terms_.strains);
+  }
+}
+
+void Hessian::apply(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const {
+  const Index n = static_cast<Index>(diagonal_.size());
+  for_chunks(n, chunk, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) result.col(i) = diagonal_[i] * v.col(i);
+  });
+  // One range for both, so that one sum over the parts does.
+  const Index strain_count = static_cast<Index>(terms_.strains.size());
+  const Index count = strain_count + static_cast<Index>(terms_.rank_ones.size());
+  scattered_(count, 2 * chunk, result, [&](Index begin, Index end, Eigen::Matrix3Xd& out) {
+    for (Index k = begin; k < std::min(end, strain_count); ++k) add_strain(terms_.strains[k], v, out);
+    for (Index k = std::max(begin, strain_count); k < end; ++k)
+      add_rank_one(terms_.rank_ones[k - strain_count], v, out);
+  });
+}
+
+void Hessian::inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const {
+  const Index n = static_cast<Index>(diagonal_.size());
+  blocks.resize(n);
+  for (Index i = 0; i < n; ++i) blocks[i] = diagonal_[i] * Eigen::Matrix3d::Identity();
+  for (const HessianTerms::Strain& t : terms_.strains) {
+    for (int k = 0; k < 3; ++k) {
+      if (t.vertices[k] >= 0) blocks[t.vertices[k]] += t.block(k);
+    }
+  }
+  for (const HessianTerms::RankOne& t : terms_.rank_ones) {
+    for (int k = 0; k < 4; ++k) {
+      if (t.vertices[k] >= 0) blocks[t.vertices[k]].noalias() += t.stiffness * t.g.col(k) * t.g.col(k).transpose();
+    }
+  }
+  for_chunks(n, chunk, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      Eigen::Matrix3d& block = blocks[i];
+      if (diagonal_only) {
+        block = Vec3(block.diagonal().cwiseInverse()).asDiagonal();
+      } else {
+        block = inverse_of(block);
+      }
+    }
+  });
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "optimize/block_jacobi_pcg.h"
+
+namespace unsnarl {
+
+/// A function of 3-vectors at its current point, as Newton's method sees it. A step has one column an unknown.
+class NewtonProblem {
+ public:
+  virtual ~NewtonProblem() = default;
+
+  /// Number of unknowns that move now.
+  virtual Index unknowns() const = 0;
+  /// The value at the current point. Sets the gradient; the calls of the next two refer to the Hessian there.
+  virtual double linearise(Eigen::Matrix3Xd& gradient) = 0;
+  virtual void apply_hessian(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const = 0;
+  /// Inverses of the Hessian's 3 x 3 blocks on the diagonal, or of the diagonals of these.
+  virtual void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const = 0;
+
+  /// Shortens a Newton step to where the model can be trusted, before the line search. Returns whether it did. May
+  /// refine the function where the step leads, so that its value at the current point grows.
+  virtual bool limit(Eigen::Matrix3Xd& step) = 0;
+  /// Shortens a trial step, unknown by unknown, to what the constraints allow.
+  virtual void filter(Eigen::Matrix3Xd& step) = 0;
+  /// The value at the current point plus a step; infinite where a constraint is violated.
+  virtual double value(const Eigen::Matrix3Xd& step) = 0;
+  virtual void accept(const Eigen::Matrix3Xd& step) = 0;
+  /// After an infinite value: removes the unknowns that cannot move. False: there are none. The problem then starts
+  /// anew from the current point.
+  virtual bool remove_blocked() = 0;
+};
+
+struct NewtonOptions {
+  int max_steps = 100;
+  double sufficient_decrease = 1e-4;  ///< of Armijo's condition (paper §3.5.1)
+  int max_halvings = 40;              ///< of a step in the line search: 1e-12 of it
+  PcgOptions solver;
+  /// Relative tolerance of the solver, at least, after a step that limit() shortened: little of it was used.
+  double limited_tolerance = 0;
+  bool scalar_jacobi = false;  ///< precondition by the diagonal of the Hessian alone, not by its blocks
+  /// Stops when the value fell by less than the share `decrease` in `window` steps ...
+  double decrease = 0;
+  int window = 1;
+  double motion = 0;  ///< ... or when the Newton step moves no unknown farther than this, a length
+};
+
+struct NewtonResult {
+  int iterations = 0;
+  int solver_iterations = 0;
+  bool stopped = false;  ///< by the caller
+};
+
+/// Minimises from the current point of the problem: Newton steps by preconditioned conjugate gradients, each shortened
+/// by limit(), then by halving until the filtered step satisfies Armijo's condition. Never accepts a point with a
+/// larger value than the one before. `stop` is asked once a step.
+NewtonResult minimise_newton(NewtonProblem& problem, const NewtonOptions& options,
+                             const std::function<bool()>& stop = {});
+
+}  // namespace unsnarl

@@ -1,0 +1,82 @@
+#include "recover/contact_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/parallel_lists.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr Index chunk = 8192;  // rules a task: each only takes a look
+
+}  // namespace
+
+void ContactList::gather(const Positions& x, double activation, const MovingVertices& moving) {
+  activation_ = activation;
+  travelled_.assign(moving.moves.size(), 0);
+  travel_.assign(moving.moves.size(), 0);
+  gathered_at_ = x;
+  bounds_.reset(static_cast<Index>(x.cols()));
+  for (Index v : moving.vertices) bounds_.around[v] = options_.margin * h_;
+  rules_.gather(x, activation, bounds_, moving.moves, list_);
+}
+
+void ContactList::follow(const Positions& x, const Positions& p, const MovingVertices& moving) {
+  leaving_.clear();
+  for (Index v : moving.vertices)
+    if (!bounds_.allow(v, x.col(v) + p.col(v) - gathered_at_.col(v))) leaving_.push_back(v);
+  if (!leaving_.empty()) {
+    const double most = options_.few * static_cast<double>(moving.vertices.size());
+    const bool anew = static_cast<double>(leaving_.size()) > most;
+    // A margin lasts where few go far; else the next list is made anew in any case.
+    const double far = options_.wide_margin * h_;
+    const auto goes_far = [&](Index v) { return p.col(v).norm() > far; };
+    const auto far_count = std::count_if(moving.vertices.begin(), moving.vertices.end(), goes_far);
+    const bool lasts = static_cast<double>(far_count) <= most;
+    for (Index v : anew ? moving.vertices : leaving_) {
+      const double length = p.col(v).norm();
+      gathered_at_.col(v) = x.col(v);
+      bounds_.along.col(v) = p.col(v);
+      bounds_.around[v] = lasts && length <= far ? std::max(length, options_.margin * h_) : 0;
+    }
+    if (anew)
+      rules_.gather(x, activation_, bounds_, moving.moves, list_);
+    else
+      rules_.gather_around(leaving_, gathered_at_, x, activation_, bounds_, list_);
+  }
+  for (Index v : moving.vertices) {
+    travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
+    travel_[v] = p.col(v).norm();
+  }
+  gather_in_chunks(static_cast<Index>(list_.size()), chunk, in_the_way_,
+                   [&](Index begin, Index end, std::vector<SeparatedStencil>& list) {
+                     for (Index k = begin; k < end; ++k) {
+                       const BarrierStencil& s = list_[k].stencil;
+                       const double left =
+                           list_[k].distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
+                       if (left <= s.separation + rules_.options().roundoff) list.push_back({s.stencil, s.separation});
+                     }
+                   });
+}
+
+void ContactList::pick_near(const Positions& x, const MovingVertices& moving, std::vector<BarrierStencil>& near) {
+  for (Index v : moving.vertices) travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
+  gather_in_chunks(static_cast<Index>(list_.size()), chunk, near,
+                   [&](Index begin, Index end, std::vector<BarrierStencil>& list) {
+                     for (Index k = begin; k < end; ++k) {
+                       const ContactRule& rule = list_[k];
+                       if (rule.distance - approach(rule.stencil.stencil, travelled_) < rule.stencil.activation)
+                         list.push_back(rule.stencil);
+                     }
+                   });
+}
+
+std::vector<Stencil> ContactList::touching() const {
+  std::vector<Stencil> result;
+  for (const ContactRule& rule : list_)
+    if (!rule.own_altitude && !(rule.distance > rules_.options().roundoff)) result.push_back(rule.stencil.stencil);
+  return result;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/ccd.h"
+#include "energy/ipc_barrier.h"
+#include "recover/contact_rules.h"
+#include "recover/moving_vertices.h"
+
+namespace unsnarl {
+
+struct ContactListOptions {
+  /// A list holds while each vertex stays within its coming step, this at least (in h), of where it was gathered ...
+  double margin = 0.02;
+  /// ... and within nothing more where the step exceeds this (in h), or does for most vertices: a wider margin took
+  /// longer to gather than it lasted.
+  double wide_margin = 0.1;
+  /// Share of the moving vertices up to which the list is gathered anew around those alone that leave their bounds.
+  double few = 0.3;
+};
+
+/// The contact stencils that may matter to a solver on its way, gathered anew only around vertices that have gone too
+/// far since. h: the patch's edge length. The rules must outlive this.
+class ContactList {
+ public:
+  ContactList(ContactRules& rules, double h, const ContactListOptions& options = {})
+      : rules_(rules), h_(h), options_(options) {}
+
+  /// Lists the stencils that may be closer than `activation` while no moving vertex goes far from x.
+  void gather(const Positions& x, double activation, const MovingVertices& moving);
+  /// Extends the list to what the vertices may meet in the step p from x; sets in_the_way().
+  void follow(const Positions& x, const Positions& p, const MovingVertices& moving);
+  /// Replaces `near` by the stencils of the list that may be active at x.
+  void pick_near(const Positions& x, const MovingVertices& moving, std::vector<BarrierStencil>& near);
+
+  /// Stencils that may collide in the step of follow().
+  std::span<const SeparatedStencil> in_the_way() const { return in_the_way_; }
+  /// Stencils whose distance was no more than round-off where they were gathered.
+  std::vector<Stencil> touching() const;
+  const std::vector<ContactRule>& rules() const { return list_; }
+
+ private:
+  ContactRules& rules_;
+  double h_;
+  ContactListOptions options_;
+  double activation_ = 0;
+  std::vector<ContactRule> list_;
+  Positions gathered_at_;  // where each vertex was when the list was last gathered around it ...
+  MotionBounds bounds_;    // ... and where the list allows it to be
+  std::vector<Index> leaving_;
+  std::vector<double> travelled_, travel_;  // per vertex: since it was gathered, in the coming step
+  std::vector<SeparatedStencil> in_the_way_;
+};
+
+}  // namespace unsnarl

@@ -1,0 +1,72 @@
+#include "recover/objective.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unsnarl {
+namespace {
+
+Bending bending_of(const Patch& patch, const EdgeTable& edges, double h) {
+  std::vector<Hinge> hinges = hinges_of(patch.triangles, edges);
+  std::erase_if(hinges, [&](const Hinge& hinge) {
+    return std::all_of(hinge.begin(), hinge.end(), [&](Index v) { return v >= patch.free_count; });
+  });
+  Bending::Options options;
+  options.edge_length = h;
+  return Bending(patch.rest, patch.x, hinges, options);
+}
+
+}  // namespace
+
+Objective::Objective(const Patch& patch, const EdgeTable& edges, const ObjectiveOptions& options, double h) {
+  const std::span<const Triangle> active(patch.triangles.data(), static_cast<std::size_t>(patch.active_count));
+  auto& pull = sum_.part<QuadraticPull>().energy;
+  pull = {vertex_areas(patch.rest, patch.triangles), patch.rest, 1 / options.time_step};
+  double mean_mass = 0;
+  for (Index v = 0; v < patch.free_count; ++v) mean_mass += pull.mass[v];
+  mean_mass /= std::max<Index>(patch.free_count, 1);
+  const double contact_force = options.contact_force * mean_mass * h;
+
+  auto& arap = sum_.part<ArapTriangle>();
+  arap.energy = ArapTriangle(patch.rest, active, options.rotation_damping);
+  arap.weight = std::pow(options.arap_length * h, 2);
+  auto& bending = sum_.part<Bending>();
+  bending.energy = bending_of(patch, edges, h);
+  bending.weight = std::pow(options.bending_length * h, 4);
+  auto& orientation = sum_.part<OrientationPenalty>();
+  OrientationPenalty::Options flips;
+  flips.activation = options.flip_activation;
+  orientation.energy = OrientationPenalty(patch.rest, active, flips);
+  orientation.weight = flip_weight_ = options.flip_weight * contact_force;
+  sum_.part<IpcBarrier>().weight = contact_force;
+}
+
+void Objective::restrict_to(MovingVertices moving) {
+  moving_ = std::move(moving);
+  sum_.part<QuadraticPull>().elements = moving_.vertices;
+  sum_.part<ArapTriangle>().restrict_to(moving_.moves);
+  sum_.part<Bending>().restrict_to(moving_.moves);
+  sum_.part<OrientationPenalty>().restrict_to(moving_.moves);
+}
+
+double Objective::value(const Positions& x) {
+  sum_.part<IpcBarrier>().take_all();
+  return sum_.value(x);
+}
+
+double Objective::linearise(const Positions& x, Positions& gradient, Hessian& hessian) {
+  sum_.part<IpcBarrier>().take_all();
+  return sum_.linearise(x, moving_.slot, moving_.count(), gradient, hessian);
+}
+
+IterationRecord Objective::terms() const {
+  IterationRecord record;
+  record[EnergyTerm::pull] = sum_.last<QuadraticPull>();
+  record[EnergyTerm::arap] = sum_.last<ArapTriangle>();
+  record[EnergyTerm::bending] = sum_.last<Bending>();
+  record[EnergyTerm::orientation] = sum_.last<OrientationPenalty>();
+  record[EnergyTerm::barrier] = sum_.last<IpcBarrier>();
+  return record;
+}
+
+}  // namespace unsnarl

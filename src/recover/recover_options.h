@@ -1,0 +1,108 @@
+#pragma once
+
+#include <limits>
+
+#include "optimize/block_jacobi_pcg.h"
+
+// Constants of the recovery. h is the patch's edge length.
+
+namespace unsnarl {
+
+/// Weights of the objective.
+struct ObjectiveOptions {
+  double arap_length = 2;  ///< in h: deformations shorter than this are resisted by ARAP rather than pulled to rest
+  /// In h. Of 0.5, 0.6, 0.7, 1, 2 on four posed bodies: 1 leaves 5 to 45 % more rms displacement, 0.5 as many flipped
+  /// faces again in shallow regions, 2 stalls.
+  double bending_length = 0.7;
+  /// Contact force per mean vertex mass and h at B'(y) = -1: the barrier balances a vertex that is one h from its rest
+  /// position against its elastic neighbourhood at about half the activation distance. 2 to 100 end within 1 % of each
+  /// other.
+  double contact_force = 10;
+  // Against flipped faces. Those on twelve bodies and animals, and how far these move on average: 29 as it is; 353
+  // without the penalty, and 22 % farther.
+  /// Share of a face's area along its rest normal below which it is penalised. 0.4: 51 flipped, 0.2 % farther.
+  double flip_activation = 0.2;
+  /// Weight of that penalty, in contact forces. 1: two fifths fewer flipped, 0.9 % farther on 59 meshes and no farther
+  /// on 14 fine ones; but as many flipped on 36 samples, and 4 % farther.
+  double flip_weight = 0.3;
+  /// Share of ARAP's Hessian with the rotations held; the rest is Gauss-Newton. Steps on six patches: 1: 27 to 65,
+  /// 0.3: 20 to 59, 0.1: 17 to 60, 0: 15 to 61 with more PCG iterations on rough sheets.
+  double rotation_damping = 0.1;
+  /// Artificial time step of the paper's variant, per mass: each step also pays |x - x_last|^2 / (2 time_step), in the
+  /// Hessian alone. Infinite: none.
+  double time_step = std::numeric_limits<double>::infinity();
+};
+
+/// How far a step may go.
+struct StepOptions {
+  /// Longest motion of a vertex in a step, in h, beyond the translation of its part where that is free. 1: fine meshes
+  /// end 5 % closer, others 0.2 % farther with a fifth more flipped faces; 2: fine meshes end 5 % farther. A fifth of
+  /// what the Newton step wants, where that is more: surfaces far from their rest shape end 16 % farther.
+  double cap = 0.5;
+  /// Share of its area along its rest normal that a face keeps in a step. Flipped on twelve bodies: 29; 0.05: 71; 0.4:
+  /// 65.
+  double kept_area = 0.2;
+  bool shorten_all = false;  ///< a collision shortens the step of every vertex, not only of those that collide
+};
+
+/// Constants of recover(). h is the patch's edge length.
+struct RecoverOptions {
+  /// Wanted distance between primitives that share no vertex, an absolute length; 0: a thousand units in the last
+  /// place of the largest coordinate. Callers give a few units in the last place of the format to be written.
+  double min_gap = 0;
+
+  ObjectiveOptions objective;
+  StepOptions step;
+
+  // Continuation: the barrier's activation distance starts at `activation` and shrinks.
+  double activation = 0.1;  ///< in h, at most
+  /// And at most this share of the largest displacement at the start, at any time: where little moved, little space is
+  /// needed, and a wide barrier would push everything farther away. Fans of needles end 300 times closer.
+  double activation_motion = 0.5;
+  double activation_factor = 0.2;  ///< from stage to stage
+  int stages = 3;                  ///< 0: only the steps at the first activation distance
+  /// Neither the activation distance nor the distance to which gaps are opened falls below this many min_gap: at 1.5
+  /// contacts end between one and two gaps apart.
+  double least_gaps = 3;
+
+  double open_target =
+      0.01;                 ///< in h: gaps are first opened to this, at most, and never beyond the activation distance
+  int open_rounds = 12;     ///< of opening gaps, at most; a start at gaps of 1e-17 took 1 to 6
+  double snap_reach = 0.1;  ///< share of the mean edge at a vertex from which it may go straight to its rest position
+  int contact_rings = 2;    ///< rings around what is not at rest that stay free after the first snap
+  // Faces that are flipped at the end: rounds of steps around them with a heavier penalty. Flipped without conflict on
+  // three meshes: 14 without, 6 as it is, 0.3 % farther; before the last stage instead, 9, and 1 % farther.
+  int unflip_rounds = 3;     ///< 0: none
+  double unflip_factor = 5;  ///< of the penalty, from round to round. 30 and 10: 8 to 10 left
+  int unflip_rings = 2;      ///< around flipped faces that move
+
+  /// What ends farther from rest than this many times where it began (once gaps were open), by root of the sum of
+  /// squares, goes back there: around collapsed rings bending leads away. Of 248 regions all others end below 1.35.
+  double most_farther = 1.4;
+
+  int first_steps = 12;  ///< Newton steps at the first activation distance, with everything free
+  int max_steps = 120;   ///< Newton steps in all
+  /// A stage ends when the energy fell by less than the share `decrease` in `window` steps.
+  struct Stop {
+    double decrease = 0;
+    int window = 1;
+  };
+  Stop coarse = {1e-2, 4};  ///< before the last stage: it only has to come near
+  /// In the last. On 61 meshes, windows of 6, 3, 2 steps: with 2 they end 0.9 % closer on average, and sooner: the last
+  /// steps push away from contacts more than they bring back.
+  Stop fine = {3e-3, 2};
+  double stop_motion = 1e-3;      ///< or when the Newton step moves no vertex farther than this, in h ...
+  double stop_activation = 0.05;  ///< ... or than this share of the activation distance
+  /// Solver of the Newton steps; its tolerance is `limited_tolerance` after a step that was capped.
+  PcgOptions solver = {3e-2, 60};
+  double limited_tolerance = 0.1;
+  bool scalar_jacobi = false;  ///< precondition by the diagonal only
+
+  /// The recovery of Minarčík, Liu, Crane, Li: Untangling Surfaces via Shape and Mesh Repulsion, §3.5.1: up to 500
+  /// Newton steps with artificial time steps (the paper names no size; 1 weighs as much as the pull), PCG with a
+  /// diagonal Jacobi preconditioner at relative tolerance 1e-6, one activation distance, no active region; ends early
+  /// only where no step lowers the energy any more.
+  static RecoverOptions paper();
+};
+
+}  // namespace unsnarl

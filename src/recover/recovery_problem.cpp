@@ -1,0 +1,175 @@
+#include "recover/recovery_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/union_find.h"
+#include "scene/trajectory.h"
+
+namespace unsnarl {
+
+RecoveryProblem::RecoveryProblem(Patch& patch, ContactRules& rules, const IndexLists& neighbours, Objective& objective,
+                                 const StepOptions& options, double h, std::size_t tolerated_pairs)
+    : patch_(patch),
+      neighbours_(neighbours),
+      objective_(objective),
+      options_(options),
+      h_(h),
+      tolerated_pairs_(tolerated_pairs),
+      contacts_(rules, h) {}
+
+bool RecoveryProblem::start(std::vector<std::uint8_t> moves, double activation) {
+  activation_ = activation;
+  set_moving(std::move(moves));
+  if (unknowns() == 0) return false;
+  contacts_.gather(patch_.x, activation_, moving());
+  hold(contacts_.touching());
+  is_new_state_ = true;
+  return unknowns() > 0;
+}
+
+void RecoveryProblem::set_moving(std::vector<std::uint8_t> moves) {
+  objective_.restrict_to(MovingVertices(std::move(moves)));
+  const MovingVertices& now = moving();
+  UnionFind parts(now.count());
+  for (Index i = 0; i < now.count(); ++i)
+    for (Index w : neighbours_[now.vertices[i]])
+      if (now.slot[w] >= 0) parts.unite(i, now.slot[w]);
+  part_ = parts.dense_ids();
+  part_count_ = part_.empty() ? 0 : 1 + *std::max_element(part_.begin(), part_.end());
+}
+
+bool RecoveryProblem::hold(std::span<const Stencil> stencils) {
+  std::vector<std::uint8_t> moves = moving().moves;
+  for (const Stencil& s : stencils)
+    for (int i = 0; i < s.size(); ++i) moves[s.v[i]] = 0;
+  if (moves == moving().moves) return false;
+  set_moving(std::move(moves));
+  contacts_.gather(patch_.x, activation_, moving());
+  return true;
+}
+
+bool RecoveryProblem::remove_blocked() {
+  std::vector<Stencil> collided;
+  for (const BarrierStencil& s : objective_.contacts())
+    if (!(std::sqrt(squared_distance(s.stencil, trial_)) > s.separation)) collided.push_back(s.stencil);
+  return hold(collided) && unknowns() > 0;
+}
+
+double RecoveryProblem::linearise(Eigen::Matrix3Xd& gradient) {
+  contacts_.pick_near(patch_.x, moving(), objective_.contacts());
+  gradient_.resize(3, patch_.x.cols());
+  const double value = objective_.linearise(patch_.x, gradient_, hessian_);
+  gradient.resize(3, unknowns());
+  for (Index i = 0; i < unknowns(); ++i) gradient.col(i) = gradient_.col(moving().vertices[i]);
+  if (is_new_state_) note_iteration();
+  is_new_state_ = false;
+  return value;
+}
+
+void RecoveryProblem::note_iteration() {
+  if (!patch_.trajectory) return;
+  IterationRecord iteration = objective_.terms();
+  iteration.pairs = tolerated_pairs_;
+  for (const BarrierStencil& s : objective_.contacts()) {
+    if (s.stencil.kind == StencilKind::vertex_edge) continue;  // keeps the shape of a single face
+    const double distance = std::sqrt(squared_distance(s.stencil, patch_.x));
+    if (distance < s.activation) iteration.min_gap = std::fmin(iteration.min_gap, distance);
+  }
+  record(patch_, patch_.x, iteration);
+}
+
+const Positions& RecoveryProblem::spread(const Eigen::Matrix3Xd& step) {
+  displacement_.setZero(3, patch_.x.cols());
+  for (Index i = 0; i < unknowns(); ++i) displacement_.col(moving().vertices[i]) = step.col(i);
+  return displacement_;
+}
+
+std::vector<std::uint8_t> RecoveryProblem::touched_parts() {
+  std::vector<std::uint8_t> touched(static_cast<std::size_t>(part_count_), 0);
+  for (const BarrierStencil& s : objective_.contacts()) {
+    if (s.stencil.kind == StencilKind::vertex_edge) continue;
+    if (std::sqrt(squared_distance(s.stencil, patch_.x)) >= s.activation) continue;
+    const Index first = part_of(s.stencil.v[0]), last = part_of(s.stencil.v[3]);
+    if (first >= 0) touched[first] = 1;
+    if (last >= 0) touched[last] = 1;
+  }
+  // What hangs on vertices that do not move is not free.
+  for (Index i = 0; i < unknowns(); ++i)
+    for (Index w : neighbours_[moving().vertices[i]])
+      if (moving().slot[w] < 0) touched[part_[i]] = 1;
+  return touched;
+}
+
+bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
+  const double cap = options_.cap * h_;
+  if (options_.shorten_all) {
+    const double longest = std::sqrt(step.colwise().squaredNorm().maxCoeff());
+    step *= std::min(1.0, cap / longest);
+    contacts_.follow(patch_.x, spread(step), moving());
+    step *= largest_step(contacts_.in_the_way(), patch_.x, displacement_);
+    return longest > cap;
+  }
+  const std::size_t parts = static_cast<std::size_t>(part_count_);
+  const auto longest_of = [&](const Eigen::Matrix3Xd& p) {
+    std::vector<double> longest(parts, 0);
+    for (Index i = 0; i < unknowns(); ++i) longest[part_[i]] = std::max(longest[part_[i]], p.col(i).norm());
+    return longest;
+  };
+  const std::vector<double> wanted = longest_of(step);
+  const bool limited = std::any_of(wanted.begin(), wanted.end(), [&](double length) { return length > cap; });
+  if (limited) {
+    const std::vector<std::uint8_t> touched = touched_parts();
+    Eigen::Matrix3Xd translation = Eigen::Matrix3Xd::Zero(3, part_count_);
+    std::vector<Index> size(parts, 0);
+    for (Index i = 0; i < unknowns(); ++i) {
+      ++size[part_[i]];
+      if (!touched[part_[i]]) translation.col(part_[i]) += step.col(i);
+    }
+    for (Index k = 0; k < part_count_; ++k) translation.col(k) /= size[k];
+    for (Index i = 0; i < unknowns(); ++i) step.col(i) -= translation.col(part_[i]);
+    const std::vector<double> deformation = longest_of(step);
+    for (Index i = 0; i < unknowns(); ++i) {
+      const Index k = part_[i];
+      step.col(i) = translation.col(k) + std::min(1.0, cap / deformation[k]) * step.col(i);
+    }
+  }
+  contacts_.follow(patch_.x, spread(step), moving());
+  if (!limited) return false;
+  // Parts that go farther than the cap stop as a whole where one of their vertices would collide.
+  const std::vector<double> longest = longest_of(step);
+  std::vector<double> time(parts, 1);
+  for (const SeparatedStencil& s : contacts_.in_the_way()) {
+    const Index first = part_of(s.stencil.v[0]), last = part_of(s.stencil.v[s.stencil.size() - 1]);
+    const bool first_far = first >= 0 && longest[first] > cap, last_far = last >= 0 && longest[last] > cap;
+    if (!first_far && !last_far) continue;
+    const double t = time_of_impact(s, patch_.x, displacement_);
+    if (first_far) time[first] = std::min(time[first], t);
+    if (last_far) time[last] = std::min(time[last], t);
+  }
+  for (Index i = 0; i < unknowns(); ++i) {
+    const Index k = part_[i];
+    if (longest[k] > cap) step.col(i) *= std::max(time[k], cap / longest[k]);
+  }
+  return true;
+}
+
+void RecoveryProblem::filter(Eigen::Matrix3Xd& step) {
+  spread(step);
+  filter_step(contacts_.in_the_way(), {objective_.orientation(), objective_.triangles(), options_.kept_area}, patch_.x,
+              displacement_, OnCollision::shorten);
+  for (Index i = 0; i < unknowns(); ++i) step.col(i) = displacement_.col(moving().vertices[i]);
+}
+
+double RecoveryProblem::value(const Eigen::Matrix3Xd& step) {
+  trial_ = patch_.x + spread(step);
+  contacts_.pick_near(trial_, moving(), objective_.contacts());
+  return objective_.value(trial_);
+}
+
+void RecoveryProblem::accept(const Eigen::Matrix3Xd& step) {
+  patch_.x += spread(step);
+  is_new_state_ = true;
+}
+
+}  // namespace unsnarl

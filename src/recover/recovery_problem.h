@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "optimize/newton.h"
+#include "recover/contact_list.h"
+#include "recover/objective.h"
+#include "recover/step_filter.h"
+#include "scene/patch.h"
+
+namespace unsnarl {
+
+/// The objective of the recovery over the vertices that move, for Newton's method. Trial steps are filtered by
+/// continuous collision detection, vertex by vertex: what would collide goes as far as that allows, the rest all the
+/// way.
+class RecoveryProblem final : public NewtonProblem {
+ public:
+  /// h: the patch's edge length. tolerated_pairs: for the trajectory. All must outlive this.
+  RecoveryProblem(Patch& patch, ContactRules& rules, const IndexLists& neighbours, Objective& objective,
+                  const StepOptions& options, double h, std::size_t tolerated_pairs);
+
+  /// From now on these vertices move, but those that are so close to something that round-off hides it, against
+  /// barriers that set in at `activation`. False: none is left.
+  bool start(std::vector<std::uint8_t> moves, double activation);
+  const MovingVertices& moving() const { return objective_.moving(); }
+
+  Index unknowns() const override { return moving().count(); }
+  double linearise(Eigen::Matrix3Xd& gradient) override;
+  void apply_hessian(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const override { hessian_.apply(v, result); }
+  void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const override {
+    hessian_.inverse_blocks(diagonal_only, blocks);
+  }
+  /// Caps the motion of each connected part of the moving vertices by itself. Where nothing touches a part, its
+  /// translation is not capped: it goes as far as nothing is in the way of the part as a whole.
+  bool limit(Eigen::Matrix3Xd& step) override;
+  void filter(Eigen::Matrix3Xd& step) override;
+  double value(const Eigen::Matrix3Xd& step) override;
+  void accept(const Eigen::Matrix3Xd& step) override;
+  /// Holds the vertices that collide at the last trial: they had no room left where the contacts were gathered.
+  bool remove_blocked() override;
+
+ private:
+  void set_moving(std::vector<std::uint8_t> moves);
+  bool hold(std::span<const Stencil> stencils);
+  void note_iteration();
+  /// Displacements of all vertices.
+  const Positions& spread(const Eigen::Matrix3Xd& step);
+  /// Per part: whether a contact with something else is active.
+  std::vector<std::uint8_t> touched_parts();
+  Index part_of(Index v) const { return moving().slot[v] < 0 ? -1 : part_[moving().slot[v]]; }
+
+  Patch& patch_;
+  const IndexLists& neighbours_;
+  Objective& objective_;
+  StepOptions options_;
+  double h_;
+  std::size_t tolerated_pairs_;
+  ContactList contacts_;
+  double activation_ = 0;
+  Index part_count_ = 0;
+  std::vector<Index> part_;  // of each unknown
+  Hessian hessian_;
+  Positions gradient_, displacement_, trial_;
+  bool is_new_state_ = false;  // not in the trajectory yet
+};
+
+}  // namespace unsnarl

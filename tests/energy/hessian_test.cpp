@@ -1,0 +1,69 @@
+#include "energy/hessian.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+namespace unsnarl {
+namespace {
+
+/// One vertex of mass 1, held by springs along directions.
+Hessian one_vertex(const std::vector<std::pair<Vec3, double>>& springs) {
+  HessianTerms terms;
+  terms.diagonals.push_back({7, 1});
+  for (const auto& [direction, stiffness] : springs) {
+    HessianTerms::RankOne& term = terms.rank_ones.emplace_back();
+    term.vertices[0] = 7;
+    term.g.col(0) = direction;
+    term.stiffness = stiffness;
+  }
+  std::vector<Index> slot(8, -1);
+  slot[7] = 0;
+  Hessian result;
+  result.assemble({&terms, 1}, slot, 1);
+  return result;
+}
+
+TEST(Hessian, BlocksAreInverted) {
+  const Hessian springs = one_vertex({{Vec3(1, 0, 0), 3}, {Vec3(0, 1, 1), 2}});
+  std::vector<Eigen::Matrix3d> inverse;
+  springs.inverse_blocks(false, inverse);
+  Eigen::Matrix3Xd image(3, 1);
+  for (int k = 0; k < 3; ++k) {
+    springs.apply(inverse[0].col(k), image);
+    EXPECT_LT((image - Vec3::Unit(k)).norm(), 1e-9);
+  }
+  springs.inverse_blocks(true, inverse);
+  EXPECT_TRUE(inverse[0].isDiagonal());
+  EXPECT_DOUBLE_EQ(inverse[0](0, 0), 0.25);
+}
+
+// As of faces that have collapsed: all but one direction is lost to round-off.
+TEST(Hessian, InversesOfStiffBlocksArePositiveDefinite) {
+  const Vec3 direction = Vec3(0.3, -0.7, 0.65).normalized();
+  for (const double stiffness : {1e10, 1e16, 1e20, 1e30}) {
+    std::vector<Eigen::Matrix3d> inverse;
+    one_vertex({{direction, stiffness}, {Vec3(direction + 1e-9 * Vec3::UnitX()), 0.3 * stiffness}})
+        .inverse_blocks(false, inverse);
+    EXPECT_EQ(inverse[0].llt().info(), Eigen::Success) << stiffness;
+  }
+}
+
+TEST(Hessian, VerticesThatDoNotMoveAreLeftOut) {
+  HessianTerms terms;
+  terms.diagonals = {{0, 2}, {1, 5}};
+  HessianTerms::RankOne& term = terms.rank_ones.emplace_back();
+  term.vertices = {0, 1, -1, -1};
+  term.g.col(0) = Vec3(1, 0, 0);
+  term.g.col(1) = Vec3(-1, 0, 0);
+  term.stiffness = 3;
+  const std::vector<Index> slot = {-1, 0};
+  Hessian hessian;
+  hessian.assemble({&terms, 1}, slot, 1);
+  Eigen::Matrix3Xd image(3, 1);
+  hessian.apply(Vec3(1, 1, 0), image);
+  EXPECT_EQ(image, Eigen::Matrix3Xd(Vec3(8, 5, 0)));
+}
+
+}  // namespace
+}  // namespace unsnarl
