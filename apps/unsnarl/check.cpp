@@ -16,6 +16,7 @@
 #include "report/report_json.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
+#include "scene/topology.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/version.h"

@@ -12,7 +12,7 @@
 #include "scene/independent_batches.h"
 #include "scene/patch.h"
 #include "scene/trajectory.h"
-#include "untangle/coarse_solver.h"
+#include "untangle/coarse_to_fine.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/flow.h"
 #include "untangle/local_solver.h"
@@ -48,8 +48,7 @@ class Climb {
     const bool climbs_all = options_.strategies == LadderOptions::Strategies::all ||
                             options_.strategies == LadderOptions::Strategies::of_coarser_mesh;
     if (climbs_all) {
-      climb(options_.strategies == LadderOptions::Strategies::of_coarser_mesh ? coarser_first_again()
-                                                                              : coarser_first());
+      if (options_.strategies == LadderOptions::Strategies::all) climb(coarser_first());
     }
     climb(options_.strategies == LadderOptions::Strategies::second_way ? second_way_strategies() : gentle_strategies());
     if (climbs_all) {
@@ -187,6 +186,7 @@ class Climb {
     ConflictRegion region;
     std::vector<Index> free;
     double edge_length = 0;
+    int depth = 0;     // in edges, where the strategy asks for it
     double reach = 0;  // how far around the patch obstacles are taken in
     Patch patch;
     Positions start;
@@ -207,7 +207,7 @@ class Climb {
   }
   /// Pairs left that make a large gain; 0: there is none.
   std::size_t few_enough(const Attempt& attempt, const Strategy& strategy) const {
-    if (options_.accept || attempt.region.pairs.size() < large) return 0;
+    if (options_.accept || (attempt.region.pairs.size() < large && !strategy.is_on_coarser_mesh())) return 0;
     const double share = strategy.is_on_coarser_mesh() ? large_gain_of_coarser_mesh : large_gain;
     return static_cast<std::size_t>(share * static_cast<double>(attempt.region.pairs.size()));
   }
@@ -363,6 +363,7 @@ class Climb {
       const int rings = strategy.rings == by_depth ? static_cast<int>(rings_per_depth * depth) : strategy.rings;
       taken[r] = 1;
       Attempt attempt;
+      attempt.depth = depth;
       ConflictRegion& region = attempt.region = regions[r];
       for (bool grown = true; grown;) {
         grown = false;
@@ -429,7 +430,7 @@ class Climb {
       attempt.clean = result.clean;
       attempt.pairs_left = result.pairs_left;
     };
-    if (strategy.is_on_coarser_mesh()) return take(solve_on_coarser_mesh(attempt.patch, foreign, options_.stop));
+    if (strategy.is_on_coarser_mesh()) return take(solve_on_coarser_mesh(attempt.patch, attempt.depth, foreign, options_.stop));
     if (strategy.flow) return take(flow(attempt.patch, *strategy.flow, options_.stop, foreign));
     LocalOptions local;
     // Pockets that are inside out have to turn, and what surrounds them may have to: then nothing is kept.

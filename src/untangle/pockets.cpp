@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -57,6 +59,8 @@ class Pieces {
         found.push_back({component_of_vertex[first_vertex_[part]], depth_of_[part], girth_of_[part]});
     std::sort(found.begin(), found.end());
     int deepest = 0;
+    const bool debug = std::getenv("CTF_DEBUG") != nullptr;
+    if (debug) { std::fprintf(stderr, "pieces:"); for (auto& f : found) std::fprintf(stderr, " (%d deep %d girth %d)", f[0], f[1], f[2]); std::fprintf(stderr, "\n"); }
     for (std::size_t k = 0; k + 1 < found.size(); ++k)
       if (found[k][1] < depth_ && found[k][0] == found[k + 1][0])
         deepest = std::max(deepest, std::min(found[k][1], found[k][2] / girth_per_edge));
@@ -102,7 +106,8 @@ int pocket_depth(const Scene& scene, const ConnectedParts& parts, std::span<cons
   met.erase(std::unique(met.begin(), met.end()), met.end());
   double faces = 0;
   for (const Index part : met) faces += parts.face_count[part];
-  const int at_most = static_cast<int>(largest_share * std::sqrt(faces));
+  static const double share = std::getenv("CTF_SHARE") ? std::atof(std::getenv("CTF_SHARE")) : largest_share;
+  const int at_most = static_cast<int>(share * std::sqrt(faces));
   Pieces pieces(scene, core);
   for (int depth = 0; depth < at_most && pieces.grow(); ++depth) {
   }

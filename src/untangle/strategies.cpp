@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <vector>
 
 namespace unsnarl {
@@ -16,7 +17,7 @@ constexpr int deep = 10;
 /// ... and so deep before these. (A curled body, 27 deep: gentle strategies end 20 % closer, with 2 turned faces,
 /// not 39. Every face cut in four, 54 deep: with the coarser mesh first it ends a quarter closer. Measured when
 /// recovery still put turned faces back, not since.)
-constexpr int very_deep = 32;
+static const int very_deep = std::getenv("CTF_DEEP") ? std::atoi(std::getenv("CTF_DEEP")) : 4;
 
 constexpr LocalStrategy shallow = {LocalMethod::shallow, 0.1, 1, 20};
 constexpr LocalStrategy contour = {LocalMethod::contour, 0.1, 2, 60};
@@ -24,9 +25,11 @@ constexpr LocalStrategy long_contour = {LocalMethod::contour, 0.3, 4, 60};
 constexpr LocalStrategy shorten = {LocalMethod::shorten, 0.1, 2, 60};
 constexpr LocalStrategy long_shorten = {LocalMethod::shorten, 0.3, 4, 60};
 constexpr LocalStrategy smoothing = {LocalMethod::smoothing, 0.1, 3, 60};
+constexpr LocalStrategy fill = {LocalMethod::smoothing, 0.1, 12, 100};
+constexpr LocalStrategy wide_fill = {LocalMethod::smoothing, 0.1, 24, 100};
 constexpr LocalStrategy wide_smoothing = {LocalMethod::smoothing, 0.1, 5, 100};
 
-constexpr Strategy coarser(int least_depth) {
+Strategy coarser(int least_depth) {
   return {"coarser", by_depth, nullptr, nullptr, no_hubs, least_depth};
 }
 
@@ -63,11 +66,13 @@ std::span<const Strategy> wild_strategies() {
 }
 
 std::span<const Strategy> wild_strategies_of_coarser_mesh() {
-  const std::span<const Strategy> all = wild_strategies();
-  const auto is_left_out = [](const Strategy& strategy) {
-    return strategy.is_on_coarser_mesh() && strategy.rings != by_depth;
-  };
-  return {all.begin(), std::find_if(all.begin(), all.end(), is_left_out)};
+  static const std::array<Strategy, 4> strategies = {{
+      {"smoothing-4", 4, &smoothing, nullptr},
+      {"smoothing-8", 8, &wide_smoothing, nullptr},
+      {"fill-8", 8, &fill, nullptr},
+      {"fill-16", 16, &wide_fill, nullptr},
+  }};
+  return strategies;
 }
 
 std::span<const Strategy> whole_component_strategies() {
@@ -81,12 +86,12 @@ std::span<const Strategy> whole_component_strategies() {
 }
 
 std::span<const Strategy> coarser_first() {
-  static constexpr std::array<Strategy, 1> strategies = {coarser(very_deep)};
+  static const std::array<Strategy, 1> strategies = {coarser(very_deep)};
   return strategies;
 }
 
 std::span<const Strategy> coarser_first_again() {
-  static constexpr std::array<Strategy, 1> strategies = {coarser(deep)};
+  static const std::array<Strategy, 1> strategies = {coarser(deep)};
   return strategies;
 }
 
