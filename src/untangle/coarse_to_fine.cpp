@@ -92,14 +92,23 @@ std::vector<Vec3> places_for(const ProgressiveMesh::Removal& removal, std::span<
   }
   for (const Vec3& m : middles)
     for (const double share : {0.125, 0.015}) add(parent + share * (m - parent));
+  // Where the fan is folded up, the vertex has to leave its parent in some other direction.
+  double room = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : star)
+    for (const Index v : t)
+      if (v != removal.vertex && v != removal.parent) room = std::min(room, (x.col(v) - parent).norm());
+  if (!star.empty())
+    for (const double share : {0.1, 0.005})
+      for (int i = 0; i < 27; ++i)
+        if (i != 13) add(parent + share * room * Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).normalized());
   return places;
 }
 constexpr int near_parent = 4;  // number of the first place near the parent
 
 class CoarseToFine {
  public:
-  CoarseToFine(Patch& patch, const std::function<bool()>& stop, const CoarseToFineOptions& options)
-      : patch_(patch), stop_(stop), options_(options), x_(patch.x), mesh_(patch.triangles, stays(patch)) {
+  CoarseToFine(Patch& patch, std::span<const IntersectingPair> tolerated, const std::function<bool()>& stop, const CoarseToFineOptions& options)
+      : patch_(patch), tolerated_(tolerated), stop_(stop), options_(options), x_(patch.x), mesh_(patch.triangles, stays(patch, tolerated)) {
     grid_ = std::exp2(std::floor(std::log2(patch.edge_length)) - 20);
   }
 
@@ -137,7 +146,7 @@ class CoarseToFine {
     Level level = make_level();
     SceneIndex index(level.scene);
     const std::vector<IntersectingPair> pairs = index.find_pairs();
-    const std::vector<IntersectingPair> fixed = fixed_pairs(level.scene, pairs);
+    const std::vector<IntersectingPair> fixed = tolerated_on(level.scene, pairs);
     LadderOptions ladder;
     ladder.stop = stop_;
     ladder.strategies = LadderOptions::Strategies::of_coarser_mesh;
@@ -195,12 +204,28 @@ class CoarseToFine {
     double edge_length = 0;
   };
 
-  static std::vector<std::uint8_t> stays(const Patch& patch) {
+  /// The fixed vertices, and those of tolerated pairs: their faces are then the same on every level.
+  static std::vector<std::uint8_t> stays(const Patch& patch, std::span<const IntersectingPair> tolerated) {
     std::vector<std::uint8_t> result(patch.vertices.size(), 1);
     std::fill(result.begin(), result.begin() + patch.free_count, std::uint8_t{0});
+    for (const IntersectingPair& pair : tolerated)
+      for (const Index t : {pair.a, pair.b})
+        for (const Index v : patch.triangles[t]) result[v] = 1;
     return result;
   }
   bool stopped() const { return stop_ && stop_(); }
+  /// Of all pairs on a level those that are let be: that no motion parts, and the tolerated ones.
+  std::vector<IntersectingPair> tolerated_on(const Scene& scene, const std::vector<IntersectingPair>& pairs) const {
+    std::vector<IntersectingPair> result = fixed_pairs(scene, pairs);
+    const std::span<const Index> faces = mesh_.faces();
+    const auto number = [&](Index face) {
+      return static_cast<Index>(std::lower_bound(faces.begin(), faces.end(), face) - faces.begin());
+    };
+    for (const IntersectingPair& pair : tolerated_) result.push_back({number(pair.a), number(pair.b), pair.kind});
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
   std::function<bool()> stopper() const { return stop_ ? stop_ : [] { return false; }; }
 
   Level make_level() const {
@@ -240,7 +265,7 @@ class CoarseToFine {
     Level level = make_level();
     SceneIndex index(level.scene);
     const std::vector<IntersectingPair> pairs = index.find_pairs();
-    const std::vector<IntersectingPair> fixed = fixed_pairs(level.scene, pairs);
+    const std::vector<IntersectingPair> fixed = tolerated_on(level.scene, pairs);
     if (pairs.size() > fixed.size()) {
       LadderOptions ladder;
       ladder.stop = stop_;
@@ -251,6 +276,13 @@ class CoarseToFine {
     std::vector<Index> moved;
     for (Index v = 0; v < level.scene.vertex_count(); ++v)
       if (level.scene.x.col(v) != level.scene.rest.col(v)) moved.push_back(v);
+    std::size_t flips = 0;
+    const auto count_flips = [&] {
+      std::size_t n = 0;
+      for (const Triangle& t : level.scene.triangles) n += area_vector(level.scene.x, t).dot(area_vector(level.scene.rest, t)) < 0;
+      return n;
+    };
+    if (debug) flips = count_flips();
     RecoverRegionsOptions recovery;
     recovery.recover.activation = options_.level_activation;
     recovery.recover.stages = 1;
@@ -260,7 +292,7 @@ class CoarseToFine {
     recovery.stop = stopper();
     Recorder nobody({}, level.scene.x);
     const double gap = recover_regions(level.scene, index, {dilate(level.scene, moved, 2)}, recovery, nobody);
-    if (debug) std::fprintf(stderr, "  level: %zu faces, gap %g h\n", active_faces(), gap / level.edge_length);
+    if (debug) std::fprintf(stderr, "  level: %zu faces, gap %g h, flips %zu -> %zu\n", active_faces(), gap / level.edge_length, flips, count_flips());
     take(level);
   }
 
@@ -393,6 +425,7 @@ class CoarseToFine {
   }
 
   Patch& patch_;
+  std::span<const IntersectingPair> tolerated_;
   const std::function<bool()>& stop_;
   const CoarseToFineOptions& options_;
   Positions x_;
@@ -413,8 +446,8 @@ CoarseResult solve_on_coarser_mesh(Patch& patch, int depth, std::span<const Inte
   };
   count();
   const double factor = env("CTF_FACTOR", std::max(options.least_factor, options.factor_per_depth * depth));
-  if (debug) std::fprintf(stderr, "coarse to fine: depth %d, factor %g, %d faces, %zu pairs, %d obstacles\n", depth, factor, patch.active_count, result.pairs_left, (int)patch.triangles.size() - patch.active_count);
-  CoarseToFine solver(patch, stop, options);
+  if (debug) std::fprintf(stderr, "coarse to fine: depth %d, factor %g, %d faces, %zu pairs, %d obstacles, %zu tolerated\n", depth, factor, patch.active_count, result.pairs_left, (int)patch.triangles.size() - patch.active_count, tolerated.size());
+  CoarseToFine solver(patch, tolerated, stop, options);
   std::optional<CoarseToFine::Solution> best;
   for (const double share : {1.0, env("CTF_SECOND", 1.6)}) {
     const double f = share * factor;
