@@ -79,7 +79,7 @@ std::optional<Ring> ring_of(Index v, std::span<const Index> star, std::span<cons
     first = i;
   }
   ring.vertices.push_back(sides[first].first);
-  for (Index at = sides[first].second;; ) {
+  for (Index at = sides[first].second;;) {
     if (at == ring.vertices.front()) break;
     ring.vertices.push_back(at);
     if (ring.size() > sides.size() + 1) return {};

@@ -7,7 +7,7 @@
 
 #include "energy/minkowski_penalty.h"
 #include "mesh/areas.h"
-#include "untangle/pockets.h"
+#include "untangle/tangle_depth.h"
 
 namespace unsnarl {
 namespace {
@@ -66,7 +66,7 @@ double depth_of_pocket(const Scene& scene, const ConnectedParts& parts, std::spa
     }
   std::sort(core.begin(), core.end());
   core.erase(std::unique(core.begin(), core.end()), core.end());
-  return pocket_depth(scene, parts, core) * mean_equilateral_side(scene.rest, faces);
+  return tangle_depth(scene, parts, core) * mean_equilateral_side(scene.rest, faces);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 #include "untangle/conflict_regions.h"
 #include "untangle/flow.h"
 #include "untangle/local_solver.h"
-#include "untangle/pockets.h"
+#include "untangle/tangle_depth.h"
 #include "untangle/strategies.h"
 
 namespace unsnarl {
@@ -25,17 +25,18 @@ namespace {
 /// Obstacles are taken in this many h around a region; regions that move farther are tried again with more. (Checking
 /// afterwards whether they met any of those left out is not enough: they may have passed through them.)
 constexpr double local_reach = 4;  // of 254 regions that local strategies resolved, 6 moved farther
+constexpr double coarse_reach = 10;
 constexpr double flow_reach = 20;  // of 4 that flows did, 2 moved by 16 h
 
 /// The ladder is climbed again where it has left at most this share of the pairs.
 constexpr double worth_climbing_again = 0.7;
 /// Share of the pairs of a large region that a strategy may leave to be done with it. What a coarser mesh leaves is
 /// shallow, but much: a body of 428k faces took eight times as long where 503 pairs left of 3720 were too many.
-constexpr double large_gain = 0.1, large_gain_of_coarser_mesh = 1.0 / 3;
+constexpr double large_gain = 0.1, large_gain_of_coarser_mesh = 0.7;
 constexpr std::size_t large = 100;  // pairs
 
 /// Freed around regions that go by a coarser mesh. Of 0.7, 1 and 1.5 the closest on three bodies.
-constexpr double rings_per_depth = 1.5;
+constexpr double rings_per_depth = 2;
 
 class Climb {
  public:
@@ -360,7 +361,7 @@ class Climb {
       if (taken[r]) continue;
       const int depth = depth_for(strategy, regions[r]);
       if (depth < strategy.least_depth || depth >= strategy.below_depth) continue;
-      const int rings = strategy.rings == by_depth ? static_cast<int>(rings_per_depth * depth) : strategy.rings;
+      const int rings = strategy.rings == by_depth ? 4 + static_cast<int>(rings_per_depth * depth) : strategy.rings;
       taken[r] = 1;
       Attempt attempt;
       attempt.depth = depth;
@@ -383,7 +384,7 @@ class Climb {
       for (const IntersectingPair& pair : region.pairs)
         for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
       attempt.edge_length = mean_equilateral_side(scene_.rest, core_faces);
-      attempt.reach = (strategy.local ? local_reach : flow_reach) * attempt.edge_length;
+      attempt.reach = (strategy.local ? local_reach : strategy.flow ? flow_reach : coarse_reach) * attempt.edge_length;
       attempts.push_back(std::move(attempt));
     }
     return attempts;
@@ -394,7 +395,7 @@ class Climb {
     const int least = strategy.least_depth > 0 ? strategy.least_depth : strategy.below_depth;
     if (region.core.size() / 2 < static_cast<std::size_t>(least)) return 0;  // no such girth
     if (!parts_) parts_.emplace(scene_);
-    return pocket_depth(scene_, *parts_, region.core);
+    return tangle_depth(scene_, *parts_, region.core);
   }
 
   void run(Attempt& attempt, const Strategy& strategy) const {

@@ -13,7 +13,7 @@ namespace unsnarl {
 
 // Of Strategy::rings.
 constexpr int whole_component = std::numeric_limits<int>::max();
-constexpr int by_depth = -1;  ///< a share of the region's depth (pocket_depth)
+constexpr int by_depth = -1;  ///< a share of the region's depth (tangle_depth)
 
 /// One way to resolve a region: a local strategy, which starts from where the surface is now, a flow, from rest, or a
 /// coarser mesh, from where the surface is now.
@@ -23,7 +23,7 @@ struct Strategy {
   const LocalStrategy* local;  ///< or null
   const FlowRung* flow;        ///< or null
   std::size_t hub_valence = no_hubs;
-  int least_depth = 0;                                ///< edges: regions of less (pocket_depth) are let be ...
+  int least_depth = 0;                                ///< edges: regions of less (tangle_depth) are let be ...
   int below_depth = std::numeric_limits<int>::max();  ///< ... and of so much or more
 
   bool is_on_coarser_mesh() const { return !local && !flow; }

@@ -1,10 +1,8 @@
-#include "untangle/pockets.h"
+#include "untangle/tangle_depth.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -59,8 +57,6 @@ class Pieces {
         found.push_back({component_of_vertex[first_vertex_[part]], depth_of_[part], girth_of_[part]});
     std::sort(found.begin(), found.end());
     int deepest = 0;
-    const bool debug = std::getenv("CTF_DEBUG") != nullptr;
-    if (debug) { std::fprintf(stderr, "pieces:"); for (auto& f : found) std::fprintf(stderr, " (%d deep %d girth %d)", f[0], f[1], f[2]); std::fprintf(stderr, "\n"); }
     for (std::size_t k = 0; k + 1 < found.size(); ++k)
       if (found[k][1] < depth_ && found[k][0] == found[k + 1][0])
         deepest = std::max(deepest, std::min(found[k][1], found[k][2] / girth_per_edge));
@@ -99,15 +95,14 @@ ConnectedParts::ConnectedParts(const Scene& scene) {
   for (const Triangle& t : scene.triangles) ++face_count[of_vertex[t[0]]];
 }
 
-int pocket_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core) {
+int tangle_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core) {
   std::vector<Index> met;
   for (const Index v : core) met.push_back(parts.of_vertex[v]);
   std::sort(met.begin(), met.end());
   met.erase(std::unique(met.begin(), met.end()), met.end());
   double faces = 0;
   for (const Index part : met) faces += parts.face_count[part];
-  static const double share = std::getenv("CTF_SHARE") ? std::atof(std::getenv("CTF_SHARE")) : largest_share;
-  const int at_most = static_cast<int>(share * std::sqrt(faces));
+  const int at_most = static_cast<int>(largest_share * std::sqrt(faces));
   Pieces pieces(scene, core);
   for (int depth = 0; depth < at_most && pieces.grow(); ++depth) {
   }
