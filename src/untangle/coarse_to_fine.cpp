@@ -237,7 +237,8 @@ class CoarseToFine {
   /// The best solution on meshes this many times coarser and more; none where the patch cannot be simplified.
   std::optional<Solution> solve_coarse(double factor) {
     std::optional<Solution> best;
-    for (int k = 0; k < options_.coarse_solutions && !stopped(); ++k, factor *= options_.next_factor) {
+    for (int k = 0; k < options_.most_solutions && !stopped(); ++k, factor *= options_.next_factor) {
+      if (k >= options_.coarse_solutions && best->pairs_left == 0) break;
       const std::size_t before = active_faces();
       coarsen_to(static_cast<double>(patch_.active_count) / (factor * factor));
       const double least_gain = k == 0 ? options_.worthwhile : options_.worthwhile_again;

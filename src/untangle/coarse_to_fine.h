@@ -17,6 +17,7 @@ struct CoarseToFineOptions {
   /// So many coarse meshes are solved, each coarser by this factor than the one before, and the solution with the
   /// fewest pairs left, or else the nearest, is carried to the patch: they end between 0.28 and 0.37 % on one torus.
   int coarse_solutions = 2;
+  int most_solutions = 4;  ///< where none of them is without pairs
   double next_factor = 1.6;
   double few_left = 0.05;          ///< share of the pairs left beyond which no coarser mesh is tried
   double least_faces = 200;        ///< of a coarse mesh

@@ -16,17 +16,17 @@
 #include "untangle/conflict_regions.h"
 #include "untangle/flow.h"
 #include "untangle/local_solver.h"
-#include "untangle/tangle_depth.h"
 #include "untangle/strategies.h"
+#include "untangle/tangle_depth.h"
 
 namespace unsnarl {
 namespace {
 
 /// Obstacles are taken in this many h around a region; regions that move farther are tried again with more. (Checking
 /// afterwards whether they met any of those left out is not enough: they may have passed through them.)
-constexpr double local_reach = 4;  // of 254 regions that local strategies resolved, 6 moved farther
-constexpr double coarse_reach = 10;
-constexpr double flow_reach = 20;  // of 4 that flows did, 2 moved by 16 h
+constexpr double local_reach = 4;    // of 254 regions that local strategies resolved, 6 moved farther
+constexpr double coarse_reach = 10;  // hardly any moves farther than the tangle is deep
+constexpr double flow_reach = 20;    // of 4 that flows did, 2 moved by 16 h
 
 /// The ladder is climbed again where it has left at most this share of the pairs.
 constexpr double worth_climbing_again = 0.7;
@@ -36,7 +36,7 @@ constexpr double large_gain = 0.1, large_gain_of_coarser_mesh = 0.7;
 constexpr std::size_t large = 100;  // pairs
 
 /// Freed around regions that go by a coarser mesh. Of 0.7, 1 and 1.5 the closest on three bodies.
-constexpr double rings_per_depth = 2;
+constexpr double rings_per_depth = 1.5;
 
 class Climb {
  public:
@@ -361,7 +361,7 @@ class Climb {
       if (taken[r]) continue;
       const int depth = depth_for(strategy, regions[r]);
       if (depth < strategy.least_depth || depth >= strategy.below_depth) continue;
-      const int rings = strategy.rings == by_depth ? 4 + static_cast<int>(rings_per_depth * depth) : strategy.rings;
+      const int rings = strategy.rings == by_depth ? static_cast<int>(rings_per_depth * depth) : strategy.rings;
       taken[r] = 1;
       Attempt attempt;
       attempt.depth = depth;
@@ -431,7 +431,8 @@ class Climb {
       attempt.clean = result.clean;
       attempt.pairs_left = result.pairs_left;
     };
-    if (strategy.is_on_coarser_mesh()) return take(solve_on_coarser_mesh(attempt.patch, attempt.depth, foreign, options_.stop));
+    if (strategy.is_on_coarser_mesh())
+      return take(solve_on_coarser_mesh(attempt.patch, attempt.depth, foreign, options_.stop));
     if (strategy.flow) return take(flow(attempt.patch, *strategy.flow, options_.stop, foreign));
     LocalOptions local;
     // Pockets that are inside out have to turn, and what surrounds them may have to: then nothing is kept.
