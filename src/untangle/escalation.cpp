@@ -13,7 +13,7 @@
 #include "untangle/conflict_regions.h"
 #include "untangle/local_solver.h"
 #include "untangle/placement.h"
-#include "untangle/pockets.h"
+#include "untangle/tangle_depth.h"
 
 namespace unsnarl {
 namespace {
@@ -44,6 +44,7 @@ struct Attempt {
   ConflictRegion region;
   std::vector<Index> free;
   double edge_length = 0;
+  int depth = 0;     // edges, where the strategy asks for it
   double reach = 0;  // how far around the patch obstacles are taken in
   Patch patch;
   Positions start;
@@ -157,12 +158,12 @@ class Escalation {
       Attempt attempt;
       ConflictRegion& region = attempt.region = regions[r];
       if (strategy.extent == Extent::whole_components && was_rejected(region)) continue;
-      const int depth = strategy.least_depth > 0 ? depth_of(region, strategy.least_depth) : 0;
-      if (depth < strategy.least_depth) continue;
+      if (strategy.least_depth > 0) attempt.depth = depth_of(region, strategy.least_depth);
+      if (attempt.depth < strategy.least_depth) continue;
       is_taken[r] = 1;
       for (bool has_grown = true; has_grown;) {
         has_grown = false;
-        attempt.free = free_vertices(strategy, region, depth);
+        attempt.free = free_vertices(strategy, region, attempt.depth);
         for (Index v : attempt.free) {
           const Index other = region_of_core[v];
           if (other < 0 || is_taken[other]) continue;
@@ -205,7 +206,7 @@ class Escalation {
   /// 0 where it cannot be so deep as `least`.
   int depth_of(const ConflictRegion& region, int least) {
     if (region.core.size() / 2 < static_cast<std::size_t>(least)) return 0;
-    return pocket_depth(scene_, parts(), region.core);
+    return tangle_depth(scene_, parts(), region.core);
   }
 
   /// A part of it was resolved in a way that was not accepted; the whole will hardly be.
@@ -228,9 +229,9 @@ class Escalation {
     for (const IntersectingPair& pair : finder.find(patch.x))
       (is_of_region(patch, attempt.region, pair) ? own : tolerated).push_back(pair);
     attempt.before = Pairs(own);
-    Task task{.tolerated = tolerated, .stop = options_.stop};
+    Task task{.tolerated = tolerated, .depth = attempt.depth, .stop = options_.stop};
     if (!options_.accept && !own.empty())
-      task.few_enough = static_cast<std::size_t>(options_.gain_share * static_cast<double>(own.size() - 1));
+      task.few_enough = static_cast<std::size_t>(strategy.gain_share * static_cast<double>(own.size() - 1));
     if (options_.min_gap) task.min_gap = options_.min_gap(attempt.free);
     attempt.iterations += strategy.solve(patch, task);
     attempt.left = Pairs(blocking_pairs(finder.find(patch.x), tolerated));
@@ -263,7 +264,7 @@ class Escalation {
       return false;
     }
     if (!attempt.is_clean()) attempt.trajectory.end_at_fewest_pairs();
-    if (attempt.is_clean() || attempt.left.is_below(options_.gain_share, attempt.before)) {
+    if (attempt.is_clean() || attempt.left.is_below(strategy.gain_share, attempt.before)) {
       keep(attempt, strategy);
     } else {
       const Index key = attempt.region.core.front();

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "unsnarl/intersections.h"
 #include "untangle/conflict_regions.h"
-#include "untangle/pockets.h"
+#include "untangle/tangle_depth.h"
 
 namespace unsnarl {
 

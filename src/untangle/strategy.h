@@ -17,6 +17,7 @@ namespace unsnarl {
 struct Task {
   std::span<const IntersectingPair> tolerated;  ///< pairs of patch triangles, sorted, that it need not resolve
   std::size_t few_enough = 0;                   ///< pairs: a candidate that leaves no more is kept
+  int depth = 0;                                ///< edges: of the tangle, for Extent::depth
   double min_gap = 0;                           ///< length: how far apart faces will have to be
   const std::function<bool()>& stop;            ///< true: give up; may be empty
 };
@@ -37,6 +38,10 @@ struct Strategy {
   double reach = 4;  ///< h: obstacles are taken in this far around; a candidate that moves farther is computed again
   std::size_t hub_valence = no_hubs;
   int least_depth = 0;  ///< edges: tangles less deep are left to other strategies
+  /// A candidate that leaves less than this share of a region's pairs is kept at once; the rest is segmented anew and
+  /// starts with the first strategy. With a third, posed bodies end up to 12 % farther, with 0 they take 1.3 times as
+  /// long.
+  double gain_share = 0.1;
   /// Moves the free vertices of patch.x, from where they are, to a state with fewer intersecting pairs, if it finds
   /// one. Returns the number of its iterations. What the candidate is worth is decided by the escalation.
   std::function<int(Patch& patch, const Task& task)> solve;

@@ -11,7 +11,7 @@
 namespace unsnarl {
 
 EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
-                            std::span<const IntersectingPair> ignored, const EscalationOptions& options) {
+                                std::span<const IntersectingPair> ignored, const EscalationOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   index.update();
   std::vector<Index> free;

@@ -1,4 +1,4 @@
-#include "untangle/pockets.h"
+#include "untangle/tangle_depth.h"
 
 #include <algorithm>
 #include <array>
@@ -95,7 +95,7 @@ ConnectedParts::ConnectedParts(const Scene& scene) {
   for (const Triangle& t : scene.triangles) ++face_count[of_vertex[t[0]]];
 }
 
-int pocket_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core) {
+int tangle_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core) {
   std::vector<Index> met;
   for (const Index v : core) met.push_back(parts.of_vertex[v]);
   std::sort(met.begin(), met.end());

@@ -18,6 +18,6 @@ struct ConnectedParts {
 /// vertices `core` (ascending), cut a pocket off it. The depth is the largest number of edges between a vertex of a
 /// pocket and those faces, but no more than half its girth, for it may leave sideways; 0 where nothing is cut off. What
 /// is not connected to the core changes nothing. The cost follows the surroundings of that width.
-int pocket_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core);
+int tangle_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core);
 
 }  // namespace unsnarl

@@ -1,4 +1,4 @@
-#include "untangle/pockets.h"
+#include "untangle/tangle_depth.h"
 
 #include <gtest/gtest.h>
 
@@ -15,29 +15,29 @@ int depth_of(const shapes::Shape& shape) {
   const Scene scene = shapes::scene_of(shape);
   const std::vector<ConflictRegion> regions = conflict_regions(scene, shapes::pairs_of(shape));
   EXPECT_EQ(regions.size(), 1u);
-  return pocket_depth(scene, ConnectedParts(scene), regions.front().core);
+  return tangle_depth(scene, ConnectedParts(scene), regions.front().core);
 }
 
-TEST(Pockets, are_as_many_edges_deep_as_the_mesh_is_fine) {
+TEST(TangleDepth, are_as_many_edges_deep_as_the_mesh_is_fine) {
   const int coarse = depth_of(shapes::crossing_wide_bumps(1, 1)), fine = depth_of(shapes::crossing_wide_bumps(2, 1));
   EXPECT_GE(coarse, 2);
   EXPECT_GE(fine, 2 * coarse - 1);
   EXPECT_LE(fine, 2 * coarse + 3);
 }
 
-TEST(Pockets, are_deeper_where_more_has_run_through) {
+TEST(TangleDepth, are_deeper_where_more_has_run_through) {
   EXPECT_GT(depth_of(shapes::crossing_wide_bumps(2, 2)), depth_of(shapes::crossing_wide_bumps(2, 0.3)));
 }
 
 // A wedge pushed into the side of a sheet cuts nothing off it, nor the sheet off the wedge.
-TEST(Pockets, open_cuts_cut_nothing_off) {
+TEST(TangleDepth, open_cuts_cut_nothing_off) {
   shapes::Shape shape = shapes::bumpy_sheet(20, 0);
   shape.add(shapes::grid(20, 20, false, [](double i, double j) { return Vec3(8.3 + 0.9 * i, 0.13, 0.7 * (j - 10)); }));
   EXPECT_EQ(depth_of(shape), 0);
 }
 
 // A thin needle through a sheet leaves by its side, however long it is.
-TEST(Pockets, are_not_deeper_than_half_their_girth) {
+TEST(TangleDepth, are_not_deeper_than_half_their_girth) {
   shapes::Shape shape = shapes::bumpy_sheet(30, 0);
   shape.add(shapes::grid(24, 4, true, [](double i, double j) {
     const double angle = 2 * M_PI * j / 4;
@@ -47,7 +47,7 @@ TEST(Pockets, are_not_deeper_than_half_their_girth) {
 }
 
 // How much may be a pocket at all goes by the faces of what is in conflict.
-TEST(Pockets, do_not_depend_on_what_is_elsewhere) {
+TEST(TangleDepth, do_not_depend_on_what_is_elsewhere) {
   shapes::Shape shape = shapes::bumpy_sheet(30, 0);
   shape.add(shapes::grid(40, 24, true, [](double i, double j) {
     const double angle = 2 * M_PI * j / 24;

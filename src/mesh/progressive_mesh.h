@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/types.h"
+
+namespace unsnarl {
+
+/// Which vertices ProgressiveMesh::coarsen() may remove.
+struct CoarsenOptions {
+  /// Least quality of a new triangle, 4 sqrt(3) area / sum of squared sides: 1 if it is equilateral, 0.15 if one side
+  /// is a twelfth of the others. Where the removed triangles are worse, they are the measure.
+  double least_quality = 0.15;
+  /// Least cosine between the normals of a new triangle and of the star that it replaces: 70 degrees.
+  double least_cosine = 0.34;
+  /// Largest distance of the vertex from the triangles that replace its star, in mean edges there.
+  double largest_offset = 0.35;
+  std::size_t largest_valence = 16;  ///< vertices with more neighbours stay
+};
+
+/// A triangle mesh that loses vertices round by round, each by collapsing it onto a neighbour (half-edge collapse), and
+/// gets them back in reverse order. Faces keep their ids. Positions are the caller's.
+/// Hoppe: Progressive Meshes, SIGGRAPH 1996.
+class ProgressiveMesh {
+ public:
+  /// A vertex that was collapsed onto a neighbour. Its star was replaced by a fan of triangles around that neighbour.
+  struct Removal {
+    Index vertex = -1;
+    Index parent = -1;
+    Triangle corners = {-1, -1, -1};  ///< of the triangle of the fan that is nearest to the vertex
+    Vec3 weights = Vec3::Zero();      ///< barycentric coordinates of the point nearest to the vertex
+    std::vector<Index> star;          ///< ids of the faces at the vertex, ascending
+  };
+
+  /// Vertices with a flag in `stays` (one a vertex) are never removed; others may be collapsed onto them.
+  ProgressiveMesh(std::vector<Triangle> triangles, std::vector<std::uint8_t> stays);
+
+  /// One round: removes vertices no two of which are neighbours, short edges first. The topology is kept (link
+  /// condition), and vertices of the boundary are collapsed along it. Returns how many were removed; deterministic at
+  /// any thread count.
+  Index coarsen(const Positions& x, const CoarsenOptions& options = {});
+  /// Undoes the last round. Returns the vertices that came back, in the order in which they had been removed.
+  std::vector<Removal> refine();
+  std::size_t round_count() const { return rounds_.size(); }
+
+  /// Ids of the faces that there are now, ascending.
+  std::span<const Index> faces() const { return faces_; }
+  /// The corners of one of these faces now.
+  const Triangle& operator[](Index face) const { return triangles_[face]; }
+
+ private:
+  std::vector<Triangle> triangles_;  // by id; of faces that are not there: as they were last
+  std::vector<Index> faces_;
+  std::vector<std::uint8_t> stays_;
+  std::vector<std::vector<Removal>> rounds_;
+};
+
+}  // namespace unsnarl

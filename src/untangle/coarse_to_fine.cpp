@@ -1,0 +1,508 @@
+#include "untangle/coarse_to_fine.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "contact/intersection_finder.h"
+#include "mesh/areas.h"
+#include "mesh/progressive_mesh.h"
+#include "recover/recover_regions.h"
+#include "scene/trajectory.h"
+#include "untangle/conflict_regions.h"
+#include "untangle/escalation.h"
+#include "untangle/local_solver.h"
+#include "untangle/strategies.h"
+
+namespace unsnarl {
+namespace {
+
+using Removal = ProgressiveMesh::Removal;
+
+bool is_at(const Triangle& t, const Positions& x, const Positions& other) {
+  return std::all_of(t.begin(), t.end(), [&](Index v) { return x.col(v) == other.col(v); });
+}
+
+/// Axes of a triangle: along its first side, across it, and its normal. Zero where it has no area.
+Eigen::Matrix3d frame_of(const Positions& x, const Triangle& t) {
+  const Vec3 side = x.col(t[1]) - x.col(t[0]), normal = area_vector(x, t);
+  const double length = side.norm(), area = normal.norm();
+  if (!(length > 0) || !(area > 0)) return Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d frame;
+  frame.col(0) = side / length;
+  frame.col(2) = normal / area;
+  frame.col(1) = frame.col(2).cross(frame.col(0));
+  return frame;
+}
+
+/// The point of the fan where the removed vertex lay.
+Vec3 point_on_fan(const Positions& x, const Removal& removal) {
+  Vec3 p = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) p += removal.weights[k] * x.col(removal.corners[k]);
+  return p;
+}
+
+/// Where the triangle of the fan carries the vertex: its offset from the triangle turns with that.
+Vec3 carried(const Removal& removal, double offset_share, const Positions& rest, const Positions& x) {
+  const Vec3 offset = rest.col(removal.vertex) - point_on_fan(rest, removal);
+  const Vec3 turned = frame_of(x, removal.corners) * (frame_of(rest, removal.corners).transpose() * offset);
+  return point_on_fan(x, removal) + offset_share * turned;
+}
+
+/// Where a vertex that comes back may go.
+struct Place {
+  Vec3 position;
+  int flipped = 0;  // faces of the star that would be turned against their rest normals
+};
+
+/// Positions of a patch: at rest, at the beginning of the strategy, and now.
+struct States {
+  const Positions& rest;
+  const Positions& start;
+  const Positions& x;
+};
+
+/// The places to be tried, the best first: where the triangle of the fan carries the vertex, with less and less of its
+/// offset from there; points of the fan closer and closer to the parent; and directions in which it may leave the
+/// parent where the fan is folded up. Close to the parent the new star is hardly more than the fan, which is embedded.
+/// Places that flip fewer faces of the star come before others. `grid`: positions become multiples of it.
+std::vector<Place> places_for(const Removal& removal, std::span<const Triangle> star, const States& states,
+                              double grid) {
+  const auto& [rest, start, x] = states;
+  std::vector<Place> places;
+  const auto add = [&](const Vec3& p) { places.push_back({(p / grid).array().round().matrix() * grid}); };
+  if (is_at(removal.corners, x, start))
+    places.push_back({start.col(removal.vertex)});
+  else if (is_at(removal.corners, x, rest))
+    places.push_back({rest.col(removal.vertex)});
+  else
+    add(carried(removal, 1, rest, x));
+  for (const double share : {0.5, 0.25, 0.0}) add(carried(removal, share, rest, x));
+
+  const Vec3 on_fan = point_on_fan(x, removal), parent = x.col(removal.parent);
+  std::vector<Vec3> middles;  // of the sides of the fan
+  Vec3 middle = Vec3::Zero();
+  for (const Triangle& t : star) {
+    Vec3 m = Vec3::Zero();
+    for (const Index v : t)
+      if (v != removal.vertex) m += 0.5 * x.col(v);
+    middle += m / static_cast<double>(star.size());
+    if (std::find(t.begin(), t.end(), removal.parent) == t.end()) middles.push_back(m);
+  }
+  for (const double share : {0.5, 0.25, 0.125, 0.03}) {
+    add(parent + share * (on_fan - parent));
+    add(parent + share * (middle - parent));
+  }
+  for (const Vec3& m : middles) add(parent + 0.1 * (m - parent));
+  const double near = 0.02 * (on_fan - parent).norm();
+  for (int corner = 0; corner < 8; ++corner)
+    add(parent + near * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+
+  for (Place& place : places)
+    for (const Triangle& t : star) {
+      const auto at = [&](Index v) { return v == removal.vertex ? place.position : Vec3(x.col(v)); };
+      const Vec3 a = at(t[0]), b = at(t[1]), c = at(t[2]);
+      place.flipped += (b - a).cross(c - a).dot(area_vector(rest, t)) < 0;
+    }
+  std::stable_sort(places.begin(), places.end(), [](const Place& p, const Place& q) { return p.flipped < q.flipped; });
+  return places;
+}
+
+/// Puts vertices back, each at the first of its places where its star is in no new pair.
+class Insertion {
+ public:
+  /// `triangles`: the mesh with these vertices, the first `active_count` of which count; star_of: of each triangle the
+  /// number of the vertex in whose star it is, or -1.
+  Insertion(std::span<const Removal> removals, std::vector<std::vector<Place>> places,
+            const std::vector<Triangle>& triangles, std::span<const Index> star_of, Index active_count,
+            const Positions& start)
+      : removals_(removals),
+        places_(std::move(places)),
+        triangles_(triangles),
+        star_of_(star_of),
+        start_(start),
+        finder_(triangles, active_count),
+        tries_(removals.size()) {}
+
+  void run(Positions& x) {
+    for (std::size_t r = 0; r < tries_.size(); ++r) put(r, 0, x);
+    while (advance(x)) {
+    }
+    // The others have found their places now: some of the better ones may be free.
+    for (const int place : {0, 2, 4}) offer(place, x);
+  }
+
+  /// Is this vertex elsewhere than at its best place?
+  bool is_displaced(std::size_t r) const { return tries_[r].at > 0; }
+
+ private:
+  struct Try {
+    int at = 0, best = 0;
+    std::size_t pairs = 0, fewest = std::numeric_limits<std::size_t>::max();
+    bool failed = false;  // no place is free: it stays at the one with the fewest pairs
+  };
+
+  void put(std::size_t r, int place, Positions& x) const { x.col(removals_[r].vertex) = places_[r][place].position; }
+
+  /// Of the stars. Pairs that were there at the start, where nothing has moved, do not count.
+  void count_pairs(const Positions& x) {
+    for (Try& t : tries_) t.pairs = 0;
+    for (const IntersectingPair& pair : finder_.find(x)) {
+      if (is_at(triangles_[pair.a], x, start_) && is_at(triangles_[pair.b], x, start_)) continue;
+      for (const Index face : {pair.a, pair.b})
+        if (star_of_[face] >= 0) ++tries_[star_of_[face]].pairs;
+    }
+  }
+
+  /// Those with pairs go to their next places. False where there are none.
+  bool advance(Positions& x) {
+    count_pairs(x);
+    bool any = false;
+    for (std::size_t r = 0; r < tries_.size(); ++r) {
+      Try& t = tries_[r];
+      if (t.failed) continue;
+      if (t.pairs < t.fewest) {
+        t.fewest = t.pairs;
+        t.best = t.at;
+      }
+      if (t.pairs == 0) continue;
+      any = true;
+      t.failed = ++t.at == static_cast<int>(places_[r].size());
+      if (t.failed) t.at = t.best;
+      put(r, t.at, x);
+    }
+    return any;
+  }
+
+  /// Puts those that are at worse places at this one, and back where that brings pairs.
+  void offer(int place, Positions& x) {
+    std::vector<std::uint8_t> is_trying(tries_.size(), 0);
+    for (std::size_t r = 0; r < tries_.size(); ++r) {
+      if (tries_[r].at <= place) continue;
+      is_trying[r] = 1;
+      put(r, place, x);
+    }
+    for (bool any = true; any;) {
+      any = false;
+      count_pairs(x);
+      for (std::size_t r = 0; r < tries_.size(); ++r) {
+        if (!is_trying[r] || tries_[r].pairs == 0) continue;
+        any = true;
+        is_trying[r] = 0;
+        put(r, tries_[r].at, x);
+      }
+    }
+    for (std::size_t r = 0; r < tries_.size(); ++r)
+      if (is_trying[r]) tries_[r].at = place, tries_[r].failed = false;
+  }
+
+  std::span<const Removal> removals_;
+  std::vector<std::vector<Place>> places_;
+  const std::vector<Triangle>& triangles_;
+  std::span<const Index> star_of_;
+  const Positions& start_;
+  IntersectionFinder finder_;
+  std::vector<Try> tries_;
+};
+
+class CoarseToFine {
+ public:
+  /// What a coarse mesh was solved to.
+  struct Solution {
+    std::size_t round_count = 0;  // of the progressive mesh
+    Positions x;
+    int iterations = 0;
+    std::size_t pairs = 0, pairs_left = 0;
+    double motion = 0;  // mean over the area
+
+    bool is_better_than(const Solution& other) const {
+      return pairs_left != other.pairs_left ? pairs_left < other.pairs_left : motion < other.motion;
+    }
+  };
+
+  CoarseToFine(const Patch& patch, std::span<const IntersectingPair> tolerated, const std::function<bool()>& stop,
+               const CoarseToFineOptions& options)
+      : patch_(patch),
+        tolerated_(tolerated),
+        stop_(stop),
+        options_(options),
+        mesh_(patch.triangles, vertices_that_stay(patch, tolerated)),
+        x_(patch.x),
+        grid_(std::exp2(std::floor(std::log2(patch.edge_length * options.grid)))) {}
+
+  /// The best solution on meshes this many times coarser and more; none where the patch cannot be simplified.
+  std::optional<Solution> solve_coarse(double factor) {
+    std::optional<Solution> best;
+    for (int k = 0; k < options_.most_solutions && !stopped(); ++k, factor *= options_.next_factor) {
+      if (k >= options_.coarse_solutions && best->pairs_left == 0) break;
+      const std::size_t before = active_faces();
+      coarsen_to(static_cast<double>(patch_.active_count) / (factor * factor));
+      const double least_gain = k == 0 ? options_.worthwhile : options_.worthwhile_again;
+      if (static_cast<double>(active_faces()) > least_gain * static_cast<double>(before)) break;
+      Solution solution = solve_level_fully();
+      if (!best || solution.is_better_than(*best)) best = std::move(solution);
+      // What is left then is not left for its depth.
+      if (static_cast<double>(best->pairs_left) > options_.few_left * static_cast<double>(best->pairs)) break;
+    }
+    return best;
+  }
+
+  /// Carries the solution to the patch. Returns the positions of its vertices.
+  const Positions& refine(Solution solution) {
+    while (mesh_.round_count() > solution.round_count) mesh_.refine();
+    x_ = std::move(solution.x);
+    double next = options_.level_growth * static_cast<double>(active_faces());
+    while (mesh_.round_count() > 0) {
+      refine_once();
+      if (stopped() || static_cast<double>(active_faces()) < next || mesh_.round_count() == 0) continue;
+      make_room();
+      offer_better_places();
+      next = options_.level_growth * static_cast<double>(active_faces());
+    }
+    return x_;
+  }
+
+ private:
+  /// The mesh as it is now, as a scene of its own.
+  struct Level {
+    Scene scene;
+    std::vector<Index> vertices;  // of the patch
+    double edge_length = 0;
+  };
+
+  /// The fixed ones, and those of tolerated pairs: then their faces are the same on every level.
+  static std::vector<std::uint8_t> vertices_that_stay(const Patch& patch, std::span<const IntersectingPair> tolerated) {
+    std::vector<std::uint8_t> stays(patch.vertices.size(), 1);
+    std::fill(stays.begin(), stays.begin() + patch.free_count, std::uint8_t{0});
+    for (const IntersectingPair& pair : tolerated)
+      for (const Index t : {pair.a, pair.b})
+        for (const Index v : patch.triangles[t]) stays[v] = 1;
+    return stays;
+  }
+
+  bool stopped() const { return stop_ && stop_(); }
+
+  std::size_t active_faces() const {
+    const std::span<const Index> faces = mesh_.faces();
+    return static_cast<std::size_t>(std::lower_bound(faces.begin(), faces.end(), patch_.active_count) - faces.begin());
+  }
+  std::vector<Triangle> triangles() const {
+    std::vector<Triangle> result;
+    for (const Index t : mesh_.faces()) result.push_back(mesh_[t]);
+    return result;
+  }
+
+  void coarsen_to(double faces) {
+    faces = std::max(faces, options_.least_faces);
+    while (static_cast<double>(active_faces()) > faces && !stopped()) {
+      const double before = static_cast<double>(active_faces());
+      if (mesh_.coarsen(patch_.rest) == 0) return;
+      if (static_cast<double>(active_faces()) > options_.least_round * before) return;
+    }
+  }
+
+  Level make_level() const {
+    Level level;
+    std::vector<Triangle> triangles = this->triangles();
+    std::vector<Index> local(patch_.vertices.size(), -1);
+    for (const Triangle& t : triangles)
+      for (const Index v : t) local[v] = 0;
+    for (Index v = 0; v < static_cast<Index>(local.size()); ++v)
+      if (local[v] == 0) {
+        local[v] = static_cast<Index>(level.vertices.size());
+        level.vertices.push_back(v);
+      }
+    for (Triangle& t : triangles)
+      for (Index& v : t) v = local[v];
+    const auto n = static_cast<Index>(level.vertices.size());
+    Positions rest(3, n), x(3, n);
+    std::vector<std::uint8_t> fixed(level.vertices.size());
+    for (Index k = 0; k < n; ++k) {
+      const Index v = level.vertices[k];
+      rest.col(k) = patch_.rest.col(v);
+      x.col(k) = x_.col(v);
+      fixed[k] = v >= patch_.free_count;
+    }
+    level.edge_length = mean_edge_length(rest, std::span(triangles).first(active_faces()));
+    level.scene = make_scene(std::move(rest), std::move(triangles), std::move(fixed));
+    level.scene.x = std::move(x);
+    return level;
+  }
+
+  /// Of the pairs on a level those that are not to be resolved: the tolerated ones, and where nothing may move.
+  std::vector<IntersectingPair> tolerated_on(const Level& level, const std::vector<IntersectingPair>& pairs) const {
+    const Scene& scene = level.scene;
+    const auto is_fixed = [&](Index t) {
+      return std::all_of(scene.triangles[t].begin(), scene.triangles[t].end(), [&](Index v) { return scene.fixed[v]; });
+    };
+    std::vector<IntersectingPair> result;
+    std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(result),
+                 [&](const IntersectingPair& pair) { return is_fixed(pair.a) && is_fixed(pair.b); });
+    const std::span<const Index> faces = mesh_.faces();
+    const auto number = [&](Index face) {
+      return static_cast<Index>(std::lower_bound(faces.begin(), faces.end(), face) - faces.begin());
+    };
+    for (const IntersectingPair& pair : tolerated_) result.push_back({number(pair.a), number(pair.b), pair.kind});
+    return sorted(std::move(result));
+  }
+  static std::vector<IntersectingPair> sorted(std::vector<IntersectingPair> pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+  }
+
+  /// Untangles a level by the other strategies. This is where the escalation is entered anew.
+  EscalationResult untangle(Level& level, SceneIndex& index, std::span<const IntersectingPair> tolerated,
+                            std::span<const Tier> tiers) const {
+    EscalationOptions escalation;
+    escalation.stop = stop_;
+    escalation.tiers = tiers;
+    return escalate(level.scene, index, tolerated, escalation);
+  }
+
+  void recover(Level& level, SceneIndex& index, const std::vector<std::vector<Index>>& regions, double min_gap,
+               const RecoverOptions& options) const {
+    RecoverRegionsOptions recovery;
+    recovery.recover = options;
+    recovery.min_gap = [&](std::span<const Index>) { return min_gap * level.edge_length; };
+    recovery.stop = stop_ ? stop_ : [] { return false; };
+    Recorder nobody({}, level.scene.x);
+    recover_regions(level.scene, index, regions, recovery, nobody);
+  }
+
+  /// Does not change x_.
+  Solution solve_level_fully() const {
+    Level level = make_level();
+    SceneIndex index(level.scene);
+    const std::vector<IntersectingPair> pairs = index.find_pairs();
+    const std::vector<IntersectingPair> tolerated = tolerated_on(level, pairs);
+    const EscalationResult untangled = untangle(level, index, tolerated, coarse_mesh_tiers());
+    recover(level, index, merge_overlapping(untangled.moved, level.scene.vertex_count()), options_.coarse_gap, {});
+
+    Solution solution;
+    solution.round_count = mesh_.round_count();
+    solution.x = x_;
+    for (std::size_t k = 0; k < level.vertices.size(); ++k) solution.x.col(level.vertices[k]) = level.scene.x.col(k);
+    for (const RegionReport& region : untangled.regions) solution.iterations += region.iterations;
+    solution.pairs = pairs.size() - tolerated.size();
+    solution.pairs_left = untangled.left.size();
+    for (const Triangle& t : level.scene.triangles)
+      for (const Index v : t)
+        solution.motion += triangle_area(level.scene.rest, t) * (level.scene.x.col(v) - level.scene.rest.col(v)).norm();
+    solution.motion /= total_area(level.scene.rest, level.scene.triangles);
+    return solution;
+  }
+
+  /// Resolves what the vertices that came back have brought, and recovers by a few steps, so that the next have room.
+  void make_room() {
+    Level level = make_level();
+    SceneIndex index(level.scene);
+    const std::vector<IntersectingPair> pairs = index.find_pairs();
+    std::vector<IntersectingPair> tolerated = tolerated_on(level, pairs);
+    // What was not resolved on the coarsest mesh stays as it is.
+    const auto is_unmoved = [&](Index t) { return is_at(mesh_[mesh_.faces()[t]], x_, patch_.x); };
+    for (const IntersectingPair& pair : pairs)
+      if (is_unmoved(pair.a) && is_unmoved(pair.b)) tolerated.push_back(pair);
+    tolerated = sorted(std::move(tolerated));
+    if (pairs.size() > tolerated.size()) untangle(level, index, tolerated, local_tiers());
+
+    std::vector<Index> moved;
+    for (Index v = 0; v < level.scene.vertex_count(); ++v)
+      if (level.scene.x.col(v) != level.scene.rest.col(v)) moved.push_back(v);
+    RecoverOptions steps;
+    steps.activation = options_.level_activation;
+    steps.stages = 1;
+    steps.max_steps = options_.level_steps;
+    steps.first_steps = options_.level_steps / 2;
+    recover(level, index, {dilate(level.scene, moved, options_.level_rings)}, 0, steps);
+    for (std::size_t k = 0; k < level.vertices.size(); ++k) x_.col(level.vertices[k]) = level.scene.x.col(k);
+  }
+
+  /// Puts the vertices of the last round back.
+  void refine_once() {
+    const std::vector<Removal> removals = mesh_.refine();
+    const std::vector<Triangle> triangles = this->triangles();
+    std::vector<Index> star_of_face(patch_.triangles.size(), -1), star_of;
+    std::vector<std::vector<Place>> places;
+    for (std::size_t r = 0; r < removals.size(); ++r) {
+      std::vector<Triangle> star;
+      for (const Index t : removals[r].star) {
+        star_of_face[t] = static_cast<Index>(r);
+        star.push_back(mesh_[t]);
+      }
+      places.push_back(places_for(removals[r], star, {patch_.rest, patch_.x, x_}, grid_));
+    }
+    for (const Index t : mesh_.faces()) star_of.push_back(star_of_face[t]);
+    Insertion insertion(removals, std::move(places), triangles, star_of, static_cast<Index>(active_faces()), patch_.x);
+    insertion.run(x_);
+    for (std::size_t r = 0; r < removals.size(); ++r)
+      if (insertion.is_displaced(r)) displaced_.push_back(removals[r]);
+  }
+
+  /// Vertices that were not put where their fans carry them go there, or half the way, now that there is room, where
+  /// that brings no pair.
+  void offer_better_places() {
+    const std::vector<Triangle> triangles = this->triangles();
+    std::vector<Index> number(patch_.vertices.size(), -1);
+    for (std::size_t r = 0; r < displaced_.size(); ++r) number[displaced_[r].vertex] = static_cast<Index>(r);
+    IntersectionFinder finder(triangles, static_cast<Index>(active_faces()));
+    for (const double share : {1.0, 0.5}) {
+      const Positions before = x_;
+      std::vector<std::uint8_t> is_trying(displaced_.size(), 1);
+      for (const Removal& removal : displaced_)
+        x_.col(removal.vertex) += share * (carried(removal, 1, patch_.rest, before) - before.col(removal.vertex));
+      for (bool any = true; any;) {
+        any = false;
+        for (const IntersectingPair& pair : finder.find(x_))
+          for (const Index face : {pair.a, pair.b})
+            for (const Index v : triangles[face]) {
+              if (number[v] < 0 || !is_trying[number[v]]) continue;
+              any = true;
+              is_trying[number[v]] = 0;
+              x_.col(v) = before.col(v);
+            }
+      }
+    }
+    displaced_.clear();
+  }
+
+  const Patch& patch_;
+  std::span<const IntersectingPair> tolerated_;
+  const std::function<bool()>& stop_;
+  const CoarseToFineOptions& options_;
+  ProgressiveMesh mesh_;
+  Positions x_;                     // of the patch's vertices; only those of the mesh as it is now mean anything
+  std::vector<Removal> displaced_;  // since the last level: those that are not at their best places
+  double grid_;
+};
+
+}  // namespace
+
+CoarseResult solve_on_coarser_mesh(Patch& patch, int depth, std::span<const IntersectingPair> tolerated,
+                                   const std::function<bool()>& stop, const CoarseToFineOptions& options) {
+  CoarseResult result;
+  IntersectionFinder finder(patch.triangles, patch.active_count);
+  const auto count = [&] {
+    result.pairs_left = blocking_pairs(finder.find(patch.x), tolerated).size();
+    record(patch, patch.x, {.pairs = result.pairs_left});
+    result.clean = result.pairs_left == 0;
+  };
+  count();
+  if (result.clean || !(patch.edge_length > 0)) return result;
+  CoarseToFine solver(patch, tolerated, stop, options);
+  const double factor = std::max(options.least_factor, options.factor_per_depth * depth);
+  if (std::optional<CoarseToFine::Solution> coarse = solver.solve_coarse(factor)) {
+    result.iterations = coarse->iterations;
+    Positions x = solver.refine(std::move(*coarse));
+    patch.x = std::move(x);
+    count();
+  }
+  return result;
+}
+
+}  // namespace unsnarl

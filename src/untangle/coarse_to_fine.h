@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "scene/patch.h"
+#include "unsnarl/intersections.h"
+
+namespace unsnarl {
+
+/// Constants of solve_on_coarser_mesh(). h is the mean edge length of a level; a factor is a ratio of edge lengths.
+struct CoarseToFineOptions {
+  /// The coarsest mesh has edges longer by this factor for each edge of the tangle's depth: there it is two edges deep.
+  double factor_per_depth = 0.5;
+  double least_factor = 2;
+  /// So many coarse meshes are solved, each coarser by this factor than the one before, and the solution with the
+  /// fewest pairs left, or else the nearest, is carried to the patch: they end between 0.28 and 0.37 % on one torus.
+  int coarse_solutions = 2;
+  int most_solutions = 4;  ///< where none of them is without pairs
+  double next_factor = 1.6;
+  double few_left = 0.05;          ///< share of the pairs left beyond which no coarser mesh is tried
+  double least_faces = 200;        ///< of a coarse mesh
+  double worthwhile = 0.5;         ///< share of the faces: with more left the coarse mesh is hardly cheaper
+  double worthwhile_again = 0.8;   ///< the same against the coarse mesh before
+  double least_round = 0.97;       ///< share of the faces: a round that leaves more is the last
+  double coarse_gap = 0.025;       ///< h: kept on the coarse mesh; with more: 1.6 times the time, no gain
+  double level_growth = 3;         ///< ratio of faces from one recovery on the way to the next
+  int level_steps = 12;            ///< of such a recovery; 30: no fewer flipped faces, no nearer
+  int level_rings = 2;             ///< freed in it around what is not at rest
+  double level_activation = 0.02;  ///< h: its activation distance
+  double grid = 1.0 / (1 << 20);   ///< h of the patch: positions of what comes back are rounded to about this
+};
+
+struct CoarseResult {
+  bool clean = false;
+  int iterations = 0;  ///< of the strategies that resolved something on the coarse mesh
+  std::size_t pairs_left = 0;
+};
+
+/// Untangles a patch from coarse to fine. It is simplified until the tangle, `depth` edges deep, is shallow, untangled
+/// and recovered there, and then the removed vertices are put back round by round, each where the exact test finds no
+/// new pair; a few steps of recovery now and then make room. The cost follows the number of faces, however deep the
+/// tangle is. Pairs of active triangles count, but the `tolerated` ones (of patch triangles, sorted). What cannot be
+/// resolved on the coarse mesh, or a patch that cannot be simplified, stays where it is.
+CoarseResult solve_on_coarser_mesh(Patch& patch, int depth, std::span<const IntersectingPair> tolerated,
+                                   const std::function<bool()>& stop, const CoarseToFineOptions& options = {});
+
+}  // namespace unsnarl

@@ -1,0 +1,169 @@
+#include "mesh/progressive_mesh.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "mesh/adjacency.h"
+#include "mesh/areas.h"
+#include "scene/shapes.h"
+
+namespace unsnarl {
+namespace {
+
+std::vector<Triangle> triangles_of(const ProgressiveMesh& mesh) {
+  std::vector<Triangle> triangles;
+  for (const Index t : mesh.faces()) triangles.push_back(mesh[t]);
+  return triangles;
+}
+
+std::vector<std::uint8_t> nothing_stays(const shapes::Shape& shape) {
+  return std::vector<std::uint8_t>(shape.points.size(), 0);
+}
+
+/// Vertices minus edges plus faces.
+int euler_characteristic(std::span<const Triangle> triangles) {
+  std::set<Index> vertices;
+  for (const Triangle& t : triangles) vertices.insert(t.begin(), t.end());
+  return static_cast<int>(vertices.size() + triangles.size()) - static_cast<int>(build_edges(triangles).edges.size());
+}
+
+/// Edges of one face, as often as there are, and none of more than two.
+std::size_t boundary_edges(std::span<const Triangle> triangles) {
+  const EdgeTable edges = build_edges(triangles);
+  std::size_t count = 0;
+  for (Index e = 0; e < edges.triangles_of_edge.size(); ++e) {
+    EXPECT_LE(edges.triangles_of_edge[e].size(), 2u);
+    count += edges.triangles_of_edge[e].size() == 1;
+  }
+  return count;
+}
+
+Index coarsen_as_far_as_possible(ProgressiveMesh& mesh, const Positions& x) {
+  Index removed = 0;
+  for (Index now; (now = mesh.coarsen(x)) > 0;) removed += now;
+  return removed;
+}
+
+TEST(ProgressiveMesh, undoing_all_rounds_gives_the_same_mesh) {
+  const shapes::Shape sheet = shapes::bumpy_sheet(24, 2, 6);
+  const Positions x = sheet.positions();
+  ProgressiveMesh mesh(sheet.triangles, nothing_stays(sheet));
+  std::vector<std::vector<Triangle>> before;
+  for (int round = 0; round < 6; ++round) {
+    before.push_back(triangles_of(mesh));
+    ASSERT_GT(mesh.coarsen(x), 0);
+  }
+  EXPECT_LT(mesh.faces().size(), sheet.triangles.size() / 3);
+  while (mesh.round_count() > 0) {
+    mesh.refine();
+    EXPECT_EQ(triangles_of(mesh), before.back());
+    before.pop_back();
+  }
+  EXPECT_TRUE(mesh.refine().empty());
+}
+
+TEST(ProgressiveMesh, a_flat_sheet_keeps_its_area_and_its_boundary_its_length) {
+  const shapes::Shape sheet = shapes::bumpy_sheet(20, 0);
+  const Positions x = sheet.positions();
+  ProgressiveMesh mesh(sheet.triangles, nothing_stays(sheet));
+  coarsen_as_far_as_possible(mesh, x);
+  const std::vector<Triangle> coarse = triangles_of(mesh);
+  EXPECT_LT(coarse.size(), sheet.triangles.size() / 10);
+  EXPECT_NEAR(total_area(x, coarse), 400, 1e-9);
+  EXPECT_LT(boundary_edges(coarse), 40u) << "vertices of the boundary go too";
+  EXPECT_EQ(euler_characteristic(coarse), 1);
+}
+
+TEST(ProgressiveMesh, keeps_the_topology) {
+  shapes::Shape torus = shapes::grid(30, 16, true, [](double i, double j) {
+    const double u = 2 * M_PI * i / 30, v = 2 * M_PI * j / 16, r = 3 + std::cos(v);
+    return Vec3(r * std::cos(u), r * std::sin(u), std::sin(v));
+  });
+  // The last ring is the first.
+  for (Triangle& t : torus.triangles)
+    for (Index& v : t) v %= 30 * 16;
+  torus.points.resize(30 * 16);
+  const Positions x = torus.positions();
+  ProgressiveMesh mesh(torus.triangles, nothing_stays(torus));
+  const Index removed = coarsen_as_far_as_possible(mesh, x);
+  EXPECT_GT(removed, 200);
+  const std::vector<Triangle> coarse = triangles_of(mesh);
+  EXPECT_EQ(euler_characteristic(coarse), 0);
+  EXPECT_EQ(boundary_edges(coarse), 0u);
+}
+
+TEST(ProgressiveMesh, stops_at_what_has_no_smaller_triangulation) {
+  // Every edge of a tetrahedron is in a triangle of edges that is no hole: whatever is collapsed would be flat.
+  const shapes::Shape tetrahedron = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                     {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  ProgressiveMesh mesh(tetrahedron.triangles, nothing_stays(tetrahedron));
+  CoarsenOptions anything;
+  anything.least_cosine = -2;
+  anything.least_quality = 0;
+  anything.largest_offset = 100;
+  EXPECT_EQ(mesh.coarsen(tetrahedron.positions(), anything), 0);
+}
+
+TEST(ProgressiveMesh, what_stays_and_what_several_fans_share_is_kept) {
+  shapes::Shape sheet = shapes::bumpy_sheet(12, 0);
+  std::vector<std::uint8_t> stays = nothing_stays(sheet);
+  for (std::size_t v = 0; v < stays.size(); ++v) stays[v] = sheet.points[v][0] < 0;
+  // A second sheet that hangs on the first by a vertex.
+  const Index hinge = 13 * 9 + 6, first = static_cast<Index>(sheet.points.size());
+  sheet.add(shapes::bumpy_sheet(4, 0), {3, 0, 1});
+  for (Triangle& t : sheet.triangles) std::replace(t.begin(), t.end(), first + 12, hinge);
+  stays.resize(sheet.points.size(), 0);
+  ProgressiveMesh mesh(sheet.triangles, stays);
+  coarsen_as_far_as_possible(mesh, sheet.positions());
+  std::set<Index> left;
+  for (const Triangle& t : triangles_of(mesh)) left.insert(t.begin(), t.end());
+  for (std::size_t v = 0; v < stays.size(); ++v) {
+    EXPECT_TRUE(!stays[v] || left.contains(static_cast<Index>(v)));
+  }
+  EXPECT_TRUE(left.contains(hinge));
+  EXPECT_LT(left.size(), sheet.points.size() * 3 / 4);
+}
+
+TEST(ProgressiveMesh, records_where_a_vertex_lay_on_the_fan_that_replaced_its_star) {
+  const shapes::Shape sheet = shapes::bumpy_sheet(16, 0);
+  const Positions x = sheet.positions();
+  ProgressiveMesh mesh(sheet.triangles, nothing_stays(sheet));
+  mesh.coarsen(x);
+  const std::vector<Triangle> coarse = triangles_of(mesh);
+  for (const ProgressiveMesh::Removal& removal : mesh.refine()) {
+    Vec3 p = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) p += removal.weights[k] * x.col(removal.corners[k]);
+    EXPECT_LT((p - x.col(removal.vertex)).norm(), 1e-12);
+    EXPECT_EQ(removal.corners[0], removal.parent);
+    Triangle corners = removal.corners;
+    std::sort(corners.begin(), corners.end());
+    EXPECT_TRUE(std::any_of(coarse.begin(), coarse.end(), [&](Triangle t) {
+      std::sort(t.begin(), t.end());
+      return t == corners;
+    }));
+    EXPECT_EQ(removal.star.size(),
+              static_cast<std::size_t>(std::count_if(mesh.faces().begin(), mesh.faces().end(), [&](Index t) {
+                return std::find(mesh[t].begin(), mesh[t].end(), removal.vertex) != mesh[t].end();
+              })));
+  }
+}
+
+TEST(ProgressiveMesh, is_the_same_with_any_number_of_threads) {
+  const shapes::Shape sheet = shapes::bumpy_sheet(40, 3, 6);
+  const Positions x = sheet.positions();
+  std::vector<Triangle> expected;
+  for (const std::size_t threads : {1u, 2u, 4u}) {
+    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    ProgressiveMesh mesh(sheet.triangles, nothing_stays(sheet));
+    for (int round = 0; round < 5; ++round) mesh.coarsen(x);
+    if (threads == 1) expected = triangles_of(mesh);
+    EXPECT_EQ(triangles_of(mesh), expected);
+  }
+}
+
+}  // namespace
+}  // namespace unsnarl

@@ -1,0 +1,115 @@
+#include "untangle/coarse_to_fine.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "scene/shapes.h"
+#include "untangle/conflict_regions.h"
+#include "untangle/local_solver.h"
+
+namespace unsnarl {
+namespace {
+
+/// A closed tube pushed through a smooth map that is too strong for it: `fine` says how many faces it has.
+shapes::Shape tangled_tube(Index fine) {
+  const double length = 20 * fine, around = 8 * fine;
+  return shapes::grid(static_cast<Index>(length), static_cast<Index>(around), true, [=](double i, double j) {
+    const double angle = 2 * M_PI * j / around;
+    const Vec3 p(10 * (i / length - 0.5), std::cos(angle), std::sin(angle));
+    return Vec3(p + Vec3(1.9 * std::sin(1.3 * p[0] + 0.4 * p[1]), 0.8 * std::sin(0.9 * p[0] + 0.7 * p[2]), 0));
+  });
+}
+
+std::size_t pairs_in(const Patch& patch) {
+  return IntersectionFinder(patch.triangles, patch.active_count).find(patch.x).size();
+}
+
+TEST(CoarseToFine, resolves_nearly_all_of_a_deep_tangle) {
+  const shapes::Shape shape = shapes::crossing_wide_bumps(2, 2);
+  Patch patch = shapes::patch_of(shape);
+  const std::size_t before = pairs_in(patch);
+  ASSERT_GT(before, 100u);
+  const CoarseResult result = solve_on_coarser_mesh(patch, 8, {}, {});
+  EXPECT_EQ(result.pairs_left, pairs_in(patch));
+  EXPECT_EQ(result.clean, result.pairs_left == 0);
+  EXPECT_LE(result.pairs_left, before / 20);
+  // Whatever lies far from the tangle has stayed, and nothing has gone farther than a few times its depth.
+  double farthest = 0;
+  Index at_rest = 0;
+  for (Index v = 0; v < patch.free_count; ++v) {
+    farthest = std::max(farthest, (patch.x.col(v) - patch.rest.col(v)).norm());
+    at_rest += patch.x.col(v) == patch.rest.col(v);
+  }
+  EXPECT_LT(farthest, 3);
+  EXPECT_GT(at_rest, patch.free_count / 2);
+}
+
+TEST(CoarseToFine, resolves_tubes_that_run_through_themselves) {
+  for (const Index fine : {2, 3}) {
+    Patch patch = shapes::patch_of(tangled_tube(fine));
+    const std::size_t before = pairs_in(patch);
+    ASSERT_GT(before, 50u);
+    const CoarseResult result = solve_on_coarser_mesh(patch, 2 * fine, {}, {});
+    EXPECT_LE(result.pairs_left, before / 10) << before << " before";
+  }
+}
+
+TEST(CoarseToFine, an_embedded_patch_stays_where_it_is) {
+  Patch patch = shapes::patch_of(shapes::bumpy_sheet(24, 2, 6));
+  const CoarseResult result = solve_on_coarser_mesh(patch, 8, {}, {});
+  EXPECT_TRUE(result.clean);
+  EXPECT_TRUE(patch.x == patch.rest);
+}
+
+TEST(CoarseToFine, what_cannot_be_simplified_stays_where_it_is) {
+  Patch patch = shapes::patch_of(shapes::crossed_squares());
+  const Positions before = patch.x;
+  const CoarseResult result = solve_on_coarser_mesh(patch, 4, {}, {});
+  EXPECT_FALSE(result.clean);
+  EXPECT_GT(result.pairs_left, 0u);
+  EXPECT_TRUE(patch.x == before);
+}
+
+TEST(CoarseToFine, holds_what_is_fixed_and_lets_tolerated_pairs_be) {
+  const shapes::Shape shape = shapes::crossing_wide_bumps(2, 2);
+  const Scene scene = shapes::scene_of(shape);
+  SceneIndex index(scene);
+  const std::vector<ConflictRegion> regions = conflict_regions(scene, index.find_pairs());
+  ASSERT_EQ(regions.size(), 1u);
+  Patch patch = cut_patch(scene, index, dilate(scene, regions[0].core, 12), 10);
+  patch.edge_length = 0.5;
+  const Positions before = patch.x;
+  // All are tolerated: nothing is left to be done.
+  IntersectionFinder finder(patch.triangles, patch.active_count);
+  const std::vector<IntersectingPair> pairs = finder.find(patch.x);
+  EXPECT_TRUE(solve_on_coarser_mesh(patch, 8, pairs, {}).clean);
+  EXPECT_TRUE(patch.x == before);
+
+  const CoarseResult result = solve_on_coarser_mesh(patch, 8, {}, {});
+  EXPECT_LT(result.pairs_left, pairs.size() / 10);
+  for (Index v = patch.free_count; v < patch.x.cols(); ++v) EXPECT_TRUE(patch.x.col(v) == before.col(v));
+}
+
+TEST(CoarseToFine, ends_when_it_is_stopped) {
+  Patch patch = shapes::patch_of(shapes::crossing_wide_bumps(2, 2));
+  const std::size_t before = pairs_in(patch);
+  const Positions start = patch.x;
+  solve_on_coarser_mesh(patch, 8, {}, [] { return true; });
+  EXPECT_LE(pairs_in(patch), before);
+  EXPECT_TRUE(patch.x == start);
+}
+
+TEST(CoarseToFine, is_the_same_with_any_number_of_threads) {
+  const shapes::Shape shape = shapes::crossing_wide_bumps(2, 2);
+  Positions expected;
+  for (const std::size_t threads : {1u, 2u, 4u}) {
+    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    Patch patch = shapes::patch_of(shape);
+    solve_on_coarser_mesh(patch, 8, {}, {});
+    if (threads == 1) expected = patch.x;
+    EXPECT_TRUE(patch.x == expected) << threads << " threads";
+  }
+}
+
+}  // namespace
+}  // namespace unsnarl
