@@ -36,7 +36,7 @@ struct LocalOptions {
   double jitter = 1e-3;  ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
   /// Of the way to the neighbours: to what size edges of length zero are opened first (open_zero_length_edges).
   /// Without, rings of 64 vertices in one point take minutes; what is too much comes back in recovery.
-  double opening = 0.05;
+  double opening = 0.01;
   double area_floor = 1e-3;     ///< a face thinner than this share of its area at the start is not accepted
   double shallow_margin = 0.5;  ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
   double shallow_step = 1;      ///< of the deepest overlap, now or at the start: its steps

@@ -62,8 +62,8 @@ TEST_P(Pinches, are_opened_a_little_says_cgal_by_index) {
     EXPECT_EQ(pairs_by_index(surface, positions), 0u);
     EXPECT_EQ(faces_without_area(surface, positions), 0u);
   }
-  // Nothing crosses, so next to nothing has to move: 2e-7 to 2e-6 measured, up to 1e-4 where edges have no length.
-  EXPECT_LT(result.report.displacement_max_rel, 2e-4);
+  // Nothing crosses, so next to nothing has to move: 2e-7 to 2e-6 measured, 2e-5 where edges have no length.
+  EXPECT_LT(result.report.displacement_max_rel, 1e-4);
   Surface repaired = surface;
   repaired.positions = result.positions;
   EXPECT_EQ(repair(repaired).positions, repaired.positions);
