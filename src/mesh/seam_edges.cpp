@@ -23,9 +23,12 @@ class SeamEdges {
   SeamEdges(std::span<const OpenSide> open, std::span<const Index> class_of, const CoincidentFaces& coincident,
             UnionFind& shells, UnionFind& welded)
       : class_of_(class_of), coincident_(coincident), shells_(shells), welded_(welded) {
-    for (const auto& [face, from, to] : open)
-      // An edge of length zero has no direction to weld along.
-      if (class_of_[from] != class_of_[to]) edges_.push_back({{face, from, to}, class_of_[from] < class_of_[to]});
+    for (const auto& [face, from, to] : open) {
+      if (class_of_[from] == class_of_[to])
+        welded.unite(from, to);  // an open edge of length zero is a point of the boundary
+      else
+        edges_.push_back({{face, from, to}, class_of_[from] < class_of_[to]});
+    }
     group_edges();
   }
 

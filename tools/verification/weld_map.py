@@ -79,8 +79,11 @@ class Seams:
         for f in self.twins:
             for v in set(self.faces[f]):
                 self.twins_at[v].append(f)
-        ambiguous = self.weld_edges([side for side in open_sides(self.faces, lambda v: v)
-                                     if class_of[side[1]] != class_of[side[2]]])
+        open_edges = open_sides(self.faces, lambda v: v)
+        for _, a, b in open_edges:
+            if class_of[a] == class_of[b]:
+                self.welded.unite(a, b)
+        ambiguous = self.weld_edges([side for side in open_edges if class_of[side[1]] != class_of[side[2]]])
         owner = {}
         if all(owner.setdefault(v, f) == f for f, face in enumerate(self.faces) for v in face):  # (c)
             self.weld_ambiguous(ambiguous)
