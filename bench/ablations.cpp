@@ -44,6 +44,7 @@ struct Options {
   bool frozen = false;
   bool recover = false;  // as the paper does, after untangling
   bool repair_as_paper = false;
+  std::vector<std::string> without;  // strategies of the repair
 };
 
 /// A surface, and all of it as one patch.
@@ -151,6 +152,7 @@ Json repair_all(const Options& options) {
   Subject subject(Document::read(options.input).surface());
   RepairOptions repair_options;
   repair_options.paper = options.repair_as_paper;
+  repair_options.without_strategies = options.without;
   repair_options.find.threads = options.threads;
   repair_options.time_limit_s = options.time_limit_s;
   const auto begin = Clock::now();
@@ -239,6 +241,7 @@ int main(int argc, char** argv) {
   CLI::App* repair_command = app.add_subcommand("repair", "the whole repair");
   repair_command->add_option("input", options.input)->required();
   repair_command->add_flag("--paper", options.repair_as_paper, "as the paper does it");
+  repair_command->add_option("--without", options.without, "a strategy to do without; may be repeated");
   app.add_subcommand("recover_untangled", "a knot from its untangled state");
   app.add_subcommand("recover_torus", "a knot from a torus");
   CLI11_PARSE(app, argc, argv);

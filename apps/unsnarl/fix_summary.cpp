@@ -1,6 +1,10 @@
 #include "fix_summary.h"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include <iterator>
 
@@ -66,6 +70,31 @@ std::string fate_of_output(Status status, const std::string& output) {
                                       : "nothing written; --keep-partial writes what was reached";
 }
 
+/// Regions whose vertices lie so far from rest, in diagonals, are named: farther than what is asked of a repair that
+/// nobody is to see.
+constexpr double far_rel = 0.01;
+constexpr std::size_t most_far_regions = 3;
+
+/// The regions that had to go farthest, each where and why.
+std::vector<std::string> far_regions(const RepairReport& report) {
+  std::vector<RegionReport> regions;
+  for (const RegionReport& region : report.regions)
+    if (region.displacement_rel > far_rel) regions.push_back(region);
+  std::stable_sort(regions.begin(), regions.end(),
+                   [](const auto& a, const auto& b) { return a.displacement_rel > b.displacement_rel; });
+  // What goes on from where another region has been has the same farthest vertex.
+  std::vector<std::string> lines;
+  std::vector<std::int32_t> named;
+  for (const RegionReport& region : regions) {
+    if (lines.size() == most_far_regions) break;
+    if (std::find(named.begin(), named.end(), region.farthest_vertex) != named.end()) continue;
+    named.push_back(region.farthest_vertex);
+    lines.push_back(fmt::format("far: {:.2g} % of the diagonal at vertex {}, out of a tangle {:.2g} % deep",
+                                100 * region.displacement_rel, region.farthest_vertex, 100 * region.depth_rel));
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
@@ -81,6 +110,7 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   if (r.untouched_share < 1)
     line(fmt::format("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
                      100 * (1 - r.untouched_share), 100 * r.displacement_max_rel, 100 * r.displacement_mean_rel));
+  for (const std::string& words : far_regions(r)) line("  " + words);
   for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
   line(fmt::format("  {}{}; {:.2f} s, {:.0f} MB", explanation(result.status, options.goal), float32_remark(result),
                    files.whole.seconds, files.whole.peak_memory_mb));

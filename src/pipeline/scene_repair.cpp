@@ -113,6 +113,10 @@ SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders) {
 EscalationOptions SceneRepair::escalation_options() {
   EscalationOptions escalation;
   escalation.tiers = default_tiers();
+  if (!job_.options.without_strategies.empty()) {
+    tiers_ = without(default_tiers(), job_.options.without_strategies);
+    escalation.tiers = tiers_;
+  }
   escalation.stop = job_.limits.stopper();
   escalation.recorder = &job_.recorder;
   escalation.first_region = job_.regions.size();

@@ -90,6 +90,7 @@ class SceneRepair {
   Scene scene_;
   std::vector<IntersectingPair> pairs_, ignored_;
   bool float32_;
+  std::vector<Tier> tiers_;                // where not the default ones
   std::vector<std::vector<Index>> moved_;  // what regions freed
   double smallest_gap_ = std::numeric_limits<double>::infinity();
   std::atomic<bool> displacement_is_exceeded_{false};

@@ -99,7 +99,10 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
                                {"faces", region.faces},
                                {"pairs", region.pairs},
                                {"iterations", region.iterations},
-                               {"seconds", region.seconds}});
+                               {"seconds", region.seconds},
+                               {"depth_rel", region.depth_rel},
+                               {"displacement_rel", region.displacement_rel},
+                               {"farthest_vertex", region.farthest_vertex}});
   json["components"] = Json::array();
   for (const ComponentReport& component : r.components)
     json["components"].push_back({{"component", component.component},

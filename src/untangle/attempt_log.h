@@ -15,8 +15,8 @@ struct AttemptLog {
       : strategy(rest.cols(), -1), is_cut_short(rest.cols(), 0), is_too_far(rest.cols(), 0), solved(rest) {}
 
   std::vector<std::int8_t>
-      strategy;  ///< number (see strategies.h) of the furthest one that its conflict climbed to; -1: none
-  std::vector<std::uint8_t> is_cut_short;  ///< a limit ended the climb of a conflict that it is in
+      strategy;  ///< number (see strategies.h) of the furthest one that its conflict was tried on; -1: none
+  std::vector<std::uint8_t> is_cut_short;  ///< a limit came before all strategies were tried on a conflict that it is in
   std::vector<std::uint8_t> is_too_far;    ///< had its conflict been resolved, something would lie farther than allowed
   Positions solved;                        ///< what the solvers came to last, before anything was rounded or taken back
 };

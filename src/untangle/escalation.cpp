@@ -13,6 +13,7 @@
 #include "untangle/conflict_regions.h"
 #include "untangle/local_solver.h"
 #include "untangle/placement.h"
+#include "untangle/strategies.h"
 #include "untangle/tangle_depth.h"
 
 namespace unsnarl {
@@ -128,7 +129,7 @@ class Escalation {
     const Strategy& strategy = *levels_[level].strategy;
     if (options_.recorder) options_.recorder->begin_stage("untangle");
     std::vector<Attempt> attempts = gather_attempts(strategy);
-    note_attempts(attempts, level);
+    note_attempts(attempts, strategy);
     index_.update();
     for (int round = 0; round < reach_rounds && !attempts.empty() && !stopped(); ++round) {
       std::vector<Box> boxes;
@@ -324,13 +325,12 @@ class Escalation {
     return dilate(scene_, moved, recovery_rings);
   }
 
-  void note_attempts(const std::vector<Attempt>& attempts, Index level) {
+  void note_attempts(const std::vector<Attempt>& attempts, const Strategy& strategy) {
     if (!options_.attempts) return;
+    const auto number = static_cast<std::int8_t>(strategy_number(strategy.name));
     for (const Attempt& attempt : attempts)
-      for (Index v : attempt.region.core) {
-        std::int8_t& furthest = options_.attempts->strategy[v];
-        furthest = std::max(furthest, static_cast<std::int8_t>(level));
-      }
+      for (Index v : attempt.region.core)
+        options_.attempts->strategy[v] = std::max(options_.attempts->strategy[v], number);
   }
 
   void note_what_is_left() {

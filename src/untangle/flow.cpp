@@ -25,7 +25,7 @@
 namespace unsnarl {
 namespace {
 
-// A ladder of restarts solved 49 of 50 tuning meshes and 16 of 18 others; one run with shrinking locality only 33
+// A sequence of restarts solved 49 of 50 tuning meshes and 16 of 18 others; one run with shrinking locality only 33
 // of 50. The last three are for deep immersions: figure-8 torus 8 % mean displacement in 50 iterations, spindle torus
 // 10 % in 27, Whitney umbrella 16 % in 70. Weaker Gaussian weights (1 instead of 3) leave the first two half done.
 constexpr std::array<FlowSettings, 9> strategies{{

@@ -17,7 +17,7 @@ enum class FlowWeights {
   adjacency,  ///< all but adjacent ones (paper §3.5.2); inflates flat areas by 1.2 to 1.9
 };
 
-/// One way to run the shape-level untangling (paper §3.3, eq. (11)), from gentle to wild:
+/// One way to run the shape-level untangling (paper §3.3, eq. (11)):
 ///   E = lambda_gaussian E_G + lambda_minkowski h E_M + lambda_arap E_ARAP, every term length squared,
 /// by L-BFGS in the metric 2 lambda_arap (L + locality A/S): L the Laplacian of ARAP's weights, A/S the vertices'
 /// shares of the area. (Trefoil tube: 226 pairs left after 299 iterations in the plain metric, none after 9 in this
@@ -96,7 +96,7 @@ struct FlowOptions {
   double candidate_reach = 0.25;  ///< h: motion until the candidate pairs are gathered anew
 };
 
-/// The ladder of the default configuration, gentlest first; every strategy restarts from rest.
+/// The variants of the default configuration, those that move least first.
 std::span<const FlowSettings> flow_variants();
 
 struct FlowResult {

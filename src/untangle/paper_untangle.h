@@ -17,7 +17,7 @@ enum class BandwidthScope {
 enum class MeshEnergy { penetration_depth, intersection_length };
 
 /// The untangling phase as the paper describes it (§3.1-3.3, §3.5), so that its experiments can be repeated; the
-/// default configuration is the ladder of regions and flow() instead. Works on a copy scaled to unit size (§3.5.5):
+/// default configuration is escalate() instead. Works on a copy scaled to unit size (§3.5.5):
 /// lengths below are in units of the patch's largest extent, or of its mean edge where they say so. Where the paper
 /// names no value, the one here is ours.
 struct PaperOptions {

@@ -1,5 +1,6 @@
 #include "untangle/strategies.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -127,12 +128,32 @@ std::span<const Tier> coarse_mesh_tiers() {
   return tiers;
 }
 
+std::vector<Tier> without(std::span<const Tier> tiers, std::span<const std::string> names) {
+  std::vector<Tier> rest(tiers.begin(), tiers.end());
+  for (Tier& tier : rest)
+    std::erase_if(tier, [&](const Strategy& strategy) {
+      return std::find(names.begin(), names.end(), strategy.name) != names.end();
+    });
+  std::erase_if(rest, [](const Tier& tier) { return tier.empty(); });
+  return rest;
+}
+
 std::string_view strategy_name(int number) {
   for (const Tier& tier : default_tiers()) {
     if (number < static_cast<int>(tier.size())) return tier[static_cast<std::size_t>(number)].name;
     number -= static_cast<int>(tier.size());
   }
   return {};
+}
+
+int strategy_number(std::string_view name) {
+  int number = 0;
+  for (const Tier& tier : default_tiers())
+    for (const Strategy& strategy : tier) {
+      if (strategy.name == name) return number;
+      ++number;
+    }
+  return -1;
 }
 
 int last_strategy() {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "untangle/strategy.h"
 
@@ -17,8 +19,13 @@ std::span<const Tier> local_tiers();
 /// All but those that move whole components: what is left on a coarse mesh, the fine one resolves.
 std::span<const Tier> coarse_mesh_tiers();
 
+/// The tiers without the strategies of these names.
+std::vector<Tier> without(std::span<const Tier> tiers, std::span<const std::string> names);
+
 /// Name of the strategy with this number in the order of default_tiers().
 std::string_view strategy_name(int number);
+/// The number of the one with this name; -1: there is none.
+int strategy_number(std::string_view name);
 /// The number of the last one.
 int last_strategy();
 

@@ -5,7 +5,7 @@
 namespace unsnarl {
 
 /// Untangles the whole scene as one patch, as the paper does it (paper_untangle), until no disjoint pair is left; in
-/// the place of climb_ladder. `pairs`: how many there are. Of the options counts whatever a ladder does not need alone.
+/// the place of escalate(). `pairs`: how many there are. Of the options only the callbacks and logs count.
 EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
                                 std::span<const IntersectingPair> ignored, const EscalationOptions& options);
 

@@ -73,7 +73,7 @@ TEST(Escalation, deep_conflicts_start_on_a_coarser_mesh) {
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
   ASSERT_FALSE(result.regions.empty());
-  EXPECT_EQ(result.regions[0].strategy, "coarser");
+  EXPECT_EQ(result.regions[0].strategy, "coarse_to_fine");
   EXPECT_GT(2 * result.regions[0].pairs, shapes::pairs_of(shape).size());
   // What it says has moved has, and is not everything.
   ASSERT_FALSE(result.moved.empty());
@@ -190,6 +190,82 @@ TEST(Escalation, stopping_leaves_the_rest_as_it_is) {
   EXPECT_TRUE(result.left == shapes::pairs_at(scene.rest, scene.triangles));
   EXPECT_TRUE(result.moved.empty());
   EXPECT_TRUE(scene.x == scene.rest);
+}
+
+/// Moves everything free by a length along z: a trivial strategy, as CONTRIBUTING.md shows one.
+Strategy lifting(double height) {
+  const auto solve = [height](Patch& patch, const Task&) {
+    patch.x.row(2).leftCols(patch.free_count).array() += height;
+    return 1;
+  };
+  return {.name = "lifting", .extent = Extent::whole_components, .reach = 100, .solve = solve};
+}
+
+/// Two components: what lies in the upper sheet moves, the lower sheet is fixed.
+Scene two_sheets(double depth) {
+  const Shape shape = shapes::crossing_bumps(12, depth);
+  std::vector<std::uint8_t> fixed(shape.points.size(), 0);
+  std::fill(fixed.begin(), fixed.begin() + static_cast<std::ptrdiff_t>(fixed.size() / 2), std::uint8_t{1});
+  return make_scene(shape.positions(), shape.triangles, fixed);
+}
+
+TEST(Escalation, a_new_strategy_takes_one_entry_of_a_table) {
+  Scene scene = two_sheets(1.5);
+  const std::vector<Tier> tiers = {{lifting(5)}};
+  const EscalationResult result = untangle(scene, {}, {.tiers = tiers});
+  EXPECT_TRUE(result.left.empty());
+  ASSERT_EQ(result.regions.size(), 1u);
+  EXPECT_EQ(result.regions[0].strategy, "lifting");
+  ASSERT_EQ(result.depths.size(), 1u);
+  EXPECT_NEAR(result.depths[0], 5, 1e-12);
+}
+
+TEST(Escalation, candidates_with_more_pairs_are_not_kept) {
+  Scene scene = two_sheets(0.5);
+  const std::size_t before = shapes::pairs_at(scene.x, scene.triangles).size();
+  const std::vector<Tier> tiers = {{lifting(-0.5)}};  // deeper into the other sheet
+  const EscalationResult result = untangle(scene, {}, {.tiers = tiers});
+  EXPECT_EQ(result.left.size(), before);
+  EXPECT_TRUE(scene.x == scene.rest);
+}
+
+// Each step up leaves fewer pairs, but too many to be kept at once: the best candidate of the tier is.
+TEST(Escalation, what_a_tier_leaves_is_where_the_next_starts) {
+  Scene scene = two_sheets(3);
+  const std::vector<Tier> small = {{lifting(0.3), lifting(1)}};
+  const EscalationResult result = untangle(scene, {}, {.tiers = small});
+  EXPECT_TRUE(result.left.empty());
+  EXPECT_GT(result.regions.size(), 1u);
+  for (const double depth : result.depths) EXPECT_LE(depth, 1 + 1e-12);
+}
+
+TEST(Escalation, squeezed_faces_make_a_candidate_worthless) {
+  Scene scene = two_sheets(0.5);
+  const auto to_a_point = [](Patch& patch, const Task&) {
+    for (Index v = 0; v < patch.free_count; ++v) patch.x.col(v) = 1e-3 * patch.x.col(v) + Vec3(0, 0, 50);
+    return 1;
+  };
+  const std::vector<Tier> tiers = {
+      {{.name = "collapse", .extent = Extent::whole_components, .reach = 200, .solve = to_a_point}}};
+  untangle(scene, {}, {.tiers = tiers});
+  EXPECT_TRUE(scene.x == scene.rest);
+}
+
+TEST(Strategies, can_be_left_out_by_name) {
+  const std::vector<std::string> names = {"placement", "contour-4"};
+  std::size_t all = 0, rest = 0;
+  for (const Tier& tier : default_tiers()) all += tier.size();
+  for (const Tier& tier : without(default_tiers(), names)) {
+    EXPECT_FALSE(tier.empty());
+    rest += tier.size();
+    for (const Strategy& strategy : tier) EXPECT_EQ(std::count(names.begin(), names.end(), strategy.name), 0);
+  }
+  EXPECT_EQ(rest, all - 2);
+}
+
+TEST(Strategies, numbers_name_them_in_the_order_of_the_table) {
+  EXPECT_EQ(strategy_name(0), default_tiers().front().front().name);
+  EXPECT_EQ(strategy_name(last_strategy()), default_tiers().back().back().name);
 }
 
 }  // namespace

@@ -131,8 +131,8 @@ std::size_t count_pairs(const Patch& patch) {
   return IntersectionFinder(patch.triangles, patch.active_count).find(patch.x).size();
 }
 
-// Climbs the ladder; the last strategy's result.
-FlowResult climb(Patch& patch) {
+// Tries one variant after the other; the last one's result.
+FlowResult try_all(Patch& patch) {
   FlowResult result;
   for (const FlowSettings& strategy : flow_variants()) {
     result = flow(patch, strategy);
@@ -148,7 +148,7 @@ double mean_displacement(const Patch& patch) {
 
 void expect_untangled(Patch& patch, double largest_mean_displacement, double largest_growth) {
   ASSERT_GT(count_pairs(patch), 0u);
-  const FlowResult result = climb(patch);
+  const FlowResult result = try_all(patch);
   EXPECT_TRUE(result.clean) << result.strategy << ": " << result.pairs_left;
   EXPECT_EQ(count_pairs(patch), 0u);
   EXPECT_LT(mean_displacement(patch), largest_mean_displacement);
@@ -177,7 +177,7 @@ TEST(Flow, OpensAFigureEightTorus) {
   ASSERT_GT(count_pairs(patch), 0u);
   FlowResult result;
   for (const FlowSettings& strategy : flow_variants()) {
-    if (strategy.locality > 10) continue;  // too gentle for this
+    if (strategy.locality > 10) continue;  // too local for this
     result = flow(patch, strategy);
     if (result.clean) break;
   }
@@ -248,7 +248,7 @@ TEST(Flow, OpensFoldsAndOneVertexCrossings) {
   for (Index k = 0; k < 8; ++k) fan.triangles.push_back({0, k + 1, (k + 1) % 8 + 1});
   Patch crossing = patch_of(fan);
   ASSERT_GT(count_pairs(crossing), 0u);
-  const FlowResult result = climb(crossing);
+  const FlowResult result = try_all(crossing);
   EXPECT_TRUE(result.clean) << result.pairs_left;
   EXPECT_EQ(count_pairs(crossing), 0u);
 }
