@@ -32,7 +32,7 @@ constexpr double flow_reach = 20;    // of 4 that flows did, 2 moved by 16 h
 constexpr double worth_climbing_again = 0.7;
 /// Share of the pairs of a large region that a strategy may leave to be done with it. What a coarser mesh leaves is
 /// shallow, but much: a body of 428k faces took eight times as long where 503 pairs left of 3720 were too many.
-constexpr double large_gain = 0.1, large_gain_of_coarser_mesh = 0.7;
+constexpr double large_gain = 0.1, large_gain_of_coarser_mesh = 1.0 / 3;
 constexpr std::size_t large = 100;  // pairs
 
 /// Freed around regions that go by a coarser mesh. Of 0.7, 1 and 1.5 the closest on three bodies.
