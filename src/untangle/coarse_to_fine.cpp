@@ -235,7 +235,8 @@ class CoarseToFine {
         x_(patch.x),
         grid_(std::exp2(std::floor(std::log2(patch.edge_length * options.grid)))) {}
 
-  /// The best solution on meshes this many times coarser and more; none where the patch cannot be simplified.
+  /// The best solution on meshes this many times coarser and more. None where the patch cannot be simplified, or where
+  /// so many pairs are left that it is not for their depth.
   std::optional<Solution> solve_coarse(double factor) {
     std::optional<Solution> best;
     for (int k = 0; k < options_.most_solutions && !stopped(); ++k, factor *= options_.next_factor) {
@@ -246,8 +247,7 @@ class CoarseToFine {
       if (static_cast<double>(active_faces()) > least_gain * static_cast<double>(before)) break;
       Solution solution = solve_level_fully();
       if (!best || solution.is_better_than(*best)) best = std::move(solution);
-      // What is left then is not left for its depth.
-      if (static_cast<double>(best->pairs_left) > options_.few_left * static_cast<double>(best->pairs)) break;
+      if (static_cast<double>(best->pairs_left) > options_.few_left * static_cast<double>(best->pairs)) return {};
     }
     return best;
   }

@@ -19,7 +19,9 @@ struct CoarseToFineOptions {
   int coarse_solutions = 2;
   int most_solutions = 4;  ///< where none of them is without pairs
   double next_factor = 1.6;
-  double few_left = 0.05;          ///< share of the pairs left beyond which no coarser mesh is tried
+  /// Share of the pairs that the coarse mesh may leave. A creature of which one region leaves 12 of 100 ends at 0.85 %
+  /// in 67 CPU s where these are carried to the fine mesh, at 0.51 % in 29 s where local strategies begin anew instead.
+  double few_left = 0.05;
   double least_faces = 200;        ///< of a coarse mesh
   double worthwhile = 0.5;         ///< share of the faces: with more left the coarse mesh is hardly cheaper
   double worthwhile_again = 0.8;   ///< the same against the coarse mesh before
