@@ -16,9 +16,10 @@ struct AttemptLog {
 
   std::vector<std::int8_t>
       strategy;  ///< number (see strategies.h) of the furthest one that its conflict was tried on; -1: none
-  std::vector<std::uint8_t> is_cut_short;  ///< a limit came before all strategies were tried on a conflict that it is in
-  std::vector<std::uint8_t> is_too_far;    ///< had its conflict been resolved, something would lie farther than allowed
-  Positions solved;                        ///< what the solvers came to last, before anything was rounded or taken back
+  std::vector<std::uint8_t>
+      is_cut_short;                      ///< a limit came before all strategies were tried on a conflict that it is in
+  std::vector<std::uint8_t> is_too_far;  ///< had its conflict been resolved, something would lie farther than allowed
+  Positions solved;                      ///< what the solvers came to last, before anything was rounded or taken back
 };
 
 }  // namespace unsnarl

@@ -67,8 +67,10 @@ class Escalation {
   Escalation(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
              const EscalationOptions& options)
       : scene_(scene), index_(index), ignored_(ignored), options_(options), level_(scene.vertex_count(), 0) {
-    for (const Tier& tier : options.tiers)
-      for (const Strategy& strategy : tier) levels_.push_back({&strategy, &strategy == &tier.back()});
+    for (const Tier& tier : options.tiers) {
+      const Index begin = static_cast<Index>(levels_.size());
+      for (const Strategy& strategy : tier) levels_.push_back({&strategy, begin, &strategy == &tier.back()});
+    }
   }
 
   EscalationResult run() {
@@ -92,6 +94,7 @@ class Escalation {
  private:
   struct Level {
     const Strategy* strategy;
+    Index tier_begin;  // the first level of its tier
     bool ends_tier;
   };
   Index last() const { return static_cast<Index>(levels_.size()); }
@@ -236,7 +239,7 @@ class Escalation {
     if (options_.min_gap) task.min_gap = options_.min_gap(attempt.free);
     attempt.iterations += strategy.solve(patch, task);
     attempt.left = Pairs(blocking_pairs(finder.find(patch.x), tolerated));
-    attempt.is_sound = !has_squeezed_face(patch, attempt.start, patch.x, options_.area_floor);
+    attempt.is_sound = !has_squeezed_face(patch, attempt.start, patch.x, strategy.area_floor);
     attempt.is_rejected = attempt.is_clean() && options_.accept && !options_.accept(patch);
     patch.trajectory = nullptr;
     attempt.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -266,7 +269,7 @@ class Escalation {
     }
     if (!attempt.is_clean()) attempt.trajectory.end_at_fewest_pairs();
     if (attempt.is_clean() || attempt.left.is_below(strategy.gain_share, attempt.before)) {
-      keep(attempt, strategy);
+      keep(attempt, strategy, 0);
     } else {
       const Index key = attempt.region.core.front();
       const auto known = best_.find(key);
@@ -291,7 +294,7 @@ class Escalation {
       Best& best = it->second;
       const bool is_due = level_of(best.attempt.region) > level;
       if (is_due && is_current(best.attempt) && best.attempt.left.is_below(share, best.attempt.before))
-        keep(best.attempt, *levels_[best.level].strategy);
+        keep(best.attempt, *levels_[best.level].strategy, levels_[best.level].tier_begin);
       else if (!is_due || is_current(best.attempt)) {
         ++it;
         continue;
@@ -300,10 +303,11 @@ class Escalation {
     }
   }
 
-  void keep(Attempt& attempt, const Strategy& strategy) {
+  /// The rest of the region is tried next on the strategy of this level.
+  void keep(Attempt& attempt, const Strategy& strategy, Index next_level) {
     result_.depths.push_back(attempt.motion());
     paste_patch(attempt.patch, scene_, index_);
-    for (Index v : attempt.free) level_[v] = 0;
+    for (Index v : attempt.free) level_[v] = next_level;
     RegionReport report;
     report.strategy = strategy.name;
     report.faces = static_cast<std::size_t>(attempt.patch.active_count);

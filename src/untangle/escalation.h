@@ -20,8 +20,6 @@ struct EscalationOptions {
   /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share. With 1,
   /// a soup of crossings takes a tier for every pair.
   double worthwhile_share = 0.7;
-  /// Of its area before: a face that is squeezed further makes a candidate worthless.
-  double area_floor = 1e-3;
   /// Edges freed around a tangle for each edge of its depth (Extent::depth). Of 0.7, 1 and 1.5 the closest on three
   /// bodies.
   double rings_per_depth = 1.5;
@@ -47,8 +45,9 @@ struct EscalationResult {
 
 /// Untangles the scene region by region, everything outside the region held. A region goes from strategy to strategy
 /// until a candidate has so few pairs that it is kept; what is left of it is segmented anew and starts from the first
-/// strategy. Only candidates with fewer pairs, and no more disjoint ones, are ever kept, so this ends. Regions that lie
-/// apart do not influence each other. Pairs in `ignored` (sorted, of triangles) are tolerated.
+/// strategy. At the end of a tier its best candidate is kept where it is worth while, and the tier starts anew. Only
+/// candidates with fewer pairs, and no more disjoint ones, are ever kept, so this ends. Regions that lie apart do not
+/// influence each other. Pairs in `ignored` (sorted, of triangles) are tolerated.
 EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
                           const EscalationOptions& options);
 

@@ -51,12 +51,13 @@ Strategy coarse_to_fine() {
   const auto solve = [](Patch& patch, const Task& task) {
     return solve_on_coarser_mesh(patch, task.depth, task.tolerated, task.stop).iterations;
   };
-  // What it leaves is shallow, but may be much.
+  // What it leaves is shallow, but may be much, and faces that found little space when they came back are recovered.
   return {.name = "coarse_to_fine",
           .extent = Extent::depth,
           .reach = 10,
           .least_depth = deep,
-          .gain_share = 0.7,
+          .gain_share = 1.0 / 3,
+          .area_floor = 1e-12,
           .solve = solve};
 }
 
@@ -112,9 +113,8 @@ Tier whole_component_tier() {
 }  // namespace
 
 std::span<const Tier> default_tiers() {
-  static const std::vector<Tier> tiers = {{coarse_to_fine()},    shallow_tier(),   {placing()},
-                                          layers_tier(),         smoothing_tier(), regional_flow_tier(),
-                                          whole_component_tier()};
+  static const std::vector<Tier> tiers = {shallow_tier(),   {placing()},          {coarse_to_fine()},    layers_tier(),
+                                          smoothing_tier(), regional_flow_tier(), whole_component_tier()};
   return tiers;
 }
 

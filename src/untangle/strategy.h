@@ -42,6 +42,8 @@ struct Strategy {
   /// starts with the first strategy. With a third, posed bodies end up to 12 % farther, with 0 they take 1.3 times as
   /// long.
   double gain_share = 0.1;
+  /// Of its area before: a candidate that squeezes a face further is worthless.
+  double area_floor = 1e-3;
   /// Moves the free vertices of patch.x, from where they are, to a state with fewer intersecting pairs, if it finds
   /// one. Returns the number of its iterations. What the candidate is worth is decided by the escalation.
   std::function<int(Patch& patch, const Task& task)> solve;

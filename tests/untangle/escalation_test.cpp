@@ -20,6 +20,12 @@ EscalationResult untangle(Scene& scene, std::span<const IntersectingPair> ignore
   return escalate(scene, index, ignored, options);
 }
 
+EscalationOptions options_with(std::span<const Tier> tiers) {
+  EscalationOptions options;
+  options.tiers = tiers;
+  return options;
+}
+
 TEST(Escalation, clears_a_crossing_and_says_how) {
   const Shape shape = shapes::crossing_bumps(14, 0.3);
   Scene scene = shapes::scene_of(shape);
@@ -212,7 +218,7 @@ Scene two_sheets(double depth) {
 TEST(Escalation, a_new_strategy_takes_one_entry_of_a_table) {
   Scene scene = two_sheets(1.5);
   const std::vector<Tier> tiers = {{lifting(5)}};
-  const EscalationResult result = untangle(scene, {}, {.tiers = tiers});
+  const EscalationResult result = untangle(scene, {}, options_with(tiers));
   EXPECT_TRUE(result.left.empty());
   ASSERT_EQ(result.regions.size(), 1u);
   EXPECT_EQ(result.regions[0].strategy, "lifting");
@@ -224,7 +230,7 @@ TEST(Escalation, candidates_with_more_pairs_are_not_kept) {
   Scene scene = two_sheets(0.5);
   const std::size_t before = shapes::pairs_at(scene.x, scene.triangles).size();
   const std::vector<Tier> tiers = {{lifting(-0.5)}};  // deeper into the other sheet
-  const EscalationResult result = untangle(scene, {}, {.tiers = tiers});
+  const EscalationResult result = untangle(scene, {}, options_with(tiers));
   EXPECT_EQ(result.left.size(), before);
   EXPECT_TRUE(scene.x == scene.rest);
 }
@@ -233,7 +239,7 @@ TEST(Escalation, candidates_with_more_pairs_are_not_kept) {
 TEST(Escalation, what_a_tier_leaves_is_where_the_next_starts) {
   Scene scene = two_sheets(3);
   const std::vector<Tier> small = {{lifting(0.3), lifting(1)}};
-  const EscalationResult result = untangle(scene, {}, {.tiers = small});
+  const EscalationResult result = untangle(scene, {}, options_with(small));
   EXPECT_TRUE(result.left.empty());
   EXPECT_GT(result.regions.size(), 1u);
   for (const double depth : result.depths) EXPECT_LE(depth, 1 + 1e-12);
@@ -247,7 +253,7 @@ TEST(Escalation, squeezed_faces_make_a_candidate_worthless) {
   };
   const std::vector<Tier> tiers = {
       {{.name = "collapse", .extent = Extent::whole_components, .reach = 200, .solve = to_a_point}}};
-  untangle(scene, {}, {.tiers = tiers});
+  untangle(scene, {}, options_with(tiers));
   EXPECT_TRUE(scene.x == scene.rest);
 }
 

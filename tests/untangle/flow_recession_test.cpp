@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "shapes.h"
+#include "scene/shapes.h"
 #include "untangle/flow.h"
 
 namespace unsnarl {
