@@ -103,9 +103,11 @@ def test_limits_are_statuses(sheets):
 
 def test_max_displacement_in_units_of_the_mesh(sheets):
     V, F = sheets
-    largest = np.linalg.norm(unsnarl.repair(V, F).V - V, axis=1).max()
+    result = unsnarl.repair(V, F)
+    largest = np.linalg.norm(result.V - V, axis=1).max()
     assert unsnarl.repair(V, F, max_displacement=1.01 * largest, absolute=True).status == "embedded"
-    assert unsnarl.repair(V, F, max_displacement=0.99 * largest, absolute=True).status == "displacement_exceeded"
+    least = result.report["displacement_lower_bound_rel"] * result.report["diagonal"]
+    assert unsnarl.repair(V, F, max_displacement=0.9 * least, absolute=True).status == "displacement_exceeded"
 
 
 def test_result_in_words(crossing):

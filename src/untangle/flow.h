@@ -24,7 +24,7 @@ enum class FlowWeights {
 /// one.)
 struct FlowSettings {
   std::string_view name;
-  int max_iterations = 200;
+  int max_iterations = 200;  ///< of L-BFGS; most that succeed take 10 to 70
   /// Large: forces stay local; 1: they move whole limbs.
   double locality = 30;
   FlowWeights weights = FlowWeights::ratio;
@@ -68,7 +68,7 @@ struct FlowOptions {
   double stall_drop = 0.15;      ///< ... this relative drop of the number of pairs: something must change
   double hopeless_share = 0.8;   ///< of the pairs: a strategy that never got below by its last allowed stall gives up
   double few_pairs = 0.1;        ///< of the initial number: then the penalty grows, else the clusters
-  double spacing_growth = 1.6;
+  double spacing_growth = 1.6;  ///< of the clusters, on a stall with many pairs left
   double largest_minkowski =
       100;  ///< the strategy ends where it would have to grow further: from there on sheets only lock
   /// From this share of the initial pairs on (and from few_finish pairs on), the local contour method tries to take

@@ -16,7 +16,7 @@ struct RecessionOptions {
   double arrived = 0.03;          ///< of a step: a vertex that makes less has come to the spine
   double skirt = 1;               ///< mean edges: how far outside the boundary psi vanishes
   double least_cotangent = 0.05;  ///< weights of edges, at least and at most: psi needs them positive, also at slivers
-  double largest_cotangent = 10;
+  double largest_cotangent = 10;  ///< see least_cotangent
 };
 
 /// Lets the boundary of a surface recede along the surface itself, as it is at rest: f becomes f o phi, with phi an

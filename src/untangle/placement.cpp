@@ -192,11 +192,12 @@ class Placement {
       const double last = motion.is_translation() ? component.diagonal : options_.most_shrink;
       double blocked = 0, parameter = options_.first_step * last;
       bool free = false;
-      for (; parameter <= last && parameter * rate < least; parameter *= options_.growth) {
+      while (parameter * rate < least) {
         move(component, from, motion, parameter);
         free = is_free(component);
-        if (free) break;
+        if (free || parameter == last) break;
         blocked = parameter;
+        parameter = std::min(options_.growth * parameter, last);
       }
       if (!free) continue;
       for (int k = 0; k < options_.bisections; ++k) {

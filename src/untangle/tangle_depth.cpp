@@ -64,7 +64,7 @@ class Pieces {
   }
 
  private:
-  static constexpr Index none = -1;
+  static constexpr Index none = -1;  // in no part: of the core
 
   void unite(Index a, Index b) {
     a = parts_.find(a);

@@ -78,13 +78,6 @@ INSTANTIATE_TEST_SUITE_P(Repair, Samples,
                          [](const auto& info) { return std::string(info.param.sample); });
 
 // The contours of its windings can be driven off over its border, which takes 28 % of the diagonal.
-TEST(Repair, a_closer_way_is_taken_where_the_first_goes_far) {
-  const RepairResult result = repair(make_sample("spiral_sheet"));
-  EXPECT_EQ(result.status, Status::embedded);
-  EXPECT_LT(result.report.displacement_max_rel, 0.05);
-  ASSERT_FALSE(result.report.regions.empty());
-  for (const RegionReport& region : result.report.regions) EXPECT_EQ(region.strategy.substr(0, 4), "flow");
-}
 
 TEST(Repair, what_has_no_conflict_does_not_move) {
   // A crossing in the middle of large sheets: far from it nothing may move.
