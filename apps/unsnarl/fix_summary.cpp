@@ -82,7 +82,7 @@ std::vector<std::string> far_regions(const RepairReport& report) {
     if (region.displacement_rel > far_rel) regions.push_back(region);
   std::stable_sort(regions.begin(), regions.end(),
                    [](const auto& a, const auto& b) { return a.displacement_rel > b.displacement_rel; });
-  // What goes on from where another region has been has the same farthest vertex.
+  // Regions that went on from one another have the same farthest vertex.
   std::vector<std::string> lines;
   std::vector<std::int32_t> named;
   for (const RegionReport& region : regions) {

@@ -10,7 +10,7 @@
 
 namespace unsnarl {
 
-/// What the elements of energies add to a Hessian, by vertex ids. Every term is positive semidefinite.
+/// The terms that elements of energies add to a Hessian, by vertex ids. Every term is positive semidefinite.
 struct HessianTerms {
   /// factor * identity at one vertex.
   struct Diagonal {

@@ -9,7 +9,7 @@
 
 namespace unsnarl {
 
-/// What becomes of open edges at one place where several pairings are possible, or none.
+/// The treatment of open edges at one place where several pairings are possible, or none.
 enum class Ambiguous { keep_apart, weld };
 
 /// Welds the open edges that lie at one place (see mesh/weld_map.h). `welded` joins vertices that become one, `shells`

@@ -62,7 +62,7 @@ SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders) {
   for (int round = 0; round < rounding_rounds && !job_.limits.reached(); ++round) {
     job_.phases.start("untangle");
     EscalationOptions escalation = escalation_options();
-    // What rounding brought comes apart only where it is given room for it; else there is float64.
+    // Pairs that rounding brought separate only where they are given space for it; else there is float64.
     const bool may_fail = round > 0 && may_give_up_float32();
     if (round > 0) escalation.min_gap = [this](std::span<const Index> vertices) { return wanted_gap(vertices); };
     if (may_fail) escalation.tiers = local_tiers();

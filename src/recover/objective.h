@@ -16,7 +16,7 @@
 
 namespace unsnarl {
 
-/// What the recovery minimises (paper eq. 12): pull to the rest positions + (arap_length h)^2 ARAP
+/// The objective of the recovery (paper eq. 12): pull to the rest positions + (arap_length h)^2 ARAP
 /// + (bending_length h)^4 bending + penalty of flipped faces + barrier of contacts, over the vertices that move.
 class Objective {
  public:

@@ -56,8 +56,8 @@ struct RecoverOptions {
 
   // Continuation: the barrier's activation distance starts at `activation` and shrinks.
   double activation = 0.1;  ///< in h, at most
-  /// And at most this share of the largest displacement at the start, at any time: where little moved, little space is
-  /// needed, and a wide barrier would push everything farther away. Fans of needles end 300 times closer.
+  /// It is at most this share of the largest displacement at the start, at any time: where little moved, little space
+  /// is needed, and a wide barrier would push everything farther away. Fans of needles end 300 times closer.
   double activation_motion = 0.5;
   double activation_factor = 0.2;  ///< from stage to stage
   int stages = 3;                  ///< 0: only the steps at the first activation distance
@@ -76,8 +76,8 @@ struct RecoverOptions {
   double unflip_factor = 5;  ///< of the penalty, from round to round. 30 and 10: 8 to 10 left
   int unflip_rings = 2;      ///< around flipped faces that move
 
-  /// What ends farther from rest than this many times where it began (once gaps were open), by root of the sum of
-  /// squares, goes back there: around collapsed rings bending leads away. Of 248 regions all others end below 1.35.
+  /// A patch that ends farther from rest than this many times where it began (once gaps were open), by root of the sum
+  /// of squares, goes back there: around collapsed rings bending leads away. Of 248 regions all others end below 1.35.
   double most_farther = 1.4;
 
   int first_steps = 12;  ///< Newton steps at the first activation distance, with everything free

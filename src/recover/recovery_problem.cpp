@@ -94,7 +94,7 @@ std::vector<std::uint8_t> RecoveryProblem::touched_parts() {
     if (first >= 0) touched[first] = 1;
     if (last >= 0) touched[last] = 1;
   }
-  // What hangs on vertices that do not move is not free.
+  // A part that is connected to vertices that do not move is not free.
   for (Index i = 0; i < unknowns(); ++i)
     for (Index w : neighbours_[moving().vertices[i]])
       if (moving().slot[w] < 0) touched[part_[i]] = 1;

@@ -8,8 +8,8 @@
 
 namespace unsnarl {
 
-/// What was tried with each identified vertex of a surface, to say afterwards why pairs are left. Written by one thread
-/// at a time.
+/// A log of what was tried with each welded vertex of a surface, to say afterwards why pairs are left. Written by one
+/// thread at a time.
 struct AttemptLog {
   explicit AttemptLog(const Positions& rest)
       : strategy(rest.cols(), -1), is_cut_short(rest.cols(), 0), is_too_far(rest.cols(), 0), solved(rest) {}

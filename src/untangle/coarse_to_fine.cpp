@@ -47,14 +47,14 @@ Vec3 point_on_fan(const Positions& x, const Removal& removal) {
   return p;
 }
 
-/// Where the triangle of the fan carries the vertex: its offset from the triangle turns with that.
+/// The place to which the triangle of the fan carries the vertex: its offset from the triangle turns with that.
 Vec3 carried(const Removal& removal, double offset_share, const Positions& rest, const Positions& x) {
   const Vec3 offset = rest.col(removal.vertex) - point_on_fan(rest, removal);
   const Vec3 turned = frame_of(x, removal.corners) * (frame_of(rest, removal.corners).transpose() * offset);
   return point_on_fan(x, removal) + offset_share * turned;
 }
 
-/// Where a vertex that comes back may go.
+/// A place to which a vertex that comes back may go.
 struct Place {
   Vec3 position;
   int flipped = 0;  // faces of the star that would be turned against their rest normals
@@ -149,7 +149,7 @@ class Insertion {
 
   void put(std::size_t r, int place, Positions& x) const { x.col(removals_[r].vertex) = places_[r][place].position; }
 
-  /// Of the stars. Pairs that were there at the start, where nothing has moved, do not count.
+  /// Pairs of the stars. Those that were there at the start, where nothing has moved, do not count.
   void count_pairs(const Positions& x) {
     for (Try& t : tries_) t.pairs = 0;
     for (const IntersectingPair& pair : finder_.find(x)) {
@@ -212,7 +212,7 @@ class Insertion {
 
 class CoarseToFine {
  public:
-  /// What a coarse mesh was solved to.
+  /// The state that a coarse mesh was solved to.
   struct Solution {
     std::size_t round_count = 0;  // of the progressive mesh
     Positions x;
@@ -334,7 +334,7 @@ class CoarseToFine {
     return level;
   }
 
-  /// Of the pairs on a level those that are not to be resolved: the tolerated ones, and where nothing may move.
+  /// The pairs on a level that are not to be resolved: the tolerated ones, and where nothing may move.
   std::vector<IntersectingPair> tolerated_on(const Level& level, const std::vector<IntersectingPair>& pairs) const {
     const Scene& scene = level.scene;
     const auto is_fixed = [&](Index t) {
@@ -404,7 +404,7 @@ class CoarseToFine {
     SceneIndex index(level.scene);
     const std::vector<IntersectingPair> pairs = index.find_pairs();
     std::vector<IntersectingPair> tolerated = tolerated_on(level, pairs);
-    // What was not resolved on the coarsest mesh stays as it is.
+    // Pairs that were not resolved on the coarsest mesh stay as they are.
     const auto is_unmoved = [&](Index t) { return is_at(mesh_[mesh_.faces()[t]], x_, patch_.x); };
     for (const IntersectingPair& pair : pairs)
       if (is_unmoved(pair.a) && is_unmoved(pair.b)) tolerated.push_back(pair);

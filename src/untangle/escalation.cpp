@@ -26,7 +26,7 @@ constexpr int reach_rounds = 3;
 /// Rings around what a large region has moved that recovery may move too.
 constexpr int recovery_rings = 4;
 
-/// What the progress rule looks at.
+/// The counts that the progress rule compares.
 struct Pairs {
   std::size_t disjoint = 0, total = 0;
 
@@ -287,8 +287,8 @@ class Escalation {
     return true;
   }
 
-  /// Of the candidates of regions that have been through the strategies up to this level, those that leave at most this
-  /// share of the pairs.
+  /// Keeps the best candidates of regions that have been through the strategies up to this level, where they leave less
+  /// than this share of the pairs.
   void keep_best_candidates(Index level, double share) {
     for (auto it = best_.begin(); it != best_.end();) {
       Best& best = it->second;
@@ -308,6 +308,7 @@ class Escalation {
     result_.depths.push_back(attempt.motion());
     paste_patch(attempt.patch, scene_, index_);
     for (Index v : attempt.free) level_[v] = next_level;
+    for (Index v : attempt.region.core) level_[v] = next_level;  // some are fixed
     RegionReport report;
     report.strategy = strategy.name;
     report.faces = static_cast<std::size_t>(attempt.patch.active_count);
@@ -321,7 +322,7 @@ class Escalation {
     result_.moved.push_back(strategy.extent == Extent::depth ? moved_surroundings(attempt) : std::move(attempt.free));
   }
 
-  /// What is elsewhere than before and a little around it.
+  /// The vertices that have moved and a few rings around them.
   std::vector<Index> moved_surroundings(const Attempt& attempt) const {
     std::vector<Index> moved;
     for (std::size_t k = 0; k < attempt.free.size(); ++k)

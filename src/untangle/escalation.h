@@ -15,7 +15,7 @@
 namespace unsnarl {
 
 struct EscalationOptions {
-  /// What is tried, in this order.
+  /// The strategies that are tried, in this order.
   std::span<const Tier> tiers;
   /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share. With 1,
   /// a soup of crossings takes a tier for every pair.

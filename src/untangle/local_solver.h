@@ -34,7 +34,7 @@ enum class KeepSides {
 struct LocalOptions {
   double margin = 0.03;  ///< h: the penalty acts until the faces are this far apart; 28 iterations against 61 without
   double jitter = 1e-3;  ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
-  /// Of the way to the neighbours: to what size edges of length zero are opened first (open_zero_length_edges).
+  /// Edges of length zero are first opened to this share of the way to the neighbours (open_zero_length_edges).
   /// Without, rings of 64 vertices in one point take minutes; what is too much comes back in recovery.
   double opening = 0.01;
   double area_floor = 1e-3;     ///< a face thinner than this share of its area at the start is not accepted

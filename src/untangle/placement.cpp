@@ -99,7 +99,7 @@ class Placement {
     return it != tolerated_.end() && it->a == a && it->b == b;
   }
 
-  /// Of the component where it is in x_: does it meet anything that is present? Its own triangles are not.
+  /// The component, where it is in x_, meets nothing that is present. Its own triangles are not.
   bool is_free(const Component& component) const {
     for (Index t : component.triangles) {
       PairClass kind;
@@ -140,6 +140,9 @@ class Placement {
       for (int j = -1; j <= 1; ++j)
         for (int k = -1; k <= 1; ++k)
           if (std::tie(i, j, k) > std::tuple(0, 0, 0)) add_both_ways(Vec3(i, j, k));
+    Vec3 middle = Vec3::Zero();
+    for (Index v : component.vertices) middle += x_.col(v);
+    motions.push_back({.centre = middle / static_cast<double>(component.vertices.size())});
     const std::size_t step = component.vertices.size() / options_.most_centres + 1;
     for (std::size_t k = 0; k < component.vertices.size(); k += step)
       motions.push_back({.centre = x_.col(component.vertices[k])});

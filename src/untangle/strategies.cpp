@@ -24,7 +24,7 @@ Strategy local(std::string name, int rings, LocalSettings settings, std::size_t 
     LocalOptions options;
     options.few_enough = task.few_enough;
     options.min_gap = task.min_gap;
-    // What is inside out has to flip, and what surrounds it may have to: then nothing is kept.
+    // Faces that are inside out have to flip, and their surroundings may have to: then no side is kept.
     switch (settings.method) {
       case LocalMethod::shallow: options.sides = KeepSides::yes; break;  // wider strategies may still keep them
       case LocalMethod::contour:
@@ -51,7 +51,7 @@ Strategy coarse_to_fine() {
   const auto solve = [](Patch& patch, const Task& task) {
     return solve_on_coarser_mesh(patch, task.depth, task.tolerated, task.stop).iterations;
   };
-  // What it leaves is shallow, but may be much, and faces that found little space when they came back are recovered.
+  // It leaves shallow pairs, but may leave many; faces that found little space when they came back are recovered.
   return {.name = "coarse_to_fine",
           .extent = Extent::depth,
           .reach = 10,
@@ -68,7 +68,7 @@ Strategy placing() {
 
 const LocalSettings contour = {LocalMethod::contour, 0.1, 2, 60};
 
-/// What moves hardly more than the overlap.
+/// Strategies that move faces hardly more than they overlap.
 Tier shallow_tier() {
   return {local("shallow-0", 0, {LocalMethod::shallow, 0.1, 1, 20}, hub_valence),
           local("contour-2", 2, contour, hub_valence), local("contour-4", 4, contour, hub_valence)};

@@ -13,7 +13,7 @@
 
 namespace unsnarl {
 
-/// What a strategy is told besides the patch.
+/// The input of a strategy besides the patch.
 struct Task {
   std::span<const IntersectingPair> tolerated;  ///< pairs of patch triangles, sorted, that it need not resolve
   std::size_t few_enough = 0;                   ///< pairs: a candidate that leaves no more is kept
@@ -42,7 +42,7 @@ struct Strategy {
   /// starts with the first strategy. With a third, posed bodies end up to 12 % farther, with 0 they take 1.3 times as
   /// long.
   double gain_share = 0.1;
-  /// Of its area before: a candidate that squeezes a face further is worthless.
+  /// A candidate that squeezes a face to less than this share of its area before is worthless.
   double area_floor = 1e-3;
   /// Moves the free vertices of patch.x, from where they are, to a state with fewer intersecting pairs, if it finds
   /// one. Returns the number of its iterations. What the candidate is worth is decided by the escalation.

@@ -8,7 +8,7 @@
 
 namespace unsnarl::shapes {
 
-/// What of a lens lies at one position without being one vertex.
+/// The part of a lens that lies at one position without being one vertex.
 enum class LensPinch {
   none,
   vertices,         ///< the middles of front and back

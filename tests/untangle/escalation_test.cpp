@@ -238,11 +238,11 @@ TEST(Escalation, candidates_with_more_pairs_are_not_kept) {
 // Each step up leaves fewer pairs, but too many to be kept at once: the best candidate of the tier is.
 TEST(Escalation, what_a_tier_leaves_is_where_the_next_starts) {
   Scene scene = two_sheets(3);
-  const std::vector<Tier> small = {{lifting(0.3), lifting(1.6)}};
+  const std::vector<Tier> small = {{lifting(0.3), lifting(2.4)}};
   const EscalationResult result = untangle(scene, {}, options_with(small));
   EXPECT_TRUE(result.left.empty());
   EXPECT_GT(result.regions.size(), 1u);
-  for (const double depth : result.depths) EXPECT_LE(depth, 1.6 + 1e-12);
+  for (const double depth : result.depths) EXPECT_LE(depth, 2.4 + 1e-12);
 }
 
 TEST(Escalation, squeezed_faces_make_a_candidate_worthless) {
