@@ -70,10 +70,10 @@ std::string fate_of_output(Status status, const std::string& output) {
                                       : "nothing written; --keep-partial writes what was reached";
 }
 
-/// Regions whose vertices lie so far from rest, in diagonals, are named: farther than what is asked of a repair that
-/// nobody is to see.
+/// Diagonals from rest beyond which a region is named: those who mesh volumes reject repairs that move farther than 1
+/// %.
 constexpr double far_rel = 0.01;
-constexpr std::size_t most_far_regions = 3;
+constexpr std::size_t most_far_regions = 3;  // lines
 
 /// The regions that had to go farthest, each where and why.
 std::vector<std::string> far_regions(const RepairReport& report) {

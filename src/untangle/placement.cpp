@@ -248,9 +248,10 @@ std::vector<Index> vertices_of_tied_components(const Scene& scene, const Connect
   UnionFind tied(parts.face_count.size());
   bool is_between = false;
   for (const IntersectingPair& pair : region.pairs)
-    is_between |= tied.unite(part_of(pair.a), part_of(pair.b)) || part_of(pair.a) != part_of(pair.b);
+    is_between |= part_of(pair.a) != part_of(pair.b);
   if (!is_between) return {};
-  for (const IntersectingPair& pair : initial_pairs) tied.unite(part_of(pair.a), part_of(pair.b));
+  for (const auto pairs : {std::span<const IntersectingPair>(region.pairs), initial_pairs})
+    for (const IntersectingPair& pair : pairs) tied.unite(part_of(pair.a), part_of(pair.b));
   const Index group = tied.find(part_of(region.pairs.front().a));
   std::vector<std::uint8_t> is_free(parts.face_count.size(), 0);
   for (std::size_t part = 0; part < is_free.size(); ++part)
