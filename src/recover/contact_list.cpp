@@ -34,6 +34,12 @@ void ContactList::follow(const Positions& x, const Positions& p, const MovingVer
     const auto goes_far = [&](Index v) { return p.col(v).norm() > far; };
     const auto far_count = std::count_if(moving.vertices.begin(), moving.vertices.end(), goes_far);
     const bool lasts = static_cast<double>(far_count) <= most;
+    if (anew) {
+      gathered_at_ = x;  // of those too that are held by now
+      bounds_.reset(static_cast<Index>(x.cols()));
+      travelled_.assign(moving.moves.size(), 0);
+      travel_.assign(moving.moves.size(), 0);
+    }
     for (Index v : anew ? moving.vertices : leaving_) {
       const double length = p.col(v).norm();
       gathered_at_.col(v) = x.col(v);

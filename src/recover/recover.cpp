@@ -52,6 +52,8 @@ class Recovery {
   /// The free vertices that are not at rest, and some rings around them.
   std::vector<std::uint8_t> contact_region() const;
   void step(const std::vector<std::uint8_t>& moves, double activation, int steps, const RecoverOptions::Stop& stop);
+  /// Steps of the contact region, as many as are left.
+  void stage(double activation, const RecoverOptions::Stop& stop);
   void open();
   /// Active faces that are flipped.
   std::vector<Index> flipped_faces() const;
@@ -130,19 +132,25 @@ std::vector<Index> Recovery::flipped_faces() const {
 
 void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int steps,
                     const RecoverOptions::Stop& stop) {
-  if (!problem_.start(moves, activation)) return;
   NewtonOptions newton;
+  newton.motion = std::max(options_.stop_motion * h_, options_.stop_activation * activation);
+  if (!problem_.start(moves, activation, newton.motion)) return;
   newton.max_steps = steps;
   newton.solver = options_.solver;
   newton.limited_tolerance = options_.limited_tolerance;
   newton.scalar_jacobi = options_.scalar_jacobi;
   newton.decrease = stop.decrease;
   newton.window = stop.window;
-  newton.motion = std::max(options_.stop_motion * h_, options_.stop_activation * activation);
   const NewtonResult done = minimise_newton(problem_, newton, stop_);
   result_.iterations += done.iterations;
   result_.solver_iterations += done.solver_iterations;
   result_.stopped |= done.stopped;
+}
+
+void Recovery::stage(double activation, const RecoverOptions::Stop& stop) {
+  const std::vector<std::uint8_t> moves = contact_region();
+  if (!result_.stopped && std::find(moves.begin(), moves.end(), 1) != moves.end())
+    step(moves, activation, options_.max_steps - result_.iterations, stop);
 }
 
 void Recovery::open() {
@@ -210,7 +218,9 @@ RecoverResult Recovery::run() {
     return std::max(std::min(share_of_h * h_, options_.activation_motion * start_motion_),
                     options_.least_gaps * min_gap);
   };
-  double activation = activation_of(options_.activation);
+  const double activation = activation_of(options_.activation);
+  const double last_activation =
+      options_.last_activation > 0 ? activation_of(options_.last_activation) : activation;
 
   open();
   safe_ = patch_.x;
@@ -218,15 +228,8 @@ RecoverResult Recovery::run() {
 
   step(everything(), activation, std::min(options_.first_steps, options_.max_steps), options_.coarse);
   snap(everything());
-  const double last_activation =
-      activation_of(options_.activation * std::pow(options_.activation_factor, options_.stages - 1));
-  for (bool last = options_.stages == 0; !last && !result_.stopped;) {
-    last = activation <= 1.001 * last_activation;
-    const std::vector<std::uint8_t> moves = contact_region();
-    if (std::find(moves.begin(), moves.end(), 1) == moves.end()) break;
-    step(moves, activation, options_.max_steps - result_.iterations, last ? options_.fine : options_.coarse);
-    activation = std::max(activation * options_.activation_factor, last_activation);
-  }
+  if (last_activation < activation) stage(activation, options_.coarse);
+  if (options_.last_activation > 0) stage(last_activation, options_.fine);
   unflip(last_activation);
   guard_.roll_back(patch_.x, safe_);
   safe_ = patch_.x;
@@ -234,7 +237,7 @@ RecoverResult Recovery::run() {
   if (motion > options_.most_farther * (opened - patch_.rest).norm()) safe_ = patch_.x = opened;
   snap(everything());
 
-  measure_gap(std::max(2 * min_gap, activation));
+  measure_gap(std::max(2 * min_gap, last_activation));
   for (Index v = 0; v < patch_.free_count; ++v) {
     result_.at_rest += patch_.x.col(v) == patch_.rest.col(v);
     result_.moved |= patch_.x.col(v) != start_.col(v);
@@ -248,13 +251,14 @@ RecoverOptions RecoverOptions::paper() {
   RecoverOptions options;
   options.max_steps = 500;
   options.first_steps = 500;
-  options.stages = 0;
+  options.last_activation = 0;
   options.coarse = options.fine = {0, 1};
   options.stop_motion = options.stop_activation = 0;
   options.solver = {1e-6, 2000};
   options.limited_tolerance = 0;
   options.scalar_jacobi = true;
   options.step.shorten_all = true;
+  options.step.kept_distance = CcdOptions{}.slack;
   options.objective.time_step = 1;
   options.unflip_rounds = 0;
   options.most_farther = std::numeric_limits<double>::infinity();

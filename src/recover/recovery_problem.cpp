@@ -7,6 +7,14 @@
 #include "scene/trajectory.h"
 
 namespace unsnarl {
+namespace {
+
+/// Newton steps after which a vertex that they hardly moved is held: after one, it may have waited for others.
+constexpr int steps_of_the_stationary = 2;
+/// Share of the moving vertices that are held together: to hold them one by one costs more than it saves.
+constexpr double held_together = 0.3;
+
+}  // namespace
 
 RecoveryProblem::RecoveryProblem(Patch& patch, ContactRules& rules, const IndexLists& neighbours, Objective& objective,
                                  const StepOptions& options, double h, std::size_t tolerated_pairs)
@@ -18,8 +26,10 @@ RecoveryProblem::RecoveryProblem(Patch& patch, ContactRules& rules, const IndexL
       tolerated_pairs_(tolerated_pairs),
       contacts_(rules, h) {}
 
-bool RecoveryProblem::start(std::vector<std::uint8_t> moves, double activation) {
+bool RecoveryProblem::start(std::vector<std::uint8_t> moves, double activation, double stationary) {
   activation_ = activation;
+  stationary_ = stationary;
+  small_steps_.assign(moves.size(), 0);
   set_moving(std::move(moves));
   if (unknowns() == 0) return false;
   contacts_.gather(patch_.x, activation_, moving());
@@ -37,6 +47,17 @@ void RecoveryProblem::set_moving(std::vector<std::uint8_t> moves) {
       if (now.slot[w] >= 0) parts.unite(i, now.slot[w]);
   part_ = parts.dense_ids();
   part_count_ = part_.empty() ? 0 : 1 + *std::max_element(part_.begin(), part_.end());
+}
+
+void RecoveryProblem::hold_stationary() {
+  const auto is_stationary = [&](Index v) { return small_steps_[v] >= steps_of_the_stationary; };
+  const std::vector<Index>& vertices = moving().vertices;
+  const auto count = std::count_if(vertices.begin(), vertices.end(), is_stationary);
+  if (count == unknowns() || static_cast<double>(count) < held_together * unknowns()) return;
+  std::vector<std::uint8_t> moves = moving().moves;
+  for (Index v : vertices)
+    if (is_stationary(v)) moves[v] = 0;
+  set_moving(std::move(moves));
 }
 
 bool RecoveryProblem::hold(std::span<const Stencil> stencils) {
@@ -102,6 +123,10 @@ std::vector<std::uint8_t> RecoveryProblem::touched_parts() {
 }
 
 bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
+  for (Index i = 0; i < unknowns(); ++i) {
+    int& small_steps = small_steps_[moving().vertices[i]];
+    small_steps = step.col(i).norm() < stationary_ ? small_steps + 1 : 0;
+  }
   const double cap = options_.cap * h_;
   if (options_.shorten_all) {
     const double longest = std::sqrt(step.colwise().squaredNorm().maxCoeff());
@@ -157,7 +182,7 @@ bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
 void RecoveryProblem::filter(Eigen::Matrix3Xd& step) {
   spread(step);
   filter_step(contacts_.in_the_way(), {objective_.orientation(), objective_.triangles(), options_.kept_area}, patch_.x,
-              displacement_, OnCollision::shorten);
+              displacement_, OnCollision::shorten, {.slack = options_.kept_distance});
   for (Index i = 0; i < unknowns(); ++i) step.col(i) = displacement_.col(moving().vertices[i]);
 }
 
@@ -170,6 +195,7 @@ double RecoveryProblem::value(const Eigen::Matrix3Xd& step) {
 void RecoveryProblem::accept(const Eigen::Matrix3Xd& step) {
   patch_.x += spread(step);
   is_new_state_ = true;
+  hold_stationary();
 }
 
 }  // namespace unsnarl

@@ -22,8 +22,9 @@ class RecoveryProblem final : public NewtonProblem {
                   const StepOptions& options, double h, std::size_t tolerated_pairs);
 
   /// From now on these vertices move, but those that are so close to something that round-off hides it, against
-  /// barriers that set in at `activation`. False: none is left.
-  bool start(std::vector<std::uint8_t> moves, double activation);
+  /// barriers that set in at `activation`. Vertices that two Newton steps move by less than the length `stationary` are
+  /// held. False: none is left.
+  bool start(std::vector<std::uint8_t> moves, double activation, double stationary);
   const MovingVertices& moving() const { return objective_.moving(); }
 
   Index unknowns() const override { return moving().count(); }
@@ -43,6 +44,8 @@ class RecoveryProblem final : public NewtonProblem {
 
  private:
   void set_moving(std::vector<std::uint8_t> moves);
+  /// Holds what is stationary, once it is much.
+  void hold_stationary();
   bool hold(std::span<const Stencil> stencils);
   void note_iteration();
   /// Displacements of all vertices.
@@ -58,7 +61,8 @@ class RecoveryProblem final : public NewtonProblem {
   double h_;
   std::size_t tolerated_pairs_;
   ContactList contacts_;
-  double activation_ = 0;
+  double activation_ = 0, stationary_ = 0;
+  std::vector<int> small_steps_;  // per vertex: so many Newton steps in a row were shorter than stationary_
   Index part_count_ = 0;
   std::vector<Index> part_;  // of each unknown
   Hessian hessian_;

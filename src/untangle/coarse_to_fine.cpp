@@ -416,7 +416,8 @@ class CoarseToFine {
       if (level.scene.x.col(v) != level.scene.rest.col(v)) moved.push_back(v);
     RecoverOptions steps;
     steps.activation = options_.level_activation;
-    steps.stages = 1;
+    steps.last_activation = steps.activation;
+    steps.unflip_rounds = 0;
     steps.max_steps = options_.level_steps;
     steps.first_steps = options_.level_steps / 2;
     recover(level, index, {dilate(level.scene, moved, options_.level_rings)}, 0, steps);
