@@ -121,6 +121,7 @@ EscalationOptions SceneRepair::escalation_options() {
   escalation.recorder = &job_.recorder;
   escalation.first_region = job_.regions.size();
   escalation.attempts = &job_.tried;
+  if (job_.options.recover) escalation.recover = [this](Patch& patch) { recover(patch); };
   if (job_.options.max_displacement_rel > 0) escalation.accept = [this](Patch& patch) { return stays_near(patch); };
   escalation.on_progress = [this](std::size_t left) {
     const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
@@ -155,6 +156,12 @@ double SceneRepair::recover(const std::vector<std::vector<Index>>& regions, Scen
   options.min_gap = [this](std::span<const Index> vertices) { return wanted_gap(vertices); };
   options.stop = job_.limits.stopper();
   return recover_regions(scene_, index, regions, options, job_.recorder);
+}
+
+void SceneRepair::recover(Patch& patch) const {
+  RecoverOptions options;
+  options.min_gap = wanted_gap({patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
+  unsnarl::recover(patch, options, job_.limits.stopper());
 }
 
 void SceneRepair::report_progress(double fraction, std::size_t pairs_left) {
@@ -226,9 +233,7 @@ bool SceneRepair::stays_near(Patch& patch) {
   };
   if (is_near()) return true;
   if (job_.options.recover) {
-    RecoverOptions recovery;
-    recovery.min_gap = wanted_gap({patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
-    unsnarl::recover(patch, recovery, job_.limits.stopper());
+    recover(patch);
     if (is_near()) return true;
   }
   displacement_is_exceeded_ = true;

@@ -83,6 +83,8 @@ class SceneRepair {
   /// Says of each region how deep it was and how far it went.
   void measure_regions(EscalationResult& untangled) const;
   double recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index);
+  /// A candidate by itself.
+  void recover(Patch& patch) const;
   bool stays_near(Patch& patch);
   void report_progress(double fraction, std::size_t pairs_left);
 

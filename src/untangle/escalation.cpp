@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -18,10 +19,6 @@
 
 namespace unsnarl {
 namespace {
-
-/// How often the obstacles are taken in from farther away, for candidates that moved farther than they reached: of 254
-/// regions that local strategies resolved 6 did, none twice.
-constexpr int reach_rounds = 3;
 
 /// Rings around what a large region has moved that recovery may move too.
 constexpr int recovery_rings = 4;
@@ -46,6 +43,7 @@ struct Attempt {
   std::vector<Index> free;
   double edge_length = 0;
   int depth = 0;     // edges, where the strategy asks for it
+  double bound = 0;  // of the motion: a candidate beyond waits for a nearer one
   double reach = 0;  // how far around the patch obstacles are taken in
   Patch patch;
   Positions start;
@@ -55,6 +53,7 @@ struct Attempt {
   Pairs before{{}}, left{{}};
   bool is_sound = false;     // no face is squeezed
   bool is_rejected = false;  // without pairs, but not accepted
+  double distance = 0;       // of the vertices to rest after recovery, summed, where that is known
 
   bool is_clean() const { return is_sound && left.total == 0; }
   double motion() const {
@@ -69,7 +68,10 @@ class Escalation {
       : scene_(scene), index_(index), ignored_(ignored), options_(options), level_(scene.vertex_count(), 0) {
     for (const Tier& tier : options.tiers) {
       const Index begin = static_cast<Index>(levels_.size());
-      for (const Strategy& strategy : tier) levels_.push_back({&strategy, begin, &strategy == &tier.back()});
+      for (const Strategy& strategy : tier) {
+        if (!strategy.is_last_resort && longest_wait_ == last() - 1) ++longest_wait_;
+        levels_.push_back({&strategy, begin, &strategy == &tier.back()});
+      }
     }
   }
 
@@ -81,17 +83,21 @@ class Escalation {
       if (level == last()) break;
       try_strategy(level);
       if (levels_[level].ends_tier) keep_best_candidates(level, options_.worthwhile_share);
+      if (level >= longest_wait_) keep_waiting(level);
       find_pairs();
     }
-    if (!stopped()) {
-      keep_best_candidates(last() - 1, 1);
-      find_pairs();
-    }
+    keep_waiting(-1);
+    if (!stopped()) keep_best_candidates(last() - 1, 1);
+    find_pairs();
     note_what_is_left();
     return std::move(result_);
   }
 
  private:
+  struct Candidate {
+    Attempt attempt;
+    Index level;
+  };
   struct Level {
     const Strategy* strategy;
     Index tier_begin;  // the first level of its tier
@@ -134,17 +140,21 @@ class Escalation {
     std::vector<Attempt> attempts = gather_attempts(strategy);
     note_attempts(attempts, strategy);
     index_.update();
-    for (int round = 0; round < reach_rounds && !attempts.empty() && !stopped(); ++round) {
-      std::vector<Box> boxes;
-      for (const Attempt& attempt : attempts) boxes.push_back(patch_box(scene_, attempt.free, 2 * attempt.reach));
-      std::vector<Attempt> again;
-      run_in_batches(
-          boxes, [&](std::size_t i) { run(attempts[i], strategy); },
-          [&](std::size_t i) {
-            if (!judge(attempts[i], strategy, level)) again.push_back(std::move(attempts[i]));
-          });
-      attempts = std::move(again);
-    }
+    std::vector<Attempt> far;
+    run_in_batches(
+        boxes_of(attempts), [&](std::size_t i) { run(attempts[i], strategy); },
+        [&](std::size_t i) {
+          if (!judge(attempts[i], strategy, level)) far.push_back(std::move(attempts[i]));
+        });
+    run_in_batches(
+        boxes_of(far), [&](std::size_t i) { look_farther(far[i]); },
+        [&](std::size_t i) { judge_far(far[i], strategy, level); });
+  }
+
+  std::vector<Box> boxes_of(const std::vector<Attempt>& attempts) const {
+    std::vector<Box> boxes;
+    for (const Attempt& attempt : attempts) boxes.push_back(patch_box(scene_, attempt.free, 2 * attempt.reach));
+    return boxes;
   }
 
   /// The regions that are tried now, each with its free vertices; one whose free vertices reach another's core takes it
@@ -184,7 +194,9 @@ class Escalation {
       for (const IntersectingPair& pair : region.pairs)
         for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
       attempt.edge_length = mean_equilateral_side(scene_.rest, core_faces);
-      attempt.reach = strategy.reach * attempt.edge_length;
+      attempt.bound = strategy.reach * attempt.edge_length;
+      if (strategy.extent == Extent::depth) attempt.bound *= attempt.depth;
+      attempt.reach = attempt.bound;
       attempts.push_back(std::move(attempt));
     }
     return attempts;
@@ -245,14 +257,38 @@ class Escalation {
     attempt.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
+  /// Puts a candidate among the obstacles within its reach, and recovers it there.
+  void look_farther(Attempt& attempt) const {
+    Patch patch = cut_patch(scene_, index_, attempt.free, attempt.reach);
+    patch.edge_length = attempt.edge_length;
+    IntersectionFinder finder(patch.triangles, patch.active_count);
+    std::vector<IntersectingPair> tolerated;
+    for (const IntersectingPair& pair : finder.find(patch.x))
+      if (!is_of_region(patch, attempt.region, pair)) tolerated.push_back(pair);
+    attempt.start = patch.x;
+    patch.x.leftCols(patch.free_count) = attempt.patch.x.leftCols(patch.free_count);
+    attempt.patch = std::move(patch);
+    attempt.left = Pairs(blocking_pairs(finder.find(attempt.patch.x), tolerated));
+    if (attempt.is_clean() && options_.recover) {
+      options_.recover(attempt.patch);
+      attempt.left = Pairs(blocking_pairs(finder.find(attempt.patch.x), tolerated));
+    }
+    attempt.distance = distances_to_rest(attempt.patch).sum();
+  }
+
+  /// Column k: of free vertex k.
+  static Eigen::RowVectorXd distances_to_rest(const Patch& patch) {
+    return (patch.x - patch.rest).leftCols(patch.free_count).colwise().norm();
+  }
+
   /// Pairs of active triangles that are not the region's belong to other regions or are tolerated.
   static bool is_of_region(const Patch& patch, const ConflictRegion& region, const IntersectingPair& pair) {
     const auto [a, b] = std::minmax(patch.faces[pair.a], patch.faces[pair.b]);
     return std::binary_search(region.pairs.begin(), region.pairs.end(), IntersectingPair{a, b, pair.kind});
   }
 
-  /// The progress rule: keeps the candidate, remembers it, or forgets it. False: it moved farther than the obstacles
-  /// that it knew, and is to be computed again with more of them.
+  /// The progress rule: keeps the candidate, remembers it, or forgets it. False: it went far, or another one of its
+  /// region did, and that is to be compared.
   bool judge(Attempt& attempt, const Strategy& strategy, Index level) {
     if (!attempt.is_sound || !attempt.left.fell_from(attempt.before)) return true;
     if (attempt.is_rejected) {
@@ -263,10 +299,27 @@ class Escalation {
     }
     if (options_.accept && !attempt.is_clean()) return true;
     const double motion = attempt.motion();
-    if (motion > attempt.reach) {
-      attempt.reach = 2 * motion;
+    if (motion > attempt.reach || waiting_for(attempt.region)) {
+      attempt.reach = std::max(attempt.reach, 2 * motion);
       return false;
     }
+    keep_or_remember(attempt, strategy, level);
+    return true;
+  }
+
+  void judge_far(Attempt& attempt, const Strategy& strategy, Index level) {
+    if (!attempt.left.fell_from(attempt.before)) return;
+    Candidate* const waiting = waiting_for(attempt.region);
+    if (waiting && (!attempt.is_clean() || attempt.distance >= waiting->attempt.distance)) return;
+    if (!attempt.is_clean() || distances_to_rest(attempt.patch).maxCoeff() <= attempt.bound)
+      keep_or_remember(attempt, strategy, level);
+    else if (waiting)
+      *waiting = {std::move(attempt), level};
+    else
+      waiting_.push_back({std::move(attempt), level});
+  }
+
+  void keep_or_remember(Attempt& attempt, const Strategy& strategy, Index level) {
     if (!attempt.is_clean()) attempt.trajectory.end_at_fewest_pairs();
     if (attempt.is_clean() || attempt.left.is_below(strategy.gain_share, attempt.before)) {
       keep(attempt, strategy, 0);
@@ -275,9 +328,29 @@ class Escalation {
       const auto known = best_.find(key);
       if (known == best_.end() || !is_current(known->second.attempt) ||
           attempt.left.total < known->second.attempt.left.total)
-        best_.insert_or_assign(key, Best{std::move(attempt), level});
+        best_.insert_or_assign(key, Candidate{std::move(attempt), level});
     }
-    return true;
+  }
+
+  /// The candidate of this region that waits; none: null.
+  Candidate* waiting_for(const ConflictRegion& region) {
+    const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Candidate& waiting) {
+      return waiting.attempt.region.core == region.core && is_current(waiting.attempt);
+    });
+    return found == waiting_.end() ? nullptr : &*found;
+  }
+
+  /// Keeps the candidates that wait, the nearest first, of regions that have been through the strategies up to this
+  /// level.
+  void keep_waiting(Index level) {
+    const auto is_due = [&](const Candidate& waiting) { return level_of(waiting.attempt.region) > level; };
+    const auto due = std::stable_partition(waiting_.begin(), waiting_.end(), std::not_fn(is_due));
+    std::stable_sort(due, waiting_.end(), [](const Candidate& a, const Candidate& b) {
+      return a.attempt.distance < b.attempt.distance;
+    });
+    for (auto waiting = due; waiting != waiting_.end(); ++waiting)
+      if (is_current(waiting->attempt)) keep(waiting->attempt, *levels_[waiting->level].strategy, 0);
+    waiting_.erase(due, waiting_.end());
   }
 
   /// Nothing has moved there since the candidate was made.
@@ -291,7 +364,7 @@ class Escalation {
   /// than this share of the pairs.
   void keep_best_candidates(Index level, double share) {
     for (auto it = best_.begin(); it != best_.end();) {
-      Best& best = it->second;
+      Candidate& best = it->second;
       const bool is_due = level_of(best.attempt.region) > level;
       if (is_due && is_current(best.attempt) && best.attempt.left.is_below(share, best.attempt.before))
         keep(best.attempt, *levels_[best.level].strategy, levels_[best.level].tier_begin);
@@ -352,11 +425,6 @@ class Escalation {
     result_.left = pairs_;
   }
 
-  struct Best {
-    Attempt attempt;
-    Index level;
-  };
-
   Scene& scene_;
   SceneIndex& index_;
   std::span<const IntersectingPair> ignored_;
@@ -365,7 +433,9 @@ class Escalation {
   std::vector<IntersectingPair> pairs_, initial_pairs_;
   std::vector<Index> level_;             // per vertex: the strategy that its conflict is to be tried on next
   std::vector<std::uint8_t> is_tried_;   // per vertex: in the core of a region that is tried now
-  std::map<Index, Best> best_;           // by the first vertex of the region's core
+  std::map<Index, Candidate> best_;      // by the first vertex of the region's core
+  std::vector<Candidate> waiting_;       // clean ones that went far
+  Index longest_wait_ = -1;              // the last level before the last resorts
   std::optional<ConnectedParts> parts_;  // made when first asked for
   std::set<Index> rejected_;             // vertices of regions that were resolved in a way that was not accepted
   EscalationResult result_;

@@ -31,6 +31,9 @@ struct EscalationOptions {
   /// Asked about a candidate without pairs (from any thread); may improve it. False: the region goes on with the next
   /// strategy. Regions that are not resolved then stay where they are.
   std::function<bool(Patch& patch)> accept;
+  /// Recovers a candidate that went far (from any thread), so that candidates are compared by where they end; none:
+  /// they are compared as they are.
+  std::function<void(Patch& patch)> recover;
   Recorder* recorder = nullptr;    ///< notes how regions were resolved; none: nobody does
   AttemptLog* attempts = nullptr;  ///< notes what was tried; none: nobody does
   std::size_t first_region = 0;    ///< number that the recorder is given for the first region
@@ -45,8 +48,10 @@ struct EscalationResult {
 
 /// Untangles the scene region by region, everything outside the region held. A region goes from strategy to strategy
 /// until a candidate has so few pairs that it is kept; what is left of it is segmented anew and starts from the first
-/// strategy. At the end of a tier its best candidate is kept where it is worth while, and the tier starts anew. Only
-/// candidates with fewer pairs, and no more disjoint ones, are ever kept, so this ends. Regions that lie apart do not
+/// strategy. At the end of a tier its best candidate is kept where it is worth while, and the tier starts anew. A
+/// candidate that resolves its region but goes far waits until all have been tried but the last resorts; then the
+/// nearest is kept. Only candidates with fewer pairs, and no more disjoint ones, are ever kept, so
+/// this ends. Regions that lie apart do not
 /// influence each other. Pairs in `ignored` (sorted, of triangles) are tolerated.
 EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
                           const EscalationOptions& options);

@@ -44,7 +44,7 @@ Strategy flow_of(std::string name, Extent extent, int rings, const FlowSettings&
     rest.swap(patch.rest);
     return iterations;
   };
-  return {.name = std::move(name), .extent = extent, .rings = rings, .reach = 20, .solve = solve};
+  return {.name = std::move(name), .extent = extent, .rings = rings, .reach = 20, .is_last_resort = true, .solve = solve};
 }
 
 Strategy coarse_to_fine() {
@@ -54,7 +54,7 @@ Strategy coarse_to_fine() {
   // It leaves shallow pairs, but may leave many; faces that found little space when they came back are recovered.
   return {.name = "coarse_to_fine",
           .extent = Extent::depth,
-          .reach = 10,
+          .reach = 2.5,
           .least_depth = deep,
           .gain_share = 1.0 / 3,
           .area_floor = 1e-12,

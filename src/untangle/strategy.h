@@ -35,7 +35,10 @@ struct Strategy {
   std::string name;
   Extent extent = Extent::rings;
   int rings = 0;     ///< edges, for Extent::rings
-  double reach = 4;  ///< h: obstacles are taken in this far around; a candidate that moves farther is computed again
+  /// Bound of the motion, in h (times the depth of the tangle, for Extent::depth): obstacles are taken in this far
+  /// around, and a candidate that moves a vertex farther, even after recovery, waits for a nearer one.
+  double reach = 4;
+  bool is_last_resort = false;  ///< it is tried only where nothing before it has resolved the region, however far away
   std::size_t hub_valence = no_hubs;
   int least_depth = 0;  ///< edges: tangles less deep are left to other strategies
   /// A candidate that leaves less than this share of a region's pairs is kept at once; the rest is segmented anew and
