@@ -117,5 +117,17 @@ void gltf(Bytes bytes) {
   const bool is_glb = bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
   check(bytes, is_glb ? Format::glb : Format::gltf);
 }
+void surf(Bytes bytes) {
+  check(bytes, Format::surf);
+}
+void gii(Bytes bytes) {
+  check(bytes, Format::gii);
+}
+void vtk(Bytes bytes) {
+  check(bytes, Format::vtk);
+}
+void vtp(Bytes bytes) {
+  check(bytes, Format::vtp);
+}
 
 }  // namespace unsnarl::fuzz
