@@ -14,7 +14,7 @@
 
 namespace unsnarl {
 
-enum class Format : std::uint8_t { obj, off, ply, stl, glb, gltf, surf, gii, vtk, vtp };
+enum class Format : std::uint8_t { obj, off, ply, stl, glb, gltf, surf, gii, vtk, vtp, msh, inp, threemf };
 std::string_view to_string(Format format);
 /// By the extension of a path ("a/b.OBJ", "lh.pial"), or by the bare name of a format ("obj"). Case does not matter.
 std::optional<Format> format_from_extension(std::string_view path);

@@ -15,7 +15,7 @@ namespace unsnarl {
 using ParseFile = std::unique_ptr<MeshFile>(std::string bytes, const std::filesystem::path& folder);
 // Each in the file of its name.
 ParseFile parse_obj, parse_off, parse_ply, parse_stl, parse_glb, parse_gltf, parse_surf, parse_gii, parse_vtk,
-    parse_vtp;
+    parse_vtp, parse_msh, parse_inp, parse_threemf;
 
 struct FormatEntry {
   Format format;
@@ -36,6 +36,9 @@ inline constexpr auto formats = std::to_array<FormatEntry>({
     {Format::gii, "gii", parse_gii, "gifti"},
     {Format::vtk, "vtk", parse_vtk},
     {Format::vtp, "vtp", parse_vtp},
+    {Format::msh, "msh", parse_msh},
+    {Format::inp, "inp", parse_inp},
+    {Format::threemf, "3mf", parse_threemf},
 });
 static_assert([] {
   for (std::size_t i = 0; i < formats.size(); ++i)

@@ -112,8 +112,7 @@ class GiftiParser {
   }
 
   void add_surface(const DataArray& points, const DataArray& triangles) {
-    if (is_integer(points.numbers.type) || !is_integer(triangles.numbers.type))
-      xml_.fail(points.element, "points should be floating-point numbers, and triangles whole numbers");
+    if (is_integer(points.numbers.type)) xml_.fail(points.element, "points should be floating-point numbers");
     const std::size_t first = file_.vertex_count();
     PointFile::Layout layout;
     if (points.by_columns) layout = {1, points.rows};

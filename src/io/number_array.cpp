@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <cmath>
 
 #include "io/byte_order.h"
 #include "io/text_scanner.h"
@@ -10,6 +10,9 @@
 
 namespace unsnarl {
 namespace {
+
+/// Whole numbers below it are exact in a double.
+constexpr double largest_exact = 9007199254740992;
 
 /// Calls use(T{}) with the C++ type of the stored numbers.
 template <class Use>
@@ -42,10 +45,14 @@ double load_number(const char* from, NumberType type, std::endian order) {
   return with_type(type, [&](auto zero) { return static_cast<double>(load<decltype(zero)>(from, order)); });
 }
 
-std::int64_t load_whole_number(const char* from, NumberType type, std::endian order) {
-  return with_type(type, [&](auto zero) {
+std::optional<std::int64_t> load_whole_number(const char* from, NumberType type, std::endian order) {
+  return with_type(type, [&](auto zero) -> std::optional<std::int64_t> {
     using T = decltype(zero);
-    return std::is_integral_v<T> ? static_cast<std::int64_t>(load<T>(from, order)) : 0;
+    const T value = load<T>(from, order);
+    if constexpr (!std::is_integral_v<T>) {
+      if (!(std::abs(value) < largest_exact) || value != std::floor(value)) return std::nullopt;
+    }
+    return static_cast<std::int64_t>(value);
   });
 }
 
@@ -71,8 +78,12 @@ std::vector<std::int64_t> whole_numbers(const NumberArray& array, std::string_vi
   std::vector<std::int64_t> result(array.count);
   if (!array.is_text) {
     const char* at = array.data(file).data() + array.start;
-    for (std::size_t i = 0; i < array.count; ++i)
-      result[i] = load_whole_number(at + i * size_of(array.type), array.type, array.order);
+    for (std::size_t i = 0; i < array.count; ++i) {
+      const std::optional<std::int64_t> number =
+          load_whole_number(at + i * size_of(array.type), array.type, array.order);
+      if (!number) throw FileError(fmt::format("{}: number {} (counting from 0) is not whole", array.where, i));
+      result[i] = *number;
+    }
     return result;
   }
   TextScanner text(file.substr(0, array.text.begin + array.text.size), {});
@@ -81,8 +92,13 @@ std::vector<std::int64_t> whole_numbers(const NumberArray& array, std::string_vi
     if (!text.skip_space())
       text.fail(fmt::format("{} ends after {} of {} numbers; the file is cut short or damaged", array.where,
                             &number - result.data(), array.count));
-    if (!text.integer(number))
-      text.fail(fmt::format("{} in {} where a whole number should be", in_quotes(text.peek()), array.where));
+    if (text.integer(number)) continue;
+    const std::string_view token = text.peek();
+    double value = 0;  // some write 3.0
+    if (is_integer(array.type) || text.number(value) != TextScanner::Number::ok || value != std::floor(value) ||
+        !(std::abs(value) < largest_exact))
+      text.fail(fmt::format("{} in {} where a whole number should be", in_quotes(token), array.where));
+    number = static_cast<std::int64_t>(value);
   }
   if (end != nullptr) *end = text.offset();
   return result;

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,8 @@ bool is_integer(NumberType type);
 
 /// The number stored at `from`, which need not be aligned; whole numbers are exact up to 2^53.
 double load_number(const char* from, NumberType type, std::endian order);
-/// The whole number stored at `from`; 0 for floating-point types, negative for what exceeds 63 bits.
-std::int64_t load_whole_number(const char* from, NumberType type, std::endian order);
+/// The whole number stored at `from`, negative where it exceeds 63 bits. Nothing: it is not whole.
+std::optional<std::int64_t> load_whole_number(const char* from, NumberType type, std::endian order);
 
 /// Numbers that a file holds encoded (base64, compressed).
 class EncodedNumbers {
@@ -52,7 +53,7 @@ struct NumberArray {
   void check_size(std::string_view file) const;
 };
 
-/// All numbers of an array of integers; `end`, where given, becomes the place after the last one (of text).
+/// All numbers of an array of whole numbers; `end`, where given, becomes the place after the last one (of text).
 /// Throws FileError.
 std::vector<std::int64_t> whole_numbers(const NumberArray& array, std::string_view file, std::size_t* end = nullptr);
 

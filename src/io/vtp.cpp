@@ -43,7 +43,7 @@ struct Headers {
   /// All bits set (so larger than any file) where `bytes` is too short.
   std::size_t at(std::string_view bytes, std::size_t i) const {
     if (bytes.size() / size() <= i) return ~std::size_t{0};
-    return static_cast<std::size_t>(load_whole_number(bytes.data() + i * size(), type, order));
+    return static_cast<std::size_t>(*load_whole_number(bytes.data() + i * size(), type, order));
   }
   void append(std::string& bytes, std::size_t value) const {
     std::array<char, 8> raw{};

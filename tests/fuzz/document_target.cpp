@@ -129,5 +129,14 @@ void vtk(Bytes bytes) {
 void vtp(Bytes bytes) {
   check(bytes, Format::vtp);
 }
+void msh(Bytes bytes) {
+  check(bytes, Format::msh);
+}
+void inp(Bytes bytes) {
+  check(bytes, Format::inp);
+}
+void threemf(Bytes bytes) {
+  check(bytes, Format::threemf);
+}
 
 }  // namespace unsnarl::fuzz

@@ -21,6 +21,9 @@ void surf(Bytes bytes);
 void gii(Bytes bytes);
 void vtk(Bytes bytes);
 void vtp(Bytes bytes);
+void msh(Bytes bytes);
+void inp(Bytes bytes);
+void threemf(Bytes bytes);
 /// A small mesh on a lattice: the pairs found are those that brute force finds.
 void intersections(Bytes bytes);
 /// A small mesh on a lattice: what `repair` returns is what it promises.
@@ -30,7 +33,7 @@ struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 11> targets = {{{"obj", obj},
+inline constexpr std::array<Target, 14> targets = {{{"obj", obj},
                                                     {"off", off},
                                                     {"ply", ply},
                                                     {"stl", stl},
@@ -39,6 +42,9 @@ inline constexpr std::array<Target, 11> targets = {{{"obj", obj},
                                                     {"gii", gii},
                                                     {"vtk", vtk},
                                                     {"vtp", vtp},
+                                                    {"msh", msh},
+                                                    {"inp", inp},
+                                                    {"threemf", threemf},
                                                     {"intersections", intersections},
                                                     {"repair", repair}}};
 

@@ -129,6 +129,17 @@ TEST(Gii, ReadsGzipColumnsAndOtherArrays) {
                  Format::gii);
 }
 
+TEST(Gii, TrianglesMayBeStoredAsFloats) {
+  // slam does so, and nibabel reads it.
+  const std::string floats = binary<float, float>("GZipBase64Binary", little, "FLOAT32", "FLOAT32");
+  EXPECT_EQ(Document::parse(floats, Format::gii).surface().corners, corners);
+  check_patching(floats, Format::gii);
+  const std::string halves = gifti(data_array("POINTSET", "FLOAT32", 4, "ASCII", points_text) +
+                                   data_array("TRIANGLE", "FLOAT32", 1, "ASCII", "0 1.0 2"));
+  EXPECT_EQ(Document::parse(halves, Format::gii).surface().corners, (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_PARSE_ERROR(replaced(halves, "0 1.0 2", "0 1.5 2"), Format::gii, "'1.5' in DataArray 2");
+}
+
 TEST(Gii, SeveralSurfacesAreOneScene) {
   const std::string two = gifti(data_array("POINTSET", "FLOAT32", 4, "ASCII", points_text) +
                                 data_array("POINTSET", "FLOAT32", 3, "Base64Binary",
