@@ -32,7 +32,7 @@ inline constexpr auto formats = std::to_array<FormatEntry>({
     {Format::stl, "stl", parse_stl},
     {Format::glb, "glb", parse_glb},
     {Format::gltf, "gltf", parse_gltf},
-    {Format::surf, "surf", parse_surf, "freesurfer white pial inflated orig smoothwm sphere"},
+    {Format::surf, "surf", parse_surf, "freesurfer white pial inflated"},
     {Format::gii, "gii", parse_gii, "gifti"},
     {Format::vtk, "vtk", parse_vtk},
     {Format::vtp, "vtp", parse_vtp},

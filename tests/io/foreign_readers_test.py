@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """What other programs wrote is repaired, and they read it back: the same faces and data, and no self-intersection in
 the positions as they see them. Skipped (77) where nibabel and meshio are missing; vtk and gmsh are heavy, so they are
-asked only with --heavy.
+asked only with 'all'.
 
-usage: foreign_readers_test.py PROGRAM [--heavy]
+usage: foreign_readers_test.py PROGRAM [all]
 """
 import os
 import subprocess
@@ -162,7 +162,7 @@ class ForeignReaders(unittest.TestCase):
         self.assertEqual(seen[0][1:], seen[1][1:])
         self.judge(seen[0][0], seen[1][0], seen[0][1])
 
-    @unittest.skipUnless('--heavy' in sys.argv, 'only with --heavy')
+    @unittest.skipUnless('all' in sys.argv, "only with 'all'")
     def test_vtk(self):
         vtk = module(self, 'vtk')
         for version in (42, 51):
@@ -192,7 +192,7 @@ class ForeignReaders(unittest.TestCase):
                             writer.Write()
                             self.judge_vtk(vtk, vtk.vtkXMLPolyDataReader, 'a.vtp')
 
-    @unittest.skipUnless('--heavy' in sys.argv, 'only with --heavy')
+    @unittest.skipUnless('all' in sys.argv, "only with 'all'")
     def test_gmsh(self):
         gmsh = module(self, 'gmsh')
         gmsh.initialize()
