@@ -36,7 +36,9 @@ class WriteError : public std::runtime_error {
 
 /// Names that a file gives to its faces, of one kind.
 struct FaceLabels {
-  std::string kind;  ///< OBJ: "object", "group", "material"; STL: "object"; glTF: "node", "mesh", "material"
+  /// OBJ: "object", "group", "material"; STL, 3MF: "object"; glTF: "node", "mesh", "material"; Gmsh: "group"
+  /// (physical), "object" (entity); Abaqus: "group" (ELSET), "object" (part)
+  std::string kind;
   std::vector<std::string> names;     ///< each name once, in the order of the file
   std::vector<std::int32_t> of_face;  ///< one entry a face: index into names, or -1
 };

@@ -77,10 +77,8 @@ class InpParser {
       throw FileError("line 1: there is no keyword like '*NODE'; check that it is an Abaqus input file");
     if (file_.vertex_count() == 0) throw FileError("the file has no nodes ('*NODE'); give the file that lists them");
     if (solids_ > 0)
-      file_.notes.push_back(
-          fmt::format("{} volume elements are not looked at; those at moved vertices follow and may "
-                      "lose their shape.",
-                      solids_));
+      file_.notes.push_back(fmt::format(
+          "Volume elements ({}) are not looked at; those at moved vertices follow and may lose their shape.", solids_));
     file_.finish();
     sets_.finish(file_.face_count(), file_.labels);
     parts_.finish(file_.face_count(), file_.labels);

@@ -86,6 +86,16 @@ class Source {
   std::endian order_ = std::endian::little;
 };
 
+/// Vertices and entity of a face.
+using FaceKey = std::array<std::int64_t, 5>;
+struct HashOfKey {
+  std::size_t operator()(const FaceKey& key) const {
+    std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a, by numbers instead of bytes
+    for (const std::int64_t number : key) hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x100000001b3;
+    return hash ^ hash >> 32;
+  }
+};
+
 class MshParser {
  public:
   explicit MshParser(PointFile& file) : file_(file), source_(file.bytes) {}
@@ -371,7 +381,7 @@ class MshParser {
         source_.fail(fmt::format("element {} uses node {}, but there is none of this number", id, tag));
       face[k] = vertex->second;
     }
-    if (!is_face) return;
+    if (!is_face || is_repeated(face, group, entity)) return;
     if (group != last_group_ || file_.face_count() == 0) {
       last_group_ = group;
       const auto name = names_.find(group);
@@ -385,14 +395,24 @@ class MshParser {
     if (!wrong.empty()) source_.fail(fmt::format("element {} {}", id, wrong));
   }
 
+  /// Version 2 lists an element once for each physical group that its entity is in.
+  bool is_repeated(const std::array<std::int64_t, 4>& face, std::int64_t group, std::int64_t entity) {
+    if (is_version_4_) return false;
+    const auto [known, is_new] = group_of_face_.try_emplace({face[0], face[1], face[2], face[3], entity}, group);
+    const bool result = !is_new && known->second != group;
+    repeated_ += result;
+    return result;
+  }
+
   void finish() {
+    if (repeated_ > 0)
+      file_.notes.push_back(
+          fmt::format("Elements that are there again for another physical group ({}) count once.", repeated_));
     if (parametric_)
       file_.notes.emplace_back("Parametric coordinates of nodes are kept as they are, also where the nodes move.");
     if (solids_ > 0)
-      file_.notes.push_back(
-          fmt::format("{} volume elements are not looked at; those at moved vertices follow and may "
-                      "lose their shape.",
-                      solids_));
+      file_.notes.push_back(fmt::format(
+          "Volume elements ({}) are not looked at; those at moved vertices follow and may lose their shape.", solids_));
     file_.finish();
     groups_.finish(file_.face_count(), file_.labels);
     entities_.finish(file_.face_count(), file_.labels);
@@ -406,7 +426,8 @@ class MshParser {
   std::map<std::int64_t, std::string> names_;
   LabelCollector groups_{"group"}, entities_{"object"};
   std::int64_t last_group_ = 0, last_entity_ = 0;
-  std::size_t solids_ = 0;
+  std::unordered_map<FaceKey, std::int64_t, HashOfKey> group_of_face_;  // only looked up, like the nodes
+  std::size_t solids_ = 0, repeated_ = 0;
 };
 
 }  // namespace

@@ -91,14 +91,12 @@ class ThreemfParser {
       hidden += object.child("mesh") && !shown_.contains(object.attribute("id").value());
     if (shown_.empty()) xml_.fail(xml_.root(), "the build shows no object with a mesh; the file is damaged or empty");
     if (hidden > 0)
-      file_.notes.push_back(fmt::format("{} that the build does not show {} as {}.",
-                                        hidden == 1 ? "1 object" : fmt::format("{} objects", hidden),
-                                        hidden == 1 ? "stays" : "stay", hidden == 1 ? "it is" : "they are"));
+      file_.notes.push_back(fmt::format("Objects that the build does not show ({}) stay as they are.", hidden));
     if (!repeated_.empty())
       file_.notes.push_back(fmt::format(
-          "{} several times: repaired where the build shows {} first, the others follow.",
-          repeated_.size() == 1 ? "1 object is shown" : fmt::format("{} objects are shown", repeated_.size()),
-          repeated_.size() == 1 ? "it" : "them"));
+          "Objects that the build shows several times ({}) are repaired where it shows them first; the others "
+          "follow.",
+          repeated_.size()));
     faces_.note_ignored(file_.notes);
     objects_.finish(faces_.count(), file_.labels);
   }

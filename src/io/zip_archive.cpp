@@ -15,6 +15,9 @@ namespace {
 
 /// Deflate makes nothing smaller than this (zlib's Technical Details, "Maximum Compression Factor").
 constexpr std::uint64_t largest_ratio = 1032;
+/// That of zlib. With libzip's own, 9, to repair a model of a million triangles takes 18 s instead of 7, for 1.5 % less
+/// room.
+constexpr zip_uint32_t level = 6;
 
 class Error {
  public:
@@ -123,7 +126,9 @@ std::string ZipArchive::with_content(const std::string& name, std::string_view c
     zip_source_free(replacement);
     check(false, archive.get());
   }
-  check(zip_set_file_compression(archive.get(), entry, status.comp_method, 0) == 0, archive.get());
+  // The level counts only where the method is another; "default" is, and means deflate.
+  const zip_int32_t method = status.comp_method == ZIP_CM_DEFLATE ? ZIP_CM_DEFAULT : status.comp_method;
+  check(zip_set_file_compression(archive.get(), entry, method, level) == 0, archive.get());
   check(zip_file_set_mtime(archive.get(), entry, status.mtime, 0) == 0, archive.get());
   check(zip_close(archive.get()) == 0, archive.get());
   static_cast<void>(archive.release());  // closed, so freed

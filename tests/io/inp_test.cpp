@@ -28,7 +28,7 @@ TEST(Inp, ReadsNodesAndShells) {
   EXPECT_EQ(document.face_labels()[0].kind, "group");
   EXPECT_EQ(document.face_labels()[0].names, (std::vector<std::string>{"left", "right"}));
   EXPECT_EQ(document.face_labels()[0].of_face, (std::vector<std::int32_t>{0, 0, 1, 1}));
-  EXPECT_PRED2(message_contains, document.notes().at(0), "1 volume elements are not looked at");
+  EXPECT_PRED2(message_contains, document.notes().at(0), "Volume elements (1) are not looked at");
 }
 
 TEST(Inp, NumbersBelongToTheirPart) {

@@ -93,8 +93,20 @@ TEST(Msh, OnlyTheMovedCoordinateChanges) {
 
 TEST(Msh, SaysWhatIsNotLookedAt) {
   EXPECT_PRED2(message_contains, Document::parse(ascii_2, Format::msh).notes().at(0),
-               "1 volume elements are not looked at");
+               "Volume elements (1) are not looked at");
   EXPECT_PRED2(message_contains, Document::parse(ascii_4, Format::msh).notes().at(0), "Parametric coordinates");
+}
+
+TEST(Msh, AnElementOfTwoPhysicalGroupsIsOneFace) {
+  const std::string repeated = "3 2 2 7 1 10 5 20\n", again = "8 2 2 6 1 10 5 20\n";
+  const std::string bytes = replaced(replaced(ascii_2, "$Elements\n7", "$Elements\n8"), repeated, repeated + again);
+  const Document document = Document::parse(bytes, Format::msh);
+  EXPECT_EQ(document.surface().corners, corners);
+  EXPECT_PRED2(message_contains, document.notes().at(0), "for another physical group (1) count once");
+  check_patching(bytes, Format::msh);
+  // Twice in one group is a doubled face.
+  const std::string doubled = replaced(bytes, "8 2 2 6", "8 2 2 7");
+  EXPECT_EQ(Document::parse(doubled, Format::msh).surface().offsets.size(), 6u);
 }
 
 TEST(Msh, ErrorsSayWhatAndWhere) {

@@ -54,9 +54,8 @@ TEST(Threemf, ObjectsStandWhereTheBuildShowsThem) {
   // (4, 0, 0) of the first, moved by the component and turned by the item.
   EXPECT_EQ((std::vector<double>{x[3], x[4], x[5]}), (std::vector<double>{0, 28, 5}));
   EXPECT_EQ((std::vector<double>{x[18], x[19], x[20]}), (std::vector<double>{-8, 0, 5}));
-  EXPECT_EQ(document.notes().at(0), "1 object that the build does not show stays as it is.");
-  EXPECT_EQ(document.notes().at(1),
-            "1 object is shown several times: repaired where the build shows it first, the others follow.");
+  EXPECT_EQ(document.notes().at(0), "Objects that the build does not show (1) stay as they are.");
+  EXPECT_PRED2(message_contains, document.notes().at(1), "Objects that the build shows several times (1)");
 }
 
 TEST(Threemf, KeepsEveryPromiseOfPatching) {
