@@ -97,8 +97,8 @@ void GltfAccessors::locate(AccessorLayout& layout, std::size_t id, const std::st
   for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
     if (view["extensions"][extension]) {
       throw FileError(
-          fmt::format("{}: compressed with {}, which is not supported; decompress the file first, as with "
-                      "'gltfpack -noq -i IN -o OUT'",
+          fmt::format("{}: compressed with {}, which is not supported; decompress the file first, or export it "
+                      "without compression",
                       name, extension));
     }
   }

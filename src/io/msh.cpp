@@ -143,7 +143,7 @@ class MshParser {
     const std::string_view version = text.token();
     if (version != "2.2" && version != "2" && version != "2.0" && version != "2.1" && version != "4.1") {
       text.fail(
-          fmt::format("version {}, but only 2.2 and 4.1 are read; convert it with 'gmsh -0 -format msh41 IN -o OUT'",
+          fmt::format("version {}, but only 2.2 and 4.1 are read; convert it with 'gmsh IN -save -format msh41 -o OUT'",
                       in_quotes(version)));
     }
     is_version_4_ = version == "4.1";
@@ -314,7 +314,7 @@ class MshParser {
     if (std::find(curved_faces.begin(), curved_faces.end(), type) != curved_faces.end())
       source_.fail(
           fmt::format("elements of type {} are curved faces, which are not read; make them of the first order "
-                      "('gmsh IN -0 -order 1 -o OUT')",
+                      "(in Gmsh: Modules > Mesh > Set order 1, then save)",
                       type));
     return nodes_of_type[type];
   }
