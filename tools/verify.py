@@ -153,7 +153,7 @@ def read_ids(path, count):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('input', metavar='IN', help='the mesh before repair: obj, off, ply, stl, glb, gltf')
+    parser.add_argument('input', metavar='IN', help='the mesh before repair: obj, off, ply, stl, glb, gltf, FreeSurfer')
     parser.add_argument('output', metavar='OUT', help='the mesh after repair')
     parser.add_argument('--format', help='of both files; else by their extensions')
     parser.add_argument('--float32', action='store_true', help='also check with all positions rounded to float32')

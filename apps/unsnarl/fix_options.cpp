@@ -43,8 +43,11 @@ void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const
     // One value each time: more would swallow the name of the input.
     command.add_option(prefix + name, list, what + of)->type_name(type)->group(group)->allow_extra_args(false);
   };
-  named("group", parts.groups, "faces of this group (OBJ g; glTF: mesh); may be repeated", "NAME");
-  named("object", parts.objects, "faces of this object (OBJ o, STL solid; glTF: node); may be repeated", "NAME");
+  named("group", parts.groups,
+        "faces of this group (OBJ g, glTF mesh, Gmsh physical group, Abaqus ELSET); may be repeated", "NAME");
+  named("object", parts.objects,
+        "faces of this object (OBJ o, STL solid, glTF node, Gmsh entity, Abaqus part, 3MF object); may be repeated",
+        "NAME");
   named("material", parts.materials, "faces of this material; may be repeated", "NAME");
   named("component", parts.components, "component of this number, as 'unsnarl check' lists them; may be repeated", "N");
 }

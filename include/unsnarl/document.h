@@ -14,11 +14,11 @@
 
 namespace unsnarl {
 
-enum class Format : std::uint8_t { obj, off, ply, stl, glb, gltf };
+enum class Format : std::uint8_t { obj, off, ply, stl, glb, gltf, surf, gii, vtk, vtp, msh, inp, threemf };
 std::string_view to_string(Format format);
-/// By the extension of a path ("a/b.OBJ"), or by the bare name of a format ("obj"). Case does not matter.
+/// By the extension of a path ("a/b.OBJ", "lh.pial"), or by the bare name of a format ("obj"). Case does not matter.
 std::optional<Format> format_from_extension(std::string_view path);
-/// The names of all formats: "obj, off, ply, stl, glb, gltf". before_last stands between the last two.
+/// The names of all formats: "obj, off, ply, stl, ...". before_last stands between the last two.
 std::string format_names(std::string_view before_last = ", ");
 
 /// A file cannot be read or makes no sense. The message says what, where (line or byte, face and vertex as the format
@@ -36,7 +36,9 @@ class WriteError : public std::runtime_error {
 
 /// Names that a file gives to its faces, of one kind.
 struct FaceLabels {
-  std::string kind;  ///< OBJ: "object", "group", "material"; STL: "object"; glTF: "node", "mesh", "material"
+  /// OBJ: "object", "group", "material"; STL, 3MF: "object"; glTF: "node", "mesh", "material"; Gmsh: "group"
+  /// (physical), "object" (entity); Abaqus: "group" (ELSET), "object" (part)
+  std::string kind;
   std::vector<std::string> names;     ///< each name once, in the order of the file
   std::vector<std::int32_t> of_face;  ///< one entry a face: index into names, or -1
 };
@@ -51,10 +53,11 @@ struct OutputFile {
 ///
 /// A coordinate that did not change keeps its token; without any motion the file comes back byte for byte. What
 /// follows from the positions is updated for the parts that moved: STL facet normals (unless stored as 0 0 0), glTF
-/// accessor bounds, GLB chunk lengths.
+/// accessor bounds, GLB chunk lengths. Compressed numbers are compressed anew where one of them changed.
 class Document {
  public:
-  /// Format by extension unless given. Throws FileError.
+  /// Format by extension unless given; FreeSurfer surfaces without a known one are recognised by their first bytes.
+  /// Throws FileError.
   static Document read(const std::filesystem::path& path, std::optional<Format> format = {});
   /// `folder` is where the external buffers of a glTF lie. Throws FileError.
   static Document parse(std::string bytes, Format format, const std::filesystem::path& folder = {});
@@ -66,12 +69,14 @@ class Document {
   Format format() const;
   /// Positions as a reader sees them, all finite; faces of any size >= 3, all corners in range. glTF: world space of
   /// the default scene. STL: three vertices a facet. Faces with fewer than 3 corners stay in the file but are left out
-  /// here (noted).
+  /// here (noted). FreeSurfer, GIFTI: vertices that are missing (NaN) stay so; here they have the position of another
+  /// vertex, and the faces that use them are left out (noted).
   const Surface& surface() const;
   const std::vector<FaceLabels>& face_labels() const;
   /// Things worth telling the user, one sentence each.
   const std::vector<std::string>& notes() const;
-  /// The file holds 32-bit floats (STL, glTF, PLY with float positions), so `float32_digits` makes no difference.
+  /// The file holds 32-bit floats (STL, glTF, FreeSurfer; PLY and others with float positions), so `float32_digits`
+  /// makes no difference.
   bool stores_float32() const;
 
   /// From now on patched() also turns the stored vertex normals of what moved (OBJ vn, PLY nx ny nz, glTF NORMAL) as

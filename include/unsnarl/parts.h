@@ -14,8 +14,8 @@ namespace unsnarl {
 
 /// Parts of a mesh, by the names that its file gives to faces, or by connectivity. Together: any of them.
 struct Parts {
-  std::vector<std::string> groups = {};       ///< OBJ "g": the whole line or one of its words; glTF: meshes
-  std::vector<std::string> objects = {};      ///< OBJ "o", STL solids; glTF: nodes
+  std::vector<std::string> groups = {};       ///< OBJ "g": the whole line or one of its words; others: see FaceLabels
+  std::vector<std::string> objects = {};      ///< OBJ "o", STL solids; others: see FaceLabels
   std::vector<std::string> materials = {};    ///< OBJ "usemtl", glTF materials
   std::vector<std::int32_t> components = {};  ///< ids of component_of_faces()
 

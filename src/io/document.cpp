@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "io/foreign_formats.h"
 #include "io/formats.h"
 #include "io/mesh_file.h"
+#include "io/surf.h"
 
 namespace unsnarl {
 namespace {
@@ -23,6 +26,15 @@ void check_positions(const Surface& surface, std::span<const double> positions) 
   }
 }
 
+bool has_word(std::string_view words, std::string_view word) {
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    if (words.substr(0, end) == word) return true;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string_view to_string(Format format) {
@@ -35,7 +47,7 @@ std::optional<Format> format_from_extension(std::string_view path) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   for (const FormatEntry& entry : formats) {
-    if (extension == entry.name) return entry.format;
+    if (extension == entry.name || has_word(entry.other_extensions, extension)) return entry.format;
   }
   return std::nullopt;
 }
@@ -56,12 +68,13 @@ Document::~Document() = default;
 
 Document Document::read(const std::filesystem::path& path, std::optional<Format> format) {
   if (!format) format = format_from_extension(path.string());
-  if (!format) {
-    throw FileError(
-        fmt::format("{}: the extension does not tell the format; name one of {}", path.string(), format_names()));
-  }
   std::string bytes = read_file(path);
   try {
+    if (!format) refuse_foreign_format(bytes, path.string());
+    if (!format && is_freesurfer_surface(bytes)) format = Format::surf;
+    if (!format) {
+      throw FileError(fmt::format("the extension does not tell the format; name one of {}", format_names()));
+    }
     return parse(std::move(bytes), *format, path.parent_path());
   } catch (const FileError& error) {
     throw FileError(fmt::format("{}: {}", path.string(), error.what()));
@@ -71,6 +84,7 @@ Document Document::read(const std::filesystem::path& path, std::optional<Format>
 Document Document::parse(std::string bytes, Format format, const std::filesystem::path& folder) {
   const auto entry = static_cast<std::size_t>(format);
   if (entry >= formats.size()) throw std::invalid_argument("unknown format");
+  refuse_foreign_format(bytes, {});
   return Document(format, formats[entry].parse(std::move(bytes), folder));
 }
 

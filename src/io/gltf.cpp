@@ -77,7 +77,8 @@ class GltfParser {
         if (json["extensions"]["KHR_draco_mesh_compression"]) {
           throw FileError(where(p) +
                           ": compressed with KHR_draco_mesh_compression, which is not supported; "
-                          "decompress the file first");
+                          "decompress the file first, as by importing it into Blender and exporting it without "
+                          "compression");
         }
         p.positions = member_index(json["attributes"], "POSITION", 0, where(p));
         p.indices = json["indices"];

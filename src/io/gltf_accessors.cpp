@@ -97,7 +97,9 @@ void GltfAccessors::locate(AccessorLayout& layout, std::size_t id, const std::st
   for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
     if (view["extensions"][extension]) {
       throw FileError(
-          fmt::format("{}: compressed with {}, which is not supported; decompress the file first", name, extension));
+          fmt::format("{}: compressed with {}, which is not supported; decompress the file first, or export it "
+                      "without compression",
+                      name, extension));
     }
   }
   layout.buffer = buffers_->resolve(member_index(view, "buffer", std::numeric_limits<std::size_t>::max(), name));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "io/base64.h"
 #include "io/byte_order.h"
 #include "io/mesh_file.h"
 #include "io/text_scanner.h"
@@ -17,78 +18,6 @@ constexpr std::size_t glb_header_size = 12, chunk_header_size = 8;
 
 std::uint32_t word(std::string_view bytes, std::size_t at) {
   return load<std::uint32_t>(bytes.data() + at, std::endian::little);
-}
-
-std::string with_edits(std::string_view text, std::vector<TextEdit> edits) {
-  std::sort(edits.begin(), edits.end(), [](const TextEdit& a, const TextEdit& b) { return a.begin < b.begin; });
-  std::string result;
-  std::size_t done = 0;
-  for (const TextEdit& edit : edits) {
-    result.append(text, done, edit.begin - done);
-    result += edit.text;
-    done = edit.end;
-  }
-  result.append(text, done, text.size() - done);
-  return result;
-}
-
-/// Six bits of a base64 digit (also of the URL-safe alphabet), or -1.
-int base64_bits(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  if (c == '+' || c == '-') return 62;
-  if (c == '/' || c == '_') return 63;
-  return -1;
-}
-
-std::optional<std::string> base64_decoded(std::string_view text) {
-  while (text.ends_with('=')) text.remove_suffix(1);
-  std::string result;
-  result.reserve(text.size() / 4 * 3 + 3);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const int six = base64_bits(c);
-    if (six < 0) return std::nullopt;
-    bits = bits << 6 | static_cast<std::uint32_t>(six);
-    count += 6;
-    if (count >= 8) {
-      count -= 8;
-      result += static_cast<char>(bits >> count & 0xFF);
-    }
-  }
-  return result;
-}
-
-/// Replaces the digits whose bytes differ; everything else in `text` stays, be it padding or unused bits.
-void base64_patch(std::string& text, std::string_view old_bytes, std::string_view new_bytes) {
-  const bool url_safe = text.find_first_of("-_") != std::string::npos;
-  const std::string_view last_two = url_safe ? "-_" : "+/";
-  for (std::size_t i = 0; i < old_bytes.size(); ++i) {
-    if (old_bytes[i] == new_bytes[i]) continue;
-    const std::size_t group = i / 3 * 3;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t at = group / 3 * 4 + k;
-      // Digit k covers the bits 6 k to 6 k + 5 of the group; those of bytes that do not exist stay.
-      std::uint32_t six = 0;
-      for (std::size_t bit = 6 * k; bit < 6 * k + 6; ++bit) {
-        const std::size_t byte = group + bit / 8;
-        std::uint32_t value = 0;
-        if (byte < new_bytes.size()) {
-          value = static_cast<unsigned char>(new_bytes[byte]) >> (7 - bit % 8) & 1;
-        } else if (at < text.size() && text[at] != '=') {
-          value = static_cast<std::uint32_t>(base64_bits(text[at])) >> (6 * k + 5 - bit) & 1;
-        }
-        six = six << 1 | value;
-      }
-      if (at >= text.size() || text[at] == '=') continue;
-      constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
-      if (static_cast<std::uint32_t>(base64_bits(text[at])) != six) {
-        text[at] = six < 62 ? digits[six] : last_two[six - 62];
-      }
-    }
-  }
 }
 
 std::string percent_decoded(std::string_view text) {

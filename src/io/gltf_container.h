@@ -8,20 +8,10 @@
 #include <vector>
 
 #include "io/json_text.h"
+#include "io/text_edits.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl {
-
-/// A part of a file, in bytes.
-struct ByteRange {
-  std::size_t begin = 0, size = 0;
-};
-
-/// The replacement of a part of a text.
-struct TextEdit {
-  std::size_t begin, end;
-  std::string text;
-};
 
 /// Places of the JSON and binary data in a GLB file (a .gltf file is all JSON).
 struct GltfContainer {

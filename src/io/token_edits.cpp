@@ -38,6 +38,11 @@ double value_as_written(double value, TextPrecision precision) {
   return result;
 }
 
+std::string number_text(double value, TextPrecision precision) {
+  std::array<char, 32> digits;
+  return {digits.data(), print(digits.data(), digits.data() + digits.size(), value, precision)};
+}
+
 void TokenEdits::replace_number(std::string_view text, std::size_t begin, double value, TextPrecision precision) {
   Edit edit{begin, static_cast<std::uint32_t>(number_token(text, begin).size()), 0, {}};
   const char* end = print(edit.digits.data(), edit.digits.data() + edit.digits.size(), value, precision);

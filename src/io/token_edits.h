@@ -20,6 +20,9 @@ enum class TextPrecision : std::uint8_t {
 /// The value that a reader finds where `value` was written. Throws WriteError beyond float32.
 double value_as_written(double value, TextPrecision precision);
 
+/// The fewest digits that give `value` back at this precision. Throws WriteError beyond float32.
+std::string number_text(double value, TextPrecision precision);
+
 /// Replacements of tokens in a text, each at most 32 characters long.
 class TokenEdits {
  public:

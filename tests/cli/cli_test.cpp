@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -406,6 +408,55 @@ TEST_F(Cli, ObstructedExitsWith7) {
   EXPECT_EQ(run({"fix", in, "-o", out}).exit_code, 7);
   ASSERT_TRUE(fs::exists(out));
   EXPECT_EQ(pairs_in(out), pairs_in(bottle));
+}
+
+/// As FreeSurfer stores a surface of triangles.
+std::string freesurfer_surface(const Surface& surface, bool last_is_missing = false) {
+  std::string bytes = "\xFF\xFF\xFEmade by a test\n\n";
+  const auto append = [&](auto value) {
+    std::array<char, 4> raw{};
+    std::memcpy(raw.data(), &value, 4);
+    bytes.append(raw.rbegin(), raw.rend());  // big-endian, on a little-endian machine
+  };
+  append(static_cast<std::int32_t>(surface.positions.size() / 3));
+  append(static_cast<std::int32_t>(surface.corners.size() / 3));
+  for (const double x : surface.positions) append(static_cast<float>(x));
+  for (const std::int32_t v : surface.corners) append(v);
+  if (last_is_missing) bytes.replace(bytes.size() - 4 * surface.corners.size() - 4, 4, "\x7F\xC0\0\0", 4);
+  return bytes;
+}
+
+TEST_F(Cli, FreeSurferSurfacesNeedNoExtension) {
+  Surface surface = Document::parse(crossing, Format::obj).surface();
+  const std::string bytes = freesurfer_surface(surface);
+  const std::string in = file("lh.pial_of_somebody", bytes), out = folder / "lh.pial.fixed";
+  const Outcome outcome = run({"fix", in, "-o", out});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(pairs_in(out), 0u);
+  EXPECT_EQ(contents(out).size(), bytes.size());
+  EXPECT_EQ(run({"fix", "-", "--format", "freesurfer", "-o", "-", "--quiet"}, {.input = bytes}).out, contents(out));
+  EXPECT_EQ(run({"check", out}).exit_code, 0);
+  EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj"}).exit_code, 2);
+}
+
+TEST_F(Cli, MissingVerticesAreReportedAndStay) {
+  Surface surface = Document::parse(crossing + "v 9 9 9\nv 0 0 0\nf 4 9 10\n", Format::obj).surface();
+  const std::string bytes = freesurfer_surface(surface, true);
+  const std::string in = file("lh.white", bytes), out = folder / "out.white";
+  const Outcome outcome = run({"fix", in, "-o", out});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("1 missing vertex (NaN) and the 1 face around stay as they are."), std::string::npos);
+  EXPECT_EQ(pairs_in(out), 0u);
+  const std::size_t faces = bytes.size() - 4 * surface.corners.size();
+  EXPECT_EQ(contents(out).substr(faces - 12), bytes.substr(faces - 12));
+  EXPECT_NE(contents(out), bytes);
+}
+
+TEST_F(Cli, ForeignFormatsAreRefusedWithAHint) {
+  const std::string out = folder / "out.obj";
+  expect_refusal({"fix", file("a.fbx", "Kaydara FBX Binary"), "-o", out}, 3,
+                 "FBX files are not read; import it into Blender");
+  expect_refusal({"check", file("b.blend", "")}, 3, "Blend files are not read");
 }
 
 TEST_F(Cli, StandardInputAndOutput) {

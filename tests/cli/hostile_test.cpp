@@ -19,7 +19,8 @@ const std::string crossing =
     "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nv 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
     "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n";
 
-constexpr std::array<const char*, 6> formats = {"obj", "off", "ply", "stl", "glb", "gltf"};
+constexpr std::array<const char*, 13> formats = {"obj", "off", "ply", "stl", "glb", "gltf", "surf",
+                                                 "gii", "vtk", "vtp", "msh", "inp", "3mf"};
 
 /// For RunOptions::in_child.
 std::function<void()> with_limit(int resource, rlim_t limit) {
@@ -85,6 +86,14 @@ TEST_F(Hostile, AbsurdCountsAreRefusedAndAskForNoMemory) {
                                                                                 "\xFF\xFF\xFF\xFF"
                                                                                 "JSON",
                                                                                 8);
+  // A stream of zlib that could hold a thousand times its size, but not this.
+  const std::string gifti =
+      R"(<GIFTI><DataArray Intent="NIFTI_INTENT_POINTSET" DataType="NIFTI_TYPE_FLOAT32" Dimensionality="2" Dim0="400000"
+          Dim1="3" Encoding="GZipBase64Binary" Endian="LittleEndian"><Data>eJwDAAAAAAE=</Data></DataArray></GIFTI>)";
+  const std::string vtp =
+      R"(<VTKFile type="PolyData" byte_order="LittleEndian" compressor="vtkZLibDataCompressor"><PolyData>
+          <Piece NumberOfPoints="400000"><Points><DataArray type="Float32" NumberOfComponents="3" format="binary">
+          AQAAAP///38AAAAACAAAAA==eJwDAAAAAAE=</DataArray></Points></Piece></PolyData></VTKFile>)";
   const std::vector<std::pair<std::string, std::string>> files = {
       {"vertices.ply", ply_header + "0 0 0\n"},
       {"list.ply", list + std::string("\xFF\xFF\xFF\xFF", 4) + std::string(20, '\0')},
@@ -97,7 +106,14 @@ TEST_F(Hostile, AbsurdCountsAreRefusedAndAskForNoMemory) {
       {"vertex.obj", "v 0 0 0\nf 1 4294967295 1\n"},
       {"relative.obj", "v 0 0 0\nf -1 -4294967295 -1\n"},
       {"count.gltf", gltf},
-      {"length.glb", glb}};
+      {"length.glb", glb},
+      {"counts.surf", "\xFF\xFF\xFE\n\n\x7F\xFF\xFF\xFF\x7F\xFF\xFF\xFF"},
+      {"counts.pial", "\xFF\xFF\xFD\xFF\xFF\xFF\xFF\xFF\xFF"},
+      {"rows.gii", gifti},
+      {"points.vtk", "# vtk DataFile Version 3.0\n\nBINARY\nDATASET POLYDATA\nPOINTS 2000000000 double\n"},
+      {"points.vtp", vtp},
+      {"nodes.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4000000000\n1 0 0 0\n"},
+      {"blocks.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n4000000000 4000000000 1 2\n"}};
   for (const auto& [name, bytes] : files) {
     RunOptions options;
     if (memory_can_be_limited) options.in_child = with_limit(RLIMIT_AS, rlim_t{1} << 30);

@@ -117,5 +117,26 @@ void gltf(Bytes bytes) {
   const bool is_glb = bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
   check(bytes, is_glb ? Format::glb : Format::gltf);
 }
+void surf(Bytes bytes) {
+  check(bytes, Format::surf);
+}
+void gii(Bytes bytes) {
+  check(bytes, Format::gii);
+}
+void vtk(Bytes bytes) {
+  check(bytes, Format::vtk);
+}
+void vtp(Bytes bytes) {
+  check(bytes, Format::vtp);
+}
+void msh(Bytes bytes) {
+  check(bytes, Format::msh);
+}
+void inp(Bytes bytes) {
+  check(bytes, Format::inp);
+}
+void threemf(Bytes bytes) {
+  check(bytes, Format::threemf);
+}
 
 }  // namespace unsnarl::fuzz

@@ -17,6 +17,13 @@ void off(Bytes bytes);
 void ply(Bytes bytes);
 void stl(Bytes bytes);
 void gltf(Bytes bytes);  ///< also GLB: whatever starts with 'glTF'
+void surf(Bytes bytes);
+void gii(Bytes bytes);
+void vtk(Bytes bytes);
+void vtp(Bytes bytes);
+void msh(Bytes bytes);
+void inp(Bytes bytes);
+void threemf(Bytes bytes);
 /// A small mesh on a lattice: the pairs found are those that brute force finds.
 void intersections(Bytes bytes);
 /// A small mesh on a lattice: what `repair` returns is what it promises.
@@ -26,12 +33,19 @@ struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 7> targets = {{{"obj", obj},
-                                                   {"off", off},
-                                                   {"ply", ply},
-                                                   {"stl", stl},
-                                                   {"gltf", gltf},
-                                                   {"intersections", intersections},
-                                                   {"repair", repair}}};
+inline constexpr std::array<Target, 14> targets = {{{"obj", obj},
+                                                    {"off", off},
+                                                    {"ply", ply},
+                                                    {"stl", stl},
+                                                    {"gltf", gltf},
+                                                    {"surf", surf},
+                                                    {"gii", gii},
+                                                    {"vtk", vtk},
+                                                    {"vtp", vtp},
+                                                    {"msh", msh},
+                                                    {"inp", inp},
+                                                    {"threemf", threemf},
+                                                    {"intersections", intersections},
+                                                    {"repair", repair}}};
 
 }  // namespace unsnarl::fuzz

@@ -1,6 +1,8 @@
-#include "document_checks.h"
-
+#include <filesystem>
 #include <limits>
+
+#include "document_checks.h"
+#include "io/formats.h"
 
 namespace unsnarl {
 namespace {
@@ -14,14 +16,37 @@ TEST(Document, FormatByExtension) {
   EXPECT_EQ(format_from_extension("mesh.fbx"), std::nullopt);
   EXPECT_EQ(format_from_extension("folder.obj/mesh"), std::nullopt);
   EXPECT_EQ(format_from_extension(""), std::nullopt);
-  for (const Format format : {Format::obj, Format::off, Format::ply, Format::stl, Format::glb, Format::gltf}) {
-    EXPECT_EQ(format_from_extension(to_string(format)), format);
-  }
+  EXPECT_EQ(format_from_extension("lh.pial"), Format::surf);
+  EXPECT_EQ(format_from_extension("freesurfer"), Format::surf);
+  EXPECT_EQ(format_from_extension("pial inflated"), std::nullopt);
+  EXPECT_EQ(format_from_extension("lh.pial.surf.gii"), Format::gii);
+  for (const FormatEntry& entry : formats) EXPECT_EQ(format_from_extension(to_string(entry.format)), entry.format);
 }
 
 TEST(Document, NamesItsFormats) {
-  EXPECT_EQ(format_names(), "obj, off, ply, stl, glb, gltf");
-  EXPECT_EQ(format_names(" or "), "obj, off, ply, stl, glb or gltf");
+  EXPECT_TRUE(format_names().starts_with("obj, off, ply, stl, glb, gltf, surf, gii"));
+  EXPECT_NE(format_names(" or ").find(" or "), std::string::npos);
+}
+
+TEST(Document, FreeSurferSurfacesNeedNoExtension) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "document_test";
+  std::filesystem::create_directories(folder);
+  const auto error_of = [&](const char* name, const std::string& bytes) -> std::string {
+    write_atomically(folder / name, bytes);
+    try {
+      return std::string("read as ").append(to_string(Document::read(folder / name).format()));
+    } catch (const FileError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(error_of("lh.pial_semi", std::string("\xFF\xFF\xFE\n\n\0\0\0\0\0\0\0\0", 13)), "read as surf");
+  EXPECT_PRED2(message_contains, error_of("mesh", triangle), "the extension does not tell the format");
+  EXPECT_PRED2(message_contains, error_of("a.FBX", "anything"), "FBX files are not read; import it into Blender");
+  EXPECT_PRED2(message_contains, error_of("a.usdz", "PK"), "USD files are not read");
+  EXPECT_PRED2(message_contains, error_of("a.obj", "Kaydara FBX Binary  "), "FBX files are not read");
+  EXPECT_PRED2(message_contains, error_of("a", "BLENDER-v300"), "Blend files are not read");
+  EXPECT_PRED2(message_contains, error_of("a.ply", "#usda 1.0\n"), "USD files are not read");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Document, RefusesPositionsThatAreNotItsOwn) {

@@ -54,6 +54,17 @@ class VerifyTest(unittest.TestCase):
 
     # What is right.
 
+    def test_reads_freesurfer(self):
+        def surface(tip, end=b'tags', missing=b'\x7f\xc0\0\0'):
+            points = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (1, 1, tip), (0, 0, -3), (3, 0, -3), (0, 3, -3), (9, 9, 0)]
+            faces = [(0, 1, 2), (3, 4, 5), (3, 5, 6), (3, 6, 4), (4, 6, 5), (3, 0, 7)]
+            return (b'\xff\xff\xfemade\n\n' + struct.pack('>2i', 8, 6) + b''.join(struct.pack('>3f', *p) for p in points)[:-4]
+                    + missing + b''.join(struct.pack('>3i', *f) for f in faces) + end)
+        self.expect([], surface(1), surface(-1), 'pial')
+        self.expect(['embedded'], surface(-1), surface(1), 'pial')
+        self.expect(['file'], surface(1), surface(-1, end=b'gats'), 'pial')
+        self.expect(['file'], surface(1), surface(-1, missing=b'\x7f\xc0\0\1'), 'pial')
+
     def test_accepts_a_repair(self):
         self.expect([], STUCK, DRAWN_BACK)
         self.expect([], STUCK, DRAWN_BACK, 'obj', '--float32')

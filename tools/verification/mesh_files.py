@@ -141,13 +141,42 @@ def read_stl(data):
     return mesh.check_ids()
 
 
+FREESURFER_TRIANGLES = b'\xff\xff\xfe'
+
+
+def read_freesurfer(data):
+    """Vertices marked by NaN are missing, and so are the faces that use them; their bytes must stay."""
+    comment = re.compile(rb'[^\n]*\n\n?').match(data, 3).end()
+    vertices, faces = struct.unpack_from('>2i', data, comment)
+    mesh, missing, points = Mesh(), set(), comment + 8
+    for v in range(vertices):
+        begin = points + 12 * v
+        values = struct.unpack_from('>3f', data, begin)
+        if any(x != x for x in values):
+            missing.add(v)
+            values = (0, 0, 0)
+        mesh.add_vertex(values, [data[begin + 4 * k:begin + 4 * k + 4] for k in range(3)])
+    for f in range(faces):
+        face = struct.unpack_from('>3i', data, points + 12 * (vertices + f))
+        if not missing.intersection(face):
+            mesh.faces.append(face)
+    spans = [(points + 12 * v, points + 12 * v + 12) for v in range(vertices) if v not in missing]
+    mesh.rest = outside(data, spans)
+    return mesh.check_ids()
+
+
 def read(path, form=None):
     form = form or os.path.splitext(path)[1].lower().lstrip('.')
     try:
         with open(path, 'rb') as file:
             data = file.read()
+        if data.startswith(FREESURFER_TRIANGLES):
+            return read_freesurfer(data)
         if form in ('glb', 'gltf'):
             return read_gltf(data, os.path.dirname(path))
+        if form not in ('obj', 'off', 'ply', 'stl'):
+            raise Unreadable(f'{form or "a file without extension"} is no format that is checked here; they are obj, off, ply, stl, '
+                             'glb, gltf and FreeSurfer triangles')
         return {'obj': read_obj, 'off': read_off, 'ply': read_ply, 'stl': read_stl}[form](data)
     except (OSError, ValueError, KeyError, IndexError, StopIteration, struct.error, Unreadable) as error:
         raise Unreadable(f'{path}: {error or type(error).__name__}') from error

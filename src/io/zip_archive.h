@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace unsnarl {
+
+/// The entries of a ZIP archive in memory.
+class ZipArchive {
+ public:
+  /// `bytes` has to outlive this. Throws FileError where it is no archive, or a damaged one.
+  explicit ZipArchive(std::string_view bytes);
+  ZipArchive(const ZipArchive&) = delete;
+  ZipArchive& operator=(const ZipArchive&) = delete;
+  ~ZipArchive();
+
+  /// What an entry holds, whatever the case of its name. Nothing: there is none. Throws FileError where it is damaged,
+  /// encrypted, or compressed in a way that is not supported.
+  std::optional<std::string> content(const std::string& name) const;
+  /// The archive with other content of one entry, which is there; compressed as before, of the same time; all other
+  /// entries as they are. Throws WriteError.
+  std::string with_content(const std::string& name, std::string_view content) const;
+
+ private:
+  struct Handle;
+  std::string_view bytes_;
+  std::unique_ptr<Handle> handle_;
+};
+
+}  // namespace unsnarl

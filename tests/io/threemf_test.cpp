@@ -1,0 +1,121 @@
+#include "archives.h"
+#include "document_checks.h"
+#include "io/zip_archive.h"
+
+namespace unsnarl {
+namespace {
+
+const std::string relations =
+    "<?xml version=\"1.0\"?><Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
+    "<Relationship Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\" Target=\"/3D/my.model\" "
+    "Id=\"a\"/>"
+    "</Relationships>";
+const std::string mesh =
+    "<mesh><vertices>\n<vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"4.000\" y=\"0\" z=\"0\" />\n"
+    "<vertex z=\"0\" y='4' x=\"0\"/><vertex x=\"0\" y=\"0\" z=\" 4.25 \"/></vertices>\n<triangles>"
+    "<triangle v1=\"0\" v2=\"2\" v3=\"1\" pid=\"3\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/>"
+    "<triangle v1=\"1\" v2=\"2\" v3=\"3\"/><triangle v1=\"0\" v2=\"3\" v3=\"2\"/></triangles></mesh>";
+const std::string before =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" "
+    "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n<resources>\n";
+const std::string plain = before + "<object id=\"1\" type=\"model\" name=\"bolt\">" + mesh +
+                          "</object></resources>\n<build><item objectid=\"1\"/></build></model>\n";
+const std::string placed =
+    before + "<object id=\"1\" name=\"bolt\">" + mesh + "</object>\n<object id=\"7\" name=\"nut\">" + mesh +
+    "</object>\n<object id=\"8\">" + mesh +
+    "</object>\n<object id=\"9\"><components><component objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 10 0 0\"/>"
+    "<component objectid=\"7\"/></components></object></resources>\n<build>"
+    "<item objectid=\"9\" transform=\"0 2 0 -2 0 0 0 0 2 0 0 5\"/><item objectid=\"7\"/></build></model>\n";
+
+std::string package(const std::string& model, bool is_compressed = true) {
+  return zip_of({{"[Content_Types].xml", "<Types/>"},
+                 {"_rels/.rels", relations},
+                 {"3D/my.model", model},
+                 {"Metadata/thumbnail.png", "\x89PNG"}},
+                is_compressed);
+}
+std::string model_of(const std::string& bytes) {
+  return *ZipArchive(bytes).content("3D/my.model");
+}
+
+TEST(Threemf, ReadsTheObjectsOfTheBuild) {
+  const Document document = Document::parse(package(plain), Format::threemf);
+  EXPECT_EQ(document.surface().positions, (std::vector<double>{0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4.25}));
+  EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}));
+  EXPECT_EQ(document.face_labels().at(0).kind, "object");
+  EXPECT_EQ(document.face_labels().at(0).names, (std::vector<std::string>{"bolt"}));
+  EXPECT_TRUE(document.notes().empty());
+}
+
+TEST(Threemf, ObjectsStandWhereTheBuildShowsThem) {
+  const Document document = Document::parse(package(placed), Format::threemf);
+  const std::vector<double>& x = document.surface().positions;
+  ASSERT_EQ(x.size(), 24u);
+  // (4, 0, 0) of the first, moved by the component and turned by the item.
+  EXPECT_EQ((std::vector<double>{x[3], x[4], x[5]}), (std::vector<double>{0, 28, 5}));
+  EXPECT_EQ((std::vector<double>{x[18], x[19], x[20]}), (std::vector<double>{-8, 0, 5}));
+  EXPECT_EQ(document.notes().at(0), "Objects that the build does not show (1) stay as they are.");
+  EXPECT_PRED2(message_contains, document.notes().at(1), "Objects that the build shows several times (1)");
+}
+
+TEST(Threemf, KeepsEveryPromiseOfPatching) {
+  for (const bool is_compressed : {false, true}) {
+    check_patching(package(plain, is_compressed), Format::threemf);
+    check_patching(package(placed, is_compressed), Format::threemf);
+  }
+}
+
+TEST(Threemf, OnlyTheMovedCoordinateOfTheModelChanges) {
+  const std::string bytes = package(plain);
+  const Document document = Document::parse(bytes, Format::threemf);
+  std::vector<double> moved = document.surface().positions;
+  moved[11] = 0.1;
+  const std::string patched = patched_bytes(document, moved);
+  EXPECT_EQ(model_of(patched), replaced(plain, " 4.25 ", " 0.1 "));
+  EXPECT_EQ(ZipArchive(patched).content("Metadata/thumbnail.png"), "\x89PNG");
+  EXPECT_EQ(patched.substr(0, bytes.find("3D/my.model") - 30), bytes.substr(0, bytes.find("3D/my.model") - 30));
+}
+
+TEST(Threemf, ErrorsSayWhatAndWhere) {
+  const auto error = [](const std::string& model) { return parse_error(package(model), Format::threemf); };
+  EXPECT_PARSE_ERROR("", Format::threemf, "empty");
+  EXPECT_PARSE_ERROR("v 0 0 0\n", Format::threemf, "this is no ZIP archive");
+  EXPECT_PARSE_ERROR(package(plain).substr(0, 300), Format::threemf, "this is no ZIP archive");
+  EXPECT_PARSE_ERROR(zip_of({{"a", "b"}}, true), Format::threemf, "the archive has no '3D/3dmodel.model'");
+  EXPECT_PRED2(message_contains, error("<model"), "3D/my.model, line 1: this is no XML");
+  EXPECT_PRED2(message_contains, error(replaced(plain, "4.25", "x")),
+               "3D/my.model, line 6: coordinate 'x' of vertex 3 is not a number");
+  EXPECT_PRED2(message_contains, error(replaced(plain, " 4.25 ", "1 2")), "more than a number as 'z'");
+  EXPECT_PRED2(message_contains, error(replaced(plain, " z=\" 4.25 \"", "")),
+               "vertex 3 has fewer than three coordinates");
+  EXPECT_PRED2(message_contains, error(replaced(plain, "v3=\"2\"", "v3=\"4\"")),
+               "triangle 3 of 'bolt' uses vertex '4', but there are 4");
+  EXPECT_PRED2(message_contains, error(replaced(plain, "objectid=\"1\"", "objectid=\"2\"")), "there is no object 2");
+  EXPECT_PRED2(message_contains, error(replaced(plain, "<item objectid=\"1\"/>", "")), "the build shows no object");
+  EXPECT_PRED2(message_contains, error(replaced(plain, "<item ", "<item p:path=\"/3D/other.model\" ")),
+               "production extension");
+  EXPECT_PRED2(message_contains, error(replaced(plain, "<item ", "<item transform=\"1 2\" ")),
+               "a transform should be 12 numbers");
+  EXPECT_PRED2(message_contains, error(replaced(placed, "0 2 0 -2 0 0", "0 2 0 0 2 0")), "makes the object flat");
+  EXPECT_PRED2(message_contains, error(replaced(placed, "<component objectid=\"7\"/>", "<component objectid=\"9\"/>")),
+               "within themselves");
+}
+
+TEST(Threemf, ComponentsThatDoubleEndSoon) {
+  std::string objects = "<object id=\"0\">" + mesh + "</object>";
+  for (int i = 1; i <= 60; ++i) {
+    const std::string component = "<component objectid=\"" + std::to_string(i - 1) + "\"/>";
+    objects +=
+        "<object id=\"" + std::to_string(i) + "\"><components>" + component + component + "</components></object>";
+  }
+  const std::string bomb = before + objects + "</resources><build><item objectid=\"60\"/></build></model>";
+  EXPECT_PARSE_ERROR(package(bomb), Format::threemf, "show more objects than can be read");
+}
+
+TEST(Threemf, SurvivesDamage) {
+  check_damage(package(plain), Format::threemf);
+  check_damage(package(placed, false), Format::threemf);
+}
+
+}  // namespace
+}  // namespace unsnarl
