@@ -174,11 +174,11 @@ void Recovery::unflip(double activation) {
     step(rings_around(std::move(corners), options_.unflip_rings), activation, unflip_steps, options_.fine);
     objective_.scale_flip_penalty(1);
     std::vector<Index> left = flipped_faces();
-    if (left.size() < flipped.size()) {
-      flipped = std::move(left);
-    } else {
+    if (left.size() >= flipped.size()) {
       patch_.x = before;
+      return;
     }
+    flipped = std::move(left);
     factor *= options_.unflip_factor;
   }
 }
