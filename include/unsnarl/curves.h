@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -64,12 +65,13 @@ struct CurveReport {
   /// How far points are from the nearest place on any curve of the input. Small where the drawing looks the same,
   /// although a loop was turned over and its points have changed sides.
   double distance_mean_rel = 0, distance_max_rel = 0;
-  std::size_t turned_points = 0;     ///< points of loops that were turned over
-  std::size_t moved_points = 0;      ///< points that are not bit-identical to the input
-  std::size_t inserted_points = 0;   ///< points added where an open curve ends on a segment
-  std::vector<CurveJoint> joints;    ///< in terms of the result's curves
-  std::vector<CurveCrossing> fixed;  ///< obstructions: crossings of segments that must not move
-  std::vector<CurveCrossing> left;   ///< crossings of the result, the obstructions included
+  std::size_t turned_points = 0;      ///< points of loops that were turned over
+  std::size_t moved_points = 0;       ///< points that are not bit-identical to the input
+  std::size_t inserted_points = 0;    ///< points added where an open curve ends on a segment
+  std::vector<CurveJoint> joints;     ///< in terms of the result's curves
+  std::vector<CurveCrossing> before;  ///< crossings of `joined`
+  std::vector<CurveCrossing> fixed;   ///< obstructions: crossings of segments that must not move
+  std::vector<CurveCrossing> left;    ///< crossings of the result, the obstructions included
   double seconds = 0;
 };
 
@@ -78,6 +80,7 @@ struct CurveResult {
   /// no_progress: crossings are left. time_limit, cancelled: stopped with crossings left.
   Status status = Status::no_progress;
   std::vector<Curve> curves;  ///< those of the input, moved; points inserted where an open curve ends on a segment
+  std::vector<Curve> joined;  ///< the same before anything moved: the input with its open ends joined
   CurveReport report;
 };
 

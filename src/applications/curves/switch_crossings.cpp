@@ -186,9 +186,48 @@ class Switcher {
     return sums.back() - sums[begin] + sums[end - chain.size()] > 0;
   }
 
+  /// Curves that lie on each other (copies, borders of a map): the later one is drawn in a little where they touch.
+  bool inset(const std::vector<SegmentPair>& pairs) {
+    std::vector<std::uint8_t> moves(net_.vertex_count(), 0);
+    for (const SegmentPair& pair : pairs)
+      if (pair.kind == Meeting::touching && net_.chain_of[pair.i] != net_.chain_of[pair.j])
+        for (const Index v : net_.segments[std::max(pair.i, pair.j)]) moves[v] = !net_.pinned[v];
+    const Points2 old = state_.x;
+    bool any = false;
+    for (const CurveNet::Chain& chain : net_.chains) {
+      double area = 0;
+      for (Index k = 0; k < chain.size(); ++k) {
+        const Vec2 a = old.col(chain.at(k)), b = old.col(chain.at(k + 1));
+        area += a.x() * b.y() - b.x() * a.y();
+      }
+      const double inwards = chain.closed && area < 0 ? -1 : 1;
+      for (Index k = 0; k < chain.size(); ++k) {
+        const Index v = chain.vertices[k];
+        if (!moves[v]) continue;
+        const bool first = !chain.closed && k == 0, last = !chain.closed && k + 1 == chain.size();
+        const Vec2 p = old.col(v);
+        const Vec2 before = first ? Vec2(0, 0) : Vec2(p - old.col(chain.at((k + chain.size() - 1) % chain.size())));
+        const Vec2 after = last ? Vec2(0, 0) : Vec2(old.col(chain.at(k + 1)) - p);
+        const Vec2 along = before.stableNormalized() + after.stableNormalized();
+        if (along.squaredNorm() == 0) continue;
+        double length = std::max(before.norm(), after.norm());
+        if (!first && !last) length = std::min(before.norm(), after.norm());
+        const Vec2 normal = Vec2(-along.y(), along.x()).normalized();
+        state_.x.col(v) += inwards * std::min(options_.inset_rel * net_.diagonal, 0.25 * length) * normal;
+        any = true;
+      }
+    }
+    tree_.refit(state_.x);
+    return any;
+  }
+
   /// Segments that only touch cannot be switched; after a small push they cross or do not.
   std::vector<SegmentPair> move_apart_what_touches() {
     std::vector<SegmentPair> pairs = find_meetings(net_, tree_, state_.x);
+    if (!is_inset_) {
+      is_inset_ = true;
+      if (inset(pairs)) pairs = find_meetings(net_, tree_, state_.x);
+    }
     double part = options_.jitter;
     for (int round = 0; round < options_.jitters; ++round, part *= 10) {
       std::vector<std::uint8_t> moves(net_.vertex_count(), 0);
@@ -572,6 +611,7 @@ class Switcher {
   std::vector<std::uint8_t> touched_;              // in this pass; one a vertex
   std::vector<std::vector<Index>> pinned_before_;  // of each chain: pinned vertices before each slot
   std::uint64_t jitter_round_ = 0;
+  bool is_inset_ = false;
 };
 
 }  // namespace

@@ -24,6 +24,8 @@ struct SwitchOptions {
   double dense = 3;
   /// Points of a curve at which another numbering is judged; all together took ten times as long and gained nothing.
   Index renumber_samples = 400;
+  /// How far a curve is drawn in where it lies on another one / diagonal: a quarter of the default gap.
+  double inset_rel = 1e-3;
   /// Tries of moving touching segments apart by a part of their length, tenfold each time.
   int jitters = 5;
   double jitter = 1e-7;  ///< the first part

@@ -14,6 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Points this near to where they are pulled to are put there / diagonal: a four-hundredth of the default gap.
+constexpr double snap_rel = 1e-5;
+
 void check_options(const CurveOptions& options) {
   if (!(options.gap_rel > 0 && options.gap_rel <= 0.1))
     throw std::invalid_argument(fmt::format("gap_rel is {}; give a number in (0, 0.1]", options.gap_rel));
@@ -71,6 +74,8 @@ class Run {
     report.points = static_cast<std::size_t>(net_.vertex_count());
     const std::vector<SegmentPair> before = meetings(net_, net_.rest);
     report.crossings_before = before.size();
+    report.before = as_crossings(net_, before);
+    result_.joined = result_.curves;
     for (const SegmentPair& pair : before)
       if (is_fixed(pair)) report.fixed.push_back(as_crossings(net_, {pair})[0]);
     CurveState state{net_.rest, net_.rest, std::vector<std::uint8_t>(net_.vertex_count(), 0)};
@@ -129,6 +134,17 @@ class Run {
       show(0.5 + 0.5 * step++ / recovering_.max_steps, "recover", 0, state);
       return is_stopped();
     });
+    snap(state);
+  }
+
+  /// What has moved next to nothing goes back all the way, so that the numbers of the input are kept.
+  void snap(CurveState& state) const {
+    const Points2 recovered = state.x;
+    const std::size_t left = meetings(net_, state.x).size();
+    for (Index v = 0; v < net_.vertex_count(); ++v)
+      if ((state.x.col(v) - state.target.col(v)).norm() < snap_rel * net_.diagonal)
+        state.x.col(v) = state.target.col(v);
+    if (meetings(net_, state.x).size() > left) state.x = recovered;
   }
 
   void finish(const CurveState& state) {
