@@ -150,8 +150,13 @@ class Curves {
   }
 
   void write_output() {
-    const std::string bytes = document_.patched(result_.curves);
-    certify(bytes);
+    std::string bytes = document_.patched(result_.curves);
+    std::string broken = broken_promise(bytes);
+    if (!broken.empty()) {
+      bytes = document_.patched(result_.curves, true);
+      broken = broken_promise(bytes);
+    }
+    if (!broken.empty()) throw std::logic_error("the file to be written does not hold what was certified: " + broken);
     if (is_stream(options_.output)) {
       write_to_stream(options_.output, bytes);
       return;
@@ -165,26 +170,23 @@ class Curves {
     staged.commit();
   }
 
-  /// What the file says is certified, not what was computed.
-  void certify(const std::string& bytes) const {
-    std::vector<Curve> written = document_.read_back(bytes);
-    const auto refuse = [](const std::string& what) {
-      throw std::logic_error(fmt::format("the file to be written does not hold what was certified: {}", what));
-    };
-    if (written.size() != result_.curves.size()) refuse("it has another number of curves");
+  /// What the file says is certified, not what was computed. Empty: it holds.
+  std::string broken_promise(const std::string& bytes) const {
+    const std::vector<Curve> written = document_.read_back(bytes);
+    if (written.size() != result_.curves.size()) return "it has another number of curves";
     for (std::size_t c = 0; c < written.size(); ++c)
       if (written[c].size() != result_.curves[c].size() || written[c].closed != result_.curves[c].closed)
-        refuse(fmt::format("{} has another number of points", name_of(written, static_cast<std::int32_t>(c))));
+        return fmt::format("{} has another number of points", name_of(written, static_cast<std::int32_t>(c)));
     for (const CurveJoint& joint : result_.report.joints) {
       const auto [c, k] = joint[0];
       for (const auto& [other, point] : joint)
         for (int axis = 0; axis < 2; ++axis)
           if (!(std::abs(written[other].points[2 * point + axis] - written[c].points[2 * k + axis]) <=
                 joint_apart_rel * result_.report.diagonal))
-            refuse(fmt::format("{} and {} have come apart", name_of(written, c), name_of(written, other)));
+            return fmt::format("{} and {} have come apart", name_of(written, c), name_of(written, other));
     }
     const std::size_t crossings = find_crossings(written, result_.report.joints).size();
-    if (crossings > result_.report.crossings_after) refuse(count_of(crossings, "crossing") + " in it");
+    return crossings > result_.report.crossings_after ? count_of(crossings, "crossing") + " in it" : "";
   }
 
   void write_integrand(const std::vector<Curve>& curves) {

@@ -62,6 +62,24 @@ std::vector<SegmentPair> find_meetings(const CurveNet& net, const SegmentTree& t
   return result;
 }
 
+std::vector<std::uint8_t> vertices_closer_than(const CurveNet& net, const SegmentTree& tree, const Points2& x,
+                                               double distance) {
+  std::vector<std::uint8_t> result(net.vertex_count(), 0);
+  const auto look = [&](Index v, const Edge& segment) {
+    const auto [a, b] = segment;
+    if (v == a || v == b) return;
+    const Vec2 p = x.col(v), q = x.col(a), d = x.col(b) - q;
+    const double squared = d.squaredNorm();
+    const double t = squared > 0 ? std::clamp((p - q).dot(d) / squared, 0.0, 1.0) : 0.0;
+    if ((q + t * d - p).norm() < distance) result[v] = result[a] = result[b] = 1;
+  };
+  tree.pairs_within(distance, [&](Index i, Index j) {
+    for (const Index v : net.segments[i]) look(v, net.segments[j]);
+    for (const Index v : net.segments[j]) look(v, net.segments[i]);
+  });
+  return result;
+}
+
 double crossing_fraction(const Points2& x, const Edge& a, const Edge& b) {
   const Vec2 p = x.col(a[0]), d = x.col(a[1]) - p, q = x.col(b[0]), e = x.col(b[1]) - q;
   const double det = d.x() * e.y() - d.y() * e.x();

@@ -23,6 +23,11 @@ struct SegmentPair {
 /// The tree has to be fitted to x.
 std::vector<SegmentPair> find_meetings(const CurveNet& net, const SegmentTree& tree, const Points2& x);
 
+/// One flag a vertex: it, or a segment that it is an end of, is closer than `distance` to a segment or vertex that it
+/// has nothing to do with. The tree has to be fitted to x.
+std::vector<std::uint8_t> vertices_closer_than(const CurveNet& net, const SegmentTree& tree, const Points2& x,
+                                               double distance);
+
 /// The fraction of segment a at which the line through b meets it; for a proper crossing.
 double crossing_fraction(const Points2& x, const Edge& a, const Edge& b);
 

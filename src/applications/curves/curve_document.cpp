@@ -106,10 +106,10 @@ const std::vector<std::string>& CurveDocument::notes() const {
   return file_->notes;
 }
 
-std::string CurveDocument::patched(std::span<const Curve> curves) const {
+std::string CurveDocument::patched(std::span<const Curve> curves, bool all_digits) const {
   if (curves.size() != file_->curves.size())
     throw std::invalid_argument(fmt::format("{} curves for a file of {}", curves.size(), file_->curves.size()));
-  return file_->patched(curves, written_rel * diagonal_of(file_->curves));
+  return file_->patched(curves, all_digits ? 0 : written_rel * diagonal_of(file_->curves));
 }
 
 std::vector<Curve> CurveDocument::read_back(const std::string& bytes) const {

@@ -14,6 +14,7 @@ namespace {
 struct Contact {
   Index vertex = 0, a = 0, b = 0;
   double activation = 0;  ///< length at which the barrier sets in
+  bool tight = false;     ///< closer than the barrier can bear: it sets in later, and grows with the gap
 };
 
 struct Nearest {
@@ -82,10 +83,11 @@ class Recovery {
           move.col(v) = solution.segment<2>(2 * unknown_[v]);
           wanted = std::max(wanted, move.col(v).norm());
         }
-      if (wanted < options_.motion_rel * net_.diagonal) return step;
       const double moved = take(move, wanted);
+      const bool any_tight =
+          std::any_of(contacts_.begin(), contacts_.end(), [](const Contact& contact) { return contact.tight; });
       if (moved < options_.motion_rel * net_.diagonal) {
-        if (++small_ == 3) return step + 1;
+        if (++small_ >= 3 && (!any_tight || moved == 0)) return step + 1;
       } else {
         small_ = 0;
       }
@@ -139,8 +141,13 @@ class Recovery {
           p.y() > high.y() + distance)
         return;
       Contact contact{v, a, b, gap_};
-      if (nearest(state_.x, contact).distance >= distance) return;
+      const double now = nearest(state_.x, contact).distance;
+      if (now >= distance) return;
       contact.activation = activation(contact);
+      if (now < options_.tight_part * contact.activation) {
+        contact.activation = now / options_.tight_part;
+        contact.tight = true;
+      }
       result.push_back(contact);
     };
     tree_.pairs_within(distance, [&](Index i, Index j) {

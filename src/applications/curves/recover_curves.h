@@ -13,8 +13,11 @@ struct CurveRecoverOptions {
   /// Barrier against the pull of a vertex that is a diagonal away. 0.05 leaves a third of the gap where curves are
   /// pressed together over a tenth of the diagonal.
   double barrier = 0.05;
-  int max_steps = 80;          ///< of Newton's method; half of the curves settle within 30
-  double motion_rel = 2e-5;    ///< stops when no vertex moves farther in a step / diagonal
+  int max_steps = 120;       ///< of Newton's method; half of the curves settle within 30
+  double motion_rel = 2e-5;  ///< stops when no vertex moves farther in a step / diagonal
+  /// Contacts closer than this part of the gap are opened step by step: the barrier of 1e-12 of the gap is as stiff as
+  /// the digits of a double bear.
+  double tight_part = 0.1;
   double safe_part = 0.45;     ///< of the distance between a vertex and a segment that either may move: below a half
   double largest_step = 0.03;  ///< of a vertex / diagonal: bounds the pairs to be looked at
 };

@@ -124,8 +124,9 @@ class Switcher {
   }
 
   std::vector<SegmentPair> run(const std::function<bool(std::size_t)>& stop) {
-    for (;;) {
+    for (int round = 0;;) {
       const std::vector<SegmentPair> pairs = move_apart_what_touches();
+      if (pairs.empty() && round++ < options_.jitters && move_apart_what_nearly_touches()) continue;
       if (pairs.empty() || stop(pairs.size())) return pairs;
       const bool dense = static_cast<double>(pairs.size()) > options_.dense * net_.segment_count();
       if (!dense && pass(pairs)) continue;
@@ -251,6 +252,23 @@ class Switcher {
       pairs = find_meetings(net_, tree_, state_.x);
     }
     return pairs;
+  }
+
+  /// Gaps of a few units in the last place are no gaps: recovery could not open them, nor a file hold them.
+  bool move_apart_what_nearly_touches() {
+    const double least = options_.least_gap_rel * net_.diagonal;
+    std::vector<std::uint8_t> moves = vertices_closer_than(net_, tree_, state_.x, least);
+    bool any = false;
+    for (Index v = 0; v < net_.vertex_count(); ++v) {
+      moves[v] = moves[v] && !net_.pinned[v];
+      any |= moves[v] != 0;
+    }
+    if (!any) return false;
+    for (Index v = 0; v < net_.vertex_count(); ++v)
+      if (moves[v]) state_.x.col(v) += 10 * least * Vec2(noise(v, 0, jitter_round_), noise(v, 1, jitter_round_));
+    ++jitter_round_;
+    tree_.refit(state_.x);
+    return true;
   }
 
   /// Makes the cheap moves that do not get in each other's way. False: none took a crossing away.

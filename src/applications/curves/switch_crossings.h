@@ -29,6 +29,8 @@ struct SwitchOptions {
   /// Tries of moving touching segments apart by a part of their length, tenfold each time.
   int jitters = 5;
   double jitter = 1e-7;  ///< the first part
+  /// Curves that are closer than this / diagonal are moved apart by ten times as much.
+  double least_gap_rel = 1e-8;
   /// Places that a shrinking curve is tried at, and halvings of its size: 2^-40 is below the digits of a float32.
   int shrink_places = 16, shrink_halvings = 40;
 };

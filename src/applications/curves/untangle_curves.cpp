@@ -137,13 +137,19 @@ class Run {
     snap(state);
   }
 
-  /// What has moved next to nothing goes back all the way, so that the numbers of the input are kept.
+  /// What has moved next to nothing goes back all the way, so that the numbers of the input are kept; not where that
+  /// would close a gap.
   void snap(CurveState& state) const {
     const Points2 recovered = state.x;
     const std::size_t left = meetings(net_, state.x).size();
     for (Index v = 0; v < net_.vertex_count(); ++v)
       if ((state.x.col(v) - state.target.col(v)).norm() < snap_rel * net_.diagonal)
         state.x.col(v) = state.target.col(v);
+    SegmentTree tree(net_);
+    tree.refit(state.x);
+    const std::vector<std::uint8_t> close = vertices_closer_than(net_, tree, state.x, snap_rel * net_.diagonal);
+    for (Index v = 0; v < net_.vertex_count(); ++v)
+      if (close[v]) state.x.col(v) = recovered.col(v);
     if (meetings(net_, state.x).size() > left) state.x = recovered;
   }
 
