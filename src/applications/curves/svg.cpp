@@ -23,6 +23,10 @@ std::size_t line_of(std::string_view text, std::size_t offset) {
          static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
 }
 
+/// Attributes that say where a line, rect, circle or ellipse is.
+constexpr std::array<const char*, 13> measures = {"x",  "y", "width", "height", "rx", "ry", "cx",
+                                                  "cy", "r", "x1",    "y1",     "x2", "y2"};
+
 /// An attribute of a start tag in the text.
 struct Attribute {
   std::size_t begin = 0, end = 0;              // with its name and quotation marks
@@ -167,7 +171,9 @@ class SvgParser {
       if (has_css_transform(node.attribute("style").value()) || node.attribute("transform-origin"))
         throw FileError("transforms in CSS are not supported; use the attribute 'transform'");
       if (node.attribute("transform")) transform = outer * parse_transform(node.attribute("transform").value());
-      if (is_shape(name)) {
+      if (is_shape(name) && has_percentages(node)) {
+        ++skipped_[fmt::format("{} in %", name)];
+      } else if (is_shape(name)) {
         if (!(std::abs(transform.linear.determinant()) > 0))
           throw FileError("its transforms flatten the plane; there is no way back to its coordinates");
         add_shape(node, std::string(name), transform);
@@ -177,6 +183,13 @@ class SvgParser {
     }
     for (const pugi::xml_node& child : node.children())
       if (child.type() == pugi::node_element) visit(child, transform, false);
+  }
+
+  /// Of the page, mostly a background.
+  static bool has_percentages(const pugi::xml_node& node) {
+    for (const char* const measure : measures)
+      if (std::string_view(node.attribute(measure).value()).ends_with('%')) return true;
+    return false;
   }
 
   static bool is_shape(std::string_view name) {
@@ -351,8 +364,7 @@ std::string SvgFile::patched(std::span<const Curve> moved, double rounding) cons
     std::size_t behind = name + shape.kind.size();
     for (const auto& [key, attribute] : attributes) {
       behind = std::max(behind, attribute.end);
-      for (const char* const measure :
-           {"x", "y", "width", "height", "rx", "ry", "cx", "cy", "r", "x1", "y1", "x2", "y2"})
+      for (const char* const measure : measures)
         if (key == measure) {
           // A space before it goes too, unless the data comes in its place.
           const std::size_t begin = attribute.begin - (is_written ? 1 : 0);
