@@ -144,8 +144,9 @@ class Recovery {
       const double now = nearest(state_.x, contact).distance;
       if (now >= distance) return;
       contact.activation = activation(contact);
-      if (now < options_.tight_part * contact.activation) {
-        contact.activation = now / options_.tight_part;
+      const double bearable = std::max(now / options_.tight_part, options_.least_activation_rel * net_.diagonal);
+      if (bearable < contact.activation) {
+        contact.activation = bearable;
         contact.tight = true;
       }
       result.push_back(contact);

@@ -15,9 +15,9 @@ struct CurveRecoverOptions {
   double barrier = 0.05;
   int max_steps = 120;       ///< of Newton's method; half of the curves settle within 30
   double motion_rel = 2e-5;  ///< stops when no vertex moves farther in a step / diagonal
-  /// Contacts closer than this part of the gap are opened step by step: the barrier of 1e-12 of the gap is as stiff as
-  /// the digits of a double bear.
-  double tight_part = 0.1;
+  /// Contacts closer than this part of the gap are opened step by step: the barrier sets in later for them, but not
+  /// below a length / diagonal, so that no pull can close what is opening.
+  double tight_part = 0.1, least_activation_rel = 1e-5;
   double safe_part = 0.45;     ///< of the distance between a vertex and a segment that either may move: below a half
   double largest_step = 0.03;  ///< of a vertex / diagonal: bounds the pairs to be looked at
 };
