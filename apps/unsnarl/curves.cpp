@@ -170,7 +170,7 @@ class Curves {
     staged.commit();
   }
 
-  /// What the file says is certified, not what was computed. Empty: it holds.
+  /// Certifies the bytes of the file, not the numbers that were computed. Empty: they hold.
   std::string broken_promise(const std::string& bytes) const {
     const std::vector<Curve> written = document_.read_back(bytes);
     if (written.size() != result_.curves.size()) return "it has another number of curves";

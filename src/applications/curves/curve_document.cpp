@@ -12,7 +12,7 @@
 namespace unsnarl {
 namespace {
 
-/// What moved is rounded to this part of the diagonal: far below any gap, and short in a text.
+/// Moved coordinates are rounded to this part of the diagonal: far below any gap, and short in a text.
 constexpr double written_rel = 1e-9;
 
 void check_flattening(double flatten_rel) {

@@ -27,7 +27,7 @@ struct Subpath {
   bool closed = false;
   bool has_curves = false;
   Vec2 start = Vec2::Zero();
-  /// What follows the move-to in the text; it begins with a command, or with a number that `implicit` belongs to.
+  /// The text behind the move-to; it begins with a command, or with a number that `implicit` belongs to.
   std::size_t begin = 0, end = 0;
   char implicit = 0;  ///< 'L', 'l' or 0
 };

@@ -185,7 +185,7 @@ class SvgParser {
       if (child.type() == pugi::node_element) visit(child, transform, false);
   }
 
-  /// Of the page, mostly a background.
+  /// Parts of the page, mostly a background.
   static bool has_percentages(const pugi::xml_node& node) {
     for (const char* const measure : measures)
       if (std::string_view(node.attribute(measure).value()).ends_with('%')) return true;

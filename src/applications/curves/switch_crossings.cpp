@@ -10,6 +10,8 @@ namespace {
 
 using Path = std::vector<Vec2>;
 
+constexpr double largest_fraction = 1 - 0x1p-20;  // of a segment; positions on curves of 2^32 segments tell it apart
+
 /// A run of vertices of a chain, from slot `begin` on, around the end of a closed one.
 struct Run {
   Index chain = 0, begin = 0, count = 0;
@@ -26,7 +28,7 @@ struct Part {
 /// One of the two places of a crossing on the curves.
 struct Place {
   Index chain = 0, slot = 0;
-  double fraction = 0;  ///< of the segment from that slot on
+  double fraction = 0;  ///< of the segment from that slot on, in [0, 1)
   Index crossing = 0;
   int strand = 0;  ///< 0: segment i of the crossing, 1: segment j
 
@@ -129,7 +131,7 @@ class Switcher {
       if (pairs.empty() && round++ < options_.jitters && move_apart_what_nearly_touches()) continue;
       if (pairs.empty() || stop(pairs.size())) return pairs;
       const bool dense = static_cast<double>(pairs.size()) > options_.dense * net_.segment_count();
-      if (!dense && pass(pairs)) continue;
+      if (!dense && pass_with_growing_reach(pairs)) continue;
       // Turning loops shortens a curve each time, so that it ends.
       if (!turn_all(stop)) return find_meetings(net_, tree_, state_.x);
     }
@@ -271,6 +273,18 @@ class Switcher {
     return true;
   }
 
+  /// Long runs are looked at where crossings are few, or where short ones are of no help: they cost more anyway.
+  bool pass_with_growing_reach(const std::vector<SegmentPair>& pairs) {
+    const Index most = net_.vertex_count();
+    const double affordable = options_.affordable_vertices / static_cast<double>(pairs.size());
+    reach_ = static_cast<Index>(std::clamp<double>(affordable, std::min(options_.least_reach, most), most));
+    for (;;) {
+      if (pass(pairs)) return true;
+      if (reach_ >= most) return false;
+      reach_ = std::min(4 * reach_, most);
+    }
+  }
+
   /// Makes the cheap moves that do not get in each other's way. False: none took a crossing away.
   bool pass(const std::vector<SegmentPair>& pairs) {
     std::vector<Move> moves = candidates(pairs);
@@ -298,7 +312,7 @@ class Switcher {
     }
     return any || (refused != nullptr && make(*refused, true));
   }
-  /// Of one vertex by a thousandth of the diagonal: what is cheaper is not told apart.
+  /// One vertex, moved by a thousandth of the diagonal: what is cheaper is not told apart.
   double least_cost() const { return 1e-3 * net_.diagonal * net_.diagonal / std::max(Index{1}, net_.vertex_count()); }
 
   bool is_touched(const Run& run) const {
@@ -319,7 +333,9 @@ class Switcher {
     for (const SegmentPair& pair : pairs) {
       if (pair.kind != Meeting::proper) continue;
       const Edge a = net_.segments[pair.i], b = net_.segments[pair.j];
-      const double t = crossing_fraction(state_.x, a, b), u = crossing_fraction(state_.x, b, a);
+      // Below 1, so that the order of places is that of their slots.
+      const double t = std::min(crossing_fraction(state_.x, a, b), largest_fraction);
+      const double u = std::min(crossing_fraction(state_.x, b, a), largest_fraction);
       const auto crossing = static_cast<Index>(points.size());
       points.push_back(state_.x.col(a[0]) + t * (state_.x.col(a[1]) - state_.x.col(a[0])));
       places.push_back({net_.chain_of[pair.i], net_.slot_of(pair.i), t, crossing, 0});
@@ -369,7 +385,7 @@ class Switcher {
   void add_reorder(const Run& run, std::vector<Part> order, std::vector<Move>& moves) const {
     const CurveNet::Chain& chain = net_.chains[run.chain];
     if (!chain.closed && (run.begin < 0 || run.begin + run.count > chain.size())) return;
-    if (run.count > chain.size() || has_pinned(run)) return;
+    if (run.count > chain.size() || run.count > reach_ || has_pinned(run)) return;
     Move move{.kind = Move::Kind::reorder, .a = run};
     Index place = 0;
     for (const Part& part : order)
@@ -400,7 +416,7 @@ class Switcher {
   }
 
   void add_pull(const Run& run, Path way, std::vector<Move>& moves) const {
-    if (run.count == 0 || has_pinned(run)) return;
+    if (run.count == 0 || run.count > reach_ || has_pinned(run)) return;
     Move move{.kind = Move::Kind::pull, .a = run, .way_a = std::move(way)};
     move.cost = options_.pull_cost * cost_of(run, move.way_a);
     moves.push_back(std::move(move));
@@ -410,6 +426,7 @@ class Switcher {
   void add_exchange(const Place& from, const Place& to, const Place& p, const Place& q, const Vec2& x, const Vec2& y,
                     std::vector<Move>& moves) const {
     const Run a = between(from, to);
+    if (a.count > reach_) return;
     const auto outer = [&](const Run& run) {
       return straight(state_.x.col(vertex(run, -1)), state_.x.col(vertex(run, run.count)), run.count);
     };
@@ -421,6 +438,7 @@ class Switcher {
       if (!closed && first.position() > last.position()) continue;
       if (p.chain == from.chain && forward(first, from) < forward(first, last)) continue;
       const Run b = between(first, last);
+      if (a.count + b.count > reach_) continue;
       add_pull(b, outer(b), moves);
       if (from.chain == p.chain) add_swaps(a, b, parallel, moves);
       if (a.count == 0 || b.count == 0 || has_pinned(a) || has_pinned(b)) continue;
@@ -446,7 +464,7 @@ class Switcher {
                   moves);
     }
   }
-  /// Where a path has more points than come to lie on it, the drawing changes too.
+  /// A path with more points than come to lie on it is drawn anew, more coarsely.
   void finish(Move move, const Path& path_a, const Path& path_b, std::vector<Move>& moves) const {
     move.cost = cost_of(move.a, move.way_a) + cost_of(move.b, move.way_b) +
                 options_.drawing_cost * (lost_area(path_b, move.way_a) + lost_area(path_a, move.way_b));
@@ -458,7 +476,7 @@ class Switcher {
     const Index n = net_.chains[place.chain].size();
     return to_end ? Run{place.chain, place.slot + 1, n - place.slot - 1} : Run{place.chain, 0, place.slot + 1};
   }
-  /// Of the tail of the open curve through `p`: drawn back, or exchanged with one of the other curve.
+  /// The tail of the open curve through `p` is drawn back, or exchanged with one of the other curve.
   void add_tails(const Place& p, const Place& q, const Vec2& x, std::vector<Move>& moves) const {
     if (net_.chains[p.chain].closed) return;
     for (const bool to_end : {true, false}) {
@@ -527,7 +545,7 @@ class Switcher {
     return count;
   }
 
-  /// What a run looks like.
+  /// Positions and targets of a run.
   struct Content {
     Path x, target;
     std::vector<std::uint8_t> turned;
@@ -630,6 +648,7 @@ class Switcher {
   std::vector<std::vector<Index>> pinned_before_;  // of each chain: pinned vertices before each slot
   std::uint64_t jitter_round_ = 0;
   bool is_inset_ = false;
+  Index reach_ = 0;  // vertices that a move may change, at most
 };
 
 }  // namespace

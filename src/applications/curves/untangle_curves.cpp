@@ -66,7 +66,6 @@ class Run {
   CurveResult operator()() {
     CurveReport& report = result_.report;
     const double diagonal = diagonal_of(result_.curves);
-    // Where joining meets a crossing, what was there before still counts as the input.
     report.joints = join_ends(result_.curves, options_.junction_rel * diagonal, report.inserted_points);
     check_curves(result_.curves);
     net_ = make_net(result_.curves, report.joints, options_.fix_ends);
@@ -137,8 +136,8 @@ class Run {
     snap(state);
   }
 
-  /// What has moved next to nothing goes back all the way, so that the numbers of the input are kept; not where that
-  /// would close a gap.
+  /// Points that have moved next to nothing go back all the way, so that the numbers of the input are kept; not where
+  /// that would close a gap.
   void snap(CurveState& state) const {
     const Points2 recovered = state.x;
     const std::size_t left = meetings(net_, state.x).size();
