@@ -8,12 +8,12 @@ namespace unsnarl {
 
 struct CurveRecoverOptions {
   /// Length over which a displacement spreads along a curve / diagonal: shorter bends of it cost more than the pull to
-  /// the target. 0.01 leaves kinks beside contacts, 0.05 moves 20 % farther.
+  /// the target. 0.01 to 0.05 end equally far from the input; the shorter, the more local is what moves.
   double spread_rel = 0.02;
-  /// Barrier against the pull of a vertex that is a diagonal away. 0.05 leaves a third of the gap where curves are
-  /// pressed together over a tenth of the diagonal.
+  /// Force of the barrier against the pull of a vertex that is a diagonal away. 0.02 and 0.2 end equally far from the
+  /// input; the larger, the wider stay gaps under pressure, and 0.2 takes half as long again.
   double barrier = 0.05;
-  int max_steps = 120;       ///< of Newton's method; half of the curves settle within 30
+  int max_steps = 120;       ///< of Newton's method; random curves take 4 to 21 in the median
   double motion_rel = 2e-5;  ///< stops when no vertex moves farther in a step / diagonal
   /// Contacts closer than this part of the gap are opened step by step: the barrier sets in later for them, but not
   /// below a length / diagonal, so that no pull can close what is opening.

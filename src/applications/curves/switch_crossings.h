@@ -14,19 +14,21 @@ struct CurveState {
 };
 
 struct SwitchOptions {
-  /// Of one pass over all crossings: moves that cost up to so many times the cheapest are made. 2 gave the same motion
-  /// in twice the passes, 16 moved 7 % farther.
+  /// A pass makes moves that cost up to so many times the cheapest. On 20 random curves of each kind, 2 took twice the
+  /// time on noisy curves and moved splines 3 % farther, 16 moved splines 5 % farther.
   double cost_range = 4;
   /// Costs are lengths of curve times the distance moved. Moves that change the drawing cost more than those that only
-  /// exchange points on it: where points are drawn straight, and where a run has too few points for its new way.
+  /// exchange points on it: where points are drawn straight, and where a run has too few points for its new way. With
+  /// pull_cost 1 splines ended eight times as far from the drawing; drawing_cost 1 and 32 were worse by a half.
   double pull_cost = 4, drawing_cost = 8;
   /// Vertices of all moves together that a pass looks at, about, and the fewest that one move may change: 780 crossings
-  /// of 1,696 points took 4.1 s of CPU without these, SEC with them.
+  /// of 1,696 points took 4.1 s of CPU without these, 0.6 s with them.
   double affordable_vertices = 2e5;
   Index least_reach = 64;
-  /// Crossings a segment beyond which nothing of the drawing can be kept, and loops are turned in any order.
+  /// Crossings a segment beyond which nothing of the drawing can be kept, and loops are turned in any order: random
+  /// curves of the smooth kinds stay below 1, points joined at random have 100.
   double dense = 3;
-  /// Points of a curve at which another numbering is judged; all together took ten times as long and gained nothing.
+  /// Points of a curve at which another numbering is judged; all of them gave the same results.
   Index renumber_samples = 400;
   /// How far a curve is drawn in where it lies on another one / diagonal: a quarter of the default gap.
   double inset_rel = 1e-3;
