@@ -13,7 +13,7 @@ struct CurveRecoverOptions {
   /// Force of the barrier against the pull of a vertex that is a diagonal away. 0.02 and 0.2 end equally far from the
   /// input; the larger, the wider stay gaps under pressure, and 0.2 takes half as long again.
   double barrier = 0.05;
-  int max_steps = 120;       ///< of Newton's method; random curves take 4 to 21 in the median
+  int max_steps = 80;        ///< of Newton's method; random curves take 4 to 21 in the median
   double motion_rel = 2e-5;  ///< stops when no vertex moves farther in a step / diagonal
   /// Contacts closer than this part of the gap are opened step by step: the barrier sets in later for them, but not
   /// below a length / diagonal, so that no pull can close what is opening.

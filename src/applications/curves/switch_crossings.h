@@ -22,8 +22,8 @@ struct SwitchOptions {
   /// pull_cost 1 splines ended eight times as far from the drawing; drawing_cost 1 and 32 were worse by a half.
   double pull_cost = 4, drawing_cost = 8;
   /// Vertices of all moves together that a pass looks at, about, and the fewest that one move may change: 780 crossings
-  /// of 1,696 points took 4.1 s of CPU without these, 0.6 s with them.
-  double affordable_vertices = 2e5;
+  /// of 1,696 points took 4.1 s of CPU without these, 0.6 s with 2e5, 0.5 s with 5e4.
+  double affordable_vertices = 5e4;
   Index least_reach = 64;
   /// Crossings a segment beyond which nothing of the drawing can be kept, and loops are turned in any order: random
   /// curves of the smooth kinds stay below 1, points joined at random have 100.
