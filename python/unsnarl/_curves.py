@@ -31,7 +31,7 @@ class CurveResult:
 def find_crossings(curves: Any, closed: Any = False) -> NDArray[np.int32]:
     """All pairs of segments that meet anywhere but in an end that they share along one curve, by exact arithmetic.
 
-    Arguments as for untangle_curves. Returns rows (curve, segment, curve, segment), sorted; segment k starts at point k.
+    curves, closed: as for untangle_curves. Returns rows (curve, segment, curve, segment), sorted; segment k starts at point k.
     """
     points = _points(curves)
     return _native.find_crossings(points, _closed(closed, len(points)))
