@@ -37,9 +37,6 @@ std::string list_of_samples() {
   std::string text;
   for (const Sample& sample : all_samples())
     text += fmt::format("{:<{}}  {}\n", sample.name, width, sample.description);
-  for (const std::string_view kind : random_curve_kinds())
-    text += fmt::format("{:<{}}  a random closed curve in the plane (svg, json), for 'unsnarl curves'\n",
-                        fmt::format("{}{}", curve_prefix, kind), width);
   return text;
 }
 
@@ -110,8 +107,12 @@ std::string curve_file(const SampleOptions& options, std::string_view kind) {
 }  // namespace
 
 void add_sample_options(CLI::App& command, SampleOptions& options) {
-  command.add_option("NAME", options.name, "Which one; see --list");
-  command.add_option("-o,--output", options.output, "Where it goes: *.obj, *.off or *.ply; '-' for standard output")
+  command.add_option("NAME", options.name,
+                     "Which one; see --list. For 'unsnarl curves', a random closed curve: curve_waves, curve_walk,\n"
+                     "curve_star, curve_noise, curve_spiral or curve_chaos");
+  command
+      .add_option("-o,--output", options.output,
+                  "Where it goes: *.obj, *.off or *.ply (curves: *.json or *.svg); '-' for standard output")
       ->type_name("OUT");
   command.add_option("--format", options.format, "obj, off or ply, where the name does not tell")->type_name("FORMAT");
   command

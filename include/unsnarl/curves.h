@@ -124,8 +124,8 @@ class CurveDocument {
   const std::vector<std::string>& notes() const;  ///< things worth telling the user, one sentence each
 
   /// The file with these curves in place of its own: as many, closed where they were, points moved or inserted.
-  /// Coordinates that moved are rounded to 1e-9 of the diagonal, unless all digits are asked for: where curves are closer
-  /// than that, only these keep them apart.
+  /// Coordinates that moved are rounded to 1e-9 of the diagonal, unless all digits are asked for: where curves are
+  /// closer than that, only these keep them apart.
   std::string patched(std::span<const Curve> curves, bool all_digits = false) const;
   /// The curves of a file that patched() wrote, flattened as here: compare point by point. Throws FileError.
   std::vector<Curve> read_back(const std::string& bytes) const;
