@@ -18,7 +18,7 @@ struct SegmentPenetration {
 SegmentPenetration segment_penetration(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1);
 
 struct RepelOptions {
-  int max_iterations = 200;    ///< of L-BFGS: some 0.1 s for 1,000 points
+  int max_iterations = 200;    ///< of L-BFGS
   double gaussian = 1;         ///< weight of the Gaussian energy, against the penalty over the mean edge length
   double elastic = 0.05;       ///< weight of the change of edges: keeps them from being drawn out
   double step_rel = 0.01;      ///< largest motion of a vertex in an iteration / diagonal
