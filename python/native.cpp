@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "unsnarl/certify.h"
+#include "unsnarl/curves.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/repair.h"
@@ -61,10 +62,11 @@ FindOptions find_options(const std::string& weld, double weld_tolerance, bool bo
           .threads = threads};
 }
 
-/// Repairs on a thread of its own, so that this one can serve Python meanwhile: it lets other Python threads run, hands
-/// out progress and heeds Ctrl-C. What is raised there cancels the repair and is raised again once that has stopped.
-RepairResult repair_while_serving_python(const SurfaceView& surface, const RepairOptions& options,
-                                         const py::object& progress) {
+/// Runs work(context) on a thread of its own, so that this one can serve Python meanwhile: it lets other Python threads
+/// run, hands out progress and heeds Ctrl-C. What is raised there cancels the work and is raised again once that has
+/// stopped.
+template <class Work>
+auto while_serving_python(const Work& work, const py::object& progress) {
   constexpr std::chrono::milliseconds signal_interval{50};
   Context context;
   std::mutex mutex;  // guards the next three
@@ -78,11 +80,11 @@ RepairResult repair_while_serving_python(const SurfaceView& surface, const Repai
       reports.push_back(report);
       changed.notify_one();
     };
-  RepairResult result;
+  decltype(work(&context)) result;
   std::exception_ptr failure, raised;
   std::thread worker([&] {
     try {
-      result = repair(surface, options, &context);
+      result = work(&context);
     } catch (...) {
       failure = std::current_exception();
     }
@@ -179,13 +181,75 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
   options.each_component = each_component;
   options.fixed.assign(fixed.data(), fixed.data() + fixed.size());
 
-  const RepairResult result = repair_while_serving_python(surface, options, progress);
+  const RepairResult result =
+      while_serving_python([&](Context* context) { return repair(surface, options, context); }, progress);
   ReportFiles files;
   files.vertices = surface.vertex_count();
   files.faces = surface.face_count();
   files.whole = clock.stage("repair");
   return py::make_tuple(array_of(result.positions), std::string(to_string(result.status)),
                         report_json(result, options, files));
+}
+
+/// Curves as Python has them: a list of flat points, flags of closed ones, flags of fixed points (empty: none).
+std::vector<Curve> curves_of(const std::vector<Array<double>>& points, const std::vector<bool>& closed,
+                             const std::vector<Array<std::uint8_t>>& fixed) {
+  std::vector<Curve> curves(points.size());
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const auto p = span_of(points[c]);
+    curves[c].points.assign(p.begin(), p.end());
+    curves[c].closed = closed[c];
+    if (c < fixed.size()) {
+      const auto f = span_of(fixed[c]);
+      curves[c].fixed.assign(f.begin(), f.end());
+    }
+  }
+  return curves;
+}
+
+Array<std::int32_t> array_of(const std::vector<CurveCrossing>& crossings) {
+  const auto count = static_cast<py::ssize_t>(crossings.size());
+  Array<std::int32_t> result({count, py::ssize_t{4}});
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const CurveCrossing& c = crossings[i];
+    const std::array<std::int32_t, 4> row{c.curve_a, c.segment_a, c.curve_b, c.segment_b};
+    for (py::ssize_t k = 0; k < 4; ++k) result.mutable_at(i, k) = row[k];
+  }
+  return result;
+}
+
+Array<std::int32_t> py_find_crossings(const std::vector<Array<double>>& points, const std::vector<bool>& closed) {
+  return array_of(find_crossings(curves_of(points, closed, {})));
+}
+
+py::tuple py_untangle_curves(const std::vector<Array<double>>& points, const std::vector<bool>& closed,
+                             const std::vector<Array<std::uint8_t>>& fixed, double gap, double junction, bool fix_ends,
+                             double time_limit, bool recover, const py::object& progress) {
+  const std::vector<Curve> curves = curves_of(points, closed, fixed);
+  const CurveOptions options{
+      .gap_rel = gap, .junction_rel = junction, .fix_ends = fix_ends, .recover = recover, .time_limit_s = time_limit};
+  const CurveResult result =
+      while_serving_python([&](Context* context) { return untangle_curves(curves, options, context); }, progress);
+  py::list moved;
+  for (const Curve& curve : result.curves) moved.append(array_of(curve.points));
+  const CurveReport& r = result.report;
+  py::dict report;
+  report["crossings_before"] = r.crossings_before;
+  report["crossings_after"] = r.crossings_after;
+  report["points"] = r.points;
+  report["diagonal"] = r.diagonal;
+  report["displacement_mean_rel"] = r.displacement_mean_rel;
+  report["displacement_max_rel"] = r.displacement_max_rel;
+  report["distance_mean_rel"] = r.distance_mean_rel;
+  report["distance_max_rel"] = r.distance_max_rel;
+  report["moved_points"] = r.moved_points;
+  report["turned_points"] = r.turned_points;
+  report["inserted_points"] = r.inserted_points;
+  report["joints"] = r.joints;
+  report["obstructions"] = array_of(r.fixed);
+  report["left"] = array_of(r.left);
+  report["seconds"] = r.seconds;
+  return py::make_tuple(moved, std::string(to_string(result.status)), report);
 }
 
 Array<std::int32_t> py_component_of_faces(const Array<double>& positions, const Array<std::int32_t>& corners,
@@ -227,6 +291,10 @@ PYBIND11_MODULE(_native, module) {
              py::arg("absolute"), py::arg("time_limit"), py::arg("memory_limit"), py::arg("recover"), py::arg("paper"),
              py::arg("each_component"), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"),
              py::arg("threads"), py::arg("progress"));
+  module.def("find_crossings", &py_find_crossings, py::arg("points"), py::arg("closed"));
+  module.def("untangle_curves", &py_untangle_curves, py::arg("points"), py::arg("closed"), py::arg("fixed"),
+             py::kw_only(), py::arg("gap"), py::arg("junction"), py::arg("fix_ends"), py::arg("time_limit"),
+             py::arg("recover"), py::arg("progress"));
   module.def("component_of_faces", &py_component_of_faces, array("positions"), array("corners"), array("offsets"),
              py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"));
   module.def("boundary_vertices", &py_boundary_vertices, array("positions"), array("corners"), array("offsets"),

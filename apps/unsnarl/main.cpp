@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "check.h"
+#include "curves.h"
 #include "fix.h"
 #include "interruption.h"
 #include "sample.h"
@@ -41,14 +42,17 @@ int run(int argc, char** argv) {
   CheckOptions check;
   SampleOptions sample;
   ViewOptions view;
+  CurvesOptions curves;
   CLI::App* const fix_command = program.add_subcommand("fix", "Repair a mesh");
   CLI::App* const check_command = program.add_subcommand("check", "Count and locate the self-intersections of a mesh");
   CLI::App* const view_command = program.add_subcommand("view", "Write a page to look at a mesh, before and after");
   CLI::App* const sample_command = program.add_subcommand("sample", "Make a self-intersecting surface to play with");
+  CLI::App* const curves_command = program.add_subcommand("curves", "Untangle curves in the plane: SVG or JSON");
   add_fix_options(*fix_command, fix);
   add_check_options(*check_command, check);
   add_view_options(*view_command, view);
   add_sample_options(*sample_command, sample);
+  add_curves_options(*curves_command, curves);
   program.footer(
       "Examples:\n"
       "  unsnarl check hand.obj                              does it intersect itself, and where?\n"
@@ -62,7 +66,7 @@ int run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0 && program.get_subcommands().empty())
-      return complain(exit_usage, "say what to do: fix, check, view or sample; 'unsnarl --help' explains");
+      return complain(exit_usage, "say what to do: fix, check, view, sample or curves; 'unsnarl --help' explains");
     return program.exit(e, std::cout, std::cerr) == 0 ? exit_embedded : exit_usage;
   }
   std::optional<tbb::global_control> limit;
@@ -71,6 +75,7 @@ int run(int argc, char** argv) {
   if (*fix_command) return run_fix(fix, interruption);
   if (*check_command) return run_check(check, interruption);
   if (*view_command) return run_view(view, interruption);
+  if (*curves_command) return run_curves(curves, interruption);
   return run_sample(sample, interruption);
 }
 

@@ -12,12 +12,24 @@
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
+#include "unsnarl/curves.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/samples.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
 namespace {
+
+/// Samples of curves are called by it and a kind of random_closed_curve.
+constexpr std::string_view curve_prefix = "curve_";
+constexpr double curve_points = 600, curve_seed = 1;
+
+/// The kind of curve that a sample is called after; empty: it is a surface.
+std::string_view kind_of_curve(std::string_view name) {
+  for (const std::string_view kind : random_curve_kinds())
+    if (name.starts_with(curve_prefix) && name.substr(curve_prefix.size()) == kind) return kind;
+  return {};
+}
 
 std::string list_of_samples() {
   std::size_t width = 0;
@@ -29,6 +41,12 @@ std::string list_of_samples() {
 }
 
 std::string description_of(const std::string& name) {
+  if (!kind_of_curve(name).empty())
+    return fmt::format(
+        "{}: a random closed curve in the plane that crosses itself\n"
+        "  --set seed={}   which one (0 to 1e15)\n"
+        "  --set points={}   number of points (8 to 100000)\n",
+        name, curve_seed, curve_points);
   const auto samples = all_samples();
   const auto found = std::find_if(samples.begin(), samples.end(), [&](const Sample& s) { return s.name == name; });
   if (found == samples.end())
@@ -54,11 +72,47 @@ std::map<std::string, double> parsed(const std::vector<std::string>& assignments
   return values;
 }
 
+/// A curve as a file. Throws UsageError, std::invalid_argument.
+std::string curve_file(const SampleOptions& options, std::string_view kind) {
+  std::optional<CurveFormat> format =
+      curve_format_from_extension(options.format.empty() ? options.output : options.format);
+  if (!format && options.output == standard_stream && options.format.empty()) format = CurveFormat::json;
+  if (!format) throw UsageError(options.output + ": name it *.svg or *.json, or add --format");
+  double seed = curve_seed, points = curve_points;
+  for (const auto& [name, value] : parsed(options.parameters)) {
+    if (name != "seed" && name != "points")
+      throw UsageError(fmt::format("--set {}: a curve has the parameters seed and points", name));
+    (name == "seed" ? seed : points) = value;
+  }
+  if (!(seed >= 0 && seed <= 1e15)) throw UsageError(fmt::format("--set seed={}: give 0 to 1e15", seed));
+  if (!(points >= 8 && points <= 100000)) throw UsageError(fmt::format("--set points={}: give 8 to 100000", points));
+  const Curve curve = random_closed_curve(kind, static_cast<std::uint64_t>(seed), static_cast<int>(points));
+  std::string list;
+  double low_x = curve.points[0], low_y = curve.points[1], high_x = low_x, high_y = low_y;
+  for (std::size_t k = 0; k < curve.points.size(); k += 2) {
+    const double x = curve.points[k], y = curve.points[k + 1];
+    list += format == CurveFormat::svg ? fmt::format("{}{},{}", k == 0 ? "" : " ", x, y)
+                                       : fmt::format("{}[{}, {}]", k == 0 ? "" : ", ", x, y);
+    low_x = std::min(low_x, x), high_x = std::max(high_x, x), low_y = std::min(low_y, y), high_y = std::max(high_y, y);
+  }
+  if (format == CurveFormat::json)
+    return fmt::format("{{\"curves\": [{{\"name\": \"{}\", \"closed\": true, \"points\": [{}]}}]}}\n", kind, list);
+  const double w = high_x - low_x, h = high_y - low_y, margin = 0.05 * std::max(w, h);
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"800\" viewBox=\"{} {} {} {}\">\n"
+      "  <polygon id=\"{}\" fill=\"none\" stroke=\"black\" stroke-width=\"{}\" points=\"{}\"/>\n</svg>\n",
+      low_x - margin, low_y - margin, w + 2 * margin, h + 2 * margin, kind, 0.002 * std::max(w, h), list);
+}
+
 }  // namespace
 
 void add_sample_options(CLI::App& command, SampleOptions& options) {
-  command.add_option("NAME", options.name, "Which one; see --list");
-  command.add_option("-o,--output", options.output, "Where it goes: *.obj, *.off or *.ply; '-' for standard output")
+  command.add_option("NAME", options.name,
+                     "Which one; see --list. For 'unsnarl curves', a random closed curve: curve_waves, curve_walk,\n"
+                     "curve_star, curve_noise, curve_spiral or curve_chaos");
+  command
+      .add_option("-o,--output", options.output,
+                  "Where it goes: *.obj, *.off or *.ply (curves: *.json or *.svg); '-' for standard output")
       ->type_name("OUT");
   command.add_option("--format", options.format, "obj, off or ply, where the name does not tell")->type_name("FORMAT");
   command
@@ -81,6 +135,10 @@ int run_sample(const SampleOptions& options, Interruption& interruption) {
   }
   if (options.name.empty()) throw UsageError("which sample? 'unsnarl sample --list' names them all");
   if (options.output.empty()) throw UsageError("where should it go? Give -o OUT ('-' for standard output)");
+  if (const std::string_view kind = kind_of_curve(options.name); !kind.empty()) {
+    write_file(options.output, curve_file(options, kind), interruption);
+    return exit_embedded;
+  }
   std::optional<Format> format = format_from_name(options.format);
   if (!format) format = options.output == standard_stream ? Format::obj : format_from_extension(options.output);
   if (!format) throw UsageError(options.output + ": name it *.obj, *.off or *.ply, or add --format");

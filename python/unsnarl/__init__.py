@@ -21,6 +21,7 @@ untangled raises nothing, its ``Result.status`` says so.
 """
 
 from ._certify import Certificate, certify
+from ._curves import CurveResult, find_crossings, untangle_curves
 from ._intersections import Intersections, find_intersections
 from ._native import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
@@ -28,6 +29,7 @@ from ._repair import Progress, Result, Status, repair
 
 __all__ = [
     "Certificate",
+    "CurveResult",
     "Intersections",
     "Progress",
     "Result",
@@ -35,7 +37,9 @@ __all__ = [
     "boundary_vertices",
     "certify",
     "component_of_faces",
+    "find_crossings",
     "find_intersections",
     "repair",
+    "untangle_curves",
     "vertices_of_faces",
 ]

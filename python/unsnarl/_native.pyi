@@ -72,3 +72,16 @@ def vertices_of_faces(
     offsets: NDArray[np.int32],
     faces: NDArray[np.uint8],
 ) -> NDArray[np.uint8]: ...
+def find_crossings(points: list[NDArray[np.float64]], closed: list[bool]) -> NDArray[np.int32]: ...
+def untangle_curves(
+    points: list[NDArray[np.float64]],
+    closed: list[bool],
+    fixed: list[NDArray[np.uint8]],
+    *,
+    gap: float,
+    junction: float,
+    fix_ends: bool,
+    time_limit: float,
+    recover: bool,
+    progress: Callable[[float, str, int, float], object] | None,
+) -> tuple[list[NDArray[np.float64]], str, dict[str, Any]]: ...

@@ -27,11 +27,12 @@ BELOW = {
     "report": ["geometry", "mesh", "contact", "energy", "io", "scene", "untangle"],
     "pipeline": ["geometry", "mesh", "contact", "energy", "optimize", "io", "render", "scene", "recover", "untangle",
                  "report"],
+    "applications": ["geometry", "mesh", "contact", "energy", "optimize", "io", "render"],
     "samples": ["geometry", "mesh"],
 }
 # They use the library as its users do.
 USERS = ["apps", "python", "examples"]
-THIRD_PARTY = re.compile(r"^(Eigen|CGAL|tbb|oneapi|fmt|nlohmann|CLI|png|zlib|boost|gmp|mpfr|gtest|benchmark)\b")
+THIRD_PARTY = re.compile(r"^(Eigen|CGAL|tbb|oneapi|fmt|nlohmann|CLI|png|zlib|boost|gmp|mpfr|pugixml|gtest|benchmark)\b")
 CGAL_ONLY_IN = "src/geometry/exact_predicates.cpp"
 # The kernel, its number types and Intersections_3 are under the LGPL.
 CGAL_LGPL = re.compile(

@@ -1,0 +1,360 @@
+#include "curves.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "command_options.h"
+#include "mesh_input.h"
+#include "progress.h"
+#include "staged_output.h"
+#include "standard_streams.h"
+#include "unsnarl/curves.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/version.h"
+#include "usage_error.h"
+
+namespace unsnarl::app {
+namespace {
+
+/// How far the written points of one joint may be apart / diagonal: transforms of elements are inverted in doubles.
+constexpr double joint_apart_rel = 1e-8;
+/// A message names so many places at most.
+constexpr std::size_t most_places = 5;
+
+CurveDocument read_curves(const CurvesOptions& options) {
+  std::optional<CurveFormat> format;
+  if (!options.format.empty()) format = curve_format_from_extension(options.format);
+  if (options.input != standard_stream) return CurveDocument::read(options.input, options.flatten, format);
+  if (!format) throw UsageError("standard input has no extension to tell its format by: add --format svg or json");
+  std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};
+  if (std::cin.bad()) throw FileError("standard input: cannot read");
+  return CurveDocument::parse(std::move(bytes), *format, options.flatten);
+}
+
+/// The curves of the file, those fixed that --fix names.
+std::vector<Curve> curves_to_move(const CurveDocument& document, const std::vector<std::string>& fix) {
+  std::vector<Curve> curves = document.curves();
+  for (const std::string& wanted : fix) {
+    bool found = false;
+    const auto hold = [&](std::size_t c) {
+      curves[c].fixed.assign(curves[c].size(), 1);
+      found = true;
+    };
+    for (std::size_t c = 0; c < curves.size(); ++c)
+      if (document.ids()[c] == wanted) hold(c);
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+    if (!found && error == std::errc{} && end == wanted.data() + wanted.size() && number < curves.size()) hold(number);
+    if (!found)
+      throw UsageError(
+          fmt::format("--fix {}: no curve has this id or name; give one of the file, or a number from 0 to {}", wanted,
+                      curves.empty() ? 0 : curves.size() - 1));
+  }
+  return curves;
+}
+
+std::string name_of(const std::vector<Curve>& curves, std::int32_t c) {
+  return curves[c].name.empty() ? fmt::format("curve {}", c) : curves[c].name;
+}
+
+std::string place_of(const std::vector<Curve>& curves, const CurveCrossing& crossing) {
+  return fmt::format("segment {} of {} and segment {} of {}", crossing.segment_a, name_of(curves, crossing.curve_a),
+                     crossing.segment_b, name_of(curves, crossing.curve_b));
+}
+
+std::string count_of(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// Everything around one call.
+class Curves {
+ public:
+  Curves(const CurvesOptions& options, Interruption& interruption)
+      : options_(options),
+        interruption_(interruption),
+        display_(progress_style(options.progress, options.quiet)),
+        document_(read_curves(options)) {}
+
+  int run() {
+    check_outputs();
+    for (const std::string& note : document_.notes()) say("note: {}", note);
+    const std::vector<Curve> input = curves_to_move(document_, options_.fix);
+    if (!options_.integrand.empty()) write_integrand(input);
+    if (options_.output.empty()) return exit_embedded;
+    if (!is_stream(options_.output)) StagedOutput(options_.output, interruption_);
+
+    CurveOptions wanted;
+    wanted.gap_rel = options_.gap;
+    wanted.junction_rel = options_.junction;
+    wanted.fix_ends = options_.fix_ends;
+    wanted.recover = !options_.no_recover;
+    wanted.time_limit_s = options_.time_limit_s;
+    Context context;
+    context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
+    interruption_.set_handler([&] {
+      context.cancel();
+      if (!options_.quiet) tell("\nstopping; once more to end at once\n");
+    });
+    try {
+      result_ = untangle_curves(input, wanted, &context);
+    } catch (const std::invalid_argument& e) {
+      throw FileError(fmt::format("{}: {}", options_.input, e.what()));
+    }
+    interruption_.set_handler(nullptr);
+    display_.clear();
+
+    const bool any_moved = result_.report.moved_points + result_.report.inserted_points > 0;
+    const bool is_written = result_.status == Status::embedded || (result_.status == Status::obstructed && any_moved) ||
+                            options_.keep_partial;
+    if (is_written) write_output();
+    if (!options_.picture.empty()) write_picture();
+    if (!options_.report.empty()) write_report(is_written);
+    if (!options_.quiet) summarise(is_written);
+    return exit_code_of(result_.status);
+  }
+
+ private:
+  template <class... Args>
+  void say(fmt::format_string<Args...> text, Args&&... args) {
+    if (options_.quiet) return;
+    display_.clear();
+    tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
+  }
+
+  void check_outputs() const {
+    if (options_.output.empty() && options_.integrand.empty())
+      throw UsageError("where should the result go? Give -o OUT ('-' for standard output)");
+    const std::optional<CurveFormat> format =
+        is_stream(options_.output) ? std::nullopt : curve_format_from_extension(options_.output);
+    if (format && *format != document_.format())
+      throw UsageError(fmt::format("{}: the result keeps the format of the input, {}; name it *.{}", options_.output,
+                                   to_string(document_.format()), to_string(document_.format())));
+    std::vector<std::string> paths;
+    for (const std::string& path :
+         {options_.input, options_.output, options_.report, options_.picture, options_.integrand}) {
+      if (path.empty() || is_stream(path)) continue;
+      std::error_code ignored;
+      for (const std::string& other : paths)
+        if (std::filesystem::path(path).lexically_normal() == std::filesystem::path(other).lexically_normal() ||
+            std::filesystem::equivalent(path, other, ignored))
+          throw UsageError(fmt::format("{} is named twice; give every file a name of its own", path));
+      paths.push_back(path);
+    }
+  }
+
+  void write_output() {
+    std::string bytes = document_.patched(result_.curves);
+    std::string broken = broken_promise(bytes);
+    if (!broken.empty()) {
+      bytes = document_.patched(result_.curves, true);
+      broken = broken_promise(bytes);
+    }
+    if (!broken.empty()) throw std::logic_error("the file to be written does not hold what was certified: " + broken);
+    if (is_stream(options_.output)) {
+      write_to_stream(options_.output, bytes);
+      return;
+    }
+    StagedOutput staged(options_.output, interruption_);
+    staged.write({OutputFile{{}, bytes}});
+    const CurveDocument written =
+        CurveDocument::read(staged.main_file().string(), options_.flatten, document_.format());
+    if (written.curves().size() != result_.curves.size())
+      throw std::logic_error("the file written has another number of curves. It was removed");
+    staged.commit();
+  }
+
+  /// Certifies the bytes of the file, not the numbers that were computed. Empty: they hold.
+  std::string broken_promise(const std::string& bytes) const {
+    const std::vector<Curve> written = document_.read_back(bytes);
+    if (written.size() != result_.curves.size()) return "it has another number of curves";
+    for (std::size_t c = 0; c < written.size(); ++c)
+      if (written[c].size() != result_.curves[c].size() || written[c].closed != result_.curves[c].closed)
+        return fmt::format("{} has another number of points", name_of(written, static_cast<std::int32_t>(c)));
+    for (const CurveJoint& joint : result_.report.joints) {
+      const auto [c, k] = joint[0];
+      for (const auto& [other, point] : joint)
+        for (int axis = 0; axis < 2; ++axis)
+          if (!(std::abs(written[other].points[2 * point + axis] - written[c].points[2 * k + axis]) <=
+                joint_apart_rel * result_.report.diagonal))
+            return fmt::format("{} and {} have come apart", name_of(written, c), name_of(written, other));
+    }
+    const std::size_t crossings = find_crossings(written, result_.report.joints).size();
+    return crossings > result_.report.crossings_after ? count_of(crossings, "crossing") + " in it" : "";
+  }
+
+  void write_integrand(const std::vector<Curve>& curves) {
+    if (options_.integrand_curve < 0 || static_cast<std::size_t>(options_.integrand_curve) >= curves.size())
+      throw UsageError(fmt::format("--integrand-curve {}: the file has {}, counted from 0", options_.integrand_curve,
+                                   count_of(curves.size(), "curve")));
+    write_file(options_.integrand, curve_integrand_png(curves[options_.integrand_curve], options_.bandwidth),
+               interruption_);
+  }
+
+  void write_picture() {
+    const std::string picture =
+        curve_picture_svg(result_.joined, result_.report.before, result_.curves, result_.report.left);
+    write_file(options_.picture, picture, interruption_);
+  }
+
+  void write_report(bool is_written) {
+    const CurveReport& r = result_.report;
+    const auto places = [&](const std::vector<CurveCrossing>& crossings) {
+      nlohmann::ordered_json list = nlohmann::ordered_json::array();
+      for (const CurveCrossing& c : crossings)
+        list.push_back(
+            {{"curve_a", c.curve_a}, {"segment_a", c.segment_a}, {"curve_b", c.curve_b}, {"segment_b", c.segment_b}});
+      return list;
+    };
+    const nlohmann::ordered_json json = {
+        {"schema", "unsnarl-curves-report"},
+        {"schema_version", 1},
+        {"program", std::string("unsnarl ") + version},
+        {"input", options_.input},
+        {"output", is_written ? options_.output : ""},
+        {"status", to_string(result_.status)},
+        {"exit_code", static_cast<int>(exit_code_of(result_.status))},
+        {"curves", result_.curves.size()},
+        {"points", r.points},
+        {"crossings_before", r.crossings_before},
+        {"crossings_after", r.crossings_after},
+        {"diagonal", r.diagonal},
+        {"displacement_mean_rel", r.displacement_mean_rel},
+        {"displacement_max_rel", r.displacement_max_rel},
+        {"distance_mean_rel", r.distance_mean_rel},
+        {"distance_max_rel", r.distance_max_rel},
+        {"moved_points", r.moved_points},
+        {"turned_points", r.turned_points},
+        {"inserted_points", r.inserted_points},
+        {"joints", r.joints.size()},
+        {"obstructions", places(r.fixed)},
+        {"left", places(r.left)},
+        {"seconds", r.seconds},
+    };
+    write_file(options_.report, json.dump(2) + "\n", interruption_);
+  }
+
+  void summarise(bool is_written) const {
+    const CurveReport& r = result_.report;
+    std::string text = fmt::format("{}: {}, {}\n", options_.input, count_of(result_.curves.size(), "curve"),
+                                   count_of(r.points, "point"));
+    if (r.crossings_before == 0) {
+      text += "nothing crosses; the file stays as it is\n";
+    } else {
+      text += fmt::format("{}: {} before, {} after\n", to_string(result_.status),
+                          count_of(r.crossings_before, "crossing"), r.crossings_after);
+      text += fmt::format(
+          "points moved {:.2g} % of the diagonal on average, {:.2g} % at most; they are {:.2g} % from the input's "
+          "drawing, {:.2g} % at most\n",
+          100 * r.displacement_mean_rel, 100 * r.displacement_max_rel, 100 * r.distance_mean_rel,
+          100 * r.distance_max_rel);
+    }
+    for (std::size_t k = 0; k < std::min(r.fixed.size(), most_places); ++k)
+      text += fmt::format("obstruction: {} cross and must not move\n", place_of(result_.curves, r.fixed[k]));
+    if (r.fixed.empty())
+      for (std::size_t k = 0; k < std::min(r.left.size(), most_places); ++k)
+        text += fmt::format("left: {}\n", place_of(result_.curves, r.left[k]));
+    text += is_written ? fmt::format("wrote {}, {:.2f} s\n", options_.output, r.seconds)
+                       : "nothing was written; --keep-partial writes what was reached\n";
+    tell(text);
+  }
+
+  const CurvesOptions& options_;
+  Interruption& interruption_;
+  ProgressDisplay display_;
+  CurveDocument document_;
+  CurveResult result_;
+};
+
+}  // namespace
+
+void add_curves_options(CLI::App& command, CurvesOptions& options) {
+  command.add_option("IN", options.input, "File of curves: svg or json; '-' for standard input")->required();
+  command.add_option("-o,--output", options.output, "Where the untangled curves go; '-' for standard output")
+      ->type_name("OUT");
+  command.add_option("--format", options.format, "svg or json, where the name does not tell")
+      ->check(one_of({"svg", "json"}))
+      ->type_name("svg|json");
+  command.add_flag("--keep-partial", options.keep_partial,
+                   "Write the result also where crossings are left or a limit was reached");
+  const CLI::Validator fraction = CLI::Range(1e-12, 0.1).description("");
+  command
+      .add_option("--flatten", options.flatten,
+                  "How far flattened Béziers and arcs may be from the true curve, as a fraction of the\n"
+                  "bounding-box diagonal (default 0.0001)")
+      ->check(fraction)
+      ->type_name("X");
+  command
+      .add_option("--gap", options.gap,
+                  "Distance to keep where a crossing was opened, as a fraction of the diagonal (default 0.004)")
+      ->check(fraction)
+      ->type_name("X");
+  command
+      .add_option("--junction", options.junction,
+                  "An open curve that ends this close to another ends on it and stays there, as a fraction of the\n"
+                  "diagonal (default 1e-9); flattened curves add what they are flattened by")
+      ->check(CLI::Range(0.0, 0.1).description(""))
+      ->type_name("X");
+  const std::string what = "What may move";
+  command
+      .add_option("--fix", options.fix,
+                  "Do not move the curves of this id (SVG) or name (JSON), or of this number; may be repeated")
+      ->type_name("ID")
+      ->allow_extra_args(false)
+      ->group(what);
+  command.add_flag("--fix-ends", options.fix_ends, "Do not move the ends of open curves")->group(what);
+  const std::string limits = "Limits";
+  command.add_option("--time-limit", options.time_limit_s, "Stop after this many seconds; 0: none")
+      ->check(not_negative())
+      ->type_name("S")
+      ->group(limits);
+  const std::string shown = "What is shown";
+  command.add_option("--report", options.report, "Write a JSON report: counts, displacement, what is left")
+      ->type_name("FILE")
+      ->group(shown);
+  command.add_option("--picture", options.picture, "Write a picture, before and after, crossings in red")
+      ->type_name("FILE.svg")
+      ->group(shown);
+  command
+      .add_option("--integrand", options.integrand,
+                  "Write a picture of the self-contact energy's integrand over pairs of points of one curve\n"
+                  "(the paper's Fig. 4); does without -o")
+      ->type_name("FILE.png")
+      ->group(shown);
+  command.add_option("--integrand-curve", options.integrand_curve, "Of which curve, counted from 0 (default 0)")
+      ->type_name("N")
+      ->group(shown);
+  command.add_option("--bandwidth", options.bandwidth, "Its bandwidth, as a fraction of the diagonal (default 0.05)")
+      ->check(CLI::Range(1e-6, 10.0).description(""))
+      ->type_name("X")
+      ->group(shown);
+  command
+      .add_option("--progress", options.progress,
+                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
+      ->check(one_of({"auto", "json", "none"}))
+      ->type_name("auto|json|none")
+      ->group(shown);
+  command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors")->group(shown);
+  command
+      .add_flag("--no-recover", options.no_recover, "Stop once nothing crosses, without opening and smoothing anything")
+      ->group("For research");
+  command.footer(
+      "Examples:\n"
+      "  unsnarl curves drawing.svg -o out.svg --picture compare.svg\n"
+      "  unsnarl curves map.svg -o out.svg --fix coast --fix-ends\n"
+      "  unsnarl sample curve_star -o star.json && unsnarl curves star.json -o out.json --integrand map.png\n\n"
+      "Exit codes: 0 no crossings, 1 crossings left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
+      "6 interrupted, 7 all resolved but crossings of fixed segments, 70 internal error.");
+}
+
+int run_curves(const CurvesOptions& options, Interruption& interruption) {
+  return Curves(options, interruption).run();
+}
+
+}  // namespace unsnarl::app

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "applications/curves/curve_file.h"
+#include "applications/curves/curve_net.h"
+#include "io/mesh_file.h"
+
+namespace unsnarl {
+namespace {
+
+/// Moved coordinates are rounded to this part of the diagonal: far below any gap, and short in a text.
+constexpr double written_rel = 1e-9;
+
+void check_flattening(double flatten_rel) {
+  if (!(flatten_rel > 0 && flatten_rel <= 0.1))
+    throw std::invalid_argument(fmt::format("flatten_rel is {}; give a number in (0, 0.1]", flatten_rel));
+}
+
+}  // namespace
+
+std::string digits_of(double value) {
+  std::array<char, 32> digits;
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+double rounded(double value, double rounding) {
+  if (!(rounding > 0)) return value;
+  const int decimals = static_cast<int>(std::ceil(-std::log10(rounding)));
+  if (decimals < 0 || decimals > 300) return value;
+  // By way of the text, so that few digits give it back.
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  double result = value;
+  std::from_chars(text.data(), text.data() + text.size(), result);
+  return result == 0 ? 0 : result;
+}
+
+std::string with_edits(std::string_view text, std::vector<TextEdit> edits) {
+  std::stable_sort(edits.begin(), edits.end(), [](const TextEdit& a, const TextEdit& b) { return a.begin < b.begin; });
+  std::string result;
+  std::size_t done = 0;
+  for (const TextEdit& edit : edits) {
+    result.append(text, done, edit.begin - done);
+    result += edit.text;
+    done = edit.end;
+  }
+  result.append(text, done, text.size() - done);
+  return result;
+}
+
+std::string_view to_string(CurveFormat format) {
+  return format == CurveFormat::svg ? "svg" : "json";
+}
+
+std::optional<CurveFormat> curve_format_from_extension(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  std::string name(dot == std::string_view::npos ? path : path.substr(dot + 1));
+  for (char& c : name) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  if (name == "svg") return CurveFormat::svg;
+  if (name == "json") return CurveFormat::json;
+  return {};
+}
+
+CurveDocument::CurveDocument(CurveFormat format, std::unique_ptr<CurveFile> file)
+    : format_(format), file_(std::move(file)) {}
+CurveDocument::CurveDocument(CurveDocument&&) noexcept = default;
+CurveDocument& CurveDocument::operator=(CurveDocument&&) noexcept = default;
+CurveDocument::~CurveDocument() = default;
+
+CurveDocument CurveDocument::parse(std::string bytes, CurveFormat format, double flatten_rel) {
+  check_flattening(flatten_rel);
+  CurveDocument document(format, format == CurveFormat::svg ? parse_svg(std::move(bytes), flatten_rel)
+                                                            : parse_curve_json(std::move(bytes)));
+  try {
+    check_curves(document.curves());
+  } catch (const std::invalid_argument& e) {
+    throw FileError(e.what());
+  }
+  return document;
+}
+
+CurveDocument CurveDocument::read(const std::string& path, double flatten_rel, std::optional<CurveFormat> format) {
+  if (!format) format = curve_format_from_extension(path);
+  if (!format) throw FileError(path + ": its name does not tell the format; name it *.svg or *.json, or say --format");
+  std::string bytes = read_file(path);
+  try {
+    return parse(std::move(bytes), *format, flatten_rel);
+  } catch (const FileError& e) {
+    throw FileError(fmt::format("{}: {}", path, e.what()));
+  }
+}
+
+CurveFormat CurveDocument::format() const {
+  return format_;
+}
+const std::vector<Curve>& CurveDocument::curves() const {
+  return file_->curves;
+}
+const std::vector<std::string>& CurveDocument::ids() const {
+  return file_->ids;
+}
+const std::vector<std::string>& CurveDocument::notes() const {
+  return file_->notes;
+}
+
+std::string CurveDocument::patched(std::span<const Curve> curves, bool all_digits) const {
+  if (curves.size() != file_->curves.size())
+    throw std::invalid_argument(fmt::format("{} curves for a file of {}", curves.size(), file_->curves.size()));
+  return file_->patched(curves, all_digits ? 0 : written_rel * diagonal_of(file_->curves));
+}
+
+std::vector<Curve> CurveDocument::read_back(const std::string& bytes) const {
+  return file_->parse_alike(bytes)->curves;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,224 @@
+#include "applications/curves/curve_net.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "mesh/union_find.h"
+
+namespace unsnarl {
+namespace {
+
+Vec2 point(const Curve& curve, std::size_t k) {
+  return {curve.points[2 * k], curve.points[2 * k + 1]};
+}
+
+/// The place on a segment nearest to p, as a fraction of it in [0, 1].
+double nearest_fraction(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 d = b - a;
+  const double squared = d.squaredNorm();
+  return squared > 0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
+}
+
+void insert_point(Curve& curve, std::size_t segment, const Vec2& p) {
+  const bool is_fixed = !curve.fixed.empty() && curve.fixed[segment] && curve.fixed[(segment + 1) % curve.size()];
+  const auto at = static_cast<std::ptrdiff_t>(segment + 1);
+  curve.points.insert(curve.points.begin() + 2 * at, {p.x(), p.y()});
+  if (!curve.fixed.empty()) curve.fixed.insert(curve.fixed.begin() + at, is_fixed);
+}
+
+}  // namespace
+
+std::string name_of_curve(const Curve& curve, std::size_t number) {
+  return curve.name.empty() ? fmt::format("curve {}", number) : curve.name;
+}
+
+double diagonal_of(std::span<const Curve> curves) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  Vec2 low = Vec2::Constant(infinite), high = -low;
+  for (const Curve& curve : curves)
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      low = low.cwiseMin(point(curve, k));
+      high = high.cwiseMax(point(curve, k));
+    }
+  return low.x() <= high.x() ? (high - low).norm() : 0;
+}
+
+void check_curves(std::span<const Curve> curves) {
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const Curve& curve = curves[c];
+    const std::string name = name_of_curve(curve, c);
+    const std::size_t n = curve.size(), least = curve.closed ? 3 : 2;
+    if (curve.points.size() % 2 != 0)
+      throw std::invalid_argument(
+          fmt::format("{} has {} coordinates; give x and y of each point", name, curve.points.size()));
+    if (n < least)
+      throw std::invalid_argument(fmt::format("{} has {} points; {} curve needs at least {}", name, n,
+                                              curve.closed ? "a closed" : "an open", least));
+    if (!curve.fixed.empty() && curve.fixed.size() != n)
+      throw std::invalid_argument(
+          fmt::format("{} has {} points, but {} flags of fixed ones", name, n, curve.fixed.size()));
+    for (std::size_t k = 0; k < n; ++k)
+      if (!point(curve, k).allFinite())
+        throw std::invalid_argument(fmt::format("{}: a coordinate of point {} is not a finite number", name, k));
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t next = (k + 1) % n;
+      if ((next != 0 || curve.closed) && point(curve, k) == point(curve, next))
+        throw std::invalid_argument(
+            fmt::format("{}: points {} and {} are equal, so that the segment between them has no length; leave one "
+                        "out{}",
+                        name, k, next, next == 0 ? " (a closed curve does not repeat its first point)" : ""));
+    }
+  }
+}
+
+std::vector<CurveJoint> join_ends(std::vector<Curve>& curves, double distance, std::size_t& inserted) {
+  struct Place {
+    std::size_t curve, point;
+  };
+  // Points are counted after all have been inserted; until then an end is told by its curve and side.
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (curves[c].closed) continue;
+    for (const bool last : {false, true}) {
+      const Vec2 end = point(curves[c], last ? curves[c].size() - 1 : 0);
+      for (std::size_t other = 0; other < curves.size(); ++other) {
+        Curve& curve = curves[other];
+        const double reach = distance + std::max(curve.tolerance, curves[c].tolerance);
+        bool at_point = false;
+        double nearest = reach;
+        std::size_t segment = curve.size();
+        const std::size_t n = curve.size(), segments = curve.closed ? n : n - 1;
+        for (std::size_t k = 0; k < segments; ++k) {
+          // The end's own segment and the one beside it are near it anyway.
+          if (other == c && (last ? k + 2 >= segments : k < 2)) continue;
+          const Vec2 a = point(curve, k), b = point(curve, (k + 1) % n);
+          const double t = nearest_fraction(end, a, b);
+          const double d = (a + t * (b - a) - end).norm();
+          if (d > nearest) continue;
+          nearest = d;
+          segment = k;
+          at_point = (a - end).norm() <= reach || (b - end).norm() <= reach;
+        }
+        if (segment == curve.size() || at_point) continue;
+        insert_point(curve, segment, end);
+        ++inserted;
+      }
+    }
+  }
+  std::vector<std::size_t> first(curves.size() + 1, 0);
+  std::vector<Place> places;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    for (std::size_t k = 0; k < curves[c].size(); ++k) places.push_back({c, k});
+    first[c + 1] = places.size();
+  }
+  UnionFind sets(static_cast<Index>(places.size()));
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (curves[c].closed) continue;
+    for (const std::size_t end : {std::size_t{0}, curves[c].size() - 1}) {
+      const Vec2 p = point(curves[c], end);
+      for (std::size_t other = 0; other < curves.size(); ++other) {
+        const double reach = distance + std::max(curves[other].tolerance, curves[c].tolerance);
+        double nearest = reach;
+        std::size_t found = curves[other].size();
+        for (std::size_t k = 0; k < curves[other].size(); ++k) {
+          // The next point of its own curve may be nearer than the tolerance; only the other end is an end.
+          if (other == c &&
+              (k == end || (k != 0 && k + 1 != curves[c].size() && (end == 0 ? k < 3 : k + 4 > curves[c].size()))))
+            continue;
+          if (other == c && curves[c].size() < 4) continue;
+          const double d = (point(curves[other], k) - p).norm();
+          if (d > nearest || (d == nearest && found != curves[other].size())) continue;
+          nearest = d;
+          found = k;
+        }
+        if (found != curves[other].size())
+          sets.unite(static_cast<Index>(first[c] + end), static_cast<Index>(first[other] + found));
+      }
+    }
+  }
+  std::vector<std::vector<std::size_t>> members(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) members[sets.find(static_cast<Index>(i))].push_back(i);
+  std::vector<CurveJoint> joints;
+  for (const std::vector<std::size_t>& group : members) {
+    if (group.size() < 2) continue;
+    CurveJoint joint;
+    // A point that must not move decides where the joint is.
+    std::size_t leader = group[0];
+    for (const std::size_t i : group)
+      if (const Curve& curve = curves[places[i].curve]; !curve.fixed.empty() && curve.fixed[places[i].point]) {
+        leader = i;
+        break;
+      }
+    const Vec2 p = point(curves[places[leader].curve], places[leader].point);
+    for (const std::size_t i : group) {
+      const auto [c, k] = places[i];
+      curves[c].points[2 * k] = p.x();
+      curves[c].points[2 * k + 1] = p.y();
+      joint.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(k)});
+    }
+    joints.push_back(std::move(joint));
+  }
+  return joints;
+}
+
+CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joints, bool fix_ends) {
+  CurveNet net;
+  net.diagonal = diagonal_of(curves);
+  for (const Curve& curve : curves) {
+    CurveNet::Chain chain;
+    chain.closed = curve.closed;
+    chain.vertices.assign(curve.size(), -1);
+    net.chains.push_back(std::move(chain));
+  }
+  Index count = 0;
+  for (const CurveJoint& joint : joints) {
+    for (const auto& [c, k] : joint) net.chains[c].vertices[k] = count;
+    ++count;
+  }
+  const Index joined = count;
+  for (CurveNet::Chain& chain : net.chains)
+    for (Index& v : chain.vertices)
+      if (v < 0) v = count++;
+  net.rest.resize(2, count);
+  net.fixed.assign(count, 0);
+  net.weight.assign(count, 0);
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    CurveNet::Chain& chain = net.chains[c];
+    for (Index k = 0; k < chain.size(); ++k) {
+      const Index v = chain.vertices[k];
+      net.rest.col(v) = point(curves[c], k);
+      if (!curves[c].fixed.empty() && curves[c].fixed[k]) net.fixed[v] = 1;
+      if (fix_ends && !chain.closed && (k == 0 || k + 1 == chain.size())) net.fixed[v] = 1;
+    }
+    chain.first_segment = net.segment_count();
+    for (Index k = 0; k < chain.segment_count(); ++k) {
+      net.segments.push_back({chain.at(k), chain.at(k + 1)});
+      net.chain_of.push_back(static_cast<Index>(c));
+    }
+  }
+  net.pinned = net.fixed;
+  for (Index v = 0; v < joined; ++v) net.pinned[v] = 1;
+  for (const auto& [a, b] : net.segments) {
+    const double half = 0.5 * (net.rest.col(b) - net.rest.col(a)).norm();
+    net.weight[a] += half;
+    net.weight[b] += half;
+  }
+  return net;
+}
+
+std::vector<Curve> with_positions(std::span<const Curve> curves, const CurveNet& net, const Points2& x) {
+  std::vector<Curve> result(curves.begin(), curves.end());
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    for (std::size_t k = 0; k < result[c].size(); ++k) {
+      const Index v = net.chains[c].vertices[k];
+      result[c].points[2 * k] = x(0, v);
+      result[c].points[2 * k + 1] = x(1, v);
+    }
+  return result;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "geometry/types.h"
+#include "unsnarl/curves.h"
+
+namespace unsnarl {
+
+/// One column a vertex: x, y.
+using Points2 = Eigen::Matrix2Xd;
+using Vec2 = Eigen::Vector2d;
+
+/// Curves as the solvers see them: vertices, which several curves may share, and chains of them.
+struct CurveNet {
+  struct Chain {
+    std::vector<Index> vertices;
+    bool closed = false;
+    Index first_segment = 0;
+
+    Index size() const { return static_cast<Index>(vertices.size()); }
+    Index segment_count() const { return closed ? size() : size() - 1; }
+    Index at(Index slot) const { return vertices[slot < size() ? slot : slot - size()]; }
+  };
+
+  Points2 rest;                      ///< where the vertices are in the input
+  std::vector<Chain> chains;         ///< one a curve
+  std::vector<Edge> segments;        ///< two vertices, in the order of the chain; chain after chain
+  std::vector<Index> chain_of;       ///< one a segment
+  std::vector<std::uint8_t> fixed;   ///< one a vertex
+  std::vector<std::uint8_t> pinned;  ///< fixed, or in more places than one: cannot change its place in a chain
+  std::vector<double> weight;        ///< one a vertex: half the length of its segments at rest
+  double diagonal = 0;               ///< of the bounding box at rest
+
+  Index slot_of(Index segment) const { return segment - chains[chain_of[segment]].first_segment; }
+  Index vertex_count() const { return static_cast<Index>(rest.cols()); }
+  Index segment_count() const { return static_cast<Index>(segments.size()); }
+};
+
+/// Throws std::invalid_argument, naming curve and point, for what untangle_curves refuses.
+void check_curves(std::span<const Curve> curves);
+
+/// Adds a point to curves where an open one ends on a segment, and finds what is joined: an end of an open curve, and
+/// whatever point is within `distance` (plus the curve's tolerance) of it. Joined points take the same position.
+/// Returns the joints; adds the number of points inserted.
+std::vector<CurveJoint> join_ends(std::vector<Curve>& curves, double distance, std::size_t& inserted);
+
+CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joints, bool fix_ends);
+
+/// The curves with the positions x of the net's vertices.
+std::vector<Curve> with_positions(std::span<const Curve> curves, const CurveNet& net, const Points2& x);
+
+/// "curve 3" or its name, for messages.
+std::string name_of_curve(const Curve& curve, std::size_t number);
+
+double diagonal_of(std::span<const Curve> curves);
+
+}  // namespace unsnarl

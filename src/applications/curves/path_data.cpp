@@ -1,0 +1,290 @@
+#include "applications/curves/path_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace unsnarl {
+namespace {
+
+/// Beyond it a curve is cut no finer: 1e-4 of a drawing needs some 200 pieces for a circle around it.
+constexpr double most_pieces = 10000;
+
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : text_(text) {}
+
+  std::size_t offset() const { return at_; }
+  void skip() {
+    while (at_ < text_.size() && (is_space(text_[at_]) || text_[at_] == ',')) ++at_;
+  }
+  bool at_end() {
+    skip();
+    return at_ == text_.size();
+  }
+  char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  char take() { return text_[at_++]; }
+  bool at_number() {
+    skip();
+    const char c = peek();
+    return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
+  }
+  double number() {
+    skip();
+    const std::size_t begin = at_;
+    if (peek() == '+') ++at_;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    if (error != std::errc{} || !std::isfinite(value)) {
+      const std::string_view word = text_.substr(begin, 20);
+      throw FileError(fmt::format("'{}' at character {} is not a number that can be used", word, begin));
+    }
+    at_ = static_cast<std::size_t>(end - text_.data());
+    return value;
+  }
+  Vec2 point() {
+    const double x = number();
+    return {x, number()};
+  }
+  bool flag() {
+    skip();
+    const char c = peek();
+    if (c != '0' && c != '1') throw FileError(fmt::format("the flag of an arc at character {} is not 0 or 1", at_));
+    ++at_;
+    return c == '1';
+  }
+  std::string_view word() {
+    skip();
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_]))) ++at_;
+    return text_.substr(begin, at_ - begin);
+  }
+
+ private:
+  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+/// Pieces of equal parameter that a Bézier curve of a degree needs: a bound by its second differences (Wang 1984).
+int pieces_of(double second_difference, int degree, double tolerance) {
+  const double n = std::sqrt(degree * (degree - 1) / 8.0 * second_difference / tolerance);
+  return static_cast<int>(std::clamp(std::ceil(n), 1.0, most_pieces));
+}
+
+void add_quadratic(std::vector<Vec2>& points, const Vec2& a, const Vec2& b, const Vec2& c, double tolerance) {
+  const int n = pieces_of((a - 2 * b + c).norm(), 2, tolerance);
+  for (int k = 1; k < n; ++k) {
+    const double t = static_cast<double>(k) / n, u = 1 - t;
+    points.push_back(u * u * a + 2 * t * u * b + t * t * c);
+  }
+  points.push_back(c);
+}
+
+void add_cubic(std::vector<Vec2>& points, const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d,
+               double tolerance) {
+  const int n = pieces_of(std::max((a - 2 * b + c).norm(), (b - 2 * c + d).norm()), 3, tolerance);
+  for (int k = 1; k < n; ++k) {
+    const double t = static_cast<double>(k) / n, u = 1 - t;
+    points.push_back(u * u * u * a + 3 * t * u * u * b + 3 * t * t * u * c + t * t * t * d);
+  }
+  points.push_back(d);
+}
+
+/// SVG 1.1, appendix F.6: from end points to centre.
+void add_arc(std::vector<Vec2>& points, const Vec2& from, Vec2 radii, double degrees, bool large, bool sweep,
+             const Vec2& to, double tolerance) {
+  radii = radii.cwiseAbs();
+  if (from == to) return;
+  if (radii.x() == 0 || radii.y() == 0) {
+    points.push_back(to);
+    return;
+  }
+  const double angle = degrees * std::numbers::pi / 180;
+  Eigen::Matrix2d turn;
+  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  const Vec2 p = turn.transpose() * (0.5 * (from - to));
+  const double too_small = p.cwiseQuotient(radii).squaredNorm();
+  if (too_small > 1) radii *= std::sqrt(too_small);
+  const Vec2 q = p.cwiseQuotient(radii);
+  const double factor = std::sqrt(std::max(0.0, 1 / q.squaredNorm() - 1)) * (large == sweep ? -1 : 1);
+  const Vec2 centre_unit(factor * q.y(), -factor * q.x());
+  const Vec2 centre = turn * centre_unit.cwiseProduct(radii) + 0.5 * (from + to);
+  const Vec2 u = q - centre_unit, v = -q - centre_unit;
+  const double first = std::atan2(u.y(), u.x());
+  double swept = std::atan2(v.y(), v.x()) - first;
+  if (sweep && swept < 0) swept += 2 * std::numbers::pi;
+  if (!sweep && swept > 0) swept -= 2 * std::numbers::pi;
+  const double step = 2 * std::acos(std::max(0.0, 1 - tolerance / radii.maxCoeff()));
+  const int n = static_cast<int>(std::clamp(std::ceil(std::abs(swept) / step), 1.0, most_pieces));
+  for (int k = 1; k < n; ++k) {
+    const double t = first + swept * k / n;
+    points.push_back(centre + turn * Vec2(radii.x() * std::cos(t), radii.y() * std::sin(t)));
+  }
+  points.push_back(to);
+}
+
+}  // namespace
+
+std::vector<double> parse_number_list(std::string_view text) {
+  Reader reader(text);
+  std::vector<double> numbers;
+  while (!reader.at_end()) numbers.push_back(reader.number());
+  return numbers;
+}
+
+Affine parse_transform(std::string_view text) {
+  Affine result;
+  Reader reader(text);
+  while (!reader.at_end()) {
+    const std::size_t begin = reader.offset();
+    const std::string_view name = reader.word();
+    std::vector<double> n;
+    reader.skip();
+    if (reader.peek() == '(') {
+      reader.take();
+      while (reader.at_number()) n.push_back(reader.number());
+      reader.skip();
+    }
+    if (n.empty() || reader.peek() != ')')
+      throw FileError(fmt::format("the transform at character {} cannot be read; give NAME(NUMBERS)", begin));
+    reader.take();
+    Affine step;
+    constexpr double degree = std::numbers::pi / 180;
+    if (name == "matrix" && n.size() == 6) {
+      step.linear << n[0], n[2], n[1], n[3];
+      step.offset << n[4], n[5];
+    } else if (name == "translate" && n.size() <= 2) {
+      step.offset << n[0], n.size() == 2 ? n[1] : 0;
+    } else if (name == "scale" && n.size() <= 2) {
+      step.linear << n[0], 0, 0, n.back();
+    } else if (name == "rotate" && (n.size() == 1 || n.size() == 3)) {
+      const double c = std::cos(n[0] * degree), s = std::sin(n[0] * degree);
+      step.linear << c, -s, s, c;
+      if (n.size() == 3) step.offset = Vec2(n[1], n[2]) - step.linear * Vec2(n[1], n[2]);
+    } else if (name == "skewX" && n.size() == 1) {
+      step.linear(0, 1) = std::tan(n[0] * degree);
+    } else if (name == "skewY" && n.size() == 1) {
+      step.linear(1, 0) = std::tan(n[0] * degree);
+    } else {
+      throw FileError(
+          fmt::format("'{}' with {} numbers is no transform that is known (matrix, translate, scale, rotate, skewX, "
+                      "skewY)",
+                      name, n.size()));
+    }
+    result = result * step;
+  }
+  return result;
+}
+
+std::vector<Subpath> parse_path_data(std::string_view text, double tolerance) {
+  std::vector<Subpath> result;
+  Reader reader(text);
+  Vec2 at(0, 0), control(0, 0);
+  char last = 0;  // the command before, for the reflected control points of S and T
+  char command = 0;
+  const auto open = [&](const Vec2& start) {
+    if (!result.empty() && result.back().end == 0) result.back().end = reader.offset();
+    result.emplace_back();
+    result.back().start = start;
+    result.back().points.push_back(start);
+  };
+  bool needs_subpath = true;  // after a close-path, unless a move-to follows
+  while (!reader.at_end()) {
+    const std::size_t begin = reader.offset();
+    const bool is_repeated = reader.at_number();
+    if (!is_repeated) {
+      command = reader.take();
+    } else if (command == 0 || command == 'Z' || command == 'z') {
+      throw FileError(fmt::format("a command is missing at character {} of the path data", begin));
+    }
+    const bool relative = command >= 'a';
+    const Vec2 origin = relative ? at : Vec2(0, 0);
+    const char kind = static_cast<char>(relative ? command - 'a' + 'A' : command);
+    if (result.empty() && kind != 'M')
+      throw FileError(fmt::format("path data starts with '{}'; it has to start with M or m", command));
+    if (kind == 'M') {
+      if (!result.empty() && result.back().end == 0) result.back().end = begin;
+      const Vec2 start = reader.point() + origin;
+      open(start);
+      at = start;
+      result.back().begin = reader.offset();
+      command = relative ? 'l' : 'L';  // further pairs are lines
+      if (reader.at_number()) result.back().implicit = command;
+      needs_subpath = false;
+      last = 'M';
+      continue;
+    }
+    if (needs_subpath) {
+      result.back().end = begin;
+      const Vec2 start = result.back().start;
+      open(start);
+      result.back().begin = begin;
+      needs_subpath = false;
+    }
+    Subpath& subpath = result.back();
+    std::vector<Vec2>& points = subpath.points;
+    switch (kind) {
+      case 'Z':
+        subpath.closed = true;
+        subpath.end = reader.offset();
+        at = subpath.start;
+        needs_subpath = true;
+        break;
+      case 'L':
+        at = reader.point() + origin;
+        points.push_back(at);
+        break;
+      case 'H':
+        at.x() = reader.number() + origin.x();
+        points.push_back(at);
+        break;
+      case 'V':
+        at.y() = reader.number() + origin.y();
+        points.push_back(at);
+        break;
+      case 'C':
+      case 'S': {
+        const Vec2 first = kind == 'C'                  ? Vec2(reader.point() + origin)
+                           : last == 'C' || last == 'S' ? Vec2(2 * at - control)
+                                                        : at;
+        control = reader.point() + origin;
+        const Vec2 to = reader.point() + origin;
+        add_cubic(points, at, first, control, to, tolerance);
+        subpath.has_curves = true;
+        at = to;
+        break;
+      }
+      case 'Q':
+      case 'T': {
+        control = kind == 'Q'                  ? Vec2(reader.point() + origin)
+                  : last == 'Q' || last == 'T' ? Vec2(2 * at - control)
+                                               : at;
+        const Vec2 to = reader.point() + origin;
+        add_quadratic(points, at, control, to, tolerance);
+        subpath.has_curves = true;
+        at = to;
+        break;
+      }
+      case 'A': {
+        const Vec2 radii = reader.point();
+        const double degrees = reader.number();
+        const bool large = reader.flag(), sweep = reader.flag();
+        const Vec2 to = reader.point() + origin;
+        add_arc(points, at, radii, degrees, large, sweep, to, tolerance);
+        subpath.has_curves = true;
+        at = to;
+        break;
+      }
+      default: throw FileError(fmt::format("'{}' at character {} is no command of path data", command, begin));
+    }
+    last = kind;
+  }
+  if (!result.empty() && result.back().end == 0) result.back().end = text.size();
+  return result;
+}
+
+}  // namespace unsnarl

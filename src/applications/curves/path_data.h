@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "applications/curves/curve_net.h"
+
+namespace unsnarl {
+
+/// x -> linear x + offset.
+struct Affine {
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
+  Vec2 offset = Vec2::Zero();
+
+  bool is_identity() const { return linear == Eigen::Matrix2d::Identity() && offset == Vec2::Zero(); }
+  Vec2 operator()(const Vec2& p) const { return is_identity() ? p : Vec2(linear * p + offset); }
+  Affine operator*(const Affine& inner) const { return {linear * inner.linear, linear * inner.offset + offset}; }
+  /// How much a length grows, at most.
+  double scale() const { return linear.jacobiSvd().singularValues()[0]; }
+};
+
+/// One move-to and what follows it.
+struct Subpath {
+  std::vector<Vec2> points;  ///< flattened, in the coordinates of the element; one point: nothing is drawn
+  bool closed = false;
+  bool has_curves = false;
+  Vec2 start = Vec2::Zero();
+  /// The text behind the move-to; it begins with a command, or with a number that `implicit` belongs to.
+  std::size_t begin = 0, end = 0;
+  char implicit = 0;  ///< 'L', 'l' or 0
+};
+
+/// The data of a path element (SVG 1.1, §8.3), curves flattened so that no point of them is farther than `tolerance`
+/// from the polyline, in the coordinates of the element. Throws FileError: what is wrong and at which character.
+std::vector<Subpath> parse_path_data(std::string_view text, double tolerance);
+
+/// The value of a transform attribute: matrix, translate, scale, rotate, skewX, skewY. Throws FileError.
+Affine parse_transform(std::string_view text);
+
+/// All numbers of a list with spaces and commas. Throws FileError.
+std::vector<double> parse_number_list(std::string_view text);
+
+}  // namespace unsnarl

@@ -1,0 +1,269 @@
+#include "applications/curves/recover_curves.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "energy/ipc_barrier.h"
+
+namespace unsnarl {
+namespace {
+
+/// A vertex and a segment that it is no end of.
+struct Contact {
+  Index vertex = 0, a = 0, b = 0;
+  double activation = 0;  ///< length at which the barrier sets in
+  bool tight = false;     ///< closer than the barrier can bear: it sets in later, and grows with the gap
+};
+
+struct Nearest {
+  double distance = 0;
+  double fraction = 0;  ///< of the segment, in [0, 1]
+  Vec2 direction;       ///< unit, from the segment to the vertex
+};
+
+Nearest nearest(const Points2& x, const Contact& c) {
+  const Vec2 p = x.col(c.vertex), a = x.col(c.a), d = x.col(c.b) - a;
+  const double squared = d.squaredNorm();
+  Nearest result;
+  result.fraction = squared > 0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
+  const Vec2 r = p - a - result.fraction * d;
+  result.distance = r.norm();
+  result.direction = result.distance > 0 ? Vec2(r / result.distance) : Vec2(0, 0);
+  return result;
+}
+
+class Recovery {
+ public:
+  Recovery(const CurveNet& net, CurveState& state, double gap, const CurveRecoverOptions& options)
+      : net_(net),
+        state_(state),
+        gap_(gap),
+        options_(options),
+        tree_(net),
+        owner_(net.vertex_count(), -1),
+        arc_(net.vertex_count(), 0),
+        chain_(net.vertex_count(), -1),
+        slot_(net.vertex_count(), -1) {
+    number_unknowns();
+    for (Index s = 0; s < net.segment_count(); ++s)
+      for (const Index v : net.segments[s])
+        if (owner_[v] < 0) owner_[v] = s;
+    for (std::size_t c = 0; c < net.chains.size(); ++c) {
+      const CurveNet::Chain& chain = net.chains[c];
+      double arc = 0;
+      for (Index k = 0; k < chain.size(); ++k) {
+        const Index v = chain.vertices[k];
+        chain_[v] = static_cast<Index>(c);
+        slot_[v] = k;
+        arc_[v] = arc;
+        arc += (state.target.col(chain.at(k + 1 < chain.size() ? k + 1 : 0)) - state.target.col(v)).norm();
+      }
+      length_.push_back(arc);
+    }
+    assemble_elastic();
+  }
+
+  int run(const std::function<bool()>& stop) {
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+    for (int step = 0; step < options_.max_steps; ++step) {
+      if (unknowns_ == 0 || stop()) return step;
+      tree_.refit(state_.x);
+      contacts_ = contacts_within(gap_);
+      Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2 * unknowns_);
+      linearise(gradient);
+      solver.compute(hessian_);
+      if (solver.info() != Eigen::Success) return step;
+      const Eigen::VectorXd solution = solver.solve(-gradient);
+      Points2 move = Points2::Zero(2, net_.vertex_count());
+      double wanted = 0;
+      for (Index v = 0; v < net_.vertex_count(); ++v)
+        if (unknown_[v] >= 0) {
+          move.col(v) = solution.segment<2>(2 * unknown_[v]);
+          wanted = std::max(wanted, move.col(v).norm());
+        }
+      const double moved = take(move, wanted);
+      const bool any_tight =
+          std::any_of(contacts_.begin(), contacts_.end(), [](const Contact& contact) { return contact.tight; });
+      if (moved < options_.motion_rel * net_.diagonal) {
+        if (++small_ >= 3 && (!any_tight || moved == 0)) return step + 1;
+      } else {
+        small_ = 0;
+      }
+    }
+    return options_.max_steps;
+  }
+
+ private:
+  void number_unknowns() {
+    unknown_.assign(net_.vertex_count(), -1);
+    for (Index v = 0; v < net_.vertex_count(); ++v)
+      if (!net_.fixed[v]) unknown_[v] = unknowns_++;
+  }
+
+  /// The quadratic part, the same for x and y: rows of second differences of the displacement, and the pull.
+  void assemble_elastic() {
+    const double spread = options_.spread_rel * net_.diagonal, stiffness = std::pow(spread, 4);
+    std::vector<Eigen::Triplet<double>> terms;
+    for (Index v = 0; v < net_.vertex_count(); ++v)
+      terms.emplace_back(v, v, std::max(net_.weight[v], 1e-9 * net_.diagonal));
+    for (const CurveNet::Chain& chain : net_.chains) {
+      const Index n = chain.size();
+      for (Index k = chain.closed ? 0 : 1; k < (chain.closed ? n : n - 1); ++k) {
+        const std::array<Index, 3> v{chain.vertices[(k + n - 1) % n], chain.vertices[k], chain.vertices[(k + 1) % n]};
+        const double floor = 1e-6 * net_.diagonal;
+        const double before = std::max((state_.target.col(v[1]) - state_.target.col(v[0])).norm(), floor);
+        const double after = std::max((state_.target.col(v[2]) - state_.target.col(v[1])).norm(), floor);
+        const double half = 0.5 * (before + after);
+        const std::array<double, 3> row{1 / (before * half), -(1 / before + 1 / after) / half, 1 / (after * half)};
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) terms.emplace_back(v[i], v[j], stiffness * half * row[i] * row[j]);
+      }
+    }
+    elastic_.resize(net_.vertex_count(), net_.vertex_count());
+    elastic_.setFromTriplets(terms.begin(), terms.end());
+    for (Index c = 0; c < net_.vertex_count(); ++c)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(elastic_, c); it; ++it)
+        for (int d = 0; d < 2; ++d)
+          if (unknown_[it.row()] >= 0 && unknown_[c] >= 0)
+            elastic_terms_.emplace_back(2 * unknown_[it.row()] + d, 2 * unknown_[c] + d, it.value());
+  }
+
+  std::vector<Contact> contacts_within(double distance) const {
+    std::vector<Contact> result;
+    const auto add = [&](Index v, const Edge& segment) {
+      const auto [a, b] = segment;
+      if (v == a || v == b || (unknown_[v] < 0 && unknown_[a] < 0 && unknown_[b] < 0)) return;
+      const Vec2 p = state_.x.col(v), q = state_.x.col(a), r = state_.x.col(b);
+      const Vec2 low = q.cwiseMin(r), high = q.cwiseMax(r);
+      if (p.x() < low.x() - distance || p.y() < low.y() - distance || p.x() > high.x() + distance ||
+          p.y() > high.y() + distance)
+        return;
+      Contact contact{v, a, b, gap_};
+      const double now = nearest(state_.x, contact).distance;
+      if (now >= distance) return;
+      contact.activation = activation(contact);
+      const double bearable = std::max(now / options_.tight_part, options_.least_activation_rel * net_.diagonal);
+      if (bearable < contact.activation) {
+        contact.activation = bearable;
+        contact.tight = true;
+      }
+      result.push_back(contact);
+    };
+    tree_.pairs_within(distance, [&](Index i, Index j) {
+      for (const auto& [s, t] : {std::pair{i, j}, std::pair{j, i}})
+        for (const Index v : net_.segments[s])
+          if (owner_[v] == s) add(v, net_.segments[t]);
+    });
+    return result;
+  }
+
+  /// Beside each other along the curve, vertices are closer than the gap by nature.
+  double activation(const Contact& contact) const {
+    const Index v = contact.vertex;
+    if (chain_[v] != chain_[contact.a] || chain_[v] != chain_[contact.b]) return gap_;
+    double along = std::min(std::abs(arc_[v] - arc_[contact.a]), std::abs(arc_[v] - arc_[contact.b]));
+    if (net_.chains[chain_[v]].closed) {
+      const double length = length_[chain_[v]];
+      for (const Index other : {contact.a, contact.b})
+        along = std::min(along, length - std::abs(arc_[v] - arc_[other]));
+    }
+    if (along > 3 * gap_) return gap_;
+    return std::min(gap_, 0.5 * std::max(nearest(state_.target, contact).distance, 1e-3 * gap_));
+  }
+
+  double force(Index vertex) const {
+    return options_.barrier * net_.diagonal * std::max(net_.weight[vertex], 1e-9 * net_.diagonal);
+  }
+
+  double value(const Points2& x, const std::vector<Contact>& contacts) const {
+    const Points2 u = x - state_.target;
+    double sum = 0.5 * (u.transpose().cwiseProduct(elastic_ * u.transpose())).sum();
+    for (const Contact& contact : contacts) {
+      const double distance = nearest(x, contact).distance;
+      if (distance < contact.activation)
+        sum += force(contact.vertex) * contact.activation * barrier(distance / contact.activation);
+    }
+    return sum;
+  }
+
+  void linearise(Eigen::VectorXd& gradient) {
+    const Points2 u = state_.x - state_.target;
+    const Eigen::MatrixX2d pull = elastic_ * u.transpose();
+    for (Index v = 0; v < net_.vertex_count(); ++v)
+      if (unknown_[v] >= 0) gradient.segment<2>(2 * unknown_[v]) += pull.row(v).transpose();
+    terms_ = elastic_terms_;
+    for (const Contact& contact : contacts_) {
+      const Nearest n = nearest(state_.x, contact);
+      const double y = n.distance / contact.activation;
+      if (y >= 1) continue;
+      const double strength = force(contact.vertex);
+      const double slope = strength * barrier_derivative(y);
+      const double curvature = strength * barrier_second_derivative(y) / contact.activation;
+      const std::array<Index, 3> v{contact.vertex, contact.a, contact.b};
+      const std::array<double, 3> share{1, n.fraction - 1, -n.fraction};
+      const Eigen::Matrix2d block = curvature * n.direction * n.direction.transpose();
+      for (int i = 0; i < 3; ++i) {
+        if (unknown_[v[i]] < 0) continue;
+        gradient.segment<2>(2 * unknown_[v[i]]) += slope * share[i] * n.direction;
+        for (int j = 0; j < 3; ++j) {
+          if (unknown_[v[j]] < 0) continue;
+          for (int r = 0; r < 2; ++r)
+            for (int c = 0; c < 2; ++c)
+              terms_.emplace_back(2 * unknown_[v[i]] + r, 2 * unknown_[v[j]] + c, share[i] * share[j] * block(r, c));
+        }
+      }
+    }
+    hessian_.resize(2 * unknowns_, 2 * unknowns_);
+    hessian_.setFromTriplets(terms_.begin(), terms_.end());
+  }
+
+  /// Moves every vertex as far as is safe, and all less far until the value falls. Returns the largest motion.
+  double take(const Points2& wanted_move, double wanted) {
+    const double largest = std::min(wanted, options_.largest_step * net_.diagonal);
+    const double radius = gap_ + largest / options_.safe_part;
+    const std::vector<Contact> near = contacts_within(radius);
+    std::vector<double> bound(net_.vertex_count(), largest);
+    for (const Contact& contact : near) {
+      const double safe = options_.safe_part * nearest(state_.x, contact).distance;
+      for (const Index v : {contact.vertex, contact.a, contact.b}) bound[v] = std::min(bound[v], safe);
+    }
+    Points2 move = wanted_move;
+    for (Index v = 0; v < net_.vertex_count(); ++v)
+      if (const double length = move.col(v).norm(); length > bound[v]) move.col(v) *= bound[v] / length;
+    const double before = value(state_.x, near);
+    for (double part = 1; part > 1e-3; part *= 0.5) {
+      const Points2 x = state_.x + part * move;
+      if (!(value(x, near) < before)) continue;
+      state_.x = x;
+      return part * move.colwise().norm().maxCoeff();
+    }
+    return 0;
+  }
+
+  const CurveNet& net_;
+  CurveState& state_;
+  double gap_;
+  const CurveRecoverOptions& options_;
+  SegmentTree tree_;
+  std::vector<Index> unknown_;
+  Index unknowns_ = 0;
+  std::vector<Index> owner_;  // one segment of each vertex, so that a contact is found once
+  std::vector<double> arc_;   // of each vertex along its chain, at the target
+  std::vector<Index> chain_, slot_;
+  std::vector<double> length_;  // one a chain
+  Eigen::SparseMatrix<double> elastic_, hessian_;
+  std::vector<Eigen::Triplet<double>> elastic_terms_, terms_;
+  std::vector<Contact> contacts_;
+  int small_ = 0;  // steps in a row that moved next to nothing
+};
+
+}  // namespace
+
+int recover_curves(const CurveNet& net, CurveState& state, double gap, const CurveRecoverOptions& options,
+                   const std::function<bool()>& stop) {
+  return Recovery(net, state, gap, options).run(stop);
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,398 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <pugixml.hpp>
+
+#include "applications/curves/curve_file.h"
+#include "applications/curves/path_data.h"
+
+namespace unsnarl {
+namespace {
+
+/// Subpaths are closed over a gap of this part of the flattening tolerance: relative commands do not come back exactly.
+constexpr double closing_gap = 0.01;
+
+std::size_t line_of(std::string_view text, std::size_t offset) {
+  return 1 +
+         static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
+}
+
+/// Attributes that say where a line, rect, circle or ellipse is.
+constexpr std::array<const char*, 13> measures = {"x",  "y", "width", "height", "rx", "ry", "cx",
+                                                  "cy", "r", "x1",    "y1",     "x2", "y2"};
+
+/// An attribute of a start tag in the text.
+struct Attribute {
+  std::size_t begin = 0, end = 0;              // with its name and quotation marks
+  std::size_t value_begin = 0, value_end = 0;  // without
+};
+
+/// The attributes of the start tag whose name begins at `name`; the text is well-formed.
+std::map<std::string, Attribute, std::less<>> attributes_of(std::string_view text, std::size_t name) {
+  std::map<std::string, Attribute, std::less<>> result;
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+  std::size_t i = name;
+  while (i < text.size() && !is_space(text[i]) && text[i] != '>' && text[i] != '/') ++i;
+  while (i < text.size()) {
+    while (i < text.size() && is_space(text[i])) ++i;
+    if (i >= text.size() || text[i] == '>' || text[i] == '/') break;
+    Attribute a;
+    a.begin = i;
+    while (i < text.size() && !is_space(text[i]) && text[i] != '=') ++i;
+    std::string key(text.substr(a.begin, i - a.begin));
+    while (i < text.size() && text[i] != '"' && text[i] != '\'') ++i;
+    const char quote = i < text.size() ? text[i] : '"';
+    a.value_begin = ++i;
+    while (i < text.size() && text[i] != quote) ++i;
+    a.value_end = i++;
+    a.end = i;
+    result.emplace(std::move(key), a);
+  }
+  return result;
+}
+
+bool hides(const pugi::xml_node& node) {
+  const std::string_view style = node.attribute("style").value();
+  const std::size_t at = style.find("display");
+  return std::string_view(node.attribute("display").value()) == "none" ||
+         (at != std::string_view::npos && style.substr(at, 14).find("none") != std::string_view::npos);
+}
+
+bool has_css_transform(std::string_view style) {
+  for (std::size_t at = style.find("transform"); at != std::string_view::npos; at = style.find("transform", at + 1))
+    if (at == 0 || style[at - 1] != '-') return true;
+  return false;
+}
+
+/// One subpath of an element.
+struct Piece {
+  Subpath path;
+  std::optional<std::size_t> curve;  ///< nothing: fewer than two points
+};
+
+struct Shape {
+  std::string kind;
+  std::size_t name = 0;  ///< where its name is in the text
+  std::string data;      ///< of a path
+  Affine transform;
+  std::vector<Piece> pieces;
+};
+
+class SvgFile final : public CurveFile {
+ public:
+  std::string patched(std::span<const Curve> moved, double rounding) const override;
+
+  std::unique_ptr<CurveFile> parse_alike(std::string text) const override {
+    return parse_svg(std::move(text), 1, flatten);
+  }
+
+  std::vector<Shape> shapes;
+  double flatten = 0;
+
+ private:
+  std::string path_of(const Shape& shape, std::span<const Curve> moved, double rounding) const;
+  std::string points_of(const Shape& shape, const Piece& piece, const Curve& moved, double rounding) const;
+};
+
+class SvgParser {
+ public:
+  SvgParser(SvgFile& file, double flatten_rel) : file_(file), flatten_rel_(flatten_rel) {}
+
+  void parse(double flatten) {
+    pugi::xml_document document;
+    const pugi::xml_parse_result result =
+        document.load_buffer(file_.bytes.data(), file_.bytes.size(),
+                             pugi::parse_default | pugi::parse_declaration | pugi::parse_doctype, pugi::encoding_utf8);
+    if (!result)
+      throw FileError(fmt::format("line {}: this is not well-formed XML: {}",
+                                  line_of(file_.bytes, std::min<std::size_t>(result.offset, file_.bytes.size())),
+                                  result.description()));
+    const pugi::xml_node root = document.document_element();
+    if (local_name(root) != "svg")
+      throw FileError(fmt::format("the root element is <{}>; an SVG file has <svg>", root.name()));
+    if (flatten <= 0) {
+      // Twice: the diagonal, on which the tolerance depends, is that of the curves themselves.
+      flatten_ = std::numeric_limits<double>::infinity();
+      visit(root, {}, true);
+      flatten = flatten_rel_ * diagonal_of(file_.curves);
+      file_.curves.clear();
+      file_.ids.clear();
+      file_.notes.clear();
+      file_.shapes.clear();
+      skipped_.clear();
+    }
+    file_.flatten = flatten_ = flatten > 0 ? flatten : flatten_rel_;
+    visit(root, {}, true);
+    for (const auto& [name, count] : skipped_)
+      file_.notes.push_back(fmt::format("{} <{}> {} left as {}", count, name,
+                                        count == 1 ? "element is" : "elements are", count == 1 ? "it is" : "they are"));
+  }
+
+ private:
+  static std::string_view local_name(const pugi::xml_node& node) {
+    const std::string_view name = node.name();
+    const std::size_t colon = name.find(':');
+    return colon == std::string_view::npos ? name : name.substr(colon + 1);
+  }
+
+  std::string place_of(const pugi::xml_node& node) const {
+    const std::string_view id = node.attribute("id").value();
+    const std::size_t line = line_of(file_.bytes, static_cast<std::size_t>(node.offset_debug()));
+    return id.empty() ? fmt::format("<{}> on line {}", node.name(), line)
+                      : fmt::format("<{}> '{}' on line {}", node.name(), id, line);
+  }
+
+  void visit(const pugi::xml_node& node, const Affine& outer, bool is_root) {
+    const std::string_view name = local_name(node);
+    for (const char* const aside : {"defs", "symbol", "clipPath", "mask", "marker", "pattern", "linearGradient",
+                                    "radialGradient", "filter", "metadata", "style", "script", "title", "desc"})
+      if (name == aside) return;
+    if (hides(node)) return;
+    for (const char* const other : {"use", "text", "image", "foreignObject"})
+      if (name == other) {
+        ++skipped_[other];
+        return;
+      }
+    Affine transform = outer;
+    try {
+      if (name == "svg" && !is_root)
+        for (const char* const placing : {"x", "y", "viewBox"})
+          if (node.attribute(placing))
+            throw FileError(
+                fmt::format("an inner <svg> with {} has coordinates of its own, which is not supported; "
+                            "make it a <g> with a transform",
+                            placing));
+      if (has_css_transform(node.attribute("style").value()) || node.attribute("transform-origin"))
+        throw FileError("transforms in CSS are not supported; use the attribute 'transform'");
+      if (node.attribute("transform")) transform = outer * parse_transform(node.attribute("transform").value());
+      if (is_shape(name) && has_percentages(node)) {
+        ++skipped_[fmt::format("{} in %", name)];
+      } else if (is_shape(name)) {
+        if (!(std::abs(transform.linear.determinant()) > 0))
+          throw FileError("its transforms flatten the plane; there is no way back to its coordinates");
+        add_shape(node, std::string(name), transform);
+      }
+    } catch (const FileError& e) {
+      throw FileError(fmt::format("{}: {}", place_of(node), e.what()));
+    }
+    for (const pugi::xml_node& child : node.children())
+      if (child.type() == pugi::node_element) visit(child, transform, false);
+  }
+
+  /// Parts of the page, mostly a background.
+  static bool has_percentages(const pugi::xml_node& node) {
+    for (const char* const measure : measures)
+      if (std::string_view(node.attribute(measure).value()).ends_with('%')) return true;
+    return false;
+  }
+
+  static bool is_shape(std::string_view name) {
+    for (const char* const shape : {"path", "polyline", "polygon", "line", "rect", "circle", "ellipse"})
+      if (name == shape) return true;
+    return false;
+  }
+
+  static double length(const pugi::xml_node& node, const char* name) {
+    std::string_view text = node.attribute(name).value();
+    if (text.empty()) return 0;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+    if (error != std::errc{} || !std::isfinite(value) || (!unit.empty() && unit != "px"))
+      throw FileError(
+          fmt::format("{}=\"{}\": give a plain number (units other than px are not supported)", name, text));
+    return value;
+  }
+
+  void add_shape(const pugi::xml_node& node, const std::string& kind, const Affine& transform) {
+    Shape shape{.kind = kind,
+                .name = static_cast<std::size_t>(node.offset_debug()),
+                .data = {},
+                .transform = transform,
+                .pieces = {}};
+    const double tolerance = flatten_ / std::max(transform.scale(), 1e-300);
+    std::vector<Subpath> paths;
+    if (kind == "path") {
+      shape.data = node.attribute("d").value();
+      paths = parse_path_data(shape.data, tolerance);
+    } else if (kind == "polyline" || kind == "polygon") {
+      const std::vector<double> numbers = parse_number_list(node.attribute("points").value());
+      if (numbers.size() % 2 != 0)
+        throw FileError(fmt::format("points holds {} numbers; give x and y of each point", numbers.size()));
+      Subpath path;
+      for (std::size_t k = 0; k < numbers.size(); k += 2) path.points.emplace_back(numbers[k], numbers[k + 1]);
+      path.closed = kind == "polygon";
+      paths.push_back(std::move(path));
+    } else {
+      // By the path that SVG says they are (SVG 1.1, §9).
+      const std::string data = data_of_shape(node, kind);
+      if (!data.empty()) paths = parse_path_data(data, tolerance);
+    }
+    for (Subpath& path : paths) add_piece(node, std::move(path), paths.size() > 1, shape);
+    file_.shapes.push_back(std::move(shape));
+  }
+
+  static std::string data_of_shape(const pugi::xml_node& node, const std::string& kind) {
+    const auto get = [&](const char* name) { return length(node, name); };
+    if (kind == "line") return fmt::format("M{} {}L{} {}", get("x1"), get("y1"), get("x2"), get("y2"));
+    if (kind == "rect") {
+      const double x = get("x"), y = get("y"), w = get("width"), h = get("height");
+      if (w <= 0 || h <= 0) return {};
+      double rx = get("rx"), ry = get("ry");
+      if (!node.attribute("rx")) rx = ry;
+      if (!node.attribute("ry")) ry = rx;
+      rx = std::min(rx, w / 2);
+      ry = std::min(ry, h / 2);
+      if (rx <= 0 || ry <= 0) return fmt::format("M{} {}H{}V{}H{}Z", x, y, x + w, y + h, x);
+      const std::string arc = fmt::format("A{} {} 0 0 1 ", rx, ry);
+      const auto to = [&](double px, double py) { return fmt::format("{}{} {}", arc, px, py); };
+      return fmt::format("M{} {}L{} {}{}L{} {}{}L{} {}{}L{} {}{}Z", x + rx, y, x + w - rx, y, to(x + w, y + ry), x + w,
+                         y + h - ry, to(x + w - rx, y + h), x + rx, y + h, to(x, y + h - ry), x, y + ry, to(x + rx, y));
+    }
+    const double cx = get("cx"), cy = get("cy");
+    double rx = get(kind == "circle" ? "r" : "rx"), ry = get(kind == "circle" ? "r" : "ry");
+    if (rx <= 0 || ry <= 0) return {};
+    const std::string arc = fmt::format("A{} {} 0 0 1 ", rx, ry);
+    return fmt::format("M{} {}{}{} {}{}{} {}Z", cx + rx, cy, arc, cx - rx, cy, arc, cx + rx, cy);
+  }
+
+  void add_piece(const pugi::xml_node& node, Subpath path, bool is_one_of_several, Shape& shape) {
+    Piece piece;
+    std::vector<Vec2>& points = path.points;
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    const double gap = std::isfinite(flatten_) ? closing_gap * flatten_ : 0;
+    const auto length = [&](const Vec2& d) { return (shape.transform.linear * d).norm(); };
+    while (path.closed && points.size() > 1 && length(points.back() - points.front()) <= gap) points.pop_back();
+    if (points.size() > 1) {
+      Curve curve;
+      curve.closed = path.closed && points.size() > 2;
+      for (const Vec2& p : points) {
+        const Vec2 placed = shape.transform(p);
+        curve.points.insert(curve.points.end(), {placed.x(), placed.y()});
+      }
+      curve.tolerance = path.has_curves && std::isfinite(flatten_) ? flatten_ : 0;
+      curve.name = place_of(node);
+      if (is_one_of_several) curve.name += fmt::format(", subpath {}", shape.pieces.size() + 1);
+      piece.curve = file_.curves.size();
+      file_.curves.push_back(std::move(curve));
+      file_.ids.emplace_back(node.attribute("id").value());
+    }
+    piece.path = std::move(path);
+    shape.pieces.push_back(std::move(piece));
+  }
+
+  SvgFile& file_;
+  double flatten_rel_, flatten_ = 0;
+  std::map<std::string, int> skipped_;
+};
+
+bool is_same(const Curve& a, const Curve& b) {
+  return a.points == b.points;
+}
+
+std::string SvgFile::points_of(const Shape& shape, const Piece& piece, const Curve& moved, double rounding) const {
+  const Curve& own = curves[*piece.curve];
+  const Eigen::Matrix2d back = shape.transform.linear.inverse();
+  const double fine = rounding / std::max(shape.transform.scale(), 1e-300);
+  std::string text;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Vec2 p(moved.points[2 * i], moved.points[2 * i + 1]);
+    Vec2 local;
+    const bool is_own = moved.size() == own.size() && p.x() == own.points[2 * i] && p.y() == own.points[2 * i + 1];
+    if (is_own) {
+      local = piece.path.points[i];
+    } else {
+      local = back * (p - shape.transform.offset);
+      local = {rounded(local.x(), fine), rounded(local.y(), fine)};
+    }
+    text += fmt::format("{}{},{}", i == 0 ? "" : " ", digits_of(local.x()), digits_of(local.y()));
+  }
+  return text;
+}
+
+std::string SvgFile::path_of(const Shape& shape, std::span<const Curve> moved, double rounding) const {
+  std::string text;
+  for (const Piece& piece : shape.pieces) {
+    if (!text.empty()) text += ' ';
+    const bool is_moved = piece.curve && !is_same(moved[*piece.curve], curves[*piece.curve]);
+    if (is_moved) {
+      text += "M " + points_of(shape, piece, moved[*piece.curve], rounding);
+      if (moved[*piece.curve].closed) text += " Z";
+    } else {
+      text += fmt::format("M {},{}", digits_of(piece.path.start.x()), digits_of(piece.path.start.y()));
+      if (piece.path.implicit != 0) text += fmt::format(" {}", piece.path.implicit);
+      std::string rest = shape.data.substr(piece.path.begin, piece.path.end - piece.path.begin);
+      while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\n')) rest.pop_back();
+      text += rest;
+    }
+  }
+  return text;
+}
+
+std::string SvgFile::patched(std::span<const Curve> moved, double rounding) const {
+  std::vector<TextEdit> edits;
+  for (const Shape& shape : shapes) {
+    if (std::none_of(shape.pieces.begin(), shape.pieces.end(), [&](const Piece& piece) {
+          return piece.curve && !is_same(moved[*piece.curve], curves[*piece.curve]);
+        }))
+      continue;
+    const auto attributes = attributes_of(bytes, shape.name);
+    if (shape.kind == "path") {
+      const Attribute& d = attributes.find("d")->second;
+      edits.push_back({d.value_begin, d.value_end, path_of(shape, moved, rounding)});
+      continue;
+    }
+    const Piece& piece = shape.pieces[0];
+    const std::string points = points_of(shape, piece, moved[*piece.curve], rounding);
+    if (shape.kind == "polyline" || shape.kind == "polygon") {
+      const Attribute& list = attributes.find("points")->second;
+      edits.push_back({list.value_begin, list.value_end, points});
+      continue;
+    }
+    // It becomes a path: its name, and its measures.
+    const std::size_t colon = bytes.find_first_of(": \t\r\n/>", shape.name);
+    const std::size_t name = bytes[colon] == ':' ? colon + 1 : shape.name;
+    edits.push_back({name, name + shape.kind.size(), "path"});
+    const std::string data = fmt::format("d=\"M {}{}\"", points, moved[*piece.curve].closed ? " Z" : "");
+    bool is_written = false;
+    std::size_t behind = name + shape.kind.size();
+    for (const auto& [key, attribute] : attributes) {
+      behind = std::max(behind, attribute.end);
+      for (const char* const measure : measures)
+        if (key == measure) {
+          // A space before it goes too, unless the data comes in its place.
+          const std::size_t begin = attribute.begin - (is_written ? 1 : 0);
+          edits.push_back({begin, attribute.end, is_written ? "" : data});
+          is_written = true;
+        }
+    }
+    if (!is_written) edits.push_back({behind, behind, " " + data});
+    const std::size_t tag_end = bytes.find('>', behind);
+    if (bytes[tag_end - 1] != '/') {
+      const std::string full = bytes.substr(shape.name, name + shape.kind.size() - shape.name);
+      const std::size_t close = bytes.find("</" + full, tag_end);
+      if (close != std::string::npos) {
+        const std::size_t at = close + 2 + full.size() - shape.kind.size();
+        edits.push_back({at, at + shape.kind.size(), "path"});
+      }
+    }
+  }
+  return with_edits(bytes, std::move(edits));
+}
+
+}  // namespace
+
+std::unique_ptr<CurveFile> parse_svg(std::string bytes, double flatten_rel, double flatten) {
+  auto file = std::make_unique<SvgFile>();
+  file->bytes = std::move(bytes);
+  SvgParser(*file, flatten_rel).parse(flatten);
+  return file;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,214 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "applications/curves/recover_curves.h"
+#include "applications/curves/repel_curves.h"
+#include "applications/curves/switch_crossings.h"
+
+namespace unsnarl {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Points this near to where they are pulled to are put there / diagonal: a four-hundredth of the default gap.
+constexpr double snap_rel = 1e-5;
+
+void check_options(const CurveOptions& options) {
+  if (!(options.gap_rel > 0 && options.gap_rel <= 0.1))
+    throw std::invalid_argument(fmt::format("gap_rel is {}; give a number in (0, 0.1]", options.gap_rel));
+  if (!(options.junction_rel >= 0 && options.junction_rel <= 0.1))
+    throw std::invalid_argument(fmt::format("junction_rel is {}; give a number in [0, 0.1]", options.junction_rel));
+  if (!(options.time_limit_s >= 0))
+    throw std::invalid_argument(fmt::format("time_limit_s is {}; give a number from 0 on", options.time_limit_s));
+}
+
+std::vector<SegmentPair> meetings(const CurveNet& net, const Points2& x) {
+  SegmentTree tree(net);
+  tree.refit(x);
+  return find_meetings(net, tree, x);
+}
+
+/// Distances of the vertices at x from the drawing of the input.
+std::vector<double> distances_from_drawing(const CurveNet& net, const Points2& x) {
+  SegmentTree tree(net);
+  tree.refit(net.rest);
+  std::vector<double> result(net.vertex_count(), 0);
+  for (Index v = 0; v < net.vertex_count(); ++v) {
+    const Vec2 p = x.col(v);
+    double nearest = (p - net.rest.col(v)).norm();
+    if (nearest == 0) continue;
+    // Growing boxes: what is nearer than the box reaches is the nearest.
+    for (double reach = std::min(nearest, 1e-3 * net.diagonal);; reach *= 2) {
+      const Vec2 r = Vec2::Constant(reach);
+      tree.near(p - r, p + r, [&](Index s) {
+        const Vec2 a = net.rest.col(net.segments[s][0]), d = net.rest.col(net.segments[s][1]) - a;
+        const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+        nearest = std::min(nearest, (a + t * d - p).norm());
+      });
+      if (nearest <= reach) break;
+    }
+    result[v] = nearest;
+  }
+  return result;
+}
+
+class Run {
+ public:
+  Run(std::span<const Curve> input, const CurveOptions& options, Context* context)
+      : options_(options), context_(context), start_(Clock::now()) {
+    result_.curves.assign(input.begin(), input.end());
+  }
+
+  CurveResult operator()() {
+    CurveReport& report = result_.report;
+    const double diagonal = diagonal_of(result_.curves);
+    report.joints = join_ends(result_.curves, options_.junction_rel * diagonal, report.inserted_points);
+    check_curves(result_.curves);
+    net_ = make_net(result_.curves, report.joints, options_.fix_ends);
+    report.diagonal = diagonal;
+    report.points = static_cast<std::size_t>(net_.vertex_count());
+    const std::vector<SegmentPair> before = meetings(net_, net_.rest);
+    report.crossings_before = before.size();
+    report.before = as_crossings(net_, before);
+    result_.joined = result_.curves;
+    for (const SegmentPair& pair : before)
+      if (is_fixed(pair)) report.fixed.push_back(as_crossings(net_, {pair})[0]);
+    CurveState state{net_.rest, net_.rest, std::vector<std::uint8_t>(net_.vertex_count(), 0)};
+    if (before.size() > report.fixed.size()) untangle(state, before.size());
+    finish(state);
+    report.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    return std::move(result_);
+  }
+
+ private:
+  bool is_fixed(const SegmentPair& pair) const {
+    for (const Index s : {pair.i, pair.j})
+      for (const Index v : net_.segments[s])
+        if (!net_.fixed[v]) return false;
+    return true;
+  }
+
+  bool is_stopped() {
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (context_ != nullptr && context_->is_cancelled()) stopped_ = Status::cancelled;
+    if (options_.time_limit_s > 0 && seconds > options_.time_limit_s && stopped_ == Status::embedded)
+      stopped_ = Status::time_limit;
+    return stopped_ != Status::embedded;
+  }
+
+  void show(double fraction, std::string_view phase, std::size_t left, const CurveState& state) {
+    if (context_ == nullptr || !context_->on_progress) return;
+    fraction_ = std::max(fraction_, fraction);
+    const auto now = Clock::now();
+    if (fraction > 0 && std::chrono::duration<double>(now - shown_).count() < 0.2) return;
+    shown_ = now;
+    const double moved = (state.x - net_.rest).colwise().norm().maxCoeff();
+    context_->on_progress({fraction_, phase, left, net_.diagonal > 0 ? moved / net_.diagonal : 0});
+  }
+
+  void untangle(CurveState& state, std::size_t before) {
+    const std::size_t obstructions = result_.report.fixed.size();
+    show(0, "untangle", before, state);
+    std::size_t seen = before;
+    const auto stop = [&](std::size_t left) {
+      if (left > 0) seen = left;
+      show(0.5 * (1 - static_cast<double>(seen) / before), "untangle", seen, state);
+      return is_stopped() || (left > 0 && left <= obstructions);
+    };
+    std::vector<SegmentPair> left = switch_crossings(net_, state, switching_, stop);
+    if (left.size() > obstructions && !is_stopped())
+      left = repel_curves(net_, state, repelling_, [&] { return is_stopped(); });
+    if (left.size() > obstructions && !is_stopped()) left = shrink_curves(net_, state, switching_);
+    if (left.size() > before) {
+      state = {net_.rest, net_.rest, std::vector<std::uint8_t>(net_.vertex_count(), 0)};
+      return;
+    }
+    if (left.size() > obstructions || !options_.recover) return;
+    int step = 0;
+    recover_curves(net_, state, options_.gap_rel * net_.diagonal, recovering_, [&] {
+      show(0.5 + 0.5 * step++ / recovering_.max_steps, "recover", 0, state);
+      return is_stopped();
+    });
+    snap(state);
+  }
+
+  /// Points that have moved next to nothing go back all the way, so that the numbers of the input are kept; not where
+  /// that would close a gap.
+  void snap(CurveState& state) const {
+    const Points2 recovered = state.x;
+    const std::size_t left = meetings(net_, state.x).size();
+    for (Index v = 0; v < net_.vertex_count(); ++v)
+      if ((state.x.col(v) - state.target.col(v)).norm() < snap_rel * net_.diagonal)
+        state.x.col(v) = state.target.col(v);
+    SegmentTree tree(net_);
+    tree.refit(state.x);
+    const std::vector<std::uint8_t> close = vertices_closer_than(net_, tree, state.x, snap_rel * net_.diagonal);
+    for (Index v = 0; v < net_.vertex_count(); ++v)
+      if (close[v]) state.x.col(v) = recovered.col(v);
+    if (meetings(net_, state.x).size() > left) state.x = recovered;
+  }
+
+  void finish(const CurveState& state) {
+    CurveReport& report = result_.report;
+    result_.curves = with_positions(result_.curves, net_, state.x);
+    const std::vector<SegmentPair> left = meetings(net_, state.x);
+    report.left = as_crossings(net_, left);
+    report.crossings_after = left.size();
+    if (left.empty()) {
+      result_.status = Status::embedded;
+    } else if (left.size() == report.fixed.size() && stopped_ == Status::embedded) {
+      result_.status = Status::obstructed;
+    } else if (stopped_ != Status::embedded) {
+      result_.status = stopped_;
+    } else {
+      result_.status = left.size() < report.crossings_before ? Status::reduced : Status::no_progress;
+    }
+    const std::vector<double> distance = distances_from_drawing(net_, state.x);
+    double total = 0;
+    for (Index v = 0; v < net_.vertex_count(); ++v) {
+      const double moved = (state.x.col(v) - net_.rest.col(v)).norm() / net_.diagonal;
+      total += net_.weight[v];
+      report.displacement_mean_rel += net_.weight[v] * moved;
+      report.displacement_max_rel = std::max(report.displacement_max_rel, moved);
+      report.distance_mean_rel += net_.weight[v] * distance[v] / net_.diagonal;
+      report.distance_max_rel = std::max(report.distance_max_rel, distance[v] / net_.diagonal);
+      report.moved_points += state.x.col(v) != net_.rest.col(v);
+      report.turned_points += state.turned[v];
+    }
+    if (total > 0) {
+      report.displacement_mean_rel /= total;
+      report.distance_mean_rel /= total;
+    }
+  }
+
+  const CurveOptions& options_;
+  Context* context_;
+  Clock::time_point start_, shown_;
+  CurveResult result_;
+  CurveNet net_;
+  Status stopped_ = Status::embedded;
+  double fraction_ = 0;
+  SwitchOptions switching_;
+  RepelOptions repelling_;
+  CurveRecoverOptions recovering_;
+};
+
+}  // namespace
+
+std::vector<CurveCrossing> find_crossings(std::span<const Curve> curves, std::span<const CurveJoint> joints) {
+  check_curves(curves);
+  const CurveNet net = make_net(curves, joints, false);
+  return as_crossings(net, meetings(net, net.rest));
+}
+
+CurveResult untangle_curves(std::span<const Curve> curves, const CurveOptions& options, Context* context) {
+  check_options(options);
+  check_curves(curves);
+  return Run(curves, options, context)();
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,197 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "applications/curves/path_data.h"
+#include "unsnarl/curves.h"
+
+namespace unsnarl {
+namespace {
+
+CurveDocument svg(const std::string& inside, double flatten_rel = 1e-4) {
+  return CurveDocument::parse("<svg xmlns=\"http://www.w3.org/2000/svg\">\n" + inside + "\n</svg>\n", CurveFormat::svg,
+                              flatten_rel);
+}
+std::string svg_error(const std::string& text) {
+  try {
+    CurveDocument::parse(text, CurveFormat::svg);
+  } catch (const FileError& e) {
+    return e.what();
+  }
+  return "";
+}
+std::string json_error(const std::string& text) {
+  try {
+    CurveDocument::parse(text, CurveFormat::json);
+  } catch (const FileError& e) {
+    return e.what();
+  }
+  return "";
+}
+bool says(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+TEST(CurveDocument, UnmovedFilesComeBackByteForByte) {
+  const std::string text =
+      "<?xml version=\"1.0\"?>\n<!-- kept --><svg xmlns=\"http://www.w3.org/2000/svg\"  >"
+      "<path d='M0 0c1,1,2-1 3 .5.5.5.5.5.5.5z m 5 5 l 1 0 0 1'/><rect width=\"3\" "
+      "height=\"2\"/><text>x</text></svg>\n";
+  const CurveDocument document = CurveDocument::parse(text, CurveFormat::svg);
+  EXPECT_EQ(document.patched(document.curves()), text);
+  const std::string json =
+      "{ \"curves\" : [ {\"points\": [[0, 1e0], [2.50,3]], \"colour\": \"red\"} ], \"x\": null }\n";
+  const CurveDocument other = CurveDocument::parse(json, CurveFormat::json);
+  EXPECT_EQ(other.patched(other.curves()), json);
+}
+
+TEST(CurveDocument, AMovedSubpathLeavesTheOthersTheirBeziers) {
+  const CurveDocument document =
+      svg("<path id=\"p\" class=\"k\" d=\"m 1,2 l 4,0 m 1 1 c 1 0 2 1 2 2 z l 3 3\" fill=\"none\"/>");
+  ASSERT_EQ(document.curves().size(), 3U);
+  std::vector<Curve> moved = document.curves();
+  moved[0].points[1] = 2.5;
+  const std::string text = document.patched(moved);
+  EXPECT_TRUE(
+      says(text, "<path id=\"p\" class=\"k\" d=\"M 1,2.5 5,2 M 6,3 c 1 0 2 1 2 2 z M 6,3l 3 3\" fill=\"none\"/>"))
+      << text;
+  const std::vector<Curve> back = document.read_back(text);
+  ASSERT_EQ(back.size(), 3U);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(back[c].points, moved[c].points) << c;
+}
+
+TEST(CurveDocument, ShapesBecomePathsOnlyWhenTheyMove) {
+  const CurveDocument document =
+      svg("<line id=\"a\" x1=\"0\" y1=\"0\" x2=\"4\" y2=\"1\" stroke=\"red\"/>"
+          "<rect id=\"b\" x=\"10\" y=\"10\" width=\"4\" height=\"2\"><title>box</title></rect>"
+          "<circle id=\"c\" cx=\"30\" r=\"5\"/>");
+  ASSERT_EQ(document.curves().size(), 3U);
+  EXPECT_EQ(document.curves()[1].size(), 4U);
+  std::vector<Curve> moved = document.curves();
+  moved[0].points[3] = 2;
+  moved[1].points[0] = 9;
+  const std::string text = document.patched(moved);
+  EXPECT_TRUE(says(text, "<path id=\"a\" d=\"M 0,0 4,2\" stroke=\"red\"/>")) << text;
+  EXPECT_TRUE(says(text, "d=\"M 9,10 14,10 14,12 10,12 Z\"")) << text;
+  EXPECT_TRUE(says(text, "<title>box</title></path>")) << text;
+  EXPECT_TRUE(says(text, "<circle id=\"c\" cx=\"30\" r=\"5\"/>")) << text;
+  const std::vector<Curve> back = document.read_back(text);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(back[c].points, moved[c].points) << c;
+}
+
+TEST(CurveDocument, TransformsAreAppliedAndTakenBack) {
+  const CurveDocument document =
+      svg("<g transform=\"translate(10,20) scale(2)\"><polyline points=\"0,0 1,0 1,1\" transform=\"rotate(90)\"/></g>");
+  const std::vector<double>& p = document.curves()[0].points;
+  EXPECT_NEAR(p[2], 10, 1e-12);
+  EXPECT_NEAR(p[3], 22, 1e-12);
+  EXPECT_NEAR(p[4], 8, 1e-12);
+  std::vector<Curve> moved = document.curves();
+  moved[0].points[4] = 7.5;
+  const std::vector<Curve> back = document.read_back(document.patched(moved));
+  for (std::size_t k = 0; k < p.size(); ++k) EXPECT_NEAR(back[0].points[k], moved[0].points[k], 1e-8);
+}
+
+TEST(CurveDocument, FlatteningKeepsItsTolerance) {
+  for (const double flatten : {1e-2, 1e-4}) {
+    const CurveDocument document = svg("<circle cx=\"3\" cy=\"4\" r=\"10\"/><ellipse rx=\"3\" ry=\"1\"/>", flatten);
+    const double tolerance = flatten * std::hypot(20, 20);
+    const Curve& circle = document.curves()[0];
+    for (std::size_t k = 0; k < circle.size(); ++k) {
+      const std::size_t next = (k + 1) % circle.size();
+      const double x = 0.5 * (circle.points[2 * k] + circle.points[2 * next]) - 3;
+      const double y = 0.5 * (circle.points[2 * k + 1] + circle.points[2 * next + 1]) - 4;
+      EXPECT_NEAR(std::hypot(x, y), 10, 1.01 * tolerance);
+    }
+  }
+  // A cubic against itself, sampled finely.
+  const std::vector<Subpath> path = parse_path_data("M0 0C 4 0 -3 5 1 5", 1e-3);
+  const std::vector<Vec2>& points = path[0].points;
+  for (int k = 0; k <= 1000; ++k) {
+    const double t = k / 1000.0, u = 1 - t;
+    const Vec2 p = 3 * t * u * u * Vec2(4, 0) + 3 * t * t * u * Vec2(-3, 5) + t * t * t * Vec2(1, 5);
+    double nearest = 1;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const Vec2 d = points[i] - points[i - 1];
+      const double s = std::clamp((p - points[i - 1]).dot(d) / d.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (points[i - 1] + s * d - p).norm());
+    }
+    EXPECT_LE(nearest, 1e-3);
+  }
+}
+
+TEST(CurveDocument, PathDataOfAllKinds) {
+  const auto ends = [](const char* data) { return parse_path_data(data, 0.1).back().points.back(); };
+  EXPECT_EQ(ends("M1 1 2 2"), Vec2(2, 2));
+  EXPECT_EQ(ends("m1 1 2 2"), Vec2(3, 3));
+  EXPECT_EQ(ends("M1 1h2v-1H7V9"), Vec2(7, 9));
+  EXPECT_EQ(ends("M0 0q1 1 2 0t2 0"), Vec2(4, 0));
+  EXPECT_EQ(ends("M0,0c0,1,1,1,1,0s1-1 1 0"), Vec2(2, 0));
+  EXPECT_EQ(ends("M0 0a1 1 0 012-.5"), Vec2(2, -0.5));
+  EXPECT_EQ(ends("M0 0L-1.5.5+2-3"), Vec2(2, -3));
+  EXPECT_EQ(parse_path_data("M0 0L1 0 1 1ZL5 5", 0.1).size(), 2U);
+}
+
+TEST(CurveDocument, WhatIsNotDrawnIsLeftAlone) {
+  const CurveDocument document =
+      svg("<defs><path d=\"M0 0L1 1\"/></defs><g display=\"none\"><path d=\"M0 0L1 1\"/></g><use href=\"#x\"/><rect "
+          "width=\"100%\" height=\"100%\"/>"
+          "<path d=\"M5 5\"/><path d=\"\"/><rect width=\"0\" height=\"3\"/>");
+  EXPECT_TRUE(document.curves().empty());
+  ASSERT_EQ(document.notes().size(), 2U);
+  EXPECT_TRUE(says(document.notes()[0], "<rect in %>"));
+  EXPECT_TRUE(says(document.notes()[1], "<use>"));
+}
+
+TEST(CurveDocument, BadSvgIsRefusedAndThePlaceNamed) {
+  EXPECT_TRUE(says(svg_error("<svg>\n<path d=\"M0 0\"\n</svg>"), "line "));
+  EXPECT_TRUE(says(svg_error("<html/>"), "root element is <html>"));
+  EXPECT_TRUE(says(svg_error("<svg>\n<path id=\"p\" d=\"M0 0L1 x\"/></svg>"), "<path> 'p' on line 2"));
+  EXPECT_TRUE(says(svg_error("<svg><path d=\"L0 0\"/></svg>"), "start with M"));
+  EXPECT_TRUE(says(svg_error("<svg><path d=\"M0 0 L nan 1\"/></svg>"), "not a number"));
+  EXPECT_TRUE(says(svg_error("<svg><path d=\"M0 0 L 1e999 1\"/></svg>"), "not a number"));
+  EXPECT_TRUE(says(svg_error("<svg><g transform=\"scale(0)\"><path d=\"M0 0L1 1\"/></g></svg>"), "flatten the plane"));
+  EXPECT_TRUE(says(svg_error("<svg><g transform=\"perspective(3)\"/></svg>"), "no transform that is known"));
+  EXPECT_TRUE(says(svg_error("<svg><g style=\"transform: none\"/></svg>"), "CSS"));
+  EXPECT_TRUE(says(svg_error("<svg><rect width=\"3mm\" height=\"2\"/></svg>"), "units"));
+  EXPECT_TRUE(says(svg_error("<svg><polygon points=\"0 0 1\"/></svg>"), "3 numbers"));
+  EXPECT_TRUE(says(svg_error("<svg><svg x=\"3\"/></svg>"), "inner <svg>"));
+}
+
+TEST(CurveDocument, BadJsonIsRefusedAndThePlaceNamed) {
+  EXPECT_TRUE(says(json_error("{\"curves\": ["), "byte"));
+  EXPECT_TRUE(says(json_error("[]"), "no list \"curves\""));
+  EXPECT_TRUE(says(json_error("{\"curves\": [{}]}"), "curve 0 has no list \"points\""));
+  EXPECT_TRUE(says(json_error("{\"curves\": [{\"points\": [[0, 0], [1]]}]}"), "point 1 is not [x, y]"));
+  EXPECT_TRUE(says(json_error("{\"curves\": [{\"points\": [[0, 0], [1, 1], [1, 1]]}]}"), "points 1 and 2 are equal"));
+  EXPECT_TRUE(says(json_error("{\"curves\": [{\"points\": [[0, 0], [1, 1]], \"fixed\": [2]}]}"), "no point 2"));
+  EXPECT_TRUE(says(json_error("{\"curves\": [{\"points\": [[0, 0], [1, 1]], \"closed\": 1}]}"), "true or false"));
+}
+
+TEST(CurveDocument, InsertedPointsAreWritten) {
+  const std::string text = "{\"curves\": [{\"points\": [[0, 0], [10, 0]]}, {\"points\": [[5, 0], [5, 3]]}]}";
+  const CurveDocument document = CurveDocument::parse(text, CurveFormat::json);
+  std::vector<Curve> moved = document.curves();
+  moved[0].points = {0, 0, 5, 0, 10, 0};
+  EXPECT_EQ(document.patched(moved),
+            "{\"curves\": [{\"points\": [[0, 0], [5, 0], [10, 0]]}, {\"points\": [[5, 0], [5, 3]]}]}");
+}
+
+TEST(CurvePictures, AreFilesOfTheirKind) {
+  const std::vector<Curve> curves{random_closed_curve("star", 1, 200)};
+  const std::string png = curve_integrand_png(curves[0], 0.05, 64);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_THROW(curve_integrand_png(curves[0], 0, 64), std::invalid_argument);
+  const std::vector<CurveCrossing> crossings = find_crossings(curves);
+  const std::string picture = curve_picture_svg(curves, crossings, curves, {});
+  std::size_t circles = 0;
+  for (std::size_t at = picture.find("<circle"); at != std::string::npos; at = picture.find("<circle", at + 1))
+    ++circles;
+  EXPECT_EQ(circles, crossings.size());
+  // It is read as SVG too.
+  EXPECT_EQ(CurveDocument::parse(picture, CurveFormat::svg).curves().size(), 2U + circles);
+}
+
+}  // namespace
+}  // namespace unsnarl

@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "oracle/crossings_by_brute_force.h"
+
+namespace unsnarl::cli {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+class Curves : public ::testing::Test {
+ protected:
+  Folder folder;
+  const std::string in = folder / "in.svg", out = folder / "out.svg";
+
+  /// By the oracle, on what is read from the file anew.
+  static std::size_t crossings_of(const std::string& path) {
+    return oracle::count_crossings(CurveDocument::read(path).curves(), {});
+  }
+};
+
+TEST_F(Curves, ADrawingIsOpenedAndAllElseKept) {
+  write(in,
+        "<!-- kept --><svg xmlns=\"http://www.w3.org/2000/svg\">\n<g transform=\"rotate(7)\"><circle id=\"a\" r=\"10\" "
+        "class=\"k\"/></g>\n<circle cx=\"12\" r=\"9\"/><path d=\"M 90 90 c 1 0 1 1 0 1\"/></svg>\n");
+  const Outcome outcome = run({"curves", in, "-o", out, "--report", folder / "r.json", "--picture", folder / "p.svg"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(crossings_of(in), 2U);
+  EXPECT_EQ(crossings_of(out), 0U);
+  const std::string text = contents(out);
+  EXPECT_TRUE(text.starts_with("<!-- kept --><svg"));
+  EXPECT_TRUE(contains(text, "<g transform=\"rotate(7)\"><path id=\"a\" d=\"M "));
+  EXPECT_TRUE(contains(text, "class=\"k\"/></g>"));
+  EXPECT_TRUE(contains(text, "<path d=\"M 90 90 c 1 0 1 1 0 1\"/>"));
+  const auto report = nlohmann::json::parse(contents(folder / "r.json"));
+  EXPECT_EQ(report["status"], "embedded");
+  EXPECT_EQ(report["crossings_before"], 2);
+  EXPECT_EQ(report["crossings_after"], 0);
+  EXPECT_TRUE(contains(contents(folder / "p.svg"), "before: 2 crossings"));
+  // Once more: nothing to do, the same bytes.
+  const std::string again = folder / "again.svg";
+  EXPECT_EQ(run({"curves", out, "-o", again, "-q"}).exit_code, 0);
+  EXPECT_EQ(contents(again), text);
+}
+
+TEST_F(Curves, StreamsAndSamples) {
+  const Outcome sample = run({"sample", "curve_spiral", "--set", "seed=3", "--set", "points=300", "-o", "-"});
+  ASSERT_EQ(sample.exit_code, 0) << sample.err;
+  const std::vector<std::string> arguments{"curves", "-", "--format", "json", "-o", "-"};
+  const Outcome first = run(arguments, {.input = sample.out}), second = run(arguments, {.input = sample.out});
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.out, second.out);
+  const CurveDocument document = CurveDocument::parse(first.out, CurveFormat::json);
+  EXPECT_EQ(oracle::count_crossings(document.curves(), {}), 0U);
+  EXPECT_EQ(document.curves()[0].size(), 300U);
+}
+
+TEST_F(Curves, FixedCurvesThatCrossExitWith7) {
+  const std::string json = folder / "in.json", result = folder / "out.json";
+  write(json,
+        "{\"curves\": [{\"name\": \"a\", \"points\": [[0, 0], [9, 9]]}, {\"points\": [[0, 9], [9, 0]]},\n"
+        "{\"closed\": true, \"points\": [[20, 0], [29, 9], [29, 0], [20, 9]]}]}");
+  const Outcome outcome = run({"curves", json, "-o", result, "--fix", "a", "--fix", "1"});
+  EXPECT_EQ(outcome.exit_code, 7) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "obstruction: segment 0 of curve 0 'a' and segment 0 of curve 1 cross"));
+  EXPECT_EQ(crossings_of(json), 2U);
+  EXPECT_EQ(crossings_of(result), 1U);
+}
+
+TEST_F(Curves, LeftCrossingsExitWith1AndWriteNothing) {
+  const std::string json = folder / "in.json", result = folder / "out.json";
+  write(json, "{\"curves\": [{\"points\": [[0, 0], [9, 9]]}, {\"points\": [[0, 9], [4, 6], [9, 0]]}]}");
+  const Outcome outcome = run({"curves", json, "-o", result, "--fix-ends"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(contains(outcome.err, "left: segment 0 of curve 0"));
+  EXPECT_FALSE(fs::exists(result));
+  EXPECT_EQ(run({"curves", json, "-o", result, "--fix-ends", "--keep-partial"}).exit_code, 1);
+  EXPECT_TRUE(fs::exists(result));
+}
+
+TEST_F(Curves, ATimeLimitExitsWith5) {
+  const std::string json = folder / "in.json";
+  ASSERT_EQ(run({"sample", "curve_noise", "--set", "points=2000", "-o", json}).exit_code, 0);
+  EXPECT_EQ(run({"curves", json, "-o", folder / "out.json", "--time-limit", "0.000001"}).exit_code, 5);
+}
+
+TEST_F(Curves, WhatMakesNoSenseIsRefusedAndThePlaceNamed) {
+  write(in, "<svg>\n<path id=\"p\" d=\"M0 0 L oops\"/></svg>");
+  const Outcome data = run({"curves", in, "-o", out});
+  EXPECT_EQ(data.exit_code, 3);
+  EXPECT_TRUE(contains(data.err, "in.svg: <path> 'p' on line 2: 'oops' at character 7"));
+  EXPECT_EQ(run({"curves", folder / "none.svg", "-o", out}).exit_code, 3);
+  write(in, "<svg><path id=\"p\" d=\"M0 0L1 1\"/></svg>");
+  EXPECT_EQ(run({"curves", in}).exit_code, 2);
+  EXPECT_EQ(run({"curves", in, "-o", in}).exit_code, 2);
+  EXPECT_EQ(run({"curves", in, "-o", folder / "out.json"}).exit_code, 2);
+  EXPECT_EQ(run({"curves", in, "-o", out, "--fix", "q"}).exit_code, 2);
+  EXPECT_EQ(run({"curves", in, "-o", out, "--gap", "0"}).exit_code, 2);
+  EXPECT_EQ(run({"curves", in, "-o", folder / "no/such/folder.svg"}).exit_code, 4);
+  EXPECT_EQ(run({"curves", in, "--integrand", folder / "i.png", "--integrand-curve", "1"}).exit_code, 2);
+  EXPECT_EQ(run({"curves", in, "--integrand", folder / "i.png"}).exit_code, 0);
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"i.png", "in.svg"}));
+}
+
+}  // namespace
+}  // namespace unsnarl::cli
