@@ -5,7 +5,7 @@
 namespace unsnarl {
 
 std::string with_edits(std::string_view text, std::vector<TextEdit> edits) {
-  std::sort(edits.begin(), edits.end(), [](const TextEdit& a, const TextEdit& b) { return a.begin < b.begin; });
+  std::stable_sort(edits.begin(), edits.end(), [](const TextEdit& a, const TextEdit& b) { return a.begin < b.begin; });
   std::string result;
   std::size_t done = 0;
   for (const TextEdit& edit : edits) {

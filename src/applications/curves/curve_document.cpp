@@ -38,19 +38,6 @@ double rounded(double value, double rounding) {
   return result == 0 ? 0 : result;
 }
 
-std::string with_edits(std::string_view text, std::vector<TextEdit> edits) {
-  std::stable_sort(edits.begin(), edits.end(), [](const TextEdit& a, const TextEdit& b) { return a.begin < b.begin; });
-  std::string result;
-  std::size_t done = 0;
-  for (const TextEdit& edit : edits) {
-    result.append(text, done, edit.begin - done);
-    result += edit.text;
-    done = edit.end;
-  }
-  result.append(text, done, text.size() - done);
-  return result;
-}
-
 std::string_view to_string(CurveFormat format) {
   return format == CurveFormat::svg ? "svg" : "json";
 }

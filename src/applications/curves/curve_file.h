@@ -24,13 +24,6 @@ class CurveFile {
   std::vector<std::string> notes;
 };
 
-/// A piece of a text to be replaced.
-struct TextEdit {
-  std::size_t begin = 0, end = 0;
-  std::string text;
-};
-std::string with_edits(std::string_view text, std::vector<TextEdit> edits);
-
 /// The fewest digits that give the double back.
 std::string digits_of(double value);
 /// Rounded to a multiple of a power of ten that is no larger than `rounding`.

@@ -4,6 +4,7 @@
 
 #include "applications/curves/curve_file.h"
 #include "io/json_text.h"
+#include "io/text_edits.h"
 
 namespace unsnarl {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "applications/curves/curve_file.h"
 #include "applications/curves/path_data.h"
+#include "io/text_edits.h"
 
 namespace unsnarl {
 namespace {
