@@ -219,8 +219,7 @@ RecoverResult Recovery::run() {
                     options_.least_gaps * min_gap);
   };
   const double activation = activation_of(options_.activation);
-  const double last_activation =
-      options_.last_activation > 0 ? activation_of(options_.last_activation) : activation;
+  const double last_activation = options_.last_activation > 0 ? activation_of(options_.last_activation) : activation;
 
   open();
   safe_ = patch_.x;

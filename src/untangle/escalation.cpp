@@ -345,9 +345,8 @@ class Escalation {
   void keep_waiting(Index level) {
     const auto is_due = [&](const Candidate& waiting) { return level_of(waiting.attempt.region) > level; };
     const auto due = std::stable_partition(waiting_.begin(), waiting_.end(), std::not_fn(is_due));
-    std::stable_sort(due, waiting_.end(), [](const Candidate& a, const Candidate& b) {
-      return a.attempt.distance < b.attempt.distance;
-    });
+    std::stable_sort(due, waiting_.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.attempt.distance < b.attempt.distance; });
     for (auto waiting = due; waiting != waiting_.end(); ++waiting)
       if (is_current(waiting->attempt)) keep(waiting->attempt, *levels_[waiting->level].strategy, 0);
     waiting_.erase(due, waiting_.end());

@@ -12,7 +12,6 @@ namespace unsnarl {
 
 /// How a strategy of the flow decides which parts of the surface repel each other.
 enum class FlowWeights {
-  none,       ///< no shape-level term
   ratio,      ///< parts much farther apart along the surface than through space
   adjacency,  ///< all but adjacent ones (paper §3.5.2); inflates flat areas by 1.2 to 1.9
 };
@@ -37,9 +36,7 @@ struct FlowSettings {
   /// 1 solved 15 of 21 meshes, 4 only 10.
   double lambda_minkowski = 1;
   double lambda_arap = 1;
-  double margin = 0.03;     ///< h: the penalty acts until faces are this far apart; 28 iterations against 61 without
-  bool line_search = true;  ///< false: preconditioned gradient descent with fixed steps
-  double fixed_step = 0.1;  ///< of the step cap, where there is no line search
+  double margin = 0.03;  ///< h: the penalty acts until faces are this far apart; 28 iterations against 61 without
   bool adaptive_bandwidth = true;  ///< clusters' bandwidths follow the symmetric local model (II); false: frozen
   double hot_range = 4;            ///< bandwidths: only clusters this close to an intersecting face interact
   double max_spacing_rel = 0.06;   ///< of the diagonal: how coarse the clusters may get on stalls
@@ -68,7 +65,7 @@ struct FlowOptions {
   double stall_drop = 0.15;      ///< ... this relative drop of the number of pairs: something must change
   double hopeless_share = 0.8;   ///< of the pairs: a strategy that never got below by its last allowed stall gives up
   double few_pairs = 0.1;        ///< of the initial number: then the penalty grows, else the clusters
-  double spacing_growth = 1.6;  ///< of the clusters, on a stall with many pairs left
+  double spacing_growth = 1.6;   ///< of the clusters, on a stall with many pairs left
   double largest_minkowski =
       100;  ///< the strategy ends where it would have to grow further: from there on sheets only lock
   /// From this share of the initial pairs on (and from few_finish pairs on), the local contour method tries to take

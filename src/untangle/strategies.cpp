@@ -44,7 +44,8 @@ Strategy flow_of(std::string name, Extent extent, int rings, const FlowSettings&
     rest.swap(patch.rest);
     return iterations;
   };
-  return {.name = std::move(name), .extent = extent, .rings = rings, .reach = 20, .is_last_resort = true, .solve = solve};
+  return {
+      .name = std::move(name), .extent = extent, .rings = rings, .reach = 20, .is_last_resort = true, .solve = solve};
 }
 
 Strategy coarse_to_fine() {
@@ -86,27 +87,18 @@ Tier smoothing_tier() {
   return {
       local("smoothing-4", 4, {LocalMethod::smoothing, 0.1, 3, 60}),
       local("smoothing-8", 8, {LocalMethod::smoothing, 0.1, 5, 100}),
-      local("fill-8", 8, {LocalMethod::smoothing, 0.1, 12, 100}),
-      local("fill-16", 16, {LocalMethod::smoothing, 0.1, 24, 100}),
+      local("smoothing-16", 16, {LocalMethod::smoothing, 0.1, 24, 100}),
   };
 }
 
-const FlowSettings& flow_named(std::string_view name) {
-  for (const FlowSettings& settings : flow_variants())
-    if (settings.name == name) return settings;
-  return flow_variants().front();
-}
-
 Tier regional_flow_tier() {
-  const FlowSettings& settings = flow_named("flow 1b");
-  return {flow_of("flow-8", Extent::rings, 8, settings), flow_of("flow-16", Extent::rings, 16, settings)};
+  return {flow_of("flow-8", Extent::rings, 8, flow_variants().front())};
 }
 
 Tier whole_component_tier() {
   Tier tier;
   for (const FlowSettings& settings : flow_variants())
-    if (settings.line_search)
-      tier.push_back(flow_of(std::string(settings.name), Extent::whole_components, 0, settings));
+    tier.push_back(flow_of(std::string(settings.name), Extent::whole_components, 0, settings));
   return tier;
 }
 

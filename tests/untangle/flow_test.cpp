@@ -188,9 +188,9 @@ TEST(Flow, OpensAFigureEightTorus) {
 
 TEST(Flow, GivesUpEarlyWhereAStrategyHasNoEffect) {
   Patch patch = patch_of(figure_eight_torus());
-  const FlowResult result = flow(patch, flow_variants()[1]);
+  const FlowResult result = flow(patch, flow_variants()[0]);
   EXPECT_FALSE(result.clean);
-  EXPECT_LT(result.iterations, flow_variants()[1].max_iterations);
+  EXPECT_LT(result.iterations, flow_variants()[0].max_iterations);
   EXPECT_EQ(count_pairs(patch), result.pairs_left);
 }
 
@@ -279,7 +279,7 @@ TEST(Flow, StopsWhenToldToAndKeepsTheBestState) {
   Patch patch = patch_of(figure_eight_torus());
   const std::size_t before = count_pairs(patch);
   int asked = 0;
-  const FlowResult result = flow(patch, flow_variants()[2], [&] { return ++asked > 100; });
+  const FlowResult result = flow(patch, flow_variants()[0], [&] { return ++asked > 100; });
   EXPECT_FALSE(result.clean);
   EXPECT_GT(result.iterations, 0);
   EXPECT_LE(result.iterations, 100) << "it asks once an iteration at least";
@@ -293,7 +293,7 @@ TEST(Flow, GivesTheSameBytesAtAnyThreadCount) {
   for (const std::size_t threads : {1, 2, 4}) {
     const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
     Patch patch = patch_of(thick_trefoil());
-    flow(patch, flow_variants()[2]);
+    flow(patch, flow_variants()[0]);
     results.push_back(patch.x);
   }
   EXPECT_EQ(results[0], results[1]);
