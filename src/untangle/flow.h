@@ -86,6 +86,7 @@ struct FlowOptions {
   struct Stride {
     double step_rel, locality_rel;
   };
+  /// Both as shares of the diagonal.
   std::array<Stride, 2> recession_strides = {{{0.009, 0.12}, {0.02, 0.28}}};
   double recession_area = 0.02;   ///< of its area at rest: with thinner faces than this, further shares are tried
   double area_floor = 1e-3;       ///< of its area at rest: thinner faces are no solution

@@ -9,7 +9,7 @@ import re
 import sys
 from pathlib import Path
 
-MOST = 161
+MOST = 177
 NUMBER = re.compile(r"(?<![\w.])-?(?:\d+\.\d*(?:[eE][-+]?\d+)?|\d+(?:[eE][-+]?\d+)?)(?![\w.])")
 FIELD = re.compile(r"^\s*(?:static\s+|inline\s+)*(?:constexpr\s+)?(?:double|int|Index|std::size_t|PcgOptions|Stop|"
                    r"std::array<[^;=]*>)\s+(\w+)\s*(?:=\s*|\{)([^;]*)\}?;(.*)$")
@@ -19,14 +19,14 @@ STRUCT = re.compile(r"^\s*(?:struct|class)\s+(\w+)")
 def fields(path):
     """(line, name, numbers, has words) of every option and constexpr of a file."""
     lines = path.read_text(encoding="utf-8").splitlines()
-    struct = None
+    structs = []  # that the line is in, the innermost last
     for number, line in enumerate(lines, 1):
-        if match := STRUCT.match(line):
-            struct = match[1]
-        if re.match(r"^\s*};", line):
-            struct = None
+        if (match := STRUCT.match(line)) and "{" in line and "}" not in line:
+            structs.append(match[1])
+        if structs and re.match(r"^\s*};", line):
+            structs.pop()
         match = FIELD.match(line)
-        is_option = struct and re.search(r"(Options|Settings|Strategy)$", struct)
+        is_option = structs and re.search(r"(Options|Settings|Strategy)$", structs[-1])
         if not match or not (is_option or "constexpr" in line):
             continue
         numbers = [n for n in NUMBER.findall(match[2]) if float(n) != 0 or "constexpr" in line]
