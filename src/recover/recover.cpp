@@ -51,9 +51,9 @@ class Recovery {
   std::vector<std::uint8_t> rings_around(std::vector<Index> front, int rings) const;
   /// The free vertices that are not at rest, and some rings around them.
   std::vector<std::uint8_t> contact_region() const;
-  void step(const std::vector<std::uint8_t>& moves, double activation, int steps);
+  void step(const std::vector<std::uint8_t>& moves, double activation, int steps, const RecoverOptions::Stop& stop);
   /// Steps of the contact region, as many as are left.
-  void stage(double activation);
+  void stage(double activation, const RecoverOptions::Stop& stop);
   void open();
   /// Active faces that are flipped.
   std::vector<Index> flipped_faces() const;
@@ -130,7 +130,8 @@ std::vector<Index> Recovery::flipped_faces() const {
   return flipped;
 }
 
-void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int steps) {
+void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int steps,
+                    const RecoverOptions::Stop& stop) {
   NewtonOptions newton;
   newton.motion = std::max(options_.stop_motion * h_, options_.stop_activation * activation);
   if (!problem_.start(moves, activation, newton.motion)) return;
@@ -138,18 +139,18 @@ void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, i
   newton.solver = options_.solver;
   newton.limited_tolerance = options_.limited_tolerance;
   newton.scalar_jacobi = options_.scalar_jacobi;
-  newton.decrease = options_.stop.decrease;
-  newton.window = options_.stop.window;
+  newton.decrease = stop.decrease;
+  newton.window = stop.window;
   const NewtonResult done = minimise_newton(problem_, newton, stop_);
   result_.iterations += done.iterations;
   result_.solver_iterations += done.solver_iterations;
   result_.stopped |= done.stopped;
 }
 
-void Recovery::stage(double activation) {
+void Recovery::stage(double activation, const RecoverOptions::Stop& stop) {
   const std::vector<std::uint8_t> moves = contact_region();
   if (!result_.stopped && std::find(moves.begin(), moves.end(), 1) != moves.end())
-    step(moves, activation, options_.max_steps - result_.iterations);
+    step(moves, activation, options_.max_steps - result_.iterations, stop);
 }
 
 void Recovery::open() {
@@ -170,7 +171,7 @@ void Recovery::unflip(double activation) {
     for (Index t : flipped) corners.insert(corners.end(), patch_.triangles[t].begin(), patch_.triangles[t].end());
     const Positions before = patch_.x;
     objective_.scale_flip_penalty(factor);
-    step(rings_around(std::move(corners), options_.unflip_rings), activation, unflip_steps);
+    step(rings_around(std::move(corners), options_.unflip_rings), activation, unflip_steps, options_.fine);
     objective_.scale_flip_penalty(1);
     std::vector<Index> left = flipped_faces();
     if (left.size() >= flipped.size()) {
@@ -224,10 +225,10 @@ RecoverResult Recovery::run() {
   safe_ = patch_.x;
   const Positions opened = patch_.x;
 
-  step(everything(), activation, std::min(options_.first_steps, options_.max_steps));
+  step(everything(), activation, std::min(options_.first_steps, options_.max_steps), options_.coarse);
   snap(everything());
-  if (last_activation < activation) stage(activation);
-  if (options_.last_activation > 0) stage(last_activation);
+  if (last_activation < activation) stage(activation, options_.coarse);
+  if (options_.last_activation > 0) stage(last_activation, options_.fine);
   unflip(last_activation);
   guard_.roll_back(patch_.x, safe_);
   safe_ = patch_.x;
@@ -250,7 +251,7 @@ RecoverOptions RecoverOptions::paper() {
   options.max_steps = 500;
   options.first_steps = 500;
   options.last_activation = 0;
-  options.stop = {0, 1};
+  options.coarse = options.fine = {0, 1};
   options.stop_motion = options.stop_activation = 0;
   options.solver = {1e-6, 2000};
   options.limited_tolerance = 0;
