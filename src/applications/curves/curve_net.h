@@ -43,8 +43,8 @@ struct CurveNet {
 void check_curves(std::span<const Curve> curves);
 
 /// Adds a point to curves where an open one ends on a segment, and finds what is joined: an end of an open curve, and
-/// whatever point is within `distance` (plus the curve's tolerance) of it. Joined points take the same position.
-/// Returns the joints; adds the number of points inserted.
+/// whatever point is within `distance` (plus the curve's tolerance) of it. Joined points take the same position; what
+/// would leave a segment without length is not joined. Returns the joints; adds the number of points inserted.
 std::vector<CurveJoint> join_ends(std::vector<Curve>& curves, double distance, std::size_t& inserted);
 
 CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joints, bool fix_ends);
