@@ -203,6 +203,13 @@ TEST(CurveDocument, FlatteningIsRelativeToTheCurvesAndNotToTheirEnds) {
   EXPECT_LT(points[0], 500U);
 }
 
+TEST(CurveDocument, ShortLastSegmentsAreKeptAndRoundingIsClosed) {
+  const CurveDocument document =
+      svg("<polygon points=\"0,0 4,0 4,4 0,0.000001\"/><path d=\"m0 0l.1 0l.1 0 .1 0 0 1 -.3 -1z\"/>");
+  EXPECT_EQ(document.curves()[0].size(), 4U);
+  EXPECT_EQ(document.curves()[1].size(), 5U);
+}
+
 TEST(CurveDocument, ShapesWithinShapesAreLeftAlone) {
   const CurveDocument document =
       svg("<rect width=\"4\" height=\"2\"><!--</rect>--><rect x=\"9\" width=\"4\" height=\"2\"></rect><desc/></rect >");

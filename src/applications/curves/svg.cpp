@@ -16,8 +16,9 @@
 namespace unsnarl {
 namespace {
 
-/// Subpaths are closed over a gap of this part of the flattening tolerance: relative commands do not come back exactly.
-constexpr double closing_gap = 0.01;
+/// Subpaths are closed over a gap of this part of their largest coordinate: relative commands do not come back exactly,
+/// thousands of them add up so many roundings.
+constexpr double closing_gap = 1e-12;
 
 std::size_t line_of(std::string_view text, std::size_t offset) {
   return 1 +
@@ -292,9 +293,10 @@ class SvgParser {
     Piece piece;
     std::vector<Vec2>& points = path.points;
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    const double gap = std::isfinite(flatten_) ? closing_gap * flatten_ : 0;
-    const auto length = [&](const Vec2& d) { return (shape.transform.linear * d).norm(); };
-    while (path.closed && points.size() > 1 && length(points.back() - points.front()) <= gap) points.pop_back();
+    double largest = 0;
+    for (const Vec2& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    while (path.closed && points.size() > 1 && (points.back() - points.front()).norm() <= closing_gap * largest)
+      points.pop_back();
     if (points.size() > 1) {
       Curve curve;
       curve.closed = path.closed && points.size() > 2;
