@@ -21,13 +21,6 @@ Vec2 point(const Curve& curve, std::size_t k) {
   return {curve.points[2 * k], curve.points[2 * k + 1]};
 }
 
-/// The place on a segment nearest to p, as a fraction of it in [0, 1].
-double nearest_fraction(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a;
-  const double squared = d.squaredNorm();
-  return squared > 0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
-}
-
 void insert_point(Curve& curve, std::size_t segment, const Vec2& p) {
   const bool is_fixed = !curve.fixed.empty() && curve.fixed[segment] && curve.fixed[(segment + 1) % curve.size()];
   const auto at = static_cast<std::ptrdiff_t>(segment + 1);
@@ -252,6 +245,27 @@ CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joi
     net.weight[b] += half;
   }
   return net;
+}
+
+ArcLengths::ArcLengths(const CurveNet& net, const Points2& x)
+    : arc(net.vertex_count(), 0), chain_of(net.vertex_count(), -1) {
+  for (const CurveNet::Chain& chain : net.chains) {
+    double sum = 0;
+    for (Index k = 0; k < chain.size(); ++k) {
+      chain_of[chain.vertices[k]] = static_cast<Index>(length.size());
+      arc[chain.vertices[k]] = sum;
+      if (k < chain.segment_count()) sum += (x.col(chain.at(k + 1)) - x.col(chain.at(k))).norm();
+    }
+    length.push_back(sum);
+    closed.push_back(chain.closed);
+  }
+}
+
+double ArcLengths::between(Index v, Index w) const {
+  const Index chain = chain_of[v];
+  if (chain != chain_of[w]) return std::numeric_limits<double>::infinity();
+  const double along = std::abs(arc[v] - arc[w]);
+  return closed[chain] ? std::min(along, length[chain] - along) : along;
 }
 
 std::vector<Curve> with_positions(std::span<const Curve> curves, const CurveNet& net, const Points2& x) {
