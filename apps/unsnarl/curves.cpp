@@ -275,7 +275,7 @@ class Curves {
 }  // namespace
 
 void add_curves_options(CLI::App& command, CurvesOptions& options) {
-  command.add_option("IN", options.input, "File of curves: svg or json; '-' for standard input")->required();
+  command.add_option("IN", options.input, "File of curves: *.svg or *.json; '-' for standard input")->required();
   command.add_option("-o,--output", options.output, "Where the untangled curves go; '-' for standard output")
       ->type_name("OUT");
   command.add_option("--format", options.format, "svg or json, where the name does not tell")
@@ -297,14 +297,15 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
       ->type_name("X");
   command
       .add_option("--junction", options.junction,
-                  "An open curve that ends this close to another ends on it and stays there, as a fraction of the\n"
-                  "diagonal (default 1e-9); flattened curves add what they are flattened by")
+                  "How near an open curve must end to another one to end on it, and stay there, as a fraction\n"
+                  "of the diagonal (default 1e-9); flattened curves add what they are flattened by")
       ->check(CLI::Range(0.0, 0.1).description(""))
       ->type_name("X");
   const std::string what = "What may move";
   command
       .add_option("--fix", options.fix,
-                  "Do not move the curves of this id (SVG) or name (JSON), or of this number; may be repeated")
+                  "Do not move the curves of this id (SVG) or name (JSON), or the one of this number, counted\n"
+                  "from 0; may be repeated")
       ->type_name("ID")
       ->allow_extra_args(false)
       ->group(what);
@@ -324,13 +325,17 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
   command
       .add_option("--integrand", options.integrand,
                   "Write a picture of the self-contact energy's integrand over pairs of points of one curve\n"
-                  "(the paper's Fig. 4); does without -o")
+                  "(the paper's Fig. 4); needs no -o")
       ->type_name("FILE.png")
       ->group(shown);
-  command.add_option("--integrand-curve", options.integrand_curve, "Of which curve, counted from 0 (default 0)")
+  command
+      .add_option("--integrand-curve", options.integrand_curve,
+                  "The curve that the integrand is of, counted from 0 (default 0)")
       ->type_name("N")
       ->group(shown);
-  command.add_option("--bandwidth", options.bandwidth, "Its bandwidth, as a fraction of the diagonal (default 0.05)")
+  command
+      .add_option("--bandwidth", options.bandwidth,
+                  "Bandwidth of the energy, as a fraction of the diagonal (default 0.05)")
       ->check(CLI::Range(1e-6, 10.0).description(""))
       ->type_name("X")
       ->group(shown);
@@ -349,8 +354,11 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
       "  unsnarl curves drawing.svg -o out.svg --picture compare.svg\n"
       "  unsnarl curves map.svg -o out.svg --fix coast --fix-ends\n"
       "  unsnarl sample curve_star -o star.json && unsnarl curves star.json -o out.json --integrand map.png\n\n"
+      "JSON: {\"curves\": [{\"points\": [[x, y], ...], \"closed\": true, \"fixed\": [point, ...], \"name\": "
+      "\"...\"}]};\n"
+      "only \"points\" is needed.\n\n"
       "Exit codes: 0 no crossings, 1 crossings left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
-      "6 interrupted, 7 all resolved but crossings of fixed segments, 70 internal error.");
+      "6 interrupted, 7 all resolved but crossings of segments that must not move, 70 internal error.");
 }
 
 int run_curves(const CurvesOptions& options, Interruption& interruption) {

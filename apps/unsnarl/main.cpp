@@ -46,8 +46,10 @@ int run(int argc, char** argv) {
   CLI::App* const fix_command = program.add_subcommand("fix", "Repair a mesh");
   CLI::App* const check_command = program.add_subcommand("check", "Count and locate the self-intersections of a mesh");
   CLI::App* const view_command = program.add_subcommand("view", "Write a page to look at a mesh, before and after");
-  CLI::App* const sample_command = program.add_subcommand("sample", "Make a self-intersecting surface to play with");
-  CLI::App* const curves_command = program.add_subcommand("curves", "Untangle curves in the plane: SVG or JSON");
+  CLI::App* const sample_command =
+      program.add_subcommand("sample", "Make a self-intersecting surface, or a curve, to play with");
+  CLI::App* const curves_command =
+      program.add_subcommand("curves", "Move curves in the plane until none crosses itself or another: SVG or JSON");
   add_fix_options(*fix_command, fix);
   add_check_options(*check_command, check);
   add_view_options(*view_command, view);

@@ -40,6 +40,14 @@ std::string list_of_samples() {
   return text;
 }
 
+/// One line on the samples that are no surfaces.
+std::string curves_hint() {
+  std::string names;
+  for (const std::string_view kind : random_curve_kinds())
+    names += fmt::format("{}{}{}", names.empty() ? "" : ", ", curve_prefix, kind);
+  return fmt::format("random closed curves, for 'unsnarl curves': {}\n", names);
+}
+
 std::string description_of(const std::string& name) {
   if (!kind_of_curve(name).empty())
     return fmt::format(
@@ -114,7 +122,8 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
       .add_option("-o,--output", options.output,
                   "Where it goes: *.obj, *.off or *.ply (curves: *.json or *.svg); '-' for standard output")
       ->type_name("OUT");
-  command.add_option("--format", options.format, "obj, off or ply, where the name does not tell")->type_name("FORMAT");
+  command.add_option("--format", options.format, "obj, off or ply (curves: json or svg), where the name does not tell")
+      ->type_name("FORMAT");
   command
       .add_option("--resolution", options.resolution, "Sampling steps along the longest direction; 0: the sample's own")
       ->check(CLI::Range(0, 2000).description(""))
@@ -125,12 +134,14 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
       "Examples:\n"
       "  unsnarl sample --list\n"
       "  unsnarl sample mobius_extended --list\n"
-      "  unsnarl sample mobius_extended -o band.obj --resolution 100");
+      "  unsnarl sample mobius_extended -o band.obj --resolution 100\n"
+      "  unsnarl sample curve_star --set seed=4 --set points=500 -o star.svg");
 }
 
 int run_sample(const SampleOptions& options, Interruption& interruption) {
   if (options.list) {
     write_to_stream(standard_stream, options.name.empty() ? list_of_samples() : description_of(options.name));
+    if (options.name.empty()) tell(curves_hint());  // beside the list, which programs read as one of surfaces
     return exit_embedded;
   }
   if (options.name.empty()) throw UsageError("which sample? 'unsnarl sample --list' names them all");

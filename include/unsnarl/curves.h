@@ -89,7 +89,8 @@ struct CurveResult {
 /// The same input gives the same result on every run. docs/curves.md explains the method.
 ///
 /// Throws std::invalid_argument, naming the curve and the point, for curves with too few points, coordinates that are
-/// not finite, segments without length, flags of another number than points, or an option out of range.
+/// not finite or beyond 1e70, a diagonal below 1e-70, segments without length, flags of another number than points, or
+/// an option out of range.
 CurveResult untangle_curves(std::span<const Curve> curves, const CurveOptions& options = {},
                             Context* context = nullptr);
 

@@ -178,6 +178,61 @@ TEST(CurveDocument, InsertedPointsAreWritten) {
             "{\"curves\": [{\"points\": [[0, 0], [5, 0], [10, 0]]}, {\"points\": [[5, 0], [5, 3]]}]}");
 }
 
+TEST(CurveDocument, AllDigitsKeepWhatRoundingWouldJoin) {
+  const CurveDocument document = CurveDocument::parse(
+      "{\"curves\": [{\"points\": [[0, 0], [7, 0], [9, 1]]}, {\"points\": [[0, 5], [7, 4], [9, 9]]}]}",
+      CurveFormat::json);
+  std::vector<Curve> moved = document.curves();
+  moved[0].points[3] = 1e-12;  // below the tip of the other one, nearer than coordinates are rounded to
+  moved[1].points[3] = 2e-12;
+  EXPECT_EQ(find_crossings(moved).size(), 0U);
+  EXPECT_GT(find_crossings(document.read_back(document.patched(moved))).size(), 0U);
+  const std::vector<Curve> back = document.read_back(document.patched(moved, true));
+  for (std::size_t c = 0; c < 2; ++c) EXPECT_EQ(back[c].points, moved[c].points);
+}
+
+TEST(CurveDocument, FlatteningIsRelativeToTheCurvesAndNotToTheirEnds) {
+  // A loop of one Bézier curve that ends where it starts, in three sizes.
+  std::size_t points[3];
+  int k = 0;
+  for (const char* const data : {"M0 0C.009.001-.003.009 0 0", "M0 0C9 1-3 9 0 0", "M0 0C9e3 1e3-3e3 9e3 0 0"})
+    points[k++] = svg(std::string("<path d=\"") + data + "\"/>").curves()[0].size();
+  EXPECT_EQ(points[0], points[1]);
+  EXPECT_EQ(points[0], points[2]);
+  EXPECT_GT(points[0], 20U);
+  EXPECT_LT(points[0], 500U);
+}
+
+TEST(CurveDocument, ShortLastSegmentsAreKeptAndRoundingIsClosed) {
+  const CurveDocument document =
+      svg("<polygon points=\"0,0 4,0 4,4 0,0.000001\"/><path d=\"m0 0l.1 0l.1 0 .1 0 0 1 -.3 -1z\"/>");
+  EXPECT_EQ(document.curves()[0].size(), 4U);
+  EXPECT_EQ(document.curves()[1].size(), 5U);
+}
+
+TEST(CurveDocument, ShapesWithinShapesAreLeftAlone) {
+  const CurveDocument document =
+      svg("<rect width=\"4\" height=\"2\"><!--</rect>--><rect x=\"9\" width=\"4\" height=\"2\"></rect><desc/></rect >");
+  ASSERT_EQ(document.curves().size(), 1U);
+  std::vector<Curve> moved = document.curves();
+  moved[0].points[0] = -1;
+  const std::string text = document.patched(moved);
+  EXPECT_TRUE(says(text, "<!--</rect>--><rect x=\"9\" width=\"4\" height=\"2\"></rect><desc/></path >")) << text;
+  EXPECT_EQ(document.read_back(text)[0].points, moved[0].points);
+}
+
+TEST(CurveDocument, NumbersBeyondArithmeticAreRefused) {
+  const auto refused = [](const std::string& inside, const char* words) {
+    return says(svg_error("<svg>" + inside + "</svg>"), words);
+  };
+  EXPECT_TRUE(refused("<path d=\"M0 0L1e300 1\"/>", "is beyond 1e+70"));
+  EXPECT_TRUE(refused("<path d=\"M0 0C1e308-1e308-1e308 1e308 1 1A1e308 1 0 0 1-1e308 3\"/>", "is beyond 1e+70"));
+  EXPECT_TRUE(refused("<path d=\"M0 0L1e-200 1e-200\"/>", "lie within a length of 1e-70"));
+  EXPECT_TRUE(refused("<path d=\"M0 0L1 1\" transform=\"scale(1e200,1)\"/>", "flatten the plane"));
+  EXPECT_TRUE(refused("<path d=\"M0 0L1 1\" transform=\"scale(1e300) scale(1e300)\"/>", "flatten the plane"));
+  EXPECT_TRUE(says(json_error("{\"curves\": [{\"points\": [[0, 0], [1e308, -1e308]]}]}"), "use another unit"));
+}
+
 TEST(CurvePictures, AreFilesOfTheirKind) {
   const std::vector<Curve> curves{random_closed_curve("star", 1, 200)};
   const std::string png = curve_integrand_png(curves[0], 0.05, 64);

@@ -155,6 +155,14 @@ TEST(UntangleCurves, ATJunctionGetsAPointAndStays) {
   EXPECT_EQ(result.curves[0].points[3], result.curves[1].points[1]);
 }
 
+TEST(UntangleCurves, CurvesShorterThanAJunctionAreNotJoined) {
+  // Both ends of the short one are within 1e-9 of the diagonal of one point.
+  const std::vector<Curve> curves{open({0, 0, 1e12, 0}), open({1, 2, 2, 4})};
+  const CurveResult result = untangled(curves);
+  EXPECT_TRUE(result.report.joints.empty());
+  EXPECT_EQ(result.curves[1].points, curves[1].points);
+}
+
 TEST(UntangleCurves, FixedPointsDoNotMove) {
   std::vector<Curve> curves{circle(0, 0, 1, 60), circle(1.2, 0, 1, 60)};
   curves[0].fixed.assign(60, 1);

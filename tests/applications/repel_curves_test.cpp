@@ -4,9 +4,6 @@
 
 #include <cmath>
 
-#include "applications/curves/recover_curves.h"
-#include "applications/curves/switch_crossings.h"
-
 namespace unsnarl {
 namespace {
 
@@ -71,42 +68,6 @@ TEST(RepelCurves, SeparatesAStickThatReachesThroughALine) {
       EXPECT_EQ(state.x.col(v), net.rest.col(v));
     }
   }
-}
-
-TEST(ShrinkCurves, FreesACurveThatMeetsAnother) {
-  std::vector<Curve> curves(2);
-  curves[0] = {.points = {0, 0, 4, 0, 4, 4, 0, 4}, .closed = true, .fixed = {1, 1, 1, 1}, .name = {}};
-  curves[1] = {.points = {3, 1, 5, 1, 5, 2, 3, 2}, .closed = true, .fixed = {}, .name = {}};
-  const CurveNet net = make_net(curves, {}, false);
-  CurveState state{net.rest, net.rest, std::vector<std::uint8_t>(net.vertex_count(), 0)};
-  EXPECT_TRUE(shrink_curves(net, state, {}).empty());
-}
-
-TEST(RecoverCurves, NeverPassesThroughAnything) {
-  // A stick that wants to be on the other side of a wall.
-  std::vector<Curve> curves(2);
-  curves[0] = {.points = {0, 0, 0, 10}, .closed = false, .fixed = {1, 1}, .name = {}};
-  curves[1] = {.points = {1, 4, 1, 5, 1, 6}, .closed = false, .fixed = {}, .name = {}};
-  const CurveNet net = make_net(curves, {}, false);
-  CurveState state{net.rest, net.rest, std::vector<std::uint8_t>(net.vertex_count(), 0)};
-  for (Index v = 0; v < net.vertex_count(); ++v)
-    if (!net.fixed[v]) state.target(0, v) = -3;
-  const double gap = 0.1;
-  EXPECT_GT(recover_curves(net, state, gap, {}, [] { return false; }), 1);
-  for (Index v = 0; v < net.vertex_count(); ++v)
-    if (!net.fixed[v]) {
-      EXPECT_GT(state.x(0, v), 0);
-      EXPECT_LT(state.x(0, v), gap);
-    }
-}
-
-TEST(RecoverCurves, ReachesTargetsThatNothingBars) {
-  const Curve curve{.points = {0, 0, 1, 0, 2, 1, 3, 1}, .closed = false, .fixed = {}, .name = {}};
-  const CurveNet net = make_net({&curve, 1}, {}, false);
-  CurveState state{net.rest, net.rest, std::vector<std::uint8_t>(net.vertex_count(), 0)};
-  state.x.colwise() += Vec2(0.2, -0.1);
-  recover_curves(net, state, 0.01, {}, [] { return false; });
-  EXPECT_LT((state.x - state.target).colwise().norm().maxCoeff(), 1e-3);
 }
 
 }  // namespace

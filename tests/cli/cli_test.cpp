@@ -579,6 +579,8 @@ TEST_F(Cli, SamplesAreListedDescribedAndWritten) {
   const Outcome list = run({"sample", "--list"});
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_NE(list.out.find("whitney_umbrella"), std::string::npos);
+  EXPECT_EQ(list.out.find("curve_star"), std::string::npos);  // a list of surfaces, for programs
+  EXPECT_NE(list.err.find("'unsnarl curves': curve_waves, "), std::string::npos);
   const Outcome one = run({"sample", "book", "--list"});
   EXPECT_EQ(one.exit_code, 0);
   EXPECT_NE(one.out.find("--set"), std::string::npos);

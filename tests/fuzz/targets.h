@@ -24,6 +24,10 @@ void vtp(Bytes bytes);
 void msh(Bytes bytes);
 void inp(Bytes bytes);
 void threemf(Bytes bytes);
+/// A file of curves: read or refused; what was read keeps the promises of CurveDocument and, where it is small, those
+/// of untangle_curves.
+void curves_svg(Bytes bytes);
+void curves_json(Bytes bytes);
 /// A small mesh on a lattice: the pairs found are those that brute force finds.
 void intersections(Bytes bytes);
 /// A small mesh on a lattice: what `repair` returns is what it promises.
@@ -33,7 +37,7 @@ struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 14> targets = {{{"obj", obj},
+inline constexpr std::array<Target, 16> targets = {{{"obj", obj},
                                                     {"off", off},
                                                     {"ply", ply},
                                                     {"stl", stl},
@@ -45,6 +49,8 @@ inline constexpr std::array<Target, 14> targets = {{{"obj", obj},
                                                     {"msh", msh},
                                                     {"inp", inp},
                                                     {"threemf", threemf},
+                                                    {"curves_svg", curves_svg},
+                                                    {"curves_json", curves_json},
                                                     {"intersections", intersections},
                                                     {"repair", repair}}};
 

@@ -62,6 +62,12 @@ std::vector<SegmentPair> find_meetings(const CurveNet& net, const SegmentTree& t
   return result;
 }
 
+std::vector<SegmentPair> find_meetings(const CurveNet& net, const Points2& x) {
+  SegmentTree tree(net);
+  tree.refit(x);
+  return find_meetings(net, tree, x);
+}
+
 std::vector<std::uint8_t> vertices_closer_than(const CurveNet& net, const SegmentTree& tree, const Points2& x,
                                                double distance) {
   std::vector<std::uint8_t> result(net.vertex_count(), 0);
@@ -69,8 +75,7 @@ std::vector<std::uint8_t> vertices_closer_than(const CurveNet& net, const Segmen
     const auto [a, b] = segment;
     if (v == a || v == b) return;
     const Vec2 p = x.col(v), q = x.col(a), d = x.col(b) - q;
-    const double squared = d.squaredNorm();
-    const double t = squared > 0 ? std::clamp((p - q).dot(d) / squared, 0.0, 1.0) : 0.0;
+    const double t = nearest_fraction(p, q, x.col(b));
     if ((q + t * d - p).norm() < distance) result[v] = result[a] = result[b] = 1;
   };
   tree.pairs_within(distance, [&](Index i, Index j) {

@@ -22,6 +22,7 @@ struct SegmentPair {
 };
 /// The tree has to be fitted to x.
 std::vector<SegmentPair> find_meetings(const CurveNet& net, const SegmentTree& tree, const Points2& x);
+std::vector<SegmentPair> find_meetings(const CurveNet& net, const Points2& x);
 
 /// One flag a vertex: it, or a segment that it is an end of, is closer than `distance` to a segment or vertex that it
 /// has nothing to do with. The tree has to be fitted to x.

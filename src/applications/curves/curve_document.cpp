@@ -29,10 +29,10 @@ std::string digits_of(double value) {
 
 double rounded(double value, double rounding) {
   if (!(rounding > 0)) return value;
-  const int decimals = static_cast<int>(std::ceil(-std::log10(rounding)));
-  if (decimals < 0 || decimals > 300) return value;
+  const double decimals = std::ceil(-std::log10(rounding));
+  if (!(decimals >= 0 && decimals <= 300)) return value;
   // By way of the text, so that few digits give it back.
-  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const std::string text = fmt::format("{:.{}f}", value, static_cast<int>(decimals));
   double result = value;
   std::from_chars(text.data(), text.data() + text.size(), result);
   return result == 0 ? 0 : result;

@@ -13,15 +13,12 @@
 namespace unsnarl {
 namespace {
 
+/// Lengths are squared, and squares multiplied: coordinates stay below the first, diagonals above the second, so that
+/// nothing overflows or vanishes.
+constexpr double largest_coordinate = 1e70, least_diagonal = 1e-70;
+
 Vec2 point(const Curve& curve, std::size_t k) {
   return {curve.points[2 * k], curve.points[2 * k + 1]};
-}
-
-/// The place on a segment nearest to p, as a fraction of it in [0, 1].
-double nearest_fraction(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a;
-  const double squared = d.squaredNorm();
-  return squared > 0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
 }
 
 void insert_point(Curve& curve, std::size_t segment, const Vec2& p) {
@@ -29,6 +26,108 @@ void insert_point(Curve& curve, std::size_t segment, const Vec2& p) {
   const auto at = static_cast<std::ptrdiff_t>(segment + 1);
   curve.points.insert(curve.points.begin() + 2 * at, {p.x(), p.y()});
   if (!curve.fixed.empty()) curve.fixed.insert(curve.fixed.begin() + at, is_fixed);
+}
+
+/// A point of a curve.
+struct CurvePoint {
+  std::size_t curve, point;
+};
+
+/// Adds a point to every segment that an end of an open curve lies on. Returns how many.
+std::size_t insert_junctions(std::vector<Curve>& curves, double distance) {
+  std::size_t inserted = 0;
+  // Numbers of points change on the way; an end is told by its curve and side.
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (curves[c].closed) continue;
+    for (const bool last : {false, true}) {
+      const Vec2 end = point(curves[c], last ? curves[c].size() - 1 : 0);
+      for (std::size_t other = 0; other < curves.size(); ++other) {
+        Curve& curve = curves[other];
+        const double reach = distance + std::max(curve.tolerance, curves[c].tolerance);
+        bool at_point = false;
+        double nearest = reach;
+        std::size_t segment = curve.size();
+        const std::size_t n = curve.size(), segments = curve.closed ? n : n - 1;
+        for (std::size_t k = 0; k < segments; ++k) {
+          // The end's own segment and the one beside it are near it anyway.
+          if (other == c && (last ? k + 2 >= segments : k < 2)) continue;
+          const Vec2 a = point(curve, k), b = point(curve, (k + 1) % n);
+          const double t = nearest_fraction(end, a, b);
+          const double d = (a + t * (b - a) - end).norm();
+          if (d > nearest) continue;
+          nearest = d;
+          segment = k;
+          at_point = (a - end).norm() <= reach || (b - end).norm() <= reach;
+        }
+        if (segment == curve.size() || at_point) continue;
+        insert_point(curve, segment, end);
+        ++inserted;
+      }
+    }
+  }
+  return inserted;
+}
+
+/// The point of curve `other` nearest to an end of curve c and within `reach`; none: the number of its points.
+std::size_t point_at_end(const std::vector<Curve>& curves, std::size_t c, std::size_t end, std::size_t other,
+                         double reach) {
+  const std::size_t n = curves[other].size();
+  if (other == c && n < 4) return n;
+  double nearest = reach;
+  std::size_t found = n;
+  for (std::size_t k = 0; k < n; ++k) {
+    // The next point of its own curve may be nearer than the tolerance; only the other end is an end.
+    if (other == c && (k == end || (k != 0 && k + 1 != n && (end == 0 ? k < 3 : k + 4 > n)))) continue;
+    const double d = (point(curves[other], k) - point(curves[c], end)).norm();
+    if (d > nearest || (d == nearest && found != n)) continue;
+    nearest = d;
+    found = k;
+  }
+  return found;
+}
+
+/// Sets of points that are to be one: ends of open curves and the points that they lie on.
+std::vector<std::vector<CurvePoint>> points_to_join(const std::vector<Curve>& curves, double distance) {
+  std::vector<std::size_t> first(curves.size() + 1, 0);
+  std::vector<CurvePoint> points;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    for (std::size_t k = 0; k < curves[c].size(); ++k) points.push_back({c, k});
+    first[c + 1] = points.size();
+  }
+  UnionFind sets(static_cast<Index>(points.size()));
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (curves[c].closed) continue;
+    for (const std::size_t end : {std::size_t{0}, curves[c].size() - 1})
+      for (std::size_t other = 0; other < curves.size(); ++other) {
+        const double reach = distance + std::max(curves[other].tolerance, curves[c].tolerance);
+        const std::size_t found = point_at_end(curves, c, end, other, reach);
+        if (found != curves[other].size())
+          sets.unite(static_cast<Index>(first[c] + end), static_cast<Index>(first[other] + found));
+      }
+  }
+  std::vector<std::vector<CurvePoint>> members(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) members[sets.find(static_cast<Index>(i))].push_back(points[i]);
+  std::erase_if(members, [](const std::vector<CurvePoint>& group) { return group.size() < 2; });
+  return members;
+}
+
+bool is_fixed(const Curve& curve, std::size_t k) {
+  return !curve.fixed.empty() && curve.fixed[k];
+}
+
+/// Would these points at p leave a segment without length?
+bool closes_a_segment(const std::vector<Curve>& curves, const std::vector<CurvePoint>& group, const Vec2& p) {
+  return std::any_of(group.begin(), group.end(), [&](const CurvePoint& place) {
+    const Curve& curve = curves[place.curve];
+    const std::size_t n = curve.size();
+    const auto is_at_p = [&](std::size_t k) {
+      return point(curve, k) == p || std::any_of(group.begin(), group.end(), [&](const CurvePoint& other) {
+               return other.curve == place.curve && other.point == k;
+             });
+    };
+    return ((curve.closed || place.point > 0) && is_at_p((place.point + n - 1) % n)) ||
+           ((curve.closed || place.point + 1 < n) && is_at_p((place.point + 1) % n));
+  });
 }
 
 }  // namespace
@@ -62,9 +161,13 @@ void check_curves(std::span<const Curve> curves) {
     if (!curve.fixed.empty() && curve.fixed.size() != n)
       throw std::invalid_argument(
           fmt::format("{} has {} points, but {} flags of fixed ones", name, n, curve.fixed.size()));
-    for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t k = 0; k < n; ++k) {
       if (!point(curve, k).allFinite())
         throw std::invalid_argument(fmt::format("{}: a coordinate of point {} is not a finite number", name, k));
+      if (point(curve, k).cwiseAbs().maxCoeff() > largest_coordinate)
+        throw std::invalid_argument(
+            fmt::format("{}: a coordinate of point {} is beyond {}; use another unit", name, k, largest_coordinate));
+    }
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t next = (k + 1) % n;
       if ((next != 0 || curve.closed) && point(curve, k) == point(curve, next))
@@ -74,88 +177,22 @@ void check_curves(std::span<const Curve> curves) {
                         name, k, next, next == 0 ? " (a closed curve does not repeat its first point)" : ""));
     }
   }
+  if (!curves.empty() && diagonal_of(curves) < least_diagonal)
+    throw std::invalid_argument(fmt::format("all curves lie within a length of {}; use another unit", least_diagonal));
 }
 
 std::vector<CurveJoint> join_ends(std::vector<Curve>& curves, double distance, std::size_t& inserted) {
-  struct Place {
-    std::size_t curve, point;
-  };
-  // Points are counted after all have been inserted; until then an end is told by its curve and side.
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    if (curves[c].closed) continue;
-    for (const bool last : {false, true}) {
-      const Vec2 end = point(curves[c], last ? curves[c].size() - 1 : 0);
-      for (std::size_t other = 0; other < curves.size(); ++other) {
-        Curve& curve = curves[other];
-        const double reach = distance + std::max(curve.tolerance, curves[c].tolerance);
-        bool at_point = false;
-        double nearest = reach;
-        std::size_t segment = curve.size();
-        const std::size_t n = curve.size(), segments = curve.closed ? n : n - 1;
-        for (std::size_t k = 0; k < segments; ++k) {
-          // The end's own segment and the one beside it are near it anyway.
-          if (other == c && (last ? k + 2 >= segments : k < 2)) continue;
-          const Vec2 a = point(curve, k), b = point(curve, (k + 1) % n);
-          const double t = nearest_fraction(end, a, b);
-          const double d = (a + t * (b - a) - end).norm();
-          if (d > nearest) continue;
-          nearest = d;
-          segment = k;
-          at_point = (a - end).norm() <= reach || (b - end).norm() <= reach;
-        }
-        if (segment == curve.size() || at_point) continue;
-        insert_point(curve, segment, end);
-        ++inserted;
-      }
-    }
-  }
-  std::vector<std::size_t> first(curves.size() + 1, 0);
-  std::vector<Place> places;
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    for (std::size_t k = 0; k < curves[c].size(); ++k) places.push_back({c, k});
-    first[c + 1] = places.size();
-  }
-  UnionFind sets(static_cast<Index>(places.size()));
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    if (curves[c].closed) continue;
-    for (const std::size_t end : {std::size_t{0}, curves[c].size() - 1}) {
-      const Vec2 p = point(curves[c], end);
-      for (std::size_t other = 0; other < curves.size(); ++other) {
-        const double reach = distance + std::max(curves[other].tolerance, curves[c].tolerance);
-        double nearest = reach;
-        std::size_t found = curves[other].size();
-        for (std::size_t k = 0; k < curves[other].size(); ++k) {
-          // The next point of its own curve may be nearer than the tolerance; only the other end is an end.
-          if (other == c &&
-              (k == end || (k != 0 && k + 1 != curves[c].size() && (end == 0 ? k < 3 : k + 4 > curves[c].size()))))
-            continue;
-          if (other == c && curves[c].size() < 4) continue;
-          const double d = (point(curves[other], k) - p).norm();
-          if (d > nearest || (d == nearest && found != curves[other].size())) continue;
-          nearest = d;
-          found = k;
-        }
-        if (found != curves[other].size())
-          sets.unite(static_cast<Index>(first[c] + end), static_cast<Index>(first[other] + found));
-      }
-    }
-  }
-  std::vector<std::vector<std::size_t>> members(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) members[sets.find(static_cast<Index>(i))].push_back(i);
+  inserted += insert_junctions(curves, distance);
   std::vector<CurveJoint> joints;
-  for (const std::vector<std::size_t>& group : members) {
-    if (group.size() < 2) continue;
-    CurveJoint joint;
+  for (const std::vector<CurvePoint>& group : points_to_join(curves, distance)) {
     // A point that must not move decides where the joint is.
-    std::size_t leader = group[0];
-    for (const std::size_t i : group)
-      if (const Curve& curve = curves[places[i].curve]; !curve.fixed.empty() && curve.fixed[places[i].point]) {
-        leader = i;
-        break;
-      }
-    const Vec2 p = point(curves[places[leader].curve], places[leader].point);
-    for (const std::size_t i : group) {
-      const auto [c, k] = places[i];
+    const auto held = std::find_if(group.begin(), group.end(),
+                                   [&](const CurvePoint& at) { return is_fixed(curves[at.curve], at.point); });
+    const CurvePoint& leader = held != group.end() ? *held : group.front();
+    const Vec2 p = point(curves[leader.curve], leader.point);
+    if (closes_a_segment(curves, group, p)) continue;
+    CurveJoint joint;
+    for (const auto& [c, k] : group) {
       curves[c].points[2 * k] = p.x();
       curves[c].points[2 * k + 1] = p.y();
       joint.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(k)});
@@ -208,6 +245,27 @@ CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joi
     net.weight[b] += half;
   }
   return net;
+}
+
+ArcLengths::ArcLengths(const CurveNet& net, const Points2& x)
+    : arc(net.vertex_count(), 0), chain_of(net.vertex_count(), -1) {
+  for (const CurveNet::Chain& chain : net.chains) {
+    double sum = 0;
+    for (Index k = 0; k < chain.size(); ++k) {
+      chain_of[chain.vertices[k]] = static_cast<Index>(length.size());
+      arc[chain.vertices[k]] = sum;
+      if (k < chain.segment_count()) sum += (x.col(chain.at(k + 1)) - x.col(chain.at(k))).norm();
+    }
+    length.push_back(sum);
+    closed.push_back(chain.closed);
+  }
+}
+
+double ArcLengths::between(Index v, Index w) const {
+  const Index chain = chain_of[v];
+  if (chain != chain_of[w]) return std::numeric_limits<double>::infinity();
+  const double along = std::abs(arc[v] - arc[w]);
+  return closed[chain] ? std::min(along, length[chain] - along) : along;
 }
 
 std::vector<Curve> with_positions(std::span<const Curve> curves, const CurveNet& net, const Points2& x) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -12,6 +13,13 @@ namespace unsnarl {
 /// One column a vertex: x, y.
 using Points2 = Eigen::Matrix2Xd;
 using Vec2 = Eigen::Vector2d;
+
+/// The place on a segment nearest to p, as a fraction of it in [0, 1]; 0 for one without length.
+inline double nearest_fraction(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 d = b - a;
+  const double squared = d.squaredNorm();
+  return squared > 0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
+}
 
 /// Curves as the solvers see them: vertices, which several curves may share, and chains of them.
 struct CurveNet {
@@ -39,12 +47,31 @@ struct CurveNet {
   Index segment_count() const { return static_cast<Index>(segments.size()); }
 };
 
+/// Curves on their way to be simple.
+struct CurveState {
+  Points2 x;                         ///< where the vertices are
+  Points2 target;                    ///< where recovery pulls them to
+  std::vector<std::uint8_t> turned;  ///< one a vertex: lies in a loop that was turned over
+};
+
+/// Places of the vertices along their chains, by the lengths of the segments at x.
+struct ArcLengths {
+  ArcLengths(const CurveNet& net, const Points2& x);
+  /// Along the curve from vertex v to w, the shorter way around a closed one; infinite for vertices of two curves.
+  double between(Index v, Index w) const;
+
+  std::vector<double> arc;           ///< one a vertex: from the start of its chain
+  std::vector<Index> chain_of;       ///< one a vertex, the last one of a shared vertex; -1: none
+  std::vector<double> length;        ///< one a chain
+  std::vector<std::uint8_t> closed;  ///< one a chain
+};
+
 /// Throws std::invalid_argument, naming curve and point, for what untangle_curves refuses.
 void check_curves(std::span<const Curve> curves);
 
 /// Adds a point to curves where an open one ends on a segment, and finds what is joined: an end of an open curve, and
-/// whatever point is within `distance` (plus the curve's tolerance) of it. Joined points take the same position.
-/// Returns the joints; adds the number of points inserted.
+/// whatever point is within `distance` (plus the curve's tolerance) of it. Joined points take the same position; what
+/// would leave a segment without length is not joined. Returns the joints; adds the number of points inserted.
 std::vector<CurveJoint> join_ends(std::vector<Curve>& curves, double distance, std::size_t& inserted);
 
 CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joints, bool fix_ends);

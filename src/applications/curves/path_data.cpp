@@ -12,6 +12,8 @@ namespace {
 
 /// Beyond it a curve is cut no finer: 1e-4 of a drawing needs some 200 pieces for a circle around it.
 constexpr double most_pieces = 10000;
+/// Pieces of a curve that is only measured: a circle of so many is 2 % too small at most.
+constexpr double rough_pieces = 16;
 
 class Reader {
  public:
@@ -69,10 +71,15 @@ class Reader {
   std::size_t at_ = 0;
 };
 
+/// A number of pieces: `wanted`, rounded up, in bounds.
+int pieces(double wanted, double tolerance) {
+  const double least = std::isinf(tolerance) ? rough_pieces : 1;
+  return static_cast<int>(std::ceil(wanted > least ? std::min(wanted, most_pieces) : least));  // `least` for no number
+}
+
 /// Pieces of equal parameter that a Bézier curve of a degree needs: a bound by its second differences (Wang 1984).
 int pieces_of(double second_difference, int degree, double tolerance) {
-  const double n = std::sqrt(degree * (degree - 1) / 8.0 * second_difference / tolerance);
-  return static_cast<int>(std::clamp(std::ceil(n), 1.0, most_pieces));
+  return pieces(std::sqrt(degree * (degree - 1) / 8.0 * second_difference / tolerance), tolerance);
 }
 
 void add_quadratic(std::vector<Vec2>& points, const Vec2& a, const Vec2& b, const Vec2& c, double tolerance) {
@@ -119,12 +126,81 @@ void add_arc(std::vector<Vec2>& points, const Vec2& from, Vec2 radii, double deg
   if (sweep && swept < 0) swept += 2 * std::numbers::pi;
   if (!sweep && swept > 0) swept -= 2 * std::numbers::pi;
   const double step = 2 * std::acos(std::max(0.0, 1 - tolerance / radii.maxCoeff()));
-  const int n = static_cast<int>(std::clamp(std::ceil(std::abs(swept) / step), 1.0, most_pieces));
+  const int n = pieces(std::abs(swept) / step, tolerance);
   for (int k = 1; k < n; ++k) {
     const double t = first + swept * k / n;
     points.push_back(centre + turn * Vec2(radii.x() * std::cos(t), radii.y() * std::sin(t)));
   }
   points.push_back(to);
+}
+
+/// State between the commands of a path.
+struct Pen {
+  Vec2 at = Vec2::Zero();
+  Vec2 control = Vec2::Zero();  ///< the last one of a Bézier, which S and T reflect
+  char last = 0;                ///< the command before, as a capital
+};
+
+/// Adds to the subpath what a command other than M draws. False: there is no such command.
+bool draw(char kind, bool relative, Reader& reader, Pen& pen, Subpath& subpath, double tolerance) {
+  const Vec2 origin = relative ? pen.at : Vec2(0, 0);
+  const auto follows = [&](char one, char other) { return pen.last == one || pen.last == other; };
+  std::vector<Vec2>& points = subpath.points;
+  Vec2 to = pen.at;
+  switch (kind) {
+    case 'Z':
+      subpath.closed = true;
+      subpath.end = reader.offset();
+      pen.at = subpath.start;
+      return true;
+    case 'L':
+      to = reader.point() + origin;
+      points.push_back(to);
+      break;
+    case 'H':
+      to.x() = reader.number() + origin.x();
+      points.push_back(to);
+      break;
+    case 'V':
+      to.y() = reader.number() + origin.y();
+      points.push_back(to);
+      break;
+    case 'C':
+    case 'S': {
+      Vec2 first = pen.at;
+      if (kind == 'C') {
+        first = reader.point() + origin;
+      } else if (follows('C', 'S')) {
+        first = 2 * pen.at - pen.control;
+      }
+      pen.control = reader.point() + origin;
+      to = reader.point() + origin;
+      add_cubic(points, pen.at, first, pen.control, to, tolerance);
+      break;
+    }
+    case 'Q':
+    case 'T':
+      if (kind == 'Q') {
+        pen.control = reader.point() + origin;
+      } else {
+        pen.control = follows('Q', 'T') ? Vec2(2 * pen.at - pen.control) : pen.at;
+      }
+      to = reader.point() + origin;
+      add_quadratic(points, pen.at, pen.control, to, tolerance);
+      break;
+    case 'A': {
+      const Vec2 radii = reader.point();
+      const double degrees = reader.number();
+      const bool large = reader.flag(), sweep = reader.flag();
+      to = reader.point() + origin;
+      add_arc(points, pen.at, radii, degrees, large, sweep, to, tolerance);
+      break;
+    }
+    default: return false;
+  }
+  subpath.has_curves |= kind != 'L' && kind != 'H' && kind != 'V';
+  pen.at = to;
+  return true;
 }
 
 }  // namespace
@@ -183,105 +259,42 @@ Affine parse_transform(std::string_view text) {
 std::vector<Subpath> parse_path_data(std::string_view text, double tolerance) {
   std::vector<Subpath> result;
   Reader reader(text);
-  Vec2 at(0, 0), control(0, 0);
-  char last = 0;  // the command before, for the reflected control points of S and T
+  Pen pen;
   char command = 0;
-  const auto open = [&](const Vec2& start) {
-    if (!result.empty() && result.back().end == 0) result.back().end = reader.offset();
+  // `behind`: the end of the subpath before, unless it was closed.
+  const auto open = [&](const Vec2& start, std::size_t behind) {
+    if (!result.empty() && result.back().end == 0) result.back().end = behind;
     result.emplace_back();
-    result.back().start = start;
+    result.back().start = pen.at = start;
     result.back().points.push_back(start);
   };
   bool needs_subpath = true;  // after a close-path, unless a move-to follows
   while (!reader.at_end()) {
     const std::size_t begin = reader.offset();
-    const bool is_repeated = reader.at_number();
-    if (!is_repeated) {
+    if (!reader.at_number()) {
       command = reader.take();
     } else if (command == 0 || command == 'Z' || command == 'z') {
       throw FileError(fmt::format("a command is missing at character {} of the path data", begin));
     }
     const bool relative = command >= 'a';
-    const Vec2 origin = relative ? at : Vec2(0, 0);
     const char kind = static_cast<char>(relative ? command - 'a' + 'A' : command);
     if (result.empty() && kind != 'M')
       throw FileError(fmt::format("path data starts with '{}'; it has to start with M or m", command));
     if (kind == 'M') {
-      if (!result.empty() && result.back().end == 0) result.back().end = begin;
-      const Vec2 start = reader.point() + origin;
-      open(start);
-      at = start;
+      open(reader.point() + (relative ? pen.at : Vec2(0, 0)), begin);
       result.back().begin = reader.offset();
       command = relative ? 'l' : 'L';  // further pairs are lines
       if (reader.at_number()) result.back().implicit = command;
-      needs_subpath = false;
-      last = 'M';
-      continue;
-    }
-    if (needs_subpath) {
-      result.back().end = begin;
-      const Vec2 start = result.back().start;
-      open(start);
-      result.back().begin = begin;
-      needs_subpath = false;
-    }
-    Subpath& subpath = result.back();
-    std::vector<Vec2>& points = subpath.points;
-    switch (kind) {
-      case 'Z':
-        subpath.closed = true;
-        subpath.end = reader.offset();
-        at = subpath.start;
-        needs_subpath = true;
-        break;
-      case 'L':
-        at = reader.point() + origin;
-        points.push_back(at);
-        break;
-      case 'H':
-        at.x() = reader.number() + origin.x();
-        points.push_back(at);
-        break;
-      case 'V':
-        at.y() = reader.number() + origin.y();
-        points.push_back(at);
-        break;
-      case 'C':
-      case 'S': {
-        const Vec2 first = kind == 'C'                  ? Vec2(reader.point() + origin)
-                           : last == 'C' || last == 'S' ? Vec2(2 * at - control)
-                                                        : at;
-        control = reader.point() + origin;
-        const Vec2 to = reader.point() + origin;
-        add_cubic(points, at, first, control, to, tolerance);
-        subpath.has_curves = true;
-        at = to;
-        break;
+    } else {
+      if (needs_subpath) {
+        open(Vec2(result.back().start), begin);
+        result.back().begin = begin;
       }
-      case 'Q':
-      case 'T': {
-        control = kind == 'Q'                  ? Vec2(reader.point() + origin)
-                  : last == 'Q' || last == 'T' ? Vec2(2 * at - control)
-                                               : at;
-        const Vec2 to = reader.point() + origin;
-        add_quadratic(points, at, control, to, tolerance);
-        subpath.has_curves = true;
-        at = to;
-        break;
-      }
-      case 'A': {
-        const Vec2 radii = reader.point();
-        const double degrees = reader.number();
-        const bool large = reader.flag(), sweep = reader.flag();
-        const Vec2 to = reader.point() + origin;
-        add_arc(points, at, radii, degrees, large, sweep, to, tolerance);
-        subpath.has_curves = true;
-        at = to;
-        break;
-      }
-      default: throw FileError(fmt::format("'{}' at character {} is no command of path data", command, begin));
+      if (!draw(kind, relative, reader, pen, result.back(), tolerance))
+        throw FileError(fmt::format("'{}' at character {} is no command of path data", command, begin));
     }
-    last = kind;
+    needs_subpath = kind == 'Z';
+    pen.last = kind;
   }
   if (!result.empty() && result.back().end == 0) result.back().end = text.size();
   return result;

@@ -19,6 +19,12 @@ struct Affine {
   Affine operator*(const Affine& inner) const { return {linear * inner.linear, linear * inner.offset + offset}; }
   /// How much a length grows, at most.
   double scale() const { return linear.jacobiSvd().singularValues()[0]; }
+  /// There is a way back that keeps half of the digits at least.
+  bool is_invertible() const {
+    if (!linear.allFinite() || !offset.allFinite()) return false;
+    const Vec2 scales = linear.jacobiSvd().singularValues();
+    return scales[1] > 1e-8 * scales[0];
+  }
 };
 
 /// One move-to and what follows it.
@@ -33,7 +39,8 @@ struct Subpath {
 };
 
 /// The data of a path element (SVG 1.1, §8.3), curves flattened so that no point of them is farther than `tolerance`
-/// from the polyline, in the coordinates of the element. Throws FileError: what is wrong and at which character.
+/// from the polyline, in the coordinates of the element; infinity: into a few pieces, to measure them. Throws
+/// FileError: what is wrong and at which character.
 std::vector<Subpath> parse_path_data(std::string_view text, double tolerance);
 
 /// The value of a transform attribute: matrix, translate, scale, rotate, skewX, skewY. Throws FileError.

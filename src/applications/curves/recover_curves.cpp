@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "applications/curves/segment_tree.h"
 #include "energy/ipc_barrier.h"
 
 namespace unsnarl {
@@ -25,9 +26,8 @@ struct Nearest {
 
 Nearest nearest(const Points2& x, const Contact& c) {
   const Vec2 p = x.col(c.vertex), a = x.col(c.a), d = x.col(c.b) - a;
-  const double squared = d.squaredNorm();
   Nearest result;
-  result.fraction = squared > 0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
+  result.fraction = nearest_fraction(p, a, x.col(c.b));
   const Vec2 r = p - a - result.fraction * d;
   result.distance = r.norm();
   result.direction = result.distance > 0 ? Vec2(r / result.distance) : Vec2(0, 0);
@@ -42,26 +42,12 @@ class Recovery {
         gap_(gap),
         options_(options),
         tree_(net),
-        owner_(net.vertex_count(), -1),
-        arc_(net.vertex_count(), 0),
-        chain_(net.vertex_count(), -1),
-        slot_(net.vertex_count(), -1) {
+        along_(net, state.target),
+        owner_(net.vertex_count(), -1) {
     number_unknowns();
     for (Index s = 0; s < net.segment_count(); ++s)
       for (const Index v : net.segments[s])
         if (owner_[v] < 0) owner_[v] = s;
-    for (std::size_t c = 0; c < net.chains.size(); ++c) {
-      const CurveNet::Chain& chain = net.chains[c];
-      double arc = 0;
-      for (Index k = 0; k < chain.size(); ++k) {
-        const Index v = chain.vertices[k];
-        chain_[v] = static_cast<Index>(c);
-        slot_[v] = k;
-        arc_[v] = arc;
-        arc += (state.target.col(chain.at(k + 1 < chain.size() ? k + 1 : 0)) - state.target.col(v)).norm();
-      }
-      length_.push_back(arc);
-    }
     assemble_elastic();
   }
 
@@ -87,7 +73,7 @@ class Recovery {
       const bool any_tight =
           std::any_of(contacts_.begin(), contacts_.end(), [](const Contact& contact) { return contact.tight; });
       if (moved < options_.motion_rel * net_.diagonal) {
-        if (++small_ >= 3 && (!any_tight || moved == 0)) return step + 1;
+        if (++small_ >= options_.small_steps && (!any_tight || moved == 0)) return step + 1;
       } else {
         small_ = 0;
       }
@@ -106,13 +92,12 @@ class Recovery {
   void assemble_elastic() {
     const double spread = options_.spread_rel * net_.diagonal, stiffness = std::pow(spread, 4);
     std::vector<Eigen::Triplet<double>> terms;
-    for (Index v = 0; v < net_.vertex_count(); ++v)
-      terms.emplace_back(v, v, std::max(net_.weight[v], 1e-9 * net_.diagonal));
+    for (Index v = 0; v < net_.vertex_count(); ++v) terms.emplace_back(v, v, weight_of(v));
     for (const CurveNet::Chain& chain : net_.chains) {
       const Index n = chain.size();
       for (Index k = chain.closed ? 0 : 1; k < (chain.closed ? n : n - 1); ++k) {
         const std::array<Index, 3> v{chain.vertices[(k + n - 1) % n], chain.vertices[k], chain.vertices[(k + 1) % n]};
-        const double floor = 1e-6 * net_.diagonal;
+        const double floor = options_.least_edge_rel * net_.diagonal;
         const double before = std::max((state_.target.col(v[1]) - state_.target.col(v[0])).norm(), floor);
         const double after = std::max((state_.target.col(v[2]) - state_.target.col(v[1])).norm(), floor);
         const double half = 0.5 * (before + after);
@@ -161,21 +146,16 @@ class Recovery {
 
   /// Beside each other along the curve, vertices are closer than the gap by nature.
   double activation(const Contact& contact) const {
-    const Index v = contact.vertex;
-    if (chain_[v] != chain_[contact.a] || chain_[v] != chain_[contact.b]) return gap_;
-    double along = std::min(std::abs(arc_[v] - arc_[contact.a]), std::abs(arc_[v] - arc_[contact.b]));
-    if (net_.chains[chain_[v]].closed) {
-      const double length = length_[chain_[v]];
-      for (const Index other : {contact.a, contact.b})
-        along = std::min(along, length - std::abs(arc_[v] - arc_[other]));
-    }
-    if (along > 3 * gap_) return gap_;
-    return std::min(gap_, 0.5 * std::max(nearest(state_.target, contact).distance, 1e-3 * gap_));
+    const double to_a = along_.between(contact.vertex, contact.a), to_b = along_.between(contact.vertex, contact.b);
+    if (std::isinf(std::max(to_a, to_b)) || std::min(to_a, to_b) > options_.beside_gaps * gap_) return gap_;
+    const double wanted = std::max(nearest(state_.target, contact).distance, options_.least_beside_part * gap_);
+    return std::min(gap_, 0.5 * wanted);
   }
 
-  double force(Index vertex) const {
-    return options_.barrier * net_.diagonal * std::max(net_.weight[vertex], 1e-9 * net_.diagonal);
+  double weight_of(Index vertex) const {
+    return std::max(net_.weight[vertex], options_.least_weight_rel * net_.diagonal);
   }
+  double force(Index vertex) const { return options_.barrier * net_.diagonal * weight_of(vertex); }
 
   double value(const Points2& x, const std::vector<Contact>& contacts) const {
     const Points2 u = x - state_.target;
@@ -233,7 +213,7 @@ class Recovery {
     for (Index v = 0; v < net_.vertex_count(); ++v)
       if (const double length = move.col(v).norm(); length > bound[v]) move.col(v) *= bound[v] / length;
     const double before = value(state_.x, near);
-    for (double part = 1; part > 1e-3; part *= 0.5) {
+    for (double part = 1; part > options_.least_part; part *= 0.5) {
       const Points2 x = state_.x + part * move;
       if (!(value(x, near) < before)) continue;
       state_.x = x;
@@ -247,12 +227,10 @@ class Recovery {
   double gap_;
   const CurveRecoverOptions& options_;
   SegmentTree tree_;
+  ArcLengths along_;
   std::vector<Index> unknown_;
   Index unknowns_ = 0;
   std::vector<Index> owner_;  // one segment of each vertex, so that a contact is found once
-  std::vector<double> arc_;   // of each vertex along its chain, at the target
-  std::vector<Index> chain_, slot_;
-  std::vector<double> length_;  // one a chain
   Eigen::SparseMatrix<double> elastic_, hessian_;
   std::vector<Eigen::Triplet<double>> elastic_terms_, terms_;
   std::vector<Contact> contacts_;

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "applications/curves/switch_crossings.h"
+#include "applications/curves/curve_net.h"
 
 namespace unsnarl {
 
@@ -18,6 +18,14 @@ struct CurveRecoverOptions {
   /// Contacts closer than this part of the gap are opened step by step: the barrier sets in later for them, but not
   /// below a length / diagonal, so that no pull can close what is opening.
   double tight_part = 0.1, least_activation_rel = 1e-5;
+  /// Points of one curve that are no farther apart along it than so many gaps may be as near as the target wants, but
+  /// no nearer than this part of the gap: halves of these lengths are where the barrier sets in.
+  double beside_gaps = 3, least_beside_part = 1e-3;
+  /// Least weight of a vertex, and least length of an edge in the bending energy / diagonal: no row of the Hessian is
+  /// zero or infinite.
+  double least_weight_rel = 1e-9, least_edge_rel = 1e-6;
+  double least_part = 1e-3;    ///< of a step that is halved until the energy falls
+  int small_steps = 3;         ///< below motion_rel, one after the other, that end it
   double safe_part = 0.45;     ///< of the distance between a vertex and a segment that either may move: below a half
   double largest_step = 0.03;  ///< of a vertex / diagonal: bounds the pairs to be looked at
 };

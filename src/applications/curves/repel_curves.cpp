@@ -24,12 +24,15 @@ class Repulsion {
     std::vector<BandwidthPair> pairs;
     for (const auto& pair : gaussian_.pairs) {
       const double squared = (start_.col(pair.i) - start_.col(pair.j)).squaredNorm();
-      if (squared < std::pow(0.1 * net.diagonal, 2)) pairs.push_back({pair.i, pair.j, squared, pair.weight});
+      if (squared < std::pow(options.seen_rel * net.diagonal, 2))
+        pairs.push_back({pair.i, pair.j, squared, pair.weight});
     }
-    // The smallest scale at which the energy has a maximum: the crossings, and not the whole curve.
-    double epsilon = 2 * edge_;
-    for (const GlobalBandwidth& found : global_bandwidths(pairs, {.exponent = 1, .smallest = 2 * edge_, .starts = 5}))
-      epsilon = std::max(2 * edge_, std::min(found.epsilon, 0.05 * net.diagonal));
+    const double least = options.least_bandwidth * edge_;
+    const auto maxima = global_bandwidths(pairs, {.exponent = 1, .smallest = least, .starts = options.starts});
+    // The lowest maximum of the energy over the scales, which come highest first.
+    double epsilon = least;
+    if (!maxima.empty())
+      epsilon = std::max(least, std::min(maxima.back().epsilon, options.most_bandwidth_rel * net.diagonal));
     const double reach = 9 * epsilon * epsilon;
     std::erase_if(gaussian_.pairs,
                   [&](const auto& pair) { return (start_.col(pair.i) - start_.col(pair.j)).squaredNorm() > reach; });
@@ -51,7 +54,7 @@ class Repulsion {
       const SegmentPenetration p = segment_penetration(x.col(a[0]), x.col(a[1]), x.col(b[0]), x.col(b[1]));
       if (!(p.depth > 0)) return;
       // A little deeper than it is, so that what only just touches is pushed on.
-      value += p.depth + 0.05 * edge_;
+      value += p.depth + options_.overshoot * edge_;
       for (int k = 0; k < 2; ++k) {
         g.col(a[k]) -= p.weight_a[k] * p.normal;
         g.col(b[k]) += p.weight_b[k] * p.normal;
@@ -59,7 +62,7 @@ class Repulsion {
     });
     for (const auto& [a, b] : net_.segments) {
       const Vec2 rest = start_.col(b) - start_.col(a), d = x.col(b) - x.col(a) - rest;
-      const double weight = options_.elastic / std::max(rest.norm(), 0.01 * edge_);
+      const double weight = options_.elastic / std::max(rest.norm(), options_.least_edge * edge_);
       value += 0.5 * weight * d.squaredNorm();
       g.col(a) -= weight * d;
       g.col(b) += weight * d;
@@ -103,16 +106,12 @@ SegmentPenetration segment_penetration(const Vec2& a0, const Vec2& a1, const Vec
       if (depth >= best.depth) continue;
       best = {.depth = depth, .normal = n};
       // The end of one segment against the inside of the other: the weights are those of the foot point.
-      const auto fraction = [](const Vec2& p, const Vec2& from, const Vec2& to) {
-        const Vec2 d = to - from;
-        return std::clamp((p - from).dot(d) / d.squaredNorm(), 0.0, 1.0);
-      };
       if (of_a) {
-        const double t = fraction(b[high_b], a0, a1);
+        const double t = nearest_fraction(b[high_b], a0, a1);
         best.weight_a = {1 - t, t};
         best.weight_b[high_b] = 1;
       } else {
-        const double t = fraction(a[low_a], b0, b1);
+        const double t = nearest_fraction(a[low_a], b0, b1);
         best.weight_b = {1 - t, t};
         best.weight_a[low_a] = 1;
       }
@@ -123,30 +122,15 @@ SegmentPenetration segment_penetration(const Vec2& a0, const Vec2& a1, const Vec
 }
 
 std::vector<GaussianContact<2>::Pair> contact_pairs(const CurveNet& net, double nearest) {
-  std::vector<double> arc(net.vertex_count(), 0);
-  std::vector<Index> chain_of(net.vertex_count(), -1);
-  std::vector<double> length;
-  for (std::size_t c = 0; c < net.chains.size(); ++c) {
-    const CurveNet::Chain& chain = net.chains[c];
-    double sum = 0;
-    for (Index k = 0; k < chain.size(); ++k) {
-      chain_of[chain.vertices[k]] = static_cast<Index>(c);
-      arc[chain.vertices[k]] = sum;
-      if (k < chain.segment_count()) sum += (net.rest.col(chain.at(k + 1)) - net.rest.col(chain.at(k))).norm();
-    }
-    length.push_back(sum);
-  }
+  const ArcLengths arcs(net, net.rest);
   std::vector<GaussianContact<2>::Pair> pairs;
   for (Index i = 0; i < net.vertex_count(); ++i)
     for (Index j = i + 1; j < net.vertex_count(); ++j) {
       double w = 1;
-      if (chain_of[i] == chain_of[j]) {
-        const bool closed = net.chains[chain_of[i]].closed;
-        const double whole = length[chain_of[i]];
-        double along = std::abs(arc[i] - arc[j]);
-        if (closed) along = std::min(along, whole - along);
+      if (const Index chain = arcs.chain_of[i]; chain == arcs.chain_of[j]) {
+        const double along = arcs.between(i, j);
         if (along < nearest) continue;
-        w = along / (closed ? 0.5 * whole : whole);
+        w = along / (arcs.closed[chain] ? 0.5 * arcs.length[chain] : arcs.length[chain]);
       }
       pairs.push_back({i, j, w * net.weight[i] * net.weight[j]});
     }
@@ -155,9 +139,7 @@ std::vector<GaussianContact<2>::Pair> contact_pairs(const CurveNet& net, double 
 
 std::vector<SegmentPair> repel_curves(const CurveNet& net, CurveState& state, const RepelOptions& options,
                                       const std::function<bool()>& stop) {
-  SegmentTree tree(net);
-  tree.refit(state.x);
-  const std::vector<SegmentPair> before = find_meetings(net, tree, state.x);
+  const std::vector<SegmentPair> before = find_meetings(net, state.x);
   Repulsion repulsion(net, state, options);
   Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(state.x.data(), state.x.size());
   LbfgsOptions lbfgs;
@@ -167,8 +149,7 @@ std::vector<SegmentPair> repel_curves(const CurveNet& net, CurveState& state, co
   minimize_lbfgs([&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) { return repulsion(at, gradient); }, x,
                  lbfgs, {}, [&](LbfgsIteration&) { return repulsion.crossings() == 0 || stop(); });
   const Points2 moved = Map(x.data(), 2, net.vertex_count());
-  tree.refit(moved);
-  std::vector<SegmentPair> after = find_meetings(net, tree, moved);
+  std::vector<SegmentPair> after = find_meetings(net, moved);
   if (after.size() >= before.size()) return before;
   state.x = moved;
   return after;

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "applications/curves/switch_crossings.h"
+#include "applications/curves/crossings.h"
 #include "energy/gaussian_contact.h"
 
 namespace unsnarl {
@@ -18,11 +18,17 @@ struct SegmentPenetration {
 SegmentPenetration segment_penetration(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1);
 
 struct RepelOptions {
-  int max_iterations = 200;    ///< of L-BFGS
-  double gaussian = 1;         ///< weight of the Gaussian energy, against the penalty over the mean edge length
-  double elastic = 0.05;       ///< weight of the change of edges: keeps them from being drawn out
-  double step_rel = 0.01;      ///< largest motion of a vertex in an iteration / diagonal
-  Index most_points = 3000;    ///< beyond it the Gaussian sum over all pairs is left out: it needs 4.5 million
+  int max_iterations = 200;  ///< of L-BFGS
+  double gaussian = 1;       ///< weight of the Gaussian energy, against the penalty over the mean edge length
+  double elastic = 0.05;     ///< weight of the change of edges: keeps them from being drawn out
+  double step_rel = 0.01;    ///< largest motion of a vertex in an iteration / diagonal
+  Index most_points = 3000;  ///< beyond it the Gaussian sum over all pairs is left out: it needs 4.5 million
+  /// Bandwidth of the Gaussian energy: at least so many mean edges, at most a part of the diagonal; looked for from so
+  /// many starts, by pairs of points closer than `seen_rel` of the diagonal.
+  double least_bandwidth = 2, most_bandwidth_rel = 0.05, seen_rel = 0.1;
+  int starts = 5;
+  double overshoot = 0.05;     ///< mean edges that segments count as deeper than they are, so as not to end touching
+  double least_edge = 0.01;    ///< mean edges: shorter ones resist change no harder than one of this length
   double nearest_samples = 3;  ///< mean edges along the curve within which the weight of a pair is zero
 };
 

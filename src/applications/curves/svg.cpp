@@ -16,8 +16,9 @@
 namespace unsnarl {
 namespace {
 
-/// Subpaths are closed over a gap of this part of the flattening tolerance: relative commands do not come back exactly.
-constexpr double closing_gap = 0.01;
+/// Subpaths are closed over a gap of this part of their largest coordinate: relative commands do not come back exactly,
+/// thousands of them add up so many roundings.
+constexpr double closing_gap = 1e-12;
 
 std::size_t line_of(std::string_view text, std::size_t offset) {
   return 1 +
@@ -56,6 +57,30 @@ std::map<std::string, Attribute, std::less<>> attributes_of(std::string_view tex
     result.emplace(std::move(key), a);
   }
   return result;
+}
+
+/// The place of the end tag that belongs to a start tag; `at` is behind that. The text is well-formed.
+std::size_t end_tag_of(std::string_view text, std::size_t at) {
+  for (int depth = 1; (at = text.find('<', at)) != std::string_view::npos;) {
+    const auto behind = [&](std::string_view mark) { return std::min(text.find(mark, at), text.size()); };
+    const std::string_view tag = text.substr(at);
+    if (tag.starts_with("<!--")) {
+      at = behind("-->");
+    } else if (tag.starts_with("<![CDATA[")) {
+      at = behind("]]>");
+    } else if (tag.starts_with("<?")) {
+      at = behind("?>");
+    } else if (tag.starts_with("</")) {
+      if (--depth == 0) return at;
+      at = behind(">");
+    } else {
+      std::size_t end = at + 1;
+      for (const auto& [key, attribute] : attributes_of(text, end)) end = std::max(end, attribute.end);
+      at = std::min(text.find('>', end), text.size());
+      if (at > 0 && text[at - 1] != '/') ++depth;
+    }
+  }
+  return at;
 }
 
 bool hides(const pugi::xml_node& node) {
@@ -175,13 +200,14 @@ class SvgParser {
       if (is_shape(name) && has_percentages(node)) {
         ++skipped_[fmt::format("{} in %", name)];
       } else if (is_shape(name)) {
-        if (!(std::abs(transform.linear.determinant()) > 0))
+        if (!transform.is_invertible())
           throw FileError("its transforms flatten the plane; there is no way back to its coordinates");
         add_shape(node, std::string(name), transform);
       }
     } catch (const FileError& e) {
       throw FileError(fmt::format("{}: {}", place_of(node), e.what()));
     }
+    if (is_shape(name)) return;  // shapes within it are not drawn
     for (const pugi::xml_node& child : node.children())
       if (child.type() == pugi::node_element) visit(child, transform, false);
   }
@@ -267,9 +293,10 @@ class SvgParser {
     Piece piece;
     std::vector<Vec2>& points = path.points;
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    const double gap = std::isfinite(flatten_) ? closing_gap * flatten_ : 0;
-    const auto length = [&](const Vec2& d) { return (shape.transform.linear * d).norm(); };
-    while (path.closed && points.size() > 1 && length(points.back() - points.front()) <= gap) points.pop_back();
+    double largest = 0;
+    for (const Vec2& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    while (path.closed && points.size() > 1 && (points.back() - points.front()).norm() <= closing_gap * largest)
+      points.pop_back();
     if (points.size() > 1) {
       Curve curve;
       curve.closed = path.closed && points.size() > 2;
@@ -376,12 +403,8 @@ std::string SvgFile::patched(std::span<const Curve> moved, double rounding) cons
     if (!is_written) edits.push_back({behind, behind, " " + data});
     const std::size_t tag_end = bytes.find('>', behind);
     if (bytes[tag_end - 1] != '/') {
-      const std::string full = bytes.substr(shape.name, name + shape.kind.size() - shape.name);
-      const std::size_t close = bytes.find("</" + full, tag_end);
-      if (close != std::string::npos) {
-        const std::size_t at = close + 2 + full.size() - shape.kind.size();
-        edits.push_back({at, at + shape.kind.size(), "path"});
-      }
+      const std::size_t at = end_tag_of(bytes, tag_end) + 2 + (name - shape.name);
+      edits.push_back({at, at + shape.kind.size(), "path"});
     }
   }
   return with_edits(bytes, std::move(edits));

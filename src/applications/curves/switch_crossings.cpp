@@ -82,10 +82,7 @@ double lost_area(const Path& path, const Path& way) {
     // Both run the same way: the nearest piece does not go back.
     const auto distance = [&](std::size_t i) {
       const Vec2 a = i == 0 ? path.front() : way[i - 1], b = i < way.size() ? way[i] : path.back();
-      const Vec2 d = b - a;
-      const double squared = d.squaredNorm();
-      const double t = squared > 0 ? std::clamp((path[k] - a).dot(d) / squared, 0.0, 1.0) : 0.0;
-      return (a + t * d - path[k]).norm();
+      return (a + nearest_fraction(path[k], a, b) * (b - a) - path[k]).norm();
     };
     double best = distance(near);
     for (std::size_t i = near + 1; i <= way.size() && i <= near + 2; ++i)
@@ -216,7 +213,8 @@ class Switcher {
         double length = std::max(before.norm(), after.norm());
         if (!first && !last) length = std::min(before.norm(), after.norm());
         const Vec2 normal = Vec2(-along.y(), along.x()).normalized();
-        state_.x.col(v) += inwards * std::min(options_.inset_rel * net_.diagonal, 0.25 * length) * normal;
+        state_.x.col(v) +=
+            inwards * std::min(options_.inset_rel * net_.diagonal, options_.inset_part * length) * normal;
         any = true;
       }
     }
@@ -246,7 +244,7 @@ class Switcher {
       if (!any) break;
       for (Index v = 0; v < net_.vertex_count(); ++v) {
         if (!moves[v]) continue;
-        const double length = std::max(net_.weight[v], 1e-6 * net_.diagonal);
+        const double length = std::max(net_.weight[v], options_.least_jitter_rel * net_.diagonal);
         state_.x.col(v) += part * length * Vec2(noise(v, 0, jitter_round_), noise(v, 1, jitter_round_));
       }
       ++jitter_round_;
@@ -267,7 +265,8 @@ class Switcher {
     }
     if (!any) return false;
     for (Index v = 0; v < net_.vertex_count(); ++v)
-      if (moves[v]) state_.x.col(v) += 10 * least * Vec2(noise(v, 0, jitter_round_), noise(v, 1, jitter_round_));
+      if (moves[v])
+        state_.x.col(v) += options_.gap_jitter * least * Vec2(noise(v, 0, jitter_round_), noise(v, 1, jitter_round_));
     ++jitter_round_;
     tree_.refit(state_.x);
     return true;
@@ -312,8 +311,10 @@ class Switcher {
     }
     return any || (refused != nullptr && make(*refused, true));
   }
-  /// One vertex, moved by a thousandth of the diagonal: what is cheaper is not told apart.
-  double least_cost() const { return 1e-3 * net_.diagonal * net_.diagonal / std::max(Index{1}, net_.vertex_count()); }
+  /// Cheaper moves are not told apart.
+  double least_cost() const {
+    return options_.least_motion_rel * net_.diagonal * net_.diagonal / std::max(Index{1}, net_.vertex_count());
+  }
 
   bool is_touched(const Run& run) const {
     if (run.count == 0) return false;
@@ -658,70 +659,7 @@ std::vector<SegmentPair> switch_crossings(const CurveNet& net, CurveState& state
   Switcher switcher(net, state, options);
   std::vector<SegmentPair> left = switcher.run(stop);
   switcher.renumber();
-  if (left.empty()) return left;
-  SegmentTree tree(net);
-  tree.refit(state.x);
-  return find_meetings(net, tree, state.x);
-}
-
-std::vector<SegmentPair> shrink_curves(const CurveNet& net, CurveState& state, const SwitchOptions& options) {
-  SegmentTree tree(net);
-  tree.refit(state.x);
-  std::vector<SegmentPair> pairs = find_meetings(net, tree, state.x);
-  std::vector<std::uint8_t> hopeless(net.chains.size(), 0);
-  const auto length = [&](Index c) {
-    double sum = 0;
-    for (const Index v : net.chains[c].vertices) sum += net.weight[v];
-    return sum;
-  };
-  while (!pairs.empty()) {
-    // The shortest curve that meets another one.
-    Index chosen = -1;
-    std::vector<std::uint8_t> meets_itself(net.chains.size(), 0);
-    for (const SegmentPair& pair : pairs)
-      if (net.chain_of[pair.i] == net.chain_of[pair.j]) meets_itself[net.chain_of[pair.i]] = 1;
-    for (const SegmentPair& pair : pairs)
-      for (const Index c : {net.chain_of[pair.i], net.chain_of[pair.j]})
-        if (net.chain_of[pair.i] != net.chain_of[pair.j] && !hopeless[c] && !meets_itself[c] &&
-            (chosen < 0 || length(c) < length(chosen) || (length(c) == length(chosen) && c < chosen)))
-          chosen = c;
-    if (chosen < 0) return pairs;
-    const CurveNet::Chain& chain = net.chains[chosen];
-    std::vector<Index> centres;
-    for (const Index v : chain.vertices)
-      if (net.pinned[v]) centres.push_back(v);
-    if (centres.empty())
-      for (int k = 0; k < options.shrink_places; ++k)
-        centres.push_back(chain.vertices[static_cast<std::size_t>(k) * chain.vertices.size() / options.shrink_places]);
-    hopeless[chosen] = 1;
-    if (centres.size() > 1 && net.pinned[centres[0]]) continue;
-    const Points2 old = state.x;
-    Points2 best = old;
-    double largest = 0;
-    for (const Index centre : centres) {
-      const Vec2 c = old.col(centre);
-      double scale = 0.5;
-      for (int k = 0; k < options.shrink_halvings && scale > largest; ++k, scale *= 0.5) {
-        for (const Index v : chain.vertices) state.x.col(v) = c + scale * (old.col(v) - c);
-        tree.refit(state.x);
-        bool is_free = true;
-        for (Index s = chain.first_segment; is_free && s < chain.first_segment + chain.segment_count(); ++s) {
-          const Vec2 a = state.x.col(net.segments[s][0]), b = state.x.col(net.segments[s][1]);
-          tree.near(a.cwiseMin(b), a.cwiseMax(b), [&](Index j) {
-            if (j != s && is_free) is_free = meeting_of(state.x, net.segments[s], net.segments[j]) == Meeting::none;
-          });
-        }
-        if (!is_free) continue;
-        largest = scale;
-        best = state.x;
-        break;
-      }
-    }
-    state.x = best;
-    tree.refit(state.x);
-    pairs = find_meetings(net, tree, state.x);
-  }
-  return pairs;
+  return left.empty() ? left : find_meetings(net, state.x);
 }
 
 }  // namespace unsnarl

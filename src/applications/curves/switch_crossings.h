@@ -6,13 +6,6 @@
 
 namespace unsnarl {
 
-/// Curves on their way to be simple.
-struct CurveState {
-  Points2 x;                         ///< where the vertices are
-  Points2 target;                    ///< where recovery pulls them to
-  std::vector<std::uint8_t> turned;  ///< one a vertex: lies in a loop that was turned over
-};
-
 struct SwitchOptions {
   /// A pass makes moves that cost up to so many times the cheapest. On 20 random curves of each kind, 2 took twice the
   /// time on noisy curves and moved splines 3 % farther, 16 moved splines 5 % farther.
@@ -30,15 +23,17 @@ struct SwitchOptions {
   double dense = 3;
   /// Points of a curve at which another numbering is judged; all of them gave the same results.
   Index renumber_samples = 400;
-  /// How far a curve is drawn in where it lies on another one / diagonal: a quarter of the default gap.
-  double inset_rel = 1e-3;
+  /// How far a curve is drawn in where it lies on another one / diagonal, a quarter of the default gap; no farther than
+  /// this part of the shorter segment beside a point.
+  double inset_rel = 1e-3, inset_part = 0.25;
   /// Tries of moving touching segments apart by a part of their length, tenfold each time.
   int jitters = 5;
-  double jitter = 1e-7;  ///< the first part
-  /// Curves that are closer than this / diagonal are moved apart by ten times as much.
-  double least_gap_rel = 1e-8;
-  /// Places that a shrinking curve is tried at, and halvings of its size: 2^-40 is below the digits of a float32.
-  int shrink_places = 16, shrink_halvings = 40;
+  double jitter = 1e-7;            ///< the first part
+  double least_jitter_rel = 1e-6;  ///< shorter segments count as this long / diagonal
+  /// Curves that are closer than this / diagonal are moved apart by so many times as much.
+  double least_gap_rel = 1e-8, gap_jitter = 10;
+  /// Motion of one mean vertex / diagonal below which costs are not told apart.
+  double least_motion_rel = 1e-3;
 };
 
 /// Takes crossings away one by one where the curves are joined otherwise at them: the drawing stays, and the points of
@@ -46,9 +41,5 @@ struct SwitchOptions {
 /// Returns the crossings left: none for a single closed curve whose points may move, unless stopped.
 std::vector<SegmentPair> switch_crossings(const CurveNet& net, CurveState& state, const SwitchOptions& options,
                                           const std::function<bool(std::size_t crossings)>& stop);
-
-/// The last resort for curves that meet others: each is shrunk about one of its points until it is free. A curve with
-/// two pinned points or crossings of its own is left. Returns the crossings left.
-std::vector<SegmentPair> shrink_curves(const CurveNet& net, CurveState& state, const SwitchOptions& options);
 
 }  // namespace unsnarl

@@ -7,6 +7,7 @@
 
 #include "applications/curves/recover_curves.h"
 #include "applications/curves/repel_curves.h"
+#include "applications/curves/shrink_curves.h"
 #include "applications/curves/switch_crossings.h"
 
 namespace unsnarl {
@@ -26,12 +27,6 @@ void check_options(const CurveOptions& options) {
     throw std::invalid_argument(fmt::format("time_limit_s is {}; give a number from 0 on", options.time_limit_s));
 }
 
-std::vector<SegmentPair> meetings(const CurveNet& net, const Points2& x) {
-  SegmentTree tree(net);
-  tree.refit(x);
-  return find_meetings(net, tree, x);
-}
-
 /// Distances of the vertices at x from the drawing of the input.
 std::vector<double> distances_from_drawing(const CurveNet& net, const Points2& x) {
   SegmentTree tree(net);
@@ -45,9 +40,8 @@ std::vector<double> distances_from_drawing(const CurveNet& net, const Points2& x
     for (double reach = std::min(nearest, 1e-3 * net.diagonal);; reach *= 2) {
       const Vec2 r = Vec2::Constant(reach);
       tree.near(p - r, p + r, [&](Index s) {
-        const Vec2 a = net.rest.col(net.segments[s][0]), d = net.rest.col(net.segments[s][1]) - a;
-        const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
-        nearest = std::min(nearest, (a + t * d - p).norm());
+        const Vec2 a = net.rest.col(net.segments[s][0]), b = net.rest.col(net.segments[s][1]);
+        nearest = std::min(nearest, (a + nearest_fraction(p, a, b) * (b - a) - p).norm());
       });
       if (nearest <= reach) break;
     }
@@ -71,7 +65,7 @@ class Run {
     net_ = make_net(result_.curves, report.joints, options_.fix_ends);
     report.diagonal = diagonal;
     report.points = static_cast<std::size_t>(net_.vertex_count());
-    const std::vector<SegmentPair> before = meetings(net_, net_.rest);
+    const std::vector<SegmentPair> before = find_meetings(net_, net_.rest);
     report.crossings_before = before.size();
     report.before = as_crossings(net_, before);
     result_.joined = result_.curves;
@@ -122,7 +116,7 @@ class Run {
     std::vector<SegmentPair> left = switch_crossings(net_, state, switching_, stop);
     if (left.size() > obstructions && !is_stopped())
       left = repel_curves(net_, state, repelling_, [&] { return is_stopped(); });
-    if (left.size() > obstructions && !is_stopped()) left = shrink_curves(net_, state, switching_);
+    if (left.size() > obstructions && !is_stopped()) left = shrink_curves(net_, state, shrinking_);
     if (left.size() > before) {
       state = {net_.rest, net_.rest, std::vector<std::uint8_t>(net_.vertex_count(), 0)};
       return;
@@ -140,7 +134,7 @@ class Run {
   /// that would close a gap.
   void snap(CurveState& state) const {
     const Points2 recovered = state.x;
-    const std::size_t left = meetings(net_, state.x).size();
+    const std::size_t left = find_meetings(net_, state.x).size();
     for (Index v = 0; v < net_.vertex_count(); ++v)
       if ((state.x.col(v) - state.target.col(v)).norm() < snap_rel * net_.diagonal)
         state.x.col(v) = state.target.col(v);
@@ -149,13 +143,13 @@ class Run {
     const std::vector<std::uint8_t> close = vertices_closer_than(net_, tree, state.x, snap_rel * net_.diagonal);
     for (Index v = 0; v < net_.vertex_count(); ++v)
       if (close[v]) state.x.col(v) = recovered.col(v);
-    if (meetings(net_, state.x).size() > left) state.x = recovered;
+    if (find_meetings(net_, state.x).size() > left) state.x = recovered;
   }
 
   void finish(const CurveState& state) {
     CurveReport& report = result_.report;
     result_.curves = with_positions(result_.curves, net_, state.x);
-    const std::vector<SegmentPair> left = meetings(net_, state.x);
+    const std::vector<SegmentPair> left = find_meetings(net_, state.x);
     report.left = as_crossings(net_, left);
     report.crossings_after = left.size();
     if (left.empty()) {
@@ -194,6 +188,7 @@ class Run {
   double fraction_ = 0;
   SwitchOptions switching_;
   RepelOptions repelling_;
+  ShrinkOptions shrinking_;
   CurveRecoverOptions recovering_;
 };
 
@@ -202,7 +197,7 @@ class Run {
 std::vector<CurveCrossing> find_crossings(std::span<const Curve> curves, std::span<const CurveJoint> joints) {
   check_curves(curves);
   const CurveNet net = make_net(curves, joints, false);
-  return as_crossings(net, meetings(net, net.rest));
+  return as_crossings(net, find_meetings(net, net.rest));
 }
 
 CurveResult untangle_curves(std::span<const Curve> curves, const CurveOptions& options, Context* context) {
