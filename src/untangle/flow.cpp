@@ -25,7 +25,7 @@
 namespace unsnarl {
 namespace {
 
-// Of 43 meshes from elsewhere and 38 samples, what other strategies leave is resolved by the recession (4) and by the
+// Of 77 meshes from elsewhere and 38 samples, what other strategies leave is resolved by the recession (5) and by the
 // strong flow (1). Six variants between the two resolved none, and were deleted. Weaker Gaussian weights in the strong
 // flow leave a figure-8 torus and a spindle torus half done.
 constexpr std::array<FlowSettings, 3> strategies{{
