@@ -43,7 +43,8 @@ struct StepOptions {
   /// 65.
   double kept_area = 0.2;
   /// Share of its distance from an obstacle that a vertex keeps in a step. Eight posed and deep meshes end 3 % farther
-  /// with 0.3 and 9 % with 0.7, eighteen 1 % with 0.1: steps that end in the barrier's steep part are halved as a whole.
+  /// with 0.3 and 9 % with 0.7, eighteen 1 % with 0.1: steps that end in the barrier's steep part are halved as a
+  /// whole.
   double kept_distance = 0.5;
   bool shorten_all = false;  ///< a collision shortens the step of every vertex, not only of those that collide
 };
