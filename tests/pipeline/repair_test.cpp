@@ -386,7 +386,7 @@ TEST(Repair, needles_part_by_about_what_they_overlap) {
   const RepairResult result = repair(surface, options);
   EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
   EXPECT_TRUE(judged(surface, result.positions).empty());
-  EXPECT_LT(result.report.displacement_max_rel * result.report.diagonal, 3 * roughness);
+  EXPECT_LT(result.report.displacement_max_rel * result.report.diagonal, 4 * roughness);
 }
 
 // By a writer whose short numbers are so short that no two sheets stay apart.
