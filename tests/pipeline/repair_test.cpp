@@ -79,6 +79,13 @@ INSTANTIATE_TEST_SUITE_P(Repair, Samples,
 
 // The contours of its windings can be driven off over its border, which takes 28 % of the diagonal.
 
+// Contours alone resolve it too, but carry parts of it 26 % of the diagonal away.
+TEST(Repair, a_nearer_way_is_taken_where_the_first_goes_far) {
+  const RepairResult result = repair(make_sample("spiral_sheet"));
+  EXPECT_EQ(result.status, Status::embedded);
+  EXPECT_LT(result.report.displacement_max_rel, 0.05);
+}
+
 TEST(Repair, what_has_no_conflict_does_not_move) {
   // A crossing in the middle of large sheets: far from it nothing may move.
   const Surface surface = shapes::crossing_bumps(30, 0.3).surface();

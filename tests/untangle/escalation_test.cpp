@@ -245,6 +245,50 @@ TEST(Escalation, what_a_tier_leaves_is_where_the_next_starts) {
   for (const double depth : result.depths) EXPECT_LE(depth, 2.4 + 1e-12);
 }
 
+TEST(Escalation, what_goes_far_waits_for_a_nearer_candidate) {
+  Strategy far = lifting(5);
+  far.reach = 0.1;
+  Strategy nearer = lifting(4);
+  nearer.name = "nearer";
+  const auto kept = [](const std::vector<Tier>& tiers) {
+    Scene scene = two_sheets(1.5);
+    const EscalationResult result = untangle(scene, {}, options_with(tiers));
+    EXPECT_TRUE(result.left.empty());
+    return result.regions.size() == 1 ? result.regions[0].strategy : "not one region";
+  };
+  EXPECT_EQ(kept({{far}, {nearer}}), "nearer");
+  EXPECT_EQ(kept({{far}}), "lifting") << "none came";
+  EXPECT_EQ(kept({{nearer}, {far}}), "nearer");
+  // Two that both go far: the nearer of them, in either order.
+  nearer.reach = 0.1;
+  EXPECT_EQ(kept({{far}, {nearer}}), "nearer");
+  EXPECT_EQ(kept({{nearer}, {far}}), "nearer");
+  // It does not wait for last resorts.
+  nearer.reach = 100;
+  nearer.is_last_resort = true;
+  EXPECT_EQ(kept({{far}, {nearer}}), "lifting");
+}
+
+// Higher up, beyond the obstacles that it was tried with, the sheet runs into another one just as deep.
+TEST(Escalation, what_goes_far_is_judged_by_all_that_it_meets) {
+  const Shape sheets = shapes::crossing_bumps(12, 1.5);
+  const Index count = static_cast<Index>(sheets.points.size()) / 2;
+  Shape lower = sheets;
+  lower.points.resize(static_cast<std::size_t>(count));
+  std::erase_if(lower.triangles, [&](const Triangle& t) { return t[0] >= count; });
+  Shape shape = sheets;
+  shape.add(lower, Vec3(0, 0, 5));
+  std::vector<std::uint8_t> fixed(shape.points.size(), 1);
+  std::fill(fixed.begin() + count, fixed.begin() + 2 * count, std::uint8_t{0});
+  Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
+  const std::size_t before = shapes::pairs_at(scene.x, scene.triangles).size();
+  Strategy far = lifting(5);
+  far.reach = 0.1;
+  const std::vector<Tier> tiers = {{far}};
+  EXPECT_EQ(untangle(scene, {}, options_with(tiers)).left.size(), before);
+  EXPECT_TRUE(scene.x == scene.rest);
+}
+
 TEST(Escalation, squeezed_faces_make_a_candidate_worthless) {
   Scene scene = two_sheets(0.5);
   const auto to_a_point = [](Patch& patch, const Task&) {
