@@ -64,7 +64,8 @@ struct RepairOptions {
   RecordOptions record;  ///< what to note on the way; nothing unless asked for
   bool recover = true;   ///< false: stop after untangling (for research)
   bool paper = false;    ///< the configuration of the paper instead of the regional strategies
-  /// Names of strategies (RegionReport::strategy) to do without (for research: what each is worth).
+  /// Names of strategies (RegionReport::strategy) to do without (for research: what each is worth). Unknown ones are an
+  /// error.
   std::vector<std::string> without_strategies;
 };
 

@@ -24,6 +24,7 @@
 #include "scene/prepared_surface.h"
 #include "scene/recorder.h"
 #include "untangle/attempt_log.h"
+#include "untangle/strategies.h"
 
 namespace unsnarl {
 namespace {
@@ -90,6 +91,9 @@ class Repair {
     if (options_.find.threads < 0)
       throw std::invalid_argument("RepairOptions::find.threads is " + std::to_string(options_.find.threads) +
                                   "; give 0 for as many as the machine has, or their number");
+    for (const std::string& name : options_.without_strategies)
+      if (strategy_number(name) < 0)
+        throw std::invalid_argument("RepairOptions::without_strategies: there is no strategy '" + name + "'");
   }
 
   // What is worked on: everything at once, or one component after the other.

@@ -79,6 +79,12 @@ INSTANTIATE_TEST_SUITE_P(Repair, Samples,
 
 // The contours of its windings can be driven off over its border, which takes 28 % of the diagonal.
 
+TEST(Repair, strategies_to_do_without_must_exist) {
+  RepairOptions options;
+  options.without_strategies = {"contour-2", "contour-3"};
+  EXPECT_THROW(repair(shapes::crossing_bumps(8, 0.3).surface(), options), std::invalid_argument);
+}
+
 // Contours alone resolve it too, but carry parts of it 26 % of the diagonal away.
 TEST(Repair, a_nearer_way_is_taken_where_the_first_goes_far) {
   const RepairResult result = repair(make_sample("spiral_sheet"));
