@@ -20,7 +20,7 @@ bool is_nan(std::string_view token) {
   return token.size() >= 3 && is_letter(0, 'n') && is_letter(1, 'a') && is_letter(2, 'n');
 }
 
-/// Where this vertex is, for messages.
+/// Names the place of this vertex in the file, for messages.
 std::string place(const PointBlock& block, std::size_t vertex) {
   if (block.array.encoded) return block.array.where;
   return fmt::format("byte {}", block.array.start + vertex * block.vertex_step);
@@ -144,7 +144,7 @@ void PointFile::finish() {
                               faces_left_out_ == 1 ? "face" : "faces"));
 }
 
-/// Where no face looks, so any finite position will do; that of another vertex keeps the bounding box.
+/// No face uses these vertices, so any finite position will do; that of another vertex keeps the bounding box.
 void PointFile::place_missing(std::vector<double>& positions) const {
   if (missing_.empty()) return;
   const auto there = static_cast<std::size_t>(std::find(missing_.begin(), missing_.end(), false) - missing_.begin());

@@ -16,8 +16,8 @@ class ZipArchive {
   ZipArchive& operator=(const ZipArchive&) = delete;
   ~ZipArchive();
 
-  /// What an entry holds, whatever the case of its name. Nothing: there is none. Throws FileError where it is damaged,
-  /// encrypted, or compressed in a way that is not supported.
+  /// Returns the content of an entry, whatever the case of its name; nothing: there is none. Throws FileError where it
+  /// is damaged, encrypted, or compressed in a way that is not supported.
   std::optional<std::string> content(const std::string& name) const;
   /// The archive with other content of one entry, which is there; compressed as before, of the same time; all other
   /// entries as they are. Throws WriteError.

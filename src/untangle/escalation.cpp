@@ -257,8 +257,8 @@ class Escalation {
     attempt.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  /// Puts a candidate among the obstacles within its reach, and recovers it there.
-  void look_farther(Attempt& attempt) const {
+  /// Puts a candidate among the obstacles that are within its reach now. Returns the pairs that it tolerates there.
+  std::vector<IntersectingPair> put_among_obstacles(Attempt& attempt) const {
     Patch patch = cut_patch(scene_, index_, attempt.free, attempt.reach);
     patch.edge_length = attempt.edge_length;
     IntersectionFinder finder(patch.triangles, patch.active_count);
@@ -269,11 +269,20 @@ class Escalation {
     patch.x.leftCols(patch.free_count) = attempt.patch.x.leftCols(patch.free_count);
     attempt.patch = std::move(patch);
     attempt.left = Pairs(blocking_pairs(finder.find(attempt.patch.x), tolerated));
+    return tolerated;
+  }
+
+  /// Puts a candidate among the obstacles within its reach, and recovers it there.
+  void look_farther(Attempt& attempt) const {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::vector<IntersectingPair> tolerated = put_among_obstacles(attempt);
     if (attempt.is_clean() && options_.recover) {
       options_.recover(attempt.patch);
+      IntersectionFinder finder(attempt.patch.triangles, attempt.patch.active_count);
       attempt.left = Pairs(blocking_pairs(finder.find(attempt.patch.x), tolerated));
     }
     attempt.distance = distances_to_rest(attempt.patch).sum();
+    attempt.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
   /// Column k: of free vertex k.
@@ -348,7 +357,7 @@ class Escalation {
     std::stable_sort(due, waiting_.end(),
                      [](const Candidate& a, const Candidate& b) { return a.attempt.distance < b.attempt.distance; });
     for (auto waiting = due; waiting != waiting_.end(); ++waiting)
-      if (is_current(waiting->attempt)) keep(waiting->attempt, *levels_[waiting->level].strategy, 0);
+      if (still_holds(waiting->attempt)) keep(waiting->attempt, *levels_[waiting->level].strategy, 0);
     waiting_.erase(due, waiting_.end());
   }
 
@@ -359,13 +368,20 @@ class Escalation {
     return true;
   }
 
+  /// Other regions may have moved around a candidate since it was made: it counts as what it is among them.
+  bool still_holds(Attempt& attempt) const {
+    if (!is_current(attempt)) return false;
+    put_among_obstacles(attempt);
+    return attempt.left.fell_from(attempt.before);
+  }
+
   /// Keeps the best candidates of regions that have been through the strategies up to this level, where they leave less
   /// than this share of the pairs.
   void keep_best_candidates(Index level, double share) {
     for (auto it = best_.begin(); it != best_.end();) {
       Candidate& best = it->second;
       const bool is_due = level_of(best.attempt.region) > level;
-      if (is_due && is_current(best.attempt) && best.attempt.left.is_below(share, best.attempt.before))
+      if (is_due && best.attempt.left.is_below(share, best.attempt.before) && still_holds(best.attempt))
         keep(best.attempt, *levels_[best.level].strategy, levels_[best.level].tier_begin);
       else if (!is_due || is_current(best.attempt)) {
         ++it;

@@ -50,9 +50,8 @@ struct EscalationResult {
 /// until a candidate has so few pairs that it is kept; what is left of it is segmented anew and starts from the first
 /// strategy. At the end of a tier its best candidate is kept where it is worth while, and the tier starts anew. A
 /// candidate that resolves its region but goes far waits until all have been tried but the last resorts; then the
-/// nearest is kept. Only candidates with fewer pairs, and no more disjoint ones, are ever kept, so
-/// this ends. Regions that lie apart do not
-/// influence each other. Pairs in `ignored` (sorted, of triangles) are tolerated.
+/// nearest is kept. Only candidates with fewer pairs, and no more disjoint ones, are ever kept, so this ends. Regions
+/// that lie apart do not influence each other. Pairs in `ignored` (sorted, of triangles) are tolerated.
 EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
                           const EscalationOptions& options);
 

@@ -9,8 +9,8 @@
 
 namespace unsnarl {
 
-/// The default: coarse to fine for deep tangles, local strategies, placement of small components, smoothing over wider
-/// and wider surroundings, repulsion of whole components.
+/// The default: local strategies, placement of small components, coarse to fine for deep tangles, smoothing over wider
+/// and wider surroundings, and as last resorts repulsion and recession of whole components.
 std::span<const Tier> default_tiers();
 
 /// Those that move only what lies close to the conflict.
