@@ -23,6 +23,7 @@
 #include "unsnarl/repair.h"
 #include "unsnarl/report.h"
 #include "unsnarl/report_json.h"
+#include "unsnarl/scene_document.h"
 #include "unsnarl/stage_clock.h"
 #include "unsnarl/version.h"
 
@@ -158,8 +159,25 @@ py::dict py_certify(const Array<double>& positions, const Array<std::int32_t>& c
   return result;
 }
 
+/// Of meshes that lie one after another in `surface`, which are called by their numbers.
+SceneReport report_by_mesh(const SurfaceView& surface, const FindOptions& find, std::span<const double> positions,
+                           const std::vector<std::size_t>& vertex_counts, const std::vector<std::size_t>& face_counts) {
+  std::vector<SceneFile> meshes;
+  std::size_t vertices = 0, faces = 0;
+  for (std::size_t i = 0; i < vertex_counts.size(); ++i) {
+    meshes.push_back({std::to_string(i), vertices, vertex_counts[i], faces, face_counts[i]});
+    vertices += vertex_counts[i];
+    faces += face_counts[i];
+  }
+  Certifier certifier(surface, find);
+  return scene_report(surface, meshes, certifier.find_intersections(surface.positions), positions,
+                      certifier.find_intersections(positions));
+}
+
 py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& corners,
-                    const Array<std::int32_t>& offsets, const Array<std::uint8_t>& fixed, const std::string& goal,
+                    const Array<std::int32_t>& offsets, const Array<std::uint8_t>& fixed,
+                    const std::vector<std::size_t>& vertex_counts, const std::vector<std::size_t>& face_counts,
+                    const std::string& goal,
                     const std::string& precision, double min_gap, double max_displacement, bool absolute,
                     double time_limit, double memory_limit, bool recover, bool paper, bool each_component,
                     const std::string& weld, double weld_tolerance, bool both_diagonals, int threads,
@@ -186,6 +204,10 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
   ReportFiles files;
   files.vertices = surface.vertex_count();
   files.faces = surface.face_count();
+  if (!vertex_counts.empty()) {
+    const py::gil_scoped_release others_may_run;
+    files.scene = report_by_mesh(surface, options.find, result.positions, vertex_counts, face_counts);
+  }
   files.whole = clock.stage("repair");
   return py::make_tuple(array_of(result.positions), std::string(to_string(result.status)),
                         report_json(result, options, files));
@@ -287,7 +309,7 @@ PYBIND11_MODULE(_native, module) {
   module.def("certify", &py_certify, array("positions"), array("corners"), array("offsets"), array("moved"),
              py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"));
   module.def("repair", &py_repair, array("positions"), array("corners"), array("offsets"), array("fixed"),
-             py::kw_only(), py::arg("goal"), py::arg("precision"), py::arg("min_gap"), py::arg("max_displacement"),
+             py::kw_only(), py::arg("vertex_counts"), py::arg("face_counts"), py::arg("goal"), py::arg("precision"), py::arg("min_gap"), py::arg("max_displacement"),
              py::arg("absolute"), py::arg("time_limit"), py::arg("memory_limit"), py::arg("recover"), py::arg("paper"),
              py::arg("each_component"), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"),
              py::arg("threads"), py::arg("progress"));

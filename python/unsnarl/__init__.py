@@ -7,7 +7,8 @@
     if result.status == "embedded":
         V = result.V
 
-Everything takes arrays (``V``, ``F``) or a mesh of meshio, trimesh or pyvista in their place.
+Everything takes arrays (``V``, ``F``) or a mesh of meshio, trimesh or pyvista in their place; find_intersections,
+repair and certify also a list of these, ``repair([(V, F), mesh])``: meshes in one coordinate system that must not meet.
 
 ``V``
     Positions, shape (n, 3), of any real dtype and memory order. Computed with as float64.

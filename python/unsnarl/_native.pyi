@@ -34,6 +34,8 @@ def repair(
     offsets: NDArray[np.int32],
     fixed: NDArray[np.uint8],
     *,
+    vertex_counts: list[int],
+    face_counts: list[int],
     goal: str,
     precision: str,
     min_gap: float,
