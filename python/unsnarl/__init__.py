@@ -27,13 +27,17 @@ from ._intersections import Intersections, find_intersections
 from ._native import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._repair import Progress, Result, Status, repair
+from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
 
 __all__ = [
     "Certificate",
     "CurveResult",
+    "Frame",
     "Intersections",
+    "Jitter",
     "Progress",
     "Result",
+    "SequenceResult",
     "Status",
     "boundary_vertices",
     "certify",
@@ -41,6 +45,7 @@ __all__ = [
     "find_crossings",
     "find_intersections",
     "repair",
+    "repair_sequence",
     "untangle_curves",
     "vertices_of_faces",
 ]

@@ -52,6 +52,26 @@ def repair(
     threads: int,
     progress: Callable[[float, str, int, float], object] | None,
 ) -> tuple[NDArray[np.float64], str, str]: ...
+def repair_sequence(
+    frames: NDArray[np.float64],
+    corners: NDArray[np.int32],
+    offsets: NDArray[np.int32],
+    fixed: NDArray[np.uint8],
+    moved: NDArray[np.float64],
+    *,
+    first: int,
+    last: int,
+    goal: str,
+    precision: str,
+    min_gap: float,
+    max_displacement: float,
+    time_limit: float,
+    weld: str,
+    weld_tolerance: float,
+    both_diagonals: bool,
+    threads: int,
+    progress: Callable[[float, str, int, float], object] | None,
+) -> list[dict[str, Any]]: ...
 def component_of_faces(
     positions: NDArray[np.float64],
     corners: NDArray[np.int32],
