@@ -152,8 +152,7 @@ int run_check(const CheckOptions& options, Interruption& interruption) {
     write_file(options.pairs, pairs_table(found.pairs), interruption);
   }
   if (options.json) {
-    write_to_stream(standard_stream,
-                    check_json(found, options.goal_wanted(), options.find(), files) + "\n");
+    write_to_stream(standard_stream, check_json(found, options.goal_wanted(), options.find(), files) + "\n");
   } else if (!options.quiet) {
     for (const std::string& note : scene.notes()) tell("note: " + note + "\n");
     write_to_stream(standard_stream, as_text(found, options, scene, files.scene));

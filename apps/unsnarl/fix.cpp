@@ -12,6 +12,7 @@
 #include "mesh_input.h"
 #include "pictures.h"
 #include "progress.h"
+#include "sequence.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
@@ -345,7 +346,7 @@ class Fix {
 
 int run_fix(const FixOptions& options, Interruption& interruption) {
   try {
-    return Fix(options, interruption).run();
+    return options.sequence ? run_sequence(options, interruption) : Fix(options, interruption).run();
   } catch (const std::bad_alloc&) {
     if (options.memory_limit_mb <= 0) throw;
     tell(fmt::format("unsnarl: {} MB are not enough to read, examine and write this mesh; raise --memory-limit\n",

@@ -21,6 +21,8 @@ struct FixOptions : MeshOptions {
   Parts fix, only;  ///< held still; worked on, all else held still (empty: everything is worked on)
   bool recompute_normals = false;
   bool paper = false, no_recover = false;
+  bool sequence = false;  ///< the inputs are frames
+  std::string frames;     ///< of a sequence: "first:last"
   std::string report, highlight, picture, view, record;
   std::string progress = "auto";
 };

@@ -57,8 +57,10 @@ void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const
 
 void add_fix_options(CLI::App& command, FixOptions& options) {
   add_mesh_options(command, options);
-  command.add_option("-o,--output", options.output, "Where the repaired mesh goes; '-' for standard output. Of several files: the folder where they\n"
-                     "go under their names, all or none")
+  command
+      .add_option("-o,--output", options.output,
+                  "Where the repaired mesh goes; '-' for standard output. Of several files: the folder where they\n"
+                  "go under their names, all or none")
       ->type_name("OUT");
   command.add_flag("--in-place", options.in_place, "Overwrite IN with the repaired mesh");
   command.add_flag("--keep-partial", options.keep_partial,
@@ -67,6 +69,19 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "--recompute-normals", options.recompute_normals,
       "Turn stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved; else they stay as\n"
       "they are. Facet normals in STL always follow");
+  const std::string frames = "Sequences";
+  CLI::Option* const sequence =
+      command
+          .add_flag(
+              "--sequence", options.sequence,
+              "IN are the frames of a moving mesh: numbered files of the same faces, or patterns of them in\n"
+              "quotes; or a mesh and a point cache (PC2, MDD). Corrections go on smoothly in time. They go to the\n"
+              "folder of -o; a call that was interrupted goes on from there")
+          ->group(frames);
+  command.add_option("--frames", options.frames, "Only these, counted from 0, LAST excluded; either may be left out")
+      ->type_name("FIRST:LAST")
+      ->needs(sequence)
+      ->group(frames);
   const std::string what = "What may move";
   command
       .add_option("--fix-vertices", options.fix_vertices, "File with the 0-based ids of vertices that must not move")
@@ -150,7 +165,8 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "  unsnarl fix scan.ply -o fixed.ply --picture fixed.png --report fixed.json\n"
       "  unsnarl fix body.glb --in-place --max-displacement 0.01 --fix-vertices seam.txt\n"
       "  unsnarl fix scene.obj -o out.obj --fix-group anchor --fix-boundary\n"
-      "  unsnarl fix brain.surf skull.gii skin.obj -o fixed --fix-file skin.obj     three files, one scene\n\n"
+      "  unsnarl fix brain.surf skull.gii skin.obj -o fixed --fix-file skin.obj     three files, one scene\n"
+      "  unsnarl fix --sequence 'dance/*.obj' -o fixed                              frames of a moving mesh\n\n"
       "Exit codes: 0 embedded, 1 self-intersections left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
       "6 interrupted, 7 all repaired but what no allowed motion can resolve, 70 internal error.\n"
       "With --only-... and --each, 0 still means that nothing in the whole file intersects; where only what they "

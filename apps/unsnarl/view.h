@@ -12,8 +12,8 @@ struct ViewOptions : MeshOptions {
 };
 void add_view_options(CLI::App& command, ViewOptions& options);
 
-/// Writes a page that shows a mesh or the files of a scene, or these and their repaired versions. Returns the exit code.
-/// Throws FileError, WriteError, UsageError.
+/// Writes a page that shows a mesh or the files of a scene, or these and their repaired versions. Returns the exit
+/// code. Throws FileError, WriteError, UsageError.
 int run_view(const ViewOptions& options, Interruption& interruption);
 
 }  // namespace unsnarl::app
