@@ -320,7 +320,7 @@ void SequenceRun::summarise(bool is_whole) {
   say("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
       100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, 100 * sum.displacement_mean);
   if (sum.jitter_frames > 0)
-    say("  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; frame by frame it were {:.2g} % and {:.2g} %",
+    say("  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; repaired one by one {:.2g} % and {:.2g} %",
         100 * sum.jitter.max_rel, 100 * sum.jitter.mean_rel, 100 * sum.alone.max_rel, 100 * sum.alone.mean_rel);
   say("  {} of {} frames written; {:.1f} s, {:.0f} MB", sum.frames, sequence_.last - sequence_.first, whole.seconds,
       whole.peak_memory_mb);
