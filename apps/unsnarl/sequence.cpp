@@ -112,6 +112,8 @@ class SequenceRun {
       sequence_.repair.precision = Precision::float32;
     }
     for (const std::string& note : files_->mesh().notes()) say("note: {}", note);
+    if (!options_.report.empty() && !is_stream(options_.report) && files_->holds(options_.report))
+      throw UsageError(fmt::format("--report {}: this is one of the frames; give it another name", options_.report));
     StagedOutput(fs::path(options_.output) / record_name, interruption_);  // may be written to?
     read_contents();
 

@@ -36,9 +36,13 @@ bool is_there(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-void refuse_to_overwrite(const fs::path& input, const fs::path& output) {
+bool is_same(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
-  if (fs::equivalent(input, output, ignored))
+  return a.lexically_normal() == b.lexically_normal() || fs::equivalent(a, b, ignored);
+}
+
+void refuse_to_overwrite(const fs::path& input, const fs::path& output) {
+  if (is_same(input, output))
     throw UsageError(fmt::format("{} would be overwritten; name another folder", input.string()));
 }
 
@@ -111,6 +115,11 @@ class NumberedFiles : public SequenceFiles {
   const SceneDocument& mesh() const override { return first_; }
   bool stores_float32() const override { return first_.float32_file().has_value(); }
   std::string output() const override { return folder_.string(); }
+  bool holds(const fs::path& path) const override {
+    for (std::size_t t = 0; t < paths_.size(); ++t)
+      if (is_same(path, paths_[t]) || is_same(path, target(t))) return true;
+    return false;
+  }
 
   std::string content_hash(std::size_t t) override {
     require_same_faces(Document::read(paths_[t], format_), t);
@@ -198,6 +207,7 @@ class CacheFrames : public SequenceFiles {
         name_(fs::path(cache).filename().string()),
         target_(fs::path(folder) / name_),
         part_(fs::path(folder) / (name_ + ".part")),
+        own_{mesh, cache, target_, part_},
         input_(parsed(cache, cache)),
         output_(input_) {
     refuse_to_overwrite(cache, target_);
@@ -218,6 +228,9 @@ class CacheFrames : public SequenceFiles {
   const SceneDocument& mesh() const override { return mesh_; }
   bool stores_float32() const override { return true; }
   std::string output() const override { return target_.string(); }
+  bool holds(const fs::path& path) const override {
+    return std::any_of(own_.begin(), own_.end(), [&](const fs::path& own) { return is_same(path, own); });
+  }
 
   std::string content_hash(std::size_t t) override {
     const Surface& faces = mesh_.surface();
@@ -266,6 +279,7 @@ class CacheFrames : public SequenceFiles {
   const SceneDocument mesh_;
   const std::string name_;
   const fs::path target_, part_;
+  const std::vector<fs::path> own_;
   const PointCache input_;
   PointCache output_;
   std::string faces_hash_;

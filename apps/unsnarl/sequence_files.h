@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,6 +42,8 @@ class SequenceFiles {
   virtual std::size_t frames_between_flushes() const = 0;
   /// All frames wanted are written: the output gets its name. Throws WriteError.
   virtual void finish() = 0;
+  /// Is this file one of those that are read, or the place of an output?
+  virtual bool holds(const std::filesystem::path& path) const = 0;
   /// Where the output is.
   virtual std::string output() const = 0;
 };

@@ -218,6 +218,7 @@ TEST_F(Sequence, WhatMakesNoSenseIsRefused) {
   expect_refusal(with({"--frames", "4"}), 2, "FIRST:LAST");
   expect_refusal(with({"--frames", "a:4"}), 2, "FIRST:LAST");
   expect_refusal(with({"--picture", folder / "p.png"}), 2, "--picture");
+  expect_refusal(with({"--report", path(2)}), 2, "one of the frames");
   expect_refusal({"fix", "--sequence", pattern}, 2, "-o FOLDER");
   expect_refusal({"fix", path(0), "-o", folder / "o.obj", "--frames", "0:1"}, 2, "--sequence");
   expect_refusal({"fix", "--sequence", pattern, "-o", folder / "in"}, 2, "would be overwritten");
