@@ -223,7 +223,8 @@ class Fix {
       verify(Document::parse(all[0].bytes, scene_.document(0).format()).surface());
       write_to_stream(output_, all[0].bytes);
     } else {
-      StagedOutput staged(target(0), interruption_);
+      // The files of a scene all have names; what is a link in their folder is replaced.
+      StagedOutput staged(options_.is_scene() ? fs::path(output_) / ".scene" : target(0), interruption_);
       staged.write(all);
       verify(read_back(staged).surface());
       staged.commit();
@@ -235,8 +236,9 @@ class Fix {
     std::vector<Document> documents;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < scene_.files().size(); ++i) {
-      documents.push_back(Document::read(staged.staged(target(i).filename()), scene_.document(i).format()));
       names.push_back(scene_.files()[i].name);
+      const fs::path path = options_.is_scene() ? staged.staged(names.back()) : staged.main_file();
+      documents.push_back(Document::read(path, scene_.document(i).format()));
     }
     return {std::move(documents), std::move(names)};
   }

@@ -104,6 +104,15 @@ TEST_F(SceneFiles, AllAppearOrNone) {
   expect_refusal({"fix", a, b, "-o", out, "--fix-file", "a.obj", "--fix-file", "b.ply"}, 7, "nothing written");
 }
 
+TEST_F(SceneFiles, LinksInTheFolderAreReplaced) {
+  fs::create_directories(out);
+  write(folder / "precious.obj", "precious");
+  fs::create_symlink(folder / "precious.obj", out + "/a.obj");
+  EXPECT_EQ(run({"fix", a, b, "-o", out}).exit_code, 0);
+  EXPECT_EQ(contents(folder / "precious.obj"), "precious");
+  EXPECT_EQ(pairs_in({out + "/a.obj", out + "/b.ply"}), 0u);
+}
+
 TEST_F(SceneFiles, WhatMakesNoSenseIsRefused) {
   fs::create_directory(folder / "other");
   write(folder / "other/a.obj", large);
