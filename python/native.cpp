@@ -23,6 +23,8 @@
 #include "unsnarl/repair.h"
 #include "unsnarl/report.h"
 #include "unsnarl/report_json.h"
+#include "unsnarl/scene_document.h"
+#include "unsnarl/sequence.h"
 #include "unsnarl/stage_clock.h"
 #include "unsnarl/version.h"
 
@@ -158,12 +160,28 @@ py::dict py_certify(const Array<double>& positions, const Array<std::int32_t>& c
   return result;
 }
 
+/// Of meshes that lie one after another in `surface`, which are called by their numbers.
+SceneReport report_by_mesh(const SurfaceView& surface, const FindOptions& find, std::span<const double> positions,
+                           const std::vector<std::size_t>& vertex_counts, const std::vector<std::size_t>& face_counts) {
+  std::vector<SceneFile> meshes;
+  std::size_t vertices = 0, faces = 0;
+  for (std::size_t i = 0; i < vertex_counts.size(); ++i) {
+    meshes.push_back({std::to_string(i), vertices, vertex_counts[i], faces, face_counts[i]});
+    vertices += vertex_counts[i];
+    faces += face_counts[i];
+  }
+  Certifier certifier(surface, find);
+  return scene_report(surface, meshes, certifier.find_intersections(surface.positions), positions,
+                      certifier.find_intersections(positions));
+}
+
 py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& corners,
-                    const Array<std::int32_t>& offsets, const Array<std::uint8_t>& fixed, const std::string& goal,
-                    const std::string& precision, double min_gap, double max_displacement, bool absolute,
-                    double time_limit, double memory_limit, bool recover, bool paper, bool each_component,
-                    const std::string& weld, double weld_tolerance, bool both_diagonals, int threads,
-                    const py::object& progress) {
+                    const Array<std::int32_t>& offsets, const Array<std::uint8_t>& fixed,
+                    const std::vector<std::size_t>& vertex_counts, const std::vector<std::size_t>& face_counts,
+                    const std::string& goal, const std::string& precision, double min_gap, double max_displacement,
+                    bool absolute, double time_limit, double memory_limit, bool recover, bool paper,
+                    bool each_component, const std::string& weld, double weld_tolerance, bool both_diagonals,
+                    int threads, const py::object& progress) {
   const StageClock clock;
   const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
   RepairOptions options;
@@ -186,9 +204,71 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
   ReportFiles files;
   files.vertices = surface.vertex_count();
   files.faces = surface.face_count();
+  if (!vertex_counts.empty()) {
+    const py::gil_scoped_release others_may_run;
+    files.scene = report_by_mesh(surface, options.find, result.positions, vertex_counts, face_counts);
+  }
   files.whole = clock.stage("repair");
   return py::make_tuple(array_of(result.positions), std::string(to_string(result.status)),
                         report_json(result, options, files));
+}
+
+py::list py_repair_sequence(const Array<double>& frames, const Array<std::int32_t>& corners,
+                            const Array<std::int32_t>& offsets, const Array<std::uint8_t>& fixed,
+                            const Array<double>& moved, std::size_t first, std::size_t last, const std::string& goal,
+                            const std::string& precision, double min_gap, double max_displacement, double time_limit,
+                            const std::string& weld, double weld_tolerance, bool both_diagonals, int threads,
+                            const py::object& progress) {
+  const std::span<const double> all = span_of(frames);
+  const auto count = static_cast<std::size_t>(frames.shape(0)), size = count > 0 ? all.size() / count : 0;
+  const std::span<double> results(const_cast<double*>(moved.data()), all.size());
+  SequenceOptions options;
+  options.first = first;
+  options.last = last;
+  options.repair.find = find_options(weld, weld_tolerance, both_diagonals, threads);
+  options.repair.goal = named("goal", goal, {Goal::all, Goal::disjoint});
+  if (precision != "auto")
+    options.repair.precision = named("precision", precision, {Precision::float32, Precision::float64});
+  options.repair.min_gap_rel = min_gap;
+  options.repair.max_displacement_rel = max_displacement;
+  options.repair.time_limit_s = time_limit;
+  options.repair.fixed.assign(fixed.data(), fixed.data() + fixed.size());
+  SequenceSource source;
+  source.corners = span_of(corners);
+  source.offsets = span_of(offsets);
+  source.frames = count;
+  source.positions = [&](std::size_t t) {
+    const auto frame = all.subspan(t * size, size);
+    return std::vector<double>(frame.begin(), frame.end());
+  };
+  const auto take = [&](FrameResult&& result) {
+    std::copy(result.positions.begin(), result.positions.end(), results.begin() + result.report.frame * size);
+  };
+  const std::vector<FrameReport> reports =
+      while_serving_python([&](Context* context) { return repair_sequence(source, options, take, context); }, progress);
+  py::list list;
+  for (const FrameReport& r : reports) {
+    py::dict report;
+    const auto jitter = [](const std::optional<Jitter>& j) -> py::object {
+      if (!j) return py::none();
+      return py::make_tuple(j->mean_rel, j->max_rel);
+    };
+    report["frame"] = r.frame;
+    report["status"] = std::string(to_string(r.status));
+    report["before"] = r.before.by_class;
+    report["after"] = r.after.by_class;
+    report["diagonal"] = r.diagonal;
+    report["displacement_mean_rel"] = r.displacement_mean_rel;
+    report["displacement_max_rel"] = r.displacement_max_rel;
+    report["untouched_share"] = r.untouched_share;
+    report["float32_embedded"] = r.float32_embedded;
+    report["precision"] = std::string(to_string(r.precision));
+    report["is_smoothed"] = r.is_smoothed;
+    report["alone"] = jitter(r.alone);
+    report["jitter"] = jitter(r.jitter);
+    list.append(report);
+  }
+  return list;
 }
 
 /// Curves as Python has them: a list of flat points, flags of closed ones, flags of fixed points (empty: none).
@@ -287,10 +367,15 @@ PYBIND11_MODULE(_native, module) {
   module.def("certify", &py_certify, array("positions"), array("corners"), array("offsets"), array("moved"),
              py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"));
   module.def("repair", &py_repair, array("positions"), array("corners"), array("offsets"), array("fixed"),
-             py::kw_only(), py::arg("goal"), py::arg("precision"), py::arg("min_gap"), py::arg("max_displacement"),
-             py::arg("absolute"), py::arg("time_limit"), py::arg("memory_limit"), py::arg("recover"), py::arg("paper"),
-             py::arg("each_component"), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"),
-             py::arg("threads"), py::arg("progress"));
+             py::kw_only(), py::arg("vertex_counts"), py::arg("face_counts"), py::arg("goal"), py::arg("precision"),
+             py::arg("min_gap"), py::arg("max_displacement"), py::arg("absolute"), py::arg("time_limit"),
+             py::arg("memory_limit"), py::arg("recover"), py::arg("paper"), py::arg("each_component"), py::arg("weld"),
+             py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"), py::arg("progress"));
+  module.def("repair_sequence", &py_repair_sequence, array("frames"), array("corners"), array("offsets"),
+             array("fixed"), array("moved"), py::kw_only(), py::arg("first"), py::arg("last"), py::arg("goal"),
+             py::arg("precision"), py::arg("min_gap"), py::arg("max_displacement"), py::arg("time_limit"),
+             py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"),
+             py::arg("progress"));
   module.def("find_crossings", &py_find_crossings, py::arg("points"), py::arg("closed"));
   module.def("untangle_curves", &py_untangle_curves, py::arg("points"), py::arg("closed"), py::arg("fixed"),
              py::kw_only(), py::arg("gap"), py::arg("junction"), py::arg("fix_ends"), py::arg("time_limit"),

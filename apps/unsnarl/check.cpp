@@ -27,14 +27,22 @@ std::string extent(const Bounds& box) {
                      box.max[1], box.min[2], box.max[2]);
 }
 
-std::string as_text(const CheckReport& found, const CheckOptions& options, const Document& document) {
-  const SurfaceView surface = document.surface();
+std::string as_text(const CheckReport& found, const CheckOptions& options, const SceneDocument& scene,
+                    const SceneReport& by_file) {
+  const SurfaceView surface = scene.surface();
   const Topology& t = found.topology;
   std::string text;
   const auto line = [&text](const std::string& words) { text += words + "\n"; };
-  line(fmt::format("{}: {}, {}, {}", options.input == standard_stream ? "mesh" : options.input,
+  const std::string& input = options.inputs[0];
+  line(fmt::format("{}: {}, {}, {}",
+                   options.is_scene()         ? fmt::format("{} files", options.inputs.size())
+                   : input == standard_stream ? "mesh"
+                                              : input,
                    counted(surface.vertex_count(), "vertex", "vertices"),
                    counted(surface.face_count(), "face", "faces"), counted(t.components, "component", "components")));
+  for (const SceneFileReport& file : by_file.files)
+    line(fmt::format("  file {}: {}, {}", file.file.name, counted(file.file.vertices, "vertex", "vertices"),
+                     counted(file.file.faces, "face", "faces")));
   line(fmt::format("  faces:      {}", found.triangulation));
   line(fmt::format("  components: {} closed, {} non-orientable", t.closed_components, t.non_orientable_components));
   line(fmt::format("  edges:      {} on a boundary, {} non-manifold", t.boundary_edges, t.non_manifold_edges));
@@ -68,6 +76,12 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
   for (std::size_t i = 0; i < pair_class_count; ++i)
     if (found.counts.by_class[i] > 0)
       line(fmt::format("  {:<10} {:>9}", pair_class_names[i], found.counts.by_class[i]));
+  for (const ScenePairs& pairs : by_file.pairs) {
+    if (pairs.before.total() == 0) continue;
+    const std::string &a = by_file.files[pairs.a].file.name, &b = by_file.files[pairs.b].file.name;
+    line(fmt::format("  {:>10} {}", pairs.before.total(),
+                     pairs.a == pairs.b ? "within " + a : fmt::format("between {} and {}", a, b)));
+  }
   line(counted(found.places.size(), "place:", "places:"));
   for (std::size_t i = 0; i < std::min(found.places.size(), places_in_text); ++i) {
     const ConflictPlace& place = found.places[i];
@@ -79,13 +93,21 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
   return text;
 }
 
-ReportFiles described(const CheckOptions& options, const Document& document) {
+ReportFiles described(const CheckOptions& options, const SceneDocument& scene, const CheckReport& found) {
   ReportFiles files;
-  files.input = options.input;
-  files.format = to_string(document.format());
-  files.vertices = document.surface().view().vertex_count();
-  files.faces = document.surface().view().face_count();
-  files.notes = document.notes();
+  files.vertices = scene.surface().view().vertex_count();
+  files.faces = scene.surface().view().face_count();
+  files.notes = scene.notes();
+  if (!options.is_scene()) {
+    files.input = options.inputs[0];
+    files.format = to_string(scene.document(0).format());
+    return files;
+  }
+  files.scene = scene_report(scene.surface(), scene.files(), found.pairs);
+  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
+    files.scene.files[i].input = options.inputs[i];
+    files.scene.files[i].format = to_string(scene.document(i).format());
+  }
   return files;
 }
 
@@ -113,25 +135,27 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
       "  degenerate  one of them has no area\n\n"
       "Examples:\n"
       "  unsnarl check hand.obj\n"
+      "  unsnarl check brain.surf skull.gii skin.obj          within and between three files\n"
       "  unsnarl check hand.obj --json | jq .pairs\n"
       "  unsnarl check - --format stl < part.stl --pairs pairs.csv\n\n"
       "Exit codes: 0 none found, 1 found, 2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 70 internal error.");
 }
 
 int run_check(const CheckOptions& options, Interruption& interruption) {
-  const Document document = read_mesh(options.input, format_from_name(options.format));
-  const CheckReport found = check(document.surface(), options.find());
+  const SceneDocument scene = read_scene(options.inputs, format_from_name(options.format));
+  const CheckReport found = check(scene.surface(), options.find());
+  const ReportFiles files = described(options, scene, found);
   if (!options.pairs.empty()) {
-    if (options.pairs == standard_stream || (options.input != standard_stream && options.pairs == options.input))
+    if (options.pairs == standard_stream ||
+        std::find(options.inputs.begin(), options.inputs.end(), options.pairs) != options.inputs.end())
       throw UsageError("--pairs needs a file of its own");
     write_file(options.pairs, pairs_table(found.pairs), interruption);
   }
   if (options.json) {
-    write_to_stream(standard_stream,
-                    check_json(found, options.goal_wanted(), options.find(), described(options, document)) + "\n");
+    write_to_stream(standard_stream, check_json(found, options.goal_wanted(), options.find(), files) + "\n");
   } else if (!options.quiet) {
-    for (const std::string& note : document.notes()) tell("note: " + note + "\n");
-    write_to_stream(standard_stream, as_text(found, options, document));
+    for (const std::string& note : scene.notes()) tell("note: " + note + "\n");
+    write_to_stream(standard_stream, as_text(found, options, scene, files.scene));
   }
   const std::size_t that_count =
       options.goal_wanted() == Goal::all ? found.counts.total() : found.counts[PairClass::disjoint];

@@ -13,10 +13,11 @@ CLI::Validator not_negative() {
   return CLI::Range(0.0, std::numeric_limits<double>::max()).description("");
 }
 
-void add_mesh_options(CLI::App& command, MeshOptions& options) {
-  command.add_option("IN", options.input, "Mesh file: " + format_names(" or ") + "; '-' for standard input")
+void add_mesh_options(CLI::App& command, MeshOptions& options, const std::string& input) {
+  command.add_option("IN", options.inputs, input + ": " + format_names(" or ") + "; '-' for standard input")
       ->required();
-  command.add_option("--format", options.format, "Format of the mesh, where its name does not tell")
+  command
+      .add_option("--format", options.format, "Format of the mesh, where its name does not tell; of several, of each")
       ->type_name("FORMAT");
   command
       .add_option("--goal", options.goal,

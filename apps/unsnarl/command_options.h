@@ -14,16 +14,20 @@ CLI::Validator not_negative();
 
 /// Options that `fix` and `check` share.
 struct MeshOptions {
-  std::string input, format;
+  std::vector<std::string> inputs;  ///< one, or the files of a scene
+  std::string format;
   std::string goal = "all", weld = "seams";
   double weld_tolerance = 0;
   bool both_diagonals = false;
   int threads = 0;
   bool quiet = false;
 
+  bool is_scene() const { return inputs.size() > 1; }
   FindOptions find() const;
   Goal goal_wanted() const { return goal == "disjoint" ? Goal::disjoint : Goal::all; }
 };
-void add_mesh_options(CLI::App& command, MeshOptions& options);
+/// `input`: what the help says of IN, before the formats.
+void add_mesh_options(CLI::App& command, MeshOptions& options,
+                      const std::string& input = "Mesh file, or several that are one scene");
 
 }  // namespace unsnarl::app

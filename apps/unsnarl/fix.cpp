@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
+#include <optional>
 
 #include "fix_summary.h"
 #include "intersecting_faces.h"
@@ -10,6 +12,7 @@
 #include "mesh_input.h"
 #include "pictures.h"
 #include "progress.h"
+#include "sequence.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
@@ -34,7 +37,12 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 
 /// Refuses what would overwrite the input or one output with another, before any work is done.
 std::string checked_output(const FixOptions& options) {
-  const bool from_stream = options.input == standard_stream;
+  scene_names(options.inputs);  // throws where two are the same
+  const bool from_stream = options.inputs[0] == standard_stream;
+  if (options.is_scene() && options.in_place)
+    throw UsageError("--in-place takes one file; of several, give -o FOLDER for all of them");
+  if (options.is_scene() && is_stream(options.output))
+    throw UsageError(fmt::format("-o {}: several files need a folder to go to", options.output));
   if (options.in_place) {
     if (!options.output.empty()) throw UsageError("--in-place and -o exclude each other: give one of them");
     if (from_stream) throw UsageError("--in-place needs a file, not standard input");
@@ -42,8 +50,14 @@ std::string checked_output(const FixOptions& options) {
     throw UsageError("where should the result go? Give -o OUT ('-' for standard output), or --in-place");
   }
   std::vector<std::pair<std::string, std::string>> paths;  // option, path
-  if (!from_stream && !options.in_place) paths.emplace_back("the input", options.input);
-  paths.emplace_back(options.in_place ? "the input" : "-o", options.in_place ? options.input : options.output);
+  const std::string& output = options.in_place ? options.inputs[0] : options.output;
+  if (!from_stream && !options.in_place)
+    for (const std::string& input : options.inputs) paths.emplace_back("the input", input);
+  if (options.is_scene())
+    for (const std::string& input : options.inputs)
+      paths.emplace_back("-o", (fs::path(output) / fs::path(input).filename()).string());
+  else
+    paths.emplace_back(options.in_place ? "the input" : "-o", output);
   for (const auto& [name, path] : {std::pair{"--report", options.report},
                                    {"--highlight", options.highlight},
                                    {"--picture", options.picture},
@@ -56,11 +70,12 @@ std::string checked_output(const FixOptions& options) {
       const bool both_streams = a == standard_stream && b == standard_stream;
       if (both_streams || (!is_stream(a) && !is_stream(b) && is_same_file(a, b)))
         throw UsageError(fmt::format("{} and {} are the same ({}); {}", paths[j].first, paths[i].first, b,
-                                     paths[j].first == "the input" && paths[i].first == "-o"
-                                         ? "use --in-place to overwrite the input"
-                                         : "give them different names"));
+                                     paths[j].first != "the input" || paths[i].first != "-o"
+                                         ? "give them different names"
+                                     : options.is_scene() ? "name another folder"
+                                                          : "use --in-place to overwrite the input"));
     }
-  return paths[from_stream || options.in_place ? 0 : 1].second;
+  return output;
 }
 
 /// The result is the input's file with other positions, so it cannot change its format.
@@ -69,6 +84,12 @@ void check_format_of_output(const std::string& output, const Document& document)
   if (format && *format != document.format())
     throw UsageError(fmt::format("{}: the result keeps the format of the input, {}; name it *.{}", output,
                                  to_string(document.format()), to_string(document.format())));
+}
+
+std::string names_of(const SceneDocument& scene) {
+  std::string names;
+  for (const SceneFile& file : scene.files()) names += (names.empty() ? "" : ", ") + file.name;
+  return names;
 }
 
 bool is_to_be_written(const RepairResult& result, const Surface& input, bool keep_partial) {
@@ -80,13 +101,13 @@ bool is_to_be_written(const RepairResult& result, const Surface& input, bool kee
   }
 }
 
-/// The promise of the status that the file just written breaks. Empty: none.
+/// The promise of the status that what was just written breaks. Empty: none.
 std::string broken_promise(const RepairResult& result, const RepairOptions& options, const Surface& input,
-                           const Surface& read_back) {
+                           const Surface& read_back, Certifier& certifier) {
   if (read_back.corners != input.corners || read_back.offsets != input.offsets ||
       read_back.positions.size() != input.positions.size())
     return "its faces are not those of the input";
-  const Certificate certificate = Certifier(input, options.find).certify(read_back.positions);
+  const Certificate certificate = certifier.certify(read_back.positions);
   if (!certificate.seams_closed) return "a seam of the input is open in it";
   const PairCounts &after = certificate.pairs, &before = result.report.before;
   const std::size_t disjoint = after[PairClass::disjoint];
@@ -110,25 +131,29 @@ class Fix {
         output_(checked_output(options)),
         display_(progress_style(options.progress, options.quiet)),
         memory_guard_(options.memory_limit_mb),
-        document_(read_mesh(options.input, format_from_name(options.format))),
-        repair_options_(repair_options(options, document_)) {
-    check_format_of_output(output_, document_);
-    if (options.recompute_normals && !document_.recompute_normals())
-      say("note: --recompute-normals: there are no vertex normals in this {} file that could be updated",
-          to_string(document_.format()));
-    files_.input = options_.input;
-    files_.format = to_string(document_.format());
+        scene_(read_scene(options.inputs, format_from_name(options.format))),
+        repair_options_(repair_options(options, scene_)) {
+    if (!options.is_scene()) {
+      check_format_of_output(output_, scene_.document(0));
+      files_.input = options_.inputs[0];
+      files_.format = to_string(scene_.document(0).format());
+    }
+    if (options.recompute_normals && !scene_.recompute_normals())
+      say("note: --recompute-normals: there are no vertex normals in {} that could be updated", names_of(scene_));
     files_.vertices = surface().view().vertex_count();
     files_.faces = surface().view().face_count();
-    files_.notes = document_.notes();
+    files_.notes = scene_.notes();
     files_.before_repair.push_back(clock_.stage("read"));
   }
 
   int run() {
     if (!options_.view.empty()) require_viewer();
-    for (const std::string& note : document_.notes()) say("note: {}", note);
+    for (const std::string& note : scene_.notes()) say("note: {}", note);
     // A folder that is missing or must not be written to is found now rather than after the work.
-    if (!is_stream(output_)) StagedOutput(output_, interruption_);
+    std::optional<OutputFolder> folder;
+    if (options_.is_scene()) folder.emplace(output_);
+    for (std::size_t i = 0; i < scene_.files().size(); ++i)
+      if (!is_stream(output_)) StagedOutput(target(i), interruption_);
     if (picture_kind(options_.picture) == PictureKind::folder) prepare_picture_folder(options_.picture);
 
     Context context;
@@ -143,6 +168,7 @@ class Fix {
 
     const StageClock writing;
     if (is_to_be_written(result_, surface(), options_.keep_partial)) write_output();
+    if (options_.is_scene()) describe_files();
     files_.after_repair.push_back(writing.stage("write"));
 
     write_pictures();
@@ -158,7 +184,15 @@ class Fix {
   }
 
  private:
-  const Surface& surface() const { return document_.surface(); }
+  const Surface& surface() const { return scene_.surface(); }
+  /// Where a file of the scene goes.
+  fs::path target(std::size_t file) const {
+    return options_.is_scene() ? fs::path(output_) / scene_.files()[file].name : fs::path(output_);
+  }
+  Certifier& certifier() {
+    if (!certifier_) certifier_.emplace(surface(), repair_options_.find);
+    return *certifier_;
+  }
 
   template <class... Args>
   void say(fmt::format_string<Args...> text, Args&&... args) {
@@ -169,55 +203,93 @@ class Fix {
 
   void write_output() {
     const bool float32_digits = result_.report.precision == Precision::float32;
-    std::vector<OutputFile> files = document_.patched(result_.positions, float32_digits);
+    std::vector<OutputFile> all;
+    for (std::size_t i = 0; i < scene_.files().size(); ++i) {
+      std::vector<OutputFile> files = scene_.patched(i, result_.positions, float32_digits);
+      if (!is_stream(output_)) refuse_to_overwrite_buffers(i, files);
+      if (options_.is_scene()) files[0].name = scene_.files()[i].name;
+      for (OutputFile& file : files) {
+        if (std::any_of(all.begin(), all.end(), [&](const OutputFile& other) { return other.name == file.name; }))
+          throw UsageError(
+              fmt::format("two of the files keep geometry in a file called {}, which would go to one "
+                          "place; repair them apart, or rename it in one of them",
+                          file.name.string()));
+        all.push_back(std::move(file));
+      }
+    }
     if (is_stream(output_)) {
-      if (files.size() > 1)
+      if (all.size() > 1)
         throw UsageError("this glTF keeps its geometry in other files, which cannot go to a stream; give -o FILE");
-      verify(Document::parse(files[0].bytes, document_.format()));
-      write_to_stream(output_, files[0].bytes);
+      verify(Document::parse(all[0].bytes, scene_.document(0).format()).surface());
+      write_to_stream(output_, all[0].bytes);
     } else {
-      StagedOutput staged(output_, interruption_);
-      staged.write(files);
-      refuse_to_overwrite_input_buffers(staged.targets());
-      verify(Document::read(staged.main_file(), document_.format()));
+      // The files of a scene all have names; what is a link in their folder is replaced.
+      StagedOutput staged(options_.is_scene() ? fs::path(output_) / ".scene" : target(0), interruption_);
+      staged.write(all);
+      verify(read_back(staged).surface());
       staged.commit();
     }
     files_.output = output_;
   }
 
+  SceneDocument read_back(const StagedOutput& staged) const {
+    std::vector<Document> documents;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scene_.files().size(); ++i) {
+      names.push_back(scene_.files()[i].name);
+      const fs::path path = options_.is_scene() ? staged.staged(names.back()) : staged.main_file();
+      documents.push_back(Document::read(path, scene_.document(i).format()));
+    }
+    return {std::move(documents), std::move(names)};
+  }
+
   /// The certificate is worth nothing if the file says something else.
-  void verify(const Document& written) const {
-    const std::string broken = broken_promise(result_, repair_options_, surface(), written.surface());
+  void verify(const Surface& written) {
+    const std::string broken = broken_promise(result_, repair_options_, surface(), written, certifier());
     if (!broken.empty())
       throw std::logic_error(
           fmt::format("the file written does not hold what was certified: {}. It was removed", broken));
+    if (options_.is_scene()) written_ = written.positions;
   }
 
   /// External buffers of a glTF keep their names, so beside the input they would replace the input's.
-  void refuse_to_overwrite_input_buffers(const std::vector<fs::path>& targets) const {
-    if (options_.in_place || options_.input == standard_stream) return;
-    const fs::path main = fs::path(output_).parent_path(), source = fs::path(options_.input).parent_path();
-    for (std::size_t i = 1; i < targets.size(); ++i)
-      if (const fs::path own = source / targets[i].lexically_relative(main.empty() ? "." : main);
-          is_same_file(targets[i], own))
+  void refuse_to_overwrite_buffers(std::size_t file, const std::vector<OutputFile>& files) const {
+    const fs::path input = options_.inputs[file];
+    if (options_.in_place || input == standard_stream) return;
+    for (std::size_t i = 1; i < files.size(); ++i)
+      if (const fs::path own = target(file).parent_path() / files[i].name;
+          is_same_file(own, input.parent_path() / files[i].name))
         throw UsageError(
             fmt::format("{} holds part of the input and would be overwritten; write the result to another "
                         "folder, or use --in-place",
-                        targets[i].string()));
+                        own.string()));
+  }
+
+  /// By file, as read back where it was written.
+  void describe_files() {
+    const std::span<const double> after = written_.empty() ? result_.positions : written_;
+    files_.scene = scene_report(surface(), scene_.files(), certifier().find_intersections(surface().positions), after,
+                                certifier().find_intersections(after));
+    for (std::size_t i = 0; i < scene_.files().size(); ++i) {
+      SceneFileReport& file = files_.scene.files[i];
+      file.input = options_.inputs[i];
+      file.format = to_string(scene_.document(i).format());
+      if (!files_.output.empty()) file.output = target(i).string();
+    }
   }
 
   void write_pictures() {
     if (options_.highlight.empty() && options_.picture.empty()) return;
-    Certifier certifier(surface(), repair_options_.find);
-    const std::vector<IntersectingPair> pairs_before = certifier.find_intersections(surface().positions);
-    const std::vector<IntersectingPair> pairs_after = certifier.find_intersections(result_.positions);
+    const std::vector<IntersectingPair> pairs_before = certifier().find_intersections(surface().positions);
+    const std::vector<IntersectingPair> pairs_after = certifier().find_intersections(result_.positions);
     if (!options_.highlight.empty())
       write_file(options_.highlight, highlight_file(surface(), result_.positions, pairs_before, pairs_after),
                  interruption_);
     if (picture_kind(options_.picture) != PictureKind::still) {
-      write_animation(options_.picture, surface(), result_, interruption_);
+      write_animation(options_.picture, surface(), scene_.files(), result_, interruption_);
     } else if (!options_.picture.empty()) {
       PictureOptions picture;
+      picture.files = scene_.files();
       const auto label = [](const char* when, std::size_t pairs) {
         return fmt::format("{}\n{}", when,
                            pairs == 0   ? "no self-intersections"
@@ -246,9 +318,10 @@ class Fix {
   void write_view() {
     if (options_.view.empty()) return;
     PageSource source;
-    source.input_name = page_name(options_.input);
+    source.input_name = scene_name(options_.inputs);
     source.output_name = files_.output.empty() ? "" : page_name(files_.output);
     source.before = surface();
+    source.files = scene_.files();
     source.after = result_.positions;
     source.find = repair_options_.find;
     source.goal = repair_options_.goal;
@@ -263,9 +336,11 @@ class Fix {
   std::string output_;
   ProgressDisplay display_;
   MemoryGuard memory_guard_;
-  Document document_;
+  SceneDocument scene_;
   RepairOptions repair_options_;
+  std::optional<Certifier> certifier_;  // of the input; made when first needed
   RepairResult result_;
+  std::vector<double> written_;  // positions of several files, as read back
   ReportFiles files_;
 };
 
@@ -273,7 +348,7 @@ class Fix {
 
 int run_fix(const FixOptions& options, Interruption& interruption) {
   try {
-    return Fix(options, interruption).run();
+    return options.sequence ? run_sequence(options, interruption) : Fix(options, interruption).run();
   } catch (const std::bad_alloc&) {
     if (options.memory_limit_mb <= 0) throw;
     tell(fmt::format("unsnarl: {} MB are not enough to read, examine and write this mesh; raise --memory-limit\n",

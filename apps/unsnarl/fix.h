@@ -2,8 +2,8 @@
 
 #include "command_options.h"
 #include "interruption.h"
-#include "unsnarl/document.h"
 #include "unsnarl/parts.h"
+#include "unsnarl/scene_document.h"
 
 namespace unsnarl::app {
 
@@ -21,13 +21,15 @@ struct FixOptions : MeshOptions {
   Parts fix, only;  ///< held still; worked on, all else held still (empty: everything is worked on)
   bool recompute_normals = false;
   bool paper = false, no_recover = false;
+  bool sequence = false;  ///< the inputs are frames
+  std::string frames;     ///< of a sequence: "first:last"
   std::string report, highlight, picture, view, record;
   std::string progress = "auto";
 };
 void add_fix_options(CLI::App& command, FixOptions& options);
 
-/// The options for this mesh. They refer to `document`. Throws UsageError, FileError.
-RepairOptions repair_options(const FixOptions& options, const Document& document);
+/// The options for this mesh. They refer to `scene`. Throws UsageError, FileError.
+RepairOptions repair_options(const FixOptions& options, const SceneDocument& scene);
 
 /// Reads, repairs, writes to a temporary file, reads it back, certifies what was read, renames. Returns the exit code.
 /// Throws FileError, WriteError, UsageError.

@@ -12,8 +12,8 @@ namespace {
 constexpr int recorded_frames = 100;
 
 /// One flag a vertex; empty: all may move.
-std::vector<std::uint8_t> fixed_vertices(const FixOptions& options, const Document& document) {
-  const SurfaceView surface = document.surface();
+std::vector<std::uint8_t> fixed_vertices(const FixOptions& options, const SceneDocument& scene) {
+  const SurfaceView surface = scene.surface();
   const FindOptions find = options.find();
   std::vector<std::uint8_t> fixed;
   const auto add = [&fixed](std::vector<std::uint8_t> more) {
@@ -23,10 +23,10 @@ std::vector<std::uint8_t> fixed_vertices(const FixOptions& options, const Docume
   try {
     if (!options.fix_vertices.empty()) add(read_vertex_flags(options.fix_vertices, surface.vertex_count()));
     if (!options.fix.empty())
-      add(vertices_of_faces(surface, faces_in_parts(surface, document.face_labels(), options.fix, find)));
+      add(vertices_of_faces(surface, faces_in_parts(surface, scene.face_labels(), options.fix, find)));
     if (!options.only.empty()) {
       // Nothing else may change, so a vertex that a face outside uses too stays.
-      std::vector<std::uint8_t> outside = faces_in_parts(surface, document.face_labels(), options.only, find);
+      std::vector<std::uint8_t> outside = faces_in_parts(surface, scene.face_labels(), options.only, find);
       for (std::uint8_t& face : outside) face = !face;
       add(vertices_of_faces(surface, outside));
     }
@@ -50,13 +50,17 @@ void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const
         "NAME");
   named("material", parts.materials, "faces of this material; may be repeated", "NAME");
   named("component", parts.components, "component of this number, as 'unsnarl check' lists them; may be repeated", "N");
+  named("file", parts.files, "file of this name, of several; may be repeated", "NAME");
 }
 
 }  // namespace
 
 void add_fix_options(CLI::App& command, FixOptions& options) {
   add_mesh_options(command, options);
-  command.add_option("-o,--output", options.output, "Where the repaired mesh goes; '-' for standard output")
+  command
+      .add_option("-o,--output", options.output,
+                  "Where the repaired mesh goes; '-' for standard output. Of several files: the folder where they\n"
+                  "go under their names, all or none")
       ->type_name("OUT");
   command.add_flag("--in-place", options.in_place, "Overwrite IN with the repaired mesh");
   command.add_flag("--keep-partial", options.keep_partial,
@@ -65,6 +69,19 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "--recompute-normals", options.recompute_normals,
       "Turn stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved; else they stay as\n"
       "they are. Facet normals in STL always follow");
+  const std::string frames = "Sequences";
+  CLI::Option* const sequence =
+      command
+          .add_flag(
+              "--sequence", options.sequence,
+              "IN are the frames of a moving mesh: numbered files of the same faces, or patterns of them in\n"
+              "quotes; or a mesh and a point cache (PC2, MDD). Corrections go on smoothly in time. They go to the\n"
+              "folder of -o; a call that was interrupted goes on from there")
+          ->group(frames);
+  command.add_option("--frames", options.frames, "Only these, counted from 0, LAST excluded; either may be left out")
+      ->type_name("FIRST:LAST")
+      ->needs(sequence)
+      ->group(frames);
   const std::string what = "What may move";
   command
       .add_option("--fix-vertices", options.fix_vertices, "File with the 0-based ids of vertices that must not move")
@@ -147,7 +164,9 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "  unsnarl fix hand.obj -o hand_fixed.obj\n"
       "  unsnarl fix scan.ply -o fixed.ply --picture fixed.png --report fixed.json\n"
       "  unsnarl fix body.glb --in-place --max-displacement 0.01 --fix-vertices seam.txt\n"
-      "  unsnarl fix scene.obj -o out.obj --fix-group anchor --fix-boundary\n\n"
+      "  unsnarl fix scene.obj -o out.obj --fix-group anchor --fix-boundary\n"
+      "  unsnarl fix brain.surf skull.gii skin.obj -o fixed --fix-file skin.obj     three files, one scene\n"
+      "  unsnarl fix --sequence 'dance/*.obj' -o fixed                              frames of a moving mesh\n\n"
       "Exit codes: 0 embedded, 1 self-intersections left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
       "6 interrupted, 7 all repaired but what no allowed motion can resolve, 70 internal error.\n"
       "With --only-... and --each, 0 still means that nothing in the whole file intersects; where only what they "
@@ -155,19 +174,19 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "out does, the result is written and the exit code is 7.");
 }
 
-RepairOptions repair_options(const FixOptions& options, const Document& document) {
+RepairOptions repair_options(const FixOptions& options, const SceneDocument& scene) {
   RepairOptions result;
   result.find = options.find();
   result.goal = options.goal_wanted();
   if (options.precision == "float32") result.precision = Precision::float32;
   if (options.precision == "float64") result.precision = Precision::float64;
-  if (document.stores_float32()) {
+  if (const auto file = scene.float32_file()) {
     if (result.precision == Precision::float64)
-      throw UsageError(fmt::format("--precision float64: this {} file stores 32-bit numbers; leave the option out",
-                                   to_string(document.format())));
+      throw UsageError(fmt::format("--precision float64: {}: this {} file stores 32-bit numbers; leave the option out",
+                                   scene.files()[*file].name, to_string(scene.document(*file).format())));
     result.precision = Precision::float32;
   }
-  const double diagonal = diagonal_of(document.surface());
+  const double diagonal = diagonal_of(scene.surface());
   const double unit = options.absolute && diagonal > 0 ? 1 / diagonal : 1;
   result.max_displacement_rel = options.max_displacement * unit;
   result.min_gap_rel = options.min_gap * unit;
@@ -178,10 +197,10 @@ RepairOptions repair_options(const FixOptions& options, const Document& document
   const bool animated = picture_kind(options.picture) != PictureKind::still;
   if (!options.record.empty() || !options.view.empty() || animated)
     result.record = {.history = true, .frames = recorded_frames};
-  result.as_written = [&document](std::span<const double> positions, bool float32) {
-    return document.as_written(positions, float32);
+  result.as_written = [&scene](std::span<const double> positions, bool float32) {
+    return scene.as_written(positions, float32);
   };
-  result.fixed = fixed_vertices(options, document);
+  result.fixed = fixed_vertices(options, scene);
   result.each_component = options.each;
   return result;
 }

@@ -95,16 +95,37 @@ std::vector<std::string> far_regions(const RepairReport& report) {
   return lines;
 }
 
+/// What the files of a scene had and have, and how far they moved.
+std::vector<std::string> by_file(const SceneReport& scene) {
+  std::vector<std::string> lines;
+  for (const ScenePairs& pairs : scene.pairs) {
+    const SceneFileReport& file = scene.files[pairs.a];
+    const std::string counts = fmt::format("{} before, {} after", pairs.before.total(), pairs.after.total());
+    if (pairs.a != pairs.b) {
+      lines.push_back(fmt::format("between {} and {}: {}", file.file.name, scene.files[pairs.b].file.name, counts));
+      continue;
+    }
+    lines.push_back(fmt::format("within {}: {}", file.file.name, counts));
+    if (file.untouched_share < 1)
+      lines.back() += fmt::format("; moved {:.3g} % of its vertices, by {:.2g} % of the diagonal at most",
+                                  100 * (1 - file.untouched_share), 100 * file.displacement_max_rel);
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
   const RepairReport& r = result.report;
   std::string text;
   const auto line = [&text](const std::string& words) { text += words + "\n"; };
-  line(fmt::format("{}: {} vertices, {} faces, {} component{}", files.input == standard_stream ? "mesh" : files.input,
+  line(fmt::format("{}: {} vertices, {} faces, {} component{}",
+                   files.scene.files.empty() ? (files.input == standard_stream ? "mesh" : files.input)
+                                             : fmt::format("{} files", files.scene.files.size()),
                    files.vertices, files.faces, r.topology.components, r.topology.components == 1 ? "" : "s"));
   line(fmt::format("  intersecting pairs before: {}", in_words(r.before)));
   line(fmt::format("  intersecting pairs after:  {}", in_words(r.after)));
+  for (const std::string& words : by_file(files.scene)) line("    " + words);
   for (std::size_t i = 0; i < left_reason_count; ++i)
     if (r.left_by_reason[i] > 0) line(fmt::format("    {} {}", r.left_by_reason[i], why(static_cast<LeftReason>(i))));
   if (r.untouched_share < 1)

@@ -28,6 +28,29 @@ Document read_mesh(const std::string& path, const std::optional<Format>& format)
   return Document::parse(std::move(bytes), *format);
 }
 
+std::vector<std::string> scene_names(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) {
+    if (path == standard_stream && paths.size() > 1)
+      throw UsageError("standard input ('-') can be read alone only; the files of a scene need names");
+    names.push_back(std::filesystem::path(path).filename().string());
+    for (std::size_t i = 0; i + 1 < names.size(); ++i)
+      if (names[i] == names.back())
+        throw UsageError(
+            fmt::format("{} and {} have the same name, by which the files of a scene are told apart and "
+                        "written back; rename one",
+                        paths[i], path));
+  }
+  return names;
+}
+
+SceneDocument read_scene(const std::vector<std::string>& paths, const std::optional<Format>& format) {
+  std::vector<std::string> names = scene_names(paths);
+  std::vector<Document> documents;
+  for (const std::string& path : paths) documents.push_back(read_mesh(path, format));
+  return {std::move(documents), std::move(names)};
+}
+
 std::vector<std::uint8_t> read_vertex_flags(const std::string& path, std::size_t vertex_count) {
   std::ifstream file(path);
   if (!file) throw FileError(path + ": cannot open; --fix-vertices needs a file of 0-based vertex ids");

@@ -26,12 +26,13 @@ void prepare_picture_folder(const std::string& path) {
     throw UsageError(fmt::format("--picture {}: this folder is not empty; name another, or empty it first", path));
 }
 
-void write_animation(const std::string& path, const SurfaceView& surface, const RepairResult& result,
-                     Interruption& interruption) {
+void write_animation(const std::string& path, const SurfaceView& surface, std::span<const SceneFile> files,
+                     const RepairResult& result, Interruption& interruption) {
+  const AnimationOptions options{.files = files};
   if (picture_kind(path) == PictureKind::gif)
-    return write_file(path, animation_gif(surface, result.frames), interruption);
+    return write_file(path, animation_gif(surface, result.frames, options), interruption);
   int number = 0;
-  animation_pngs(surface, result.frames, {}, [&](const std::string& png) {
+  animation_pngs(surface, result.frames, options, [&](const std::string& png) {
     write_file((fs::path(path) / fmt::format("{:04}.png", number++)).string(), png, interruption);
   });
 }

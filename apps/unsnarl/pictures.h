@@ -1,9 +1,11 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "interruption.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/scene_document.h"
 
 namespace unsnarl::app {
 
@@ -18,8 +20,8 @@ PictureKind picture_kind(const std::string& path);
 /// Makes sure that there is an empty folder. Throws UsageError, WriteError.
 void prepare_picture_folder(const std::string& path);
 
-/// The frames of a repair of `surface`, as a GIF or into a folder. Throws WriteError.
-void write_animation(const std::string& path, const SurfaceView& surface, const RepairResult& result,
-                     Interruption& interruption);
+/// The frames of a repair of `surface`, which is of `files`, as a GIF or into a folder. Throws WriteError.
+void write_animation(const std::string& path, const SurfaceView& surface, std::span<const SceneFile> files,
+                     const RepairResult& result, Interruption& interruption);
 
 }  // namespace unsnarl::app

@@ -36,16 +36,20 @@ void flush_folder(const fs::path& folder) {
   ::close(id);
 }
 
+void require_replaceable(const fs::path& target) {
+  std::error_code ignored;
+  if (fs::is_directory(target, ignored))
+    throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()));
+  // Renaming would get past the protection of the old file.
+  if (fs::exists(target, ignored) && ::access(target.c_str(), W_OK) != 0)
+    throw WriteError(fmt::format("{}: is write-protected: {}", target.string(), std::strerror(errno)));
+}
+
 }  // namespace
 
 StagedOutput::StagedOutput(const fs::path& target, Interruption& interruption)
     : target_(with_links_followed(target)), interruption_(interruption) {
-  std::error_code ignored;
-  if (fs::is_directory(target_, ignored))
-    throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()));
-  // Renaming would get past the protection of the old file.
-  if (fs::exists(target_, ignored) && ::access(target_.c_str(), W_OK) != 0)
-    throw WriteError(fmt::format("{}: is write-protected: {}", target.string(), std::strerror(errno)));
+  require_replaceable(target_);
   std::string pattern = (folder_of(target_) / ".unsnarl-XXXXXX").string();
   interruption_.hold_off([&](fs::path& temporary_folder) {
     if (::mkdtemp(pattern.data()) == nullptr)
@@ -88,7 +92,8 @@ std::vector<fs::path> StagedOutput::targets() const {
 }
 
 void StagedOutput::commit() {
-  // Either all files of a glTF are the new ones, or none is.
+  // Either all files of a glTF or a scene are the new ones, or none is.
+  for (const fs::path& target : targets()) require_replaceable(target);
   interruption_.hold_off([&](fs::path&) { rename_all(); });
 }
 
@@ -103,6 +108,24 @@ void StagedOutput::rename_all() const {
     if (error) throw WriteError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
   }
   flush_folder(folder_of(target_));
+}
+
+OutputFolder::OutputFolder(const fs::path& path) {
+  std::error_code error;
+  std::vector<fs::path> missing;
+  for (fs::path at = fs::absolute(path).lexically_normal(); !fs::exists(at, error) && at.has_relative_path();
+       at = at.parent_path())
+    if (at.has_filename()) missing.push_back(at);
+  fs::create_directories(path, error);
+  if (!fs::is_directory(path))
+    throw WriteError(error ? fmt::format("{}: cannot make this folder: {}", path.string(), error.message())
+                           : fmt::format("{}: is no folder", path.string()));
+  made_ = std::move(missing);
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  for (const fs::path& folder : made_) fs::remove(folder, ignored);  // leaves what holds anything
 }
 
 void write_file(const std::string& path, std::string_view bytes, Interruption& interruption) {

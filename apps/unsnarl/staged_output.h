@@ -23,6 +23,8 @@ class StagedOutput {
   void write(const std::vector<OutputFile>& files);
   /// The place of the main file until commit().
   std::filesystem::path main_file() const { return folder_ / target_.filename(); }
+  /// The same of a file of this name, relative to the folder of the target.
+  std::filesystem::path staged(const std::filesystem::path& name) const { return folder_ / name; }
   /// Final places of the files written.
   std::vector<std::filesystem::path> targets() const;
   /// Renames all into place, the main file last. Throws WriteError.
@@ -35,6 +37,19 @@ class StagedOutput {
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> names_;  // relative to both folders, the main file first
   Interruption& interruption_;
+};
+
+/// A folder for outputs, made where it is missing. What was made is removed again if nothing came to lie in it.
+class OutputFolder {
+ public:
+  /// Throws WriteError where it cannot be made, or is no folder.
+  explicit OutputFolder(const std::filesystem::path& path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
 /// A file of its own, whole or not at all; or a stream. Throws WriteError.

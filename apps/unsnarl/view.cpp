@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -35,21 +36,48 @@ std::string read_report(const std::string& path) {
   return text;
 }
 
-Document read_repaired(const ViewOptions& options, const Surface& input) {
-  Document repaired = read_mesh(options.repaired, format_from_name(options.format));
-  const Surface& surface = repaired.surface();
-  if (surface.corners != input.corners || surface.offsets != input.offsets ||
-      surface.positions.size() != input.positions.size())
-    throw FileError(fmt::format("{}: its faces are not those of {}; OUT must be a repaired version of IN",
-                                options.repaired, options.input));
+/// What is to be seen, by paths.
+struct Meshes {
+  std::vector<std::string> inputs, repaired;  // one each, or none
+};
+
+/// The last of several paths may be OUT: a folder with the repaired versions, or of two the repaired version.
+Meshes sorted_out(const ViewOptions& options) {
+  Meshes meshes{options.inputs, {}};
+  if (meshes.inputs.size() < 2) return meshes;
+  const std::string last = meshes.inputs.back();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(last, ignored)) {
+    meshes.inputs.pop_back();
+    for (const std::string& input : meshes.inputs)
+      meshes.repaired.push_back((std::filesystem::path(last) / std::filesystem::path(input).filename()).string());
+  } else if (meshes.inputs.size() == 2 && !options.scene) {
+    meshes.inputs.pop_back();
+    meshes.repaired = {last};
+  }
+  return meshes;
+}
+
+SceneDocument read_repaired(const Meshes& meshes, const SceneDocument& input, const std::optional<Format>& format) {
+  SceneDocument repaired = read_scene(meshes.repaired, format);
+  for (std::size_t i = 0; i < meshes.inputs.size(); ++i) {
+    const Surface &before = input.document(i).surface(), &after = repaired.document(i).surface();
+    if (after.corners != before.corners || after.offsets != before.offsets ||
+        after.positions.size() != before.positions.size())
+      throw FileError(fmt::format("{}: its faces are not those of {}; OUT must be a repaired version of IN{}",
+                                  meshes.repaired[i], meshes.inputs[i],
+                                  meshes.inputs.size() == 1 ? " (of two files of a scene, add --scene)" : ""));
+  }
   return repaired;
 }
 
 }  // namespace
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
-  add_mesh_options(command, options);
-  command.add_option("OUT", options.repaired, "The repaired mesh; leave it out to look at IN alone");
+  add_mesh_options(command, options,
+                   "Mesh file, or several that are one scene; then OUT, the repaired mesh, or the folder with the\n"
+                   "repaired files; leave it out to look at IN alone. Formats");
+  command.add_flag("--scene", options.scene, "Two files are two of a scene, not IN and OUT");
   command.add_option("-o,--output", options.output, "Where the page goes; '-' for standard output")
       ->type_name("PAGE.html")
       ->required();
@@ -60,6 +88,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       "Examples:\n"
       "  unsnarl view hand.obj -o hand.html\n"
       "  unsnarl view hand.obj hand_fixed.obj -o hand.html\n"
+      "  unsnarl view brain.surf skull.gii skin.obj fixed -o head.html     a scene; its repaired files in fixed/\n"
       "  unsnarl fix hand.obj -o hand_fixed.obj --view hand.html     repairs and shows in one go\n\n"
       "Exit codes: 0 written, 2 usage (or this build has no viewer), 3 cannot read, 4 cannot write, 6 interrupted,\n"
       "70 internal error.");
@@ -67,22 +96,28 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
 
 int run_view(const ViewOptions& options, Interruption& interruption) {
   require_viewer();
-  if (options.input == standard_stream && options.repaired == standard_stream)
+  const Meshes meshes = sorted_out(options);
+  if (std::count(options.inputs.begin(), options.inputs.end(), standard_stream) > 1)
     throw UsageError("IN and OUT cannot both come from standard input");
-  for (const std::string& source : {options.input, options.repaired, options.report})
+  std::vector<std::string> sources = meshes.inputs;
+  sources.insert(sources.end(), meshes.repaired.begin(), meshes.repaired.end());
+  sources.push_back(options.report);
+  for (const std::string& source : sources)
     if (!is_stream(options.output) && !source.empty() && source != standard_stream) {
       std::error_code ignored;
       if (std::filesystem::equivalent(source, options.output, ignored))
         throw UsageError(fmt::format("the page would overwrite {}; give it a name of its own", source));
     }
-  const Document document = read_mesh(options.input, format_from_name(options.format));
+  const std::optional<Format> format = format_from_name(options.format);
+  const SceneDocument scene = read_scene(meshes.inputs, format);
   PageSource source;
-  source.input_name = page_name(options.input);
-  source.before = document.surface();
-  std::optional<Document> repaired;
-  if (!options.repaired.empty()) {
-    repaired.emplace(read_repaired(options, document.surface()));
-    source.output_name = page_name(options.repaired);
+  source.input_name = scene_name(meshes.inputs);
+  source.before = scene.surface();
+  source.files = scene.files();
+  std::optional<SceneDocument> repaired;
+  if (!meshes.repaired.empty()) {
+    repaired.emplace(read_repaired(meshes, scene, format));
+    source.output_name = meshes.repaired.size() == 1 ? page_name(meshes.repaired[0]) : page_name(options.inputs.back());
     source.after = repaired->surface().positions;
   }
   source.find = options.find();

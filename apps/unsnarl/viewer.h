@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace unsnarl::app {
 
@@ -13,5 +14,7 @@ void require_viewer();
 
 /// The name of a mesh as the page shows it: the last part of its path.
 std::string page_name(const std::string& path);
+/// Those of several.
+std::string scene_name(const std::vector<std::string>& paths);
 
 }  // namespace unsnarl::app

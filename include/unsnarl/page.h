@@ -7,6 +7,7 @@
 #include "unsnarl/intersections.h"
 #include "unsnarl/recording.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/scene_document.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -16,6 +17,7 @@ struct PageSource {
   std::string input_name, output_name;  ///< for the reader; any bytes. output_name may be empty
   SurfaceView before;
   std::span<const double> after = {};     ///< 3 a vertex of `before`; empty: there is only one surface to look at
+  std::span<const SceneFile> files = {};  ///< of `before`; of several, each has a colour of its own. May be empty
   FindOptions find;                       ///< welding
   Goal goal = Goal::all;                  ///< which pairs are shown
   std::string report;                     ///< as of report_json; empty: none

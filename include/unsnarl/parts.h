@@ -18,8 +18,11 @@ struct Parts {
   std::vector<std::string> objects = {};      ///< OBJ "o", STL solids; others: see FaceLabels
   std::vector<std::string> materials = {};    ///< OBJ "usemtl", glTF materials
   std::vector<std::int32_t> components = {};  ///< ids of component_of_faces()
+  std::vector<std::string> files = {};        ///< of a scene of several, see SceneDocument
 
-  bool empty() const { return groups.empty() && objects.empty() && materials.empty() && components.empty(); }
+  bool empty() const {
+    return groups.empty() && objects.empty() && materials.empty() && components.empty() && files.empty();
+  }
 };
 
 /// A part was asked for that the mesh does not have. The message lists the ones that it has.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "unsnarl/recording.h"
+#include "unsnarl/scene_document.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -19,6 +20,8 @@ struct PictureOptions {
   /// Adds a magnified view of the densest group of red faces (of `before`) in a corner of each half, where they are
   /// small in the main view.
   bool inset = true;
+  /// The files that the surface is of: of several, each gets a colour of its own; empty: it is one.
+  std::span<const SceneFile> files = {};
 };
 
 /// Before and after side by side, as the bytes of a PNG file. The camera looks down on both at a three-quarter angle: y
@@ -38,6 +41,7 @@ std::string picture_png(const SurfaceView& surface, std::span<const std::int32_t
 struct AnimationOptions {
   int width = 840;   ///< pixels, [128, 4096]
   int height = 480;  ///< pixels, [128, 4096]
+  std::span<const SceneFile> files = {};  ///< as in PictureOptions
 };
 
 /// The frames of a recording as the bytes of an animated GIF that repeats: the surface under a camera that does not

@@ -7,6 +7,7 @@
 #include "unsnarl/check.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/report.h"
+#include "unsnarl/scene_document.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -18,10 +19,11 @@ inline constexpr int check_schema_version = 1;      ///< of check_json
 
 /// The files and the time around a call, as reports list them.
 struct ReportFiles {
-  std::string input, output;                             ///< paths; empty: arrays were given, none was written
-  std::string format;                                    ///< of the input: "obj", ...; empty: arrays were given
+  std::string input, output;  ///< paths; empty: arrays or several files were given, none was written
+  std::string format;         ///< of the input: "obj", ...; empty: arrays or several files were given
   std::size_t vertices = 0, faces = 0;                   ///< as the file counts them
   std::vector<std::string> notes;                        ///< Document::notes
+  SceneReport scene;                                     ///< empty: one file or mesh was given
   std::vector<StageReport> before_repair, after_repair;  ///< reading, writing
   StageReport whole;                                     ///< all of it; its name is not used
 };

@@ -7,7 +7,8 @@
     if result.status == "embedded":
         V = result.V
 
-Everything takes arrays (``V``, ``F``) or a mesh of meshio, trimesh or pyvista in their place.
+Everything takes arrays (``V``, ``F``) or a mesh of meshio, trimesh or pyvista in their place; find_intersections,
+repair and certify also a list of these, ``repair([(V, F), mesh])``: meshes in one coordinate system that must not meet.
 
 ``V``
     Positions, shape (n, 3), of any real dtype and memory order. Computed with as float64.
@@ -26,13 +27,17 @@ from ._intersections import Intersections, find_intersections
 from ._native import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._repair import Progress, Result, Status, repair
+from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
 
 __all__ = [
     "Certificate",
     "CurveResult",
+    "Frame",
     "Intersections",
+    "Jitter",
     "Progress",
     "Result",
+    "SequenceResult",
     "Status",
     "boundary_vertices",
     "certify",
@@ -40,6 +45,7 @@ __all__ = [
     "find_crossings",
     "find_intersections",
     "repair",
+    "repair_sequence",
     "untangle_curves",
     "vertices_of_faces",
 ]

@@ -113,6 +113,19 @@ def thread_count(value: Any) -> int:
     return count
 
 
+def frame_range(frames: Any, count: int) -> tuple[int, int]:
+    """(first, last) of a range of frames, last excluded; None: all."""
+    if frames is None:
+        return 0, count
+    try:
+        first, last = (operator.index(value) for value in frames)
+    except (TypeError, ValueError):
+        raise TypeError(f"frames is {frames!r}; give (first, last), whole numbers, last excluded") from None
+    if not 0 <= first < last <= count:
+        raise ValueError(f"frames is {frames!r}; give (first, last) with 0 <= first < last <= {count}")
+    return first, last
+
+
 def name(option: str, value: Any) -> str:
     if not isinstance(value, str):
         raise TypeError(f"{option} is {value!r}; give its name, a string")

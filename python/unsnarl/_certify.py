@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from . import _native
-from ._arguments import name, not_negative, positions_of, surface_of, thread_count
-from ._meshes import opened
+from ._arguments import name, not_negative, thread_count
+from ._scenes import scene_of
 
 
 class Certificate(NamedTuple):
@@ -35,13 +35,13 @@ def certify(
     Vertices are welded and polygons split on V, so vertices that have come to coincide since intersect;
     find_intersections(moved, F) might weld them.
 
-    V and F (None where V is a mesh), weld, weld_tolerance, both_diagonals, threads and errors: as for
+    V and F (None where V is a mesh or a list of meshes; then `moved` is a list too), weld, weld_tolerance, both_diagonals, threads and errors: as for
     find_intersections.
     """
-    V, F, _ = opened(V, F)
+    scene = scene_of(V, F)
     found = _native.certify(
-        *surface_of(V, F),
-        positions_of(moved, "moved"),
+        *scene.surface,
+        scene.positions_of(moved, "moved"),
         weld=name("weld", weld),
         weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
         both_diagonals=bool(both_diagonals),

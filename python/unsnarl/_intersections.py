@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._arguments import name, not_negative, surface_of, thread_count
-from ._meshes import opened
+from ._arguments import name, not_negative, thread_count
+from ._scenes import scene_of
 
 
 @dataclass(frozen=True)
@@ -23,6 +23,9 @@ class Intersections:
     #: elsewhere too), "folded" (they share an edge and overlap flat), "duplicate" (they have the same three vertices),
     #: "degenerate" (one of them has no area).
     kinds: NDArray[np.str_]
+    #: Of a list of meshes: (k, 2) int32, the meshes of the two faces, counted from 0. Face ids count through all meshes
+    #: in their order. Else None.
+    meshes: Optional[NDArray[np.int32]] = None
 
     def __len__(self) -> int:
         return len(self.pairs)
@@ -59,7 +62,8 @@ def find_intersections(
     ----------
     V, F
         Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh or pyvista
-        alone. See the documentation of the package.
+        alone; or a list of such, ``find_intersections([(V, F), mesh, ...])``, of which also those between meshes are
+        found. See the documentation of the package.
     weld
         Which vertices count as one: "none"; "seams", the ends of open edges (of one face) at exactly equal positions
         (UV seams, split normals); "all" at exactly equal positions.
@@ -77,12 +81,13 @@ def find_intersections(
         An array has another shape or dtype, a coordinate is not finite, a face uses a vertex that does not exist, an
         option is out of range. The message says which and where.
     """
-    V, F, _ = opened(V, F)
+    scene = scene_of(V, F)
     pairs, kinds = _native.find_intersections(
-        *surface_of(V, F),
+        *scene.surface,
         weld=name("weld", weld),
         weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
         both_diagonals=bool(both_diagonals),
         threads=thread_count(threads),
     )
-    return Intersections(pairs, np.array(_native.pair_kinds)[kinds])
+    meshes = scene.meshes_of(pairs) if scene.is_list else None
+    return Intersections(pairs, np.array(_native.pair_kinds)[kinds], meshes)

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._arguments import name, not_negative, surface_of, thread_count, vertex_flags
-from ._meshes import opened
+from ._arguments import name, not_negative, thread_count
+from ._scenes import scene_of
 
 
 class Status(str, enum.Enum):
@@ -45,13 +45,15 @@ class Result:
     """What a repair came to."""
 
     #: (n, 3), vertex order of the input. float32 where the input is and precision is not "float64", else float64.
-    #: What did not have to move is bit-identical. Never has more intersecting pairs than the input.
-    V: NDArray[Any]
+    #: What did not have to move is bit-identical. Never has more intersecting pairs than the input. Of a list of
+    #: meshes: a list of such arrays.
+    V: Any
     #: Only "embedded" promises a surface without self-intersections.
     status: Status
     #: The document that the command line writes with --report, see docs/report.md.
     report: dict[str, Any]
-    #: Where a mesh was given: a copy of it, of its own type, at the new positions. Else None.
+    #: Where a mesh was given: a copy of it, of its own type, at the new positions. Else None. Of a list of meshes: a
+    #: list.
     mesh: Any = None
 
     def __repr__(self) -> str:
@@ -94,10 +96,12 @@ def repair(
     ----------
     V, F
         Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh or pyvista
-        alone, as in ``repair(mesh, fixed=ids)``. See the documentation of the package.
+        alone, as in ``repair(mesh, fixed=ids)``; or a list of such, ``repair([(V, F), mesh, ...])``: one scene, in
+        which meshes are also separated from each other. See the documentation of the package.
     fixed
         Vertices that must not move: a mask (n,) of bool, or their ids. None: all may move. Masks of parts come from
-        vertices_of_faces and boundary_vertices.
+        vertices_of_faces and boundary_vertices. Of a list of meshes: a list of the same length, with None where all
+        may move.
     goal
         "all": no intersecting pair of any kind. "disjoint": none of faces that share no vertex.
     precision
@@ -129,16 +133,16 @@ def repair(
     ValueError, TypeError
         As for find_intersections. A mesh that could not be untangled raises nothing: see Result.status.
     """
-    V, F, moved_to = opened(V, F)
-    surface = surface_of(V, F)
-    dtype = np.asarray(V).dtype
-    is_float32 = dtype.kind == "f" and dtype.itemsize == 4
+    scene = scene_of(V, F)
+    is_float32 = [dtype.kind == "f" and dtype.itemsize == 4 for dtype in scene.dtypes]
     precision = name("precision", precision)
-    if is_float32 and precision == "auto":
+    if any(is_float32) and precision == "auto":
         precision = "float32"
     positions, status, report = _native.repair(
-        *surface,
-        vertex_flags(fixed, len(surface.positions) // 3),
+        *scene.surface,
+        scene.flags_of_vertices(fixed),
+        vertex_counts=scene.vertex_counts if scene.is_list else [],
+        face_counts=scene.face_counts if scene.is_list else [],
         goal=name("goal", goal),
         precision=precision,
         min_gap=not_negative("min_gap", min_gap),
@@ -155,10 +159,13 @@ def repair(
         threads=thread_count(threads),
         progress=None if progress is None else _callback(progress),
     )
-    moved = positions.reshape(-1, 3)
-    if is_float32 and precision == "float32":
-        moved = moved.astype(dtype)
-    return Result(moved, Status(status), json.loads(report), moved_to(moved) if moved_to else None)
+    moved = scene.split(positions.reshape(-1, 3))
+    if precision == "float32":
+        moved = [own.astype(dtype) if small else own for own, dtype, small in zip(moved, scene.dtypes, is_float32)]
+    meshes = [moved_to(own) if moved_to else None for own, moved_to in zip(moved, scene.moved_to)]
+    if not scene.is_list:
+        return Result(moved[0], Status(status), json.loads(report), meshes[0])
+    return Result(moved, Status(status), json.loads(report), meshes)
 
 
 def _callback(progress: Callable[[Progress], object]) -> Callable[..., object]:

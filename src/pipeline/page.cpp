@@ -43,6 +43,7 @@ std::string view_page(std::string_view page_template, const PageSource& source) 
   PageContent content;
   content.input_name = source.input_name;
   content.output_name = source.output_name;
+  content.files = source.files;
   content.faces = source.before;
   content.before = state_at(source.before.positions, pairs_before);
   if (!source.after.empty()) content.after = state_at(source.after, pairs_after);

@@ -75,6 +75,7 @@ std::vector<std::uint8_t> faces_in_parts(const SurfaceView& surface, std::span<c
   for (const std::string& name : parts.groups) flag_named(labels, {"group", "mesh"}, name, true, faces);
   for (const std::string& name : parts.objects) flag_named(labels, {"object", "node"}, name, false, faces);
   for (const std::string& name : parts.materials) flag_named(labels, {"material"}, name, false, faces);
+  for (const std::string& name : parts.files) flag_named(labels, {"file"}, name, false, faces);
   if (parts.components.empty()) return faces;
   const std::vector<std::int32_t> component_of = component_of_faces(surface, options);
   const std::int32_t count = component_of.empty() ? 0 : *std::max_element(component_of.begin(), component_of.end()) + 1;

@@ -189,7 +189,7 @@ void render_animation(const SurfaceView& surface, std::span<const RecordedFrame>
   const auto view_of_width = [&](int width) { return three_quarter_view(everything, double(width) / height, 0.03); };
   int width = options.width;
   Camera camera = view_of_width(width);
-  const Drawable start = make_drawable(surface, frames.front().intersecting);
+  const Drawable start = make_drawable(surface, frames.front().intersecting, options.files);
   const int beside = std::min(height, options.width / 2);  // a square where there is room
   std::optional<Window> window;
   if (close_up(start, camera, width, height)) {
@@ -209,7 +209,7 @@ void render_animation(const SurfaceView& surface, std::span<const RecordedFrame>
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const std::size_t f = shown[k];
     while (next <= f) advance(surface, frames[next++], positions);
-    const Drawable drawable = make_drawable({positions, surface.corners, surface.offsets}, frames[f].intersecting);
+    const Drawable drawable = make_drawable({positions, surface.corners, surface.offsets}, frames[f].intersecting, options.files);
     Image image(options.width, options.height);
     Image whole = shade(drawable, camera, width, height);
     if (window) {

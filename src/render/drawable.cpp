@@ -40,7 +40,7 @@ void smooth_normals(Drawable& drawable) {
 
 }  // namespace
 
-Drawable make_drawable(const SurfaceView& surface, std::span<const Index> red) {
+Drawable make_drawable(const SurfaceView& surface, std::span<const Index> red, std::span<const SceneFile> files) {
   Drawable drawable;
   const std::size_t faces = surface.face_count();
   std::vector<std::uint8_t> face_is_red(faces, 0);
@@ -53,6 +53,8 @@ Drawable make_drawable(const SurfaceView& surface, std::span<const Index> red) {
   for (std::size_t v = 0; v < surface.vertex_count(); ++v)
     drawable.positions.emplace_back(surface.positions[3 * v], surface.positions[3 * v + 1],
                                     surface.positions[3 * v + 2]);
+  std::vector<Index> file_of = file_of_faces(files);
+  file_of.resize(faces, 0);
   std::vector<double> lengths;
   for (std::size_t f = 0; f < faces; ++f) {
     const auto corners = surface.face(f);
@@ -62,6 +64,7 @@ Drawable make_drawable(const SurfaceView& surface, std::span<const Index> red) {
       if (!position(0).allFinite() || !position(1).allFinite() || !position(2).allFinite()) continue;
       drawable.triangles.push_back(t);
       drawable.red.push_back(face_is_red[f]);
+      drawable.file.push_back(file_of[f]);
       const int edges = (k == 1 ? 1 : 0) | 2 | (k + 2 == corners.size() ? 4 : 0);
       drawable.drawn_edges.push_back(static_cast<std::uint8_t>(edges));
       lengths.push_back((position(2) - position(1)).norm());

@@ -151,6 +151,17 @@ Json add_frames(std::span<const RecordedFrame> frames, const PageUnits& units, D
   return described;
 }
 
+Json described(std::span<const SceneFile> files) {
+  Json list = Json::array();
+  for (const SceneFile& file : files)
+    list.push_back({{"name", file.name},
+                    {"first_vertex", file.first_vertex},
+                    {"vertices", file.vertices},
+                    {"first_face", file.first_face},
+                    {"faces", file.faces}});
+  return list;
+}
+
 }  // namespace
 
 std::string make_page(std::string_view page_template, const PageContent& content) {
@@ -167,6 +178,7 @@ std::string make_page(std::string_view page_template, const PageContent& content
                               {"version", version},
                               {"input", content.input_name},
                               {"output", content.output_name},
+                              {"files", described(content.files)},
                               {"vertices", surface.vertex_count()},
                               {"faces", surface.face_count()},
                               {"centre", as_json(units.centre())},

@@ -11,6 +11,7 @@
 #include "geometry/types.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/recording.h"
+#include "unsnarl/scene_document.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -25,6 +26,7 @@ struct PageState {
 /// The contents of a page. Everything it views must outlive the call of make_page.
 struct PageContent {
   std::string input_name, output_name;  ///< for the reader; any bytes. output_name may be empty
+  std::span<const SceneFile> files;     ///< that these are of; may be empty
   SurfaceView faces;                    ///< its faces; its positions are `before`'s
   PageState before;
   std::optional<PageState> after;         ///< of the same faces

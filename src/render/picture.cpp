@@ -105,15 +105,15 @@ Image render_pair(const SurfaceView& before, std::span<const Index> red_before, 
                   std::span<const Index> red_after, const PictureOptions& options) {
   check_size(options);
   std::vector<Panel> panels;
-  panels.push_back({make_drawable(before, red_before), options.before_label});
-  panels.push_back({make_drawable(after, red_after), options.after_label});
+  panels.push_back({make_drawable(before, red_before, options.files), options.before_label});
+  panels.push_back({make_drawable(after, red_after, options.files), options.after_label});
   return render_panels(std::move(panels), options);
 }
 
 Image render_surface(const SurfaceView& surface, std::span<const Index> red, const PictureOptions& options) {
   check_size(options);
   std::vector<Panel> panels;
-  panels.push_back({make_drawable(surface, red), options.before_label});
+  panels.push_back({make_drawable(surface, red, options.files), options.before_label});
   return render_panels(std::move(panels), options);
 }
 

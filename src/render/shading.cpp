@@ -1,6 +1,7 @@
 #include "render/shading.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -12,9 +13,20 @@ namespace {
 
 using Linear = Eigen::Array3f;  // linear light, [0, 1]
 
+/// Front and back of a file, again from the first where there are more. None is near red.
+struct FileColours {
+  Linear front, back;
+};
+const std::array<FileColours, 6> file_colours = {{
+    {{0.50F, 0.58F, 0.70F}, {0.74F, 0.62F, 0.44F}},
+    {{0.80F, 0.62F, 0.22F}, {0.62F, 0.54F, 0.38F}},
+    {{0.30F, 0.60F, 0.38F}, {0.48F, 0.58F, 0.44F}},
+    {{0.52F, 0.40F, 0.72F}, {0.55F, 0.49F, 0.62F}},
+    {{0.22F, 0.58F, 0.66F}, {0.42F, 0.56F, 0.60F}},
+    {{0.55F, 0.42F, 0.30F}, {0.55F, 0.48F, 0.42F}},
+}};
+
 struct Material {
-  Linear front = {0.50F, 0.58F, 0.70F};
-  Linear back = {0.74F, 0.62F, 0.44F};
   Linear red = {0.85F, 0.035F, 0.03F};
   Linear line = {0.03F, 0.04F, 0.07F};
 };
@@ -193,9 +205,10 @@ Image shade(const Drawable& drawable, const Camera& camera, int width, int heigh
           if (!front) normal = -normal;
           const bool is_red = drawable.red[triangle] != 0;
           const float visible_sky = sky[std::size_t(y) * width + x];
+          const FileColours& own = file_colours[drawable.file[triangle] % file_colours.size()];
           Linear colour = lit(is_red  ? material.red
-                              : front ? material.front
-                                      : material.back,
+                              : front ? own.front
+                                      : own.back,
                               normal, to_eye, visible_sky);
           if (line_strength > 0) {
             const float away = distance_to_edges(corners, drawable.drawn_edges[triangle], i + 0.5F, j + 0.5F) / samples;

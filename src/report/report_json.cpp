@@ -69,6 +69,7 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
                    {"vertices", files.vertices},        {"faces", files.faces},
                    {"triangulation", r.triangulation},  {"notes", files.notes}};
   json["output"] = {{"written", !files.output.empty()}, {"path", text_or_null(files.output)}};
+  add_scene(files.scene, true, json);
   json["options"] = options_json(options);
   json["topology"] = topology_json(r.topology);
   json["before"] = pair_counts_json(r.before);

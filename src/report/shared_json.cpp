@@ -29,6 +29,44 @@ Json pair_counts_json(const PairCounts& counts) {
   return {{"total", counts.total()}, {"by_class", by_class}};
 }
 
+void add_scene(const SceneReport& scene, bool after, Json& json) {
+  if (scene.files.empty()) return;
+  const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+  const auto add_pairs = [&](const ScenePairs& pairs, Json& to) {
+    if (!after) {
+      to["pairs"] = pair_counts_json(pairs.before);
+      return;
+    }
+    to["before"] = pair_counts_json(pairs.before);
+    to["after"] = pair_counts_json(pairs.after);
+  };
+  json["files"] = json["between_files"] = Json::array();
+  for (std::size_t i = 0; i < scene.files.size(); ++i) {
+    const SceneFileReport& report = scene.files[i];
+    Json file = {{"name", report.file.name},
+                 {"path", text_or_null(report.input)},
+                 {"format", text_or_null(report.format)},
+                 {"first_vertex", report.file.first_vertex},
+                 {"vertices", report.file.vertices},
+                 {"first_face", report.file.first_face},
+                 {"faces", report.file.faces}};
+    add_pairs(scene.pairs[i], file);
+    if (after) {
+      file["output"] = text_or_null(report.output);
+      file["displacement_mean_rel"] = report.displacement_mean_rel;
+      file["displacement_max_rel"] = report.displacement_max_rel;
+      file["untouched_share"] = report.untouched_share;
+    }
+    json["files"].push_back(std::move(file));
+  }
+  for (std::size_t k = scene.files.size(); k < scene.pairs.size(); ++k) {
+    const ScenePairs& pairs = scene.pairs[k];
+    Json between = {{"files", {scene.files[pairs.a].file.name, scene.files[pairs.b].file.name}}};
+    add_pairs(pairs, between);
+    json["between_files"].push_back(std::move(between));
+  }
+}
+
 std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

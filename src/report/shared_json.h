@@ -5,6 +5,7 @@
 
 #include "unsnarl/intersections.h"
 #include "unsnarl/report.h"
+#include "unsnarl/scene_document.h"
 
 namespace unsnarl {
 
@@ -12,6 +13,8 @@ namespace unsnarl {
 
 nlohmann::ordered_json topology_json(const Topology& topology);
 nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
+/// Adds "files" and "between_files" where there are several files. `after`: with what became of them.
+void add_scene(const SceneReport& scene, bool after, nlohmann::ordered_json& json);
 /// The document as text, indented by two; bytes that are not UTF-8 (of file names) become U+FFFD.
 std::string text_of(const nlohmann::ordered_json& json);
 

@@ -24,6 +24,9 @@ void vtp(Bytes bytes);
 void msh(Bytes bytes);
 void inp(Bytes bytes);
 void threemf(Bytes bytes);
+/// A point cache: read or refused; what was read keeps the promises of PointCache.
+void pc2(Bytes bytes);
+void mdd(Bytes bytes);
 /// A file of curves: read or refused; what was read keeps the promises of CurveDocument and, where it is small, those
 /// of untangle_curves.
 void curves_svg(Bytes bytes);
@@ -37,7 +40,7 @@ struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 16> targets = {{{"obj", obj},
+inline constexpr std::array<Target, 18> targets = {{{"obj", obj},
                                                     {"off", off},
                                                     {"ply", ply},
                                                     {"stl", stl},
@@ -49,6 +52,8 @@ inline constexpr std::array<Target, 16> targets = {{{"obj", obj},
                                                     {"msh", msh},
                                                     {"inp", inp},
                                                     {"threemf", threemf},
+                                                    {"pc2", pc2},
+                                                    {"mdd", mdd},
                                                     {"curves_svg", curves_svg},
                                                     {"curves_json", curves_json},
                                                     {"intersections", intersections},

@@ -1,4 +1,5 @@
 import { element } from './element.js';
+import { fileList } from './files.js';
 import { count, duration, percent, plural, short } from './numbers.js';
 
 /** What each status of a report means: [words, mood]. */
@@ -74,11 +75,13 @@ export function summary(page, before, after) {
   const { scene } = page;
   const { report } = scene;
   const section = (title, ...content) => element('section', {}, element('h2', {}, title), ...content);
+  const files = fileList(scene);
   return [
     section('Intersecting pairs of faces', pairsTable(before, after),
       ...(report?.obstructions ?? []).map(({ message }) => element('p', { class: 'note' }, `Cannot be resolved: ${message}`))),
     page.displacement ? section('Motion: share of the diagonal (length)', motion(page)) : null,
     report ? section('Report', reportFacts(report)) : null,
+    files ? section('Files', files) : null,
     section('Mesh', facts([
       ['vertices', count(scene.vertices)],
       ['faces', count(scene.faces)],

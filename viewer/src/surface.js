@@ -3,6 +3,7 @@ import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
 import { trianglesOfFaces } from './conflicts.js';
+import { trianglesOfFiles } from './files.js';
 import { vertexNormals } from './faces.js';
 import { clayMaterial, edgeMaterial, hiddenMaterial, overlayMaterial, sharedUniforms } from './materials.js';
 
@@ -23,7 +24,8 @@ export class Surface {
     this.attributes = {
       position: a.position, normal: a.normal, positionB: b.position, normalB: b.normal, heat: this.heat,
     };
-    this.clay = this.#mesh(new THREE.BufferAttribute(new Uint32Array(page.triangles.buffer), 1), clayMaterial(this.shared), order.clay);
+    this.clay = trianglesOfFiles(page).map((triangles) =>
+      this.#mesh(new THREE.BufferAttribute(new Uint32Array(triangles), 1), clayMaterial(this.shared), order.clay));
     this.red = {
       before: this.#overlay(order.overlay, order.hidden, 0.38),
       after: this.#overlay(order.overlay, order.hidden, 0.38),
@@ -94,7 +96,7 @@ export class Surface {
     this.colours = colours;
     if (!colours) return;
     const set = (material, colour) => material.uniforms.colour.value.copy(colour);
-    set(this.clay.material, colours.clay);
+    this.clay.forEach((mesh, i) => set(mesh.material, colours.files[i % colours.files.length]));
     for (const overlay of Object.values(this.red)) overlay.setColour(colours.red, colours.tint);
     this.selected.setColour(colours.selected);
     this.partners.setColour(colours.partner);
@@ -114,7 +116,7 @@ export class Surface {
 
   #geometries() {
     const overlays = [...Object.values(this.red), this.selected, this.partners];
-    return [this.clay.geometry, ...overlays.flatMap((o) => o.meshes.map((m) => m.geometry)), ...this.edges ? [this.edges.geometry] : []];
+    return [...this.clay.map((m) => m.geometry), ...overlays.flatMap((o) => o.meshes.map((m) => m.geometry)), ...this.edges ? [this.edges.geometry] : []];
   }
 
   #stateAttributes(positions) {

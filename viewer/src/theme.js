@@ -1,4 +1,5 @@
 import { Vector3 } from 'three';
+import { fileColours } from './files.js';
 
 /** Light or dark: by the system until the reader chooses. Colours of the drawing are those of style.css. */
 export class Theme {
@@ -27,7 +28,7 @@ export class Theme {
     const style = getComputedStyle(document.documentElement);
     const colour = (name) => parsed(style.getPropertyValue(`--${name}`).trim());
     return {
-      clay: colour('clay'), red: colour('red'), tint: colour('tint'), edge: colour('edge'), curve: colour('curve'),
+      files: Array.from({ length: fileColours }, (_, i) => colour(`file-${i}`)), red: colour('red'), tint: colour('tint'), edge: colour('edge'), curve: colour('curve'),
       selected: colour('selected'), partner: colour('partner'),
       heat: [0, 1, 2, 3, 4].map((i) => colour(`heat-${i}`)),
     };

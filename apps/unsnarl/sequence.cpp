@@ -1,0 +1,338 @@
+#include "sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "content_hash.h"
+#include "mesh_input.h"
+#include "progress.h"
+#include "sequence_files.h"
+#include "sequence_record.h"
+#include "staged_output.h"
+#include "standard_streams.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/report_json.h"
+#include "unsnarl/sequence.h"
+#include "unsnarl/stage_clock.h"
+#include "unsnarl/version.h"
+#include "usage_error.h"
+
+namespace unsnarl::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* record_name = "unsnarl-sequence.jsonl";
+constexpr int report_version = 1;  // raised when a key is renamed, removed or changes its meaning
+
+/// The folder of the outputs. Throws UsageError.
+const std::string& checked_folder(const FixOptions& options) {
+  const auto refuse = [](bool given, const char* option) {
+    if (given) throw UsageError(fmt::format("--sequence has no {}; repair single frames to see that", option));
+  };
+  if (options.in_place || options.output.empty() || is_stream(options.output))
+    throw UsageError("--sequence needs -o FOLDER, where the frames go under their names");
+  refuse(!options.picture.empty(), "--picture");
+  refuse(!options.view.empty(), "--view");
+  refuse(!options.record.empty(), "--record");
+  refuse(!options.highlight.empty(), "--highlight");
+  return options.output;
+}
+
+/// "a:b", either of which may be left out: [a, b), counted from 0.
+std::pair<std::size_t, std::size_t> range_of(const std::string& text, std::size_t count) {
+  const auto number = [&](std::string_view word, std::size_t otherwise) {
+    std::size_t value = otherwise;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (!word.empty() && (error != std::errc{} || end != word.data() + word.size()))
+      throw UsageError(fmt::format("--frames {}: give FIRST:LAST, whole numbers from 0, LAST excluded", text));
+    return value;
+  };
+  if (text.empty()) return {0, count};
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) throw UsageError(fmt::format("--frames {}: give FIRST:LAST, as in 0:24", text));
+  const std::size_t first = number(std::string_view(text).substr(0, colon), 0);
+  const std::size_t last = number(std::string_view(text).substr(colon + 1), count);
+  if (first >= last || last > count)
+    throw UsageError(fmt::format("--frames {}: there are {} frames, counted from 0, LAST excluded", text, count));
+  return {first, last};
+}
+
+Json jitter_json(const std::optional<Jitter>& jitter) {
+  return jitter ? Json{{"mean_rel", jitter->mean_rel}, {"max_rel", jitter->max_rel}} : Json();
+}
+
+Json pairs_json(const PairCounts& pairs) {
+  Json by_class = Json::object();
+  for (std::size_t i = 0; i < pair_class_count; ++i) by_class[std::string(pair_class_names[i])] = pairs.by_class[i];
+  return {{"total", pairs.total()}, {"by_class", by_class}};
+}
+
+Json frame_json(const FrameReport& r) {
+  return {{"status", to_string(r.status)},
+          {"before", pairs_json(r.before)},
+          {"after", pairs_json(r.after)},
+          {"diagonal", r.diagonal},
+          {"displacement_mean_rel", r.displacement_mean_rel},
+          {"displacement_max_rel", r.displacement_max_rel},
+          {"untouched_share", r.untouched_share},
+          {"float32_embedded", r.float32_embedded},
+          {"precision", to_string(r.precision)},
+          {"is_smoothed", r.is_smoothed},
+          {"jitter_alone", jitter_json(r.alone)}};
+}
+
+class SequenceRun {
+ public:
+  SequenceRun(const FixOptions& options, Interruption& interruption)
+      : options_(options),
+        interruption_(interruption),
+        display_(progress_style(options.progress, options.quiet)),
+        folder_(checked_folder(options)),
+        files_(open_sequence(options.inputs, format_from_name(options.format), options.output,
+                             options.recompute_normals, interruption)),
+        record_(fs::path(options.output) / record_name),
+        done_(files_->count()) {}
+
+  int run() {
+    std::tie(sequence_.first, sequence_.last) = range_of(options_.frames, files_->count());
+    sequence_.repair = repair_options(options_, files_->mesh());
+    sequence_.repair.as_written = {};
+    if (files_->stores_float32()) {
+      if (sequence_.repair.precision == Precision::float64)
+        throw UsageError("--precision float64: a point cache stores 32-bit numbers; leave the option out");
+      sequence_.repair.precision = Precision::float32;
+    }
+    for (const std::string& note : files_->mesh().notes()) say("note: {}", note);
+    if (!options_.report.empty() && !is_stream(options_.report) && files_->holds(options_.report))
+      throw UsageError(fmt::format("--report {}: this is one of the frames; give it another name", options_.report));
+    StagedOutput(fs::path(options_.output) / record_name, interruption_);  // may be written to?
+    read_contents();
+
+    Context context;
+    context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
+    interruption_.set_handler([&] {
+      context.cancel();
+      if (!options_.quiet) tell("\nstopping; the frames that are done stay, and the same call goes on from there\n");
+    });
+    reports_ = repair_sequence(
+        source(), sequence_, [&](FrameResult&& result) { take(std::move(result)); }, &context);
+    interruption_.set_handler(nullptr);
+    flush();
+    if (context.is_cancelled()) exit_code_ = exit_cancelled;
+    const bool is_whole = unwritten_ == 0 && !context.is_cancelled();
+    if (is_whole) files_->finish();
+    if (!options_.report.empty()) write_file(options_.report, report_json() + "\n", interruption_);
+    summarise(is_whole);
+    return exit_code_;
+  }
+
+ private:
+  template <class... Args>
+  void say(fmt::format_string<Args...> text, Args&&... args) {
+    if (options_.quiet) return;
+    display_.clear();
+    tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
+  }
+
+  /// Checks all frames that matter before any work.
+  void read_contents() {
+    const std::size_t begin = sequence_.first - std::min(sequence_.first, sequence_reach);
+    const std::size_t end = std::min(sequence_.last + sequence_reach, files_->count());
+    contents_.resize(files_->count());
+    for (std::size_t t = begin; t < end; ++t) contents_[t] = files_->content_hash(t);
+    Json asked = Json::parse(unsnarl::report_json({}, sequence_.repair))["options"];
+    asked.erase("threads");  // they change no byte
+    const std::vector<std::uint8_t>& fixed = sequence_.repair.fixed;
+    asked_for_ = sha256(asked.dump() + sha256(std::string(fixed.begin(), fixed.end())) +
+                        (options_.recompute_normals ? "normals" : "") + sha256_of_file("/proc/self/exe"));
+  }
+
+  /// Of everything that decides what a frame becomes.
+  std::string key_of(std::size_t t) const {
+    std::string all = asked_for_;
+    for (std::size_t s = t - std::min(t, sequence_reach); s <= std::min(t + sequence_reach, files_->count() - 1); ++s)
+      all += fmt::format(" {}:{}", static_cast<long>(s) - static_cast<long>(t), contents_[s]);
+    return sha256(all);
+  }
+
+  SequenceSource source() {
+    SequenceSource source;
+    const Surface& faces = files_->mesh().surface();
+    source.corners = faces.corners;
+    source.offsets = faces.offsets;
+    source.frames = files_->count();
+    source.positions = [this](std::size_t t) { return files_->positions(t); };
+    source.done = [this](std::size_t t) {
+      const Json* const line = record_.find(files_->name(t), key_of(t), files_->output_hash(t));
+      if (!line) return std::vector<double>();
+      done_[t] = (*line)["report"];
+      note_status(done_[t].value("status", std::string()));
+      ++done_before_;
+      return files_->output_positions(t);
+    };
+    source.as_written = [this](std::size_t t, std::span<const double> positions, bool float32) {
+      return files_->as_written(t, positions, float32);
+    };
+    return source;
+  }
+
+  void take(FrameResult&& result) {
+    const std::size_t t = result.report.frame;
+    const Status status = result.report.status;
+    const bool is_good = status == Status::embedded || status == Status::obstructed;
+    note_status(std::string(to_string(status)));
+    if (!is_good && !options_.keep_partial) {
+      ++unwritten_;
+      say("{}: {}; not written: --keep-partial writes what was reached", files_->name(t), to_string(status));
+      return;
+    }
+    const bool float32_digits = result.report.precision == Precision::float32;
+    // What was certified are these positions, bit for bit.
+    if (files_->write(t, result.positions, float32_digits) != result.positions)
+      throw std::logic_error(files_->name(t) + ": the file written does not hold what was certified");
+    done_[t] = frame_json(result.report);
+    if (!is_good) return;  // tried again by the next call
+    unrecorded_.push_back(t);
+    if (unrecorded_.size() >= files_->frames_between_flushes()) flush();
+  }
+
+  /// What was written becomes what is recorded.
+  void flush() {
+    files_->flush();
+    for (const std::size_t t : unrecorded_) record_.add(files_->name(t), key_of(t), files_->output_hash(t), done_[t]);
+    unrecorded_.clear();
+  }
+
+  void note_status(const std::string& status) {
+    if (status == "embedded") return;
+    for (const Status known : {Status::reduced, Status::no_progress, Status::obstructed, Status::time_limit,
+                               Status::memory_limit, Status::displacement_exceeded, Status::cancelled})
+      if (to_string(known) == status && (exit_code_ == exit_embedded || exit_code_ == exit_obstructed))
+        exit_code_ = exit_code_of(known);
+  }
+
+  struct Summary {
+    std::size_t frames = 0, pairs_before = 0, pairs_after = 0, with_pairs = 0, smoothed = 0, jitter_frames = 0;
+    double displacement_mean = 0, displacement_max = 0, untouched_mean = 0, untouched_min = 1;
+    Jitter jitter, alone;  // over the frames of which both are known
+  };
+  Summary summary() const;
+  std::string report_json() const;
+  void summarise(bool is_whole);
+
+  const FixOptions& options_;
+  Interruption& interruption_;
+  StageClock clock_;
+  ProgressDisplay display_;
+  OutputFolder folder_;
+  std::unique_ptr<SequenceFiles> files_;
+  SequenceRecord record_;
+  SequenceOptions sequence_;
+  std::vector<std::string> contents_;  // hash of each frame that matters; else empty
+  std::string asked_for_;              // hash of the program and its options
+  std::vector<Json> done_;             // report of each frame that is written; null: it is not
+  std::vector<std::size_t> unrecorded_;
+  std::size_t done_before_ = 0, unwritten_ = 0;
+  std::vector<FrameReport> reports_;
+  ExitCode exit_code_ = exit_embedded;
+};
+
+SequenceRun::Summary SequenceRun::summary() const {
+  Summary sum;
+  for (const FrameReport& report : reports_) {
+    const Json& frame = done_[report.frame];
+    if (frame.is_null()) continue;
+    ++sum.frames;
+    sum.pairs_before += frame["before"]["total"].get<std::size_t>();
+    sum.pairs_after += frame["after"]["total"].get<std::size_t>();
+    sum.with_pairs += frame["before"]["total"] != 0;
+    sum.smoothed += frame["is_smoothed"].get<bool>();
+    sum.displacement_mean += report.displacement_mean_rel;
+    sum.displacement_max = std::max(sum.displacement_max, report.displacement_max_rel);
+    sum.untouched_mean += report.untouched_share;
+    sum.untouched_min = std::min(sum.untouched_min, report.untouched_share);
+    const Json& alone = frame["jitter_alone"];
+    if (!report.jitter || alone.is_null()) continue;
+    ++sum.jitter_frames;
+    sum.jitter.mean_rel += report.jitter->mean_rel;
+    sum.alone.mean_rel += alone["mean_rel"].get<double>();
+    sum.jitter.max_rel = std::max(sum.jitter.max_rel, report.jitter->max_rel);
+    sum.alone.max_rel = std::max(sum.alone.max_rel, alone["max_rel"].get<double>());
+  }
+  const double n = std::max<double>(1, static_cast<double>(sum.frames));
+  const double m = std::max<double>(1, static_cast<double>(sum.jitter_frames));
+  sum.displacement_mean /= n;
+  sum.untouched_mean /= n;
+  sum.jitter.mean_rel /= m;
+  sum.alone.mean_rel /= m;
+  return sum;
+}
+
+std::string SequenceRun::report_json() const {
+  const Summary sum = summary();
+  Json json = {{"schema", "unsnarl-sequence-report"},
+               {"schema_version", report_version},
+               {"version", version},
+               {"exit_code", static_cast<int>(exit_code_)},
+               {"output", files_->output()},
+               {"frames", files_->count()},
+               {"range", {sequence_.first, sequence_.last}},
+               {"written", sum.frames},
+               {"done_before", done_before_},
+               {"smoothed", sum.smoothed},
+               {"displacement_mean_rel", sum.displacement_mean},
+               {"displacement_max_rel", sum.displacement_max},
+               {"untouched_share_mean", sum.untouched_mean},
+               {"untouched_share_min", sum.untouched_min},
+               {"jitter", jitter_json(sum.jitter)},
+               {"jitter_alone", jitter_json(sum.alone)},
+               {"options", Json::parse(unsnarl::report_json({}, sequence_.repair))["options"]},
+               {"list", Json::array()}};
+  for (const FrameReport& report : reports_) {
+    const Json& frame = done_[report.frame];
+    Json line = {{"frame", report.frame}, {"name", files_->name(report.frame)}, {"written", !frame.is_null()}};
+    line.update(frame.is_null() ? frame_json(report) : frame);
+    line["jitter"] = jitter_json(report.jitter);
+    json["list"].push_back(std::move(line));
+  }
+  const StageReport whole = clock_.stage("sequence");
+  json["seconds"] = whole.seconds;
+  json["cpu_seconds"] = whole.cpu_seconds;
+  json["peak_memory_mb"] = whole.peak_memory_mb;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+void SequenceRun::summarise(bool is_whole) {
+  const Summary sum = summary();
+  const StageReport whole = clock_.stage("sequence");
+  const SurfaceView mesh = files_->mesh().surface();
+  say("{} frames of {} vertices, {} faces{}", sequence_.last - sequence_.first, mesh.vertex_count(), mesh.face_count(),
+      done_before_ > 0 ? fmt::format("; {} were done before", done_before_) : "");
+  say("  intersecting pairs before: {}, in {} frames", sum.pairs_before, sum.with_pairs);
+  say("  intersecting pairs after:  {}", sum.pairs_after == 0 ? "none" : std::to_string(sum.pairs_after));
+  say("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
+      100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, 100 * sum.displacement_mean);
+  if (sum.jitter_frames > 0)
+    say("  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; repaired one by one {:.2g} % and {:.2g} %",
+        100 * sum.jitter.max_rel, 100 * sum.jitter.mean_rel, 100 * sum.alone.max_rel, 100 * sum.alone.mean_rel);
+  say("  {} of {} frames written; {:.1f} s, {:.0f} MB", sum.frames, sequence_.last - sequence_.first, whole.seconds,
+      whole.peak_memory_mb);
+  if (is_whole) say("  wrote {}", files_->output());
+}
+
+}  // namespace
+
+int run_sequence(const FixOptions& options, Interruption& interruption) {
+  return SequenceRun(options, interruption).run();
+}
+
+}  // namespace unsnarl::app

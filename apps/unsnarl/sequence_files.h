@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "interruption.h"
+#include "unsnarl/document.h"
+#include "unsnarl/scene_document.h"
+
+namespace unsnarl::app {
+
+/// The frames of a sequence on disk, and the place where repaired ones go. Frames count from 0.
+class SequenceFiles {
+ public:
+  virtual ~SequenceFiles() = default;
+
+  virtual std::size_t count() const = 0;
+  /// What a frame is called in messages and in the record of what is done.
+  virtual std::string name(std::size_t frame) const = 0;
+  /// The mesh whose faces all frames have, and whose parts may be held.
+  virtual const SceneDocument& mesh() const = 0;
+  virtual bool stores_float32() const = 0;
+  /// SHA-256 of all that is given of a frame. Throws FileError where it cannot be read, or has other faces than mesh().
+  virtual std::string content_hash(std::size_t frame) = 0;
+  virtual std::vector<double> positions(std::size_t frame) = 0;
+  /// What will be read back. From any thread, of a frame whose positions were asked for and that is not yet written.
+  virtual std::vector<double> as_written(std::size_t frame, std::span<const double> positions, bool float32) = 0;
+  /// SHA-256 of the output of a frame as it is there; empty: none is.
+  virtual std::string output_hash(std::size_t frame) = 0;
+  /// The positions in that output.
+  virtual std::vector<double> output_positions(std::size_t frame) = 0;
+  /// Writes a frame, or keeps it for flush(), and returns what was read back. Throws WriteError.
+  virtual std::vector<double> write(std::size_t frame, std::span<const double> positions, bool float32) = 0;
+  /// After this all frames written are on the disk. Throws WriteError.
+  virtual void flush() = 0;
+  /// How many frames may be lost by a sudden end without it.
+  virtual std::size_t frames_between_flushes() const = 0;
+  /// All frames wanted are written: the output gets its name. Throws WriteError.
+  virtual void finish() = 0;
+  /// Is this file one of those that are read, or the place of an output?
+  virtual bool holds(const std::filesystem::path& path) const = 0;
+  /// Where the output is.
+  virtual std::string output() const = 0;
+};
+
+/// Frames by the paths or patterns (*, ?, [...]) of numbered mesh files, in natural order; or a mesh and a point cache.
+/// Outputs go to `folder`, which is there. Throws UsageError, FileError.
+std::unique_ptr<SequenceFiles> open_sequence(const std::vector<std::string>& inputs, std::optional<Format> format,
+                                             const std::string& folder, bool recompute_normals,
+                                             Interruption& interruption);
+
+/// Is `a` before `b` where runs of digits are compared as numbers? "f2.obj" is before "f10.obj".
+bool natural_order(const std::string& a, const std::string& b);
+
+}  // namespace unsnarl::app

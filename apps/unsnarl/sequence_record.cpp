@@ -1,0 +1,44 @@
+#include "sequence_record.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <utility>
+
+#include "unsnarl/document.h"
+
+namespace unsnarl::app {
+
+SequenceRecord::SequenceRecord(std::filesystem::path path) : path_(std::move(path)) {
+  std::ifstream file(path_);
+  for (std::string line; std::getline(file, line);) {
+    ends_in_a_line_ = !file.eof();
+    Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object() || !json.contains("name") || !json["name"].is_string()) continue;
+    const std::string name = json["name"].get<std::string>();
+    lines_[name] = std::move(json);
+  }
+}
+
+const SequenceRecord::Json* SequenceRecord::find(const std::string& name, const std::string& key,
+                                                 const std::string& output_hash) const {
+  const auto line = lines_.find(name);
+  if (line == lines_.end() || output_hash.empty()) return nullptr;
+  const Json& json = line->second;
+  const bool is_same = json.value("key", Json()) == key && json.value("output_sha256", Json()) == output_hash &&
+                       json.value("report", Json()).is_object();
+  return is_same ? &json : nullptr;
+}
+
+void SequenceRecord::add(const std::string& name, const std::string& key, const std::string& output_hash, Json report) {
+  Json json = {{"name", name}, {"key", key}, {"output_sha256", output_hash}, {"report", std::move(report)}};
+  std::ofstream file(path_, std::ios::app);
+  // A line that was cut off is ended first.
+  file << (std::exchange(ends_in_a_line_, true) ? "" : "\n")
+       << json.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  file.flush();
+  if (!file) throw WriteError(path_.string() + ": cannot be written; the disk may be full");
+  lines_[name] = std::move(json);
+}
+
+}  // namespace unsnarl::app

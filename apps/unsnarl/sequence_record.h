@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace unsnarl::app {
+
+/// The frames that are done, one JSON line each in a file beside the outputs. A frame is done where its last line has
+/// the key of what is asked for now (program, options, the content of all frames that have an influence on it) and the
+/// SHA-256 of the output as it is there. A line is written after its output, so whatever ends the program, no line
+/// promises what is not there; a line that was cut off is no line.
+class SequenceRecord {
+ public:
+  using Json = nlohmann::ordered_json;
+
+  explicit SequenceRecord(std::filesystem::path path);
+
+  /// The line of a frame that is done; null: it is not.
+  const Json* find(const std::string& name, const std::string& key, const std::string& output_hash) const;
+  /// Throws WriteError.
+  void add(const std::string& name, const std::string& key, const std::string& output_hash, Json report);
+
+ private:
+  std::filesystem::path path_;
+  std::map<std::string, Json> lines_;  // the last of each frame
+  bool ends_in_a_line_ = true;
+};
+
+}  // namespace unsnarl::app

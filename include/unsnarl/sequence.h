@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "unsnarl/intersections.h"
+#include "unsnarl/repair.h"
+#include "unsnarl/report.h"
+
+namespace unsnarl {
+
+/// A moving surface: frames of the same faces, and whatever else a repair of them has to ask for. The functions are
+/// called by one thread at a time.
+struct SequenceSource {
+  std::span<const std::int32_t> corners, offsets;  ///< as in SurfaceView
+  std::size_t frames = 0;
+  /// 3 n doubles, the same number in every frame. Asked for once at most.
+  std::function<std::vector<double>(std::size_t frame)> positions;
+  /// The result of a frame that an earlier call came to, 3 n doubles; else empty. Such a frame is not repaired again.
+  /// Unset: none.
+  std::function<std::vector<double>(std::size_t frame)> done;
+  /// RepairOptions::as_written of a frame; unlike the others called from any thread. Unset: rounded to the precision.
+  std::function<std::vector<double>(std::size_t frame, std::span<const double> positions, bool float32)> as_written;
+};
+
+/// A correction's second difference in time, in the frame's own motion: how far the correction of a vertex is from
+/// going on evenly between the frames before and after, both turned as the surface around the vertex turns. / diagonal
+/// of the frame. Of all vertices.
+struct Jitter {
+  double mean_rel = 0, max_rel = 0;
+};
+
+/// What became of a frame.
+struct FrameReport {
+  std::size_t frame = 0;
+  Status status = Status::no_progress;
+  PairCounts before, after;
+  double diagonal = 0;  ///< of the frame's bounding box; unit of every *_rel
+  double displacement_mean_rel = 0, displacement_max_rel = 0;
+  double untouched_share = 1;                ///< share of vertices that are bit-identical to the input
+  bool float32_embedded = false;             ///< see RepairReport
+  Precision precision = Precision::float64;  ///< see RepairReport
+  bool is_smoothed = false;                  ///< false: as it came out of a repair by itself
+  std::optional<Jitter> alone;   ///< if this frame and those beside it were repaired each by itself; unset at the ends
+  std::optional<Jitter> jitter;  ///< of the results; unset where one beside it is not known. Not yet known in `take`
+};
+
+struct FrameResult {
+  FrameReport report;
+  std::vector<double> positions;  ///< 3 n doubles
+};
+
+struct SequenceOptions {
+  /// Of each frame: limits hold for each. Nothing is recorded.
+  RepairOptions repair;
+  /// The frames wanted: [first, last). Frames around them are read where they are there, so that the result of a frame
+  /// does not depend on what else is wanted.
+  std::size_t first = 0, last = static_cast<std::size_t>(-1);
+};
+
+/// So many frames before and after have an influence on a frame.
+inline constexpr std::size_t sequence_reach = 4;
+
+/// Repairs frame by frame so that corrections go on smoothly in time.
+///
+/// Every frame is repaired by itself; then each is moved by the average of the corrections of the frames around it
+/// (binomial weights over sequence_reach to either side, turned with the surface around each vertex), and what that
+/// makes intersect is resolved from there. Frames without self-intersections stay as they are. A frame is certified in
+/// the welding and triangulation of its own input; where its smoothed version does not hold, the one repaired by itself
+/// is its result.
+///
+/// take: gets each wanted frame that is not done, in order, as soon as its result is certain; called by one thread at a
+/// time. What it throws ends the work and is thrown again.
+/// context: progress is the share of frames, phase "frames"; Context::cancel ends it early, and frames that `take` did
+/// not get are not in the answer.
+/// Returns a report of each wanted frame, in order; of those that were done before, their motion and jitter.
+/// Throws std::invalid_argument as repair() does, and where a frame has another number of positions.
+std::vector<FrameReport> repair_sequence(const SequenceSource& source, const SequenceOptions& options,
+                                         const std::function<void(FrameResult&&)>& take, Context* context = nullptr);
+
+}  // namespace unsnarl

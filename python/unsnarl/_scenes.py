@@ -1,0 +1,115 @@
+"""Several meshes in one coordinate system, seen as one surface: vertices and faces mesh after mesh."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._arguments import Surface, positions_of, surface_of, vertex_flags
+from ._meshes import MovedTo, opened
+
+
+class Scene(NamedTuple):
+    surface: Surface  # of all meshes together
+    dtypes: list[np.dtype[Any]]  # of the positions of each
+    moved_to: list[Optional[MovedTo]]  # see _meshes
+    vertex_counts: list[int]
+    face_counts: list[int]
+    is_list: bool  # several meshes were given, or a list of one
+
+    def split(self, positions: NDArray[Any]) -> list[NDArray[Any]]:
+        """Positions (n, 3) of all -> those of each mesh."""
+        return np.split(positions, np.cumsum(self.vertex_counts)[:-1])
+
+    def meshes_of(self, faces: NDArray[np.int32]) -> NDArray[np.int32]:
+        """The mesh of each face."""
+        return np.searchsorted(np.cumsum(self.face_counts), faces, side="right").astype(np.int32)
+
+    def flags_of_vertices(self, fixed: Any) -> NDArray[np.uint8]:
+        """One flag a vertex of all, from what is fixed of the mesh, or of each in a list; empty: nothing."""
+        if not self.is_list:
+            return vertex_flags(fixed, self.vertex_counts[0])
+        if fixed is None:
+            return np.empty(0, np.uint8)
+        if not isinstance(fixed, (list, tuple)) or len(fixed) != len(self.vertex_counts):
+            raise ValueError(f"fixed is {_what(fixed)}; of {len(self.vertex_counts)} meshes give as many, or None for some")
+        parts = [vertex_flags(own, count) for own, count in zip(fixed, self.vertex_counts)]
+        return np.concatenate(
+            [part if part.size > 0 else np.zeros(n, np.uint8) for part, n in zip(parts, self.vertex_counts)]
+        )
+
+    def positions_of(self, moved: Any, name: str) -> NDArray[np.float64]:
+        """Flat positions of all, from those of the mesh, or of each in a list."""
+        if not self.is_list:
+            return positions_of(moved, name)
+        if not isinstance(moved, (list, tuple)) or len(moved) != len(self.vertex_counts):
+            raise ValueError(f"{name} is {_what(moved)}; of {len(self.vertex_counts)} meshes give as many arrays (n, 3)")
+        parts = [positions_of(own, f"{name}[{i}]") for i, own in enumerate(moved)]
+        for i, (part, count) in enumerate(zip(parts, self.vertex_counts)):
+            if part.size != 3 * count:
+                raise ValueError(f"{name}[{i}] has {part.size // 3} positions, but mesh {i} has {count} vertices")
+        return np.concatenate(parts)
+
+
+def scene_of(V: Any, F: Any) -> Scene:
+    """One mesh as arrays or as such, or a list of them: [(V, F), mesh, ...]."""
+    if F is not None or not isinstance(V, (list, tuple)):
+        return _joined([opened(V, F)], False)
+    if len(V) == 0:
+        raise ValueError("there is no mesh in the list; give [(V, F), ...]")
+    meshes = []
+    for i, mesh in enumerate(V):
+        is_pair = isinstance(mesh, (list, tuple))
+        if is_pair and len(mesh) != 2:
+            raise ValueError(f"mesh {i} of the list is {_what(mesh)}; give (V, F), or a mesh")
+        meshes.append(opened(*mesh) if is_pair else opened(mesh, None))
+    return _joined(meshes, True)
+
+
+def _joined(meshes: list[tuple[Any, Any, Optional[MovedTo]]], is_list: bool) -> Scene:
+    surfaces = []
+    for i, (V, F, _) in enumerate(meshes):
+        try:
+            surfaces.append(surface_of(V, F))
+        except (TypeError, ValueError) as error:
+            if not is_list:
+                raise
+            raise type(error)(f"mesh {i} of the list: {error}") from None
+    vertex_counts = [len(s.positions) // 3 for s in surfaces]
+    if len(surfaces) == 1:
+        whole = surfaces[0]
+    else:
+        whole = _concatenated(surfaces, vertex_counts)
+    return Scene(
+        whole,
+        [np.asarray(V).dtype for V, _, _ in meshes],
+        [moved_to for _, _, moved_to in meshes],
+        vertex_counts,
+        [s.face_count for s in surfaces],
+        is_list,
+    )
+
+
+def _concatenated(surfaces: list[Surface], vertex_counts: list[int]) -> Surface:
+    if max(sum(vertex_counts), sum(len(s.corners) for s in surfaces)) > np.iinfo(np.int32).max:
+        raise ValueError("these meshes together have more than 2^31 - 1 vertices or corners of faces")
+    for i, (surface, count) in enumerate(zip(surfaces, vertex_counts)):
+        wrong = np.flatnonzero((surface.corners < 0) | (surface.corners >= count))
+        if wrong.size > 0:
+            raise ValueError(
+                f"mesh {i} of the list: a face uses vertex {surface.corners[wrong[0]]}, but it has {count} vertices"
+            )
+    first = np.cumsum([0, *vertex_counts[:-1]], dtype=np.int32)
+    corners = np.concatenate([s.corners + begin for s, begin in zip(surfaces, first)])
+    if all(s.offsets.size == 0 for s in surfaces):
+        offsets = np.empty(0, np.int32)
+    else:
+        sizes = [np.diff(s.offsets) if s.offsets.size > 0 else np.full(s.face_count, 3) for s in surfaces]
+        offsets = np.append(0, np.cumsum(np.concatenate(sizes))).astype(np.int32)
+    return Surface(np.concatenate([s.positions for s in surfaces]), corners.astype(np.int32), offsets)
+
+
+def _what(value: Any) -> str:
+    return f"a {type(value).__name__}" + (f" of {len(value)}" if isinstance(value, (list, tuple)) else "")

@@ -1,0 +1,39 @@
+#include "pipeline/frame_motion.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+
+namespace unsnarl {
+namespace {
+
+using Mat3 = Eigen::Matrix3d;
+
+/// Of the sum of to * from^T over pairs of edges: the rotation that carries the one best onto the other.
+Mat3 rotation_of(const Mat3& covariance) {
+  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Mat3 u = svd.matrixU();
+  if (u.determinant() * svd.matrixV().determinant() < 0) u.col(2) = -u.col(2);  // of the least singular value
+  return u * svd.matrixV().transpose();
+}
+
+}  // namespace
+
+FrameMotion::FrameMotion(const SurfaceView& surface, const FindOptions& options)
+    : prepared_(prepare(surface, options)),
+      neighbours_(vertex_neighbours(build_edges(prepared_.triangles()).edges, prepared_.weld_map.count)) {}
+
+Positions FrameMotion::correction(std::span<const double> input, std::span<const double> result) const {
+  const Positions from = prepared_.gather(input);
+  Positions moved = prepared_.gather(result) - from;
+  const bool is_here = from == prepared_.rest;
+  for (Index v = 0; v < moved.cols() && !is_here; ++v) {
+    if (moved.col(v).isZero(0)) continue;
+    Mat3 covariance = Mat3::Zero();
+    for (const Index w : neighbours_[v])
+      covariance += (prepared_.rest.col(w) - prepared_.rest.col(v)) * (from.col(w) - from.col(v)).transpose();
+    moved.col(v) = (rotation_of(covariance) * moved.col(v)).eval();
+  }
+  return moved;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "cli/program.h"
+#include "unsnarl/document.h"
+#include "unsnarl/intersections.h"
+#include "unsnarl/scene_document.h"
+
+namespace unsnarl::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Tetrahedra, the second of which sticks into the first with its tip; each fine by itself.
+const std::string large = "# large\nv 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4 # top\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+const std::string small =
+    "ply\nformat ascii 1.0\ncomment small\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n1.2 1.2 1.1\n2.6 2.5 2\n2.5 2.6 2.2\n"
+    "2.4 2.4 2.7\n3 0 1 3\n3 0 2 1\n3 1 2 3\n3 0 3 2\n";
+/// Away from both.
+const std::string apart = "OFF\n4 4 0\n9 9 9\n10 9 9\n9 10 9\n9 9 10\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+class SceneFiles : public ::testing::Test {
+ protected:
+  SceneFiles() {
+    write(a, large);
+    write(b, small);
+    write(c, apart);
+  }
+  std::size_t pairs_in(const std::vector<std::string>& paths) const {
+    std::vector<Document> documents;
+    for (const std::string& path : paths) documents.push_back(Document::read(path));
+    return find_intersections(SceneDocument(std::move(documents), paths).surface()).size();
+  }
+  void expect_refusal(const std::vector<std::string>& arguments, int exit_code, const std::string& words) {
+    const auto before = folder.names();
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_EQ(folder.names(), before);
+  }
+  Folder folder;
+  const std::string a = folder / "a.obj", b = folder / "b.ply", c = folder / "c.off", out = folder / "new/out";
+};
+
+TEST_F(SceneFiles, WhatCrossesBetweenFilesIsResolvedAndEachIsWrittenBack) {
+  const Outcome outcome = run({"fix", a, b, c, "-o", out, "--report", folder / "r.json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("between a.obj and b.ply: "), std::string::npos) << outcome.err;
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"a.obj", "b.ply", "c.off", "new", "new/out", "new/out/a.obj",
+                                                   "new/out/b.ply", "new/out/c.off", "r.json"}));
+  EXPECT_EQ(contents(out + "/c.off"), apart);
+  EXPECT_TRUE(contents(out + "/a.obj").starts_with("# large\n"));
+  EXPECT_TRUE(contents(out + "/b.ply").starts_with("ply\nformat ascii 1.0\ncomment small\n"));
+  EXPECT_GT(pairs_in({a, b, c}), 0u);
+  EXPECT_EQ(pairs_in({out + "/a.obj", out + "/b.ply", out + "/c.off"}), 0u);
+
+  const Json report = Json::parse(contents(folder / "r.json"));
+  EXPECT_TRUE(report["input"]["path"].is_null());
+  ASSERT_EQ(report["files"].size(), 3u);
+  EXPECT_EQ(report["files"][1]["name"], "b.ply");
+  EXPECT_EQ(report["files"][1]["format"], "ply");
+  EXPECT_EQ(report["files"][1]["first_vertex"], 4);
+  EXPECT_EQ(report["files"][1]["output"], out + "/b.ply");
+  EXPECT_EQ(report["files"][2]["untouched_share"], 1.0);
+  ASSERT_EQ(report["between_files"].size(), 1u);
+  EXPECT_EQ(report["between_files"][0]["files"], Json({"a.obj", "b.ply"}));
+  EXPECT_EQ(report["between_files"][0]["before"], report["before"]);
+  EXPECT_EQ(report["between_files"][0]["after"]["total"], 0);
+}
+
+TEST_F(SceneFiles, FilesCanBeHeldOrAloneBeMoved) {
+  for (const auto& [option, name, held, moved] :
+       {std::tuple{"--fix-file", "a.obj", "a.obj", "b.ply"}, {"--only-file", "a.obj", "b.ply", "a.obj"}}) {
+    const Outcome outcome = run({"fix", a, b, "-o", out, option, name});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(contents(out + "/" + held), contents(folder / held));
+    EXPECT_NE(contents(out + "/" + moved), contents(folder / moved));
+    EXPECT_EQ(pairs_in({out + "/a.obj", out + "/b.ply"}), 0u);
+    fs::remove_all(out);
+  }
+  expect_refusal({"fix", a, b, "-o", out, "--fix-file", "d.obj"}, 2, "there are: 'a.obj', 'b.ply'");
+}
+
+TEST_F(SceneFiles, CheckCountsWithinAndBetweenFiles) {
+  const Outcome text = run({"check", a, b, c});
+  EXPECT_EQ(text.exit_code, 1);
+  EXPECT_NE(text.out.find("3 files: 12 vertices"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("between a.obj and b.ply"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("within a.obj"), std::string::npos) << text.out;
+  const Json json = Json::parse(run({"check", a, b, c, "--json"}).out);
+  EXPECT_EQ(json["files"][0]["pairs"]["total"], 0);
+  EXPECT_EQ(json["between_files"][0]["pairs"], json["pairs"]);
+  EXPECT_EQ(run({"check", a, c}).exit_code, 0);
+}
+
+TEST_F(SceneFiles, AllAppearOrNone) {
+  fs::create_directories(out);
+  fs::create_directories(out + "/b.ply");  // cannot be replaced
+  expect_refusal({"fix", a, b, "-o", out}, 4, "is a folder");
+  fs::remove(out + "/b.ply");
+  expect_refusal({"fix", a, b, "-o", out, "--fix-file", "a.obj", "--fix-file", "b.ply"}, 7, "nothing written");
+}
+
+TEST_F(SceneFiles, LinksInTheFolderAreReplaced) {
+  fs::create_directories(out);
+  write(folder / "precious.obj", "precious");
+  fs::create_symlink(folder / "precious.obj", out + "/a.obj");
+  EXPECT_EQ(run({"fix", a, b, "-o", out}).exit_code, 0);
+  EXPECT_EQ(contents(folder / "precious.obj"), "precious");
+  EXPECT_EQ(pairs_in({out + "/a.obj", out + "/b.ply"}), 0u);
+}
+
+TEST_F(SceneFiles, WhatMakesNoSenseIsRefused) {
+  fs::create_directory(folder / "other");
+  write(folder / "other/a.obj", large);
+  expect_refusal({"fix", a, folder / "other/a.obj", "-o", out}, 2, "same name");
+  expect_refusal({"fix", a, a, "-o", out}, 2, "same name");
+  expect_refusal({"fix", a, b, "-o", folder.string()}, 2, "name another folder");
+  expect_refusal({"fix", a, b, "--in-place"}, 2, "one file");
+  expect_refusal({"fix", a, b, "-o", "-"}, 2, "folder");
+  expect_refusal({"fix", a, "-", "-o", out, "--format", "obj"}, 2, "standard input");
+  expect_refusal({"fix", a, b, "-o", c}, 4, "cannot make this folder");
+  expect_refusal({"fix", a, folder / "missing.obj", "-o", out}, 3, "missing.obj");
+  expect_refusal({"fix", a, b, "-o", "/proc/no/such"}, 4, "/proc/no/such");
+  expect_refusal({"check", a, "-", "--format", "obj"}, 2, "standard input");
+}
+
+TEST_F(SceneFiles, OtherUnitsArePointedOut) {
+  write(folder / "mm.off", "OFF\n3 1 0\n0 0 9000\n90000 0 9000\n0 70000 9000\n3 0 1 2\n");
+  const Outcome outcome = run({"check", a, folder / "mm.off"});
+  EXPECT_NE(outcome.err.find("mm.off is 16457 times"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("same units"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run({"check", a, c}).err, "");
+}
+
+TEST_F(SceneFiles, PicturesShowEachInItsColour) {
+  EXPECT_EQ(run({"fix", a, b, "-o", out, "--picture", folder / "two.png"}).exit_code, 0);
+  write(folder / "both.obj", large +
+                                 "v 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\nf 5 7 6\nf 5 6 8\n"
+                                 "f 6 7 8\nf 5 8 7\n");
+  EXPECT_EQ(run({"fix", folder / "both.obj", "-o", folder / "o.obj", "--picture", folder / "one.png"}).exit_code, 0);
+  EXPECT_NE(contents(folder / "two.png"), contents(folder / "one.png"));
+}
+
+#if UNSNARL_VIEWER
+TEST_F(SceneFiles, ThePageShowsAllFilesBeforeAndAfter) {
+  ASSERT_EQ(run({"fix", a, b, "-o", out}).exit_code, 0);
+  EXPECT_EQ(run({"view", a, b, out, "-o", folder / "p.html"}).exit_code, 0);
+  EXPECT_NE(contents(folder / "p.html").find("\"files\":[{\"name\":\"a.obj\""), std::string::npos);
+  EXPECT_EQ(run({"view", a, b, "--scene", "-o", folder / "p.html"}).exit_code, 0);
+  EXPECT_EQ(run({"view", a, b, "-o", folder / "p.html"}).exit_code, 3);  // no repaired version of a
+}
+#endif
+
+}  // namespace
+}  // namespace unsnarl::cli
