@@ -218,6 +218,8 @@ class Fix {
       write_animation(options_.picture, surface(), result_, interruption_);
     } else if (!options_.picture.empty()) {
       PictureOptions picture;
+      picture.width = options_.picture_width;
+      picture.height = options_.picture_width / 2;
       const auto label = [](const char* when, std::size_t pairs) {
         return fmt::format("{}\n{}", when,
                            pairs == 0   ? "no self-intersections"

@@ -22,6 +22,7 @@ struct FixOptions : MeshOptions {
   bool recompute_normals = false;
   bool paper = false, no_recover = false;
   std::string report, highlight, picture, view, record;
+  int picture_width = 1600;  ///< pixels
   std::string progress = "auto";
 };
 void add_fix_options(CLI::App& command, FixOptions& options);

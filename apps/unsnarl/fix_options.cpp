@@ -122,6 +122,10 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
                   "an animation of the repair")
       ->type_name("FILE.png")
       ->group(shown);
+  command.add_option("--picture-width", options.picture_width, "Width of that picture; 1600 by default")
+      ->check(CLI::Range(128, 16384).description(""))
+      ->type_name("PIXELS")
+      ->group(shown);
   command.add_option("--view", options.view, "Write a page to look at: before, after, displacement (see unsnarl view)")
       ->type_name("PAGE.html")
       ->group(shown);
