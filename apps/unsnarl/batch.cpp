@@ -86,7 +86,7 @@ class Batch {
         all_(batch_meshes(options.input, options.output)),
         mine_(part_of(all_, shard_)),
         program_(options.worker.empty() ? fs::read_symlink("/proc/self/exe").string() : options.worker),
-        journal_((folder_.prepare(), folder_.journal())),
+        journal_(folder_.journal()),
         progress_(mine_, options.quiet) {
     const FixOptions fix = parsed_fix_options(options.fix_options);
     for (const BatchMesh& mesh : all_)
@@ -101,6 +101,7 @@ class Batch {
     jobs_ = options.jobs > 0 ? options.jobs : processors();
     threads_ = options.threads > 0 ? options.threads : std::max(1, processors() / jobs_);
     memory_limit_mb_ = options.memory_limit_mb > 0 ? options.memory_limit_mb : std::floor(0.9 * memory_mb() / jobs_);
+    folder_.prepare();
   }
 
   int run() {
