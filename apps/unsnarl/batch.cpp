@@ -155,7 +155,9 @@ class Batch {
 
   /// Works off all meshes of the shard. Sets error_.
   void work() {
-    journal_.open(folder_.journal(), shard_.name());
+    journal_.open(shard_.name(), [this] {
+      if (!options_.quiet) tell("waiting: another 'unsnarl batch' is at work on this part\n");
+    });
     std::error_code ignored;
     fs::remove_all(folder_.work(shard_), ignored);  // of a run that was killed
     interruption_.set_handler([this] {

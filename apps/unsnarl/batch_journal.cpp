@@ -28,10 +28,11 @@ bool ends_in_the_middle_of_a_line(int file) {
 
 }  // namespace
 
-BatchJournal::BatchJournal(const fs::path& folder) {
+void BatchJournal::read() {
+  entries_.clear();
   std::vector<fs::path> files;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
+  for (const auto& entry : fs::directory_iterator(folder_, ignored))
     if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const fs::path& path : files) {
@@ -44,16 +45,18 @@ BatchJournal::~BatchJournal() {
   if (file_ >= 0) ::close(file_);
 }
 
-void BatchJournal::open(const fs::path& folder, const std::string& name) {
-  path_ = folder / (name + ".jsonl");
+void BatchJournal::open(const std::string& name, const std::function<void()>& before_waiting) {
+  path_ = folder_ / (name + ".jsonl");
   file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file_ < 0) throw WriteError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw WriteError(
-        fmt::format("{}: another 'unsnarl batch' is at work on this part; wait for it, or give each its "
-                    "own --shard",
-                    path_.string()));
+  // A file system without locks is no reason to do nothing: two runs at once do the same work and write the same bytes.
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    before_waiting();
+    while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
   if (ends_in_the_middle_of_a_line(file_)) append("");
+  read();
 }
 
 const JournalEntry* BatchJournal::find(const std::string& key) const {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -21,14 +22,14 @@ struct JournalEntry {
 class BatchJournal {
  public:
   /// Reads the journals in `folder`, which need not exist.
-  explicit BatchJournal(const std::filesystem::path& folder);
+  explicit BatchJournal(const std::filesystem::path& folder) : folder_(folder) { read(); }
   ~BatchJournal();
   BatchJournal(const BatchJournal&) = delete;
   BatchJournal& operator=(const BatchJournal&) = delete;
 
-  /// Opens FOLDER/NAME.jsonl for the lines to come, for this process alone. Throws WriteError: it cannot be written, or
-  /// another run on this machine works on the same shard.
-  void open(const std::filesystem::path& folder, const std::string& name);
+  /// Opens NAME.jsonl for the lines to come, for this process alone: waits until another run on this machine that works
+  /// on the same shard has ended, after calling `before_waiting`. Then reads all journals anew. Throws WriteError.
+  void open(const std::string& name, const std::function<void()>& before_waiting);
 
   /// nullptr: nothing is known of this key.
   const JournalEntry* find(const std::string& key) const;
@@ -39,12 +40,13 @@ class BatchJournal {
   void ended(const std::string& key, const std::string& result);
 
  private:
+  void read();
   void take(std::string_view line);
   void append(const std::string& line);
 
   std::map<std::string, JournalEntry> entries_;
   mutable std::mutex mutex_;
-  std::filesystem::path path_;
+  std::filesystem::path folder_, path_;
   int file_ = -1;
 };
 
