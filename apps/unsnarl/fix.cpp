@@ -167,9 +167,10 @@ class Fix {
     tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
   }
 
+  bool float32_digits() const { return result_.report.precision == Precision::float32; }
+
   void write_output() {
-    const bool float32_digits = result_.report.precision == Precision::float32;
-    std::vector<OutputFile> files = document_.patched(result_.positions, float32_digits);
+    std::vector<OutputFile> files = document_.patched(result_.positions, float32_digits());
     if (is_stream(output_)) {
       if (files.size() > 1)
         throw UsageError("this glTF keeps its geometry in other files, which cannot go to a stream; give -o FILE");
@@ -240,8 +241,20 @@ class Fix {
     write_file(options_.record, recording_json(result_, surface()) + "\n", interruption_);
   }
 
+  /// Of the file read and, where one was written, of that as it is read back.
+  void measure_clearances() {
+    const Surface& input = surface();
+    const auto measured = [&](std::span<const double> positions) {
+      return measure_clearance(input, positions, repair_options_.find);
+    };
+    files_.clearance_before = measured(input.positions);
+    if (files_.output.empty()) return;
+    files_.clearance_after = measured(document_.as_written(result_.positions, float32_digits()));
+  }
+
   void write_report() {
     if (options_.report.empty()) return;
+    measure_clearances();
     write_file(options_.report, report_json(result_, repair_options_, files_) + "\n", interruption_);
   }
 

@@ -13,6 +13,7 @@ struct FixOptions : MeshOptions {
   bool keep_partial = false;
   std::string precision = "auto";
   double time_limit_s = 0, memory_limit_mb = 0;
+  double min_dihedral_deg = 0;
   double max_displacement = 0, min_gap = 0;  ///< fractions of the diagonal, or lengths if `absolute`
   bool absolute = false;
   std::string fix_vertices;

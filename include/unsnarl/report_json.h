@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "unsnarl/check.h"
+#include "unsnarl/clearance.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/report.h"
 #include "unsnarl/surface.h"
@@ -23,6 +25,7 @@ struct ReportFiles {
   std::size_t vertices = 0, faces = 0;                   ///< as the file counts them
   std::vector<std::string> notes;                        ///< Document::notes
   std::vector<StageReport> before_repair, after_repair;  ///< reading, writing
+  std::optional<Clearance> clearance_before, clearance_after;  ///< of the files read; none: not measured
   StageReport whole;                                     ///< all of it; its name is not used
 };
 
