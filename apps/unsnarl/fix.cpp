@@ -147,6 +147,7 @@ class Fix {
 
     write_pictures();
     write_recording();
+    measure_clearances();
     files_.whole = clock_.stage("fix");
     write_report();
     write_view();
@@ -243,6 +244,7 @@ class Fix {
 
   /// Of the file read and, where one was written, of that as it is read back.
   void measure_clearances() {
+    if (options_.report.empty() && options_.min_dihedral_deg <= 0) return;
     const Surface& input = surface();
     const auto measured = [&](std::span<const double> positions) {
       return measure_clearance(input, positions, repair_options_.find);
@@ -254,7 +256,6 @@ class Fix {
 
   void write_report() {
     if (options_.report.empty()) return;
-    measure_clearances();
     write_file(options_.report, report_json(result_, repair_options_, files_) + "\n", interruption_);
   }
 

@@ -36,6 +36,19 @@ bool angle_gradient(const Positions& x, const Hinge& hinge, std::array<Vec3, 4>&
   return true;
 }
 
+/// Which of the four vertices of a hinge turn it, and how much of the way. What is blocked one way may be free another:
+/// where a round brings nothing, the next way is tried, and the last one has failed where all have in a row.
+struct Way {
+  std::array<bool, 4> moves;  // a, b, c, d
+  double share;
+};
+constexpr std::array<Way, 6> ways = {{{{true, true, true, true}, 1},
+                                      {{false, false, true, true}, 1},
+                                      {{false, false, true, false}, 1},
+                                      {{false, false, false, true}, 1},
+                                      {{true, true, false, false}, 1},
+                                      {{true, true, true, true}, 0.1}}};
+
 class Opening {
  public:
   Opening(Scene& scene, const OpenDihedralsOptions& options)
@@ -45,14 +58,17 @@ class Opening {
     std::vector<std::size_t> closed = closed_hinges();
     if (closed.empty()) return 0;
     const std::vector<IntersectingPair> tolerated = options_.pairs_at(scene_.x);
-    for (int round = 0; round < most_rounds && !closed.empty() && !options_.stop(); ++round) {
+    std::size_t way = 0, failed = 0;
+    for (int round = 0; round < most_rounds && failed < ways.size() && !closed.empty() && !options_.stop(); ++round) {
       const Positions before = scene_.x;
-      turn(closed);
+      turn(closed, ways[way]);
       keep_near();
       scene_.x = options_.as_written(scene_.x);
       take_back_new_pairs(before, tolerated);
-      if (scene_.x == before) break;
-      closed = closed_hinges();
+      const std::size_t were_closed = closed.size();
+      if (scene_.x != before) closed = closed_hinges();
+      failed = closed.size() < were_closed ? 0 : failed + 1;
+      if (failed > 0) way = (way + 1) % ways.size();
     }
     return closed.size();
   }
@@ -70,7 +86,7 @@ class Opening {
   }
 
   /// Each vertex by the mean of what its hinges ask for.
-  void turn(const std::vector<std::size_t>& closed) {
+  void turn(const std::vector<std::size_t>& closed, const Way& way) {
     Positions motion = Positions::Zero(3, scene_.x.cols());
     std::vector<int> asked(static_cast<std::size_t>(scene_.x.cols()), 0);
     std::array<Vec3, 4> gradient;
@@ -80,12 +96,12 @@ class Opening {
       if (!angle_gradient(scene_.x, hinge, gradient)) continue;
       double squared = 0;
       for (int k = 0; k < 4; ++k)
-        if (!scene_.fixed[corners[k]]) squared += gradient[k].squaredNorm();
+        if (way.moves[k] && !scene_.fixed[corners[k]]) squared += gradient[k].squaredNorm();
       if (!(squared > 0)) continue;
       const double missing = reserve * options_.least_radians - hinge_angle(scene_.x, hinge).radians;
       for (int k = 0; k < 4; ++k) {
-        if (scene_.fixed[corners[k]]) continue;
-        motion.col(corners[k]) += missing / squared * gradient[k];
+        if (!way.moves[k] || scene_.fixed[corners[k]]) continue;
+        motion.col(corners[k]) += way.share * missing / squared * gradient[k];
         ++asked[corners[k]];
       }
     }
