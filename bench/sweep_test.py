@@ -48,8 +48,8 @@ class SweepTest(unittest.TestCase):
         judge.chmod(0o755)
         rows = self.sweep(self.root / "meshes", "--jobs", "2", "--threads", "1", "--judge", judge)
         self.assertEqual({name: row["status"] for name, row in rows.items()}, {
-            "a/good.obj": "embedded", "a/crossing.obj": "embedded", "b/deep/hopeless.obj": rows["b/deep/hopeless.obj"]["status"],
-            "b/silent.stl": "invalid_input"})
+            "a/good.obj": "embedded", "a/crossing.obj": "embedded", "b/silent.stl": "invalid_input",
+            "b/deep/hopeless.obj": rows["b/deep/hopeless.obj"]["status"]})
         self.assertNotEqual(rows["b/deep/hopeless.obj"]["status"], "embedded")
         good, crossing, hopeless = (rows[name] for name in ("a/good.obj", "a/crossing.obj", "b/deep/hopeless.obj"))
         self.assertEqual((good["same_bytes"], crossing["same_bytes"]), ("True", "False"))

@@ -13,9 +13,9 @@ from distributed import Client, LocalCluster, as_completed
 
 
 def repair_part(meshes, out, part, parts):
-    """Exit code 1 is not a failure: all meshes of the part have been worked on; results.csv says which are not embedded."""
-    run = subprocess.run(["unsnarl", "batch", meshes, "-o", out, "--shard", f"{part}/{parts}", "--jobs", "1", "--quiet"],
-                         capture_output=True, text=True)
+    """Exit code 1 is no failure: all meshes of the part have been worked on; results.csv says which are not embedded."""
+    run = subprocess.run(["unsnarl", "batch", meshes, "-o", out, "--shard", f"{part}/{parts}", "--jobs", "1",
+                          "--quiet"], capture_output=True, text=True)
     if run.returncode not in (0, 1):
         raise RuntimeError(f"part {part} ended with exit code {run.returncode}: {run.stderr}")
     return part

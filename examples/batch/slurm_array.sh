@@ -4,8 +4,8 @@
 #   parts=$(sbatch --parsable --array=0-99 slurm_array.sh MESHES OUTDIR)
 #   sbatch --dependency=afterany:$parts --wrap "unsnarl batch MESHES -o OUTDIR --summary"
 #
-# MESHES is a folder or a list, OUTDIR a folder that all nodes see. A task that is killed is put into the queue again, up
-# to three times, and goes on where it stopped; so does the same command after any other misfortune.
+# MESHES is a folder or a list, OUTDIR a folder that all nodes see. A task that is killed is put into the queue again,
+# up to three times, and goes on where it stopped; so does the same command after any other misfortune.
 #SBATCH --job-name=unsnarl
 #SBATCH --cpus-per-task=1
 #SBATCH --requeue

@@ -20,13 +20,13 @@ inline constexpr int check_schema_version = 1;      ///< of check_json
 
 /// The files and the time around a call, as reports list them.
 struct ReportFiles {
-  std::string input, output;                             ///< paths; empty: arrays were given, none was written
-  std::string format;                                    ///< of the input: "obj", ...; empty: arrays were given
-  std::size_t vertices = 0, faces = 0;                   ///< as the file counts them
-  std::vector<std::string> notes;                        ///< Document::notes
-  std::vector<StageReport> before_repair, after_repair;  ///< reading, writing
+  std::string input, output;                                   ///< paths; empty: arrays were given, none was written
+  std::string format;                                          ///< of the input: "obj", ...; empty: arrays were given
+  std::size_t vertices = 0, faces = 0;                         ///< as the file counts them
+  std::vector<std::string> notes;                              ///< Document::notes
+  std::vector<StageReport> before_repair, after_repair;        ///< reading, writing
   std::optional<Clearance> clearance_before, clearance_after;  ///< of the files read; none: not measured
-  StageReport whole;                                     ///< all of it; its name is not used
+  StageReport whole;                                           ///< all of it; its name is not used
 };
 
 /// The report of `unsnarl fix` as JSON, indented, without a line break at the end. Keys are the names of the fields of
