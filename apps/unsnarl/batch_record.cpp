@@ -92,6 +92,8 @@ void take_report(Record& record, const Record& report) {
     for (const auto& [kind, number] : by_class.items()) record[fmt::format("{}_{}", side, kind)] = number;
   }
   for (const std::string& name : measured) record[name] = at(("/" + name).c_str());
+  record["dihedral_deg"] = at("/clearance/after/dihedral_deg/value");
+  record["gap_rel"] = at("/clearance/after/gap_rel/value");
   record["obstructions"] = kinds(at("/obstructions"));
   record["left_because"] = counted(at("/left/by_reason"));
 }
@@ -103,6 +105,7 @@ const std::vector<std::string>& record_columns() {
     std::vector<std::string> names = {"mesh",  "status",     "exit_code",    "vertices",
                                       "faces", "components", "pairs_before", "pairs_left"};
     names.insert(names.end(), measured.begin(), measured.end());
+    names.insert(names.end(), {"dihedral_deg", "gap_rel"});
     for (const char* side : {"before", "after"})
       for (const auto& kind : pair_class_names) names.push_back(fmt::format("{}_{}", side, kind));
     names.insert(names.end(), {"obstructions", "left_because", "message", "output", "input_sha256", "output_sha256"});
