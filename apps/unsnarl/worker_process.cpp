@@ -30,6 +30,12 @@ constexpr double bytes_of_maxrss = 1;
 constexpr double bytes_of_maxrss = 1024;
 #endif
 
+/// A worker with all that it has started; itself also where it has not made its group yet.
+void kill_all_of(pid_t worker) {
+  ::kill(-worker, SIGKILL);
+  ::kill(worker, SIGKILL);
+}
+
 /// The child between fork and exec: calls that are safe after a fork of a process with threads, and no others.
 [[noreturn]] void become(char* const* words, const char* standard_error, pid_t parent) {
 #ifdef __linux__
@@ -71,7 +77,7 @@ WorkerEnd WorkerProcesses::run(const std::string& program, const std::vector<std
     const std::lock_guard lock(mutex_);
     const auto limit = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_limit_s));
     entry = running_.insert(running_.end(), {child, time_limit_s > 0 ? start + limit : Clock::time_point::max()});
-    if (stopped_) ::kill(child, SIGKILL);
+    if (stopped_) kill_all_of(child);
   }
   // Its number stays taken until it is reaped below, where nobody can kill it any more.
   siginfo_t info{};
@@ -101,14 +107,14 @@ void WorkerProcesses::stop_late_ones() {
   for (Running& worker : running_)
     if (Clock::now() > worker.deadline) {
       worker.timed_out = true;
-      ::kill(worker.process, SIGKILL);
+      kill_all_of(worker.process);
     }
 }
 
 void WorkerProcesses::stop_all() {
   const std::lock_guard lock(mutex_);
   stopped_ = true;
-  for (const Running& worker : running_) ::kill(worker.process, SIGKILL);
+  for (const Running& worker : running_) kill_all_of(worker.process);
 }
 
 bool WorkerProcesses::is_stopped() const {
