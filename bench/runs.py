@@ -65,18 +65,6 @@ class Run:
         self.stderr = output["err"].decode(errors="replace")
 
 
-def find_key(tree, key):
-    """The first value of that name anywhere in a JSON tree, breadth first."""
-    level = [tree]
-    while level:
-        for node in level:
-            if isinstance(node, dict) and key in node:
-                return node[key]
-        level = [child for node in level if isinstance(node, (dict, list))
-                 for child in (node.values() if isinstance(node, dict) else node)]
-    return None
-
-
 def find_meshes(roots):
     """(dataset, name, path) of every mesh among files and below folders, in a fixed order. A dataset is the first
     folder below the one given, or the one given where meshes lie in it directly."""

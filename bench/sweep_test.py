@@ -1,126 +1,76 @@
 #!/usr/bin/env python3
-"""bench/sweep against a stand-in for the program that behaves as the name of the mesh says."""
+"""bench/sweep with the program itself on meshes of a few faces. usage: sweep_test.py PROGRAM"""
 
 import csv
 import os
 import subprocess
 import sys
 import tempfile
-import textwrap
 import unittest
 from pathlib import Path
 
 SWEEP = Path(__file__).resolve().parent / "sweep"
+PROGRAM = Path(sys.argv.pop(1)).resolve()
 
-PROGRAM = """\
-    #!{python}
-    import json, os, shutil, sys, time
-    arguments = sys.argv[1:]
-    command = arguments[0]
-    if command == "sample":
-        if arguments[1] == "--list":
-            print("good_knot    a knot\\nstubborn_knot    another")
-        else:
-            open(arguments[3], "w").write("v 0 0 0\\n")
-        sys.exit(0)
-    if command == "check":
-        open(arguments[arguments.index("--pairs") + 1], "w").write("a,b,class\\n0,1,disjoint\\n1,2,disjoint\\n5,6,folded\\n")
-        sys.exit(1)
-    source, option = arguments[1], lambda name: arguments[arguments.index(name) + 1]
-    open({calls!r}, "a").write(os.path.basename(source) + "\\n")
-    if "slow" in source: time.sleep(60)
-    if "crash" in source: os.abort()
-    if "greedy" in source: bytearray(3 << 30)
-    if "silent" in source: sys.exit(3)
-    left = 3 if "stubborn" in source else 0
-    if left == 0: shutil.copy(source, option("-o"))
-    json.dump(dict(status="reduced" if left else "embedded",
-                   topology=dict(vertices=12, faces=20), before=dict(total=8, by_class=dict(disjoint=7, folded=1)),
-                   after=dict(total=left, by_class=dict(disjoint=left)), untouched_share=0.9,
-                   displacement_mean_rel=1e-4, displacement_max_rel=1e-3,
-                   regions=[dict(strategy="A2"), dict(strategy="A2"), dict(strategy="I4")],
-                   stages=[dict(name="untangle", seconds=0.5)]), open(option("--report"), "w"))
-    if "--picture" in arguments: open(option("--picture"), "w").write("png")
-    sys.exit(1 if left else 0)
-    """
+GOOD = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+# A tetrahedron, and a small one whose tip sticks into it.
+CROSSING = ("v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nv 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
+            "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n")
+# All triangles of a vertex with two of five others: no motion embeds them.
+HOPELESS = ("v 0 0 0\nv 1 0 0\nv 0 1 0.1\nv -1 0.2 0\nv 0.1 -1 0\nv 0.2 0.1 1\nf 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 2 6\n"
+            "f 1 3 4\nf 1 3 5\nf 1 3 6\nf 1 4 5\nf 1 4 6\nf 1 5 6\n")
 
 
 class SweepTest(unittest.TestCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.root = Path(self.folder.name)
-        self.calls = self.root / "calls"
-        self.program = self.root / "program"
-        self.write_program("")
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
 
-    def write_program(self, comment):
-        self.program.write_text(textwrap.dedent(PROGRAM).format(python=sys.executable, calls=str(self.calls)) + comment)
-        self.program.chmod(0o755)
-
-    def mesh(self, path):
+    def mesh(self, path, text):
         path = self.root / "meshes" / path
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text("v 0 0 0\n")
+        path.write_text(text)
 
     def sweep(self, *arguments):
-        run = subprocess.run([sys.executable, SWEEP, "-o", self.root / "out", "--program", self.program, *arguments],
+        run = subprocess.run([sys.executable, SWEEP, "-o", self.root / "out", "--program", PROGRAM, *arguments],
                              capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)
-        with (self.root / "out" / "results.csv").open(newline="") as file:
-            return {f"{row['dataset']}/{row['mesh']}": row for row in csv.DictReader(file)}
+        with (self.root / "out" / "sweep.csv").open(newline="") as file:
+            return {row["mesh"]: row for row in csv.DictReader(file)}
 
-    def call_count(self):
-        return len(self.calls.read_text().splitlines())
-
-    def test_outcomes(self):
-        for name in ("a/good.obj", "a/stubborn.off", "b/deep/crash.ply", "b/silent.stl", "b/slow.obj", "b/greedy.obj",
-                     "b/notes.txt"):
-            self.mesh(name)
-        rows = self.sweep(self.root / "meshes", "--time-limit", "3", "--memory-limit", "1000", "--jobs", "3")
-        self.assertEqual({name: row["status"] for name, row in rows.items()}, {
-            "a/good.obj": "embedded", "a/stubborn.off": "reduced", "b/deep/crash.ply": "killed_by_SIGABRT",
-            "b/silent.stl": "exit_3", "b/slow.obj": "killed_after_time_limit", "b/greedy.obj": "exit_1"})
-        good, stubborn = rows["a/good.obj"], rows["a/stubborn.off"]
-        self.assertEqual((good["pairs_before"], good["pairs_left"], good["intersecting_faces_left"]), ("8", "0", "0"))
-        self.assertEqual((good["strategies"], good["stage_s"], good["same_bytes"]), ("A2:2 I4:1", "untangle:0.500", "True"))
-        self.assertEqual((stubborn["pairs_left"], stubborn["intersecting_faces_left"]), ("3", "3"))
-        self.assertEqual((good["faces"], good["before_folded"], good["displacement_max_rel"]), ("20", "1", "0.001"))
-        self.assertGreater(float(good["peak_memory_mb"]), 1)
-        self.assertLess(float(rows["b/slow.obj"]["seconds"]), 10)
-
-        summary = (self.root / "out" / "summary.md").read_text()
-        self.assertRegex(summary, r"\| a \| 2 \| 1 \| 0 \| 3 \| ")
-        self.assertIn("b/deep/crash.ply | killed_by_SIGABRT", summary)
-        pictures = sorted(p.name for p in (self.root / "out" / "worst").iterdir())
-        self.assertIn("1_a_stubborn.off.png", pictures)
-
-    def test_resumes_until_the_program_changes(self):
-        self.mesh("good.obj")
-        self.mesh("stubborn.obj")
-        arguments = [self.root / "meshes", "--pictures", "0"]
-        self.sweep(*arguments)
-        self.assertEqual(self.call_count(), 2)
-        self.sweep(*arguments)
-        self.assertEqual(self.call_count(), 2, "finished meshes were run again")
-        self.mesh("good_new.obj")
-        self.sweep(*arguments)
-        self.assertEqual(self.call_count(), 3)
-        self.write_program("# another build\n")
-        rows = self.sweep(*arguments)
-        self.assertEqual(self.call_count(), 6)
-        self.assertEqual(set(rows), {"meshes/good.obj", "meshes/good_new.obj", "meshes/stubborn.obj"})
-        self.sweep(*arguments, "--", "--paper")
-        self.assertEqual(self.call_count(), 9, "other arguments of the program make another result")
-
-    def test_samples_and_judge(self):
+    def test_table_summary_and_pictures(self):
+        for name, text in (("a/good.obj", GOOD), ("a/crossing.obj", CROSSING), ("b/deep/hopeless.obj", HOPELESS),
+                           ("b/silent.stl", "nothing"), ("b/notes.txt", "no mesh")):
+            self.mesh(name, text)
         judge = self.root / "judge"
         judge.write_text(f"#!{sys.executable}\nprint('talk')\nprint('{{\"pairs\": 4, \"same\": true}}')\n")
         judge.chmod(0o755)
-        rows = self.sweep("--samples", "--judge", str(judge), "--pictures", "0")
-        self.assertEqual(set(rows), {"Analytic/good_knot.obj", "Analytic/stubborn_knot.obj"})
-        self.assertEqual(rows["Analytic/good_knot.obj"]["judge.pairs"], "4")
-        self.assertEqual(rows["Analytic/stubborn_knot.obj"]["judge.pairs"], "", "no output, nothing to judge")
+        rows = self.sweep(self.root / "meshes", "--jobs", "2", "--threads", "1", "--judge", judge)
+        self.assertEqual({name: row["status"] for name, row in rows.items()}, {
+            "a/good.obj": "embedded", "a/crossing.obj": "embedded", "b/silent.stl": "invalid_input",
+            "b/deep/hopeless.obj": rows["b/deep/hopeless.obj"]["status"]})
+        self.assertNotEqual(rows["b/deep/hopeless.obj"]["status"], "embedded")
+        good, crossing, hopeless = (rows[name] for name in ("a/good.obj", "a/crossing.obj", "b/deep/hopeless.obj"))
+        self.assertEqual((good["same_bytes"], crossing["same_bytes"]), ("True", "False"))
+        self.assertGreater(int(crossing["pairs_before"]), 0)
+        self.assertEqual((crossing["pairs_left"], crossing["intersecting_faces_left"]), ("0", "0"))
+        self.assertNotEqual(hopeless["pairs_left"], "0")
+        self.assertRegex(crossing["strategies"], r"\w+:1")
+        self.assertIn("untangle:", crossing["stage_s"])
+        self.assertEqual((crossing["judge.pairs"], rows["b/silent.stl"]["judge.pairs"]), ("4", ""))
+        summary = (self.root / "out" / "summary.md").read_text()
+        self.assertRegex(summary, r"\| a \| 2 \| 2 \| 0 \| 0 \| ")
+        self.assertIn("| b/silent.stl | invalid_input |", summary)
+        self.assertIn("1_b_deep_hopeless.obj.png", os.listdir(self.root / "out" / "worst"))
+
+    def test_what_is_done_is_not_done_again(self):
+        self.mesh("crossing.obj", CROSSING)
+        arguments = [self.root / "meshes", "--pictures", "0"]
+        first = self.sweep(*arguments)
+        self.assertEqual(self.sweep(*arguments), first, "seconds would differ")
+        self.assertNotEqual(self.sweep(*arguments, "--", "--no-recover")["meshes/crossing.obj"]["seconds"],
+                            first["meshes/crossing.obj"]["seconds"])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-# Makes a C++ source of a page: cmake -DPAGE=... -DSOURCE=... -P this. Without PAGE: of an empty one.
+# Makes a C++ source of a page: cmake -DPAGE=... -DSOURCE=... -DHEADER=... -DFUNCTION=... -P this. The header declares
+# the function, which returns the page. Without PAGE: an empty one.
 set(text "")
 if(PAGE)
   file(READ ${PAGE} text)
@@ -7,11 +8,11 @@ if(PAGE)
     message(FATAL_ERROR "${PAGE} contains what ends the string literal")
   endif()
 endif()
-file(WRITE ${SOURCE} "#include \"viewer.h\"
+file(WRITE ${SOURCE} "#include \"${HEADER}\"
 
 #include <string_view>
 
-std::string_view unsnarl::app::viewer_template() {
+std::string_view unsnarl::app::${FUNCTION}() {
   using namespace std::string_view_literals;
   return R\"unsnarl_page(${text})unsnarl_page\"sv;
 }

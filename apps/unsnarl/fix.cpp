@@ -173,6 +173,7 @@ class Fix {
 
     write_pictures();
     write_recording();
+    measure_clearances();
     files_.whole = clock_.stage("fix");
     write_report();
     write_view();
@@ -201,11 +202,12 @@ class Fix {
     tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
   }
 
+  bool float32_digits() const { return result_.report.precision == Precision::float32; }
+
   void write_output() {
-    const bool float32_digits = result_.report.precision == Precision::float32;
     std::vector<OutputFile> all;
     for (std::size_t i = 0; i < scene_.files().size(); ++i) {
-      std::vector<OutputFile> files = scene_.patched(i, result_.positions, float32_digits);
+      std::vector<OutputFile> files = scene_.patched(i, result_.positions, float32_digits());
       if (!is_stream(output_)) refuse_to_overwrite_buffers(i, files);
       if (options_.is_scene()) files[0].name = scene_.files()[i].name;
       for (OutputFile& file : files) {
@@ -290,6 +292,8 @@ class Fix {
     } else if (!options_.picture.empty()) {
       PictureOptions picture;
       picture.files = scene_.files();
+      picture.width = options_.picture_width;
+      picture.height = options_.picture_width / 2;
       const auto label = [](const char* when, std::size_t pairs) {
         return fmt::format("{}\n{}", when,
                            pairs == 0   ? "no self-intersections"
@@ -308,6 +312,18 @@ class Fix {
   void write_recording() {
     if (options_.record.empty()) return;
     write_file(options_.record, recording_json(result_, surface()) + "\n", interruption_);
+  }
+
+  /// Of the file read and, where one was written, of that as it is read back.
+  void measure_clearances() {
+    if (options_.report.empty() && options_.min_dihedral_deg <= 0) return;
+    const Surface& input = surface();
+    const auto measured = [&](std::span<const double> positions) {
+      return measure_clearance(input, positions, repair_options_.find);
+    };
+    files_.clearance_before = measured(input.positions);
+    if (files_.output.empty()) return;
+    files_.clearance_after = measured(scene_.as_written(result_.positions, float32_digits()));
   }
 
   void write_report() {

@@ -13,6 +13,7 @@ struct FixOptions : MeshOptions {
   bool keep_partial = false;
   std::string precision = "auto";
   double time_limit_s = 0, memory_limit_mb = 0;
+  double min_dihedral_deg = 0;
   double max_displacement = 0, min_gap = 0;  ///< fractions of the diagonal, or lengths if `absolute`
   bool absolute = false;
   std::string fix_vertices;
@@ -24,6 +25,7 @@ struct FixOptions : MeshOptions {
   bool sequence = false;  ///< the inputs are frames
   std::string frames;     ///< of a sequence: "first:last"
   std::string report, highlight, picture, view, record;
+  int picture_width = 1600;  ///< pixels
   std::string progress = "auto";
 };
 void add_fix_options(CLI::App& command, FixOptions& options);

@@ -107,11 +107,21 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->group(what);
   command
       .add_option("--min-gap", options.min_gap,
-                  "Wanted gap between sheets, as a fraction of the diagonal; 0: just enough to be safe")
+                  "Wanted gap between sheets that are moved apart, of one component or two, as a fraction of the\n"
+                  "diagonal; 0: just enough to be safe")
       ->check(not_negative())
       ->type_name("X")
       ->group(what);
-  command.add_flag("--absolute", options.absolute, "These two are lengths in the units of the mesh")->group(what);
+  command
+      .add_flag("--absolute", options.absolute, "--max-displacement and --min-gap are lengths in the units of the mesh")
+      ->group(what);
+  command
+      .add_option("--min-dihedral", options.min_dihedral_deg,
+                  "Open two faces at an edge that are folded together closer than this angle, as programs that\n"
+                  "mesh volumes ask for (TetGen: 0.1); 0: leave them. In degrees, less than 90")
+      ->check(not_negative())
+      ->type_name("DEG")
+      ->group(what);
   command
       .add_option("--precision", options.precision,
                   "Number format in which the result must hold: 'float32' as most programs read it, 'float64',\n"
@@ -138,6 +148,10 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
                   "Write a picture, before and after, intersecting faces in red; FILE.gif or a folder (of PNG):\n"
                   "an animation of the repair")
       ->type_name("FILE.png")
+      ->group(shown);
+  command.add_option("--picture-width", options.picture_width, "Width of that picture; 1600 by default")
+      ->check(CLI::Range(128, 16384).description(""))
+      ->type_name("PIXELS")
       ->group(shown);
   command.add_option("--view", options.view, "Write a page to look at: before, after, displacement (see unsnarl view)")
       ->type_name("PAGE.html")
@@ -190,6 +204,7 @@ RepairOptions repair_options(const FixOptions& options, const SceneDocument& sce
   const double unit = options.absolute && diagonal > 0 ? 1 / diagonal : 1;
   result.max_displacement_rel = options.max_displacement * unit;
   result.min_gap_rel = options.min_gap * unit;
+  result.min_dihedral_deg = options.min_dihedral_deg;
   result.time_limit_s = options.time_limit_s;
   result.memory_limit_mb = options.memory_limit_mb;
   result.paper = options.paper;

@@ -113,6 +113,13 @@ std::vector<std::string> by_file(const SceneReport& scene) {
   return lines;
 }
 
+std::string dihedral_in_words(const Clearance& clearance, double wanted_deg) {
+  const std::string angle = fmt::format("  smallest dihedral angle: {:.3g} degrees", clearance.dihedral_deg);
+  if (clearance.dihedral_deg >= wanted_deg) return angle;
+  return angle + fmt::format(", less than asked for, between faces {} and {}", clearance.dihedral_faces[0],
+                             clearance.dihedral_faces[1]);
+}
+
 }  // namespace
 
 std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
@@ -132,6 +139,8 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
     line(fmt::format("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
                      100 * (1 - r.untouched_share), 100 * r.displacement_max_rel, 100 * r.displacement_mean_rel));
   for (const std::string& words : far_regions(r)) line("  " + words);
+  if (options.min_dihedral_deg > 0 && files.clearance_after)
+    line(dihedral_in_words(*files.clearance_after, options.min_dihedral_deg));
   for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
   line(fmt::format("  {}{}; {:.2f} s, {:.0f} MB", explanation(result.status, options.goal), float32_remark(result),
                    files.whole.seconds, files.whole.peak_memory_mb));

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "batch.h"
 #include "check.h"
 #include "curves.h"
 #include "fix.h"
@@ -39,11 +40,13 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
   FixOptions fix;
+  BatchOptions batch;
   CheckOptions check;
   SampleOptions sample;
   ViewOptions view;
   CurvesOptions curves;
   CLI::App* const fix_command = program.add_subcommand("fix", "Repair a mesh");
+  CLI::App* const batch_command = program.add_subcommand("batch", "Repair many meshes, each in a process of its own");
   CLI::App* const check_command = program.add_subcommand("check", "Count and locate the self-intersections of a mesh");
   CLI::App* const view_command = program.add_subcommand("view", "Write a page to look at a mesh, before and after");
   CLI::App* const sample_command =
@@ -51,6 +54,7 @@ int run(int argc, char** argv) {
   CLI::App* const curves_command =
       program.add_subcommand("curves", "Move curves in the plane until none crosses itself or another: SVG or JSON");
   add_fix_options(*fix_command, fix);
+  add_batch_options(*batch_command, batch);
   add_check_options(*check_command, check);
   add_view_options(*view_command, view);
   add_sample_options(*sample_command, sample);
@@ -68,13 +72,15 @@ int run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0 && program.get_subcommands().empty())
-      return complain(exit_usage, "say what to do: fix, check, view, sample or curves; 'unsnarl --help' explains");
+      return complain(exit_usage,
+                      "say what to do: fix, batch, check, view, sample or curves; 'unsnarl --help' explains");
     return program.exit(e, std::cout, std::cerr) == 0 ? exit_embedded : exit_usage;
   }
   std::optional<tbb::global_control> limit;
   if (const int threads = *fix_command ? fix.threads : *view_command ? view.threads : check.threads; threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   if (*fix_command) return run_fix(fix, interruption);
+  if (*batch_command) return run_batch(batch, interruption);
   if (*check_command) return run_check(check, interruption);
   if (*view_command) return run_view(view, interruption);
   if (*curves_command) return run_curves(curves, interruption);

@@ -54,8 +54,11 @@ struct RepairOptions {
   std::function<std::vector<double>(std::span<const double> positions, bool float32)> as_written;
   /// One flag a vertex, nonzero: must not move, nor the vertices welded to it. Empty: all may move.
   std::vector<std::uint8_t> fixed;
-  bool each_component = false;      ///< repair every component as if alone; what runs through others may do so still
-  double min_gap_rel = 0;           ///< wanted gap between sheets / bounding-box diagonal; 0: a few float32 units
+  bool each_component = false;  ///< repair every component as if alone; what runs through others may do so still
+  double min_gap_rel = 0;       ///< wanted gap between sheets / bounding-box diagonal; 0: a few float32 units
+  /// Two faces at an edge that are folded together closer than this angle, in degrees, in [0, 90), are opened to it
+  /// after the repair, as far as nothing is in the way; also where nothing intersects. 0: left as they are.
+  double min_dihedral_deg = 0;
   double max_displacement_rel = 0;  ///< no vertex moves farther / bounding-box diagonal; 0: any
   double time_limit_s = 0;          ///< wall-clock seconds; 0: none
   /// MB (10^6 bytes) of resident memory, looked at all the time; 0: none. To be sure that it is never passed, limit

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "unsnarl/check.h"
+#include "unsnarl/clearance.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/report.h"
 #include "unsnarl/scene_document.h"
@@ -19,13 +21,14 @@ inline constexpr int check_schema_version = 1;      ///< of check_json
 
 /// The files and the time around a call, as reports list them.
 struct ReportFiles {
-  std::string input, output;  ///< paths; empty: arrays or several files were given, none was written
-  std::string format;         ///< of the input: "obj", ...; empty: arrays or several files were given
-  std::size_t vertices = 0, faces = 0;                   ///< as the file counts them
-  std::vector<std::string> notes;                        ///< Document::notes
-  SceneReport scene;                                     ///< empty: one file or mesh was given
-  std::vector<StageReport> before_repair, after_repair;  ///< reading, writing
-  StageReport whole;                                     ///< all of it; its name is not used
+  std::string input, output;            ///< paths; empty: arrays or several files were given, none was written
+  std::string format;                   ///< of the input: "obj", ...; empty: arrays or several files were given
+  std::size_t vertices = 0, faces = 0;  ///< as the file counts them
+  std::vector<std::string> notes;       ///< Document::notes
+  SceneReport scene;                    ///< empty: one file or mesh was given
+  std::vector<StageReport> before_repair, after_repair;        ///< reading, writing
+  std::optional<Clearance> clearance_before, clearance_after;  ///< of the files read; none: not measured
+  StageReport whole;                                           ///< all of it; its name is not used
 };
 
 /// The report of `unsnarl fix` as JSON, indented, without a line break at the end. Keys are the names of the fields of

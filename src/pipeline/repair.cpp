@@ -88,6 +88,9 @@ class Repair {
     if (!(options_.min_gap_rel >= 0) || !(options_.max_displacement_rel >= 0) || !(options_.time_limit_s >= 0) ||
         !(options_.memory_limit_mb >= 0))
       throw std::invalid_argument("RepairOptions: gaps, displacements and limits must not be negative");
+    if (!(options_.min_dihedral_deg >= 0 && options_.min_dihedral_deg < 90))
+      throw std::invalid_argument("RepairOptions::min_dihedral_deg is " + std::to_string(options_.min_dihedral_deg) +
+                                  "; give degrees from 0 to less than 90");
     if (options_.find.threads < 0)
       throw std::invalid_argument("RepairOptions::find.threads is " + std::to_string(options_.find.threads) +
                                   "; give 0 for as many as the machine has, or their number");
@@ -124,7 +127,8 @@ class Repair {
     bool float32 = true;
     for (Index c = 0; c < count; ++c) {
       // One without conflict is as it should be, unless rounding is asked to be looked at too.
-      const bool is_of_interest = !pairs[c].empty() || options_.precision == Precision::float32;
+      const bool is_of_interest =
+          !pairs[c].empty() || options_.precision == Precision::float32 || options_.min_dihedral_deg > 0;
       if (!is_of_interest || diagnosis_.components.list[c].obstructed() || limits_.reached()) continue;
       const Triangulation cut = of_component(prepared_.triangulation, diagnosis_.components, c);
       SceneRepair scene(*job_, make_scene(prepared_.rest, cut.triangles, fixed), std::move(pairs[c]),
@@ -139,10 +143,14 @@ class Repair {
   /// `cut`: of the polygons of the component, or of all, into its triangles, which `finders` are of.
   void work_on_scene(SceneRepair& scene, const Triangulation& cut, Index component, Finders& finders) {
     const bool other_diagonals_matter = !prepared_.other_diagonals.triangles.empty();
-    if (!scene.has_work(finders) && !other_diagonals_matter) return;
+    const bool is_at_work = scene.has_work(finders) || other_diagonals_matter;
+    if (!is_at_work && options_.min_dihedral_deg <= 0) return;
     try {
-      scene.work(finders);
-      settle_triangulation(scene, *job_, cut, component, finders);
+      if (is_at_work) {
+        scene.work(finders);
+        settle_triangulation(scene, *job_, cut, component, finders);
+      }
+      if (options_.min_dihedral_deg > 0) scene.open_dihedrals(finders);
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
     }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include "mesh/areas.h"
 #include "pipeline/gap.h"
+#include "pipeline/open_dihedrals.h"
 #include "pipeline/restore_to_rest.h"
 #include "recover/recover.h"
 #include "recover/recover_regions.h"
@@ -108,6 +110,24 @@ SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders) {
   }
   ignored_ = ignored;
   return result;
+}
+
+void SceneRepair::open_dihedrals(Finders& finders) {
+  OpenDihedralsOptions options;
+  options.least_radians = job_.options.min_dihedral_deg * std::numbers::pi / 180;
+  options.most_motion = job_.options.max_displacement_rel * job_.diagonal;
+  options.as_written = [this](const Positions& x) { return as_written(x); };
+  options.pairs_at = [&](const Positions& x) {
+    std::vector<IntersectingPair> pairs = finders.as_is.find(x);
+    if (!float32_) return pairs;
+    const std::vector<IntersectingPair> rounded = finders.find_rounded(x);
+    pairs.insert(pairs.end(), rounded.begin(), rounded.end());
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+  };
+  options.stop = job_.limits.stopper();
+  unsnarl::open_dihedrals(scene_, options);
 }
 
 EscalationOptions SceneRepair::escalation_options() {

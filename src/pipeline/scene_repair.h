@@ -32,6 +32,8 @@ class SceneRepair {
   bool has_work(Finders& finders) const;
   /// Where float32 was not asked for and rounding to it lets no way hold, float64 has to do.
   void work(Finders& finders);
+  /// Opens faces that are folded together closer than RepairOptions::min_dihedral_deg.
+  void open_dihedrals(Finders& finders);
   /// Puts what was moved farther than allowed back to rest.
   void keep_within_displacement(IntersectionFinder& finder);
 

@@ -1,6 +1,9 @@
 #include "unsnarl/report_json.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
 #include "report/recording_json.h"
 #include "report/shared_json.h"
@@ -22,6 +25,7 @@ Json options_json(const RepairOptions& options) {
           {"each_component", options.each_component},
           {"both_diagonals", options.find.both_diagonals},
           {"min_gap_rel", options.min_gap_rel},
+          {"min_dihedral_deg", options.min_dihedral_deg},
           {"max_displacement_rel", options.max_displacement_rel},
           {"time_limit_s", options.time_limit_s},
           {"memory_limit_mb", options.memory_limit_mb},
@@ -38,6 +42,20 @@ Json stages_json(const RepairResult& result, const ReportFiles& files) {
                         {"cpu_seconds", stage.cpu_seconds},
                         {"peak_memory_mb", stage.peak_memory_mb}});
   return stages;
+}
+
+/// Distances in diagonals, as all lengths of a report; null where there are no two faces to measure.
+Json clearance_json(const Clearance& clearance, double diagonal) {
+  const auto entry = [](double value, const std::array<std::int32_t, 2>& faces) {
+    Json json;
+    json["value"] = std::isfinite(value) ? Json(value) : Json();
+    json["faces"] = faces[0] < 0 ? Json() : Json(faces);
+    return json;
+  };
+  const double unit = diagonal > 0 ? 1 / diagonal : 1;
+  return {{"dihedral_deg", entry(clearance.dihedral_deg, clearance.dihedral_faces)},
+          {"gap_rel", entry(clearance.gap * unit, clearance.gap_faces)},
+          {"component_gap_rel", entry(clearance.component_gap * unit, clearance.component_gap_faces)}};
 }
 
 Json left_json(const RepairReport& report) {
@@ -94,6 +112,10 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   json["edge_stretch_p999"] = r.edge_stretch_p999;
   json["float32_embedded"] = r.float32_embedded;
   json["precision"] = to_string(r.precision);
+  json["clearance"] = Json::object();
+  for (const auto& [when, clearance] :
+       {std::pair{"before", &files.clearance_before}, {"after", &files.clearance_after}})
+    json["clearance"][when] = *clearance ? clearance_json(**clearance, r.diagonal) : Json();
   json["regions"] = Json::array();
   for (const RegionReport& region : r.regions)
     json["regions"].push_back({{"strategy", region.strategy},

@@ -1,0 +1,410 @@
+#include "batch.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <limits>
+#include <map>
+#include <thread>
+
+#include "batch_folder.h"
+#include "batch_inputs.h"
+#include "batch_journal.h"
+#include "batch_progress.h"
+#include "batch_record.h"
+#include "batch_resources.h"
+#include "batch_summary.h"
+#include "content_hash.h"
+#include "fix.h"
+#include "standard_streams.h"
+#include "unsnarl/exit_code.h"
+#include "usage_error.h"
+
+namespace unsnarl::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int thumbnail_width = 320;  // pixels, of both halves: a row of the page shows it at half that
+/// A worker stops at its time limit by itself; one that does not is killed this much later.
+constexpr double patience = 1.5, patience_s = 30;
+/// Raised where records that were made before must not be taken for done any more.
+constexpr std::string_view key_version = "unsnarl batch 1";
+
+/// The options for `unsnarl fix` as that will read them. Throws UsageError.
+FixOptions parsed_fix_options(const std::vector<std::string>& words) {
+  CLI::App command;
+  FixOptions options;
+  add_fix_options(command, options);
+  std::vector<std::string> reversed(words.rbegin(), words.rend());
+  reversed.push_back("IN");
+  try {
+    command.parse(reversed);
+  } catch (const CLI::ParseError& e) {
+    throw UsageError(fmt::format("after '--' go options of 'unsnarl fix' only: {}", e.what()));
+  }
+  const auto refuse = [](bool given, const char* name, const char* instead) {
+    if (given) throw UsageError(fmt::format("{} after '--': {}", name, instead));
+  };
+  refuse(!options.output.empty() || options.in_place, "-o and --in-place", "results go to the folder of the batch");
+  for (const auto& [name, path] : {std::pair{"--report", &options.report},
+                                   {"--picture", &options.picture},
+                                   {"--view", &options.view},
+                                   {"--record", &options.record},
+                                   {"--highlight", &options.highlight}})
+    refuse(!path->empty(), name, "all meshes would write to one file; run 'unsnarl fix' for the mesh in question");
+  refuse(options.time_limit_s > 0, "--time-limit", "give it before '--'");
+  refuse(options.memory_limit_mb > 0, "--memory-limit", "give it before '--'");
+  refuse(options.threads > 0, "--threads", "give it before '--'");
+  return options;
+}
+
+std::string host_name() {
+  std::string name(256, '\0');
+  if (::gethostname(name.data(), name.size() - 1) != 0) return {};
+  return name.c_str();
+}
+
+bool is_success(const std::string& status) {
+  return status == to_string(Status::embedded) || status == to_string(Status::obstructed);
+}
+
+/// Everything around one call of `batch`.
+class Batch {
+ public:
+  Batch(const BatchOptions& options, Interruption& interruption)
+      : options_(options),
+        interruption_(interruption),
+        folder_{options.output},
+        shard_(shard_from(options.shard)),
+        all_(batch_meshes(options.input, options.output)),
+        mine_(part_of(all_, shard_)),
+        program_(options.worker.empty() ? fs::read_symlink("/proc/self/exe").string() : options.worker),
+        journal_(folder_.journal()),
+        progress_(mine_, options.quiet) {
+    const FixOptions fix = parsed_fix_options(options.fix_options);
+    for (const BatchMesh& mesh : all_)
+      if (std::error_code ignored; fs::equivalent(mesh.path, folder_.root / BatchFolder::mesh(mesh.name), ignored))
+        throw UsageError(fmt::format("{} is a result of a batch in {}; name another folder for the results",
+                                     mesh.path.string(), folder_.root.string()));
+    const std::string program_hash = sha256_of_file(program_);
+    if (program_hash.empty()) throw FileError(program_ + ": cannot be read; --worker needs a program");
+    same_for_all_ = fmt::format("{}\n{}\n", key_version, program_hash);
+    for (const std::string& word : options.fix_options) same_for_all_ += word + '\n';
+    if (!fix.fix_vertices.empty()) same_for_all_ += sha256_of_file(fix.fix_vertices) + '\n';
+    jobs_ = options.jobs > 0 ? options.jobs : processors();
+    threads_ = options.threads > 0 ? options.threads : std::max(1, processors() / jobs_);
+    memory_limit_mb_ = options.memory_limit_mb > 0 ? options.memory_limit_mb : std::floor(0.9 * memory_mb() / jobs_);
+    folder_.prepare();
+  }
+
+  int run() {
+    if (!options_.summary) {
+      work();
+      if (error_) std::rethrow_exception(error_);
+      if (workers_.is_stopped()) return exit_cancelled;
+    }
+    const bool is_whole = options_.summary || shard_.count == 1;
+    const std::vector<Record> records = is_whole ? records_of(all_) : records_of(mine_);
+    if (is_whole) write_batch_summary(folder_, records, interruption_);
+    const std::map<std::string, std::size_t> counts = statuses(records);
+    if (!options_.quiet) {
+      for (const auto& [status, count] : counts) tell(fmt::format("{:>8} {}\n", count, status));
+      tell(is_whole ? fmt::format("see {}\n", (folder_.root / "index.html").string())
+                    : "when all parts are done: the same command with --summary\n");
+    }
+    return counts.size() == 1 && counts.contains(std::string(to_string(Status::embedded))) ? exit_embedded
+                                                                                           : exit_intersecting;
+  }
+
+ private:
+  std::string key_of(const BatchMesh& mesh, const std::string& content) const {
+    return sha256(same_for_all_ + mesh.name + '\n' + content);
+  }
+
+  /// The record of a mesh that needs no more work; null otherwise.
+  Record finished(const std::string& key) const {
+    const JournalEntry* const entry = journal_.find(key);
+    if (entry == nullptr || entry->line.empty()) return {};
+    Record record = Record::parse(entry->line, nullptr, false);
+    if (!record.is_object()) return {};
+    const std::string status = record.value("status", "");
+    const Record run = record.value("run", Record::object());
+    const auto bound = [](double limit) { return limit > 0 ? limit : std::numeric_limits<double>::infinity(); };
+    const auto raised = [&](Status limit, const char* name, double now) {
+      return status == to_string(limit) && bound(now) > bound(run.value(name, 0.0));
+    };
+    if (status == status_cannot_write || (options_.retry && !is_success(status)) ||
+        raised(Status::time_limit, "time_limit_s", options_.time_limit_s) ||
+        raised(Status::memory_limit, "memory_limit_mb", memory_limit_mb_))
+      return {};
+    const std::string output = record.value("output", "");
+    if (!output.empty() && sha256_of_file(folder_.root / output) != record.value("output_sha256", "")) return {};
+    const Record buffers = record.value("buffers", Record::object());
+    for (const auto& [name, hash] : buffers.items())
+      if (sha256_of_file(folder_.root / name) != hash) return {};
+    if (options_.thumbnails && record.contains("vertices") && !record.contains("thumbnail")) return {};
+    return record;
+  }
+
+  /// Works off all meshes of the shard. Sets error_.
+  void work() {
+    journal_.open(shard_.name(), [this] {
+      if (!options_.quiet) tell("waiting: another 'unsnarl batch' is at work on this part\n");
+    });
+    std::error_code ignored;
+    fs::remove_all(folder_.work(shard_), ignored);  // of a run that was killed
+    interruption_.set_handler([this] {
+      workers_.stop_all();
+      if (!options_.quiet) tell("\nstopping; what is done is kept, and the same command goes on\n");
+    });
+    for (std::size_t i = 0; i < mine_.size(); ++i) todo_.push_back(i);
+    // The largest first: at the end no single one keeps the others waiting.
+    std::stable_sort(todo_.begin(), todo_.end(),
+                     [this](std::size_t a, std::size_t b) { return mine_[a].bytes > mine_[b].bytes; });
+    std::vector<std::thread> threads;
+    for (int i = 0; i < jobs_; ++i) threads.emplace_back([this] { work_on_all(); });
+    std::thread watch([this] { progress_.watch([this] { workers_.stop_late_ones(); }); });
+    for (std::thread& thread : threads) thread.join();
+    progress_.end();
+    watch.join();
+    interruption_.set_handler(nullptr);
+    fs::remove_all(folder_.work(shard_), ignored);
+    fs::remove(folder_.root / "work", ignored);  // where no other shard is at work
+  }
+
+  void work_on_all() {
+    try {
+      for (Task task; next(task);) work_on(task);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      workers_.stop_all();
+    }
+  }
+
+  struct Task {
+    std::size_t mesh = 0;
+    int killed = 0;        ///< times its worker was killed in this run
+    bool is_late = false;  ///< has waited for all others
+  };
+
+  bool next(Task& task) {
+    const std::lock_guard lock(mutex_);
+    if (workers_.is_stopped()) return false;
+    if (!todo_.empty()) {
+      task = {todo_.front()};
+      todo_.pop_front();
+      return true;
+    }
+    if (late_.empty()) return false;
+    task = late_.front();
+    late_.pop_front();
+    task.is_late = true;
+    return true;
+  }
+
+  void put_off(const Task& task) {
+    const std::lock_guard lock(mutex_);
+    late_.push_back(task);
+  }
+
+  void work_on(Task task) {
+    const BatchMesh& mesh = mine_[task.mesh];
+    const std::string content = content_hash(mesh);
+    const std::string key = key_of(mesh, content);
+    if (const Record record = finished(key); !record.is_null()) return progress_.skipped(mesh);
+    const JournalEntry* const entry = journal_.find(key);
+    const int unexplained = entry == nullptr ? 0 : entry->unexplained;
+    // What was being worked on when the batch was ended, perhaps because of it, must not end it before the rest is
+    // done.
+    if (unexplained > 0 && !task.is_late) return put_off(task);
+    Record record;
+    if (unexplained >= options_.attempts && !options_.retry) {
+      record = {
+          {"mesh", mesh.name},
+          {"status", status_ended_the_batch},
+          {"message", fmt::format("the batch ended {} times while it was worked on; --retry tries again", unexplained)},
+          {"run", Record::object()}};
+    } else {
+      journal_.started(key);
+      record = repaired(mesh);
+      if (workers_.is_stopped()) return journal_.stopped(key);
+      if (record["status"] == status_killed && ++task.killed < options_.attempts) {
+        journal_.stopped(key);
+        return put_off(task);
+      }
+    }
+    record["input_sha256"] = content;
+    record["key"] = key;
+    record["run"]["attempts"] = task.killed + (record["status"] == status_killed ? 0 : 1);
+    record["run"]["host"] = host_;
+    record["run"]["time_limit_s"] = options_.time_limit_s;
+    record["run"]["memory_limit_mb"] = memory_limit_mb_;
+    journal_.ended(key, record.dump(-1, ' ', false, Record::error_handler_t::replace));
+    progress_.done(mesh, record["status"]);
+  }
+
+  /// Runs `unsnarl fix` in a folder of its own and moves what it wrote into place.
+  Record repaired(const BatchMesh& mesh) {
+    const fs::path place = folder_.work(shard_) / fmt::format("{}-{}", ::getpid(), ++places_);
+    const fs::path output = place / "out" / fs::path(mesh.name).filename(), report = place / "report.json",
+                   thumbnail = place / "thumbnail.png", said = place / "said";
+    std::error_code error;
+    fs::create_directories(place / "out", error);
+    if (error) throw WriteError(fmt::format("{}: cannot make this folder: {}", place.string(), error.message()));
+    std::string input = mesh.path.string();
+    if (input.starts_with('-')) input = "./" + input;
+    std::vector<std::string> words = {"fix",
+                                      input,
+                                      "-o",
+                                      output.string(),
+                                      "--report",
+                                      report.string(),
+                                      "--threads",
+                                      std::to_string(threads_),
+                                      "--memory-limit",
+                                      fmt::format("{}", memory_limit_mb_),
+                                      "--time-limit",
+                                      fmt::format("{}", options_.time_limit_s),
+                                      "--quiet"};
+    if (options_.thumbnails)
+      words.insert(words.end(), {"--picture", thumbnail.string(), "--picture-width", std::to_string(thumbnail_width)});
+    words.insert(words.end(), options_.fix_options.begin(), options_.fix_options.end());
+    const double limit_s = options_.time_limit_s > 0 ? patience * options_.time_limit_s + patience_s : 0;
+    const WorkerEnd end = workers_.run(program_, words, said, limit_s);
+    Record record = record_of(mesh.name, end, report, said);
+    if (!workers_.is_stopped() && record["status"] != status_killed) {
+      take_over_meshes(mesh, place / "out", record);
+      folder_.take_over(report, BatchFolder::report(mesh.name));
+      if (folder_.take_over(thumbnail, BatchFolder::thumbnail(mesh.name)))
+        record["thumbnail"] = BatchFolder::thumbnail(mesh.name);
+    }
+    fs::remove_all(place, error);
+    return record;
+  }
+
+  /// The repaired mesh and, of a glTF, its buffers: these first.
+  void take_over_meshes(const BatchMesh& mesh, const fs::path& from, Record& record) {
+    const std::string to = BatchFolder::mesh(mesh.name);
+    std::vector<fs::path> others;
+    for (const auto& entry : fs::recursive_directory_iterator(from))
+      if (entry.is_regular_file() && entry.path() != from / fs::path(mesh.name).filename())
+        others.push_back(entry.path().lexically_relative(from));
+    std::sort(others.begin(), others.end());
+    for (const fs::path& name : others) {
+      const std::string place = (fs::path(to).parent_path() / name).generic_string();
+      record["buffers"][place] = sha256_of_file(from / name);
+      folder_.take_over(from / name, place);
+    }
+    const std::string hash = sha256_of_file(from / fs::path(mesh.name).filename());
+    if (!folder_.take_over(from / fs::path(mesh.name).filename(), to)) return;
+    record["output"] = to;
+    record["output_sha256"] = hash;
+  }
+
+  std::vector<Record> records_of(const std::vector<BatchMesh>& meshes) const {
+    std::vector<Record> records;
+    for (const BatchMesh& mesh : meshes) {
+      const JournalEntry* const entry = journal_.find(key_of(mesh, content_hash(mesh)));
+      Record record = entry == nullptr ? Record() : Record::parse(entry->line, nullptr, false);
+      if (!record.is_object()) record = {{"mesh", mesh.name}, {"status", status_pending}};
+      records.push_back(std::move(record));
+    }
+    return records;
+  }
+
+  static std::map<std::string, std::size_t> statuses(const std::vector<Record>& records) {
+    std::map<std::string, std::size_t> counts;
+    for (const Record& record : records) ++counts[record["status"].get<std::string>()];
+    return counts;
+  }
+
+  const BatchOptions& options_;
+  Interruption& interruption_;
+  BatchFolder folder_;
+  Shard shard_;
+  std::vector<BatchMesh> all_, mine_;
+  std::string program_;
+  BatchJournal journal_;
+  BatchProgress progress_;
+  std::string same_for_all_;  // the part of keys that is the same for all meshes
+  std::string host_ = host_name();
+  int jobs_ = 1, threads_ = 1;
+  double memory_limit_mb_ = 0;
+  WorkerProcesses workers_;
+  std::atomic<std::size_t> places_ = 0;
+  std::mutex mutex_;
+  std::deque<std::size_t> todo_;
+  std::deque<Task> late_;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+void add_batch_options(CLI::App& command, BatchOptions& options) {
+  command
+      .add_option("LIST|FOLDER", options.input,
+                  "A folder, searched for meshes with its subfolders, or a file with the path of a mesh a line (and,\n"
+                  "after a tab, the name of its result); '-' reads that list from standard input")
+      ->required();
+  command.add_option("OPTIONS_OF_FIX", options.fix_options,
+                     "After '--': options for 'unsnarl fix', the same for every mesh");
+  command.add_option("-o,--output", options.output, "Folder for the results")->type_name("OUTDIR")->required();
+  command.add_option("--jobs,-j", options.jobs, "Meshes to repair at a time; 0: as many as there are processors")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("N");
+  command.add_option("--threads", options.threads, "Threads for each mesh; 0: the processors divided by --jobs")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->type_name("N");
+  command
+      .add_option("--shard", options.shard,
+                  "Only part I of N, 0 <= I < N: the meshes I, I + N, ... by name. In a Slurm array its task, unless\n"
+                  "given; all may write to one OUTDIR at a time")
+      ->type_name("I/N");
+  command.add_flag("--summary", options.summary,
+                   "Repair nothing: write the summary of what is there. Without parts it is written at the end anyway");
+  command.add_flag("--thumbnails", options.thumbnails, "Draw each mesh before and after, for the page of the summary");
+  command.add_flag("--retry", options.retry, "Try again what has not ended embedded or obstructed");
+  const std::string limits = "Limits for each mesh";
+  command.add_option("--time-limit", options.time_limit_s, "Seconds; 0: none; 3600 by default")
+      ->check(not_negative())
+      ->type_name("S")
+      ->group(limits);
+  command
+      .add_option("--memory-limit", options.memory_limit_mb,
+                  "Memory; by default nine tenths of what there is, divided by --jobs")
+      ->check(not_negative())
+      ->type_name("MB")
+      ->group(limits);
+  command
+      .add_option("--attempts", options.attempts,
+                  "How often a mesh is tried whose worker is killed or dies, or with which the batch itself does")
+      ->check(CLI::Range(1, 100).description(""))
+      ->type_name("N")
+      ->group(limits);
+  command.add_option("--worker", options.worker, "Program to run as 'unsnarl fix' is run; this one by default")
+      ->type_name("PROGRAM");
+  command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors");
+  command.footer(
+      "Examples:\n"
+      "  unsnarl batch scans -o repaired\n"
+      "  unsnarl batch list.txt -o repaired --jobs 8 --thumbnails -- --max-displacement 0.01\n"
+      "  unsnarl batch scans -o repaired --shard 3/100       one part of a hundred, on one machine of many\n"
+      "  unsnarl batch scans -o repaired --summary           when all parts are done\n\n"
+      "What is done is not done again: the same command goes on after an interruption, a crash or a power cut.\n\n"
+      "Exit codes: 0 all embedded, 1 all have been worked on but not all are embedded (results.csv says why),\n"
+      "2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 70 internal error.");
+}
+
+int run_batch(const BatchOptions& options, Interruption& interruption) {
+  return Batch(options, interruption).run();
+}
+
+}  // namespace unsnarl::app

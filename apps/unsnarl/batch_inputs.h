@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace unsnarl::app {
+
+/// A mesh of a batch.
+struct BatchMesh {
+  std::filesystem::path path;
+  std::string name;          ///< its place below the folders of results: "a/b.obj"
+  std::uintmax_t bytes = 0;  ///< size of the file; 0 where there is none
+};
+
+/// The meshes below a folder (hidden files and `excluded` aside), or those that a list names: a path a line, relative
+/// to the current folder, and after a tab the name of the result where it is to be another; '-' reads the list from
+/// standard input. Sorted by name. Throws FileError, UsageError (nothing to do, two results of one name).
+std::vector<BatchMesh> batch_meshes(const std::string& list_or_folder, const std::filesystem::path& excluded);
+
+/// Part `index` of `count`: the meshes index, index + count, ... in the order of their names.
+struct Shard {
+  std::size_t index = 0, count = 1;
+  std::string name() const { return std::to_string(index) + "-of-" + std::to_string(count); }
+};
+/// "i/n", 0 <= i < n. Empty: the part of this task of a Slurm array (SLURM_ARRAY_TASK_ID, _COUNT, _MIN, _STEP), or all
+/// outside of one. Throws UsageError.
+Shard shard_from(const std::string& text);
+std::vector<BatchMesh> part_of(const std::vector<BatchMesh>& meshes, const Shard& shard);
+
+/// SHA-256 of the content of a mesh: its file, and the files that a glTF refers to.
+std::string content_hash(const BatchMesh& mesh);
+
+}  // namespace unsnarl::app

@@ -1,0 +1,107 @@
+#include "batch_journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "unsnarl/document.h"
+
+namespace unsnarl::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+bool ends_in_the_middle_of_a_line(int file) {
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  char last = '\n';
+  return size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n';
+}
+
+}  // namespace
+
+void BatchJournal::read() {
+  entries_.clear();
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder_, ignored))
+    if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const fs::path& path : files) {
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) take(line);
+  }
+}
+
+BatchJournal::~BatchJournal() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void BatchJournal::open(const std::string& name, const std::function<void()>& before_waiting) {
+  path_ = folder_ / (name + ".jsonl");
+  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (file_ < 0) throw WriteError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
+  // A file system without locks is no reason to do nothing: two runs at once do the same work and write the same bytes.
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    before_waiting();
+    while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  if (ends_in_the_middle_of_a_line(file_)) append("");
+  read();
+}
+
+const JournalEntry* BatchJournal::find(const std::string& key) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(key);
+  return found == entries_.end() ? nullptr : &found->second;
+}
+
+void BatchJournal::started(const std::string& key) {
+  append(Json{{"started", key}}.dump());
+}
+
+void BatchJournal::stopped(const std::string& key) {
+  append(Json{{"stopped", key}}.dump());
+}
+
+void BatchJournal::ended(const std::string& key, const std::string& result) {
+  append(result);
+  const std::lock_guard lock(mutex_);
+  entries_[key] = {result, 0};
+}
+
+void BatchJournal::take(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object()) return;
+  const auto word = [&json](const char* name) {
+    const auto found = json.find(name);
+    return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  if (const std::string key = word("started"); !key.empty()) {
+    ++entries_[key].unexplained;
+  } else if (const std::string stopped = word("stopped"); !stopped.empty()) {
+    --entries_[stopped].unexplained;
+  } else if (const std::string ended = word("key"); !ended.empty()) {
+    entries_[ended] = {std::string(line), 0};
+  }
+}
+
+void BatchJournal::append(const std::string& line) {
+  const std::string bytes = line + '\n';
+  const std::lock_guard lock(mutex_);
+  const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+  if (written != static_cast<ssize_t>(bytes.size()))
+    throw WriteError(fmt::format("{}: cannot be written: {}", path_.string(),
+                                 written < 0 ? std::strerror(errno) : "the disk is full"));
+}
+
+}  // namespace unsnarl::app

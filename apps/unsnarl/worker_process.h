@@ -1,0 +1,47 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <list>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace unsnarl::app {
+
+/// How a worker ended.
+struct WorkerEnd {
+  int exit_code = 0;  ///< negative: the signal that ended it
+  bool timed_out = false;
+  double seconds = 0, cpu_s = 0, peak_memory_mb = 0;
+};
+
+/// Processes of their own, each in a process group of its own, so that a Ctrl-C meant for this process does not reach
+/// them; on Linux they end with this process, however that ends. Any number of threads may call run().
+class WorkerProcesses {
+ public:
+  /// Runs a program to its end, its standard error going to a file. time_limit_s: beyond it the worker is killed by
+  /// stop_late_ones(); 0: none. Throws std::system_error where no process can be started.
+  WorkerEnd run(const std::string& program, const std::vector<std::string>& arguments,
+                const std::filesystem::path& standard_error, double time_limit_s);
+  /// Kills those beyond their limits; to be called now and then.
+  void stop_late_ones();
+  /// Kills all; those to come are killed at once.
+  void stop_all();
+  bool is_stopped() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Running {
+    pid_t process;
+    Clock::time_point deadline;
+    bool timed_out = false;
+  };
+  mutable std::mutex mutex_;
+  std::list<Running> running_;
+  bool stopped_ = false;
+};
+
+}  // namespace unsnarl::app

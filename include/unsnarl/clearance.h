@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "unsnarl/intersections.h"
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+/// How much room a surface leaves between its faces: what programs that mesh volumes or simulate contact ask for.
+struct Clearance {
+  /// Smallest angle between two faces at an edge, in degrees, in [0, 180]: 0 where they are folded onto each other, 180
+  /// where they are flat. Exact up to one rounding at the end: no edge has a smaller one. Faces without area do not
+  /// count, nor do those on the same three vertices. 180 where no edge has two faces.
+  double dihedral_deg = 180;
+  std::array<std::int32_t, 2> dihedral_faces = {-1, -1};  ///< the two; -1: there are none
+  /// Smallest distance of two faces that share no vertex, in the units of the positions; computed in double precision.
+  /// 0 where faces intersect, infinite where there are no such faces.
+  double gap = std::numeric_limits<double>::infinity();
+  std::array<std::int32_t, 2> gap_faces = {-1, -1};  ///< the two; -1: there are none, or faces intersect
+  /// The same of faces of different components.
+  double component_gap = std::numeric_limits<double>::infinity();
+  std::array<std::int32_t, 2> component_gap_faces = {-1, -1};
+};
+
+/// Measures `positions` (3 n doubles, vertex order of `input`) of the input's faces, which are welded and cut into
+/// triangles as the input is. Throws std::invalid_argument as certify() does.
+Clearance measure_clearance(const SurfaceView& input, std::span<const double> positions,
+                            const FindOptions& options = {});
+
+}  // namespace unsnarl

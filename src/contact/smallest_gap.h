@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "geometry/types.h"
+
+namespace unsnarl {
+
+/// The two triangles that are nearest to each other among those that share no vertex.
+struct SmallestGap {
+  double distance = 0;  ///< infinite where all share vertices
+  Index first = -1, second = -1;
+};
+
+/// group: one entry a triangle; only triangles of different groups count. Empty: all.
+/// Precondition: no two of these triangles intersect.
+SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group = {});
+
+}  // namespace unsnarl

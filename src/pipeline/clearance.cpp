@@ -1,0 +1,56 @@
+#include "unsnarl/clearance.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "contact/smallest_gap.h"
+#include "mesh/adjacency.h"
+#include "mesh/components.h"
+#include "mesh/dihedral_angles.h"
+#include "pipeline/threads.h"
+#include "scene/face_pairs.h"
+#include "scene/prepared_surface.h"
+
+namespace unsnarl {
+namespace {
+
+void take(const SmallestGap& gap, const std::vector<Index>& polygon, double& distance,
+          std::array<std::int32_t, 2>& faces) {
+  distance = gap.distance;
+  if (gap.first >= 0) faces = {polygon[gap.first], polygon[gap.second]};
+}
+
+}  // namespace
+
+Clearance measure_clearance(const SurfaceView& input, std::span<const double> positions, const FindOptions& options) {
+  if (positions.size() != input.positions.size())
+    throw std::invalid_argument("there are " + std::to_string(positions.size() / 3) + " positions for a surface of " +
+                                std::to_string(input.vertex_count()) + " vertices");
+  const ThreadLimit threads(options.threads);
+  const PreparedSurface prepared = prepare(input, options);
+  const Positions x = prepared.gather(positions);
+  const std::span<const Triangle> triangles = prepared.triangles();
+  const std::vector<Index>& polygon = prepared.triangulation.polygon;
+  Clearance result;
+  const std::vector<Hinge> hinges = hinges_of(triangles);
+  if (const SmallestAngle angle = smallest_angle(x, hinges); angle.hinge >= 0) {
+    result.dihedral_deg = angle.radians * 180 / std::numbers::pi;
+    result.dihedral_faces = {polygon[hinges[angle.hinge].first], polygon[hinges[angle.hinge].second]};
+  }
+  const Components components = find_components(triangles, static_cast<Index>(x.cols()), build_edges(triangles));
+  const std::vector<IntersectingPair> pairs = IntersectionFinder(triangles).find(x);
+  for (const IntersectingPair& pair : pairs) {
+    result.gap = 0;
+    if (components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b]) result.component_gap = 0;
+  }
+  if (result.gap > 0) take(smallest_gap(triangles, x), polygon, result.gap, result.gap_faces);
+  if (result.component_gap > 0 && components.count() > 1)
+    take(smallest_gap(triangles, x, components.component_of_triangle), polygon, result.component_gap,
+         result.component_gap_faces);
+  return result;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,295 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/program.h"
+
+namespace unsnarl::cli {
+namespace {
+
+const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+/// A tetrahedron, and a small one whose tip sticks into it.
+const std::string crossing =
+    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nv 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
+    "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n";
+
+class BatchCli : public ::testing::Test {
+ protected:
+  void mesh(const std::string& name, const std::string& bytes) {
+    fs::create_directories(fs::path(folder / ("in/" + name)).parent_path());
+    write(folder / ("in/" + name), bytes);
+  }
+  /// A program in place of `unsnarl fix` that notes the mesh, runs these shell commands and then the real one. $2 is
+  /// the mesh.
+  std::vector<std::string> worker(const std::string& commands) {
+    const std::string path = folder / "worker";
+    write(path, fmt::format("#!/bin/sh\necho $2 >> '{}'\n{}\nexec '{}' \"$@\"\n", folder / "calls", commands,
+                            UNSNARL_PROGRAM));
+    fs::permissions(path, fs::perms::owner_all);
+    return {"--worker", path};
+  }
+  Outcome batch(const std::vector<std::string>& more = {}, const RunOptions& options = {}) {
+    std::vector<std::string> arguments = {"batch", in, "-o", out, "--jobs", jobs, "--threads", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments, options);
+  }
+  std::map<std::string, nlohmann::json> results() const {
+    std::map<std::string, nlohmann::json> found;
+    std::istringstream lines(contents(out + "/results.jsonl"));
+    for (std::string line; std::getline(lines, line);) {
+      const auto json = nlohmann::json::parse(line);
+      found[json["mesh"]] = json;
+    }
+    return found;
+  }
+  std::size_t calls() const {
+    const std::string text = contents(folder / "calls");
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  }
+  Folder folder;
+  std::string in = folder / "in", out = folder / "out", jobs = "2";
+};
+
+TEST_F(BatchCli, RepairsAllBelowAFolderAsFixDoes) {
+  mesh("a/crossing.obj", crossing);
+  mesh("triangle.obj", triangle);
+  mesh("b/wrong.obj", "v 0 0 0\nf 1 1 9\n");
+  mesh("b/notes.txt", "no mesh");
+  mesh(".hidden/crossing.obj", crossing);
+  const Outcome outcome = batch({"--thumbnails", "--", "--precision", "float64"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(run({"fix", folder / "in/a/crossing.obj", "-o", folder / "alone.obj", "--precision", "float64"}).exit_code,
+            0);
+  EXPECT_EQ(contents(out + "/fixed/a/crossing.obj"), contents(folder / "alone.obj"));
+  EXPECT_EQ(contents(out + "/fixed/triangle.obj"), triangle);
+  EXPECT_FALSE(fs::exists(out + "/fixed/b/wrong.obj"));
+  const auto found = results();
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found.at("a/crossing.obj")["status"], "embedded");
+  EXPECT_GT(found.at("a/crossing.obj")["pairs_before"], 0);
+  EXPECT_EQ(found.at("a/crossing.obj")["thumbnail"], "thumbnails/a/crossing.obj.png");
+  EXPECT_TRUE(fs::exists(out + "/thumbnails/a/crossing.obj.png"));
+  EXPECT_EQ(found.at("b/wrong.obj")["status"], "invalid_input");
+  EXPECT_NE(found.at("b/wrong.obj")["message"].get<std::string>().find("9"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(contents(out + "/reports/a/crossing.obj.json"))["status"], "embedded");
+  EXPECT_EQ(contents(out + "/results.csv").rfind("mesh,status,exit_code,", 0), 0u);
+  EXPECT_NE(contents(out + "/index.html").find("a/crossing.obj"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out + "/work"));
+}
+
+TEST_F(BatchCli, WhatIsDoneIsNotDoneAgainUnlessSomethingChanges) {
+  mesh("crossing.obj", crossing);
+  mesh("triangle.obj", triangle);
+  const std::vector<std::string> arguments = worker("");
+  const auto expect_calls = [&](std::size_t more, const std::vector<std::string>& options = {}) {
+    const std::size_t before = calls();
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), options.begin(), options.end());
+    EXPECT_EQ(batch(all).exit_code, 0);
+    EXPECT_EQ(calls() - before, more);
+  };
+  expect_calls(2);
+  const std::string page = contents(out + "/index.html");
+  expect_calls(0);
+  EXPECT_EQ(contents(out + "/index.html"), page);
+  mesh("triangle.obj", triangle + "# another\n");
+  expect_calls(1);
+  write(out + "/fixed/crossing.obj", "damaged");
+  expect_calls(1);
+  fs::remove(out + "/fixed/crossing.obj");
+  expect_calls(1);
+  expect_calls(2, {"--", "--precision", "float64"});
+  expect_calls(0, {"--", "--precision", "float64"});
+  expect_calls(2, {"--thumbnails"});
+  worker("# another program");
+  expect_calls(2);
+}
+
+TEST_F(BatchCli, AMeshThatKillsItsWorkerIsRecordedAndNotTriedForEver) {
+  mesh("deadly.obj", triangle);
+  mesh("crossing.obj", crossing);
+  std::vector<std::string> arguments = worker("case $2 in *deadly*) kill -SEGV $$;; esac");
+  EXPECT_EQ(batch(arguments).exit_code, 1);
+  EXPECT_EQ(results().at("deadly.obj")["status"], "killed");
+  EXPECT_EQ(results().at("crossing.obj")["status"], "embedded");
+  EXPECT_EQ(calls(), 4u);
+  EXPECT_EQ(batch(arguments).exit_code, 1);
+  EXPECT_EQ(calls(), 4u);
+  arguments.insert(arguments.end(), {"--retry", "--attempts", "1"});
+  EXPECT_EQ(batch(arguments).exit_code, 1);
+  EXPECT_EQ(calls(), 5u);
+}
+
+TEST_F(BatchCli, AWorkerKilledOnceIsStartedAgain) {
+  mesh("crossing.obj", crossing);
+  const auto arguments = worker(fmt::format("mkdir '{}' && kill -KILL $$", folder / "was_here"));
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+  EXPECT_EQ(calls(), 2u);
+  EXPECT_EQ(results().at("crossing.obj")["status"], "embedded");
+}
+
+TEST_F(BatchCli, AMeshThatEndsTheBatchWaitsForAllOthersAndIsGivenUp) {
+  for (const char* name : {"a.obj", "b.obj", "c.obj"}) mesh(name, crossing);
+  mesh("deadly.obj", crossing + "# long\n");  // the largest comes first
+  auto arguments = worker("case $2 in *deadly*) kill -KILL $PPID; sleep 1;; esac");
+  arguments.insert(arguments.end(), {"--attempts", "2"});
+  jobs = "1";
+  EXPECT_EQ(batch(arguments).exit_code, -SIGKILL);
+  EXPECT_EQ(batch(arguments).exit_code, -SIGKILL);
+  for (const char* name : {"a.obj", "b.obj", "c.obj"}) EXPECT_TRUE(fs::exists(out + "/fixed/" + name));
+  EXPECT_EQ(batch(arguments).exit_code, 1);
+  EXPECT_EQ(calls(), 5u);
+  EXPECT_EQ(results().at("deadly.obj")["status"], "ended_the_batch");
+  worker("# harmless now");
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+}
+
+TEST_F(BatchCli, AnInterruptionKeepsWhatIsDone) {
+  for (int i = 0; i < 6; ++i) mesh(fmt::format("{}.obj", i), crossing);
+  const auto slow = worker("sleep 0.2");
+  RunOptions interrupted;
+  interrupted.signal_after_us = 300'000;
+  interrupted.signal = SIGTERM;
+  EXPECT_EQ(batch(slow, interrupted).exit_code, 6);
+  EXPECT_FALSE(fs::exists(out + "/results.csv"));
+  const std::size_t before = calls();
+  EXPECT_LT(before, 6u);
+  EXPECT_EQ(batch(slow).exit_code, 0);
+  EXPECT_EQ(results().size(), 6u);
+}
+
+TEST_F(BatchCli, ListsNameMeshesAndTheirResults) {
+  mesh("crossing.obj", crossing);
+  mesh("other/crossing.obj", triangle);
+  in = folder / "list.txt";
+  write(in, fmt::format("{0}/in/crossing.obj\tfirst/one.obj\r\n\n{0}/in/other/crossing.obj\n", folder.string()));
+  EXPECT_EQ(batch().exit_code, 0);
+  EXPECT_TRUE(fs::exists(out + "/fixed/first/one.obj"));
+  EXPECT_EQ(contents(out + "/fixed" + folder.string() + "/in/other/crossing.obj"), triangle);
+  const auto expect_refusal = [&](const std::string& lines, int exit_code, const std::string& words) {
+    write(in, lines);
+    const Outcome outcome = batch();
+    EXPECT_EQ(outcome.exit_code, exit_code);
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  };
+  expect_refusal("a.obj\tx.obj\nb.obj\tx.obj\n", 2, "both be written to x.obj");
+  expect_refusal("a.obj\t../x.obj\n", 3, "list.txt:1: '../x.obj'");
+  expect_refusal("a.obj\na.txt\n", 3, "list.txt:2: the extension of 'a.txt'");
+  expect_refusal("", 3, "no mesh");
+  write(in, "missing.obj\n");
+  EXPECT_EQ(batch().exit_code, 1);
+  EXPECT_EQ(results().at("missing.obj")["status"], "invalid_input");
+  in = "-";
+  RunOptions from_stream;
+  from_stream.input = folder / "in/crossing.obj" + std::string("\ta.obj\n");
+  EXPECT_EQ(batch({}, from_stream).exit_code, 0);
+  EXPECT_TRUE(fs::exists(out + "/fixed/a.obj"));
+}
+
+TEST_F(BatchCli, PartsAreDisjointAndCompleteAndTheTasksOfSlurm) {
+  for (int i = 0; i < 5; ++i) mesh(fmt::format("{}.obj", i), crossing);
+  const auto slow = worker("");
+  const auto part = [&](const char* shard) {
+    std::vector<std::string> arguments = slow;
+    arguments.insert(arguments.end(), {"--shard", shard});
+    return batch(arguments).exit_code;
+  };
+  EXPECT_EQ(part("1/3"), 0);
+  EXPECT_EQ(calls(), 2u);
+  EXPECT_FALSE(fs::exists(out + "/results.csv"));
+  auto summary = slow;
+  summary.push_back("--summary");
+  EXPECT_EQ(batch(summary).exit_code, 1);
+  EXPECT_EQ(results().at("0.obj")["status"], "pending");
+  EXPECT_EQ(part("0/3"), 0);
+  EXPECT_EQ(calls(), 4u);
+  RunOptions task;
+  task.in_child = [] {
+    ::setenv("SLURM_ARRAY_TASK_ID", "6", 1);
+    ::setenv("SLURM_ARRAY_TASK_MIN", "2", 1);
+    ::setenv("SLURM_ARRAY_TASK_STEP", "2", 1);
+    ::setenv("SLURM_ARRAY_TASK_COUNT", "3", 1);
+  };
+  EXPECT_EQ(batch(slow, task).exit_code, 0);
+  EXPECT_EQ(calls(), 5u);
+  EXPECT_EQ(batch(summary).exit_code, 0);
+  for (const char* wrong : {"3/3", "x", "1", "-1/3", "1/0"}) EXPECT_EQ(part(wrong), 2) << wrong;
+  task.in_child = [] {
+    ::setenv("SLURM_ARRAY_TASK_ID", "9", 1);
+    ::setenv("SLURM_ARRAY_TASK_COUNT", "2", 1);
+  };
+  EXPECT_EQ(batch(slow, task).exit_code, 2);
+}
+
+TEST_F(BatchCli, BuffersOfGltfComeAlongAndCount) {
+  const auto gltf = [](const std::string& buffer) {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[)"
+           R"({"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
+           R"("min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,)"
+           R"("uri":")" +
+           buffer + "\"}]}";
+  };
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::string bytes(reinterpret_cast<const char*>(positions), sizeof(positions));
+  mesh("one.gltf", gltf("the%20one.bin"));
+  mesh("two.gltf", gltf("the%20one.bin"));
+  const auto arguments = worker("");
+  EXPECT_EQ(batch(arguments).exit_code, 1);
+  mesh("the one.bin", bytes);
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+  EXPECT_EQ(calls(), 4u);
+  EXPECT_EQ(contents(out + "/fixed/two.gltf/the one.bin"), bytes);
+  EXPECT_TRUE(fs::exists(out + "/fixed/two.gltf/two.gltf"));
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+  EXPECT_EQ(calls(), 4u);
+}
+
+TEST_F(BatchCli, NamesNeedNotBeUtf8) {
+  mesh("\xe9\"<script>.obj", crossing);
+  EXPECT_EQ(batch().exit_code, 0);
+  EXPECT_TRUE(fs::exists(out + "/fixed/\xe9\"<script>.obj"));
+  EXPECT_EQ(contents(out + "/index.html").find("<script>.obj"), std::string::npos);
+  EXPECT_EQ(batch().exit_code, 0);
+}
+
+TEST_F(BatchCli, RefusesWhatMakesNoSense) {
+  mesh("crossing.obj", crossing);
+  const auto expect_refusal = [&](const std::vector<std::string>& more, int exit_code, const std::string& words) {
+    const Outcome outcome = batch(more);
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(out + "/fixed"));
+  };
+  expect_refusal({"--", "--frobnicate"}, 2, "frobnicate");
+  expect_refusal({"--", "--report", "x.json"}, 2, "--report after '--'");
+  expect_refusal({"--", "-o", "x.obj"}, 2, "results go to the folder");
+  expect_refusal({"--", "--time-limit", "3"}, 2, "before '--'");
+  expect_refusal({"--worker", folder / "none"}, 3, "--worker");
+  in = folder / "in/crossing.obj";
+  expect_refusal({}, 2, "use 'unsnarl fix'");
+  in = folder / "none";
+  expect_refusal({}, 3, "cannot open");
+  in = folder / "in";
+  fs::create_directories(out + "/fixed");
+  const Outcome outcome = batch();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("no 'unsnarl batch' has written"), std::string::npos) << outcome.err;
+}
+
+TEST_F(BatchCli, ResultsAreNoMeshesOfTheSameBatch) {
+  mesh("crossing.obj", crossing);
+  EXPECT_EQ(batch().exit_code, 0);
+  in = out + "/fixed";
+  const Outcome outcome = batch();
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("is a result of a batch"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace unsnarl::cli

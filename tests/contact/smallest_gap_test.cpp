@@ -1,0 +1,72 @@
+#include "contact/smallest_gap.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace unsnarl {
+namespace {
+
+/// So many triangles of size `size`, none near another's vertices, at random places.
+struct Soup {
+  Positions x;
+  std::vector<Triangle> triangles;
+};
+Soup soup(int count, double size, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto number = [&random] { return static_cast<double>(random()) / 4294967296.0; };
+  Soup result;
+  result.x.resize(3, 3 * count);
+  for (int t = 0; t < count; ++t) {
+    const Vec3 place(number(), number(), number());
+    for (int k = 0; k < 3; ++k) result.x.col(3 * t + k) = place + size * Vec3(number(), number(), number());
+    result.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  return result;
+}
+
+/// By a grid of points on both, which is never nearer and at most two steps of the grid farther.
+double sampled_distance(const Positions& x, const Triangle& s, const Triangle& t, int steps) {
+  const auto point = [&](const Triangle& f, int i, int j) -> Vec3 {
+    const double u = double(i) / steps, v = double(j) / steps;
+    return (1 - u - v) * x.col(f[0]) + u * x.col(f[1]) + v * x.col(f[2]);
+  };
+  double nearest = 1e300;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; i + j <= steps; ++j)
+      for (int k = 0; k <= steps; ++k)
+        for (int l = 0; k + l <= steps; ++l) nearest = std::min(nearest, (point(s, i, j) - point(t, k, l)).norm());
+  return nearest;
+}
+
+TEST(SmallestGap, IsThatOfTheNearestTwoOfAll) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const Soup s = soup(12, 0.05, seed);
+    double nearest = 1e300;
+    for (std::size_t i = 0; i < s.triangles.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        nearest = std::min(nearest, sampled_distance(s.x, s.triangles[i], s.triangles[j], 12));
+    const SmallestGap gap = smallest_gap(s.triangles, s.x);
+    EXPECT_LE(gap.distance, nearest);
+    EXPECT_GT(gap.distance, nearest - 0.02);
+    EXPECT_LT(gap.first, gap.second);
+  }
+}
+
+TEST(SmallestGap, LooksAsFarAsItHasTo) {
+  Positions x(3, 6);
+  x << 0, 1, 0, 0, 1, 0,  //
+      0, 0, 1, 0, 0, 1,   //
+      0, 0, 0, 500, 500, 500;
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {3, 4, 5}};
+  EXPECT_DOUBLE_EQ(smallest_gap(triangles, x).distance, 500);
+  const std::vector<Index> one_group = {7, 7}, two_groups = {7, 8};
+  EXPECT_TRUE(std::isinf(smallest_gap(triangles, x, one_group).distance));
+  EXPECT_DOUBLE_EQ(smallest_gap(triangles, x, two_groups).distance, 500);
+  const std::vector<Triangle> joined = {{0, 1, 2}, {2, 4, 5}};
+  EXPECT_TRUE(std::isinf(smallest_gap(joined, x).distance));
+}
+
+}  // namespace
+}  // namespace unsnarl

@@ -1,0 +1,83 @@
+#include "unsnarl/clearance.h"
+
+#include <gtest/gtest.h>
+
+#include "unsnarl/certify.h"
+#include "unsnarl/repair.h"
+#include "unsnarl/samples.h"
+
+namespace unsnarl {
+namespace {
+
+/// A tetrahedron of height `height` over a triangle: folded at three edges by an angle of about `height`.
+Surface flat_tetrahedron(double height) {
+  return {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, height}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, {}};
+}
+
+TEST(Clearance, MeasuresAnglesAndGaps) {
+  Surface two = flat_tetrahedron(0.3);
+  const Surface other = flat_tetrahedron(0.3);
+  for (std::size_t i = 0; i < other.positions.size(); ++i)
+    two.positions.push_back(other.positions[i] + (i % 3 == 2 ? -1 : 0));
+  for (const std::int32_t v : other.corners) two.corners.push_back(v + 4);
+  const Clearance clearance = measure_clearance(two, two.positions);
+  // The faces at the edge on the x axis: the base, and one that rises by 0.3 over 0.3.
+  EXPECT_NEAR(clearance.dihedral_deg, 45, 1e-12);
+  EXPECT_NEAR(clearance.gap, 0.7, 1e-12);
+  EXPECT_NEAR(clearance.component_gap, 0.7, 1e-12);
+  EXPECT_NE(clearance.component_gap_faces[0], -1);
+  std::vector<double> touching = two.positions;
+  for (int v = 4; v < 8; ++v) touching[3 * v + 2] += 0.9;
+  const Clearance none = measure_clearance(two, touching);
+  EXPECT_EQ(none.gap, 0);
+  EXPECT_EQ(none.component_gap, 0);
+  EXPECT_NEAR(none.dihedral_deg, clearance.dihedral_deg, 1e-9);
+}
+
+TEST(Clearance, FoldedFacesAreOpenedToTheAngleAskedFor) {
+  for (const double height : {1e-7, 1e-4, 2e-3}) {
+    const Surface thin = flat_tetrahedron(height);
+    RepairOptions options;
+    options.min_dihedral_deg = 0.5;
+    const RepairResult result = repair(thin, options);
+    EXPECT_EQ(result.status, Status::embedded);
+    EXPECT_LT(measure_clearance(thin, thin.positions).dihedral_deg, 0.5);
+    const Clearance after = measure_clearance(thin, result.positions);
+    EXPECT_GE(after.dihedral_deg, 0.5) << height;
+    EXPECT_LT(after.dihedral_deg, 1) << height;
+    EXPECT_LT(result.report.displacement_max_rel, 0.01);
+    EXPECT_TRUE(certify(thin, result.positions).embedded());
+  }
+}
+
+TEST(Clearance, NothingMovesWhereNothingIsFoldedOrAllIsHeld) {
+  RepairOptions options;
+  options.min_dihedral_deg = 0.5;
+  const Surface open = flat_tetrahedron(0.3);
+  EXPECT_EQ(repair(open, options).positions, open.positions);
+  const Surface thin = flat_tetrahedron(1e-4);
+  options.fixed.assign(4, 1);
+  EXPECT_EQ(repair(thin, options).positions, thin.positions);
+  options.fixed = {1, 1, 1, 0};
+  const RepairResult result = repair(thin, options);
+  EXPECT_EQ(std::vector<double>(result.positions.begin(), result.positions.begin() + 9),
+            std::vector<double>(thin.positions.begin(), thin.positions.begin() + 9));
+  EXPECT_GE(measure_clearance(thin, result.positions).dihedral_deg, 0.5);
+  options.min_dihedral_deg = 90;
+  EXPECT_THROW(repair(thin, options), std::invalid_argument);
+}
+
+TEST(Clearance, RepairedSamplesHaveTheAngleAskedFor) {
+  for (const char* name : {"spindle_torus", "intersecting_spheres"}) {
+    const Surface surface = make_sample(name, 24);
+    RepairOptions options;
+    options.min_dihedral_deg = 0.2;
+    const RepairResult result = repair(surface, options);
+    EXPECT_EQ(result.status, Status::embedded) << name;
+    EXPECT_GE(measure_clearance(surface, result.positions).dihedral_deg, 0.2) << name;
+    EXPECT_TRUE(certify(surface, result.positions).embedded()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace unsnarl
