@@ -129,17 +129,17 @@ class PushOffs {
     const std::size_t n = loop.faces.size();
     for (std::size_t k = 0; k < n; ++k) {
       const Index f = loop.faces[k], g = loop.faces[(k + 1) % n];
-      const Vec3 at_face = place(f), up = offset * room(f) * normal(f);
-      if (!is_clear(at_face - up, at_face + up, {f, f})) return {};
-      sides[0].push_back(at_face + up);
-      sides[1].push_back(at_face - up);
+      const Vec3 up = offset * room(f) * normal(f), above = place(f, 0) + up, below = place(f, 1) - up;
+      if (!is_clear(above, below, {f, f})) return {};
+      sides[0].push_back(above);
+      sides[1].push_back(below);
       const Edge& edge = loops_.edge(loop.edges[k]);
-      const double t = jitter(loop.edges[k]);
-      const Vec3 at_edge = (1 - t) * x_[edge[0]] + t * x_[edge[1]];
-      const Vec3 between = offset * std::min(room(f), room(g)) * (normal(f) + normal(g)).normalized();
-      if (!is_clear(at_edge - between, at_edge + between, {f, g})) return {};
-      sides[0].push_back(at_edge + between);
-      sides[1].push_back(at_edge - between);
+      const Vec3 out = offset * std::min(room(f), room(g)) * (normal(f) + normal(g)).normalized();
+      const auto at_edge = [&](double t) { return Vec3((1 - t) * x_[edge[0]] + t * x_[edge[1]]); };
+      const Vec3 out_above = at_edge(jitter(2 * loop.edges[k])) + out, out_below = at_edge(jitter(2 * loop.edges[k] + 1)) - out;
+      if (!is_clear(out_above, out_below, {f, g})) return {};
+      sides[0].push_back(out_above);
+      sides[1].push_back(out_below);
     }
     for (const Polygon& side : sides)
       for (std::size_t k = 0; k < side.size(); ++k)
@@ -160,12 +160,13 @@ class PushOffs {
     return {lo, hi, (hi - lo).maxCoeff() / grid_cells};
   }
 
-  /// Between 0.4 and 0.6, another one for each id: points of symmetric meshes would lie in line.
+  /// Between 0.4 and 0.6, another one for each number: points of symmetric meshes, and those above and below a level
+  /// face, would lie in line.
   static double jitter(Index id) {
     return 0.4 + 0.2 * static_cast<double>((static_cast<std::uint32_t>(id) * 2654435761u) >> 8) / 16777216.0;
   }
-  Vec3 place(Index f) const {
-    const double s = jitter(f), t = jitter(f + 7);
+  Vec3 place(Index f, Index side) const {
+    const double s = jitter(4 * f + side), t = jitter(4 * f + 2 + side);
     const Vec3 middle = (1 - s) * x_[faces_[f][0]] + s * x_[faces_[f][1]];
     return (1 - 0.6 * t) * middle + 0.6 * t * x_[faces_[f][2]];
   }

@@ -16,6 +16,8 @@ constexpr double winding_of_band = 1.6;
 /// Of the smallest gap between the strands of a crossing, and of the smallest band, the width of the collar: all of it
 /// stays apart from the other strand's.
 constexpr double collar_of_gap = 0.25;
+/// Corners of discs are moved by up to half of this aside / width of the collar.
+constexpr double corner_shift = 1e-3;
 
 /// A point of the collar's free rim, in the frame of the diagram.
 struct RimPoint {
@@ -55,7 +57,7 @@ class Construction {
   }
 
   void make_rim() {
-    double collar = step_;
+    double& collar = collar_ = step_;
     for (const LinkDiagram::Crossing& c : diagram_.crossings)
       collar = std::min({collar, collar_of_gap * c.gap, collar_of_gap * band_of_room * c.radius});
     Index first_vertex = 0;
@@ -167,6 +169,12 @@ class Construction {
     for (std::size_t i = 0; i < circles.size(); ++i) hang_wall(circles[i], lowest - step_ * (1 + deepest - depth[i]));
   }
 
+  /// Another one for each number, far below the width of the collar.
+  double shift(Index k) const {
+    const auto hash = static_cast<double>((static_cast<std::uint32_t>(k) * 2654435761u) >> 8) * 0x1p-24;
+    return corner_shift * collar_ * (hash - 0.5);
+  }
+
   void hang_wall(const std::vector<Index>& circle, double height) {
     const std::size_t n = circle.size();
     std::vector<Vec3> flat;
@@ -174,8 +182,9 @@ class Construction {
     double area = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const Vec3 &p = rim_[circle[k]].x, &q = rim_[circle[(k + 1) % n]].x;
-      flat.emplace_back(p.x(), p.y(), 0);
-      corners.push_back(add(Vec3(p.x(), p.y(), height)));
+      // Corners in line would make triangles without area.
+      flat.emplace_back(p.x() + shift(2 * circle[k]), p.y() + shift(2 * circle[k] + 1), 0);
+      corners.push_back(add(flat.back() + height * Vec3::UnitZ()));
       area += p.x() * q.y() - p.y() * q.x();
     }
     for (std::size_t k = 0; k < n; ++k) {
@@ -192,6 +201,7 @@ class Construction {
 
   const LinkDiagram& diagram_;
   const double step_;
+  double collar_ = 0;  // its width
   SpanningMesh mesh_;
   std::vector<RimPoint> rim_;
   std::vector<Index> rim_vertex_;
