@@ -12,7 +12,7 @@ constexpr double split_above = 4.0 / 3, collapse_below = 0.6;
 /// Weights of the area's gradient are cotangents; of slivers they would be negative or beyond bounds.
 constexpr double least_weight = 0.05, largest_weight = 5;
 /// Vertices that want to go no farther than this are left alone / edge length.
-constexpr double settled = 2e-3;
+constexpr double settled = 6e-3;
 /// Part of a step to try where the whole one fails.
 constexpr double shorter_step = 0.3;
 /// Rounds of splitting: each halves what is too long.

@@ -12,8 +12,8 @@
 namespace unsnarl {
 namespace {
 
-/// Edge lengths are chosen within these / diagonal: 10,000 and 1,000 triangles for a surface of a few sheets.
-constexpr double finest_edge_rel = 1.0 / 60, coarsest_edge_rel = 1.0 / 20;
+/// Edge lengths are chosen within these / diagonal: about 10,000 and 1,000 triangles for a surface of a few sheets.
+constexpr double finest_edge_rel = 1.0 / 45, coarsest_edge_rel = 1.0 / 20;
 /// Between the discs of nested circles / edge length of the coarsest level, so that fairing has room there.
 constexpr double disc_step = 1;
 
