@@ -13,7 +13,7 @@ namespace unsnarl {
 
 struct SeifertOptions {
   /// Edge length of the triangles inside the surface / diagonal of the link's bounding box. (0, 0.5]; 0: the mean edge
-  /// of the link, but within 1/60 and 1/20 of the diagonal.
+  /// of the link, but within 1/45 and 1/20 of the diagonal.
   double edge_rel = 0;
   /// Views to look for the simplest diagram among, [3, 10000]: the coordinate axes, then a half sphere evenly.
   int views = 60;
