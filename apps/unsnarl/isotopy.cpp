@@ -82,7 +82,9 @@ std::string correspondence_json(const IsotopyCommandOptions& options, const Isot
 void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
   command.add_option("START", options.start, "Closed curves: *.svg or *.json")->required();
   command.add_option("END", options.end, "As many closed curves; curve k of START becomes curve k of END")->required();
-  command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")->required()->type_name("DIR");
+  command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")
+      ->required()
+      ->type_name("DIR");
   command
       .add_option("--points", options.points,
                   "Points of every curve on the way; 0: as many as the longer of both has, 200 at least")
@@ -161,12 +163,15 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
   staged.commit();
   write_file(path("animation.svg"), isotopy_animation_svg(made), interruption);
   for (int k = 0; k < options.frames; ++k)
-    write_file(path(fmt::format("frame_{:04}.svg", k)), isotopy_frame_svg(made, static_cast<double>(k) / (options.frames - 1)), interruption);
+    write_file(path(fmt::format("frame_{:04}.svg", k)),
+               isotopy_frame_svg(made, static_cast<double>(k) / (options.frames - 1)), interruption);
   write_file(path("correspondence.json"), correspondence_json(options, made), interruption);
   if (!options.quiet)
-    tell(fmt::format("{} curve{}, {} rings, {} faces, no two intersect: at every time the curves are simple and apart\n"
-                     "wrote {}, {:.1f} s\n", start.size(), start.size() == 1 ? "" : "s", made.rings.size(),
-                     made.surface.view().face_count(), options.folder, made.seconds));
+    tell(
+        fmt::format("{} curve{}, {} rings, {} faces, no two intersect: at every time the curves are simple and apart\n"
+                    "wrote {}, {:.1f} s\n",
+                    start.size(), start.size() == 1 ? "" : "s", made.rings.size(), made.surface.view().face_count(),
+                    options.folder, made.seconds));
   return exit_embedded;
 }
 

@@ -78,7 +78,9 @@ int run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0 && program.get_subcommands().empty())
-      return complain(exit_usage, "say what to do: fix, check, view, sample, curves, isotopy or seifert; 'unsnarl --help' explains");
+      return complain(
+          exit_usage,
+          "say what to do: fix, check, view, sample, curves, isotopy or seifert; 'unsnarl --help' explains");
     return program.exit(e, std::cout, std::cerr) == 0 ? exit_embedded : exit_usage;
   }
   std::optional<tbb::global_control> limit;

@@ -58,9 +58,11 @@ std::string curves_hint() {
     names += fmt::format("{}{}{}", names.empty() ? "" : ", ", curve_prefix, kind);
   std::string links;
   for (const KnotEntry& entry : knot_table())
-    if (entry.name.find_first_not_of("0123456789_") != std::string::npos) links += fmt::format(", {}{}", knot_prefix, entry.name);
+    if (entry.name.find_first_not_of("0123456789_") != std::string::npos)
+      links += fmt::format(", {}{}", knot_prefix, entry.name);
   return fmt::format(
-      "random closed curves, for 'unsnarl curves': {}\nknots, for 'unsnarl seifert': {}3_1 to {}10_165, as in Rolfsen's table{}\n",
+      "random closed curves, for 'unsnarl curves': {}\nknots, for 'unsnarl seifert': {}3_1 to {}10_165, as in "
+      "Rolfsen's table{}\n",
       names, knot_prefix, knot_prefix, links);
 }
 
@@ -134,10 +136,11 @@ std::string curve_file(const SampleOptions& options, std::string_view kind) {
 }  // namespace
 
 void add_sample_options(CLI::App& command, SampleOptions& options) {
-  command.add_option("NAME", options.name,
-                     "Which one; see --list. For 'unsnarl curves', a random closed curve: curve_waves, curve_walk,\n"
-                     "curve_star, curve_noise, curve_spiral or curve_chaos. For 'unsnarl seifert', a knot: knot_3_1 to\n"
-                     "knot_10_165, and links");
+  command.add_option(
+      "NAME", options.name,
+      "Which one; see --list. For 'unsnarl curves', a random closed curve: curve_waves, curve_walk,\n"
+      "curve_star, curve_noise, curve_spiral or curve_chaos. For 'unsnarl seifert', a knot: knot_3_1 to\n"
+      "knot_10_165, and links");
   command
       .add_option("-o,--output", options.output,
                   "Where it goes: *.obj, *.off or *.ply (curves: *.json or *.svg; knots: *.xyz);\n"

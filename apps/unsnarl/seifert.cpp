@@ -45,8 +45,9 @@ Link read_link(const std::string& path) {
 }
 
 std::string as_text(const SeifertFindings& f) {
-  std::string text = fmt::format("{} component{}, genus {}, Euler characteristic {} (the diagram's: {})\n", f.components,
-                                 f.components == 1 ? "" : "s", f.genus, f.euler_characteristic, f.expected_euler_characteristic);
+  std::string text =
+      fmt::format("{} component{}, genus {}, Euler characteristic {} (the diagram's: {})\n", f.components,
+                  f.components == 1 ? "" : "s", f.genus, f.euler_characteristic, f.expected_euler_characteristic);
   text += fmt::format("Alexander polynomial {} (the diagram's: {})\n", polynomial_text(f.alexander_of_surface),
                       polynomial_text(f.alexander_of_link));
   return text;
@@ -94,10 +95,11 @@ int check_file(const SeifertCommandOptions& options, const Link& link, Interrupt
 }  // namespace
 
 void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
-  command.add_option("IN", options.input,
-                     "A knot or link: points 'x y z', one a line, an empty line between components; or a planar\n"
-                     "diagram code, 'X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]'; or a braid, 'braid 2: 1 1 1'. '-' for\n"
-                     "standard input")
+  command
+      .add_option("IN", options.input,
+                  "A knot or link: points 'x y z', one a line, an empty line between components; or a planar\n"
+                  "diagram code, 'X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]'; or a braid, 'braid 2: 1 1 1'. '-' for\n"
+                  "standard input")
       ->required();
   command.add_option("-o,--output", options.output, "Where the surface goes: *.obj, *.off or *.ply")->type_name("OUT");
   command.add_option("--format", options.format, "obj, off or ply, where the name does not tell")
@@ -120,7 +122,9 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
       ->type_name("S");
   command.add_option("--check", options.check, "Instead of making a surface, certify this one")->type_name("MESH");
   const std::string shown = "What is shown";
-  command.add_option("--report", options.report, "Write a JSON report: what was certified")->type_name("FILE")->group(shown);
+  command.add_option("--report", options.report, "Write a JSON report: what was certified")
+      ->type_name("FILE")
+      ->group(shown);
   command.add_option("--picture", options.picture, "Write a picture: as it was built, and the result")
       ->type_name("FILE.png")
       ->group(shown);
@@ -177,7 +181,8 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   SeifertFindings found;
   const auto certify = [&](const Document& document) {
     found = check_seifert_surface(document.surface(), link, options.views);
-    if (!found.hold()) throw std::logic_error("the file to be written is no Seifert surface of the link: " + faults(found));
+    if (!found.hold())
+      throw std::logic_error("the file to be written is no Seifert surface of the link: " + faults(found));
   };
   if (is_stream(options.output)) {
     certify(Document::parse(bytes, *format));
@@ -194,7 +199,8 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     picture.before_label = "Seifert's algorithm";
     picture.after_label = "faired";
     picture.inset = false;
-    write_file(options.picture, picture_png(seifert_surface(link, wanted).surface, {}, result.surface, {}, picture), interruption);
+    write_file(options.picture, picture_png(seifert_surface(link, wanted).surface, {}, result.surface, {}, picture),
+               interruption);
   }
   if (!options.report.empty()) {
     nlohmann::ordered_json json = {{"schema", "unsnarl-seifert-report"},
@@ -216,9 +222,10 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   }
   if (!options.quiet) {
     tell(fmt::format("{}: {} points, {} component{}; seen with {} crossings and {} Seifert circles\n", options.input,
-                     link.point_count(), link.components.size(), link.components.size() == 1 ? "" : "s", result.crossings,
-                     result.circles));
-    tell(fmt::format("{} faces, no two intersect; its boundary is the link, point by point\n", result.surface.view().face_count()));
+                     link.point_count(), link.components.size(), link.components.size() == 1 ? "" : "s",
+                     result.crossings, result.circles));
+    tell(fmt::format("{} faces, no two intersect; its boundary is the link, point by point\n",
+                     result.surface.view().face_count()));
     tell(as_text(found));
     if (result.status == Status::time_limit) tell("fairing was stopped by the time limit\n");
     tell(fmt::format("wrote {}, {:.1f} s\n", options.output, result.seconds));

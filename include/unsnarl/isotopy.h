@@ -21,7 +21,7 @@ struct IsotopyOptions {
 /// The curves at one height. The first ring has the points of the start, the last those of the end, the rings between
 /// equally many each (Isotopy::points).
 struct IsotopyRing {
-  double time = 0;                        ///< in [0, 1], ascending
+  double time = 0;                          ///< in [0, 1], ascending
   std::vector<std::vector<double>> curves;  ///< x and y in turns, one list a curve
 };
 
@@ -48,13 +48,13 @@ struct Isotopy {
 
 /// An isotopy in the plane between two sets of closed curves that cross neither themselves nor each other (paper §4.5):
 /// curve k of the start becomes curve k of the end. Both sides are made round by shortening them under bounds that keep
-/// all apart, then joined; of the rings only those stay that the surface needs to be embedded, which is decided by exact
-/// arithmetic. docs/isotopy.md explains how. The same input gives the same result on every run (time limits and
+/// all apart, then joined; of the rings only those stay that the surface needs to be embedded, which is decided by
+/// exact arithmetic. docs/isotopy.md explains how. The same input gives the same result on every run (time limits and
 /// cancellation aside).
 ///
 /// Throws std::invalid_argument, naming the curve: for open curves, another number of curves, curves that cross, curves
-/// that run around the other way (no isotopy of the plane reverses them), curves within others, coordinates that are not
-/// finite, options out of range.
+/// that run around the other way (no isotopy of the plane reverses them), curves within others, coordinates that are
+/// not finite, options out of range.
 Isotopy planar_isotopy(std::span<const Curve> start, std::span<const Curve> end, const IsotopyOptions& options = {},
                        Context* context = nullptr);
 

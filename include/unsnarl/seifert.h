@@ -17,8 +17,9 @@ struct SeifertOptions {
   double edge_rel = 0;
   /// Views to look for the simplest diagram among, [3, 10000]: the coordinate axes, then a half sphere evenly.
   int views = 60;
-  bool fair = true;         ///< false: the surface as Seifert's algorithm builds it, walls and flat discs
-  double time_limit_s = 0;  ///< wall-clock seconds after which fairing stops; the surface is embedded all the same; 0: none
+  bool fair = true;  ///< false: the surface as Seifert's algorithm builds it, walls and flat discs
+  double time_limit_s =
+      0;  ///< wall-clock seconds after which fairing stops; the surface is embedded all the same; 0: none
 };
 
 /// What is to hold of a Seifert surface, found out from the mesh and the link alone: how it was made does not matter.
@@ -28,7 +29,7 @@ struct SeifertFindings {
   bool spans_link = false;             ///< its boundary runs along the link and through its very points, bit for bit
   int components = 0;                  ///< of the surface
   int euler_characteristic = 0;
-  int genus = 0;                       ///< sum over the components
+  int genus = 0;  ///< sum over the components
   /// Of the diagram that the link shows to its best view: Seifert circles - crossings.
   int expected_euler_characteristic = 0;
   /// The Alexander polynomial, all variables equal, as decimal coefficients from the constant up, without units ±t^k,
@@ -50,7 +51,7 @@ SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& li
 struct SeifertResult {
   /// embedded; cancelled or time_limit where fairing was stopped: the surface is embedded then too.
   Status status = Status::embedded;
-  Surface surface;        ///< triangles; the first vertices are the points of the link, component by component
+  Surface surface;  ///< triangles; the first vertices are the points of the link, component by component
   std::size_t crossings = 0, circles = 0;  ///< of the diagram that it was built from
   double area = 0;
   double seconds = 0;
@@ -61,7 +62,8 @@ struct SeifertResult {
 /// shrunk to little area without ever running through itself. docs/seifert.md explains how. The same input gives the
 /// same bytes on every run (time limits and cancellation aside).
 ///
-/// Throws std::invalid_argument as check_link does, for an option out of range, and for a link that no view tells apart.
+/// Throws std::invalid_argument as check_link does, for an option out of range, and for a link that no view tells
+/// apart.
 SeifertResult seifert_surface(const Link& link, const SeifertOptions& options = {}, Context* context = nullptr);
 
 /// "1 - 3t + t^2" of such coefficients.

@@ -26,20 +26,34 @@ from ._intersections import Intersections, find_intersections
 from ._native import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._repair import Progress, Result, Status, repair
+from ._spaces import (
+    Isotopy,
+    SeifertSurface,
+    check_seifert_surface,
+    knot_of_table,
+    planar_isotopy,
+    seifert_surface,
+)
 
 __all__ = [
     "Certificate",
     "CurveResult",
     "Intersections",
+    "Isotopy",
     "Progress",
     "Result",
+    "SeifertSurface",
     "Status",
     "boundary_vertices",
     "certify",
+    "check_seifert_surface",
     "component_of_faces",
     "find_crossings",
     "find_intersections",
+    "knot_of_table",
+    "planar_isotopy",
     "repair",
+    "seifert_surface",
     "untangle_curves",
     "vertices_of_faces",
 ]

@@ -8,9 +8,9 @@
 namespace unsnarl {
 namespace {
 
-constexpr double margin = 0.05;        // around the curves / the longer side
-constexpr double stroke = 0.004;       // / the longer side
-constexpr double seconds_a_way = 4;    // from start to end
+constexpr double margin = 0.05;      // around the curves / the longer side
+constexpr double stroke = 0.004;     // / the longer side
+constexpr double seconds_a_way = 4;  // from start to end
 
 struct Bounds {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -28,13 +28,15 @@ std::string opening(const Isotopy& isotopy) {
   const double longer = size.maxCoeff(), room = margin * longer;
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"600\" viewBox=\"{:.6g} {:.6g} {:.6g} {:.6g}\">\n"
-      "<g fill=\"#7f9fc4\" fill-opacity=\"0.5\" stroke=\"#1f2f4f\" stroke-linejoin=\"round\" stroke-width=\"{:.6g}\">\n",
+      "<g fill=\"#7f9fc4\" fill-opacity=\"0.5\" stroke=\"#1f2f4f\" stroke-linejoin=\"round\" "
+      "stroke-width=\"{:.6g}\">\n",
       b.low.x() - room, b.low.y() - room, size.x() + 2 * room, size.y() + 2 * room, stroke * longer);
 }
 
 std::string points_text(const std::vector<double>& p) {
   std::string text;
-  for (std::size_t k = 0; k < p.size(); k += 2) fmt::format_to(std::back_inserter(text), "{}{:.6g},{:.6g}", k == 0 ? "" : " ", p[k], p[k + 1]);
+  for (std::size_t k = 0; k < p.size(); k += 2)
+    fmt::format_to(std::back_inserter(text), "{}{:.6g},{:.6g}", k == 0 ? "" : " ", p[k], p[k + 1]);
   return text;
 }
 
@@ -63,14 +65,16 @@ std::vector<Curve> isotopy_slice(const Isotopy& isotopy, double time) {
     }
     for (const Rung& rung : rungs_of(isotopy, k, c))
       for (int axis = 0; axis < 2; ++axis)
-        curve.points.push_back((1 - t) * from.curves[c][2 * rung.lower + axis] + t * to.curves[c][2 * rung.upper + axis]);
+        curve.points.push_back((1 - t) * from.curves[c][2 * rung.lower + axis] +
+                               t * to.curves[c][2 * rung.upper + axis]);
   }
   return curves;
 }
 
 std::string isotopy_frame_svg(const Isotopy& isotopy, double time) {
   std::string text = opening(isotopy);
-  for (const Curve& curve : isotopy_slice(isotopy, time)) text += fmt::format("<polygon points=\"{}\"/>\n", points_text(curve.points));
+  for (const Curve& curve : isotopy_slice(isotopy, time))
+    text += fmt::format("<polygon points=\"{}\"/>\n", points_text(curve.points));
   return text + "</g>\n</svg>\n";
 }
 
@@ -84,8 +88,10 @@ std::string isotopy_animation_svg(const Isotopy& isotopy, int frames) {
     if (keys.empty() || keys.back() != nearest) keys.push_back(nearest);
   }
   std::string times;
-  for (const std::size_t k : keys) times += fmt::format("{}{:.5g}", times.empty() ? "0;" : ";", 0.05 + 0.4 * isotopy.rings[k].time);
-  for (auto k = keys.rbegin(); k != keys.rend(); ++k) times += fmt::format(";{:.5g}", 0.95 - 0.4 * isotopy.rings[*k].time);
+  for (const std::size_t k : keys)
+    times += fmt::format("{}{:.5g}", times.empty() ? "0;" : ";", 0.05 + 0.4 * isotopy.rings[k].time);
+  for (auto k = keys.rbegin(); k != keys.rend(); ++k)
+    times += fmt::format(";{:.5g}", 0.95 - 0.4 * isotopy.rings[*k].time);
   times += ";1";
   std::string text = opening(isotopy);
   for (std::size_t c = 0; c < isotopy.points.size(); ++c) {

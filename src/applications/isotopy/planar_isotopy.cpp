@@ -60,29 +60,32 @@ void check_side(std::span<const Curve> curves, const char* side) {
   const std::vector<CurveCrossing> crossings = find_crossings(curves);
   if (!crossings.empty()) {
     const CurveCrossing& at = crossings.front();
-    throw std::invalid_argument(fmt::format(
-        "the {}: segment {} of {} and segment {} of {} cross; untangle the curves first ('unsnarl curves')", side,
-        at.segment_a, name_of_curve(curves[at.curve_a], at.curve_a), at.segment_b, name_of_curve(curves[at.curve_b], at.curve_b)));
+    throw std::invalid_argument(
+        fmt::format("the {}: segment {} of {} and segment {} of {} cross; untangle the curves first ('unsnarl curves')",
+                    side, at.segment_a, name_of_curve(curves[at.curve_a], at.curve_a), at.segment_b,
+                    name_of_curve(curves[at.curve_b], at.curve_b)));
   }
   for (std::size_t c = 0; c < curves.size(); ++c)
     for (std::size_t d = 0; d < curves.size(); ++d)
       if (c != d && contains(curves[d], point(curves[c], 0)))
-        throw std::invalid_argument(fmt::format("the {}: {} lies within {}; curves within others are not supported", side,
-                                                name_of_curve(curves[c], c), name_of_curve(curves[d], d)));
+        throw std::invalid_argument(fmt::format("the {}: {} lies within {}; curves within others are not supported",
+                                                side, name_of_curve(curves[c], c), name_of_curve(curves[d], d)));
 }
 
 void check(std::span<const Curve> start, std::span<const Curve> end, const IsotopyOptions& options) {
   if (start.empty()) throw std::invalid_argument("the start has no curves");
   if (start.size() != end.size())
-    throw std::invalid_argument(fmt::format("the start has {} curves, the end {}; curve k becomes curve k, so give equally many",
-                                            start.size(), end.size()));
+    throw std::invalid_argument(
+        fmt::format("the start has {} curves, the end {}; curve k becomes curve k, so give equally many", start.size(),
+                    end.size()));
   check_side(start, "start");
   check_side(end, "end");
   for (std::size_t c = 0; c < start.size(); ++c)
     if (signed_area(start[c]) * signed_area(end[c]) < 0)
       throw std::invalid_argument(fmt::format(
           "{} of the end runs around the other way than that of the start, which no isotopy in the plane brings about; "
-          "give its points in the other order", name_of_curve(end[c], c)));
+          "give its points in the other order (--reverse)",
+          name_of_curve(end[c], c)));
   if (options.points != 0 && (options.points < 16 || options.points > 100000))
     throw std::invalid_argument(fmt::format("points is {}; give 16 to 100000, or 0", options.points));
   for (const auto& side : {start, end})
@@ -174,7 +177,8 @@ Polygons polygons_of(std::span<const Curve> curves) {
 }
 
 /// False: stopped.
-bool make_round(std::span<const Curve> curves, std::span<const int> points, const std::function<bool()>& stop, Side& side) {
+bool make_round(std::span<const Curve> curves, std::span<const int> points, const std::function<bool()>& stop,
+                Side& side) {
   side.exact = polygons_of(curves);
   std::vector<Curve> finer;
   for (std::size_t c = 0; c < curves.size(); ++c) {
@@ -195,7 +199,8 @@ bool make_round(std::span<const Curve> curves, std::span<const int> points, cons
     std::vector<Polygons> rings;
     for (std::size_t k = thinned; k < states.size(); ++k) rings.push_back(polygons_at(states[k]));
     std::vector<Points2> kept(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(thinned));
-    for (const std::size_t k : thin_out(rings, net.diagonal, [] { return false; })) kept.push_back(std::move(states[thinned + k]));
+    for (const std::size_t k : thin_out(rings, net.diagonal, [] { return false; }))
+      kept.push_back(std::move(states[thinned + k]));
     states = std::move(kept);
     thinned = states.size() - 1;
   };
@@ -249,7 +254,8 @@ std::vector<std::vector<Vec2>> ways(const std::vector<Disc>& from, const std::ve
   for (int k = 1; k <= most_detours; ++k) {
     std::vector<Vec2> way;
     for (std::size_t c = 0; c < a.size(); ++c) {
-      const double s = std::fmod((k + 0.37 * static_cast<double>(c)) * std::numbers::phi, 1), t = std::fmod(k * 0.7548776662 + 0.61 * static_cast<double>(c), 1);
+      const double s = std::fmod((k + 0.37 * static_cast<double>(c)) * std::numbers::phi, 1),
+                   t = std::fmod(k * 0.7548776662 + 0.61 * static_cast<double>(c), 1);
       way.push_back(0.5 * (a[c] + b[c]) + diagonal * Vec2(s - 0.5, t - 0.5));
     }
     const double distance = std::min(smallest_distance(a, way), smallest_distance(way, b));
@@ -303,7 +309,8 @@ class Making {
  private:
   bool is_stopped() {
     if (context_ && context_->is_cancelled()) made_.status = Status::cancelled;
-    if (options_.time_limit_s > 0 && clock_.stage("").seconds >= options_.time_limit_s) made_.status = Status::time_limit;
+    if (options_.time_limit_s > 0 && clock_.stage("").seconds >= options_.time_limit_s)
+      made_.status = Status::time_limit;
     return made_.status != Status::no_progress;
   }
   Isotopy given_up() {
@@ -317,11 +324,13 @@ class Making {
   }
 
   /// Discs to discs: several shrink first, so that they pass each other.
-  void join(std::vector<Disc> from, const std::vector<Disc>& to, std::span<const double> directions, std::vector<Polygons>& states) const {
+  void join(std::vector<Disc> from, const std::vector<Disc>& to, std::span<const double> directions,
+            std::vector<Polygons>& states) const {
     if (from.size() == 1) return;
     const std::vector<std::vector<Vec2>> way = ways(from, to, made_.height);
     double distance = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k + 1 < way.size(); ++k) distance = std::min(distance, smallest_distance(way[k], way[k + 1]));
+    for (std::size_t k = 0; k + 1 < way.size(); ++k)
+      distance = std::min(distance, smallest_distance(way[k], way[k + 1]));
     for (std::size_t k = 0; k < way.size(); ++k) {
       Polygons& polygons = states.emplace_back();
       for (std::size_t c = 0; c < from.size(); ++c) {
@@ -333,7 +342,8 @@ class Making {
     }
   }
 
-  void build(const Side& from, const Side& to, const std::vector<Polygons>& states, const std::vector<std::size_t>& kept) {
+  void build(const Side& from, const Side& to, const std::vector<Polygons>& states,
+             const std::vector<std::size_t>& kept) {
     std::vector<const Polygons*> rings;
     for (const std::size_t k : kept) rings.push_back(&states[k]);
     rings.insert(rings.begin(), &from.exact);

@@ -67,11 +67,13 @@ void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::ve
   for (std::size_t k = 0; k < rungs.size(); ++k) {
     const Rung &at = rungs[k], &next = rungs[(k + 1) % rungs.size()];
     if (at.lower != next.lower) corners.insert(corners.end(), {lower + at.lower, lower + next.lower, upper + at.upper});
-    if (at.upper != next.upper) corners.insert(corners.end(), {lower + next.lower, upper + next.upper, upper + at.upper});
+    if (at.upper != next.upper)
+      corners.insert(corners.end(), {lower + next.lower, upper + next.upper, upper + at.upper});
   }
 }
 
-std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height, const std::function<bool()>& stop) {
+std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height,
+                                  const std::function<bool()>& stop) {
   std::vector<std::size_t> kept{0};
   std::size_t last_step = 2;
   while (kept.back() + 1 < rings.size()) {

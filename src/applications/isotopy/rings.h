@@ -11,8 +11,8 @@ namespace unsnarl {
 /// Polygons at one height: one a curve.
 using Polygons = std::vector<Points2>;
 
-/// An edge between two rings: a point of the lower polygon, one of the upper. Around the strip of triangles between them
-/// either stays or goes on by one from one rung to the next.
+/// An edge between two rings: a point of the lower polygon, one of the upper. Around the strip of triangles between
+/// them either stays or goes on by one from one rung to the next.
 struct Rung {
   Index lower = 0, upper = 0;
 };

@@ -25,8 +25,8 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// x_(k-1), x_k, x_(k+1) of a closed chain: solves d_k x_k - t (x_(k-1) + x_(k+1)) = r_k by elimination, with the corner
-/// entries by the formula of Sherman and Morrison.
+/// x_(k-1), x_k, x_(k+1) of a closed chain: solves d_k x_k - t (x_(k-1) + x_(k+1)) = r_k by elimination, with the
+/// corner entries by the formula of Sherman and Morrison.
 void solve_cyclic(const std::vector<double>& diagonal, double t, Points2& right) {
   const Index n = static_cast<Index>(diagonal.size());
   const double gamma = -diagonal[0];
@@ -82,7 +82,9 @@ class Flow {
       to = x_;
       for (std::size_t c = 0; c < net_.chains.size(); ++c)
         is_round_[c] ? shrink(net_.chains[c], to) : shorten(net_.chains[c], to);
-      if (((to - x_).colwise().norm().transpose().array() <= flow_part * options_.move_of_distance * distance_.array()).all()) break;
+      if (((to - x_).colwise().norm().transpose().array() <= flow_part * options_.move_of_distance * distance_.array())
+              .all())
+        break;
     }
     for (const CurveNet::Chain& chain : net_.chains) spread(chain, to);
     for (Index v = 0; v < net_.vertex_count(); ++v) {
@@ -114,7 +116,8 @@ class Flow {
     std::vector<double> diagonal(n);
     Points2 right(2, n);
     for (Index k = 0; k < n; ++k) {
-      const Vec2 before = x_.col(chain.vertices[(k + n - 1) % n]), at = x_.col(chain.vertices[k]), after = x_.col(chain.at(k + 1));
+      const Vec2 before = x_.col(chain.vertices[(k + n - 1) % n]), at = x_.col(chain.vertices[k]),
+                 after = x_.col(chain.at(k + 1));
       const double speed = 0.5 * ((at - before).squaredNorm() + (after - at).squaredNorm());
       diagonal[k] = speed + 2 * time_step_;
       right.col(k) = speed * at;
@@ -152,8 +155,8 @@ class Flow {
   const RoundOptions& options_;
   SegmentTree tree_;
   Points2 x_;
-  Eigen::VectorXd distance_;      // one a vertex
-  std::vector<bool> is_round_;    // one a chain
+  Eigen::VectorXd distance_;    // one a vertex
+  std::vector<bool> is_round_;  // one a chain
   double reach_, time_step_;
 };
 
@@ -164,7 +167,8 @@ double roundness_of(const CurveNet& net, const CurveNet::Chain& chain, const Poi
   double area = 0, length = 0;
   bool left = true, right = true;
   for (Index k = 0; k < chain.size(); ++k) {
-    const Vec2 a = x.col(chain.vertices[k]), b = x.col(chain.at(k + 1)), c = x.col(chain.vertices[(k + 2) % chain.size()]);
+    const Vec2 a = x.col(chain.vertices[k]), b = x.col(chain.at(k + 1)),
+               c = x.col(chain.vertices[(k + 2) % chain.size()]);
     area += 0.5 * cross(a - x.col(chain.vertices[0]), b - x.col(chain.vertices[0]));
     length += (b - a).norm();
     left &= cross(b - a, c - b) > 0;

@@ -38,8 +38,10 @@ Link braid_closure(int strands, std::span<const int> braid, int points) {
   if (points < 2 || points > 1000) throw std::invalid_argument(fmt::format("{} points; give 2 to 1000", points));
   for (std::size_t k = 0; k < braid.size(); ++k)
     if (braid[k] == 0 || std::abs(braid[k]) >= strands)
-      throw std::invalid_argument(fmt::format("generator {} of the braid is {}; with {} strands they are 1 to {}, or "
-                                              "negative", k + 1, braid[k], strands, strands - 1));
+      throw std::invalid_argument(
+          fmt::format("generator {} of the braid is {}; with {} strands they are 1 to {}, or "
+                      "negative",
+                      k + 1, braid[k], strands, strands - 1));
   std::vector<std::vector<int>> columns = columns_of(strands, braid);
   while (columns.size() < 3) columns.emplace_back();  // polygons around the axis need corners
   const double angle_step = 2 * std::numbers::pi / static_cast<double>(columns.size());
@@ -60,12 +62,13 @@ Link braid_closure(int strands, std::span<const int> braid, int points) {
           rises = (place == i) == (generator > 0) ? 1 : -1;
         }
         for (int k = 0; k < points; ++k) {
-          const double t = static_cast<double>(k) / points;
+          const double t = (k + 0.5) / points;  // not where strands cross, where both would have a point
           const double angle = angle_step * (static_cast<double>(c) + t);
           const double at = place + step * t * t * (3 - 2 * t);
           const double s = std::sin(std::numbers::pi * t);
           const double r = first_radius + radius_step * at;
-          p.insert(p.end(), {r * std::cos(angle), r * std::sin(angle), rises * crossing_rise * s * s - height_step * at});
+          p.insert(p.end(),
+                   {r * std::cos(angle), r * std::sin(angle), rises * crossing_rise * s * s - height_step * at});
         }
         place += step;
       }

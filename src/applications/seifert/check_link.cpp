@@ -52,30 +52,37 @@ std::size_t Link::point_count() const {
 }
 
 void check_link(const Link& link) {
-  if (link.components.empty()) throw std::invalid_argument("a link without components; give at least one closed polygon");
+  if (link.components.empty())
+    throw std::invalid_argument("a link without components; give at least one closed polygon");
   for (std::size_t c = 0; c < link.components.size(); ++c) {
     const std::vector<double>& p = link.components[c];
-    if (p.size() % 3 != 0) throw std::invalid_argument(fmt::format("component {} has {} numbers, not three a point", c, p.size()));
+    if (p.size() % 3 != 0)
+      throw std::invalid_argument(fmt::format("component {} has {} numbers, not three a point", c, p.size()));
     if (p.size() < 9)
-      throw std::invalid_argument(fmt::format("component {} has {} points; a closed polygon has three or more", c, p.size() / 3));
+      throw std::invalid_argument(
+          fmt::format("component {} has {} points; a closed polygon has three or more", c, p.size() / 3));
     for (std::size_t k = 0; k < p.size(); ++k)
       if (!(std::abs(p[k]) <= largest_coordinate))
-        throw std::invalid_argument(fmt::format("point {} of component {} is not finite or beyond {}", k / 3, c, largest_coordinate));
+        throw std::invalid_argument(
+            fmt::format("point {} of component {} is not finite or beyond {}", k / 3, c, largest_coordinate));
   }
   const std::vector<Segment> segments = segments_of(link);
   for (const Segment& s : segments)
     if (s.a == s.b)
-      throw std::invalid_argument(fmt::format("points {} and {} of component {} are one; leave out one of them", s.point,
-                                              (s.point + 1) % s.count, s.component));
+      throw std::invalid_argument(fmt::format("points {} and {} of component {} are one; leave out one of them",
+                                              s.point, (s.point + 1) % s.count, s.component));
   std::vector<const Segment*> order;
   for (const Segment& s : segments) order.push_back(&s);
-  std::stable_sort(order.begin(), order.end(), [](const Segment* s, const Segment* t) { return s->box.lo[0] < t->box.lo[0]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Segment* s, const Segment* t) { return s->box.lo[0] < t->box.lo[0]; });
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t j = i + 1; j < order.size() && order[j]->box.lo[0] <= order[i]->box.hi[0]; ++j) {
       const Segment &s = *order[i], &t = *order[j];
       if (s.box.overlaps(t.box) && meet(s, t))
-        throw std::invalid_argument(fmt::format("edge {} of component {} and edge {} of component {} touch; a link's edges meet "
-                                                "in their ends only", s.point, s.component, t.point, t.component));
+        throw std::invalid_argument(
+            fmt::format("edge {} of component {} and edge {} of component {} touch; a link's edges meet "
+                        "in their ends only",
+                        s.point, s.component, t.point, t.component));
     }
 }
 

@@ -23,7 +23,8 @@ Mesh mesh_of(const SurfaceView& surface) {
     mesh.x.emplace_back(surface.positions[3 * v], surface.positions[3 * v + 1], surface.positions[3 * v + 2]);
   for (std::size_t f = 0; f < surface.face_count(); ++f) {
     const auto corners = surface.face(f);
-    if (corners.size() != 3) throw std::invalid_argument(fmt::format("face {} has {} corners; a triangle mesh is due", f, corners.size()));
+    if (corners.size() != 3)
+      throw std::invalid_argument(fmt::format("face {} has {} corners; a triangle mesh is due", f, corners.size()));
     mesh.faces.push_back({corners[0], corners[1], corners[2]});
   }
   return mesh;
@@ -36,7 +37,8 @@ using Sides = std::map<Edge, Index>;
 bool collect_sides(const Mesh& mesh, Sides& sides) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     for (int k = 0; k < 3; ++k)
-      if (!sides.try_emplace({mesh.faces[f][k], mesh.faces[f][(k + 1) % 3]}, static_cast<Index>(f)).second) return false;
+      if (!sides.try_emplace({mesh.faces[f][k], mesh.faces[f][(k + 1) % 3]}, static_cast<Index>(f)).second)
+        return false;
   return true;
 }
 
@@ -130,9 +132,11 @@ SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& li
   found.spans_link = runs_along(loops, mesh, link);
   std::size_t edges = 0;
   for (const auto& [edge, face] : sides) edges += edge[0] < edge[1] || !sides.contains({edge[1], edge[0]});
-  found.euler_characteristic = static_cast<int>(mesh.x.size()) - static_cast<int>(edges) + static_cast<int>(mesh.faces.size());
+  found.euler_characteristic =
+      static_cast<int>(mesh.x.size()) - static_cast<int>(edges) + static_cast<int>(mesh.faces.size());
   UnionFind parts = vertices_joined_by(mesh.faces, static_cast<Index>(mesh.x.size()));
-  for (std::size_t v = 0; v < mesh.x.size(); ++v) found.components += parts.find(static_cast<Index>(v)) == static_cast<Index>(v);
+  for (std::size_t v = 0; v < mesh.x.size(); ++v)
+    found.components += parts.find(static_cast<Index>(v)) == static_cast<Index>(v);
   found.genus = (2 * found.components - found.euler_characteristic - static_cast<int>(loops.size())) / 2;
   // In several parts it bounds a link whose polynomial is zero: a tube between them would add a loop that links none.
   if (found.components == 1 && found.intersecting_pairs == 0 && found.spans_link)

@@ -6,8 +6,8 @@
 namespace unsnarl {
 namespace {
 
-/// Edges longer than this times the wanted length are split, shorter ones than that collapsed: half and double of either
-/// stay within them (M. Botsch and L. Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004).
+/// Edges longer than this times the wanted length are split, shorter ones than that collapsed: half and double of
+/// either stay within them (M. Botsch and L. Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004).
 constexpr double split_above = 4.0 / 3, collapse_below = 0.6;
 /// Weights of the area's gradient are cotangents; of slivers they would be negative or beyond bounds.
 constexpr double least_weight = 0.05, largest_weight = 5;

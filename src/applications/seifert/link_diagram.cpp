@@ -92,7 +92,8 @@ bool find_crossings(const Link& link, const std::vector<FlatEdge>& edges, double
       crossing.sign = (e_is_over ? cross : -cross) > 0 ? 1 : -1;
       crossing.radius = std::min(std::min(at_e, 1 - at_e) * de.norm(), std::min(at_f, 1 - at_f) * df.norm());
       for (std::size_t k = 0; k < edges.size(); ++k)
-        if (k != i && k != j) crossing.radius = std::min(crossing.radius, distance(crossing.place, edges[k].a, edges[k].b));
+        if (k != i && k != j)
+          crossing.radius = std::min(crossing.radius, distance(crossing.place, edges[k].a, edges[k].b));
       if (crossing.radius < room) return false;
       diagram.crossings.push_back(crossing);
     }
@@ -208,7 +209,9 @@ std::optional<LinkDiagram> best_diagram(const Link& link, int directions) {
     if (!diagram) continue;
     double room = std::numeric_limits<double>::infinity();
     for (const LinkDiagram::Crossing& c : diagram->crossings) room = std::min({room, c.gap, c.radius});
-    const auto key = [](const LinkDiagram& d, double r) { return std::tuple(d.connected, d.euler_characteristic(), r); };
+    const auto key = [](const LinkDiagram& d, double r) {
+      return std::tuple(d.connected, d.euler_characteristic(), r);
+    };
     if (best && key(*diagram, room) <= key(*best, best_room)) continue;
     best = std::move(diagram);
     best_room = room;

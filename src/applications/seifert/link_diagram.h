@@ -31,12 +31,12 @@ struct LinkDiagram {
     bool over = false;
   };
 
-  Eigen::Matrix3d frame;                   ///< rows: the axes; seen from the far end of the third
-  std::vector<Positions> points;           ///< one a component, in the frame
+  Eigen::Matrix3d frame;          ///< rows: the axes; seen from the far end of the third
+  std::vector<Positions> points;  ///< one a component, in the frame
   std::vector<Crossing> crossings;
-  std::vector<std::vector<Pass>> passes;   ///< one list a component: along it
-  Index circles = 0;                       ///< Seifert circles
-  bool connected = false;                  ///< the surface of Seifert's algorithm is
+  std::vector<std::vector<Pass>> passes;  ///< one list a component: along it
+  Index circles = 0;                      ///< Seifert circles
+  bool connected = false;                 ///< the surface of Seifert's algorithm is
 
   /// Of the surface that Seifert's algorithm makes.
   Index euler_characteristic() const { return circles - static_cast<Index>(crossings.size()); }
@@ -46,8 +46,8 @@ struct LinkDiagram {
 /// vertex on an edge, strands too near each other to tell which is on top. Decided by exact arithmetic.
 std::optional<LinkDiagram> diagram_of(const Link& link, const Eigen::Matrix3d& frame);
 
-/// Of `directions` views, the one whose surface is connected and of largest Euler characteristic; the roomiest of those.
-/// The coordinate axes are the first three. None where no view is generic.
+/// Of `directions` views, the one whose surface is connected and of largest Euler characteristic; the roomiest of
+/// those. The coordinate axes are the first three. None where no view is generic.
 std::optional<LinkDiagram> best_diagram(const Link& link, int directions);
 
 /// The Alexander polynomial, all variables equal, by Fox calculus on the Wirtinger presentation; without units.

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include "applications/seifert/planar_layout.h"
@@ -41,16 +41,17 @@ std::vector<int> integers_of(const std::vector<Line>& lines, std::string_view le
     const char* at = line.text.data();
     const char* const end = at + line.text.size();
     while (at != end) {
-      if (std::isspace(static_cast<unsigned char>(*at)) || std::string_view("[](){},;").find(*at) != std::string_view::npos ||
-          letters.find(*at) != letters.npos) {
+      if (std::isspace(static_cast<unsigned char>(*at)) ||
+          std::string_view("[](){},;").find(*at) != std::string_view::npos || letters.find(*at) != letters.npos) {
         ++at;
         continue;
       }
       int value = 0;
       const auto [after, error] = std::from_chars(at, end, value);
       if (error != std::errc{})
-        throw FileError(fmt::format("line {}: '{}' is no whole number", line.number,
-                                    std::string_view(at, static_cast<std::size_t>(std::min<std::ptrdiff_t>(end - at, 20)))));
+        throw FileError(
+            fmt::format("line {}: '{}' is no whole number", line.number,
+                        std::string_view(at, static_cast<std::size_t>(std::min<std::ptrdiff_t>(end - at, 20)))));
       numbers.push_back(value);
       at = after;
     }
@@ -63,13 +64,15 @@ Link read_braid(std::vector<Line> lines, std::size_t first) {
   line.text.remove_prefix(std::string_view("braid").size());
   const std::size_t colon = line.text.find(':');
   if (colon == line.text.npos)
-    throw FileError(fmt::format("line {}: a braid is written 'braid STRANDS: GENERATORS', as in 'braid 2: 1 1 1'", line.number));
+    throw FileError(
+        fmt::format("line {}: a braid is written 'braid STRANDS: GENERATORS', as in 'braid 2: 1 1 1'", line.number));
   const std::vector<int> strands = integers_of({Line{line.number, line.text.substr(0, colon)}}, "");
   line.text.remove_prefix(colon + 1);
   lines.erase(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first));
   const std::vector<int> word = integers_of(lines, "");
   if (strands.size() != 1 || strands[0] < 1 || strands[0] > most_strands)
-    throw FileError(fmt::format("line {}: give one number of strands, 1 to {}, before the ':'", lines[0].number, most_strands));
+    throw FileError(
+        fmt::format("line {}: give one number of strands, 1 to {}, before the ':'", lines[0].number, most_strands));
   if (word.size() > most_crossings)
     throw FileError(fmt::format("a braid of {} generators; {} at most", word.size(), most_crossings));
   try {
@@ -82,9 +85,11 @@ Link read_braid(std::vector<Line> lines, std::size_t first) {
 Link read_planar_diagram(const std::vector<Line>& lines) {
   const std::vector<int> numbers = integers_of(lines, "PDX");
   if (numbers.size() % 4 != 0)
-    throw FileError(fmt::format("a planar diagram code has four edges a crossing; this one has {} numbers", numbers.size()));
+    throw FileError(
+        fmt::format("a planar diagram code has four edges a crossing; this one has {} numbers", numbers.size()));
   if (numbers.empty() || numbers.size() / 4 > most_crossings)
-    throw FileError(fmt::format("a planar diagram code of {} crossings; give 1 to {}", numbers.size() / 4, most_crossings));
+    throw FileError(
+        fmt::format("a planar diagram code of {} crossings; give 1 to {}", numbers.size() / 4, most_crossings));
   PlanarCode code;
   for (std::size_t k = 0; k < numbers.size(); k += 4)
     code.push_back({numbers[k], numbers[k + 1], numbers[k + 2], numbers[k + 3]});
@@ -117,14 +122,14 @@ Link read_points(const std::vector<Line>& lines) {
       const auto [after, error] = std::from_chars(at, end, value);
       if (error != std::errc{} || !std::isfinite(value) ||
           (after != end && *after != ' ' && *after != '\t' && *after != ','))
-        throw FileError(fmt::format("line {}: '{}' is no coordinate; a point is written 'x y z'", line.number,
-                                    std::string_view(at, static_cast<std::size_t>(std::min<std::ptrdiff_t>(end - at, 20)))));
+        throw FileError(
+            fmt::format("line {}: '{}' is no coordinate; a point is written 'x y z'", line.number,
+                        std::string_view(at, static_cast<std::size_t>(std::min<std::ptrdiff_t>(end - at, 20)))));
       points.push_back(value);
       at = after;
       ++count;
     }
-    if (count != 3)
-      throw FileError(fmt::format("line {}: {} numbers; a point has three, 'x y z'", line.number, count));
+    if (count != 3) throw FileError(fmt::format("line {}: {} numbers; a point has three, 'x y z'", line.number, count));
   }
   close();
   return link;

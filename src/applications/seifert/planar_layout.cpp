@@ -78,7 +78,8 @@ class Diagram {
       for (int k = 0; k < 4; ++k) {
         const int e = code_[c][k];
         if (e < 1 || e > edges_)
-          refuse(fmt::format("crossing {} has an edge {}; {} crossings have the edges 1 to {}", c + 1, e, crossings_, edges_));
+          refuse(fmt::format("crossing {} has an edge {}; {} crossings have the edges 1 to {}", c + 1, e, crossings_,
+                             edges_));
         sides_[e].push_back({c, k});
       }
     for (int e = 1; e <= edges_; ++e)
@@ -102,7 +103,8 @@ class Diagram {
       lead(c, forward ? b : d, forward ? d : b, true);
     }
     for (int e = 1; e <= edges_; ++e)
-      if (next_[e] == 0 || from_[e].first < 0) refuse(fmt::format("edge {} does not lead from one crossing to another", e));
+      if (next_[e] == 0 || from_[e].first < 0)
+        refuse(fmt::format("edge {} does not lead from one crossing to another", e));
   }
 
   void lead(int crossing, int from, int to, bool over) {
@@ -158,7 +160,8 @@ class Diagram {
     for (int c = 0; c < crossings_; ++c) pieces += parts.find(c) == c;
     if (pieces > 1) refuse(fmt::format("it falls into {} diagrams; lay them out one by one", pieces));
     if (crossings_ - edges_ + static_cast<int>(faces_.size()) != 2)
-      refuse(fmt::format("it has {} faces, not {}: no diagram in the plane has it", faces_.size(), edges_ - crossings_ + 2));
+      refuse(fmt::format("it has {} faces, not {}: no diagram in the plane has it", faces_.size(),
+                         edges_ - crossings_ + 2));
   }
 
   /// W. T. Tutte, "How to Draw a Graph", 1963: the longest face outside, evenly around a circle; every other node in
@@ -167,7 +170,8 @@ class Diagram {
   /// faces open.
   void draw() {
     const auto outer = std::max_element(faces_.begin(), faces_.end(),
-                                        [](const auto& f, const auto& g) { return f.size() < g.size(); }) - faces_.begin();
+                                        [](const auto& f, const auto& g) { return f.size() < g.size(); }) -
+                       faces_.begin();
     const int nodes = crossings_ + 2 * edges_, all = nodes + static_cast<int>(faces_.size());
     place_ = Points2::Zero(2, all);
     std::vector<int> unknown(all, -1);
@@ -190,8 +194,10 @@ class Diagram {
       for (const auto& [v, w] : {std::pair(a, b), std::pair(b, a)}) {
         if (unknown[v] < 0) continue;
         terms.emplace_back(unknown[v], unknown[v], 1);
-        if (unknown[w] >= 0) terms.emplace_back(unknown[v], unknown[w], -1);
-        else right.row(unknown[v]) += place_.col(w).transpose();
+        if (unknown[w] >= 0)
+          terms.emplace_back(unknown[v], unknown[w], -1);
+        else
+          right.row(unknown[v]) += place_.col(w).transpose();
       }
     };
     for (std::size_t f = 0; f < faces_.size(); ++f)
@@ -214,12 +220,12 @@ class Diagram {
   const PlanarCode& code_;
   const int crossings_;
   int edges_ = 0;
-  std::vector<std::vector<Side>> sides_;         // of each edge: two
-  std::vector<int> next_;                        // edge after each edge
-  std::vector<std::pair<int, bool>> from_;       // crossing that each edge leaves, and whether above
+  std::vector<std::vector<Side>> sides_;    // of each edge: two
+  std::vector<int> next_;                   // edge after each edge
+  std::vector<std::pair<int, bool>> from_;  // crossing that each edge leaves, and whether above
   std::vector<std::vector<int>> faces_;
   Points2 place_;
-  std::vector<double> shortest_;                 // piece at each crossing
+  std::vector<double> shortest_;  // piece at each crossing
 };
 
 }  // namespace

@@ -19,8 +19,7 @@ Integer determinant(std::vector<Integer> m, Index n) {
       sign = -sign;
     }
     for (Index i = k + 1; i < n; ++i)
-      for (Index j = k + 1; j < n; ++j)
-        at(i, j) = (at(i, j) * at(k, k) - at(i, k) * at(k, j)) / previous;
+      for (Index j = k + 1; j < n; ++j) at(i, j) = (at(i, j) * at(k, k) - at(i, k) * at(k, j)) / previous;
     previous = at(k, k);
   }
   return n == 0 ? Integer(1) : Integer(sign * at(n - 1, n - 1));

@@ -16,8 +16,8 @@
 namespace unsnarl {
 namespace {
 
-/// First distance of a push-off / shortest edge nearby; each further try is a tenth of the one before.
-constexpr double first_offset = 1e-2;
+/// First distance of a push-off / smallest height of the triangle; each further try is a tenth of the one before.
+constexpr double first_offset = 1e-3;
 constexpr int most_tries = 8;
 constexpr double grid_cells = 40;  // along the longest side
 
@@ -136,7 +136,8 @@ class PushOffs {
       const Edge& edge = loops_.edge(loop.edges[k]);
       const Vec3 out = offset * std::min(room(f), room(g)) * (normal(f) + normal(g)).normalized();
       const auto at_edge = [&](double t) { return Vec3((1 - t) * x_[edge[0]] + t * x_[edge[1]]); };
-      const Vec3 out_above = at_edge(jitter(2 * loop.edges[k])) + out, out_below = at_edge(jitter(2 * loop.edges[k] + 1)) - out;
+      const Vec3 out_above = at_edge(jitter(2 * loop.edges[k])) + out,
+                 out_below = at_edge(jitter(2 * loop.edges[k] + 1)) - out;
       if (!is_clear(out_above, out_below, {f, g})) return {};
       sides[0].push_back(out_above);
       sides[1].push_back(out_below);
@@ -174,10 +175,12 @@ class PushOffs {
     const Triangle& t = faces_[f];
     return (x_[t[1]] - x_[t[0]]).cross(x_[t[2]] - x_[t[0]]).normalized();
   }
+  /// The smallest height of the triangle.
   double room(Index f) const {
     const Triangle& t = faces_[f];
-    return std::sqrt(std::min({(x_[t[1]] - x_[t[0]]).squaredNorm(), (x_[t[2]] - x_[t[1]]).squaredNorm(),
-                               (x_[t[0]] - x_[t[2]]).squaredNorm()}));
+    const double longest = std::max({(x_[t[1]] - x_[t[0]]).squaredNorm(), (x_[t[2]] - x_[t[1]]).squaredNorm(),
+                                     (x_[t[0]] - x_[t[2]]).squaredNorm()});
+    return (x_[t[1]] - x_[t[0]]).cross(x_[t[2]] - x_[t[0]]).norm() / std::sqrt(longest);
   }
 
   bool is_clear(const Vec3& p, const Vec3& q, const std::array<Index, 2>& but) {

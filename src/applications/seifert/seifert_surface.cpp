@@ -38,7 +38,8 @@ double edge_length(const Link& link, const SeifertOptions& options) {
   }
   const double diagonal = box.diagonal();
   if (options.edge_rel > 0) return options.edge_rel * diagonal;
-  return std::clamp(length / static_cast<double>(link.point_count()), finest_edge_rel * diagonal, coarsest_edge_rel * diagonal);
+  return std::clamp(length / static_cast<double>(link.point_count()), finest_edge_rel * diagonal,
+                    coarsest_edge_rel * diagonal);
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
   StageClock clock;
   SeifertResult result;
   const std::optional<LinkDiagram> diagram = best_diagram(link, options.views);
-  if (!diagram) throw std::invalid_argument("no view of the link tells its strands apart; are some closer than rounding?");
+  if (!diagram)
+    throw std::invalid_argument("no view of the link tells its strands apart; are some closer than rounding?");
   result.crossings = diagram->crossings.size();
   result.circles = static_cast<std::size_t>(diagram->circles);
   const double edge = edge_length(link, options);
@@ -58,7 +60,8 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
     const auto progress = [&](double fraction) {
       if (context && context->on_progress) context->on_progress({.fraction = fraction, .phase = "fair"});
       if (context && context->is_cancelled()) result.status = Status::cancelled;
-      if (options.time_limit_s > 0 && clock.stage("").seconds >= options.time_limit_s) result.status = Status::time_limit;
+      if (options.time_limit_s > 0 && clock.stage("").seconds >= options.time_limit_s)
+        result.status = Status::time_limit;
       return result.status == Status::embedded;
     };
     mesh = fair(std::move(mesh), static_cast<Index>(link.point_count()), edge, {}, progress);

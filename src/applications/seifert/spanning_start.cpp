@@ -11,7 +11,8 @@ namespace {
 
 /// Of the room around a crossing in the picture, the half length of its band along both strands.
 constexpr double band_of_room = 0.4;
-/// The rim of the strand below winds around it on either side of the band: it starts this much farther from the crossing.
+/// The rim of the strand below winds around it on either side of the band: it starts this much farther from the
+/// crossing.
 constexpr double winding_of_band = 1.6;
 /// Of the smallest gap between the strands of a crossing, and of the smallest band, the width of the collar: all of it
 /// stays apart from the other strand's.
@@ -22,10 +23,10 @@ constexpr double corner_shift = 1e-3;
 /// A point of the collar's free rim, in the frame of the diagram.
 struct RimPoint {
   Vec3 x;
-  double fraction = 0;                        // of its edge
-  Index crossing = -1;                        // where it is an end of a band
-  bool over = false, arrives = false;         // of its strand, there
-  Index next = -1;                            // along the link
+  double fraction = 0;                            // of its edge
+  Index crossing = -1;                            // where it is an end of a band
+  bool over = false, arrives = false;             // of its strand, there
+  Index next = -1;                                // along the link
   Index link_vertex = -1, next_link_vertex = -1;  // its edge
 };
 
@@ -124,9 +125,11 @@ class Construction {
   void place_bands() {
     ends_.resize(diagram_.crossings.size());
     for (std::size_t k = 0; k < rim_.size(); ++k)
-      if (rim_[k].crossing >= 0) ends_[rim_[k].crossing][rim_[k].over ? 0 : 1][rim_[k].arrives ? 0 : 1] = static_cast<Index>(k);
+      if (rim_[k].crossing >= 0)
+        ends_[rim_[k].crossing][rim_[k].over ? 0 : 1][rim_[k].arrives ? 0 : 1] = static_cast<Index>(k);
     for (const auto& [over, under] : ends_) {
-      const Index a = rim_vertex_[over[0]], c = rim_vertex_[over[1]], b = rim_vertex_[under[0]], d = rim_vertex_[under[1]];
+      const Index a = rim_vertex_[over[0]], c = rim_vertex_[over[1]], b = rim_vertex_[under[0]],
+                  d = rim_vertex_[under[1]];
       mesh_.faces.push_back({a, c, b});
       mesh_.faces.push_back({a, b, d});
     }

@@ -16,7 +16,8 @@ struct SpanningMesh {
 /// boundary (H. Seifert, "Über das Geschlecht von Knoten", 1934).
 ///
 /// - A collar hangs down from the link, a little way.
-/// - At a crossing its lower rims, which run through it straight, are joined by two triangles: a band with half a twist.
+/// - At a crossing its lower rims, which run through it straight, are joined by two triangles: a band with half a
+/// twist.
 /// - What is left of the rims are the Seifert circles. From each a wall hangs straight down to a flat disc below the
 ///   link, at a height of its own: the deeper a circle lies within others, the higher. Walls stand over the circles,
 ///   which do not meet in the picture, and the discs of the circles around one pass below its own.
