@@ -176,9 +176,9 @@ Polygons polygons_of(std::span<const Curve> curves) {
   return polygons;
 }
 
-/// False: stopped.
-bool make_round(std::span<const Curve> curves, std::span<const int> points, const std::function<bool()>& stop,
-                Side& side) {
+/// False: stopped. `backwards`: the states are to be gone through from the last to the first.
+bool make_round(std::span<const Curve> curves, std::span<const int> points, bool backwards,
+                const std::function<bool()>& stop, Side& side) {
   side.exact = polygons_of(curves);
   std::vector<Curve> finer;
   for (std::size_t c = 0; c < curves.size(); ++c) {
@@ -199,7 +199,7 @@ bool make_round(std::span<const Curve> curves, std::span<const int> points, cons
     std::vector<Polygons> rings;
     for (std::size_t k = thinned; k < states.size(); ++k) rings.push_back(polygons_at(states[k]));
     std::vector<Points2> kept(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(thinned));
-    for (const std::size_t k : thin_out(rings, net.diagonal, [] { return false; }))
+    for (const std::size_t k : thin_out(rings, net.diagonal, backwards, [] { return false; }))
       kept.push_back(std::move(states[thinned + k]));
     states = std::move(kept);
     thinned = states.size() - 1;
@@ -285,9 +285,9 @@ class Making {
     Side from, to;
     const auto stop = [&] { return is_stopped(); };
     report(0, "shorten");
-    if (!make_round(start_, made_.points, stop, from)) return given_up();
+    if (!make_round(start_, made_.points, false, stop, from)) return given_up();
     report(0.3, "shorten");
-    if (!make_round(end_, made_.points, stop, to)) return given_up();
+    if (!make_round(end_, made_.points, true, stop, to)) return given_up();
     renumber(to, from.discs, directions);
     made_.on_start = from.places;
     made_.on_end = to.places;
@@ -296,12 +296,13 @@ class Making {
     join(from.discs, to.discs, directions, states);
     states.insert(states.end(), to.states.rbegin(), to.states.rend());
     report(0.6, "thin out");
-    const std::vector<std::size_t> kept = thin_out(states, made_.height, stop);
+    std::vector<std::size_t> kept = thin_out(states, made_.height, false, stop);
     if (kept.empty()) return given_up();
-    build(from, to, states, kept);
-    FindOptions find;
-    find.weld = Weld::none;
-    made_.status = find_intersections(made_.surface, find).empty() ? Status::embedded : Status::no_progress;
+    bool is_refined = true;
+    while (made_.status == Status::no_progress && is_refined) {
+      build(from, to, states, kept);
+      is_refined = refine_where_strips_meet(kept);
+    }
     made_.seconds = clock_.stage("").seconds;
     return std::move(made_);
   }
@@ -342,6 +343,28 @@ class Making {
     }
   }
 
+  /// Looks at the whole surface: where triangles of a strip meet, the state halfway is kept too. False: nothing meets,
+  /// or there is none to keep.
+  bool refine_where_strips_meet(std::vector<std::size_t>& kept) {
+    FindOptions find;
+    find.weld = Weld::none;
+    const std::vector<IntersectingPair> pairs = find_intersections(made_.surface, find);
+    if (pairs.empty()) made_.status = Status::embedded;
+    std::vector<std::size_t> halfway;
+    for (const IntersectingPair& pair : pairs)
+      for (const std::int32_t face : {pair.a, pair.b}) {
+        const auto strip = std::upper_bound(first_face_.begin(), first_face_.end(), face) - first_face_.begin() - 1;
+        // The first and the last strip lead to the exact curves, the others from one kept state to the next.
+        if (strip < 1 || static_cast<std::size_t>(strip) >= kept.size()) continue;
+        const std::size_t before = kept[strip - 1], after = kept[strip];
+        if (after - before > 1) halfway.push_back((before + after) / 2);
+      }
+    kept.insert(kept.end(), halfway.begin(), halfway.end());
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    return !halfway.empty();
+  }
+
   void build(const Side& from, const Side& to, const std::vector<Polygons>& states,
              const std::vector<std::size_t>& kept) {
     std::vector<const Polygons*> rings;
@@ -358,6 +381,9 @@ class Making {
     }
     const double mean = std::max(effort.back(), made_.height * 1e-6) / static_cast<double>(rings.size());
     const double sum = effort.back() + least_time * mean * static_cast<double>(rings.size() - 1);
+    made_.rings.clear();
+    made_.surface = {};
+    first_face_.clear();
     std::vector<std::vector<Index>> first(rings.size());
     for (std::size_t k = 0; k < rings.size(); ++k) {
       IsotopyRing& ring = made_.rings.emplace_back();
@@ -371,9 +397,11 @@ class Making {
         }
       }
     }
-    for (std::size_t k = 0; k + 1 < rings.size(); ++k)
+    for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
+      first_face_.push_back(static_cast<std::int32_t>(made_.surface.corners.size() / 3));
       for (std::size_t c = 0; c < made_.points.size(); ++c)
         add_strip(rungs_of(made_, k, c), first[k][c], first[k + 1][c], made_.surface.corners);
+    }
   }
 
   std::span<const Curve> start_, end_;
@@ -381,6 +409,7 @@ class Making {
   Context* context_;
   StageClock clock_;
   Isotopy made_;
+  std::vector<std::int32_t> first_face_;  // of each strip
 };
 
 }  // namespace

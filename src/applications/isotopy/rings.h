@@ -30,7 +30,9 @@ void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::ve
 
 /// The subsequence of rings that greedy long steps leave, the first and the last among them: from every ring as far as
 /// the strips to a later one are embedded, found by doubling and halving. Those between neighbours are taken to be.
-/// `stop`: true: give up; what is returned is then empty.
-std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height, const std::function<bool()>& stop);
+/// `backwards`: later rings are the lower ones, which decides how quads are cut. `stop`: true: give up; what is
+/// returned is then empty.
+std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height, bool backwards,
+                                  const std::function<bool()>& stop);
 
 }  // namespace unsnarl
