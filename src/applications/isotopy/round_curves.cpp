@@ -81,12 +81,13 @@ class Flow {
     for (int k = 0; k < most_halvings; ++k, time_step_ *= 0.5) {
       to = x_;
       for (std::size_t c = 0; c < net_.chains.size(); ++c)
-        is_round_[c] ? shrink(net_.chains[c], to) : shorten(net_.chains[c], to);
+        if (!is_round_[c]) shorten(net_.chains[c], to);
       if (((to - x_).colwise().norm().transpose().array() <= flow_part * options_.move_of_distance * distance_.array())
               .all())
         break;
     }
-    for (const CurveNet::Chain& chain : net_.chains) spread(chain, to);
+    for (std::size_t c = 0; c < net_.chains.size(); ++c)
+      is_round_[c] ? shrink(net_.chains[c], to) : spread(net_.chains[c], to);
     for (Index v = 0; v < net_.vertex_count(); ++v) {
       const Vec2 move = to.col(v) - x_.col(v);
       const double allowed = options_.move_of_distance * distance_[v], wanted = move.norm();
