@@ -19,11 +19,13 @@
 #include "unsnarl/certify.h"
 #include "unsnarl/curves.h"
 #include "unsnarl/intersections.h"
+#include "unsnarl/isotopy.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/report.h"
 #include "unsnarl/report_json.h"
 #include "unsnarl/scene_document.h"
+#include "unsnarl/seifert.h"
 #include "unsnarl/sequence.h"
 #include "unsnarl/stage_clock.h"
 #include "unsnarl/version.h"
@@ -332,6 +334,86 @@ py::tuple py_untangle_curves(const std::vector<Array<double>>& points, const std
   return py::make_tuple(moved, std::string(to_string(result.status)), report);
 }
 
+Link link_of(const std::vector<Array<double>>& components) {
+  Link link;
+  for (const Array<double>& component : components) {
+    const std::span<const double> p = span_of(component);
+    link.components.emplace_back(p.begin(), p.end());
+  }
+  return link;
+}
+
+py::dict dict_of(const SeifertFindings& found) {
+  const auto integers = [](const std::vector<std::string>& coefficients) {
+    py::list list;
+    for (const std::string& c : coefficients) list.append(py::int_(py::str(c)));
+    return list;
+  };
+  py::dict report;
+  report["intersecting_pairs"] = found.intersecting_pairs;
+  report["oriented"] = found.oriented;
+  report["spans_link"] = found.spans_link;
+  report["components"] = found.components;
+  report["genus"] = found.genus;
+  report["euler_characteristic"] = found.euler_characteristic;
+  report["expected_euler_characteristic"] = found.expected_euler_characteristic;
+  report["alexander_of_surface"] = integers(found.alexander_of_surface);
+  report["alexander_of_link"] = integers(found.alexander_of_link);
+  report["hold"] = found.hold();
+  return report;
+}
+
+py::tuple py_seifert_surface(const std::vector<Array<double>>& components, double edge, int views, bool fair,
+                             double time_limit, const py::object& progress) {
+  const Link link = link_of(components);
+  const SeifertOptions options{.edge_rel = edge, .views = views, .fair = fair, .time_limit_s = time_limit};
+  SeifertFindings found;
+  const SeifertResult result = while_serving_python(
+      [&](Context* context) {
+        SeifertResult made = seifert_surface(link, options, context);
+        found = check_seifert_surface(made.surface, link, views);
+        return made;
+      },
+      progress);
+  py::dict report = dict_of(found);
+  report["crossings"] = result.crossings;
+  report["circles"] = result.circles;
+  report["area"] = result.area;
+  report["seconds"] = result.seconds;
+  return py::make_tuple(array_of(result.surface.positions), array_of(result.surface.corners),
+                        std::string(to_string(result.status)), report);
+}
+
+py::dict py_check_seifert_surface(const Array<double>& positions, const Array<std::int32_t>& corners,
+                                  const std::vector<Array<double>>& components, int views) {
+  return dict_of(check_seifert_surface({span_of(positions), span_of(corners)}, link_of(components), views));
+}
+
+py::list py_knot_of_table(const std::string& name) {
+  py::list components;
+  for (const std::vector<double>& component : knot_of_table(name).components) components.append(array_of(component));
+  return components;
+}
+
+py::tuple py_planar_isotopy(const std::vector<Array<double>>& start, const std::vector<Array<double>>& end, int points,
+                            double time_limit, const py::object& progress) {
+  const std::vector<Curve> from = curves_of(start, std::vector<bool>(start.size(), true), {});
+  const std::vector<Curve> to = curves_of(end, std::vector<bool>(end.size(), true), {});
+  const IsotopyOptions options{.points = points, .time_limit_s = time_limit};
+  const Isotopy made =
+      while_serving_python([&](Context* context) { return planar_isotopy(from, to, options, context); }, progress);
+  std::vector<double> times;
+  py::list rings;
+  for (const IsotopyRing& ring : made.rings) {
+    times.push_back(ring.time);
+    py::list curves;
+    for (const std::vector<double>& curve : ring.curves) curves.append(array_of(curve));
+    rings.append(curves);
+  }
+  return py::make_tuple(array_of(times), rings, array_of(made.surface.positions), array_of(made.surface.corners),
+                        std::string(to_string(made.status)));
+}
+
 Array<std::int32_t> py_component_of_faces(const Array<double>& positions, const Array<std::int32_t>& corners,
                                           const Array<std::int32_t>& offsets, const std::string& weld,
                                           double weld_tolerance) {
@@ -380,6 +462,13 @@ PYBIND11_MODULE(_native, module) {
   module.def("untangle_curves", &py_untangle_curves, py::arg("points"), py::arg("closed"), py::arg("fixed"),
              py::kw_only(), py::arg("gap"), py::arg("junction"), py::arg("fix_ends"), py::arg("time_limit"),
              py::arg("recover"), py::arg("progress"));
+  module.def("seifert_surface", &py_seifert_surface, py::arg("link"), py::kw_only(), py::arg("edge"), py::arg("views"),
+             py::arg("fair"), py::arg("time_limit"), py::arg("progress"));
+  module.def("check_seifert_surface", &py_check_seifert_surface, array("positions"), array("corners"), py::arg("link"),
+             py::kw_only(), py::arg("views"));
+  module.def("knot_of_table", &py_knot_of_table, py::arg("name"));
+  module.def("planar_isotopy", &py_planar_isotopy, py::arg("start"), py::arg("end"), py::kw_only(), py::arg("points"),
+             py::arg("time_limit"), py::arg("progress"));
   module.def("component_of_faces", &py_component_of_faces, array("positions"), array("corners"), array("offsets"),
              py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"));
   module.def("boundary_vertices", &py_boundary_vertices, array("positions"), array("corners"), array("offsets"),

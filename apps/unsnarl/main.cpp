@@ -14,7 +14,9 @@
 #include "curves.h"
 #include "fix.h"
 #include "interruption.h"
+#include "isotopy.h"
 #include "sample.h"
+#include "seifert.h"
 #include "standard_streams.h"
 #include "unsnarl/document.h"
 #include "unsnarl/exit_code.h"
@@ -45,6 +47,8 @@ int run(int argc, char** argv) {
   SampleOptions sample;
   ViewOptions view;
   CurvesOptions curves;
+  SeifertCommandOptions seifert;
+  IsotopyCommandOptions isotopy;
   CLI::App* const fix_command = program.add_subcommand("fix", "Repair a mesh");
   CLI::App* const batch_command = program.add_subcommand("batch", "Repair many meshes, each in a process of its own");
   CLI::App* const check_command = program.add_subcommand("check", "Count and locate the self-intersections of a mesh");
@@ -53,12 +57,18 @@ int run(int argc, char** argv) {
       program.add_subcommand("sample", "Make a self-intersecting surface, or a curve, to play with");
   CLI::App* const curves_command =
       program.add_subcommand("curves", "Move curves in the plane until none crosses itself or another: SVG or JSON");
+  CLI::App* const isotopy_command =
+      program.add_subcommand("isotopy", "Move closed curves in the plane to others without ever crossing: SVG or JSON");
+  CLI::App* const seifert_command =
+      program.add_subcommand("seifert", "Span a knot or link by an oriented surface without self-intersections");
   add_fix_options(*fix_command, fix);
   add_batch_options(*batch_command, batch);
   add_check_options(*check_command, check);
   add_view_options(*view_command, view);
   add_sample_options(*sample_command, sample);
   add_curves_options(*curves_command, curves);
+  add_isotopy_options(*isotopy_command, isotopy);
+  add_seifert_options(*seifert_command, seifert);
   program.footer(
       "Examples:\n"
       "  unsnarl check hand.obj                              does it intersect itself, and where?\n"
@@ -72,8 +82,9 @@ int run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0 && program.get_subcommands().empty())
-      return complain(exit_usage,
-                      "say what to do: fix, batch, check, view, sample or curves; 'unsnarl --help' explains");
+      return complain(
+          exit_usage,
+          "say what to do: fix, batch, check, view, sample, curves, isotopy or seifert; 'unsnarl --help' explains");
     return program.exit(e, std::cout, std::cerr) == 0 ? exit_embedded : exit_usage;
   }
   std::optional<tbb::global_control> limit;
@@ -84,6 +95,8 @@ int run(int argc, char** argv) {
   if (*check_command) return run_check(check, interruption);
   if (*view_command) return run_view(view, interruption);
   if (*curves_command) return run_curves(curves, interruption);
+  if (*isotopy_command) return run_isotopy(isotopy, interruption);
+  if (*seifert_command) return run_seifert(seifert, interruption);
   return run_sample(sample, interruption);
 }
 

@@ -14,6 +14,7 @@
 #include "surface_files.h"
 #include "unsnarl/curves.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/link.h"
 #include "unsnarl/samples.h"
 #include "usage_error.h"
 
@@ -22,6 +23,8 @@ namespace {
 
 /// Samples of curves are called by it and a kind of random_closed_curve.
 constexpr std::string_view curve_prefix = "curve_";
+/// Samples of knots and links are called by it and a name of knot_table.
+constexpr std::string_view knot_prefix = "knot_";
 constexpr double curve_points = 600, curve_seed = 1;
 
 /// The kind of curve that a sample is called after; empty: it is a surface.
@@ -29,6 +32,14 @@ std::string_view kind_of_curve(std::string_view name) {
   for (const std::string_view kind : random_curve_kinds())
     if (name.starts_with(curve_prefix) && name.substr(curve_prefix.size()) == kind) return kind;
   return {};
+}
+
+/// The entry that a sample is called after; null: it is no knot.
+const KnotEntry* knot_of(std::string_view name) {
+  if (!name.starts_with(knot_prefix)) return nullptr;
+  for (const KnotEntry& entry : knot_table())
+    if (entry.name == name.substr(knot_prefix.size())) return &entry;
+  return nullptr;
 }
 
 std::string list_of_samples() {
@@ -45,7 +56,14 @@ std::string curves_hint() {
   std::string names;
   for (const std::string_view kind : random_curve_kinds())
     names += fmt::format("{}{}{}", names.empty() ? "" : ", ", curve_prefix, kind);
-  return fmt::format("random closed curves, for 'unsnarl curves': {}\n", names);
+  std::string links;
+  for (const KnotEntry& entry : knot_table())
+    if (entry.name.find_first_not_of("0123456789_") != std::string::npos)
+      links += fmt::format(", {}{}", knot_prefix, entry.name);
+  return fmt::format(
+      "random closed curves, for 'unsnarl curves': {}\nknots, for 'unsnarl seifert': {}3_1 to {}10_165, as in "
+      "Rolfsen's table{}\n",
+      names, knot_prefix, knot_prefix, links);
 }
 
 std::string description_of(const std::string& name) {
@@ -55,6 +73,9 @@ std::string description_of(const std::string& name) {
         "  --set seed={}   which one (0 to 1e15)\n"
         "  --set points={}   number of points (8 to 100000)\n",
         name, curve_seed, curve_points);
+  if (const KnotEntry* const entry = knot_of(name))
+    return fmt::format("{}: {} points of the closure of a braid of {} strands and {} crossings\n", name,
+                       knot_of_table(entry->name).point_count(), entry->strands, entry->braid.size());
   const auto samples = all_samples();
   const auto found = std::find_if(samples.begin(), samples.end(), [&](const Sample& s) { return s.name == name; });
   if (found == samples.end())
@@ -115,12 +136,15 @@ std::string curve_file(const SampleOptions& options, std::string_view kind) {
 }  // namespace
 
 void add_sample_options(CLI::App& command, SampleOptions& options) {
-  command.add_option("NAME", options.name,
-                     "Which one; see --list. For 'unsnarl curves', a random closed curve: curve_waves, curve_walk,\n"
-                     "curve_star, curve_noise, curve_spiral or curve_chaos");
+  command.add_option(
+      "NAME", options.name,
+      "Which one; see --list. For 'unsnarl curves', a random closed curve: curve_waves, curve_walk,\n"
+      "curve_star, curve_noise, curve_spiral or curve_chaos. For 'unsnarl seifert', a knot: knot_3_1 to\n"
+      "knot_10_165, and links");
   command
       .add_option("-o,--output", options.output,
-                  "Where it goes: *.obj, *.off or *.ply (curves: *.json or *.svg); '-' for standard output")
+                  "Where it goes: *.obj, *.off or *.ply (curves: *.json or *.svg; knots: *.xyz);\n"
+                  "'-' for standard output")
       ->type_name("OUT");
   command.add_option("--format", options.format, "obj, off or ply (curves: json or svg), where the name does not tell")
       ->type_name("FORMAT");
@@ -148,6 +172,11 @@ int run_sample(const SampleOptions& options, Interruption& interruption) {
   if (options.output.empty()) throw UsageError("where should it go? Give -o OUT ('-' for standard output)");
   if (const std::string_view kind = kind_of_curve(options.name); !kind.empty()) {
     write_file(options.output, curve_file(options, kind), interruption);
+    return exit_embedded;
+  }
+  if (const KnotEntry* const entry = knot_of(options.name)) {
+    if (!options.parameters.empty()) throw UsageError("--set: knots have no parameters");
+    write_file(options.output, link_text(knot_of_table(entry->name)), interruption);
     return exit_embedded;
   }
   std::optional<Format> format = format_from_name(options.format);

@@ -39,8 +39,8 @@ std::string picture_png(const SurfaceView& surface, std::span<const std::int32_t
                         const PictureOptions& options = {});
 
 struct AnimationOptions {
-  int width = 840;   ///< pixels, [128, 4096]
-  int height = 480;  ///< pixels, [128, 4096]
+  int width = 840;                        ///< pixels, [128, 4096]
+  int height = 480;                       ///< pixels, [128, 4096]
   std::span<const SceneFile> files = {};  ///< as in PictureOptions
 };
 

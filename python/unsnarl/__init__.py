@@ -28,24 +28,38 @@ from ._native import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._repair import Progress, Result, Status, repair
 from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
+from ._spaces import (
+    Isotopy,
+    SeifertSurface,
+    check_seifert_surface,
+    knot_of_table,
+    planar_isotopy,
+    seifert_surface,
+)
 
 __all__ = [
     "Certificate",
     "CurveResult",
     "Frame",
     "Intersections",
+    "Isotopy",
     "Jitter",
     "Progress",
     "Result",
+    "SeifertSurface",
     "SequenceResult",
     "Status",
     "boundary_vertices",
     "certify",
+    "check_seifert_surface",
     "component_of_faces",
     "find_crossings",
     "find_intersections",
+    "knot_of_table",
+    "planar_isotopy",
     "repair",
     "repair_sequence",
+    "seifert_surface",
     "untangle_curves",
     "vertices_of_faces",
 ]

@@ -107,3 +107,26 @@ def untangle_curves(
     recover: bool,
     progress: Callable[[float, str, int, float], object] | None,
 ) -> tuple[list[NDArray[np.float64]], str, dict[str, Any]]: ...
+def seifert_surface(
+    link: list[NDArray[np.float64]],
+    *,
+    edge: float,
+    views: int,
+    fair: bool,
+    time_limit: float,
+    progress: Callable[[float, str, int, float], object] | None,
+) -> tuple[NDArray[np.float64], NDArray[np.int32], str, dict[str, Any]]: ...
+def check_seifert_surface(
+    positions: NDArray[np.float64], corners: NDArray[np.int32], link: list[NDArray[np.float64]], *, views: int
+) -> dict[str, Any]: ...
+def knot_of_table(name: str) -> list[NDArray[np.float64]]: ...
+def planar_isotopy(
+    start: list[NDArray[np.float64]],
+    end: list[NDArray[np.float64]],
+    *,
+    points: int,
+    time_limit: float,
+    progress: Callable[[float, str, int, float], object] | None,
+) -> tuple[
+    NDArray[np.float64], list[list[NDArray[np.float64]]], NDArray[np.float64], NDArray[np.int32], str
+]: ...

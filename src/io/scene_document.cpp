@@ -28,8 +28,7 @@ void append_faces(const Surface& part, std::int32_t first_vertex, bool with_offs
   for (const std::int32_t v : part.corners) whole.corners.push_back(first_vertex + v);
   if (!with_offsets) return;
   for (std::size_t f = 1; f <= part.view().face_count(); ++f)
-    whole.offsets.push_back(first_corner +
-                            (part.offsets.empty() ? static_cast<std::int32_t>(3 * f) : part.offsets[f]));
+    whole.offsets.push_back(first_corner + (part.offsets.empty() ? static_cast<std::int32_t>(3 * f) : part.offsets[f]));
 }
 
 /// Adds the labels of a file, of the same kind to those that are there.
@@ -56,8 +55,7 @@ void append_labels(const std::vector<FaceLabels>& part, const SceneFile& file, s
 SceneDocument::SceneDocument(std::vector<Document> documents, std::vector<std::string> names)
     : documents_(std::move(documents)) {
   if (documents_.empty() || documents_.size() != names.size())
-    throw std::invalid_argument(
-        fmt::format("a scene of {} documents with {} names", documents_.size(), names.size()));
+    throw std::invalid_argument(fmt::format("a scene of {} documents with {} names", documents_.size(), names.size()));
   std::size_t vertices = 0, faces = 0, corners = 0;
   for (std::size_t i = 0; i < documents_.size(); ++i) {
     const SurfaceView part = documents_[i].surface();
@@ -75,8 +73,8 @@ SceneDocument::SceneDocument(std::vector<Document> documents, std::vector<std::s
 }
 
 void SceneDocument::join() {
-  const bool with_offsets = std::any_of(documents_.begin(), documents_.end(),
-                                        [](const Document& d) { return !d.surface().offsets.empty(); });
+  const bool with_offsets =
+      std::any_of(documents_.begin(), documents_.end(), [](const Document& d) { return !d.surface().offsets.empty(); });
   if (with_offsets) surface_.offsets.push_back(0);
   std::size_t smallest = 0, largest = 0;
   std::vector<double> extents;
@@ -91,8 +89,8 @@ void SceneDocument::join() {
     if (extents[i] > extents[largest]) largest = i;
   }
   if (extents[smallest] > 0 && extents[largest] >= suspicious_extent_ratio * extents[smallest])
-    notes_.push_back(fmt::format("{} is {:.0f} times as large as {}; are both in the same units?",
-                                 files_[largest].name, extents[largest] / extents[smallest], files_[smallest].name));
+    notes_.push_back(fmt::format("{} is {:.0f} times as large as {}; are both in the same units?", files_[largest].name,
+                                 extents[largest] / extents[smallest], files_[smallest].name));
   const std::size_t face_count = surface_.view().face_count();
   labels_.push_back({"file", {}, file_of_faces(files_)});
   for (std::size_t i = 0; i < documents_.size(); ++i) {

@@ -30,8 +30,8 @@ struct WeldMap {
 ///      become one, and then the vertices still on open edges wherever their positions are equal, since parts that were
 ///      sampled differently along a common border meet in single vertices only; again unless coincident faces would
 ///      share them.
-/// A vertex without an open edge is only itself. The ends of an edge of length zero are two vertices, unless the edge is
-/// open: that is a point of the boundary.
+/// A vertex without an open edge is only itself. The ends of an edge of length zero are two vertices, unless the edge
+/// is open: that is a point of the boundary.
 ///
 /// Precondition: valid ids, finite coordinates (see mesh/validity.h).
 WeldMap weld(const SurfaceView& surface, Weld weld = Weld::seams, double tolerance = 0);

@@ -29,8 +29,8 @@ constexpr std::array<double, sequence_reach + 1> weights = {70.0 / 256, 56.0 / 2
 /// seen. On the same frames 96.4 % of the vertices stay untouched instead of 95.6 % with 1e-6, and jitter is the same.
 constexpr double least_correction_rel = 3e-5;
 
-/// Frames that are worked on at once, by thread: enough that none waits for long. What is under way is lost where a call
-/// is cut off, and held in memory with the frames around it.
+/// Frames that are worked on at once, by thread: enough that none waits for long. What is under way is lost where a
+/// call is cut off, and held in memory with the frames around it.
 constexpr std::size_t frames_by_thread = 2;
 
 struct Frame {

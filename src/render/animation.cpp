@@ -209,7 +209,8 @@ void render_animation(const SurfaceView& surface, std::span<const RecordedFrame>
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const std::size_t f = shown[k];
     while (next <= f) advance(surface, frames[next++], positions);
-    const Drawable drawable = make_drawable({positions, surface.corners, surface.offsets}, frames[f].intersecting, options.files);
+    const Drawable drawable =
+        make_drawable({positions, surface.corners, surface.offsets}, frames[f].intersecting, options.files);
     Image image(options.width, options.height);
     Image whole = shade(drawable, camera, width, height);
     if (window) {

@@ -26,7 +26,8 @@ namespace unsnarl {
 namespace {
 
 // The regional flow resolves a region of one of 115 meshes and samples, the recession regions of five, the strong flow
-// that of one, and the first flow of a whole component none of them: it is kept for closed surfaces, which cannot recede.
+// that of one, and the first flow of a whole component none of them: it is kept for closed surfaces, which cannot
+// recede.
 constexpr std::array<FlowSettings, 3> strategies{{
     {.name = "flow", .max_iterations = 200, .locality = 30, .lambda_minkowski = 0.5},
     {.name = "recession", .recedes = true},

@@ -1,0 +1,178 @@
+#include "isotopy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "command_options.h"
+#include "pictures.h"
+#include "progress.h"
+#include "staged_output.h"
+#include "standard_streams.h"
+#include "surface_files.h"
+#include "unsnarl/curves.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/isotopy.h"
+#include "unsnarl/version.h"
+#include "usage_error.h"
+
+namespace unsnarl::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Curve> read_curves(const std::string& path, double flatten) {
+  std::vector<Curve> curves = CurveDocument::read(path, flatten).curves();
+  for (Curve& curve : curves) {
+    curve.fixed.clear();
+    // Drawings often end where they began without saying that they are closed.
+    const std::size_t n = curve.points.size();
+    if (!curve.closed && n >= 8 && curve.points[0] == curve.points[n - 2] && curve.points[1] == curve.points[n - 1]) {
+      curve.points.resize(n - 2);
+      curve.closed = true;
+    }
+  }
+  return curves;
+}
+
+void run_backwards(Curve& curve) {
+  const std::size_t n = curve.size();
+  for (std::size_t a = 0, b = n - 1; a < b; ++a, --b) {
+    std::swap(curve.points[2 * a], curve.points[2 * b]);
+    std::swap(curve.points[2 * a + 1], curve.points[2 * b + 1]);
+  }
+}
+
+double signed_area(const Curve& curve) {
+  double area = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const std::size_t l = (k + 1) % curve.size();
+    area += curve.points[2 * k] * curve.points[2 * l + 1] - curve.points[2 * l] * curve.points[2 * k + 1];
+  }
+  return area;
+}
+
+std::string correspondence_json(const IsotopyCommandOptions& options, const Isotopy& isotopy) {
+  const auto places = [](const std::vector<IsotopyPlace>& list) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const IsotopyPlace& place : list) json.push_back({place.edge, place.fraction});
+    return json;
+  };
+  nlohmann::ordered_json json = {{"schema", "unsnarl-isotopy"},
+                                 {"schema_version", 1},
+                                 {"program", std::string("unsnarl ") + version},
+                                 {"start", options.start},
+                                 {"end", options.end},
+                                 {"height", isotopy.height},
+                                 {"seconds", isotopy.seconds},
+                                 {"curves", nlohmann::ordered_json::array()},
+                                 {"rings", nlohmann::ordered_json::array()}};
+  for (std::size_t c = 0; c < isotopy.points.size(); ++c)
+    json["curves"].push_back({{"points", isotopy.points[c]},
+                              {"on_start", places(isotopy.on_start[c])},
+                              {"on_end", places(isotopy.on_end[c])}});
+  for (const IsotopyRing& ring : isotopy.rings) json["rings"].push_back({{"time", ring.time}, {"curves", ring.curves}});
+  return json.dump() + "\n";
+}
+
+}  // namespace
+
+void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
+  command.add_option("START", options.start, "Closed curves: *.svg or *.json")->required();
+  command.add_option("END", options.end, "As many closed curves; curve k of START becomes curve k of END")->required();
+  command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")
+      ->required()
+      ->type_name("DIR");
+  command
+      .add_option("--points", options.points,
+                  "Points of every curve on the way; 0: as many as the longer of both has, 200 at least")
+      ->check(CLI::Range(0, 100000).description(""))
+      ->type_name("N");
+  command.add_option("--frames", options.frames, "SVG files, evenly in time, 2 to 10000 (default 25)")
+      ->check(CLI::Range(2, 10000).description(""))
+      ->type_name("N");
+  command.add_flag("--reverse", options.reverse, "Take curves of END backwards where they run around the other way");
+  command
+      .add_option("--flatten", options.flatten,
+                  "How far flattened Béziers and arcs may be from the true curve, as a fraction of the\n"
+                  "bounding-box diagonal (default 0.0001)")
+      ->check(CLI::Range(1e-12, 0.1).description(""))
+      ->type_name("X");
+  command.add_option("--time-limit", options.time_limit_s, "Stop after this many seconds; 0: none")
+      ->check(not_negative())
+      ->type_name("S");
+  command
+      .add_option("--progress", options.progress,
+                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
+      ->check(one_of({"auto", "json", "none"}))
+      ->type_name("auto|json|none");
+  command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors");
+  command.footer(
+      "Written into DIR:\n"
+      "  surface.obj          the annuli that the curves sweep; z is time\n"
+      "  animation.svg        the curves move from START to END and back\n"
+      "  frame_0000.svg ...   the curves, evenly in time: cuts of the surface\n"
+      "  correspondence.json  rings, and where their points lie on START and END\n\n"
+      "Examples:\n"
+      "  unsnarl isotopy spiral.svg square.svg -o way\n"
+      "  unsnarl isotopy letters.svg dots.json -o way --frames 100\n\n"
+      "Exit codes: 0 a certified isotopy, 2 usage, 3 cannot read, 4 cannot write, 5 time limit, 6 interrupted,\n"
+      "70 internal error.");
+}
+
+int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption) {
+  const std::vector<Curve> start = read_curves(options.start, options.flatten);
+  std::vector<Curve> end = read_curves(options.end, options.flatten);
+  if (options.reverse)
+    for (std::size_t c = 0; c < std::min(start.size(), end.size()); ++c)
+      if (signed_area(start[c]) * signed_area(end[c]) < 0) run_backwards(end[c]);
+  prepare_picture_folder(options.folder);
+
+  ProgressDisplay display(progress_style(options.progress, options.quiet));
+  Context context;
+  context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
+  interruption.set_handler([&] { context.cancel(); });
+  IsotopyOptions wanted;
+  wanted.points = options.points;
+  wanted.time_limit_s = options.time_limit_s;
+  Isotopy made;
+  try {
+    made = planar_isotopy(start, end, wanted, &context);
+  } catch (const std::invalid_argument& e) {
+    throw FileError(fmt::format("{}, {}: {}", options.start, options.end, e.what()));
+  }
+  interruption.set_handler(nullptr);
+  display.clear();
+  if (made.status != Status::embedded) {
+    if (!options.quiet) tell(fmt::format("{}: nothing was written\n", to_string(made.status)));
+    return exit_code_of(made.status);
+  }
+
+  const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
+  const std::string surface = surface_file(made.surface, Format::obj, "isotopy by unsnarl; z is time", {});
+  StagedOutput staged(path("surface.obj"), interruption);
+  staged.write({OutputFile{{}, surface}});
+  const Document written = Document::read(staged.main_file(), Format::obj);
+  FindOptions find;
+  find.weld = Weld::none;
+  if (written.surface().positions != made.surface.positions || written.surface().corners != made.surface.corners ||
+      !find_intersections(written.surface(), find).empty())
+    throw std::logic_error("the surface to be written is not the one that was certified");
+  staged.commit();
+  write_file(path("animation.svg"), isotopy_animation_svg(made), interruption);
+  for (int k = 0; k < options.frames; ++k)
+    write_file(path(fmt::format("frame_{:04}.svg", k)),
+               isotopy_frame_svg(made, static_cast<double>(k) / (options.frames - 1)), interruption);
+  write_file(path("correspondence.json"), correspondence_json(options, made), interruption);
+  if (!options.quiet)
+    tell(
+        fmt::format("{} curve{}, {} rings, {} faces, no two intersect: at every time the curves are simple and apart\n"
+                    "wrote {}, {:.1f} s\n",
+                    start.size(), start.size() == 1 ? "" : "s", made.rings.size(), made.surface.view().face_count(),
+                    options.folder, made.seconds));
+  return exit_embedded;
+}
+
+}  // namespace unsnarl::app

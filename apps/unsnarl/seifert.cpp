@@ -1,0 +1,236 @@
+#include "seifert.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "command_options.h"
+#include "mesh_input.h"
+#include "progress.h"
+#include "staged_output.h"
+#include "standard_streams.h"
+#include "surface_files.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/pictures.h"
+#include "unsnarl/seifert.h"
+#include "unsnarl/version.h"
+#include "usage_error.h"
+
+namespace unsnarl::app {
+namespace {
+
+Link read_link(const std::string& path) {
+  std::string bytes;
+  if (path == standard_stream) {
+    bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
+    if (std::cin.bad()) throw FileError("standard input: cannot read");
+  } else {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw FileError(path + ": cannot open");
+    bytes.assign(std::istreambuf_iterator<char>(file), {});
+    if (file.bad()) throw FileError(path + ": cannot read");
+  }
+  try {
+    Link link = parse_link(bytes);
+    check_link(link);
+    return link;
+  } catch (const FileError& e) {
+    throw FileError(fmt::format("{}: {}", path, e.what()));
+  } catch (const std::invalid_argument& e) {
+    throw FileError(fmt::format("{}: {}", path, e.what()));
+  }
+}
+
+std::string as_text(const SeifertFindings& f) {
+  std::string text =
+      fmt::format("{} component{}, genus {}, Euler characteristic {} (the diagram's: {})\n", f.components,
+                  f.components == 1 ? "" : "s", f.genus, f.euler_characteristic, f.expected_euler_characteristic);
+  text += fmt::format("Alexander polynomial {} (the diagram's: {})\n", polynomial_text(f.alexander_of_surface),
+                      polynomial_text(f.alexander_of_link));
+  return text;
+}
+
+/// What is wrong, one thing a line; empty: nothing.
+std::string faults(const SeifertFindings& f) {
+  std::string text;
+  if (f.intersecting_pairs > 0) text += fmt::format("{} pairs of faces intersect\n", f.intersecting_pairs);
+  if (!f.oriented) text += "it is no oriented manifold with boundary\n";
+  if (f.oriented && !f.spans_link) text += "its boundary is not the link\n";
+  if (f.oriented && f.euler_characteristic != f.expected_euler_characteristic)
+    text += "its Euler characteristic is not that of Seifert's algorithm\n";
+  if (f.oriented && f.spans_link && f.intersecting_pairs == 0 && f.alexander_of_surface != f.alexander_of_link)
+    text += "its Alexander polynomial is not that of the diagram\n";
+  return text;
+}
+
+nlohmann::ordered_json as_json(const SeifertFindings& f) {
+  return {{"intersecting_pairs", f.intersecting_pairs},
+          {"oriented", f.oriented},
+          {"spans_link", f.spans_link},
+          {"components", f.components},
+          {"genus", f.genus},
+          {"euler_characteristic", f.euler_characteristic},
+          {"expected_euler_characteristic", f.expected_euler_characteristic},
+          {"alexander_of_surface", f.alexander_of_surface},
+          {"alexander_of_link", f.alexander_of_link},
+          {"hold", f.hold()}};
+}
+
+int check_file(const SeifertCommandOptions& options, const Link& link, Interruption& interruption) {
+  const Document document = read_mesh(options.check, format_from_name(options.format));
+  SeifertFindings found;
+  try {
+    found = check_seifert_surface(document.surface(), link, options.views);
+  } catch (const std::invalid_argument& e) {
+    throw FileError(fmt::format("{}: {}", options.check, e.what()));
+  }
+  if (!options.report.empty()) write_file(options.report, as_json(found).dump(2) + "\n", interruption);
+  if (!options.quiet) tell(as_text(found) + faults(found) + (found.hold() ? "a Seifert surface of the link\n" : ""));
+  return found.hold() ? exit_embedded : exit_intersecting;
+}
+
+}  // namespace
+
+void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
+  command
+      .add_option("IN", options.input,
+                  "A knot or link: points 'x y z', one a line, an empty line between components; or a planar\n"
+                  "diagram code, 'X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]'; or a braid, 'braid 2: 1 1 1'. '-' for\n"
+                  "standard input")
+      ->required();
+  command.add_option("-o,--output", options.output, "Where the surface goes: *.obj, *.off or *.ply")->type_name("OUT");
+  command.add_option("--format", options.format, "obj, off or ply, where the name does not tell")
+      ->check(one_of({"obj", "off", "ply"}))
+      ->type_name("FORMAT");
+  command
+      .add_option("--edge", options.edge,
+                  "Edge length inside the surface, as a fraction of the diagonal; 0: that of the link, within\n"
+                  "1/45 and 1/20 of the diagonal")
+      ->check(CLI::Range(0.0, 0.5).description(""))
+      ->type_name("X");
+  command
+      .add_option("--views", options.views,
+                  "From how many sides to look for the simplest diagram, 3 to 10000 (default 60)")
+      ->check(CLI::Range(3, 10000).description(""))
+      ->type_name("N");
+  command.add_flag("--no-fair", options.no_fair, "Leave the surface as Seifert's algorithm builds it");
+  command.add_option("--time-limit", options.time_limit_s, "Stop fairing after this many seconds; 0: none")
+      ->check(not_negative())
+      ->type_name("S");
+  command.add_option("--check", options.check, "Instead of making a surface, certify this one")->type_name("MESH");
+  const std::string shown = "What is shown";
+  command.add_option("--report", options.report, "Write a JSON report: what was certified")
+      ->type_name("FILE")
+      ->group(shown);
+  command.add_option("--picture", options.picture, "Write a picture: as it was built, and the result")
+      ->type_name("FILE.png")
+      ->group(shown);
+  command
+      .add_option("--progress", options.progress,
+                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
+      ->check(one_of({"auto", "json", "none"}))
+      ->type_name("auto|json|none")
+      ->group(shown);
+  command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors")->group(shown);
+  command.footer(
+      "Examples:\n"
+      "  unsnarl sample knot_4_1 -o knot.xyz && unsnarl seifert knot.xyz -o surface.obj --picture surface.png\n"
+      "  echo 'braid 3: 1 -2 1 -2 1 -2' | unsnarl seifert - -o borromean.obj\n"
+      "  unsnarl seifert knot.xyz --check surface.obj\n\n"
+      "Exit codes: 0 a certified surface, 1 --check: not all holds, 2 usage, 3 cannot read, 4 cannot write,\n"
+      "6 interrupted, 70 internal error.");
+}
+
+int run_seifert(const SeifertCommandOptions& options, Interruption& interruption) {
+  if (options.output.empty() == options.check.empty())
+    throw UsageError("say where the surface goes, -o OUT, or which one to certify, --check MESH");
+  const Link link = read_link(options.input);
+  if (!options.check.empty()) return check_file(options, link, interruption);
+  std::optional<Format> format = format_from_name(options.format);
+  if (!format) format = format_from_extension(options.output);
+  if (!format) throw UsageError(options.output + ": name it *.obj, *.off or *.ply, or add --format");
+  if (!is_stream(options.output)) StagedOutput(options.output, interruption);
+
+  ProgressDisplay display(progress_style(options.progress, options.quiet));
+  Context context;
+  context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
+  interruption.set_handler([&] { context.cancel(); });
+  SeifertOptions wanted;
+  wanted.edge_rel = options.edge;
+  wanted.views = options.views;
+  wanted.fair = !options.no_fair;
+  wanted.time_limit_s = options.time_limit_s;
+  SeifertResult result;
+  try {
+    result = seifert_surface(link, wanted, &context);
+  } catch (const std::invalid_argument& e) {
+    throw FileError(fmt::format("{}: {}", options.input, e.what()));
+  }
+  interruption.set_handler(nullptr);
+  display.clear();
+  if (result.status == Status::cancelled) {
+    if (!options.quiet) tell("interrupted; nothing was written\n");
+    return exit_cancelled;
+  }
+
+  const std::string bytes =
+      surface_file(result.surface, *format, fmt::format("Seifert surface of {}, by unsnarl", options.input));
+  SeifertFindings found;
+  const auto certify = [&](const Document& document) {
+    found = check_seifert_surface(document.surface(), link, options.views);
+    if (!found.hold())
+      throw std::logic_error("the file to be written is no Seifert surface of the link: " + faults(found));
+  };
+  if (is_stream(options.output)) {
+    certify(Document::parse(bytes, *format));
+    write_to_stream(options.output, bytes);
+  } else {
+    StagedOutput staged(options.output, interruption);
+    staged.write({OutputFile{{}, bytes}});
+    certify(Document::read(staged.main_file(), *format));
+    staged.commit();
+  }
+  if (!options.picture.empty()) {
+    wanted.fair = false;
+    PictureOptions picture;
+    picture.before_label = "Seifert's algorithm";
+    picture.after_label = "faired";
+    picture.inset = false;
+    write_file(options.picture, picture_png(seifert_surface(link, wanted).surface, {}, result.surface, {}, picture),
+               interruption);
+  }
+  if (!options.report.empty()) {
+    nlohmann::ordered_json json = {{"schema", "unsnarl-seifert-report"},
+                                   {"schema_version", 1},
+                                   {"program", std::string("unsnarl ") + version},
+                                   {"input", options.input},
+                                   {"output", options.output},
+                                   {"points", link.point_count()},
+                                   {"link_components", link.components.size()},
+                                   {"crossings", result.crossings},
+                                   {"seifert_circles", result.circles},
+                                   {"vertices", result.surface.positions.size() / 3},
+                                   {"faces", result.surface.view().face_count()},
+                                   {"area", result.area},
+                                   {"fairing_stopped", result.status == Status::time_limit},
+                                   {"seconds", result.seconds}};
+    json.update(as_json(found));
+    write_file(options.report, json.dump(2) + "\n", interruption);
+  }
+  if (!options.quiet) {
+    tell(fmt::format("{}: {} points, {} component{}; seen with {} crossings and {} Seifert circles\n", options.input,
+                     link.point_count(), link.components.size(), link.components.size() == 1 ? "" : "s",
+                     result.crossings, result.circles));
+    tell(fmt::format("{} faces, no two intersect; its boundary is the link, point by point\n",
+                     result.surface.view().face_count()));
+    tell(as_text(found));
+    if (result.status == Status::time_limit) tell("fairing was stopped by the time limit\n");
+    tell(fmt::format("wrote {}, {:.1f} s\n", options.output, result.seconds));
+  }
+  return exit_embedded;
+}
+
+}  // namespace unsnarl::app

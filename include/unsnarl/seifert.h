@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "unsnarl/link.h"
+#include "unsnarl/repair.h"
+#include "unsnarl/surface.h"
+
+namespace unsnarl {
+
+struct SeifertOptions {
+  /// Edge length of the triangles inside the surface / diagonal of the link's bounding box. (0, 0.5]; 0: the mean edge
+  /// of the link, but within 1/45 and 1/20 of the diagonal.
+  double edge_rel = 0;
+  /// Views to look for the simplest diagram among, [3, 10000]: the coordinate axes, then a half sphere evenly.
+  int views = 60;
+  bool fair = true;  ///< false: the surface as Seifert's algorithm builds it, walls and flat discs
+  double time_limit_s =
+      0;  ///< wall-clock seconds after which fairing stops; the surface is embedded all the same; 0: none
+};
+
+/// What is to hold of a Seifert surface, found out from the mesh and the link alone: how it was made does not matter.
+struct SeifertFindings {
+  std::size_t intersecting_pairs = 0;  ///< of faces, by exact arithmetic
+  bool oriented = false;               ///< a manifold with boundary whose faces agree on a side
+  bool spans_link = false;             ///< its boundary runs along the link and through its very points, bit for bit
+  int components = 0;                  ///< of the surface
+  int euler_characteristic = 0;
+  int genus = 0;  ///< sum over the components
+  /// Of the diagram that the link shows to its best view: Seifert circles - crossings.
+  int expected_euler_characteristic = 0;
+  /// The Alexander polynomial, all variables equal, as decimal coefficients from the constant up, without units ±t^k,
+  /// the last one positive; empty: zero. Of the surface: det(V - t V'), V the linking numbers of a basis of its loops
+  /// with their push-offs. Of the link: by Fox calculus on a diagram.
+  std::vector<std::string> alexander_of_surface, alexander_of_link;
+
+  /// All that a Seifert surface promises.
+  bool hold() const {
+    return intersecting_pairs == 0 && oriented && spans_link && euler_characteristic == expected_euler_characteristic &&
+           alexander_of_surface == alexander_of_link;
+  }
+};
+
+/// Everything by exact arithmetic and integers. The surface must consist of triangles. views: as in SeifertOptions.
+/// Throws std::invalid_argument for a surface that is no triangle mesh, or as check_link does.
+SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views = 60);
+
+struct SeifertResult {
+  /// embedded; cancelled or time_limit where fairing was stopped: the surface is embedded then too.
+  Status status = Status::embedded;
+  Surface surface;  ///< triangles; the first vertices are the points of the link, component by component
+  std::size_t crossings = 0, circles = 0;  ///< of the diagram that it was built from
+  double area = 0;
+  double seconds = 0;
+};
+
+/// An oriented surface without self-intersections whose boundary is the link (paper §4.4): built by Seifert's algorithm
+/// from the simplest of several views, embedded and with the very points of the link from the start, then remeshed and
+/// shrunk to little area without ever running through itself. docs/seifert.md explains how. The same input gives the
+/// same bytes on every run (time limits and cancellation aside).
+///
+/// Throws std::invalid_argument as check_link does, for an option out of range, and for a link that no view tells
+/// apart.
+SeifertResult seifert_surface(const Link& link, const SeifertOptions& options = {}, Context* context = nullptr);
+
+/// "1 - 3t + t^2" of such coefficients.
+std::string polynomial_text(std::span<const std::string> coefficients);
+
+}  // namespace unsnarl

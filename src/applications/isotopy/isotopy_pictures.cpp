@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "applications/isotopy/rings.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr double margin = 0.05;      // around the curves / the longer side
+constexpr double stroke = 0.004;     // / the longer side
+constexpr double seconds_a_way = 4;  // from start to end
+
+struct Bounds {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+};
+
+std::string opening(const Isotopy& isotopy) {
+  Bounds b;
+  for (const IsotopyRing& ring : isotopy.rings)
+    for (const std::vector<double>& p : ring.curves)
+      for (std::size_t k = 0; k < p.size(); k += 2) {
+        b.low = b.low.cwiseMin(Vec2(p[k], p[k + 1]));
+        b.high = b.high.cwiseMax(Vec2(p[k], p[k + 1]));
+      }
+  const Vec2 size = b.high - b.low;
+  const double longer = size.maxCoeff(), room = margin * longer;
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"600\" viewBox=\"{:.6g} {:.6g} {:.6g} {:.6g}\">\n"
+      "<g fill=\"#7f9fc4\" fill-opacity=\"0.5\" stroke=\"#1f2f4f\" stroke-linejoin=\"round\" "
+      "stroke-width=\"{:.6g}\">\n",
+      b.low.x() - room, b.low.y() - room, size.x() + 2 * room, size.y() + 2 * room, stroke * longer);
+}
+
+std::string points_text(const std::vector<double>& p) {
+  std::string text;
+  for (std::size_t k = 0; k < p.size(); k += 2)
+    fmt::format_to(std::back_inserter(text), "{}{:.6g},{:.6g}", k == 0 ? "" : " ", p[k], p[k + 1]);
+  return text;
+}
+
+/// The ring that begins the strip of a time, and how far the time is along it, in [0, 1].
+std::pair<std::size_t, double> strip_at(const Isotopy& isotopy, double time) {
+  if (isotopy.rings.empty()) throw std::invalid_argument("an isotopy without rings has no curves");
+  if (!(time >= 0 && time <= 1)) throw std::invalid_argument(fmt::format("time is {}; give 0 to 1", time));
+  std::size_t k = 0;
+  while (k + 2 < isotopy.rings.size() && isotopy.rings[k + 1].time <= time) ++k;
+  const double from = isotopy.rings[k].time, to = isotopy.rings[k + 1].time;
+  return {k, std::clamp((time - from) / (to - from), 0.0, 1.0)};
+}
+
+}  // namespace
+
+std::vector<Curve> isotopy_slice(const Isotopy& isotopy, double time) {
+  const auto [k, t] = strip_at(isotopy, time);
+  const IsotopyRing &from = isotopy.rings[k], &to = isotopy.rings[k + 1];
+  std::vector<Curve> curves;
+  for (std::size_t c = 0; c < from.curves.size(); ++c) {
+    Curve& curve = curves.emplace_back();
+    curve.closed = true;
+    if (t == 0 || t == 1) {
+      curve.points = t == 0 ? from.curves[c] : to.curves[c];
+      continue;
+    }
+    for (const Rung& rung : rungs_of(isotopy, k, c))
+      for (int axis = 0; axis < 2; ++axis)
+        curve.points.push_back((1 - t) * from.curves[c][2 * rung.lower + axis] +
+                               t * to.curves[c][2 * rung.upper + axis]);
+  }
+  return curves;
+}
+
+std::string isotopy_frame_svg(const Isotopy& isotopy, double time) {
+  std::string text = opening(isotopy);
+  for (const Curve& curve : isotopy_slice(isotopy, time))
+    text += fmt::format("<polygon points=\"{}\"/>\n", points_text(curve.points));
+  return text + "</g>\n</svg>\n";
+}
+
+std::string isotopy_animation_svg(const Isotopy& isotopy, int frames) {
+  if (frames < 2 || frames > 1000) throw std::invalid_argument(fmt::format("frames is {}; give 2 to 1000", frames));
+  // Keyframes are rings between start and end, which all have the same points: evenly in time.
+  std::vector<std::size_t> keys;
+  for (int f = 0; f < frames; ++f) {
+    const auto [k, t] = strip_at(isotopy, static_cast<double>(f) / (frames - 1));
+    const std::size_t nearest = std::clamp<std::size_t>(k + (t > 0.5 ? 1 : 0), 1, isotopy.rings.size() - 2);
+    if (keys.empty() || keys.back() != nearest) keys.push_back(nearest);
+  }
+  std::string times;
+  for (const std::size_t k : keys)
+    times += fmt::format("{}{:.5g}", times.empty() ? "0;" : ";", 0.05 + 0.4 * isotopy.rings[k].time);
+  for (auto k = keys.rbegin(); k != keys.rend(); ++k)
+    times += fmt::format(";{:.5g}", 0.95 - 0.4 * isotopy.rings[*k].time);
+  times += ";1";
+  std::string text = opening(isotopy);
+  for (std::size_t c = 0; c < isotopy.points.size(); ++c) {
+    const auto at = [&](std::size_t k) { return points_text(isotopy.rings[k].curves[c]); };
+    std::string values = at(keys.front());
+    for (const std::size_t k : keys) values += ";" + at(k);
+    for (auto k = keys.rbegin(); k != keys.rend(); ++k) values += ";" + at(*k);
+    values += ";" + at(keys.front());
+    text += fmt::format(
+        "<polygon points=\"{}\"><animate attributeName=\"points\" dur=\"{:.6g}s\" repeatCount=\"indefinite\" "
+        "keyTimes=\"{}\" values=\"{}\"/></polygon>\n",
+        at(keys.front()), 2 * seconds_a_way, times, values);
+  }
+  return text + "</g>\n</svg>\n";
+}
+
+}  // namespace unsnarl

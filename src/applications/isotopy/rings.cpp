@@ -1,0 +1,105 @@
+#include "applications/isotopy/rings.h"
+
+#include <algorithm>
+
+namespace unsnarl {
+namespace {
+
+bool strips_are_embedded(const Polygons& lower, const Polygons& upper, double height) {
+  Surface surface;
+  std::vector<Index> first;
+  for (const auto& [ring, z] : {std::pair(&lower, 0.0), std::pair(&upper, height)})
+    for (const Points2& p : *ring) {
+      first.push_back(static_cast<Index>(surface.positions.size() / 3));
+      for (Index k = 0; k < p.cols(); ++k) surface.positions.insert(surface.positions.end(), {p(0, k), p(1, k), z});
+    }
+  for (std::size_t c = 0; c < lower.size(); ++c)
+    add_strip(straight_rungs(static_cast<Index>(lower[c].cols())), first[c], first[lower.size() + c], surface.corners);
+  FindOptions options;
+  options.weld = Weld::none;
+  return find_intersections(surface, options).empty();
+}
+
+}  // namespace
+
+std::vector<Rung> straight_rungs(Index n) {
+  std::vector<Rung> rungs;
+  for (Index k = 0; k < n; ++k) {
+    rungs.push_back({k, k});
+    rungs.push_back({k, (k + 1) % n});
+  }
+  return rungs;
+}
+
+std::vector<Rung> rungs_to_finer(const std::vector<IsotopyPlace>& places, Index coarse_size) {
+  const auto n = static_cast<Index>(places.size());
+  // The end of its edge that is nearer to the middle of the piece after point k.
+  const auto end_near = [&](Index k) {
+    const IsotopyPlace &at = places[k], &next = places[(k + 1) % n];
+    const double to = next.edge == at.edge && next.fraction > at.fraction ? next.fraction : 1;
+    return at.fraction + to > 1 ? (at.edge + 1) % coarse_size : at.edge;
+  };
+  std::vector<Rung> rungs;
+  for (Index k = 0; k < n; ++k) {
+    Index coarse = end_near((k + n - 1) % n);
+    rungs.push_back({coarse, k});
+    while (coarse != end_near(k)) {
+      coarse = (coarse + 1) % coarse_size;
+      rungs.push_back({coarse, k});
+    }
+  }
+  return rungs;
+}
+
+std::vector<Rung> upside_down(std::vector<Rung> rungs) {
+  for (Rung& rung : rungs) std::swap(rung.lower, rung.upper);
+  return rungs;
+}
+
+std::vector<Rung> rungs_of(const Isotopy& isotopy, std::size_t ring, std::size_t curve) {
+  const auto size_at = [&](std::size_t k) { return static_cast<Index>(isotopy.rings[k].curves[curve].size() / 2); };
+  if (ring == 0) return rungs_to_finer(isotopy.on_start[curve], size_at(0));
+  if (ring + 2 == isotopy.rings.size()) return upside_down(rungs_to_finer(isotopy.on_end[curve], size_at(ring + 1)));
+  return straight_rungs(size_at(ring));
+}
+
+void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::vector<std::int32_t>& corners) {
+  for (std::size_t k = 0; k < rungs.size(); ++k) {
+    const Rung &at = rungs[k], &next = rungs[(k + 1) % rungs.size()];
+    if (at.lower != next.lower) corners.insert(corners.end(), {lower + at.lower, lower + next.lower, upper + at.upper});
+    if (at.upper != next.upper)
+      corners.insert(corners.end(), {lower + next.lower, upper + next.upper, upper + at.upper});
+  }
+}
+
+std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height, bool backwards,
+                                  const std::function<bool()>& stop) {
+  std::vector<std::size_t> kept{0};
+  std::size_t last_step = 2;
+  while (kept.back() + 1 < rings.size()) {
+    if (stop()) return {};
+    const std::size_t at = kept.back(), most = rings.size() - 1 - at;
+    const auto fits = [&](std::size_t step) {
+      return strips_are_embedded(rings[backwards ? at + step : at], rings[backwards ? at : at + step], height);
+    };
+    // Steps change little from one to the next: begin with the last one.
+    std::size_t good = 1, bad = most + 1;
+    for (std::size_t step = std::min(last_step, most); good < most && step > good; step = std::min(2 * good, most)) {
+      if (fits(step)) {
+        good = step;
+      } else {
+        bad = step;
+        break;
+      }
+    }
+    while (bad - good > 1 + good / 8) {  // an eighth more is not worth the search
+      const std::size_t middle = (good + bad) / 2;
+      (fits(middle) ? good : bad) = middle;
+    }
+    last_step = std::max<std::size_t>(2, good);
+    kept.push_back(at + good);
+  }
+  return kept;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "applications/curves/curve_net.h"
+#include "unsnarl/isotopy.h"
+
+namespace unsnarl {
+
+/// Polygons at one height: one a curve.
+using Polygons = std::vector<Points2>;
+
+/// An edge between two rings: a point of the lower polygon, one of the upper. Around the strip of triangles between
+/// them either stays or goes on by one from one rung to the next.
+struct Rung {
+  Index lower = 0, upper = 0;
+};
+/// Polygons of n points: quads, cut from point k to k + 1.
+std::vector<Rung> straight_rungs(Index n);
+/// A polygon below, and the finer one that `places` says lies on it: fans from the ends of its edges.
+std::vector<Rung> rungs_to_finer(const std::vector<IsotopyPlace>& places, Index coarse_size);
+/// The same the other way up.
+std::vector<Rung> upside_down(std::vector<Rung> rungs);
+/// Of curve c of an isotopy, from ring k to the next.
+std::vector<Rung> rungs_of(const Isotopy& isotopy, std::size_t ring, std::size_t curve);
+
+/// The triangles of a strip, appended to the corners. `lower`, `upper`: the first vertices of both polygons.
+void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::vector<std::int32_t>& corners);
+
+/// The subsequence of rings that greedy long steps leave, the first and the last among them: from every ring as far as
+/// the strips to a later one are embedded, found by doubling and halving. Those between neighbours are taken to be.
+/// `backwards`: later rings are the lower ones, which decides how quads are cut. `stop`: true: give up; what is
+/// returned is then empty.
+std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height, bool backwards,
+                                  const std::function<bool()>& stop);
+
+}  // namespace unsnarl

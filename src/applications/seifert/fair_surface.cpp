@@ -1,0 +1,98 @@
+#include "applications/seifert/fair_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unsnarl {
+namespace {
+
+/// Edges longer than this times the wanted length are split, shorter ones than that collapsed: half and double of
+/// either stay within them (M. Botsch and L. Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004).
+constexpr double split_above = 4.0 / 3, collapse_below = 0.6;
+/// Weights of the area's gradient are cotangents; of slivers they would be negative or beyond bounds.
+constexpr double least_weight = 0.05, largest_weight = 5;
+/// Vertices that want to go no farther than this are left alone / edge length.
+constexpr double settled = 6e-3;
+/// Part of a step to try where the whole one fails.
+constexpr double shorter_step = 0.3;
+/// Rounds of splitting: each halves what is too long.
+constexpr int most_split_rounds = 8;
+
+double length(const EmbeddedMesh& mesh, const Edge& e) {
+  return (mesh.position(e[0]) - mesh.position(e[1])).norm();
+}
+
+void remesh(EmbeddedMesh& mesh, double edge) {
+  for (int round = 0; round < most_split_rounds; ++round) {
+    bool any = false;
+    for (const Edge& e : mesh.interior_edges())
+      if (length(mesh, e) > split_above * edge) any |= mesh.split(e);
+    if (!any) break;
+  }
+  std::vector<Edge> edges = mesh.interior_edges();
+  for (const Edge& e : edges) {
+    if (!mesh.is_alive(e[0]) || !mesh.is_alive(e[1]) || length(mesh, e) > collapse_below * edge) continue;
+    mesh.collapse(e, split_above * edge);
+  }
+  for (const Edge& e : mesh.interior_edges()) mesh.flip(e);
+}
+
+double cotangent(const Vec3& corner, const Vec3& a, const Vec3& b) {
+  const Vec3 u = a - corner, v = b - corner;
+  return u.dot(v) / std::max(u.cross(v).norm(), 1e-12 * u.norm() * v.norm());
+}
+
+/// Where a vertex wants to go: along the normal to where the area is least, along the surface to the middle.
+Vec3 wanted(const EmbeddedMesh& mesh, Index v, double over_relaxation) {
+  const Vec3 p = mesh.position(v);
+  Vec3 normal = Vec3::Zero(), pull = Vec3::Zero(), middle = Vec3::Zero();
+  double weights = 0, areas = 0;
+  for (const Index f : mesh.faces_of(v)) {
+    const Triangle& t = mesh.face(f);
+    const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+    const Vec3 &a = mesh.position(t[(k + 1) % 3]), &b = mesh.position(t[(k + 2) % 3]);
+    const Vec3 doubled = (a - p).cross(b - p);
+    normal += doubled;
+    const double area = doubled.norm();
+    middle += area * (p + a + b) / 3;
+    areas += area;
+    for (const auto& [end, corner, other] : {std::array<Vec3, 3>{a, b, p}, std::array<Vec3, 3>{b, a, p}}) {
+      const double w = std::clamp(cotangent(corner, end, other), least_weight, largest_weight);
+      pull += w * (end - p);
+      weights += w;
+    }
+  }
+  if (!(areas > 0) || !(weights > 0)) return p;
+  const double norm = normal.norm();
+  const Vec3 n = norm > 0 ? Vec3(normal / norm) : Vec3(Vec3::Zero());
+  const Vec3 along = middle / areas - p;
+  return p + over_relaxation * (pull / weights).dot(n) * n + (along - along.dot(n) * n);
+}
+
+}  // namespace
+
+SpanningMesh fair(SpanningMesh start, Index boundary_count, double edge, const FairOptions& options,
+                  const std::function<bool(double)>& progress) {
+  const int all = options.sweeps * options.levels * (options.levels + 1) / 2;
+  int done = 0;
+  for (int level = options.levels - 1; level >= 0; --level) {
+    const double wished = edge * (1 << level);
+    EmbeddedMesh mesh(std::move(start), boundary_count, wished, options.gap_of_edge * wished);
+    for (int sweep = 0; sweep < options.sweeps * (level + 1); ++sweep, ++done) {
+      if (!progress(static_cast<double>(done) / all)) return mesh.compact();
+      if (sweep % options.sweeps_a_remeshing == 0) remesh(mesh, wished);
+      const Index n = mesh.vertex_count();
+      for (Index k = boundary_count; k < n; ++k) {
+        const Index v = sweep % 2 == 0 ? k : n - 1 - (k - boundary_count);  // to and fro
+        if (!mesh.is_alive(v)) continue;
+        const Vec3 from = mesh.position(v), to = wanted(mesh, v, options.over_relaxation);
+        if ((to - from).norm() < settled * wished) continue;
+        if (!mesh.move(v, to)) mesh.move(v, from + shorter_step * (to - from));
+      }
+    }
+    start = mesh.compact();
+  }
+  return start;
+}
+
+}  // namespace unsnarl

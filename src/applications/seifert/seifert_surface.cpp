@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "applications/seifert/fair_surface.h"
+#include "applications/seifert/link_diagram.h"
+#include "geometry/box.h"
+#include "unsnarl/seifert.h"
+#include "unsnarl/stage_clock.h"
+
+namespace unsnarl {
+namespace {
+
+/// Edge lengths are chosen within these / diagonal: about 10,000 and 1,000 triangles for a surface of a few sheets.
+constexpr double finest_edge_rel = 1.0 / 45, coarsest_edge_rel = 1.0 / 20;
+/// Between the discs of nested circles / edge length of the coarsest level, so that fairing has room there.
+constexpr double disc_step = 1;
+
+void check(const SeifertOptions& options) {
+  if (!(options.edge_rel >= 0 && options.edge_rel <= 0.5))
+    throw std::invalid_argument(fmt::format("edge_rel is {}; give 0 to 0.5", options.edge_rel));
+  if (options.views < 3 || options.views > 10000)
+    throw std::invalid_argument(fmt::format("views is {}; give 3 to 10000", options.views));
+  if (!(options.time_limit_s >= 0)) throw std::invalid_argument("time_limit_s is below 0");
+}
+
+double edge_length(const Link& link, const SeifertOptions& options) {
+  Box box;
+  double length = 0;
+  for (const std::vector<double>& p : link.components) {
+    const std::size_t n = p.size() / 3;
+    const auto at = [&](std::size_t k) { return Vec3(p[3 * (k % n)], p[3 * (k % n) + 1], p[3 * (k % n) + 2]); };
+    for (std::size_t k = 0; k < n; ++k) {
+      box.extend(at(k));
+      length += (at(k + 1) - at(k)).norm();
+    }
+  }
+  const double diagonal = box.diagonal();
+  if (options.edge_rel > 0) return options.edge_rel * diagonal;
+  return std::clamp(length / static_cast<double>(link.point_count()), finest_edge_rel * diagonal,
+                    coarsest_edge_rel * diagonal);
+}
+
+}  // namespace
+
+SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, Context* context) {
+  check(options);
+  check_link(link);
+  StageClock clock;
+  SeifertResult result;
+  const std::optional<LinkDiagram> diagram = best_diagram(link, options.views);
+  if (!diagram)
+    throw std::invalid_argument("no view of the link tells its strands apart; are some closer than rounding?");
+  result.crossings = diagram->crossings.size();
+  result.circles = static_cast<std::size_t>(diagram->circles);
+  const double edge = edge_length(link, options);
+  SpanningMesh mesh = spanning_start(link, *diagram, disc_step * edge);
+  if (options.fair) {
+    const auto progress = [&](double fraction) {
+      if (context && context->on_progress) context->on_progress({.fraction = fraction, .phase = "fair"});
+      if (context && context->is_cancelled()) result.status = Status::cancelled;
+      if (options.time_limit_s > 0 && clock.stage("").seconds >= options.time_limit_s)
+        result.status = Status::time_limit;
+      return result.status == Status::embedded;
+    };
+    mesh = fair(std::move(mesh), static_cast<Index>(link.point_count()), edge, {}, progress);
+  }
+  for (const Vec3& p : mesh.x) result.surface.positions.insert(result.surface.positions.end(), {p[0], p[1], p[2]});
+  for (const Triangle& t : mesh.faces) {
+    result.surface.corners.insert(result.surface.corners.end(), t.begin(), t.end());
+    result.area += 0.5 * (mesh.x[t[1]] - mesh.x[t[0]]).cross(mesh.x[t[2]] - mesh.x[t[0]]).norm();
+  }
+  result.seconds = clock.stage("").seconds;
+  return result;
+}
+
+}  // namespace unsnarl

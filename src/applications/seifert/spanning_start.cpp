@@ -1,0 +1,221 @@
+#include "applications/seifert/spanning_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "mesh/ear_clipper.h"
+
+namespace unsnarl {
+namespace {
+
+/// Of the room around a crossing in the picture, the half length of its band along both strands.
+constexpr double band_of_room = 0.4;
+/// The rim of the strand below winds around it on either side of the band: it starts this much farther from the
+/// crossing.
+constexpr double winding_of_band = 1.6;
+/// Of the smallest gap between the strands of a crossing, and of the smallest band, the width of the collar: all of it
+/// stays apart from the other strand's.
+constexpr double collar_of_gap = 0.25;
+/// Corners of discs are moved by up to half of this aside / width of the collar.
+constexpr double corner_shift = 1e-3;
+
+/// A point of the collar's free rim, in the frame of the diagram.
+struct RimPoint {
+  Vec3 x;
+  double fraction = 0;                            // of its edge
+  Index crossing = -1;                            // where it is an end of a band
+  bool over = false, arrives = false;             // of its strand, there
+  Index next = -1;                                // along the link
+  Index link_vertex = -1, next_link_vertex = -1;  // its edge
+};
+
+class Construction {
+ public:
+  Construction(const Link& link, const LinkDiagram& diagram, double step) : diagram_(diagram), step_(step) {
+    for (const std::vector<double>& component : link.components)
+      for (std::size_t k = 0; k < component.size(); k += 3)
+        mesh_.x.emplace_back(component[k], component[k + 1], component[k + 2]);
+  }
+
+  SpanningMesh build() {
+    make_rim();
+    hang_collar();
+    place_bands();
+    hang_walls();
+    return std::move(mesh_);
+  }
+
+ private:
+  Index add(const Vec3& in_frame) {
+    mesh_.x.push_back(diagram_.frame.transpose() * in_frame);
+    return static_cast<Index>(mesh_.x.size() - 1);
+  }
+
+  Vec2 direction(const LinkDiagram::Strand& strand) const {
+    const Positions& p = diagram_.points[strand.component];
+    return (p.col((strand.edge + 1) % p.cols()) - p.col(strand.edge)).head<2>().normalized();
+  }
+
+  void make_rim() {
+    double& collar = collar_ = step_;
+    for (const LinkDiagram::Crossing& c : diagram_.crossings)
+      collar = std::min({collar, collar_of_gap * c.gap, collar_of_gap * band_of_room * c.radius});
+    Index first_vertex = 0;
+    for (std::size_t c = 0; c < diagram_.points.size(); ++c) {
+      const Positions& p = diagram_.points[c];
+      const auto n = static_cast<Index>(p.cols());
+      const auto first = static_cast<Index>(rim_.size());
+      std::size_t pass = 0;
+      for (Index k = 0; k < n; ++k) {
+        const Vec3 a = p.col(k), b = p.col((k + 1) % n);
+        const double length = (b - a).head<2>().norm();
+        const auto put = [&](double t) -> RimPoint& {
+          RimPoint& r = rim_.emplace_back();
+          r.x = (1 - t) * a + t * b - collar * Vec3::UnitZ();
+          r.fraction = t;
+          r.link_vertex = first_vertex + k;
+          r.next_link_vertex = first_vertex + (k + 1) % n;
+          return r;
+        };
+        put(0);
+        for (; pass < diagram_.passes[c].size(); ++pass) {
+          const LinkDiagram::Pass& visit = diagram_.passes[c][pass];
+          const LinkDiagram::Crossing& crossing = diagram_.crossings[visit.crossing];
+          const LinkDiagram::Strand& strand = visit.over ? crossing.over : crossing.under;
+          if (strand.edge != k) break;
+          const double half = band_of_room * crossing.radius / length;
+          if (!visit.over) put(strand.fraction - winding_of_band * half);
+          for (const bool arrives : {true, false}) {
+            RimPoint& r = put(strand.fraction + (arrives ? -half : half));
+            r.crossing = visit.crossing;
+            r.over = visit.over;
+            r.arrives = arrives;
+            // Below, the rim changes sides above its strand: from the side of the one circle to that of the other.
+            if (!visit.over) {
+              r.x.head<2>() += (arrives ? collar : -collar) * direction(crossing.over);
+              r.x.z() += 2 * collar;
+            }
+          }
+          if (!visit.over) put(strand.fraction + winding_of_band * half);
+        }
+      }
+      for (Index k = first; k < static_cast<Index>(rim_.size()); ++k)
+        rim_[k].next = k + 1 < static_cast<Index>(rim_.size()) ? k + 1 : first;
+      first_vertex += n;
+    }
+    for (const RimPoint& r : rim_) rim_vertex_.push_back(add(r.x));
+  }
+
+  /// From every edge of the link to the rim below it: a fan from its first end, up to the middle, and one from its
+  /// second.
+  void hang_collar() {
+    for (std::size_t k = 0; k < rim_.size(); ++k) {
+      const RimPoint &r = rim_[k], &next = rim_[r.next];
+      const double end = next.link_vertex == r.link_vertex ? next.fraction : 1;
+      const bool second_half = 0.5 * (r.fraction + end) > 0.5;
+      const Index from = rim_vertex_[k], to = rim_vertex_[r.next];
+      mesh_.faces.push_back({second_half ? r.next_link_vertex : r.link_vertex, to, from});
+      const bool was_first_half = r.fraction == 0 || 0.5 * (rim_[k - 1].fraction + r.fraction) <= 0.5;
+      if (second_half && was_first_half) mesh_.faces.push_back({r.link_vertex, r.next_link_vertex, from});
+      if (!second_half && end == 1) mesh_.faces.push_back({r.link_vertex, r.next_link_vertex, to});
+    }
+  }
+
+  void place_bands() {
+    ends_.resize(diagram_.crossings.size());
+    for (std::size_t k = 0; k < rim_.size(); ++k)
+      if (rim_[k].crossing >= 0)
+        ends_[rim_[k].crossing][rim_[k].over ? 0 : 1][rim_[k].arrives ? 0 : 1] = static_cast<Index>(k);
+    for (const auto& [over, under] : ends_) {
+      const Index a = rim_vertex_[over[0]], c = rim_vertex_[over[1]], b = rim_vertex_[under[0]],
+                  d = rim_vertex_[under[1]];
+      mesh_.faces.push_back({a, c, b});
+      mesh_.faces.push_back({a, b, d});
+    }
+  }
+
+  /// The next point along a Seifert circle: at a crossing the strands are exchanged.
+  Index along_circle(Index k) const {
+    const RimPoint& r = rim_[k];
+    return r.crossing >= 0 && r.arrives ? ends_[r.crossing][r.over ? 1 : 0][1] : r.next;
+  }
+
+  bool contains(const std::vector<Index>& circle, const Vec3& p) const {
+    bool inside = false;
+    for (std::size_t k = 0; k < circle.size(); ++k) {
+      const Vec3 &a = rim_[circle[k]].x, &b = rim_[circle[(k + 1) % circle.size()]].x;
+      if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+        inside = !inside;
+    }
+    return inside;
+  }
+
+  void hang_walls() {
+    std::vector<std::vector<Index>> circles;
+    std::vector<bool> seen(rim_.size(), false);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t start = 0; start < rim_.size(); ++start) {
+      lowest = std::min(lowest, rim_[start].x.z());
+      if (seen[start]) continue;
+      std::vector<Index>& circle = circles.emplace_back();
+      for (auto k = static_cast<Index>(start); !seen[k]; k = along_circle(k)) {
+        seen[k] = true;
+        circle.push_back(k);
+      }
+    }
+    std::vector<int> depth(circles.size(), 0);
+    for (std::size_t i = 0; i < circles.size(); ++i)
+      for (std::size_t j = 0; j < circles.size(); ++j)
+        if (i != j) depth[i] += contains(circles[j], rim_[circles[i][0]].x);
+    const int deepest = *std::max_element(depth.begin(), depth.end());
+    for (std::size_t i = 0; i < circles.size(); ++i) hang_wall(circles[i], lowest - step_ * (1 + deepest - depth[i]));
+  }
+
+  /// Another one for each number, far below the width of the collar.
+  double shift(Index k) const {
+    const auto hash = static_cast<double>((static_cast<std::uint32_t>(k) * 2654435761u) >> 8) * 0x1p-24;
+    return corner_shift * collar_ * (hash - 0.5);
+  }
+
+  void hang_wall(const std::vector<Index>& circle, double height) {
+    const std::size_t n = circle.size();
+    std::vector<Vec3> flat;
+    std::vector<Index> corners;
+    double area = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec3 &p = rim_[circle[k]].x, &q = rim_[circle[(k + 1) % n]].x;
+      // Corners in line would make triangles without area.
+      flat.emplace_back(p.x() + shift(2 * circle[k]), p.y() + shift(2 * circle[k] + 1), 0);
+      corners.push_back(add(flat.back() + height * Vec3::UnitZ()));
+      area += p.x() * q.y() - p.y() * q.x();
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      const Index a = rim_vertex_[circle[k]], b = rim_vertex_[circle[(k + 1) % n]];
+      const Index below_a = corners[k], below_b = corners[(k + 1) % n];
+      mesh_.faces.push_back({a, b, below_b});
+      mesh_.faces.push_back({a, below_b, below_a});
+    }
+    std::vector<Triangle> cut;
+    if (clipper_.clip(corners, flat, area > 0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ()), cut) > 0)
+      throw std::logic_error("a Seifert circle crosses itself");
+    for (const Triangle& t : cut) mesh_.faces.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+  }
+
+  const LinkDiagram& diagram_;
+  const double step_;
+  double collar_ = 0;  // its width
+  SpanningMesh mesh_;
+  std::vector<RimPoint> rim_;
+  std::vector<Index> rim_vertex_;
+  std::vector<std::array<std::array<Index, 2>, 2>> ends_;  // rim points of a crossing: [over, under][arrives, leaves]
+  EarClipper clipper_;
+};
+
+}  // namespace
+
+SpanningMesh spanning_start(const Link& link, const LinkDiagram& diagram, double step) {
+  return Construction(link, diagram, step).build();
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,146 @@
+#include "unsnarl/seifert.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "applications/seifert/link_diagram.h"
+#include "unsnarl/document.h"
+
+namespace unsnarl {
+namespace {
+
+std::string refusal(const std::string& text) {
+  try {
+    check_link(parse_link(text));
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+  return "";
+}
+
+SeifertFindings spanned(const Link& link, SeifertOptions options = {}) {
+  return check_seifert_surface(seifert_surface(link, options).surface, link);
+}
+
+TEST(KnotTable, PolynomialsOfTheDiagramsHaveTheDeterminantsOfTables) {
+  ASSERT_EQ(knot_table().size(), 249U + 7U);
+  for (const KnotEntry& entry : knot_table()) {
+    SCOPED_TRACE(entry.name);
+    const Link link = knot_of_table(entry.name);
+    const auto diagram = diagram_of(link, Eigen::Matrix3d::Identity());
+    ASSERT_TRUE(diagram);
+    EXPECT_EQ(diagram->crossings.size(), entry.braid.size());
+    const Polynomial p = alexander_polynomial(*diagram);
+    EXPECT_EQ(abs(value_at(p, -1)), entry.determinant);
+    EXPECT_EQ(abs(value_at(p, 1)), link.components.size() == 1 ? 1 : 0);
+  }
+  EXPECT_THROW(knot_of_table("3_2"), std::invalid_argument);
+}
+
+TEST(Polynomial, DeterminantsOfLinearMatrices) {
+  LinearMatrix m(2);  // (1 - t, 2; 3 t, 1)
+  m.constant = {1, 2, 0, 1};
+  m.slope = {-1, 0, 3, 0};
+  EXPECT_EQ(to_text(determinant(m)), "1 - 7t");
+  EXPECT_EQ(to_text(determinant(LinearMatrix(0))), "1");
+  EXPECT_EQ(to_text(without_units({0, 0, 2, -3})), "-2 + 3t");
+}
+
+TEST(ParseLink, PointsCodesAndBraids) {
+  const Link points = parse_link("# a triangle\n0 0 0\n1, 0, 0\n0\t1 0\n0 0 0\n\n\n0 0 1\n1 0 1\n0 1 1.5\n");
+  ASSERT_EQ(points.components.size(), 2U);
+  EXPECT_EQ(points.point_count(), 6U);  // the first point was repeated
+  EXPECT_EQ(parse_link(link_text(points)).components, points.components);
+  EXPECT_EQ(parse_link("braid 2: 1 1 1").components, braid_closure(2, std::vector<int>{1, 1, 1}).components);
+  EXPECT_EQ(parse_link("PD[X[4,1,3,2], X[2,3,1,4]]").components.size(), 2U);
+}
+
+TEST(ParseLink, PlanarDiagramsKeepTheirHandedness) {
+  // The left-handed trefoil as tables give it: three negative crossings.
+  const auto diagram = diagram_of(parse_link("X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]"), Eigen::Matrix3d::Identity());
+  ASSERT_TRUE(diagram);
+  ASSERT_EQ(diagram->crossings.size(), 3U);
+  for (const LinkDiagram::Crossing& c : diagram->crossings) EXPECT_EQ(c.sign, -1);
+}
+
+TEST(ParseLink, SaysWhatIsWrongAndWhere) {
+  EXPECT_NE(refusal("").find("nothing in it"), std::string::npos);
+  EXPECT_EQ(refusal("0 0 0\n1 0\n"), "line 2: 2 numbers; a point has three, 'x y z'");
+  EXPECT_NE(refusal("0 0 0\n1 x 0\n").find("line 2: 'x 0' is no coordinate"), std::string::npos);
+  EXPECT_NE(refusal("0 0 0\n1 0 0\n").find("component 0 has 2 points"), std::string::npos);
+  EXPECT_NE(refusal("0 0 0\n1 0 0\n1 0 0\n0 1 0\n").find("points 1 and 2 of component 0 are one"), std::string::npos);
+  EXPECT_NE(refusal("0 0 0\n2 2 0\n2 0 0\n0 2 0\n").find("touch"), std::string::npos);
+  EXPECT_NE(refusal("0 0 0\n2 0 0\n1 0 0\n0 2 0\n").find("touch"), std::string::npos);
+  EXPECT_NE(refusal("X[1,2,3]").find("four edges a crossing"), std::string::npos);
+  EXPECT_NE(refusal("X[1,4,2,5] X[3,6,4,1] X[5,2,6,7]").find("has an edge 7"), std::string::npos);
+  EXPECT_NE(refusal("X[1,1,2,2]").find("nugatory"), std::string::npos);
+  EXPECT_NE(refusal("braid 3: 1 3").find("generator 2 of the braid is 3"), std::string::npos);
+  EXPECT_NE(refusal("braid three: 1").find("is no whole number"), std::string::npos);
+}
+
+TEST(SeifertSurface, KnotsAndLinksAreSpanned) {
+  const std::vector<std::pair<const char*, int>> genus{
+      {"unknot", 0}, {"3_1", 1}, {"4_1", 1}, {"hopf", 0}, {"whitehead", 1}, {"t_2_4", 1}, {"t_2_4_reversed", 0}};
+  for (const auto& [name, g] : genus) {
+    SCOPED_TRACE(name);
+    const SeifertFindings found = spanned(knot_of_table(name));
+    EXPECT_TRUE(found.hold()) << polynomial_text(found.alexander_of_surface);
+    EXPECT_EQ(found.genus, g);
+  }
+}
+
+TEST(SeifertSurface, AsBuiltItIsEmbeddedWhateverTheKnot) {
+  for (const char* name : {"5_2", "8_19", "10_139", "10_165", "borromean", "t_3_7"}) {
+    SCOPED_TRACE(name);
+    EXPECT_TRUE(spanned(knot_of_table(name), {.fair = false}).hold());
+  }
+}
+
+TEST(SeifertSurface, SticksLatticesAndSplitLinks) {
+  // A trefoil of six sticks, one on a lattice whose edges lie in line, two triangles apart.
+  EXPECT_EQ(
+      polynomial_text(
+          spanned(parse_link("1 5 -2\n0 -5 2\n-4 3 -2\n5 -1 3\n-4 -2 -2\n4 3 1\n"), {.fair = false}).alexander_of_link)
+          .substr(0, 1),
+      "1");
+  const Link split = parse_link("0 0 0\n1 0 0\n0 1 0\n\n5 0 0\n6 0 0\n5 1 0\n");
+  const SeifertFindings found = spanned(split, {.fair = false});
+  EXPECT_EQ(found.components, 2);
+  EXPECT_TRUE(found.alexander_of_surface.empty());
+  EXPECT_TRUE(found.hold());
+}
+
+TEST(SeifertSurface, RepeatsItselfAndStopsWhenAsked) {
+  const Link link = knot_of_table("3_1");
+  EXPECT_EQ(seifert_surface(link).surface.positions, seifert_surface(link).surface.positions);
+  Context context;
+  context.cancel();
+  const SeifertResult stopped = seifert_surface(link, {}, &context);
+  EXPECT_EQ(stopped.status, Status::cancelled);
+  EXPECT_TRUE(check_seifert_surface(stopped.surface, link).hold());
+  EXPECT_THROW(seifert_surface(link, {.edge_rel = 0.6}), std::invalid_argument);
+  EXPECT_THROW(seifert_surface(link, {.views = 2}), std::invalid_argument);
+}
+
+TEST(CheckSeifertSurface, FindsWhatIsWrong) {
+  const Link link = knot_of_table("3_1");
+  const Surface good = seifert_surface(link, {.fair = false}).surface;
+  EXPECT_TRUE(check_seifert_surface(good, link).hold());
+  EXPECT_FALSE(check_seifert_surface(good, knot_of_table("5_1")).spans_link);
+  Surface moved = good;
+  moved.positions[0] = std::nextafter(moved.positions[0], 10);
+  EXPECT_FALSE(check_seifert_surface(moved, link).spans_link);
+  Surface flipped = good;
+  std::swap(flipped.corners[0], flipped.corners[1]);
+  EXPECT_FALSE(check_seifert_surface(flipped, link).oriented);
+  Surface torn = good;
+  torn.corners.resize(torn.corners.size() - 3);
+  EXPECT_FALSE(check_seifert_surface(torn, link).hold());
+  Surface pierced = good;
+  for (int k = 0; k < 3; ++k) pierced.positions[pierced.positions.size() - 3 + k] = k == 2 ? 3 : 0;
+  EXPECT_GT(check_seifert_surface(pierced, link).intersecting_pairs, 0U);
+}
+
+}  // namespace
+}  // namespace unsnarl

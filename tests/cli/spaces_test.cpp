@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "unsnarl/document.h"
+
+namespace unsnarl::cli {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(SeifertCommand, AKnotIsSpannedAndCertified) {
+  Folder folder;
+  const std::string knot = folder / "knot.xyz", surface = folder / "surface.obj";
+  ASSERT_EQ(run({"sample", "knot_3_1", "-o", knot}).exit_code, 0);
+  const Outcome made =
+      run({"seifert", knot, "-o", surface, "--report", folder / "r.json", "--picture", folder / "p.png"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(contains(made.err, "Alexander polynomial 1 - t + t^2"));
+  const auto report = nlohmann::json::parse(contents(folder / "r.json"));
+  EXPECT_EQ(report["hold"], true);
+  EXPECT_EQ(report["genus"], 1);
+  EXPECT_EQ(run({"seifert", knot, "--check", surface}).exit_code, 0);
+  ASSERT_EQ(run({"sample", "knot_4_1", "-o", knot}).exit_code, 0);
+  EXPECT_EQ(run({"seifert", knot, "--check", surface, "-q"}).exit_code, 1);
+}
+
+TEST(SeifertCommand, StreamsAndErrors) {
+  Folder folder;
+  const Outcome hopf =
+      run({"seifert", "-", "--format", "off", "-o", "-", "--no-fair", "-q"}, {.input = "braid 2: 1 1\n"});
+  EXPECT_EQ(hopf.exit_code, 0) << hopf.err;
+  EXPECT_TRUE(hopf.out.starts_with("OFF"));
+  const Outcome crossing = run({"seifert", "-", "-o", folder / "s.obj"}, {.input = "0 0 0\n2 2 0\n2 0 0\n0 2 0\n"});
+  EXPECT_EQ(crossing.exit_code, 3);
+  EXPECT_TRUE(contains(crossing.err, "edge 0 of component 0 and edge 2 of component 0 touch"));
+  EXPECT_EQ(run({"seifert", "-"}, {.input = "braid 2: 1 1\n"}).exit_code, 2);
+  EXPECT_EQ(run({"seifert", "-", "-o", folder / "s.stl"}, {.input = "braid 2: 1 1\n"}).exit_code, 2);
+  EXPECT_EQ(run({"seifert", folder / "none", "-o", folder / "s.obj"}).exit_code, 3);
+  EXPECT_EQ(run({"seifert", "-", "-o", folder / "no/s.obj"}, {.input = "braid 2: 1 1\n"}).exit_code, 4);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(IsotopyCommand, ACurveMovesToAnother) {
+  Folder folder;
+  write(folder / "a.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"><circle r=\"5\"/></svg>\n");
+  write(folder / "b.json", "{\"curves\": [{\"points\": [[0, 0], [9, 0], [9, 1], [1, 1], [1, 9], [0, 9], [0, 0]]}]}");
+  const Outcome made = run({"isotopy", folder / "a.svg", folder / "b.json", "-o", folder / "way", "--frames", "3"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(contains(made.err, "at every time the curves are simple"));
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"a.svg", "b.json", "way", "way/animation.svg",
+                                                   "way/correspondence.json", "way/frame_0000.svg",
+                                                   "way/frame_0001.svg", "way/frame_0002.svg", "way/surface.obj"}));
+  EXPECT_EQ(run({"check", folder / "way/surface.obj", "-q"}).exit_code, 0);
+  EXPECT_EQ(run({"isotopy", folder / "a.svg", folder / "b.json", "-o", folder / "way"}).exit_code, 2);  // not empty
+  write(folder / "c.json", "{\"curves\": [{\"closed\": true, \"points\": [[0, 0], [0, 9], [9, 0]]}]}");
+  const Outcome other_way = run({"isotopy", folder / "a.svg", folder / "c.json", "-o", folder / "back"});
+  EXPECT_EQ(other_way.exit_code, 3);
+  EXPECT_TRUE(contains(other_way.err, "runs around the other way"));
+  EXPECT_EQ(run({"isotopy", folder / "a.svg", folder / "c.json", "-o", folder / "back", "--reverse", "-q"}).exit_code,
+            0);
+}
+
+}  // namespace
+}  // namespace unsnarl::cli
