@@ -180,10 +180,10 @@ SceneReport report_by_mesh(const SurfaceView& surface, const FindOptions& find, 
 py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& corners,
                     const Array<std::int32_t>& offsets, const Array<std::uint8_t>& fixed,
                     const std::vector<std::size_t>& vertex_counts, const std::vector<std::size_t>& face_counts,
-                    const std::string& goal, const std::string& precision, double min_gap, double max_displacement,
-                    bool absolute, double time_limit, double memory_limit, bool recover, bool paper,
-                    bool each_component, const std::string& weld, double weld_tolerance, bool both_diagonals,
-                    int threads, const py::object& progress) {
+                    const std::string& goal, const std::string& precision, double min_gap, double min_dihedral,
+                    double max_displacement, bool absolute, double time_limit, double memory_limit, bool recover,
+                    bool paper, bool each_component, const std::string& weld, double weld_tolerance,
+                    bool both_diagonals, int threads, const py::object& progress) {
   const StageClock clock;
   const SurfaceView surface{span_of(positions), span_of(corners), span_of(offsets)};
   RepairOptions options;
@@ -193,6 +193,7 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
   const double diagonal = absolute ? diagonal_of(surface) : 1;
   const double unit = diagonal > 0 ? 1 / diagonal : 1;
   options.min_gap_rel = min_gap * unit;
+  options.min_dihedral_deg = min_dihedral;
   options.max_displacement_rel = max_displacement * unit;
   options.time_limit_s = time_limit;
   options.memory_limit_mb = memory_limit;
@@ -210,6 +211,8 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
     const py::gil_scoped_release others_may_run;
     files.scene = report_by_mesh(surface, options.find, result.positions, vertex_counts, face_counts);
   }
+  files.clearance_before = measure_clearance(surface, surface.positions, options.find);
+  files.clearance_after = measure_clearance(surface, result.positions, options.find);
   files.whole = clock.stage("repair");
   return py::make_tuple(array_of(result.positions), std::string(to_string(result.status)),
                         report_json(result, options, files));
@@ -450,9 +453,10 @@ PYBIND11_MODULE(_native, module) {
              py::kw_only(), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"));
   module.def("repair", &py_repair, array("positions"), array("corners"), array("offsets"), array("fixed"),
              py::kw_only(), py::arg("vertex_counts"), py::arg("face_counts"), py::arg("goal"), py::arg("precision"),
-             py::arg("min_gap"), py::arg("max_displacement"), py::arg("absolute"), py::arg("time_limit"),
-             py::arg("memory_limit"), py::arg("recover"), py::arg("paper"), py::arg("each_component"), py::arg("weld"),
-             py::arg("weld_tolerance"), py::arg("both_diagonals"), py::arg("threads"), py::arg("progress"));
+             py::arg("min_gap"), py::arg("min_dihedral"), py::arg("max_displacement"), py::arg("absolute"),
+             py::arg("time_limit"), py::arg("memory_limit"), py::arg("recover"), py::arg("paper"),
+             py::arg("each_component"), py::arg("weld"), py::arg("weld_tolerance"), py::arg("both_diagonals"),
+             py::arg("threads"), py::arg("progress"));
   module.def("repair_sequence", &py_repair_sequence, array("frames"), array("corners"), array("offsets"),
              array("fixed"), array("moved"), py::kw_only(), py::arg("first"), py::arg("last"), py::arg("goal"),
              py::arg("precision"), py::arg("min_gap"), py::arg("max_displacement"), py::arg("time_limit"),

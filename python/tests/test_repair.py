@@ -24,6 +24,10 @@ def assert_same_report(ours, theirs, exact):
     if not exact:
         for key in [key for key, value in ours.items() if isinstance(value, float)]:
             assert ours.pop(key) == pytest.approx(theirs.pop(key), rel=1e-4, abs=1e-9), key
+        for when, measured in ours.pop("clearance").items():
+            for name, smallest in theirs["clearance"][when].items():
+                assert measured[name]["value"] == pytest.approx(smallest["value"], rel=1e-2, abs=1e-6), (when, name)
+        del theirs["clearance"]
     assert ours == theirs
 
 

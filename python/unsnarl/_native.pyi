@@ -39,6 +39,7 @@ def repair(
     goal: str,
     precision: str,
     min_gap: float,
+    min_dihedral: float,
     max_displacement: float,
     absolute: bool,
     time_limit: float,

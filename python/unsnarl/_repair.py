@@ -72,6 +72,7 @@ def repair(
     goal: str = "all",
     precision: str = "auto",
     min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
     time_limit: float = 0.0,
@@ -109,6 +110,9 @@ def repair(
         conflicts lie on coordinates coarse enough for it.
     min_gap
         Wanted gap between sheets, as a fraction of the bounding-box diagonal. 0: just enough to be safe.
+    min_dihedral
+        Degrees, below 90: two faces at an edge that are folded together closer are opened to this angle, as far as
+        nothing is in the way. 0: left as they are.
     max_displacement
         How far any vertex may move, as a fraction of the diagonal. 0: any distance.
     absolute
@@ -146,6 +150,7 @@ def repair(
         goal=name("goal", goal),
         precision=precision,
         min_gap=not_negative("min_gap", min_gap),
+        min_dihedral=not_negative("min_dihedral", min_dihedral),
         max_displacement=not_negative("max_displacement", max_displacement),
         absolute=bool(absolute),
         time_limit=not_negative("time_limit", time_limit),

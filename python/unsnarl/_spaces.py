@@ -69,11 +69,13 @@ def seifert_surface(
 
 
 def check_seifert_surface(positions: Any, faces: Any, link: Any, *, views: int = 60) -> dict[str, Any]:
-    """What is to hold of a Seifert surface of a link, by exact arithmetic, from the mesh and the link alone.
+    """Checks a Seifert surface of a link by exact arithmetic, from the mesh and the link alone.
 
-    "hold" is True where all does: "intersecting_pairs" is 0, it is "oriented", its boundary "spans_link" bit for bit,
-    "euler_characteristic" is "expected_euler_characteristic", and "alexander_of_surface" is "alexander_of_link", both lists
-    of coefficients from the constant up.
+    Takes the surface as positions (n, 3) and faces (m, 3), the link as seifert_surface does, and the number of views
+    that are tried for a regular projection. Returns a dictionary: "hold" is True where all does: "intersecting_pairs"
+    is 0, it is "oriented", its boundary "spans_link" bit for bit, "euler_characteristic" is
+    "expected_euler_characteristic", and "alexander_of_surface" is "alexander_of_link", both lists of coefficients from
+    the constant up.
     """
     p = np.array(_array(positions, "positions"), dtype=np.float64, order="C")
     f = np.array(_array(faces, "faces"), dtype=np.int32, order="C")

@@ -30,7 +30,6 @@ namespace {
 // recede.
 constexpr std::array<FlowSettings, 3> strategies{{
     {.name = "flow", .max_iterations = 200, .locality = 30, .lambda_minkowski = 0.5},
-    {.name = "recession", .recedes = true},
     {.name = "strong_flow",
      .max_iterations = 300,
      .locality = 1,
@@ -39,6 +38,7 @@ constexpr std::array<FlowSettings, 3> strategies{{
      .adaptive_bandwidth = false,
      .max_spacing_rel = 0.25,
      .hopeless_stalls = 6},
+    {.name = "recession", .recedes = true},
 }};
 
 double smoothstep(double t) {

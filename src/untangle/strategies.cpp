@@ -83,30 +83,46 @@ Tier layers_tier() {
           local("shorten-4", 4, {LocalMethod::shorten, 0.3, 4, 60})};
 }
 
+/// It rounds off what lies in the conflict and close around it.
 Tier smoothing_tier() {
-  return {
-      local("smoothing-4", 4, {LocalMethod::smoothing, 0.1, 3, 60}),
-      local("smoothing-8", 8, {LocalMethod::smoothing, 0.1, 5, 100}),
-      local("smoothing-16", 16, {LocalMethod::smoothing, 0.1, 24, 100}),
-  };
+  return {local("smoothing-4", 4, {LocalMethod::smoothing, 0.1, 3, 60})};
 }
 
+/// Limbs may shrink to threads in it, and do not all grow back.
+Tier wide_smoothing_tier() {
+  return {local("smoothing-8", 8, {LocalMethod::smoothing, 0.1, 5, 100}),
+          local("smoothing-16", 16, {LocalMethod::smoothing, 0.1, 24, 100})};
+}
+
+/// Whole sheets repel each other: close around the conflict ...
 Tier regional_flow_tier() {
   return {flow_of("flow-8", Extent::rings, 8, flow_variants().front())};
 }
 
-Tier whole_component_tier() {
+/// ... or in all of the component; or its boundary recedes through it.
+Tier whole_component_tier(bool recedes) {
   Tier tier;
   for (const FlowSettings& settings : flow_variants())
-    tier.push_back(flow_of(std::string(settings.name), Extent::whole_components, 0, settings));
+    if (settings.recedes == recedes)
+      tier.push_back(flow_of(std::string(settings.name), Extent::whole_components, 0, settings));
   return tier;
 }
 
 }  // namespace
 
 std::span<const Tier> default_tiers() {
-  static const std::vector<Tier> tiers = {shallow_tier(),   {placing()},          {coarse_to_fine()},    layers_tier(),
-                                          smoothing_tier(), regional_flow_tier(), whole_component_tier()};
+  // Repelling keeps shapes, smoothing and recession wear them down, the more the wider. On five of twenty hard meshes
+  // the order of these tiers matters: with all smoothing before the flows, they end 2.3 times as far. With the
+  // recession before smoothing-4, a mannequin ends at 12.6 % instead of 0.015.
+  static const std::vector<Tier> tiers = {shallow_tier(),
+                                          {placing()},
+                                          {coarse_to_fine()},
+                                          layers_tier(),
+                                          regional_flow_tier(),
+                                          smoothing_tier(),
+                                          whole_component_tier(false),
+                                          wide_smoothing_tier(),
+                                          whole_component_tier(true)};
   return tiers;
 }
 
@@ -116,7 +132,8 @@ std::span<const Tier> local_tiers() {
 }
 
 std::span<const Tier> coarse_mesh_tiers() {
-  static const std::vector<Tier> tiers = {shallow_tier(), {placing()}, layers_tier(), smoothing_tier()};
+  static const std::vector<Tier> tiers = {
+      shallow_tier(), {placing()}, layers_tier(), smoothing_tier(), wide_smoothing_tier()};
   return tiers;
 }
 

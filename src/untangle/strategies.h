@@ -9,8 +9,8 @@
 
 namespace unsnarl {
 
-/// The default: local strategies, placement of small components, coarse to fine for deep tangles, smoothing over wider
-/// and wider surroundings, and as last resorts repulsion and recession of whole components.
+/// The default: local strategies, placement of small components, coarse to fine for deep tangles, then repulsion in
+/// the region, smoothing around the conflict, repulsion of whole components, smoothing of wide surroundings, recession.
 std::span<const Tier> default_tiers();
 
 /// Those that move only what lies close to the conflict.
