@@ -14,7 +14,7 @@ struct RoundOptions {
   double move_of_distance = 0.3;
   /// 4 pi area / length^2 from which on a convex curve counts as round; of a circle it is 1.
   double roundness = 0.9;
-  /// Steps after which it is given up; a spiral of eight turns and 1,600 points takes 3,000.
+  /// Steps after which it is given up. A spiral of eight turns and 960 points ends before.
   int most_steps = 200000;
   /// Of curves that wait for others the size changes by this factor a step, down to a hundredth of the diagonal, so
   /// that they are in no one's way.
