@@ -13,6 +13,26 @@ CLI::Validator not_negative() {
   return CLI::Range(0.0, std::numeric_limits<double>::max()).description("");
 }
 
+void add_time_limit(CLI::App& command, double& seconds, const std::string& group) {
+  command.add_option("--time-limit", seconds, "Stop after this many seconds; 0: none")
+      ->check(not_negative())
+      ->type_name("S")
+      ->group(group);
+}
+
+void add_progress(CLI::App& command, std::string& progress, const std::string& group) {
+  command
+      .add_option("--progress", progress,
+                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
+      ->check(one_of({"auto", "json", "none"}))
+      ->type_name("auto|json|none")
+      ->group(group);
+}
+
+void add_quiet(CLI::App& command, bool& quiet, const std::string& group) {
+  command.add_flag("--quiet,-q", quiet, "Say nothing but errors")->group(group);
+}
+
 void add_mesh_options(CLI::App& command, MeshOptions& options, const std::string& input) {
   command.add_option("IN", options.inputs, input + ": " + format_names(" or ") + "; '-' for standard input")
       ->required();
@@ -42,7 +62,7 @@ void add_mesh_options(CLI::App& command, MeshOptions& options, const std::string
   command.add_option("--threads", options.threads, "Threads to use; 0: as many as the machine has")
       ->check(CLI::Range(0, 1024).description(""))
       ->type_name("N");
-  command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors");
+  add_quiet(command, options.quiet);
 }
 
 FindOptions MeshOptions::find() const {

@@ -12,6 +12,11 @@ namespace unsnarl::app {
 CLI::Validator one_of(std::vector<std::string> words);
 CLI::Validator not_negative();
 
+/// Options that commands share word for word. group: the heading that they stand under in the help.
+void add_time_limit(CLI::App& command, double& seconds, const std::string& group = "Options");
+void add_progress(CLI::App& command, std::string& progress, const std::string& group = "Options");
+void add_quiet(CLI::App& command, bool& quiet, const std::string& group = "Options");
+
 /// Options that `fix` and `check` share.
 struct MeshOptions {
   std::vector<std::string> inputs;  ///< one, or the files of a scene

@@ -311,10 +311,7 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
       ->group(what);
   command.add_flag("--fix-ends", options.fix_ends, "Do not move the ends of open curves")->group(what);
   const std::string limits = "Limits";
-  command.add_option("--time-limit", options.time_limit_s, "Stop after this many seconds; 0: none")
-      ->check(not_negative())
-      ->type_name("S")
-      ->group(limits);
+  add_time_limit(command, options.time_limit_s, limits);
   const std::string shown = "What is shown";
   command.add_option("--report", options.report, "Write a JSON report: counts, displacement, what is left")
       ->type_name("FILE")
@@ -339,13 +336,8 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
       ->check(CLI::Range(1e-6, 10.0).description(""))
       ->type_name("X")
       ->group(shown);
-  command
-      .add_option("--progress", options.progress,
-                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
-      ->check(one_of({"auto", "json", "none"}))
-      ->type_name("auto|json|none")
-      ->group(shown);
-  command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors")->group(shown);
+  add_progress(command, options.progress, shown);
+  add_quiet(command, options.quiet, shown);
   command
       .add_flag("--no-recover", options.no_recover, "Stop once nothing crosses, without opening and smoothing anything")
       ->group("For research");

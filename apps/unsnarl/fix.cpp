@@ -12,7 +12,7 @@
 #include "mesh_input.h"
 #include "pictures.h"
 #include "progress.h"
-#include "sequence.h"
+#include "sequence/sequence.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
@@ -186,7 +186,7 @@ class Fix {
 
  private:
   const Surface& surface() const { return scene_.surface(); }
-  /// Where a file of the scene goes.
+  /// Path that a file of the scene is written to.
   fs::path target(std::size_t file) const {
     return options_.is_scene() ? fs::path(output_) / scene_.files()[file].name : fs::path(output_);
   }
@@ -314,7 +314,7 @@ class Fix {
     write_file(options_.record, recording_json(result_, surface()) + "\n", interruption_);
   }
 
-  /// Of the file read and, where one was written, of that as it is read back.
+  /// Measures the file read and, where one was written, what is read back from it.
   void measure_clearances() {
     if (options_.report.empty() && options_.min_dihedral_deg <= 0) return;
     const Surface& input = surface();

@@ -129,10 +129,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->check(one_of({"auto", "float32", "float64"}))
       ->type_name("auto|float32|float64");
   const std::string limits = "Limits";
-  command.add_option("--time-limit", options.time_limit_s, "Stop after this many seconds; 0: none")
-      ->check(not_negative())
-      ->type_name("S")
-      ->group(limits);
+  add_time_limit(command, options.time_limit_s, limits);
   command
       .add_option("--memory-limit", options.memory_limit_mb,
                   "Stop before the program holds more than this many MB; 0: none")
@@ -162,12 +159,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
   command.add_option("--highlight", options.highlight, "Write a PLY in which intersecting faces are coloured")
       ->type_name("FILE.ply")
       ->group(shown);
-  command
-      .add_option("--progress", options.progress,
-                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
-      ->check(one_of({"auto", "json", "none"}))
-      ->type_name("auto|json|none")
-      ->group(shown);
+  add_progress(command, options.progress, shown);
   const std::string research = "For research";
   command.add_flag("--paper", options.paper, "Repair as the paper does it, instead of region by region")
       ->group(research);

@@ -95,7 +95,7 @@ std::vector<std::string> far_regions(const RepairReport& report) {
   return lines;
 }
 
-/// What the files of a scene had and have, and how far they moved.
+/// Lines about the files of a scene: their pairs before and after, and how far they moved.
 std::vector<std::string> by_file(const SceneReport& scene) {
   std::vector<std::string> lines;
   for (const ScenePairs& pairs : scene.pairs) {

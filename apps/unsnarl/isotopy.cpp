@@ -100,15 +100,9 @@ void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
                   "bounding-box diagonal (default 0.0001)")
       ->check(CLI::Range(1e-12, 0.1).description(""))
       ->type_name("X");
-  command.add_option("--time-limit", options.time_limit_s, "Stop after this many seconds; 0: none")
-      ->check(not_negative())
-      ->type_name("S");
-  command
-      .add_option("--progress", options.progress,
-                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
-      ->check(one_of({"auto", "json", "none"}))
-      ->type_name("auto|json|none");
-  command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors");
+  add_time_limit(command, options.time_limit_s);
+  add_progress(command, options.progress);
+  add_quiet(command, options.quiet);
   command.footer(
       "Written into DIR:\n"
       "  surface.obj          the annuli that the curves sweep; z is time\n"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "batch.h"
+#include "batch/batch.h"
 #include "check.h"
 #include "curves.h"
 #include "fix.h"

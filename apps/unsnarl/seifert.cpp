@@ -53,7 +53,7 @@ std::string as_text(const SeifertFindings& f) {
   return text;
 }
 
-/// What is wrong, one thing a line; empty: nothing.
+/// Lists what is wrong, one thing a line; empty: nothing.
 std::string faults(const SeifertFindings& f) {
   std::string text;
   if (f.intersecting_pairs > 0) text += fmt::format("{} pairs of faces intersect\n", f.intersecting_pairs);
@@ -128,13 +128,8 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
   command.add_option("--picture", options.picture, "Write a picture: as it was built, and the result")
       ->type_name("FILE.png")
       ->group(shown);
-  command
-      .add_option("--progress", options.progress,
-                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
-      ->check(one_of({"auto", "json", "none"}))
-      ->type_name("auto|json|none")
-      ->group(shown);
-  command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors")->group(shown);
+  add_progress(command, options.progress, shown);
+  add_quiet(command, options.quiet, shown);
   command.footer(
       "Examples:\n"
       "  unsnarl sample knot_4_1 -o knot.xyz && unsnarl seifert knot.xyz -o surface.obj --picture surface.png\n"

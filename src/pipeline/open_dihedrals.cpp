@@ -11,12 +11,13 @@
 namespace unsnarl {
 namespace {
 
-/// Hinges are opened this much farther than asked for, so that rounding and neighbours leave enough.
+/// Ratio of angles: hinges are opened this much farther than asked for, so that rounding and neighbours leave enough.
+/// Not measured against other values.
 constexpr double reserve = 1.05;
 /// Rounds at most; a fold that opens at all takes two to ten, fans of needles some forty.
 constexpr int most_rounds = 100;
 /// A vertex moves in one round by no more than this share of the least height of a face at it: angles are far from
-/// linear in longer steps.
+/// linear in longer steps. Not measured against other values.
 constexpr double most_of_height = 0.25;
 
 /// Gradient of the angle at a hinge by its corners a, b, c, d: the third corners move across their faces, and the edge

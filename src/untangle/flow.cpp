@@ -25,9 +25,9 @@
 namespace unsnarl {
 namespace {
 
-// The regional flow resolves a region of one of 115 meshes and samples, the recession regions of five, the strong flow
-// that of one, and the first flow of a whole component none of them: it is kept for closed surfaces, which cannot
-// recede.
+// Regions resolved, on how many of 115 meshes and samples, with all smoothing tried before: the regional flow one, the
+// recession five, the strong flow one, the first flow of a whole component none: it is kept for closed surfaces, which
+// cannot recede.
 constexpr std::array<FlowSettings, 3> strategies{{
     {.name = "flow", .max_iterations = 200, .locality = 30, .lambda_minkowski = 0.5},
     {.name = "strong_flow",

@@ -111,9 +111,9 @@ Tier whole_component_tier(bool recedes) {
 }  // namespace
 
 std::span<const Tier> default_tiers() {
-  // Repelling keeps shapes, smoothing and recession wear them down, the more the wider. On five of twenty hard meshes
-  // the order of these tiers matters: with all smoothing before the flows, they end 2.3 times as far. With the
-  // recession before smoothing-4, a mannequin ends at 12.6 % instead of 0.015.
+  // Repelling keeps shapes, smoothing and recession wear them down, the more the wider. With all smoothing before the
+  // flows, four of six hard meshes end 1.5 to 8 times as far and one 0.8 times; with the recession before smoothing-4,
+  // a mannequin ends at 12.6 % instead of 0.015 (docs/performance.md).
   static const std::vector<Tier> tiers = {shallow_tier(),
                                           {placing()},
                                           {coarse_to_fine()},

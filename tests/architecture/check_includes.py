@@ -81,17 +81,18 @@ def check_layers(project):
     for user in USERS:
         for path in sources(project / user):
             for number, quoted, included in quoted_and_included(path):
-                if included.startswith("unsnarl/") or is_own_or_foreign(project, path, quoted, included):
+                if included.startswith("unsnarl/") or is_own_or_foreign(project, user, path, quoted, included):
                     continue
-                yield (f"{path}:{number}: '{included}'; {user}/ may include unsnarl/* and files of its own folder: "
+                yield (f"{path}:{number}: '{included}'; {user}/ may include unsnarl/* and files of its own program: "
                        "what it needs of the library becomes a public header")
 
 
-def is_own_or_foreign(project, path, quoted, included):
-    """A file beside `path`, or a header of a system or third-party library."""
+def is_own_or_foreign(project, user, path, quoted, included):
+    """A file beside `path` or in a folder above it of the same program, or a header of a system or foreign library."""
     if ".." in Path(included).parts:
         return False
-    if quoted and (path.parent / included).is_file():
+    own = [folder for folder in path.parents if (project / user) in [folder, *folder.parents]]
+    if quoted and any((folder / included).is_file() for folder in own):
         return True
     return not quoted and not any((project / root / included).exists() for root in ("", "src", "include"))
 

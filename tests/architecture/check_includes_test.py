@@ -46,6 +46,8 @@ class Layers(unittest.TestCase):
                 self.refused(f"{user}/a.cpp", "#  include <src/report/b.h>", ["src/report/b.h"])
                 self.accepted(f"{user}/a.cpp", '#include "unsnarl/b.h"')
                 self.accepted(f"{user}/a.cpp", '#include "b.h"', [f"{user}/b.h"])
+                self.accepted(f"{user}/room/a.cpp", '#include "b.h"', [f"{user}/b.h"])
+                self.refused(f"{user}/room/a.cpp", '#include "b.h"', ["b.h"])
                 self.accepted(f"{user}/a.cpp", "#include <fmt/format.h>")
                 self.accepted(f"{user}/a.cpp", "#include <vector>")
 

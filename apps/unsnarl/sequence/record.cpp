@@ -1,4 +1,4 @@
-#include "sequence_record.h"
+#include "sequence/record.h"
 
 #include <fmt/format.h>
 

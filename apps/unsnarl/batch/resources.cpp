@@ -1,4 +1,4 @@
-#include "batch_resources.h"
+#include "batch/resources.h"
 
 #include <oneapi/tbb/info.h>
 #include <unistd.h>

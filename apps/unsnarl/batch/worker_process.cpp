@@ -1,4 +1,4 @@
-#include "worker_process.h"
+#include "batch/worker_process.h"
 
 #include <fcntl.h>
 #include <signal.h>

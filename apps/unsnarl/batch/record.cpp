@@ -1,4 +1,4 @@
-#include "batch_record.h"
+#include "batch/record.h"
 
 #include <fmt/format.h>
 #include <signal.h>

@@ -1,4 +1,4 @@
-#include "batch_progress.h"
+#include "batch/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "batch_folder.h"
+#include "batch/folder.h"
 
 #include <fmt/format.h>
 

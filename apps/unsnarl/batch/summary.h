@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "batch_folder.h"
-#include "batch_record.h"
+#include "batch/folder.h"
+#include "batch/record.h"
 #include "interruption.h"
 
 namespace unsnarl::app {

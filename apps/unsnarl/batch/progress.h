@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "batch_inputs.h"
+#include "batch/inputs.h"
 
 namespace unsnarl::app {
 

@@ -1,4 +1,4 @@
-#include "sequence_files.h"
+#include "sequence/files.h"
 
 #include <fmt/format.h>
 #include <glob.h>

@@ -1,4 +1,4 @@
-#include "sequence.h"
+#include "sequence/sequence.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include "content_hash.h"
 #include "mesh_input.h"
 #include "progress.h"
-#include "sequence_files.h"
-#include "sequence_record.h"
+#include "sequence/files.h"
+#include "sequence/record.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
@@ -156,7 +156,7 @@ class SequenceRun {
                         (options_.recompute_normals ? "normals" : "") + sha256_of_file("/proc/self/exe"));
   }
 
-  /// Of everything that decides what a frame becomes.
+  /// Hashes everything that decides what a frame becomes.
   std::string key_of(std::size_t t) const {
     std::string all = asked_for_;
     for (std::size_t s = t - std::min(t, sequence_reach); s <= std::min(t + sequence_reach, files_->count() - 1); ++s)

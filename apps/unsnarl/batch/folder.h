@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <string>
 
-#include "batch_inputs.h"
+#include "batch/inputs.h"
 
 namespace unsnarl::app {
 
-/// Where things lie in the folder of a batch's results. Paths within it are relative to `root`.
+/// Names the files in the folder of a batch's results. Paths within it are relative to `root`.
 struct BatchFolder {
   std::filesystem::path root;
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "worker_process.h"
+#include "batch/worker_process.h"
 
 namespace unsnarl::app {
 
-/// What is recorded of a mesh: a flat JSON object of names and numbers that follow from the mesh, the options and the
+/// Record of a mesh: a flat JSON object of names and numbers that follow from the mesh, the options and the
 /// program alone, and under "run" what does not (seconds, memory, ...).
 using Record = nlohmann::ordered_json;
 

@@ -4,7 +4,7 @@
 
 namespace unsnarl::app {
 
-/// The page of a batch, without data (batch_page.html).
+/// The page of a batch, without data (page.html).
 std::string_view batch_page_template();
 
 }  // namespace unsnarl::app

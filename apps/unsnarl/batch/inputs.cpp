@@ -1,4 +1,4 @@
-#include "batch_inputs.h"
+#include "batch/inputs.h"
 
 #include <fmt/format.h>
 
@@ -110,7 +110,7 @@ Shard shard_of_slurm_task() {
   return {(*id - first) / step, *count};
 }
 
-/// Where a relative URI of a glTF leads.
+/// Resolves a relative URI of a glTF.
 std::string decoded(const std::string& uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {

@@ -1,4 +1,4 @@
-#include "batch_journal.h"
+#include "batch/journal.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
-#include "batch_summary.h"
+#include "batch/summary.h"
 
 #include <fmt/format.h>
 
 #include <string>
 
-#include "batch_page.h"
+#include "batch/page.h"
 #include "staged_output.h"
 
 namespace unsnarl::app {

@@ -1,4 +1,4 @@
-#include "batch.h"
+#include "batch/batch.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,13 +13,13 @@
 #include <map>
 #include <thread>
 
-#include "batch_folder.h"
-#include "batch_inputs.h"
-#include "batch_journal.h"
-#include "batch_progress.h"
-#include "batch_record.h"
-#include "batch_resources.h"
-#include "batch_summary.h"
+#include "batch/folder.h"
+#include "batch/inputs.h"
+#include "batch/journal.h"
+#include "batch/progress.h"
+#include "batch/record.h"
+#include "batch/resources.h"
+#include "batch/summary.h"
 #include "content_hash.h"
 #include "fix.h"
 #include "standard_streams.h"
@@ -222,8 +222,7 @@ class Batch {
     if (const Record record = finished(key); !record.is_null()) return progress_.skipped(mesh);
     const JournalEntry* const entry = journal_.find(key);
     const int unexplained = entry == nullptr ? 0 : entry->unexplained;
-    // What was being worked on when the batch was ended, perhaps because of it, must not end it before the rest is
-    // done.
+    // A mesh that was being worked on when the batch was ended may have ended it: it waits until the rest is done.
     if (unexplained > 0 && !task.is_late) return put_off(task);
     Record record;
     if (unexplained >= options_.attempts && !options_.retry) {
@@ -391,7 +390,7 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
       ->group(limits);
   command.add_option("--worker", options.worker, "Program to run as 'unsnarl fix' is run; this one by default")
       ->type_name("PROGRAM");
-  command.add_flag("--quiet,-q", options.quiet, "Say nothing but errors");
+  add_quiet(command, options.quiet);
   command.footer(
       "Examples:\n"
       "  unsnarl batch scans -o repaired\n"

@@ -10,15 +10,15 @@
 
 namespace unsnarl::app {
 
-/// What the journals of a batch say of one mesh under one key (its content, the options, the program).
+/// Sum of what the journals of a batch say of one mesh under one key (its content, the options, the program).
 struct JournalEntry {
   std::string line;     ///< the last result, a JSON object in one line; empty: none yet
   int unexplained = 0;  ///< times that a worker started and the batch ended before it, since the last result
 };
 
-/// What has been done in a folder of results: one JSON object a line, {"started": key}, {"stopped": key} or a result
-/// with "key". A run appends to the journal of its shard, and reads those of all. Lines that were cut off when a run
-/// was killed are skipped.
+/// Log of what has been done in a folder of results: one JSON object a line, {"started": key}, {"stopped": key} or a
+/// result with "key". A run appends to the journal of its shard, and reads those of all. Lines that were cut off when a
+/// run was killed are skipped.
 class BatchJournal {
  public:
   /// Reads the journals in `folder`, which need not exist.
