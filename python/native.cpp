@@ -198,7 +198,7 @@ py::tuple py_repair(const Array<double>& positions, const Array<std::int32_t>& c
   options.time_limit_s = time_limit;
   options.memory_limit_mb = memory_limit;
   options.recover = recover;
-  options.paper = paper;
+  if (paper) options.paper.emplace();
   options.each_component = each_component;
   options.fixed.assign(fixed.data(), fixed.data() + fixed.size());
 
