@@ -44,7 +44,10 @@ void add_paper_options(CLI::App& command, PaperOptions& options) {
                              "global|independent|symmetric",
                              "Bandwidths of the Gaussian energy (Table 2): one, or one a vertex by model (I) or (II);\n"
                              "default: symmetric, (II)");
-  command.add_flag("!--paper-frozen", options.adaptive, "Bandwidths stay as they are found at the start (§5.6)")
+  command
+      .add_flag_callback(
+          "--paper-frozen", [&options] { options.adaptive = false; },
+          "Bandwidths stay as they are found at the start (§5.6)")
       ->needs("--paper")
       ->group(group);
   add_number(command, "--paper-bandwidth-scale", options.bandwidth_scale, positive, "X",
@@ -59,8 +62,9 @@ void add_paper_options(CLI::App& command, PaperOptions& options) {
       {{"depth", PaperMeshEnergy::penetration_depth}, {"length", PaperMeshEnergy::intersection_length}}, "depth|length",
       "Penetration depth (default), or the length of the intersection curves (§3.2)");
   command
-      .add_flag("!--paper-triangles", options.whole_polygons,
-                "Penetration between the triangles of polygons, not between polygons as they are")
+      .add_flag_callback(
+          "--paper-triangles", [&options] { options.whole_polygons = false; },
+          "Penetration between the triangles of polygons, not between polygons as they are")
       ->needs("--paper")
       ->group(group);
   add_number(command, "--paper-arap", options.lambda_arap, 0.0, "W", "Weight of the regularisation (§5.8); default 1");

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -367,13 +369,11 @@ TEST_P(PaperUntangleTest, PartsTwoSpheres) {
                            [](const IntersectingPair& pair) { return pair.kind == PairClass::disjoint; }));
 }
 
-INSTANTIATE_TEST_SUITE_P(AllModels, PaperUntangleTest,
-                         testing::Values(std::pair{PaperBandwidth::global, false},
-                                         std::pair{PaperBandwidth::global, true},
-                                         std::pair{PaperBandwidth::independent, false},
-                                         std::pair{PaperBandwidth::independent, true},
-                                         std::pair{PaperBandwidth::symmetric, false},
-                                         std::pair{PaperBandwidth::symmetric, true}));
+INSTANTIATE_TEST_SUITE_P(
+    AllModels, PaperUntangleTest,
+    testing::Values(std::pair{PaperBandwidth::global, false}, std::pair{PaperBandwidth::global, true},
+                    std::pair{PaperBandwidth::independent, false}, std::pair{PaperBandwidth::independent, true},
+                    std::pair{PaperBandwidth::symmetric, false}, std::pair{PaperBandwidth::symmetric, true}));
 
 TEST(PaperUntangle, DoesNotDependOnTheUnit) {
   Patch small = patch_of(limb_and_sheet()), large = small;
@@ -416,6 +416,30 @@ TEST(PaperUntangle, BandwidthsAreScaledAfterTheyAreFound) {
     return paper_untangle(patch, options).mean_bandwidth;
   };
   EXPECT_NEAR(bandwidth(3), 3 * bandwidth(1), 1e-9 * bandwidth(1));
+}
+
+TEST(PaperUntangle, GoesOnWhereNoDirectionDescends) {
+  // With the penalty alone the first line search ends at a kink.
+  Patch patch = patch_of(figure_eight_torus());
+  PaperOptions options;
+  options.lambda_gaussian = 0;
+  options.lambda_mesh = 1;
+  options.max_iterations = 60;
+  EXPECT_EQ(paper_untangle(patch, options).iterations, 60);
+}
+
+TEST(PaperUntangle, OptionsHaveRanges) {
+  EXPECT_NO_THROW(check_paper_options({}));
+  const auto refuses = [](auto&& change) {
+    PaperOptions options;
+    change(options);
+    EXPECT_THROW(check_paper_options(options), std::invalid_argument);
+  };
+  refuses([](PaperOptions& o) { o.lambda_mesh = -1; });
+  refuses([](PaperOptions& o) { o.neighbourhood = 0; });
+  refuses([](PaperOptions& o) { o.damping = 1.5; });
+  refuses([](PaperOptions& o) { o.memory = 0; });
+  refuses([](PaperOptions& o) { o.start_bandwidth = std::numeric_limits<double>::quiet_NaN(); });
 }
 
 TEST(PaperUntangle, FixedVerticesStay) {
