@@ -14,7 +14,7 @@ RUNTIME = {"libstdc++.so.6", "libgcc_s.so.1"}
 _LIBSTDCXX_BESIDE_GLIBC = {34: (3, 4, 29), 35: (3, 4, 30), 36: (3, 4, 30)}
 
 #: Packages of headers that leave code in what is compiled with them.
-_COMPILED_IN = ["libboost1.74-dev", "libcgal-dev", "libcli11-dev", "libeigen3-dev", "nlohmann-json3-dev"]
+_COMPILED_IN = ["libboost1.*-dev", "libcgal-dev", "libcli11-dev", "libeigen3-dev", "nlohmann-json3-dev"]
 
 
 def _output(*command):
@@ -88,7 +88,8 @@ def check_self_contained(folder, without):
 
 def licences_of(files):
     """The copyright files of the Debian packages that these files are of, and of what is compiled in, by package."""
-    found = {package: Path("/usr/share/doc") / package / "copyright" for package in _COMPILED_IN}
+    texts = [text for package in _COMPILED_IN for text in Path("/usr/share/doc").glob(f"{package}/copyright")]
+    found = {text.parent.name: text for text in texts}
     for path in files:
         names = {str(path), str(path.resolve()), str(path.resolve()).removeprefix("/usr"), f"/usr{path}"}
         listed = subprocess.run(["dpkg", "-S", *names], capture_output=True, text=True).stdout

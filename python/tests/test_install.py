@@ -59,6 +59,8 @@ def test_wheel(tmp_path):
     assert wheel.name.startswith("unsnarl-") and "-py3-none-manylinux_2_" in wheel.name
     with zipfile.ZipFile(wheel) as content:
         assert any("licenses/libgmp" in name for name in content.namelist())
+        (points,) = (name for name in content.namelist() if name.endswith(".dist-info/entry_points.txt"))
+        assert b"[pyvista.accessors]" in content.read(points)
         content.extractall(tmp_path / "target")
     # What is loaded comes from inside, or from glibc and what is with it everywhere.
     script = "import unsnarl; unsnarl.find_intersections([[0, 0, 0]], []); print(open('/proc/self/maps').read())"

@@ -7,7 +7,7 @@
     if result.status == "embedded":
         V = result.V
 
-Everything takes arrays (``V``, ``F``) or a mesh of meshio, trimesh or pyvista in their place; find_intersections,
+Everything takes arrays (``V``, ``F``) or a mesh of meshio, trimesh, pyvista or VTK in their place; find_intersections,
 repair and certify also a list of these, ``repair([(V, F), mesh])``: meshes in one coordinate system that must not meet.
 
 ``V``
