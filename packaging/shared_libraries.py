@@ -13,8 +13,8 @@ RUNTIME = {"libstdc++.so.6", "libgcc_s.so.1"}
 #: The newest libstdc++ beside a glibc 2.x in the distributions that PEP 600 goes by (auditwheel's policies).
 _LIBSTDCXX_BESIDE_GLIBC = {34: (3, 4, 29), 35: (3, 4, 30), 36: (3, 4, 30)}
 
-#: Packages of headers that leave code in what is compiled with them.
-_COMPILED_IN = ["libboost1.*-dev", "libcgal-dev", "libcli11-dev", "libeigen3-dev", "nlohmann-json3-dev"]
+#: Packages of headers that leave code in what is compiled with them and whose licences ask for their text beside it.
+_COMPILED_IN = ["libcgal-dev", "libcli11-dev", "libeigen3-dev", "nlohmann-json3-dev"]
 
 
 def _output(*command):
@@ -26,10 +26,12 @@ def needed(path):
     return set(re.findall(r"\(NEEDED\).*\[(.*)\]", _output("readelf", "-d", path)))
 
 
-def closure(path, without):
-    """Files of all libraries that are loaded for a file, by name, but for those named and what only they ask for."""
-    found = dict(re.findall(r"^\s*(\S+) => (/\S+)", _output("ldd", path), re.MULTILINE))
-    todo, seen = [path], {}
+def closure(paths, without):
+    """Files of all libraries that are loaded for these, by name, but for those named and what only they ask for."""
+    found = {}
+    for path in paths:
+        found.update(re.findall(r"^\s*(\S+) => (/\S+)", _output("ldd", path), re.MULTILINE))
+    todo, seen = list(paths), {}
     while todo:
         for name in needed(todo.pop()) - without - set(seen):
             seen[name] = Path(found[name])
@@ -53,23 +55,24 @@ def oldest_glibc(paths):
     return min(fitting)
 
 
-def bundle(file, folder, without, suffix=""):
-    """Copies the libraries of `file` into `folder` and has it find them there, wherever both are put together.
+def bundle(files, folder, without, suffix=""):
+    """Copies the libraries of these files into `folder` and has them find them there, wherever all are put together.
 
     suffix: goes into the names of the copies, for a process that may load others of the same names.
     Returns the files of which copies were made.
     """
-    libraries = closure(file, without)
+    libraries = closure(files, without)
     folder.mkdir(parents=True, exist_ok=True)
     names = {name: re.sub(r"\.so\b", f"{suffix}.so", name, count=1) for name in libraries}
-    for name, source in libraries.items():
-        shutil.copyfile(source, folder / names[name])
-        (folder / names[name]).chmod(0o755)
-    for elf in [file, *(folder / name for name in names.values())]:
+    copies = [folder / name for name in names.values()]
+    for source, copy in zip(libraries.values(), copies):
+        shutil.copyfile(source, copy)
+        copy.chmod(0o755)
+    for elf in [*files, *copies]:
         subprocess.run(["strip", "--strip-unneeded", elf], check=True)
         way = os.path.relpath(folder, elf.parent)
-        changes = [("--replace-needed", name, names[name]) for name in sorted(needed(elf) & set(names))]
-        changes += [("--set-soname", elf.name)] if elf.parent == folder else []
+        changes = [("--replace-needed", name, names[name]) for name in sorted(needed(elf) & set(names)) if suffix]
+        changes += [("--set-soname", elf.name)] if elf in copies else []
         changes += [("--set-rpath", "$ORIGIN" if way == "." else f"$ORIGIN/{way}")]
         for change in changes:  # patchelf 0.14 mixes them up in one call
             subprocess.run(["patchelf", *change, elf], check=True)
@@ -88,8 +91,7 @@ def check_self_contained(folder, without):
 
 def licences_of(files):
     """The copyright files of the Debian packages that these files are of, and of what is compiled in, by package."""
-    texts = [text for package in _COMPILED_IN for text in Path("/usr/share/doc").glob(f"{package}/copyright")]
-    found = {text.parent.name: text for text in texts}
+    found = {package: Path("/usr/share/doc") / package / "copyright" for package in _COMPILED_IN}
     for path in files:
         names = {str(path), str(path.resolve()), str(path.resolve()).removeprefix("/usr"), f"/usr{path}"}
         listed = subprocess.run(["dpkg", "-S", *names], capture_output=True, text=True).stdout

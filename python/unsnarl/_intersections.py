@@ -63,8 +63,8 @@ def find_intersections(
     ----------
     V, F
         Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh, pyvista
-        or VTK alone; or a list of such, ``find_intersections([(V, F), mesh, ...])``, of which also those between meshes are
-        found. See the documentation of the package.
+        or VTK alone; or a list of such, ``find_intersections([(V, F), mesh, ...])``, of which also those between meshes
+        are found. See the documentation of the package.
     weld
         Which vertices count as one: "none"; "seams", the ends of open edges (of one face) at exactly equal positions
         (UV seams, split normals); "all" at exactly equal positions.

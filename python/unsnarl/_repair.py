@@ -70,8 +70,8 @@ def repair(
     ----------
     V, F
         Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh, pyvista
-        or VTK alone, as in ``repair(mesh, fixed=ids)``; or a list of such, ``repair([(V, F), mesh, ...])``: one scene, in
-        which meshes are also separated from each other. See the documentation of the package.
+        or VTK alone, as in ``repair(mesh, fixed=ids)``; or a list of such, ``repair([(V, F), mesh, ...])``: one scene,
+        in which meshes are also separated from each other. See the documentation of the package.
     fixed
         Vertices that must not move: a mask (n,) of bool, or their ids. None: all may move. Masks of parts come from
         vertices_of_faces and boundary_vertices. Of a list of meshes: a list of the same length, with None where all
