@@ -323,7 +323,8 @@ class Fix {
     };
     files_.clearance_before = measured(input.positions);
     if (files_.output.empty()) return;
-    files_.clearance_after = measured(scene_.as_written(result_.positions, float32_digits()));
+    const std::vector<double> written = scene_.as_written(result_.positions, float32_digits());
+    files_.clearance_after = written == input.positions ? files_.clearance_before : measured(written);
   }
 
   void write_report() {

@@ -2,21 +2,25 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <vector>
 
-#include "contact/bvh.h"
 #include "contact/distances.h"
-#include "mesh/areas.h"
+#include "geometry/box.h"
 
 namespace unsnarl {
 namespace {
 
-/// The first search looks so many mean edges far, each one after it so many times farther than the one before: most
-/// surfaces have something as near as the first, and few need more than four.
-constexpr double first_reach = 0.01, growth = 8;
-
 bool share_a_vertex(const Triangle& s, const Triangle& t) {
   return std::any_of(s.begin(), s.end(), [&](Index v) { return std::find(t.begin(), t.end(), v) != t.end(); });
+}
+
+/// A lower bound of the distance of two triangles: how far apart their projections are onto the line of their centres.
+double gap_between_projections(const Positions& x, const Triangle& s, const Triangle& t) {
+  const Vec3 direction =
+      (x.col(t[0]) + x.col(t[1]) + x.col(t[2]) - x.col(s[0]) - x.col(s[1]) - x.col(s[2])).normalized();
+  const auto along = [&](Index v) { return direction.dot(x.col(v)); };
+  return std::min({along(t[0]), along(t[1]), along(t[2])}) - std::max({along(s[0]), along(s[1]), along(s[2])});
 }
 
 /// Of triangles that do not intersect.
@@ -33,38 +37,120 @@ double distance(const Positions& x, const Triangle& s, const Triangle& t) {
   return nearest;
 }
 
+double squared_distance(const Box& a, const Box& b) {
+  return (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(0).squaredNorm();
+}
+
+/// Branch and bound in a tree of boxes: pairs of nodes that are farther from each other than the nearest pair so far,
+/// or hold one group alone, are not entered.
+class Search {
+ public:
+  Search(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group)
+      : triangles_(triangles), x_(x), group_(group), order_(triangles.size()), boxes_(triangles.size()) {
+    nearest_.distance = std::numeric_limits<double>::infinity();
+    if (triangles.empty()) return;
+    std::iota(order_.begin(), order_.end(), Index{0});
+    for (std::size_t t = 0; t < triangles.size(); ++t) boxes_[t] = box_of(x, triangles[t]);
+    nodes_.reserve(2 * triangles.size());
+    build(0, static_cast<Index>(triangles.size()));
+    visit_within(0);
+  }
+
+  const SmallestGap& nearest() const { return nearest_; }
+
+ private:
+  static constexpr Index leaf_size = 4;  // triangles
+  struct Node {
+    Box box;
+    Index begin, end;   // order_[begin, end) is below it
+    Index right;        // the left child is the next node; -1: a leaf
+    Index first, last;  // the smallest and the largest group
+    bool is_leaf() const { return right < 0; }
+  };
+
+  Index group(Index triangle) const { return group_.empty() ? triangle : group_[triangle]; }
+
+  Index build(Index begin, Index end) {
+    const Index id = static_cast<Index>(nodes_.size());
+    Node node{{}, begin, end, -1, group(order_[begin]), group(order_[begin])};
+    for (Index k = begin; k < end; ++k) {
+      node.box.extend(boxes_[order_[k]]);
+      node.first = std::min(node.first, group(order_[k]));
+      node.last = std::max(node.last, group(order_[k]));
+    }
+    nodes_.push_back(node);
+    if (end - begin <= leaf_size) return id;
+    int axis = 0;
+    (node.box.hi - node.box.lo).maxCoeff(&axis);
+    const Index middle = begin + (end - begin) / 2;
+    const auto centre = [&](Index t) { return boxes_[t].lo[axis] + boxes_[t].hi[axis]; };
+    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                     [&](Index s, Index t) { return std::pair(centre(s), s) < std::pair(centre(t), t); });
+    build(begin, middle);
+    const Index right = build(middle, end);
+    nodes_[id].right = right;
+    return id;
+  }
+
+  bool may_be_nearer(Index a, Index b) const {
+    const Node &m = nodes_[a], &n = nodes_[b];
+    const bool is_one_group = m.first == m.last && n.first == n.last && m.first == n.first;
+    return !is_one_group && squared_distance(m.box, n.box) < nearest_.distance * nearest_.distance;
+  }
+
+  void visit_within(Index a) {
+    const Node& node = nodes_[a];
+    if (!may_be_nearer(a, a)) return;
+    if (node.is_leaf()) {
+      for (Index k = node.begin; k < node.end; ++k)
+        for (Index l = k + 1; l < node.end; ++l) compare(order_[k], order_[l]);
+      return;
+    }
+    visit_within(a + 1);
+    visit_within(node.right);
+    visit_between(a + 1, node.right);
+  }
+
+  void visit_between(Index a, Index b) {
+    if (!may_be_nearer(a, b)) return;
+    const Node &m = nodes_[a], &n = nodes_[b];
+    if (m.is_leaf() && n.is_leaf()) {
+      for (Index k = m.begin; k < m.end; ++k)
+        for (Index l = n.begin; l < n.end; ++l) compare(order_[k], order_[l]);
+      return;
+    }
+    // The larger one is split, its nearer half looked at first.
+    const bool splits_a = n.is_leaf() || (!m.is_leaf() && m.box.diagonal() >= n.box.diagonal());
+    const Index whole = splits_a ? b : a;
+    Index near = splits_a ? a + 1 : b + 1, far = splits_a ? m.right : n.right;
+    if (squared_distance(nodes_[far].box, nodes_[whole].box) < squared_distance(nodes_[near].box, nodes_[whole].box))
+      std::swap(near, far);
+    visit_between(near, whole);
+    visit_between(far, whole);
+  }
+
+  void compare(Index s, Index t) {
+    if (group(s) == group(t)) return;
+    if (squared_distance(boxes_[s], boxes_[t]) >= nearest_.distance * nearest_.distance) return;
+    if (share_a_vertex(triangles_[s], triangles_[t])) return;
+    if (gap_between_projections(x_, triangles_[s], triangles_[t]) >= nearest_.distance) return;
+    const double d = distance(x_, triangles_[s], triangles_[t]);
+    if (d < nearest_.distance) nearest_ = {d, std::min(s, t), std::max(s, t)};
+  }
+
+  std::span<const Triangle> triangles_;
+  const Positions& x_;
+  std::span<const Index> group_;
+  std::vector<Index> order_;
+  std::vector<Box> boxes_;  // of the triangles
+  std::vector<Node> nodes_;
+  SmallestGap nearest_;
+};
+
 }  // namespace
 
 SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group) {
-  SmallestGap none;
-  none.distance = std::numeric_limits<double>::infinity();
-  if (triangles.empty()) return none;
-  Box all;
-  std::vector<Box> boxes(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    boxes[t] = box_of(x, triangles[t]);
-    all.extend(boxes[t]);
-  }
-  const double diagonal = all.diagonal();
-  double reach = std::max(first_reach * mean_edge_length(x, triangles), 1e-12 * diagonal);
-  for (;; reach *= growth) {
-    std::vector<Box> wide = boxes;
-    for (Box& box : wide) box = box.inflated(reach / 2);
-    const Bvh bvh(wide);
-    // A list a task, merged in their order: the same at any number of threads.
-    std::vector<SmallestGap> found(static_cast<std::size_t>(bvh.task_count()), none);
-    bvh.self_pairs_parallel([&](Index task, Index i, Index j) {
-      if (!group.empty() && group[i] == group[j]) return;
-      if (share_a_vertex(triangles[i], triangles[j])) return;
-      const double d = distance(x, triangles[i], triangles[j]);
-      if (d < found[task].distance) found[task] = {d, std::min(i, j), std::max(i, j)};
-    });
-    SmallestGap smallest = none;
-    for (const SmallestGap& gap : found)
-      if (gap.distance < smallest.distance) smallest = gap;
-    // All that is within reach has been looked at.
-    if (smallest.distance <= reach || reach > diagonal) return smallest;
-  }
+  return Search(triangles, x, group).nearest();
 }
 
 }  // namespace unsnarl

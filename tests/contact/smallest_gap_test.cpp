@@ -54,6 +54,24 @@ TEST(SmallestGap, IsThatOfTheNearestTwoOfAll) {
   }
 }
 
+/// Every pair is looked at here, so that a branch cut by mistake shows.
+TEST(SmallestGap, OfGroupsIsThatOfTheNearestTwoOfDifferentOnes) {
+  Soup s = soup(400, 0.01, 4);
+  std::vector<Index> group;
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) group.push_back(s.x(0, 3 * static_cast<Index>(t)) < 0.5 ? 0 : 1);
+  for (Index v = 0; v < s.x.cols(); ++v)
+    if (group[v / 3] == 1) s.x(0, v) += 0.3;
+  const SmallestGap gap = smallest_gap(s.triangles, s.x, group);
+  double nearest = 1e300;
+  for (std::size_t i = 0; i < s.triangles.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (group[i] != group[j]) nearest = std::min(nearest, sampled_distance(s.x, s.triangles[i], s.triangles[j], 2));
+  EXPECT_NE(group[gap.first], group[gap.second]);
+  EXPECT_GE(gap.distance, 0.3);
+  EXPECT_LE(gap.distance, nearest);
+  EXPECT_GT(gap.distance, nearest - 0.02);
+}
+
 TEST(SmallestGap, LooksAsFarAsItHasTo) {
   Positions x(3, 6);
   x << 0, 1, 0, 0, 1, 0,  //
