@@ -9,7 +9,7 @@ import queue
 import threading
 import weakref
 from collections.abc import Callable
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +51,7 @@ class _Context:
     """What a call tells of itself and is cancelled by."""
 
     def __init__(self, tell: Optional[Callable[[Any, Any], int]]):
-        self._on_progress = ProgressFunction(tell) if tell else ProgressFunction()
+        self._on_progress = ProgressFunction(tell) if tell else ProgressFunction(0)
         self.handle = ctypes.c_void_p(library.unsnarl_context_new(self._on_progress, None))
         if not self.handle:
             raise MemoryError("there is not enough memory")
@@ -99,6 +99,14 @@ def call(name: str, *arguments: Any) -> Outcome:
     return Outcome(handle)
 
 
+def _next(news: queue.SimpleQueue[Any]) -> Any:
+    """What has come; None: nothing for a while."""
+    try:
+        return news.get(timeout=_SIGNAL_INTERVAL_S)
+    except queue.Empty:
+        return None
+
+
 def call_and_wait(name: str, *arguments: Any, progress: Optional[Callable[[Progress], object]]) -> Outcome:
     """The same of a function that takes a context, which is not to be given either.
 
@@ -124,18 +132,16 @@ def call_and_wait(name: str, *arguments: Any, progress: Optional[Callable[[Progr
 
     worker = threading.Thread(target=work, name=f"unsnarl_{name}")
     raised: Optional[BaseException] = None
-    came_to: Any = None
+    came_to: Union[Outcome, BaseException, None] = None
     worker.start()
     try:
         while came_to is None:
             try:
-                report = news.get(timeout=_SIGNAL_INTERVAL_S)
+                report = _next(news)
                 if not isinstance(report, Progress):
                     came_to = report
                 elif raised is None and progress is not None:
                     progress(report)
-            except queue.Empty:
-                pass
             except BaseException as error:
                 if raised is None:
                     raised = error
@@ -144,8 +150,8 @@ def call_and_wait(name: str, *arguments: Any, progress: Optional[Callable[[Progr
         if came_to is None:  # interrupted between the lines above
             context.cancel()
         worker.join()
-    if raised is None and isinstance(came_to, BaseException):
-        raised = came_to
     if raised is not None:
         raise raised
+    if isinstance(came_to, BaseException):
+        raise came_to
     return came_to
