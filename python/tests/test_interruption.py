@@ -47,6 +47,15 @@ def test_an_exception_in_progress_cancels_and_is_raised(long_work, error):
     assert len(calls) == 1
 
 
+def test_a_bar(sheets, capsys):
+    unsnarl.repair(*sheets, progress=True)
+    written = capsys.readouterr().err
+    assert written.startswith("\r") and written.endswith("\n") and written.count("\n") == 1
+    assert "untangle" in written and written.split("\r")[-1].startswith("100% |##############################|")
+    unsnarl.repair(*sheets, progress=False)
+    assert capsys.readouterr().err == ""
+
+
 def test_other_threads_run_meanwhile(sheets):
     turns, done = [], threading.Event()
 

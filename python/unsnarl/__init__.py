@@ -21,12 +21,13 @@ What is passed in is never changed. Arguments that make no sense raise ValueErro
 untangled raises nothing, its ``Result.status`` says so.
 """
 
-from ._call import Progress, Status
+from ._call import Status
 from ._certify import Certificate, certify
 from ._curves import CurveResult, find_crossings, untangle_curves
 from ._intersections import Intersections, find_intersections
 from ._library import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
+from ._progress import Progress
 from ._repair import Result, repair
 from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
 from ._spaces import (

@@ -9,12 +9,13 @@ import queue
 import threading
 import weakref
 from collections.abc import Callable
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._library import ArrayStruct, ProgressFunction, check, library
+from ._progress import OnProgress, Progress, ProgressBar, function_of
 
 #: Seconds after which a thread that waits looks for signals, where none has woken it.
 _SIGNAL_INTERVAL_S = 0.1
@@ -36,15 +37,6 @@ class Status(str, enum.Enum):
     cancelled = "cancelled"  #: not seen from Python, where what cancels is raised
 
     __str__ = str.__str__
-
-
-class Progress(NamedTuple):
-    """How far a repair has come."""
-
-    fraction: float  #: in [0, 1], never decreases
-    phase: str  #: "diagnose", "untangle", "recover", "certify"
-    pairs_left: int  #: intersecting pairs of triangles at this moment
-    displacement_rel: float  #: largest displacement at this moment / bounding-box diagonal
 
 
 class _Context:
@@ -107,14 +99,13 @@ def _next(news: queue.SimpleQueue[Any]) -> Any:
         return None
 
 
-def call_and_wait(name: str, *arguments: Any, progress: Optional[Callable[[Progress], object]]) -> Outcome:
+def call_and_wait(name: str, *arguments: Any, progress: OnProgress) -> Outcome:
     """The same of a function that takes a context, which is not to be given either.
 
     It works in a thread of its own, while this one serves Python: it hands out progress and heeds Ctrl-C. What is
     raised here cancels the work, and is raised once that has stopped.
     """
-    if progress is not None and not callable(progress):
-        raise TypeError(f"progress is {progress!r}; give a function that takes a Progress")
+    show = function_of(progress)
     news: queue.SimpleQueue[Any] = queue.SimpleQueue()  # a Progress each; what the work came to ends it
 
     def tell(report: Any, _: Any) -> int:
@@ -122,7 +113,7 @@ def call_and_wait(name: str, *arguments: Any, progress: Optional[Callable[[Progr
         news.put(Progress(now.fraction, now.phase.decode(), now.pairs_left, now.displacement_rel))
         return 0
 
-    context = _Context(tell if progress is not None else None)
+    context = _Context(tell if show is not None else None)
 
     def work() -> None:
         try:
@@ -140,8 +131,8 @@ def call_and_wait(name: str, *arguments: Any, progress: Optional[Callable[[Progr
                 report = _next(news)
                 if not isinstance(report, Progress):
                     came_to = report
-                elif raised is None and progress is not None:
-                    progress(report)
+                elif raised is None and show is not None:
+                    show(report)
             except BaseException as error:
                 if raised is None:
                     raised = error
@@ -150,6 +141,8 @@ def call_and_wait(name: str, *arguments: Any, progress: Optional[Callable[[Progr
         if came_to is None:  # interrupted between the lines above
             context.cancel()
         worker.join()
+        if isinstance(show, ProgressBar):
+            show.close()
     if raised is not None:
         raise raised
     if isinstance(came_to, BaseException):

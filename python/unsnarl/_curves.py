@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arguments import polylines_of, vertex_flags
-from ._call import Progress, Status, call, call_and_wait
+from ._call import Status, call, call_and_wait
 from ._options import options_of
+from ._progress import OnProgress
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ def untangle_curves(
     junction: float = 1e-9,
     time_limit: float = 0,
     recover: bool = True,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> CurveResult:
     """Moves the points of polylines in the plane as little as possible until no two segments cross or touch.
 
@@ -71,7 +72,7 @@ def untangle_curves(
     recover
         False: stop once nothing crosses, without opening and smoothing anything (for research).
     progress
-        Called with a Progress now and then.
+        Called with a Progress now and then; True draws a bar.
 
     Raises
     ------

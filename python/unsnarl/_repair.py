@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ._call import Progress, Status, call_and_wait
+from ._call import Status, call_and_wait
 from ._options import options_of
+from ._progress import OnProgress
 from ._scenes import scene_of
 
 
@@ -57,7 +57,7 @@ def repair(
     threads: int = 0,
     recover: bool = True,
     paper: bool = False,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> Result:
     """Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
 
@@ -103,7 +103,8 @@ def repair(
     paper
         The configuration of the paper instead of the regional one (for research).
     progress
-        Called with a Progress now and then, from the thread that called repair. What it returns is ignored.
+        Called with a Progress now and then, from the thread that called repair. What it returns is ignored. True draws
+        a bar on standard error, also in notebooks.
 
     Raises
     ------

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from ctypes import c_size_t
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Optional
@@ -11,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arguments import frame_range, surface_of, vertex_flags
-from ._call import Progress, Status, call_and_wait
+from ._call import Status, call_and_wait
 from ._options import options_of
+from ._progress import OnProgress
 
 
 class Jitter(NamedTuple):
@@ -67,7 +67,7 @@ def repair_sequence(
     weld_tolerance: float = 0.0,
     both_diagonals: bool = False,
     threads: int = 0,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> SequenceResult:
     """Repairs the frames of a moving mesh so that corrections go on smoothly in time, and certifies each by itself.
 
@@ -88,7 +88,7 @@ def repair_sequence(
     weld, weld_tolerance, both_diagonals, threads
         As for find_intersections.
     progress
-        Called with a Progress after each frame.
+        Called with a Progress after each frame; True draws a bar.
 
     Raises
     ------

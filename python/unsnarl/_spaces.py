@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arguments import polylines_of, surface_of
-from ._call import Outcome, Progress, Status, call, call_and_wait
+from ._call import Outcome, Status, call, call_and_wait
 from ._options import name_of, options_of
+from ._progress import OnProgress
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ def seifert_surface(
     views: int = 60,
     fair: bool = True,
     time_limit: float = 0,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> SeifertSurface:
     """An oriented surface without self-intersections whose boundary is a closed polygon in space, or several.
 
@@ -53,7 +53,7 @@ def seifert_surface(
     time_limit
         Seconds after which fairing stops. 0: none.
     progress
-        Called with a Progress now and then.
+        Called with a Progress now and then; True draws a bar.
 
     Raises
     ------
@@ -115,7 +115,7 @@ def planar_isotopy(
     *,
     points: int = 0,
     time_limit: float = 0,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> Isotopy:
     """Moves closed curves in the plane to others so that at no time one crosses itself or another.
 
@@ -128,7 +128,7 @@ def planar_isotopy(
     time_limit
         Seconds after which to stop. 0: none.
     progress
-        Called with a Progress now and then.
+        Called with a Progress now and then; True draws a bar.
 
     Raises
     ------
