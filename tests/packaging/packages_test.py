@@ -12,7 +12,7 @@ PROJECT = Path(__file__).resolve().parents[2]
 SKIPPED = 77
 INSTALLED = [
     "bin/unsnarl", "include/unsnarl/repair.h", "include/unsnarl/unsnarl.h", "lib/libunsnarl.a", "lib/libunsnarl_c.so",
-    "lib/cmake/unsnarl/unsnarl-config.cmake", "share/man/man1/unsnarl.1", "share/doc/unsnarl/NOTICE",
+    "lib/cmake/unsnarl/unsnarl-config.cmake", "share/man/man1/unsnarl.1.gz", "share/doc/unsnarl/copyright",
     "share/bash-completion/completions/unsnarl.bash", "share/zsh/vendor-completions/_unsnarl",
     "share/fish/vendor_completions.d/unsnarl.fish",
 ]
