@@ -69,7 +69,7 @@ unsnarl_options default_options() {
   options.min_dihedral = repair.min_dihedral_deg;
   options.memory_limit = repair.memory_limit_mb;
   options.each_component = repair.each_component;
-  options.paper = repair.paper;
+  options.paper = repair.paper.has_value();
   options.time_limit = repair.time_limit_s;
   options.recover = repair.recover;
   options.first_frame = sequence.first;
@@ -157,7 +157,7 @@ RepairOptions repair_options(const unsnarl_options& options, const unsnarl_surfa
   repair.min_dihedral_deg = options.min_dihedral;
   repair.memory_limit_mb = options.memory_limit;
   repair.recover = options.recover != 0;
-  repair.paper = options.paper != 0;
+  if (options.paper) repair.paper.emplace();
   repair.each_component = options.each_component != 0;
   if (surface.document != nullptr) {
     const Document& document = surface.document->document;

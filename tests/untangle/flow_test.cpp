@@ -347,14 +347,14 @@ TEST(FlowSamples, GeodesicsFollowTheSurface) {
   }
 }
 
-class PaperUntangleTest : public testing::TestWithParam<std::pair<BandwidthScope, bool>> {};
+class PaperUntangleTest : public testing::TestWithParam<std::pair<PaperBandwidth, bool>> {};
 
 TEST_P(PaperUntangleTest, PartsTwoSpheres) {
   Shape shape = sphere(Vec3(0, 0, 0), 1, 12);
   shape.add(sphere(Vec3(1.9, 0.05, 0.02), 1, 12));
   Patch patch = patch_of(shape);
   PaperOptions options;
-  options.scope = GetParam().first;
+  options.bandwidth = GetParam().first;
   options.adaptive = GetParam().second;
   options.max_iterations = 300;
   const PaperResult result = paper_untangle(patch, options);
@@ -368,10 +368,12 @@ TEST_P(PaperUntangleTest, PartsTwoSpheres) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllModels, PaperUntangleTest,
-                         testing::Values(std::pair{BandwidthScope::global, false},
-                                         std::pair{BandwidthScope::global, true},
-                                         std::pair{BandwidthScope::local, false},
-                                         std::pair{BandwidthScope::local, true}));
+                         testing::Values(std::pair{PaperBandwidth::global, false},
+                                         std::pair{PaperBandwidth::global, true},
+                                         std::pair{PaperBandwidth::independent, false},
+                                         std::pair{PaperBandwidth::independent, true},
+                                         std::pair{PaperBandwidth::symmetric, false},
+                                         std::pair{PaperBandwidth::symmetric, true}));
 
 TEST(PaperUntangle, DoesNotDependOnTheUnit) {
   Patch small = patch_of(limb_and_sheet()), large = small;
@@ -389,10 +391,10 @@ TEST(PaperUntangle, EveryEnergyCanBeLeftOut) {
   Shape shape = sphere(Vec3(0, 0, 0), 1, 12);
   shape.add(sphere(Vec3(1.9, 0.05, 0.02), 1, 12));
   PaperOptions by_length, gaussian_alone, nothing;
-  by_length.mesh_energy = MeshEnergy::intersection_length;
+  by_length.mesh_energy = PaperMeshEnergy::intersection_length;
   by_length.lambda_gaussian = 0;
-  gaussian_alone.lambda_minkowski = 0;
-  nothing.lambda_gaussian = nothing.lambda_minkowski = 0;
+  gaussian_alone.lambda_mesh = 0;
+  nothing.lambda_gaussian = nothing.lambda_mesh = 0;
   for (PaperOptions* options : {&by_length, &gaussian_alone}) {
     options->max_iterations = 300;
     Patch patch = patch_of(shape);
@@ -405,7 +407,7 @@ TEST(PaperUntangle, EveryEnergyCanBeLeftOut) {
 
 TEST(PaperUntangle, BandwidthsAreScaledAfterTheyAreFound) {
   PaperOptions options;
-  options.scope = BandwidthScope::global;
+  options.bandwidth = PaperBandwidth::global;
   options.adaptive = false;
   options.max_iterations = 1;
   const auto bandwidth = [&](double scale) {
