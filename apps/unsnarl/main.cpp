@@ -23,6 +23,7 @@
 #include "unsnarl/exit_code.h"
 #include "unsnarl/version.h"
 #include "usage_error.h"
+#include "version.h"
 #include "view.h"
 
 namespace unsnarl::app {
@@ -39,7 +40,9 @@ int run(int argc, char** argv) {
       "Takes a surface mesh that runs through itself and gives back the same mesh (same vertices, faces, texture\n"
       "coordinates, everything), moved as little as possible, with no self-intersection left. Certified exactly.",
       "unsnarl");
-  program.set_version_flag("--version", std::string("unsnarl ") + version);
+  bool as_json = false;
+  program.add_flag("--json", as_json, "With --version: as JSON, with the versions of all libraries inside");
+  program.set_version_flag("--version", [&] { return as_json ? version_json() : std::string("unsnarl ") + version; });
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
   FixOptions fix;
