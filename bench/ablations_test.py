@@ -45,14 +45,14 @@ class AblationsTest(unittest.TestCase):
 
     def test_tables_and_resuming(self):
         text = self.ablations("bandwidth")
-        self.assertEqual(self.call_count(), 4)
-        self.assertIn("| local adaptive | 1 | 20 |", text)
-        self.assertIn("| local frozen | 0 | not reached |", text)
+        self.assertEqual(self.call_count(), 6)
+        self.assertIn("| symmetric adaptive | 1 | 20 |", text)
+        self.assertIn("| symmetric frozen | 0 | not reached |", text)
         self.assertIn("7 left (1 %)", text)
         self.assertEqual(self.ablations("bandwidth"), text)
-        self.assertEqual(self.call_count(), 4, "finished runs were repeated")
+        self.assertEqual(self.call_count(), 6, "finished runs were repeated")
         self.ablations("bandwidth", "energies")
-        self.assertEqual(self.call_count(), 7, "what two experiments share is run once")
+        self.assertEqual(self.call_count(), 9, "what two experiments share is run once")
         with (self.root / "out/results.csv").open(newline="") as file:
             rows = {(row["experiment"], row["variant"]): row for row in csv.DictReader(file)}
         self.assertEqual(rows["energies", "both"]["iterations"], "20")

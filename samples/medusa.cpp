@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "samples/lattice_noise.h"
 #include "samples/sphere_grid.h"
@@ -40,6 +44,50 @@ Vec3 root_of(int snake, int count) {
   return Eigen::AngleAxisd(-0.72, Vec3::UnitX()) * on_cap;  // the crown lies behind the top
 }
 
+/// The middle of a snake, t in [0, 1].
+using Spine = std::function<Vec3(double)>;
+
+/// Grows from `root` in a way of its own for each seed: a direction that sweeps over the scalp in waves, and a height
+/// above the bust that rises. Never inside the bust.
+Spine spine_from(const Vec3& root, std::uint32_t seed, double push) {
+  const auto random = [seed](std::uint32_t what) { return hashed_unit(40 + what, seed); };
+  const Vec3 sweep = Eigen::AngleAxisd(2 * pi * random(0), root) * root.unitOrthogonal(), across = root.cross(sweep);
+  const double reach = 0.35 + 0.45 * random(1), wave = 0.10 + 0.10 * random(2), turns = 1.5 + 1.5 * random(3);
+  const double phase = 2 * pi * random(4), rise = 0.35 + 0.5 * random(5);
+  return [=](double t) {
+    const double swing = 2 * pi * turns * t + phase;
+    const Vec3 direction = (root + std::tan(reach * t) * sweep + wave * t * std::sin(swing) * across).normalized();
+    const double height = 0.09 + rise * t * (1 + 0.25 * std::sin(swing + 1.3));
+    return Vec3((bust(direction) + height - push * (1 - t) * (1 - t)) * direction);
+  };
+}
+
+/// Places along spines; near what it holds, a snake would have to be thinner than asked for.
+class Spines {
+ public:
+  /// The least distance of the spine from those added, and from itself beyond its next neighbourhood.
+  double clearance(const Spine& spine) const {
+    const std::vector<Vec3> own = places(spine);
+    double least = 1;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      for (const Vec3& other : all_) least = std::min(least, (own[i] - other).norm());
+      for (std::size_t j = i + 10; j < own.size(); ++j) least = std::min(least, (own[i] - own[j]).norm());
+    }
+    return least;
+  }
+  void add(const Spine& spine) {
+    for (const Vec3& place : places(spine)) all_.push_back(place);
+  }
+
+ private:
+  static std::vector<Vec3> places(const Spine& spine) {
+    std::vector<Vec3> all;
+    for (int i = 0; i <= 64; ++i) all.push_back(spine(i / 64.0));
+    return all;
+  }
+  std::vector<Vec3> all_;
+};
+
 }  // namespace
 
 Surface medusa(int resolution, const SampleValues& values) {
@@ -48,20 +96,19 @@ Surface medusa(int resolution, const SampleValues& values) {
   MeshBuilder builder;
   builder.append(
       sample_sphere(std::max(2, resolution / 4), FaceKind::triangles, [](const Vec3& d) { return Vec3(bust(d) * d); }));
+  Spines spines;
   for (int k = 0; k < count; ++k) {
-    const auto random = [k](std::uint32_t what) { return hashed_unit(40 + what, static_cast<std::uint32_t>(k)); };
+    // The first of many ways to grow that keeps apart from all spines before it, or the one that comes closest to that.
     const Vec3 root = root_of(k, count);
-    const Vec3 side = root.unitOrthogonal();
-    const Vec3 sweep = Eigen::AngleAxisd(2 * pi * random(0), root) * side, across = root.cross(sweep);
-    const double reach = 0.35 + 0.45 * random(1), wave = 0.10 + 0.10 * random(2), turns = 1.5 + 1.5 * random(3);
-    const double phase = 2 * pi * random(4), rise = 0.35 + 0.5 * random(5);
-    // A direction that sweeps over the scalp in waves, and a height above the bust that rises: never inside it.
-    const auto spine = [=](double t) {
-      const Vec3 direction =
-          (root + std::tan(reach * t) * sweep + wave * t * std::sin(2 * pi * turns * t + phase) * across).normalized();
-      const double height = 0.09 + rise * t * (1 + 0.25 * std::sin(2 * pi * turns * t + phase + 1.3));
-      return Vec3((bust(direction) + height - push * (1 - t) * (1 - t)) * direction);
-    };
+    std::uint32_t best = 0;
+    double widest = -1;
+    for (std::uint32_t way = 0; way < 64 && widest < 0.06; ++way) {
+      const std::uint32_t seed = 64 * static_cast<std::uint32_t>(k) + way;
+      const double clearance = spines.clearance(spine_from(root, seed, 0));
+      if (clearance > widest) std::tie(widest, best) = std::pair(clearance, seed);
+    }
+    spines.add(spine_from(root, best, 0));
+    const Spine spine = spine_from(root, best, push);
     const auto radius = [=](double t) {
       const double body = 1 - 0.6 * t + 0.45 * std::exp(-std::pow((t - 0.93) / 0.05, 2));  // a head near the end
       return thick * body * std::sqrt(std::min(1.0, std::min(t + 0.01, 1.01 - t) / 0.06));

@@ -88,7 +88,7 @@ std::vector<SampleMaker> scene_samples() {
         {{"snakes", 60, 1, 400, "number of snakes", true},
          {"thickness", 1, 0.1, 2, "of the snakes; at 0.25, and without a push, nothing intersects"},
          {"push", 0.16, 0, 0.4, "how far their roots are pushed toward the head, whose height is 2"}}},
-       24,
+       22,
        medusa},
   };
 }

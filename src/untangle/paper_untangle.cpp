@@ -28,7 +28,8 @@ constexpr double smallest_bandwidth = 0.01;
 
 std::vector<std::vector<Index>> faces_of(const Patch& patch, std::span<const Index> face_of) {
   std::vector<Index> face;
-  for (const Index t : patch.faces) face.push_back(face_of.empty() ? t : face_of[t]);
+  for (std::size_t t = 0; t < patch.triangles.size(); ++t)
+    face.push_back(face_of.empty() ? static_cast<Index>(t) : face_of[patch.faces[t]]);
   return convex_faces(patch.triangles, face, patch.rest);
 }
 
