@@ -10,15 +10,16 @@
 
 #include "applications/seifert/embedded_mesh.h"
 #include "geometry/predicates.h"
+#include "geometry/splitmix.h"
 #include "geometry/triangle_intersection.h"
 #include "mesh/union_find.h"
 
 namespace unsnarl {
 namespace {
 
-/// First distance of a push-off / smallest height of the triangle; each further try is a tenth of the one before.
-constexpr double first_offset = 1e-3;
-constexpr int most_tries = 8;
+/// Distances of a push-off / smallest height of the triangle, in the order of trying: near enough not to get to the
+/// other side of a sheet that is near, and then farther than what rounding hides.
+constexpr std::array<double, 9> offsets = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-2};
 constexpr double grid_cells = 40;  // along the longest side
 
 /// A loop: faces, each joined to the next by an edge.
@@ -163,9 +164,7 @@ class PushOffs {
 
   /// Between 0.4 and 0.6, another one for each number: points of symmetric meshes, and those above and below a level
   /// face, would lie in line.
-  static double jitter(Index id) {
-    return 0.4 + 0.2 * static_cast<double>((static_cast<std::uint32_t>(id) * 2654435761u) >> 8) / 16777216.0;
-  }
+  static double jitter(Index id) { return 0.4 + 0.2 * splitmix_number(static_cast<std::uint64_t>(id) * splitmix_step); }
   Vec3 place(Index f, Index side) const {
     const double s = jitter(4 * f + side), t = jitter(4 * f + 2 + side);
     const Vec3 middle = (1 - s) * x_[faces_[f][0]] + s * x_[faces_[f][1]];
@@ -233,9 +232,8 @@ SeifertMatrix seifert_matrix(std::span<const Vec3> x, std::span<const Triangle> 
   PushOffs push_offs(x, faces, loops);
   std::vector<std::array<Polygon, 2>> pushed;
   for (const Loop& loop : basis) {
-    double offset = first_offset;
     std::optional<std::array<Polygon, 2>> sides;
-    for (int k = 0; k < most_tries && !sides; ++k, offset /= 10) sides = push_offs.push(loop, offset);
+    for (std::size_t k = 0; k < offsets.size() && !sides; ++k) sides = push_offs.push(loop, offsets[k]);
     if (!sides) throw std::runtime_error("the sheets of the surface are too close to push a loop off it");
     pushed.push_back(std::move(*sides));
   }
