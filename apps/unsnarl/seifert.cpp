@@ -179,7 +179,11 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
       surface_file(result.surface, *format, fmt::format("Seifert surface of {}, by unsnarl", options.input));
   SeifertFindings found;
   const auto certify = [&](const Document& document) {
-    found = check_seifert_surface(document.surface(), link, options.views);
+    try {
+      found = check_seifert_surface(document.surface(), link, options.views);
+    } catch (const std::invalid_argument& e) {
+      throw FileError(fmt::format("{}: {}; nothing was written", options.input, e.what()));
+    }
     if (!found.hold())
       throw std::logic_error("the file to be written is no Seifert surface of the link: " + faults(found));
   };

@@ -126,13 +126,16 @@ TEST(SeifertSurface, RandomPolygonsOfFewPointsAreSpanned) {
 }
 
 TEST(SeifertSurface, FlatAndSteepKnotsAndPlanarDiagramsAreSpanned) {
-  for (const double height : {1e-9, 1e-3, 1e3}) {
+  for (const double height : {1e-6, 1e-3, 1e3}) {
     SCOPED_TRACE(height);
     Link link = knot_of_table("4_1");
     for (std::size_t k = 2; k < link.components[0].size(); k += 3) link.components[0][k] *= height;
     EXPECT_TRUE(spanned(link, {.fair = false}).hold());
   }
   EXPECT_TRUE(spanned(parse_link("X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]"), {.fair = false}).hold());
+  Link flat = knot_of_table("4_1");
+  for (std::size_t k = 2; k < flat.components[0].size(); k += 3) flat.components[0][k] *= 1e-9;
+  EXPECT_THROW(spanned(flat, {.fair = false}), std::invalid_argument);
 }
 
 TEST(SeifertSurface, TheTimeLimitHoldsWhileTrianglesAreSplit) {

@@ -246,13 +246,16 @@ SeifertMatrix seifert_matrix(std::span<const Vec3> x, std::span<const Triangle> 
     std::optional<std::array<Polygon, 2>> sides;
     for (double limit_rel = first_limit_rel; limit_rel >= least_limit_rel && !sides; limit_rel /= 10)
       sides = push_offs.push(loop, limit_rel);
-    if (!sides) throw std::runtime_error("the sheets of the surface are too close to push a loop off it");
+    if (!sides)
+      throw std::invalid_argument(
+          "the surface is too thin to tell its sides apart in 64-bit numbers; is the link much longer one way than "
+          "another? Stretch it");
     pushed.push_back(std::move(*sides));
   }
   for (std::size_t i = 0; i < basis.size(); ++i)
     for (std::size_t j = 0; j < basis.size(); ++j) {
       const std::optional<std::int64_t> number = linking_number(pushed[i][1], pushed[j][0]);
-      if (!number) throw std::runtime_error("two loops of the surface lie in line");
+      if (!number) throw std::invalid_argument("two loops of the surface lie in line; turn the link a little");
       matrix.entries[i * basis.size() + j] = *number;
     }
   return matrix;
