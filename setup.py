@@ -1,27 +1,33 @@
-"""Has CMake build the compiled part of the Python module; all else is in pyproject.toml."""
+"""Has CMake build the library that the Python package calls; all else is in pyproject.toml."""
 
 import os
 import re
 import subprocess
-import sys
 from pathlib import Path
 
-from setuptools import Extension, setup
-from setuptools.command.build_ext import build_ext
+from setuptools import Distribution, setup
+from setuptools.command.build_py import build_py
+
+try:
+    from setuptools.command.bdist_wheel import bdist_wheel
+except ImportError:  # setuptools before 70.1
+    from wheel.bdist_wheel import bdist_wheel
 
 PROJECT = Path(__file__).parent.resolve()
 
 
-class CMakeBuild(build_ext):
-    def build_extension(self, ext):
-        destination = Path(self.get_ext_fullpath(ext.name)).resolve().parent.parent
+class BuildWithLibrary(build_py):
+    def run(self):
+        super().run()
         build = os.environ.get("UNSNARL_BUILD_DIR")  # one that is configured and built already
         if not build:
-            build = Path(self.build_temp).resolve()
+            build = Path(self.get_finalized_command("build").build_temp).resolve()
             cmake("-S", PROJECT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DUNSNARL_BUILD_PYTHON=ON",
-                  "-DUNSNARL_BUILD_APPS=OFF", "-DUNSNARL_BUILD_TESTS=OFF", f"-DPython3_EXECUTABLE={sys.executable}")
+                  "-DUNSNARL_BUILD_APPS=OFF", "-DUNSNARL_BUILD_TESTS=OFF")
             jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or os.cpu_count() or 1
-            cmake("--build", build, "--target", "unsnarl_python", "--parallel", jobs)
+            cmake("--build", build, "--target", "unsnarl_c", "--parallel", jobs)
+        # An editable package is where its sources are.
+        destination = PROJECT / "python" if getattr(self, "editable_mode", False) else Path(self.build_lib).resolve()
         cmake("--install", build, "--component", "unsnarl_python", "--prefix", destination)
 
 
@@ -29,8 +35,18 @@ def cmake(*arguments):
     subprocess.run(["cmake", *map(str, arguments)], check=True)
 
 
+class WithLibrary(Distribution):
+    def has_ext_modules(self):
+        return True  # for one kind of machine
+
+
+class WheelForAnyPython(bdist_wheel):
+    def get_tag(self):
+        return "py3", "none", super().get_tag()[2]
+
+
 setup(
     version=re.search(r"project\(unsnarl VERSION ([\d.]+)", (PROJECT / "CMakeLists.txt").read_text())[1],
-    ext_modules=[Extension("unsnarl._native", sources=[])],
-    cmdclass={"build_ext": CMakeBuild},
+    distclass=WithLibrary,
+    cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelForAnyPython},
 )

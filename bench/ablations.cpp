@@ -127,7 +127,7 @@ Json untangle(const Options& options) {
   Subject subject(Document::read(options.input).surface());
   const auto begin = Clock::now();
   const auto stop = [&] { return seconds_since(begin) > options.time_limit_s; };
-  const PaperResult result = paper_untangle(subject.patch, options.paper, stop);
+  const PaperResult result = paper_untangle(subject.patch, options.paper, subject.prepared.triangulation.polygon, stop);
   Json row;
   row["triangles"] = subject.scene.triangle_count();
   row["pairs_before"] = subject.diagnosis.pairs.size();
@@ -151,7 +151,7 @@ Json untangle(const Options& options) {
 Json repair_all(const Options& options) {
   Subject subject(Document::read(options.input).surface());
   RepairOptions repair_options;
-  repair_options.paper = options.repair_as_paper;
+  if (options.repair_as_paper) repair_options.paper.emplace();
   repair_options.without_strategies = options.without;
   repair_options.find.threads = options.threads;
   repair_options.time_limit_s = options.time_limit_s;
@@ -194,7 +194,7 @@ Json recover_knot(const Options& options, bool from_torus) {
     const Surface torus = sample_tube(tube);
     subject.patch.x = subject.prepared.gather(torus.positions);
   } else {
-    row["iterations"] = paper_untangle(subject.patch, options.paper, stop).iterations;
+    row["iterations"] = paper_untangle(subject.patch, options.paper, {}, stop).iterations;
   }
   const std::vector<double> start = subject.positions();
   add_measures(subject, start, "", row);
@@ -207,16 +207,17 @@ Json recover_knot(const Options& options, bool from_torus) {
 
 void add_untangle_options(CLI::App& command, Options& options) {
   PaperOptions& paper = options.paper;
-  const std::map<std::string, BandwidthScope> scopes = {{"global", BandwidthScope::global},
-                                                        {"local", BandwidthScope::local}};
-  const std::map<std::string, MeshEnergy> energies = {{"depth", MeshEnergy::penetration_depth},
-                                                      {"length", MeshEnergy::intersection_length}};
-  command.add_option("--scope", paper.scope, "bandwidths")->transform(CLI::CheckedTransformer(scopes));
+  const std::map<std::string, PaperBandwidth> bandwidths = {{"global", PaperBandwidth::global},
+                                                            {"independent", PaperBandwidth::independent},
+                                                            {"symmetric", PaperBandwidth::symmetric}};
+  const std::map<std::string, PaperMeshEnergy> energies = {{"depth", PaperMeshEnergy::penetration_depth},
+                                                           {"length", PaperMeshEnergy::intersection_length}};
+  command.add_option("--bandwidth", paper.bandwidth, "model")->transform(CLI::CheckedTransformer(bandwidths));
   command.add_flag("--frozen", options.frozen, "bandwidths stay as they are at the start");
   command.add_option("--bandwidth-scale", paper.bandwidth_scale, "times the bandwidths found");
-  command.add_option("--largest-bandwidth", paper.largest_bandwidth, "in mean edges");
+  command.add_option("--neighbourhood", paper.neighbourhood, "in bandwidths");
   command.add_option("--gaussian", paper.lambda_gaussian, "weight of the Gaussian energy");
-  command.add_option("--mesh", paper.lambda_minkowski, "weight of the mesh energy");
+  command.add_option("--mesh", paper.lambda_mesh, "weight of the mesh energy");
   command.add_option("--mesh-energy", paper.mesh_energy, "what it is")->transform(CLI::CheckedTransformer(energies));
   command.add_option("--arap", paper.lambda_arap, "weight of ARAP");
   command.add_option("--iterations", paper.max_iterations, "at most");

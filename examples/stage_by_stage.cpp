@@ -40,7 +40,7 @@ int main() {
   print("and recovered", recovered);
 
   // The configuration of the paper, which looks at faces without a common vertex only.
-  options.paper = true;
+  options.paper.emplace();
   options.goal = unsnarl::Goal::disjoint;
   print("as in the paper", unsnarl::repair(surface, options));
 

@@ -103,6 +103,21 @@ Surface hair_cards(int resolution, const SampleValues& values) {
   return builder.take();
 }
 
+/// Paper fig. 17: high-frequency noise on a plane square.
+Surface crumpled_sheet(int resolution, const SampleValues& values) {
+  const double cells = values["frequency"], amplitude = values["amplitude"] / cells;
+  const auto seed = static_cast<std::uint32_t>(values.whole("seed"));
+  return sample_grid({{-1, 1, resolution}, {-1, 1, resolution}}, [&](double u, double v) {
+    Vec3 noise;
+    for (int k = 0; k < 3; ++k) {
+      const double x = (u + 1) * cells / 2 + 0.31 * k, y = (v + 1) * cells / 2 + 0.57 * k;
+      const auto layer = 8 * seed + 2 * static_cast<std::uint32_t>(k);
+      noise[k] = lattice_noise(x, y, layer) + 0.5 * lattice_noise(2 * x, 2 * y, layer + 1);
+    }
+    return Vec3(Vec3(u, 0, v) + 2 * amplitude * noise);
+  });
+}
+
 }  // namespace
 
 std::vector<SampleMaker> modelled_samples() {
@@ -123,6 +138,13 @@ std::vector<SampleMaker> modelled_samples() {
         {{"cards", 60, 1, 1000, "number of strips", true}}},
        36,
        hair_cards},
+      {{"crumpled_sheet",
+        "plane square with high-frequency noise in all directions: a dense network of short double curves",
+        {{"amplitude", 0.5, 0, 3, "height of the noise, in lengths of its cells"},
+         {"frequency", 12, 2, 200, "cells of the noise along a side"},
+         {"seed", 1, 0, 1e6, "seed of the noise", true}}},
+       40,
+       crumpled_sheet},
   };
 }
 

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "samples/lattice_noise.h"
+#include "samples/medusa.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 #include "samples/sphere_grid.h"
@@ -12,41 +13,6 @@ namespace unsnarl {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-/// Spheres on the corners of a triangle, each through the others: with three, double circles that cross in two triple
-/// points.
-Surface intersecting_spheres(int resolution, const SampleValues& values) {
-  const int count = values.whole("count");
-  MeshBuilder builder;
-  for (int k = 0; k < count; ++k) {
-    const double angle = 2 * pi * k / count;
-    const Vec3 centre = values["distance"] * Vec3(std::cos(angle), 0.13 * k, std::sin(angle));
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7 * k, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-    builder.append(sample_sphere(std::max(2, resolution / 4), FaceKind::triangles,
-                                 [&](const Vec3& d) { return Vec3(centre + turn * d); }));
-  }
-  return builder.take();
-}
-
-/// Rings in a row, each through its neighbour's tube instead of through its hole.
-Surface linked_rings(int resolution, const SampleValues& values) {
-  const int count = values.whole("count");
-  MeshBuilder builder;
-  for (int k = 0; k < count; ++k) {
-    const Vec3 centre(values["distance"] * k, 0.04 * k, 0.03 * k);
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(k * pi / 2 + 0.2 * k, Vec3::UnitX()).toRotationMatrix();
-    const double tube = 0.3;
-    builder.append(sample_grid({{0, 2 * pi, resolution, Seam::closed},
-                                {0, 2 * pi, steps_for(tube, resolution, 1, 6), Seam::closed},
-                                k % 2 == 0 ? FaceKind::quads : FaceKind::triangles},
-                               [&](double u, double v) {
-                                 const double r = 1 + tube * std::cos(v);
-                                 return Vec3(centre +
-                                             turn * Vec3(r * std::cos(u), tube * std::sin(v), r * std::sin(u)));
-                               }));
-  }
-  return builder.take();
-}
 
 /// Paper fig. 8 shows such a scene: a bell, a second one inside, and tentacles through both and through each other.
 Surface jellyfish(int resolution, const SampleValues& values) {
@@ -105,18 +71,6 @@ Surface anchored_balls(int resolution, const SampleValues& values) {
 
 std::vector<SampleMaker> scene_samples() {
   return {
-      {{"intersecting_spheres",
-        "spheres through each other: closed components, double circles that meet in triple points",
-        {{"count", 3, 2, 12, "number of spheres", true},
-         {"distance", 0.65, 0.2, 2, "distance of their centres from the middle, radius 1"}}},
-       36,
-       intersecting_spheres},
-      {{"linked_rings",
-        "chain of rings whose tubes pass through each other: genus 1 each",
-        {{"count", 3, 2, 12, "number of rings", true},
-         {"distance", 1.75, 0.5, 2.5, "distance between neighbours, ring radius 1"}}},
-       48,
-       linked_rings},
       {{"jellyfish",
         "scene of many objects: two bells and tentacles through each other",
         {{"tentacles", 10, 1, 60, "number of tentacles", true}}},
@@ -129,6 +83,13 @@ std::vector<SampleMaker> scene_samples() {
         {"anchor", "ball"}},
        28,
        anchored_balls},
+      {{"medusa",
+        "bust with snakes for hair, each a component of its own: through the scalp and through each other",
+        {{"snakes", 60, 1, 400, "number of snakes", true},
+         {"thickness", 1, 0.1, 2, "of the snakes; at 0.25, and without a push, nothing intersects"},
+         {"push", 0.16, 0, 0.4, "how far their roots are pushed toward the head, whose height is 2"}}},
+       24,
+       medusa},
   };
 }
 

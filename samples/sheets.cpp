@@ -18,21 +18,6 @@ Surface whitney_umbrella(int resolution, const SampleValues& values) {
                      [](double u, double v) { return Vec3(u * v, v * v, u); });
 }
 
-/// Paper fig. 17: high-frequency noise on a plane square.
-Surface crumpled_sheet(int resolution, const SampleValues& values) {
-  const double cells = values["frequency"], amplitude = values["amplitude"] / cells;
-  const auto seed = static_cast<std::uint32_t>(values.whole("seed"));
-  return sample_grid({{-1, 1, resolution}, {-1, 1, resolution}}, [&](double u, double v) {
-    Vec3 noise;
-    for (int k = 0; k < 3; ++k) {
-      const double x = (u + 1) * cells / 2 + 0.31 * k, y = (v + 1) * cells / 2 + 0.57 * k;
-      const auto layer = 8 * seed + 2 * static_cast<std::uint32_t>(k);
-      noise[k] = lattice_noise(x, y, layer) + 0.5 * lattice_noise(2 * x, 2 * y, layer + 1);
-    }
-    return Vec3(Vec3(u, 0, v) + 2 * amplitude * noise);
-  });
-}
-
 /// Paper fig. 11: pages that share the vertices of one spine, each bent so far that it runs through its neighbours.
 Surface book(int resolution, const SampleValues& values) {
   const int pages = values.whole("pages");
@@ -128,13 +113,6 @@ std::vector<SampleMaker> sheet_samples() {
         {{"reach", 1.2, 0.5, 3, "half the width of the sheet across the double line"}}},
        44,
        whitney_umbrella},
-      {{"crumpled_sheet",
-        "plane square with high-frequency noise in all directions: a dense network of short double curves",
-        {{"amplitude", 0.5, 0, 3, "height of the noise, in lengths of its cells"},
-         {"frequency", 12, 2, 200, "cells of the noise along a side"},
-         {"seed", 1, 0, 1e6, "seed of the noise", true}}},
-       40,
-       crumpled_sheet},
       {{"book",
         "pages welded on one spine, running through each other: non-manifold",
         {{"pages", 7, 3, 40, "number of pages", true}, {"swing", 0.7, 0, 3, "how far the pages swing, in radians"}}},

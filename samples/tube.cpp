@@ -46,6 +46,19 @@ Surface sample_tube(const Tube& tube) {
     for (int j = 0; j < tube.sides; ++j)
       builder.add_cell(vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1), vertex(i + 1, j), tube.faces,
                        (i + j) % 2 != 0);
+  if (tube.capped && !tube.closed)
+    for (const int ring : {0, rings - 1}) {
+      const double t = parameter(ring);
+      const double out = (ring == 0 ? -0.5 : 0.5) * tube.radius(t);
+      const Index tip = builder.add_vertex(tube.centre(t) + out * tangent(t));
+      for (int j = 0; j < tube.sides; ++j) {
+        const Index a = vertex(ring, j), b = vertex(ring, j + 1);
+        if (ring == 0)
+          builder.add_face({tip, b, a});
+        else
+          builder.add_face({tip, a, b});
+      }
+    }
   return builder.take();
 }
 

@@ -17,6 +17,7 @@ struct Tube {
   int steps = 32;                          ///< along
   int sides = 12;                          ///< around
   FaceKind faces = FaceKind::triangles;
+  bool capped = false;  ///< the ends of an open tube are closed, each by a fan around one vertex half a radius beyond
 };
 
 /// Rings in the planes normal to the curve, carried along it without twist; what a closed curve turns the last ring

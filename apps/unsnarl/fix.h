@@ -2,6 +2,7 @@
 
 #include "command_options.h"
 #include "interruption.h"
+#include "unsnarl/paper.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/scene_document.h"
 
@@ -22,6 +23,7 @@ struct FixOptions : MeshOptions {
   Parts fix, only;  ///< held still; worked on, all else held still (empty: everything is worked on)
   bool recompute_normals = false;
   bool paper = false, no_recover = false;
+  PaperOptions paper_options;
   bool sequence = false;  ///< the inputs are frames
   std::string frames;     ///< of a sequence: "first:last"
   std::string report, highlight, picture, view, record;

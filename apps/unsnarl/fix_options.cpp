@@ -4,6 +4,7 @@
 
 #include "fix.h"
 #include "mesh_input.h"
+#include "paper_options.h"
 #include "pictures.h"
 #include "usage_error.h"
 
@@ -167,6 +168,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->group(research);
   command.add_flag("--no-recover", options.no_recover, "Stop after untangling, without moving back toward the input")
       ->group(research);
+  add_paper_options(command, options.paper_options);
   command.footer(
       "Examples:\n"
       "  unsnarl fix hand.obj -o hand_fixed.obj\n"
@@ -201,7 +203,7 @@ RepairOptions repair_options(const FixOptions& options, const SceneDocument& sce
   result.min_dihedral_deg = options.min_dihedral_deg;
   result.time_limit_s = options.time_limit_s;
   result.memory_limit_mb = options.memory_limit_mb;
-  result.paper = options.paper;
+  if (options.paper) result.paper = options.paper_options;
   result.recover = !options.no_recover;
   const bool animated = picture_kind(options.picture) != PictureKind::still;
   if (!options.record.empty() || !options.view.empty() || animated)

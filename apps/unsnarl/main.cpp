@@ -15,6 +15,7 @@
 #include "fix.h"
 #include "interruption.h"
 #include "isotopy.h"
+#include "routes.h"
 #include "sample.h"
 #include "seifert.h"
 #include "standard_streams.h"
@@ -22,6 +23,7 @@
 #include "unsnarl/exit_code.h"
 #include "unsnarl/version.h"
 #include "usage_error.h"
+#include "version.h"
 #include "view.h"
 
 namespace unsnarl::app {
@@ -38,7 +40,9 @@ int run(int argc, char** argv) {
       "Takes a surface mesh that runs through itself and gives back the same mesh (same vertices, faces, texture\n"
       "coordinates, everything), moved as little as possible, with no self-intersection left. Certified exactly.",
       "unsnarl");
-  program.set_version_flag("--version", std::string("unsnarl ") + version);
+  bool as_json = false;
+  program.add_flag("--json", as_json, "With --version: as JSON, with the versions of all libraries inside");
+  program.set_version_flag("--version", [&] { return as_json ? version_json() : std::string("unsnarl ") + version; });
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
   FixOptions fix;
@@ -49,6 +53,7 @@ int run(int argc, char** argv) {
   CurvesOptions curves;
   SeifertCommandOptions seifert;
   IsotopyCommandOptions isotopy;
+  RoutesCommandOptions routes;
   CLI::App* const fix_command = program.add_subcommand("fix", "Repair a mesh");
   CLI::App* const batch_command = program.add_subcommand("batch", "Repair many meshes, each in a process of its own");
   CLI::App* const check_command = program.add_subcommand("check", "Count and locate the self-intersections of a mesh");
@@ -61,6 +66,8 @@ int run(int argc, char** argv) {
       program.add_subcommand("isotopy", "Move closed curves in the plane to others without ever crossing: SVG or JSON");
   CLI::App* const seifert_command =
       program.add_subcommand("seifert", "Span a knot or link by an oriented surface without self-intersections");
+  CLI::App* const routes_command =
+      program.add_subcommand("routes", "Find ways in space that keep clear of each other and of obstacles");
   add_fix_options(*fix_command, fix);
   add_batch_options(*batch_command, batch);
   add_check_options(*check_command, check);
@@ -69,6 +76,7 @@ int run(int argc, char** argv) {
   add_curves_options(*curves_command, curves);
   add_isotopy_options(*isotopy_command, isotopy);
   add_seifert_options(*seifert_command, seifert);
+  add_routes_options(*routes_command, routes);
   program.footer(
       "Examples:\n"
       "  unsnarl check hand.obj                              does it intersect itself, and where?\n"
@@ -84,7 +92,8 @@ int run(int argc, char** argv) {
     if (e.get_exit_code() != 0 && program.get_subcommands().empty())
       return complain(
           exit_usage,
-          "say what to do: fix, batch, check, view, sample, curves, isotopy or seifert; 'unsnarl --help' explains");
+          "say what to do: fix, batch, check, view, sample, curves, isotopy, seifert or routes; 'unsnarl --help' "
+          "explains");
     return program.exit(e, std::cout, std::cerr) == 0 ? exit_embedded : exit_usage;
   }
   std::optional<tbb::global_control> limit;
@@ -97,6 +106,7 @@ int run(int argc, char** argv) {
   if (*curves_command) return run_curves(curves, interruption);
   if (*isotopy_command) return run_isotopy(isotopy, interruption);
   if (*seifert_command) return run_seifert(seifert, interruption);
+  if (*routes_command) return run_routes(routes, interruption);
   return run_sample(sample, interruption);
 }
 

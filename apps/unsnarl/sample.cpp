@@ -15,6 +15,7 @@
 #include "unsnarl/curves.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/link.h"
+#include "unsnarl/routes.h"
 #include "unsnarl/samples.h"
 #include "usage_error.h"
 
@@ -25,6 +26,8 @@ namespace {
 constexpr std::string_view curve_prefix = "curve_";
 /// Samples of knots and links are called by it and a name of knot_table.
 constexpr std::string_view knot_prefix = "knot_";
+/// Samples of plans are called by it and a name of route_plan_samples.
+constexpr std::string_view routes_prefix = "routes_";
 constexpr double curve_points = 600, curve_seed = 1;
 
 /// The kind of curve that a sample is called after; empty: it is a surface.
@@ -39,6 +42,14 @@ const KnotEntry* knot_of(std::string_view name) {
   if (!name.starts_with(knot_prefix)) return nullptr;
   for (const KnotEntry& entry : knot_table())
     if (entry.name == name.substr(knot_prefix.size())) return &entry;
+  return nullptr;
+}
+
+/// The plan that a sample is called after; null: it is none.
+const RoutePlanSample* plan_of(std::string_view name) {
+  if (!name.starts_with(routes_prefix)) return nullptr;
+  for (const RoutePlanSample& sample : route_plan_samples())
+    if (sample.name == name.substr(routes_prefix.size())) return &sample;
   return nullptr;
 }
 
@@ -60,10 +71,13 @@ std::string curves_hint() {
   for (const KnotEntry& entry : knot_table())
     if (entry.name.find_first_not_of("0123456789_") != std::string::npos)
       links += fmt::format(", {}{}", knot_prefix, entry.name);
+  std::string plans;
+  for (const RoutePlanSample& sample : route_plan_samples())
+    plans += fmt::format("{}{}{}", plans.empty() ? "" : ", ", routes_prefix, sample.name);
   return fmt::format(
       "random closed curves, for 'unsnarl curves': {}\nknots, for 'unsnarl seifert': {}3_1 to {}10_165, as in "
-      "Rolfsen's table{}\n",
-      names, knot_prefix, knot_prefix, links);
+      "Rolfsen's table{}\nplans, for 'unsnarl routes': {}\n",
+      names, knot_prefix, knot_prefix, links, plans);
 }
 
 std::string description_of(const std::string& name) {
@@ -76,6 +90,7 @@ std::string description_of(const std::string& name) {
   if (const KnotEntry* const entry = knot_of(name))
     return fmt::format("{}: {} points of the closure of a braid of {} strands and {} crossings\n", name,
                        knot_of_table(entry->name).point_count(), entry->strands, entry->braid.size());
+  if (const RoutePlanSample* const plan = plan_of(name)) return fmt::format("{}: {}\n", name, plan->description);
   const auto samples = all_samples();
   const auto found = std::find_if(samples.begin(), samples.end(), [&](const Sample& s) { return s.name == name; });
   if (found == samples.end())
@@ -140,10 +155,11 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
       "NAME", options.name,
       "Which one; see --list. For 'unsnarl curves', a random closed curve: curve_waves, curve_walk,\n"
       "curve_star, curve_noise, curve_spiral or curve_chaos. For 'unsnarl seifert', a knot: knot_3_1 to\n"
-      "knot_10_165, and links");
+      "knot_10_165, and links. For 'unsnarl routes', a plan: routes_star_6, routes_star_20,\n"
+      "routes_star_50, routes_ring or routes_maze");
   command
       .add_option("-o,--output", options.output,
-                  "Where it goes: *.obj, *.off or *.ply (curves: *.json or *.svg; knots: *.xyz);\n"
+                  "Where it goes: *.obj, *.off or *.ply (curves: *.json or *.svg; knots: *.xyz; plans: *.json);\n"
                   "'-' for standard output")
       ->type_name("OUT");
   command.add_option("--format", options.format, "obj, off or ply (curves: json or svg), where the name does not tell")
@@ -177,6 +193,11 @@ int run_sample(const SampleOptions& options, Interruption& interruption) {
   if (const KnotEntry* const entry = knot_of(options.name)) {
     if (!options.parameters.empty()) throw UsageError("--set: knots have no parameters");
     write_file(options.output, link_text(knot_of_table(entry->name)), interruption);
+    return exit_embedded;
+  }
+  if (const RoutePlanSample* const plan = plan_of(options.name)) {
+    if (!options.parameters.empty()) throw UsageError("--set: plans have no parameters");
+    write_file(options.output, route_plan_json(sample_route_plan(plan->name)), interruption);
     return exit_embedded;
   }
   std::optional<Format> format = format_from_name(options.format);

@@ -33,6 +33,8 @@ struct IterationRecord {
   double step = 0;        ///< largest motion of a vertex since the iteration before, length
   double min_gap =
       none;  ///< smallest distance within the barrier's reach, length; NaN: nothing is near, or without a barrier
+  /// Smallest, mean and largest bandwidth of the Gaussian energy, lengths; NaN but in the paper's untangling.
+  std::array<double, 3> bandwidth = {none, none, none};
   /// Weighted terms of the objective, by EnergyTerm; NaN: the method does not have it. Weights and units are the
   /// method's own: compare within a region and phase only.
   std::array<double, energy_term_count> energy = {none, none, none, none, none, none, none};
@@ -47,6 +49,9 @@ struct RegionHistory {
   std::string strategy;    ///< untangle: as in RegionReport; recover: empty
   std::size_t region = 0;  ///< untangle: position in RepairReport::regions; recover: number of the area, from 0
   std::vector<IterationRecord> iterations;
+  /// In the paper's untangling, at its end: of each vertex of the input its bandwidth, a length, NaN where it could not
+  /// move. Else empty.
+  std::vector<double> bandwidths;
 };
 
 /// The surface at a moment, as what has moved since the frame before. Regions that do not overlap are shown at work at

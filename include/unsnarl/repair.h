@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "unsnarl/intersections.h"
+#include "unsnarl/paper.h"
 #include "unsnarl/recording.h"
 #include "unsnarl/report.h"
 #include "unsnarl/surface.h"
@@ -66,7 +67,8 @@ struct RepairOptions {
   double memory_limit_mb = 0;
   RecordOptions record;  ///< what to note on the way; nothing unless asked for
   bool recover = true;   ///< false: stop after untangling (for research)
-  bool paper = false;    ///< the configuration of the paper instead of the regional strategies
+  /// Untangles and recovers as the paper does, instead of region by region (for research). Unset: region by region.
+  std::optional<PaperOptions> paper;
   /// Names of strategies (RegionReport::strategy) to do without (for research: what each is worth). Unknown ones are an
   /// error.
   std::vector<std::string> without_strategies;

@@ -30,11 +30,11 @@ struct Sample {
   std::vector<std::string> groups = {};
 };
 
-/// All samples in a fixed order: the first `analytic_sample_count` are analytic surfaces (the data set that appendix A
+/// All samples in a fixed order: the first `analytic_sample_count` are given by formulas (the data set that appendix A
 /// of Minarčík, Liu, Crane, Li: "Untangling Surfaces via Shape and Mesh Repulsion" asks for), then shapes as modellers
 /// leave them, then obstructions.
 std::span<const Sample> all_samples();
-inline constexpr std::size_t analytic_sample_count = 33;
+inline constexpr std::size_t analytic_sample_count = 30;
 
 /// resolution: sampling steps along the longest direction of the surface's parameter domain, [8, 2000]; 0: the sample's
 /// own, which gives 1,000 to 5,000 faces. y points up. Parts of a sample meet by index, without

@@ -1,10 +1,13 @@
-"""`pip install .` offline gives a package that imports, types included. The compiled part is the one already built."""
+"""`pip install .` offline gives a package that imports, types included, and so does the wheel, with all libraries
+inside. The library is the one already built."""
 
 import importlib.util
 import os
 import shutil
 import subprocess
 import sys
+import tarfile
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -12,24 +15,57 @@ import pytest
 PROJECT = Path(__file__).resolve().parents[2]
 
 
-def test_pip_install(tmp_path):
-    for module in ("pip", "setuptools", "wheel"):
+def needs(*modules):
+    for module in modules:
         if importlib.util.find_spec(module) is None:
             pytest.skip(f"{module} is not installed")
+
+
+def run(*command, **options):
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_pip_install(tmp_path):
+    needs("pip", "setuptools", "wheel")
     # A copy, since pip leaves its traces in the source tree.
     source, target = tmp_path / "source", tmp_path / "target"
     source.mkdir()
     for name in ("pyproject.toml", "setup.py", "CMakeLists.txt", "README.md"):
         shutil.copy(PROJECT / name, source)
     shutil.copytree(PROJECT / "python", source / "python")
-    install = ["-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", "--target", target, source]
-    done = subprocess.run([sys.executable, *install], capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
+    run(sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", "--target", target,
+        source)
 
-    assert {"py.typed", "_native.pyi"} <= {path.name for path in (target / "unsnarl").iterdir()}
+    assert {"py.typed", "libunsnarl_c.so"} <= {path.name for path in (target / "unsnarl").iterdir()}
     script = "import unsnarl; print(unsnarl.__file__, unsnarl.find_intersections([[0, 0, 0]], []))"
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        capture_output=True, text=True, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(target)},
-    )
-    assert done.stdout.split() == [str(target / "unsnarl" / "__init__.py"), "Intersections(none)"], done.stderr
+    said = run(sys.executable, "-c", script, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(target)})
+    assert said.split() == [str(target / "unsnarl" / "__init__.py"), "Intersections(none)"]
+
+
+def test_wheel(tmp_path):
+    needs("pip", "setuptools", "wheel")
+    if shutil.which("patchelf") is None:
+        pytest.skip("patchelf is not installed")
+    built = run(sys.executable, "-B", PROJECT / "packaging" / "build_wheel", "-o", tmp_path / "wheel", "--build-dir",
+                os.environ["UNSNARL_BUILD_DIR"])
+    archive, wheel = map(Path, built.split())
+    with tarfile.open(archive) as tar:
+        inside = {name.partition("/")[2] for name in tar.getnames()}
+    assert {"CMakeLists.txt", "include/unsnarl/unsnarl.h", "src/c_interface/symbols.map"} <= inside
+    assert not any(name.endswith(".so") for name in inside)
+
+    assert wheel.name.startswith("unsnarl-") and "-py3-none-manylinux_2_" in wheel.name
+    with zipfile.ZipFile(wheel) as content:
+        assert any("licenses/libgmp" in name for name in content.namelist())
+        (points,) = (name for name in content.namelist() if name.endswith(".dist-info/entry_points.txt"))
+        assert b"[pyvista.accessors]" in content.read(points)
+        content.extractall(tmp_path / "target")
+    # What is loaded comes from inside, or from glibc and what is with it everywhere.
+    script = "import unsnarl; unsnarl.find_intersections([[0, 0, 0]], []); print(open('/proc/self/maps').read())"
+    maps = run(sys.executable, "-c", script, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path / "target")})
+    loaded = {Path(line.split()[-1]) for line in maps.splitlines() if ".so" in line}
+    for name in ("libunsnarl_c", "libtbb", "libgmp", "libzip"):
+        (path,) = (path for path in loaded if path.name.startswith(name))
+        assert tmp_path / "target" in path.parents

@@ -1,6 +1,7 @@
 """While a repair runs, Python does: other threads, progress, Ctrl-C, exceptions."""
 
 import os
+import queue
 import signal
 import threading
 
@@ -33,16 +34,26 @@ def test_progress_goes_forward(sheets):
     assert seen[-1].displacement_rel == pytest.approx(result.report["displacement_max_rel"])
 
 
-def test_an_exception_in_progress_cancels_and_is_raised(long_work):
+@pytest.mark.parametrize("error", [LookupError, queue.Empty])
+def test_an_exception_in_progress_cancels_and_is_raised(long_work, error):
     calls = []
 
     def fail(progress):
         calls.append(progress)
-        raise LookupError("enough")
+        raise error("enough")
 
-    with pytest.raises(LookupError, match="enough"):
+    with pytest.raises(error, match="enough"):
         unsnarl.repair(*long_work, progress=fail)
     assert len(calls) == 1
+
+
+def test_a_bar(sheets, capsys):
+    unsnarl.repair(*sheets, progress=True)
+    written = capsys.readouterr().err
+    assert written.startswith("\r") and written.endswith("\n") and written.count("\n") == 1
+    assert "untangle" in written and written.split("\r")[-1].startswith("100% |##############################|")
+    unsnarl.repair(*sheets, progress=False)
+    assert capsys.readouterr().err == ""
 
 
 def test_other_threads_run_meanwhile(sheets):

@@ -1,11 +1,17 @@
 """Meshes of other packages: stand-ins with their attributes, and the packages themselves where they are installed."""
 
+import importlib
+import re
+import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import unsnarl
+
+PYPROJECT = Path(__file__).resolve().parents[2] / "pyproject.toml"
 
 
 class Trimesh:
@@ -110,6 +116,71 @@ def test_broken_padding_and_strips_are_refused():
 def test_what_is_no_mesh_is_refused():
     with pytest.raises(TypeError, match=r"SimpleNamespace is no mesh: give arrays V and F, or a mesh with .vertices"):
         unsnarl.repair(SimpleNamespace(points=np.zeros((3, 3)), cells=np.array([4, 0, 1, 2, 3])))
+
+
+def test_namespace_in_pyvista(sheets, monkeypatch):
+    """With a stand-in for PyVista, which imports the module by the entry point once the namespace is asked for."""
+    registered = {}
+
+    def register_dataset_accessor(name, target):
+        return lambda accessor: registered.setdefault((name, target), accessor)
+
+    class WithFieldData(PolyData):
+        def __init__(self, points, faces):
+            super().__init__(points, faces)
+            self.field_data = {}
+
+        def copy(self):
+            return WithFieldData(self.points.copy(), self.faces.copy())
+
+    module = SimpleNamespace(PolyData=WithFieldData, register_dataset_accessor=register_dataset_accessor)
+    monkeypatch.setitem(sys.modules, "pyvista", module)
+    monkeypatch.delitem(sys.modules, "unsnarl._pyvista", raising=False)
+    (point,) = re.findall(r'"pyvista.accessors"]\nunsnarl = "(.*)"', PYPROJECT.read_text())
+    importlib.import_module(point)
+    monkeypatch.delitem(sys.modules, point)
+
+    V, F = sheets
+    mesh = WithFieldData(V, padded(F))
+    accessor = registered["unsnarl", WithFieldData](mesh)
+    assert np.array_equal(accessor.find_intersections().pairs, unsnarl.find_intersections(V, F).pairs)
+    repaired = accessor.repair(precision="float64")
+    assert np.array_equal(repaired.points, unsnarl.repair(V, F, precision="float64").V)
+    assert repaired.field_data["unsnarl_status"] == ["embedded"] and np.array_equal(mesh.points, V)
+    with pytest.warns(UserWarning, match=r"Result\(obstructed"):
+        assert accessor.repair(np.ones(len(V), bool)).field_data["unsnarl_status"] == ["obstructed"]
+
+
+@pytest.mark.parametrize("mixed", [False, True])
+def test_real_vtk(sheets, mixed):
+    model = pytest.importorskip("vtkmodules.vtkCommonDataModel")
+    core = pytest.importorskip("vtkmodules.vtkCommonCore")
+    V, F = sheets
+    V = V.astype(np.float32)
+    points = core.vtkPoints()
+    for position in V.tolist():
+        points.InsertNextPoint(position)
+    faces = [*F[:-1].tolist(), F[-1, :3].tolist()] if mixed else F.tolist()
+    polygons, lines = model.vtkCellArray(), model.vtkCellArray()
+    for face in faces:
+        polygons.InsertNextCell(len(face), face)
+    lines.InsertNextCell(2, [0, 1])
+    mesh = model.vtkPolyData()
+    mesh.SetPoints(points)
+    mesh.SetPolys(polygons)
+    mesh.SetLines(lines)
+    moved = repaired_as_arrays(
+        mesh,
+        lambda mesh: np.array([mesh.GetPoint(i) for i in range(mesh.GetNumberOfPoints())], dtype=np.float32),
+        V,
+        (np.concatenate(faces), np.cumsum([0, *map(len, faces)])),
+    )
+    assert moved.GetNumberOfLines() == 1 and moved.GetNumberOfPolys() == len(faces)
+    empty = unsnarl.repair(model.vtkPolyData())
+    assert empty.status == "embedded" and empty.mesh.GetNumberOfPoints() == 0
+    mesh.SetStrips(lines)
+    with pytest.raises(ValueError, match="triangle strips"):
+        unsnarl.repair(mesh)
 
 
 def test_real_meshio(sheets):

@@ -7,7 +7,7 @@
     if result.status == "embedded":
         V = result.V
 
-Everything takes arrays (``V``, ``F``) or a mesh of meshio, trimesh or pyvista in their place; find_intersections,
+Everything takes arrays (``V``, ``F``) or a mesh of meshio, trimesh, pyvista or VTK in their place; find_intersections,
 repair and certify also a list of these, ``repair([(V, F), mesh])``: meshes in one coordinate system that must not meet.
 
 ``V``
@@ -21,12 +21,14 @@ What is passed in is never changed. Arguments that make no sense raise ValueErro
 untangled raises nothing, its ``Result.status`` says so.
 """
 
+from ._call import Status
 from ._certify import Certificate, certify
 from ._curves import CurveResult, find_crossings, untangle_curves
 from ._intersections import Intersections, find_intersections
-from ._native import version as __version__
+from ._library import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
-from ._repair import Progress, Result, Status, repair
+from ._progress import Progress
+from ._repair import Result, repair
 from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
 from ._spaces import (
     Isotopy,

@@ -1,4 +1,4 @@
-"""Arguments as users give them, made into the flat arrays and numbers of the compiled module, or refused."""
+"""Arrays as users give them, made into the flat arrays of the library, or refused."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-# What the compiled module counts with.
+from ._library import CurvesStruct, SurfaceStruct
+
+# What the library counts with.
 _LARGEST_ID = np.iinfo(np.int32).max
 
 
@@ -22,6 +24,36 @@ class Surface(NamedTuple):
     @property
     def face_count(self) -> int:
         return len(self.offsets) - 1 if self.offsets.size > 0 else len(self.corners) // 3
+
+    def struct(self, **fields: Any) -> SurfaceStruct:
+        """For the library, with further fields of the struct."""
+        return SurfaceStruct(
+            **{
+                "positions": self.positions,
+                "vertex_count": len(self.positions) // 3,
+                "corners": self.corners,
+                "corner_count": len(self.corners),
+                "offsets": self.offsets,
+                "offset_count": len(self.offsets),
+                **fields,
+            }
+        )
+
+
+class Polylines(NamedTuple):
+    """Polylines one after another."""
+
+    points: NDArray[np.float64]  # flat
+    offsets: NDArray[np.int32]  # polyline c has the points [offsets[c], offsets[c + 1])
+
+    @property
+    def sizes(self) -> NDArray[np.int32]:
+        """Numbers of points."""
+        return np.diff(self.offsets)
+
+    def struct(self, **fields: Any) -> CurvesStruct:
+        """For the library, with further fields of the struct."""
+        return CurvesStruct(points=self.points, offsets=self.offsets, curve_count=len(self.offsets) - 1, **fields)
 
 
 def surface_of(V: Any, F: Any) -> Surface:
@@ -95,24 +127,6 @@ def _flags(chosen: Any, argument: str, count: int, things: str, thing: str) -> N
     return flags
 
 
-def not_negative(name: str, value: Any) -> float:
-    """A finite number from 0 on."""
-    number = _float(name, value)
-    if not 0 <= number < np.inf:
-        raise ValueError(f"{name} is {value!r}; give a number from 0 on")
-    return number
-
-
-def thread_count(value: Any) -> int:
-    try:
-        count = operator.index(value)
-    except TypeError:
-        raise TypeError(f"threads is {value!r}; give a whole number, 0 for as many as the machine has") from None
-    if not 0 <= count <= _LARGEST_ID:
-        raise ValueError(f"threads is {count}; give 0 for as many as the machine has, or their number")
-    return count
-
-
 def frame_range(frames: Any, count: int) -> tuple[int, int]:
     """(first, last) of a range of frames, last excluded; None: all."""
     if frames is None:
@@ -126,10 +140,23 @@ def frame_range(frames: Any, count: int) -> tuple[int, int]:
     return first, last
 
 
-def name(option: str, value: Any) -> str:
-    if not isinstance(value, str):
-        raise TypeError(f"{option} is {value!r}; give its name, a string")
-    return value
+def polylines_of(polylines: Any, dimension: int, thing: str) -> Polylines:
+    """A list of arrays (n, dimension) of points, or one such array alone; `thing` is what each is called."""
+    if isinstance(polylines, np.ndarray) and polylines.ndim == 2:
+        polylines = [polylines]
+    flat = []
+    for number, polyline in enumerate(polylines):
+        points = _array(polyline, f"{thing} {number}")
+        if points.dtype.kind not in "fiu":
+            raise TypeError(f"{thing} {number} has dtype {points.dtype}; points are real numbers")
+        if points.ndim != 2 or points.shape[1] != dimension:
+            axes = " ".join("xyz"[:dimension])
+            raise ValueError(
+                f"{thing} {number} has shape {points.shape}; give (n, {dimension}), {axes} of each point"
+            )
+        flat.append(np.array(points, dtype=np.float64, order="C", copy=True).ravel())
+    ends = np.cumsum([0] + [points.size // dimension for points in flat])
+    return Polylines(np.concatenate([np.empty(0), *flat]), _narrowed(ends, "the number of points"))
 
 
 def _polygons(corners: Any, offsets: Any) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
@@ -171,14 +198,7 @@ def _array(values: Any, name: str) -> NDArray[Any]:
 
 
 def _narrowed(ids: NDArray[Any], name: str) -> NDArray[np.int32]:
-    """A contiguous copy in the type of the compiled module. Negative ids are left to its own complaint."""
+    """A contiguous copy in the type of the library. Negative ids are left to its own complaint."""
     if ids.size > 0 and (ids.max() > _LARGEST_ID or ids.min() < -_LARGEST_ID):
         raise ValueError(f"{name} holds {ids.max()}; ids up to {_LARGEST_ID} can be counted")
     return np.array(ids, dtype=np.int32, order="C", copy=True)
-
-
-def _float(name: str, value: Any) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} is {value!r}; give a number") from None

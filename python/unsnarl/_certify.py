@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from ctypes import c_size_t, c_void_p
 from typing import Any, NamedTuple
 
-from . import _native
-from ._arguments import name, not_negative, thread_count
+from ._call import call
+from ._options import options_of
 from ._scenes import scene_of
 
 
@@ -35,18 +36,15 @@ def certify(
     Vertices are welded and polygons split on V, so vertices that have come to coincide since intersect;
     find_intersections(moved, F) might weld them.
 
-    V and F (None where V is a mesh or a list of meshes; then `moved` is a list too), weld, weld_tolerance, both_diagonals, threads and errors: as for
-    find_intersections.
+    V and F (None where V is a mesh or a list of meshes; then `moved` is a list too), weld, weld_tolerance,
+    both_diagonals, threads and errors: as for find_intersections.
     """
     scene = scene_of(V, F)
-    found = _native.certify(
-        *scene.surface,
-        scene.positions_of(moved, "moved"),
-        weld=name("weld", weld),
-        weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
-        both_diagonals=bool(both_diagonals),
-        threads=thread_count(threads),
+    options = options_of(
+        weld=weld, weld_tolerance=weld_tolerance, both_diagonals=both_diagonals, threads=threads
     )
-    for counts in ("pairs", "pairs_float32"):
-        found[counts] = dict(zip(_native.pair_kinds, found[counts]))
-    return Certificate(**found)
+    positions = scene.positions_of(moved, "moved")
+    found = call(
+        "certify", scene.surface.struct(), c_void_p(positions.ctypes.data), c_size_t(positions.size // 3), options
+    )
+    return Certificate(**found.report)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _native
-from ._arguments import _array, not_negative, vertex_flags
-from ._repair import Progress, Status, _callback
+from ._arguments import polylines_of, vertex_flags
+from ._call import Status, call, call_and_wait
+from ._options import options_of
+from ._progress import OnProgress
 
 
 @dataclass(frozen=True)
@@ -19,8 +20,8 @@ class CurveResult:
     """What untangle_curves gives back."""
 
     curves: list[NDArray[np.float64]]
-    """Points (n, 2) of each curve, in the order of the input. Where an open curve ends on a segment of another one, that
-    has a point more."""
+    """Points (n, 2) of each curve, in the order of the input. Where an open curve ends on a segment of another one,
+    that has a point more."""
     status: Status
     """embedded, obstructed (only what must not move crosses), reduced, no_progress, time_limit or cancelled."""
     report: dict[str, Any]
@@ -31,10 +32,11 @@ class CurveResult:
 def find_crossings(curves: Any, closed: Any = False) -> NDArray[np.int32]:
     """All pairs of segments that meet anywhere but in an end that they share along one curve, by exact arithmetic.
 
-    curves, closed: as for untangle_curves. Returns rows (curve, segment, curve, segment), sorted; segment k starts at point k.
+    curves, closed: as for untangle_curves. Returns rows (curve, segment, curve, segment), sorted; segment k starts at
+    point k.
     """
-    points = _points(curves)
-    return _native.find_crossings(points, _closed(closed, len(points)))
+    polylines = polylines_of(curves, 2, "curve")
+    return call("find_crossings", polylines.struct(closed=_closed(closed, len(polylines.sizes)))).array("crossings")
 
 
 def untangle_curves(
@@ -47,7 +49,7 @@ def untangle_curves(
     junction: float = 1e-9,
     time_limit: float = 0,
     recover: bool = True,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> CurveResult:
     """Moves the points of polylines in the plane as little as possible until no two segments cross or touch.
 
@@ -70,51 +72,40 @@ def untangle_curves(
     recover
         False: stop once nothing crosses, without opening and smoothing anything (for research).
     progress
-        Called with a Progress now and then.
+        Called with a Progress now and then; True draws a bar.
 
     Raises
     ------
     ValueError, TypeError
-        For points that are no curve, naming the curve and the point. Crossings that could not be resolved raise nothing:
-        see CurveResult.status.
+        For points that are no curve, naming the curve and the point. Crossings that could not be resolved raise
+        nothing: see CurveResult.status.
     """
-    points = _points(curves)
-    flags = [np.empty(0, np.uint8) for _ in points]
-    if fixed is not None:
-        if len(fixed) != len(points):
-            raise ValueError(f"fixed has {len(fixed)} entries, but there are {len(points)} curves")
-        flags = [vertex_flags(f, len(p) // 2) for f, p in zip(fixed, points)]
-    moved, status, report = _native.untangle_curves(
-        points,
-        _closed(closed, len(points)),
-        flags,
-        gap=not_negative("gap", gap),
-        junction=not_negative("junction", junction),
-        fix_ends=bool(fix_ends),
-        time_limit=not_negative("time_limit", time_limit),
-        recover=bool(recover),
-        progress=None if progress is None else _callback(progress),
+    polylines = polylines_of(curves, 2, "curve")
+    struct = polylines.struct(
+        closed=_closed(closed, len(polylines.sizes)), fixed=_fixed(fixed, polylines.sizes)
     )
-    return CurveResult([m.reshape(-1, 2) for m in moved], Status(status), report)
+    options = options_of(gap=gap, junction=junction, fix_ends=fix_ends, time_limit=time_limit, recover=recover)
+    done = call_and_wait("untangle_curves", struct, options, progress=progress)
+    report = done.report
+    for crossings in ("obstructions", "left"):
+        report[crossings] = done.array(crossings)
+    return CurveResult(done.polylines(), done.status, report)
 
 
-def _points(curves: Any) -> list[NDArray[np.float64]]:
-    if isinstance(curves, np.ndarray) and curves.ndim == 2:
-        curves = [curves]
-    result = []
-    for number, curve in enumerate(curves):
-        points = _array(curve, f"curve {number}")
-        if points.dtype.kind not in "fiu":
-            raise TypeError(f"curve {number} has dtype {points.dtype}; points are real numbers")
-        if points.ndim != 2 or points.shape[1] != 2:
-            raise ValueError(f"curve {number} has shape {points.shape}; give (n, 2), x y of each point")
-        result.append(np.array(points, dtype=np.float64, order="C", copy=True).ravel())
-    return result
+def _fixed(fixed: Sequence[Any] | None, sizes: NDArray[np.int32]) -> NDArray[np.uint8]:
+    """One flag a point of all curves; empty: all may move."""
+    if fixed is None:
+        return np.empty(0, np.uint8)
+    if len(fixed) != len(sizes):
+        raise ValueError(f"fixed has {len(fixed)} entries, but there are {len(sizes)} curves")
+    flags = [vertex_flags(own, size) for own, size in zip(fixed, sizes)]
+    return np.concatenate([own if own.size > 0 else np.zeros(size, np.uint8) for own, size in zip(flags, sizes)])
 
 
-def _closed(closed: Any, count: int) -> list[bool]:
+def _closed(closed: Any, count: int) -> NDArray[np.uint8]:
+    """One flag a curve."""
     if np.ndim(closed) == 0:
-        return [bool(closed)] * count
+        return np.full(count, bool(closed), dtype=np.uint8)
     if len(closed) != count:
         raise ValueError(f"closed has {len(closed)} entries, but there are {count} curves")
-    return [bool(c) for c in closed]
+    return np.array([bool(own) for own in closed], dtype=np.uint8)

@@ -8,8 +8,9 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _native
-from ._arguments import name, not_negative, thread_count
+from ._call import call
+from ._library import pair_kinds
+from ._options import options_of
 from ._scenes import scene_of
 
 
@@ -37,7 +38,7 @@ class Intersections:
     @property
     def counts(self) -> dict[str, int]:
         """Number of pairs of each kind, those that do not occur included."""
-        return {kind: int(np.count_nonzero(self.kinds == kind)) for kind in _native.pair_kinds}
+        return {kind: int(np.count_nonzero(self.kinds == kind)) for kind in pair_kinds}
 
     @property
     def faces(self) -> NDArray[np.int32]:
@@ -61,9 +62,9 @@ def find_intersections(
     Parameters
     ----------
     V, F
-        Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh or pyvista
-        alone; or a list of such, ``find_intersections([(V, F), mesh, ...])``, of which also those between meshes are
-        found. See the documentation of the package.
+        Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh, pyvista
+        or VTK alone; or a list of such, ``find_intersections([(V, F), mesh, ...])``, of which also those between meshes
+        are found. See the documentation of the package.
     weld
         Which vertices count as one: "none"; "seams", the ends of open edges (of one face) at exactly equal positions
         (UV seams, split normals); "all" at exactly equal positions.
@@ -82,12 +83,10 @@ def find_intersections(
         option is out of range. The message says which and where.
     """
     scene = scene_of(V, F)
-    pairs, kinds = _native.find_intersections(
-        *scene.surface,
-        weld=name("weld", weld),
-        weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
-        both_diagonals=bool(both_diagonals),
-        threads=thread_count(threads),
+    options = options_of(
+        weld=weld, weld_tolerance=weld_tolerance, both_diagonals=both_diagonals, threads=threads
     )
+    found = call("find_intersections", scene.surface.struct(), options)
+    pairs = found.array("pairs")
     meshes = scene.meshes_of(pairs) if scene.is_list else None
-    return Intersections(pairs, np.array(_native.pair_kinds)[kinds], meshes)
+    return Intersections(pairs, np.array(pair_kinds)[found.array("kinds")], meshes)

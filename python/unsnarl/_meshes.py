@@ -27,9 +27,12 @@ def opened(V: Any, F: Any) -> tuple[Any, Any, Optional[MovedTo]]:
         return V.points, _faces_of_vtk(V), _moved_to(V, "points")
     if hasattr(V, "points") and isinstance(getattr(V, "cells", None), list):  # meshio
         return V.points, _faces_of_blocks(V.cells), _moved_to(V, "points")
+    if hasattr(V, "GetPoints") and hasattr(V, "GetPolys"):  # vtkPolyData
+        return _points_of_vtk(V), _polygons_of_vtk(V), _moved_vtk(V)
     raise TypeError(
         f"{type(V).__name__} is no mesh: give arrays V and F, or a mesh with .vertices and .faces (trimesh), "
-        ".points and .faces (pyvista.PolyData; of another grid, its .extract_surface()) or .points and .cells (meshio)"
+        ".points and .faces (pyvista.PolyData; of another grid, its .extract_surface()), .points and .cells (meshio) "
+        "or a vtkPolyData (of another grid, what vtkGeometryFilter makes of it)"
     )
 
 
@@ -40,6 +43,34 @@ def _moved_to(mesh: Any, attribute: str) -> MovedTo:
         return moved
 
     return moved_to
+
+
+def _moved_vtk(mesh: Any) -> MovedTo:
+    def moved_to(positions: Any) -> Any:
+        moved = mesh.NewInstance()
+        moved.DeepCopy(mesh)
+        if len(positions) > 0:
+            _points_of_vtk(moved)[:] = positions
+            moved.GetPoints().Modified()
+        return moved
+
+    return moved_to
+
+
+def _points_of_vtk(mesh: Any) -> Any:
+    """A view of the positions, which VTK's arrays lend as a buffer."""
+    points = mesh.GetPoints()
+    return np.asarray(points.GetData()) if points and points.GetNumberOfPoints() > 0 else np.empty((0, 3))
+
+
+def _polygons_of_vtk(mesh: Any) -> Any:
+    """(corners, offsets)"""
+    if mesh.GetNumberOfStrips() > 0:
+        raise ValueError("the mesh holds triangle strips; give what vtkTriangleFilter makes of it")
+    polygons = mesh.GetPolys()
+    if polygons.GetNumberOfCells() == 0:
+        return np.empty(0, np.int64), np.zeros(1, np.int64)
+    return np.asarray(polygons.GetConnectivityArray()), np.asarray(polygons.GetOffsetsArray())
 
 
 def _faces_of_vtk(mesh: Any) -> Any:

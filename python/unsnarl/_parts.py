@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from ctypes import c_size_t, c_void_p
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _native
-from ._arguments import face_flags, name, not_negative, surface_of
+from ._arguments import face_flags, surface_of
+from ._call import call
 from ._meshes import opened
+from ._options import options_of
 
 
 def component_of_faces(
@@ -21,9 +23,8 @@ def component_of_faces(
     triangle has -1. V, F, weld, weld_tolerance and errors: as for find_intersections.
     """
     V, F, _ = opened(V, F)
-    return _native.component_of_faces(
-        *surface_of(V, F), weld=name("weld", weld), weld_tolerance=not_negative("weld_tolerance", weld_tolerance)
-    )
+    options = options_of(weld=weld, weld_tolerance=weld_tolerance)
+    return call("component_of_faces", surface_of(V, F).struct(), options).array("components")
 
 
 def boundary_vertices(V: Any, F: Any = None, *, weld: str = "seams", weld_tolerance: float = 0.0) -> NDArray[np.bool_]:
@@ -32,10 +33,8 @@ def boundary_vertices(V: Any, F: Any = None, *, weld: str = "seams", weld_tolera
     V, F, weld, weld_tolerance and errors: as for find_intersections.
     """
     V, F, _ = opened(V, F)
-    flags = _native.boundary_vertices(
-        *surface_of(V, F), weld=name("weld", weld), weld_tolerance=not_negative("weld_tolerance", weld_tolerance)
-    )
-    return flags.astype(bool)
+    options = options_of(weld=weld, weld_tolerance=weld_tolerance)
+    return call("boundary_vertices", surface_of(V, F).struct(), options).array("vertices").astype(bool)
 
 
 def vertices_of_faces(V: Any, F: Any, faces: Any) -> NDArray[np.bool_]:
@@ -47,4 +46,6 @@ def vertices_of_faces(V: Any, F: Any, faces: Any) -> NDArray[np.bool_]:
     """
     V, F, _ = opened(V, F)
     surface = surface_of(V, F)
-    return _native.vertices_of_faces(*surface, face_flags(faces, surface.face_count)).astype(bool)
+    flags = face_flags(faces, surface.face_count)
+    found = call("vertices_of_faces", surface.struct(), c_void_p(flags.ctypes.data), c_size_t(flags.size))
+    return found.array("vertices").astype(bool)

@@ -2,42 +2,15 @@
 
 from __future__ import annotations
 
-import enum
-import json
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from . import _native
-from ._arguments import name, not_negative, thread_count
+from ._call import Status, call_and_wait
+from ._options import options_of
+from ._progress import OnProgress
 from ._scenes import scene_of
-
-
-class Status(str, enum.Enum):
-    """How a repair ended; equal to its name, as in ``result.status == "embedded"``."""
-
-    embedded = "embedded"  #: no two faces meet anywhere but in the hull of the vertices they share
-    reduced = "reduced"  #: fewer intersecting pairs than the input, but not none
-    no_progress = "no_progress"  #: nothing better than the input was found; V is the input's
-    obstructed = "obstructed"  #: all repaired but what no motion can resolve, see report["obstructions"]
-    time_limit = "time_limit"  #: stopped by time_limit
-    memory_limit = "memory_limit"  #: stopped by memory_limit
-    displacement_exceeded = "displacement_exceeded"  #: some vertex had to move further than max_displacement
-    cancelled = "cancelled"  #: not seen from Python, where what cancels is raised
-
-    __str__ = str.__str__
-
-
-class Progress(NamedTuple):
-    """How far a repair has come."""
-
-    fraction: float  #: in [0, 1], never decreases
-    phase: str  #: "diagnose", "untangle", "recover", "certify"
-    pairs_left: int  #: intersecting pairs of triangles at this moment
-    displacement_rel: float  #: largest displacement at this moment / bounding-box diagonal
 
 
 @dataclass(frozen=True, repr=False)
@@ -84,7 +57,7 @@ def repair(
     threads: int = 0,
     recover: bool = True,
     paper: bool = False,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> Result:
     """Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
 
@@ -96,9 +69,9 @@ def repair(
     Parameters
     ----------
     V, F
-        Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh or pyvista
-        alone, as in ``repair(mesh, fixed=ids)``; or a list of such, ``repair([(V, F), mesh, ...])``: one scene, in
-        which meshes are also separated from each other. See the documentation of the package.
+        Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh, pyvista
+        or VTK alone, as in ``repair(mesh, fixed=ids)``; or a list of such, ``repair([(V, F), mesh, ...])``: one scene,
+        in which meshes are also separated from each other. See the documentation of the package.
     fixed
         Vertices that must not move: a mask (n,) of bool, or their ids. None: all may move. Masks of parts come from
         vertices_of_faces and boundary_vertices. Of a list of meshes: a list of the same length, with None where all
@@ -130,7 +103,8 @@ def repair(
     paper
         The configuration of the paper instead of the regional one (for research).
     progress
-        Called with a Progress now and then, from the thread that called repair. What it returns is ignored.
+        Called with a Progress now and then, from the thread that called repair. What it returns is ignored. True draws
+        a bar on standard error, also in notebooks.
 
     Raises
     ------
@@ -139,41 +113,34 @@ def repair(
     """
     scene = scene_of(V, F)
     is_float32 = [dtype.kind == "f" and dtype.itemsize == 4 for dtype in scene.dtypes]
-    precision = name("precision", precision)
     if any(is_float32) and precision == "auto":
         precision = "float32"
-    positions, status, report = _native.repair(
-        *scene.surface,
-        scene.flags_of_vertices(fixed),
-        vertex_counts=scene.vertex_counts if scene.is_list else [],
-        face_counts=scene.face_counts if scene.is_list else [],
-        goal=name("goal", goal),
+    options = options_of(
+        goal=goal,
         precision=precision,
-        min_gap=not_negative("min_gap", min_gap),
-        min_dihedral=not_negative("min_dihedral", min_dihedral),
-        max_displacement=not_negative("max_displacement", max_displacement),
-        absolute=bool(absolute),
-        time_limit=not_negative("time_limit", time_limit),
-        memory_limit=not_negative("memory_limit", memory_limit),
-        recover=bool(recover),
-        paper=bool(paper),
-        weld=name("weld", weld),
-        weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
-        both_diagonals=bool(both_diagonals),
-        each_component=bool(each_component),
-        threads=thread_count(threads),
-        progress=None if progress is None else _callback(progress),
+        min_gap=min_gap,
+        min_dihedral=min_dihedral,
+        max_displacement=max_displacement,
+        absolute=absolute,
+        time_limit=time_limit,
+        memory_limit=memory_limit,
+        weld=weld,
+        weld_tolerance=weld_tolerance,
+        both_diagonals=both_diagonals,
+        each_component=each_component,
+        threads=threads,
+        recover=recover,
+        paper=paper,
     )
-    moved = scene.split(positions.reshape(-1, 3))
+    sizes = np.array([scene.vertex_counts, scene.face_counts], dtype=np.uintp).T if scene.is_list else np.empty(0)
+    surface = scene.surface.struct(
+        fixed=scene.flags_of_vertices(fixed), mesh_sizes=np.ascontiguousarray(sizes), mesh_count=len(sizes)
+    )
+    repaired = call_and_wait("repair", surface, options, progress=progress)
+    moved = scene.split(repaired.array("positions"))
     if precision == "float32":
         moved = [own.astype(dtype) if small else own for own, dtype, small in zip(moved, scene.dtypes, is_float32)]
     meshes = [moved_to(own) if moved_to else None for own, moved_to in zip(moved, scene.moved_to)]
     if not scene.is_list:
-        return Result(moved[0], Status(status), json.loads(report), meshes[0])
-    return Result(moved, Status(status), json.loads(report), meshes)
-
-
-def _callback(progress: Callable[[Progress], object]) -> Callable[..., object]:
-    if not callable(progress):
-        raise TypeError(f"progress is {progress!r}; give a function that takes a Progress")
-    return lambda *values: progress(Progress(*values))
+        return Result(moved[0], repaired.status, repaired.report, meshes[0])
+    return Result(moved, repaired.status, repaired.report, meshes)

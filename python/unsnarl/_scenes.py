@@ -34,7 +34,8 @@ class Scene(NamedTuple):
         if fixed is None:
             return np.empty(0, np.uint8)
         if not isinstance(fixed, (list, tuple)) or len(fixed) != len(self.vertex_counts):
-            raise ValueError(f"fixed is {_what(fixed)}; of {len(self.vertex_counts)} meshes give as many, or None for some")
+            count = len(self.vertex_counts)
+            raise ValueError(f"fixed is {_what(fixed)}; of {count} meshes give as many, or None for some")
         parts = [vertex_flags(own, count) for own, count in zip(fixed, self.vertex_counts)]
         return np.concatenate(
             [part if part.size > 0 else np.zeros(n, np.uint8) for part, n in zip(parts, self.vertex_counts)]
@@ -45,7 +46,8 @@ class Scene(NamedTuple):
         if not self.is_list:
             return positions_of(moved, name)
         if not isinstance(moved, (list, tuple)) or len(moved) != len(self.vertex_counts):
-            raise ValueError(f"{name} is {_what(moved)}; of {len(self.vertex_counts)} meshes give as many arrays (n, 3)")
+            count = len(self.vertex_counts)
+            raise ValueError(f"{name} is {_what(moved)}; of {count} meshes give as many arrays (n, 3)")
         parts = [positions_of(own, f"{name}[{i}]") for i, own in enumerate(moved)]
         for i, (part, count) in enumerate(zip(parts, self.vertex_counts)):
             if part.size != 3 * count:

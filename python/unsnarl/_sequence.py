@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from ctypes import c_size_t
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _native
-from ._arguments import frame_range, name, not_negative, surface_of, thread_count, vertex_flags
-from ._repair import Progress, Status, _callback
+from ._arguments import frame_range, surface_of, vertex_flags
+from ._call import Status, call_and_wait
+from ._options import options_of
+from ._progress import OnProgress
 
 
 class Jitter(NamedTuple):
-    """Second difference of the corrections in time, in the frame's own motion / diagonal of the frame; of all vertices."""
+    """Second difference of the corrections in time, in the frame's own motion / diagonal of the frame; of all
+    vertices."""
 
     mean: float
     max: float
@@ -65,9 +67,9 @@ def repair_sequence(
     weld_tolerance: float = 0.0,
     both_diagonals: bool = False,
     threads: int = 0,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> SequenceResult:
-    """Repairs the frames of a moving mesh so that corrections go on smoothly in time; each frame is certified by itself.
+    """Repairs the frames of a moving mesh so that corrections go on smoothly in time, and certifies each by itself.
 
     Frames without self-intersections stay as they are. Other Python threads run meanwhile. Ctrl-C, or an exception in
     `progress`, cancels and is raised.
@@ -86,7 +88,7 @@ def repair_sequence(
     weld, weld_tolerance, both_diagonals, threads
         As for find_intersections.
     progress
-        Called with a Progress after each frame.
+        Called with a Progress after each frame; True draws a bar.
 
     Raises
     ------
@@ -102,39 +104,31 @@ def repair_sequence(
     positions = np.array(given, dtype=np.float64, order="C", copy=True)
     first, last = frame_range(frames, len(positions))
     is_float32 = given.dtype.kind == "f" and given.dtype.itemsize == 4
-    precision = name("precision", precision)
     if is_float32 and precision == "auto":
         precision = "float32"
-    moved = positions.copy()
-    reports = _native.repair_sequence(
-        positions,
-        surface.corners,
-        surface.offsets,
-        vertex_flags(fixed, positions.shape[1]),
-        moved,
-        first=first,
-        last=last,
-        goal=name("goal", goal),
+    options = options_of(
+        goal=goal,
         precision=precision,
-        min_gap=not_negative("min_gap", min_gap),
-        max_displacement=not_negative("max_displacement", max_displacement),
-        time_limit=not_negative("time_limit", time_limit),
-        weld=name("weld", weld),
-        weld_tolerance=not_negative("weld_tolerance", weld_tolerance),
-        both_diagonals=bool(both_diagonals),
-        threads=thread_count(threads),
-        progress=None if progress is None else _callback(progress),
+        min_gap=min_gap,
+        max_displacement=max_displacement,
+        time_limit=time_limit,
+        weld=weld,
+        weld_tolerance=weld_tolerance,
+        both_diagonals=both_diagonals,
+        threads=threads,
+        first_frame=first,
+        last_frame=last,
     )
-    result = moved[first:last]
+    struct = surface.struct(positions=positions, fixed=vertex_flags(fixed, positions.shape[1]))
+    repaired = call_and_wait("repair_sequence", struct, c_size_t(len(positions)), options, progress=progress)
+    moved = repaired.array("positions").reshape(-1, *positions.shape[1:])
     if is_float32 and precision == "float32":
-        result = result.astype(given.dtype)
-    return SequenceResult(result, [_frame(report) for report in reports])
+        moved = moved.astype(given.dtype)
+    return SequenceResult(moved, [_frame(report) for report in repaired.report])
 
 
 def _frame(report: dict[str, Any]) -> Frame:
-    for counts in ("before", "after"):
-        report[counts] = dict(zip(_native.pair_kinds, report[counts]))
     for jitter in ("alone", "jitter"):
-        report[jitter] = None if report[jitter] is None else Jitter(*report[jitter])
+        report[jitter] = Jitter(**report[jitter]) if report[jitter] else None
     report["status"] = Status(report["status"])
     return Frame(**report)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _native
-from ._arguments import _array, not_negative
-from ._curves import _points
-from ._repair import Progress, Status, _callback
+from ._arguments import polylines_of, surface_of
+from ._call import Outcome, Status, call, call_and_wait
+from ._options import name_of, options_of
+from ._progress import OnProgress
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ def seifert_surface(
     views: int = 60,
     fair: bool = True,
     time_limit: float = 0,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> SeifertSurface:
     """An oriented surface without self-intersections whose boundary is a closed polygon in space, or several.
 
@@ -54,18 +53,17 @@ def seifert_surface(
     time_limit
         Seconds after which fairing stops. 0: none.
     progress
-        Called with a Progress now and then.
+        Called with a Progress now and then; True draws a bar.
 
     Raises
     ------
     ValueError, TypeError
         For what is no link, naming the component and the point.
     """
-    positions, corners, status, report = _native.seifert_surface(
-        _components(link), edge=not_negative("edge", edge), views=int(views), fair=bool(fair),
-        time_limit=not_negative("time_limit", time_limit), progress=None if progress is None else _callback(progress),
-    )
-    return SeifertSurface(positions.reshape(-1, 3), corners.reshape(-1, 3), Status(status), report)
+    options = options_of(edge=edge, views=views, fair=fair, time_limit=time_limit)
+    polygons = polylines_of(link, 3, "component")
+    made = call_and_wait("seifert_surface", polygons.struct(), options, progress=progress)
+    return SeifertSurface(made.array("positions"), made.array("corners"), made.status, _findings(made))
 
 
 def check_seifert_surface(positions: Any, faces: Any, link: Any, *, views: int = 60) -> dict[str, Any]:
@@ -77,17 +75,22 @@ def check_seifert_surface(positions: Any, faces: Any, link: Any, *, views: int =
     "expected_euler_characteristic", and "alexander_of_surface" is "alexander_of_link", both lists of coefficients from
     the constant up.
     """
-    p = np.array(_array(positions, "positions"), dtype=np.float64, order="C")
-    f = np.array(_array(faces, "faces"), dtype=np.int32, order="C")
-    if p.ndim != 2 or p.shape[1] != 3 or f.ndim != 2 or f.shape[1] != 3:
-        raise ValueError(f"positions have shape {p.shape}, faces {f.shape}; give (n, 3) and (m, 3)")
-    return _native.check_seifert_surface(p.ravel(), f.ravel(), _components(link), views=int(views))
+    polygons = polylines_of(link, 3, "component")
+    surface = surface_of(positions, faces)
+    return _findings(call("check_seifert_surface", surface.struct(), polygons.struct(), options_of(views=views)))
+
+
+def _findings(outcome: Outcome) -> dict[str, Any]:
+    report: dict[str, Any] = outcome.report
+    for polynomial in ("alexander_of_surface", "alexander_of_link"):
+        report[polynomial] = [int(coefficient) for coefficient in report[polynomial]]
+    return report
 
 
 def knot_of_table(name: str) -> list[NDArray[np.float64]]:
     """The points (n, 3) of each component of a knot or link: "3_1" to "10_165" as in Rolfsen's table, "hopf",
     "whitehead", "borromean", "t_2_4", "t_2_4_reversed", "t_3_7", "unknot". Raises ValueError for another name."""
-    return [c.reshape(-1, 3) for c in _native.knot_of_table(name)]
+    return call("knot_of_table", name_of("name", name)).polylines()
 
 
 @dataclass(frozen=True)
@@ -112,7 +115,7 @@ def planar_isotopy(
     *,
     points: int = 0,
     time_limit: float = 0,
-    progress: Callable[[Progress], object] | None = None,
+    progress: OnProgress = None,
 ) -> Isotopy:
     """Moves closed curves in the plane to others so that at no time one crosses itself or another.
 
@@ -125,30 +128,17 @@ def planar_isotopy(
     time_limit
         Seconds after which to stop. 0: none.
     progress
-        Called with a Progress now and then.
+        Called with a Progress now and then; True draws a bar.
 
     Raises
     ------
     ValueError, TypeError
         For curves that cross, run around the other way or lie within others, naming the curve.
     """
-    times, rings, positions, corners, status = _native.planar_isotopy(
-        _points(start), _points(end), points=int(points), time_limit=not_negative("time_limit", time_limit),
-        progress=None if progress is None else _callback(progress),
-    )
-    return Isotopy(times, [[c.reshape(-1, 2) for c in ring] for ring in rings], positions.reshape(-1, 3),
-                   corners.reshape(-1, 3), Status(status))
-
-
-def _components(link: Any) -> list[NDArray[np.float64]]:
-    if isinstance(link, np.ndarray) and link.ndim == 2:
-        link = [link]
-    result = []
-    for number, component in enumerate(link):
-        points = _array(component, f"component {number}")
-        if points.dtype.kind not in "fiu":
-            raise TypeError(f"component {number} has dtype {points.dtype}; points are real numbers")
-        if points.ndim != 2 or points.shape[1] != 3:
-            raise ValueError(f"component {number} has shape {points.shape}; give (n, 3), x y z of each point")
-        result.append(np.array(points, dtype=np.float64, order="C", copy=True).ravel())
-    return result
+    both = [polylines_of(side, 2, "curve") for side in (start, end)]
+    options = options_of(points=points, time_limit=time_limit)
+    made = call_and_wait("planar_isotopy", *(side.struct() for side in both), options, progress=progress)
+    curves = made.polylines()
+    count = len(both[0].sizes)
+    rings = [curves[first : first + count] for first in range(0, len(made.array("times")) * count, count)]
+    return Isotopy(made.array("times"), rings, made.array("positions"), made.array("corners"), made.status)

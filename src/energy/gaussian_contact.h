@@ -28,19 +28,28 @@ class GaussianContact {
   std::vector<Pair> pairs;                ///< unordered pairs that interact, each once
   std::vector<double> squared_bandwidth;  ///< eps_i^2 > 0, length squared, one a point
   double exponent = Dim == 2 ? 1 : 2;     ///< p: the dimension of the shape, 1 for curves, 2 for surfaces
+  /// Model (I) of the paper's App. B.3: the mean of the terms with eps_i and with eps_j, not one with eps_ij.
+  bool independent = false;
 
   /// Returns weight * E_G and adds weight * its gradient.
   double value_and_gradient(const Points& x, Points& gradient, double weight = 1) const {
     double value = 0;
-    for (const Pair& pair : pairs) {
-      const double squared = 0.5 * (squared_bandwidth[pair.i] + squared_bandwidth[pair.j]);
+    const auto add = [&](const Pair& pair, double squared, double share) {
       const Eigen::Matrix<double, Dim, 1> r = x.col(pair.i) - x.col(pair.j);
       const double power = exponent == 2 ? 1 / squared : std::pow(squared, -0.5 * exponent);
-      const double term = pair.weight * power * std::exp(-r.squaredNorm() / squared);
+      const double term = share * pair.weight * power * std::exp(-r.squaredNorm() / squared);
       value += term;
       const Eigen::Matrix<double, Dim, 1> force = (2 * weight * term / squared) * r;
       gradient.col(pair.i) -= force;
       gradient.col(pair.j) += force;
+    };
+    for (const Pair& pair : pairs) {
+      if (independent) {
+        add(pair, squared_bandwidth[pair.i], 0.5);
+        add(pair, squared_bandwidth[pair.j], 0.5);
+      } else {
+        add(pair, 0.5 * (squared_bandwidth[pair.i] + squared_bandwidth[pair.j]), 1);
+      }
     }
     return weight * value;
   }

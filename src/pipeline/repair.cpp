@@ -24,6 +24,7 @@
 #include "scene/prepared_surface.h"
 #include "scene/recorder.h"
 #include "untangle/attempt_log.h"
+#include "untangle/paper_untangle.h"
 #include "untangle/strategies.h"
 
 namespace unsnarl {
@@ -91,6 +92,7 @@ class Repair {
     if (!(options_.min_dihedral_deg >= 0 && options_.min_dihedral_deg < 90))
       throw std::invalid_argument("RepairOptions::min_dihedral_deg is " + std::to_string(options_.min_dihedral_deg) +
                                   "; give degrees from 0 to less than 90");
+    if (options_.paper) check_paper_options(*options_.paper);
     if (options_.find.threads < 0)
       throw std::invalid_argument("RepairOptions::find.threads is " + std::to_string(options_.find.threads) +
                                   "; give 0 for as many as the machine has, or their number");
@@ -106,8 +108,9 @@ class Repair {
     std::vector<IntersectingPair> ignored;
     for (const IntersectingPair& pair : diagnosis_.pairs)
       if (acceptance_->is_tolerated(pair)) ignored.push_back(pair);
-    SceneRepair scene(*job_, make_scene(prepared_.rest, cut.triangles, std::move(fixed), diagnosis_.edges),
-                      diagnosis_.pairs, std::move(ignored));
+    Scene surface = make_scene(prepared_.rest, cut.triangles, std::move(fixed), diagnosis_.edges);
+    surface.face_of = cut.polygon;
+    SceneRepair scene(*job_, std::move(surface), diagnosis_.pairs, std::move(ignored));
     work_on_scene(scene, cut, everything, *finders_);
     float32_ = scene.float32();
   }
@@ -131,8 +134,9 @@ class Repair {
           !pairs[c].empty() || options_.precision == Precision::float32 || options_.min_dihedral_deg > 0;
       if (!is_of_interest || diagnosis_.components.list[c].obstructed() || limits_.reached()) continue;
       const Triangulation cut = of_component(prepared_.triangulation, diagnosis_.components, c);
-      SceneRepair scene(*job_, make_scene(prepared_.rest, cut.triangles, fixed), std::move(pairs[c]),
-                        std::move(ignored[c]));
+      Scene surface = make_scene(prepared_.rest, cut.triangles, fixed);
+      surface.face_of = cut.polygon;
+      SceneRepair scene(*job_, std::move(surface), std::move(pairs[c]), std::move(ignored[c]));
       Finders finders(cut.triangles);
       work_on_scene(scene, cut, c, finders);
       float32 &= scene.float32();
@@ -208,6 +212,12 @@ class Repair {
                        report);
     if (options_.each_component) name_pairs_between_components(prepared_, diagnosis_, left.triangles, report);
     report.history = recorder_->history();
+    for (RegionHistory& region : report.history) {
+      if (region.bandwidths.empty()) continue;
+      std::vector<double> of_file;
+      for (const Index v : prepared_.weld_map.vertex_of) of_file.push_back(region.bandwidths[v]);
+      region.bandwidths = std::move(of_file);
+    }
     result_.frames = recorded_frames(*recorder_, surface_, prepared_, result_.positions, *acceptance_);
     phases_.report(1, left.triangles.size(), reached_, prepared_.rest, diagonal_);
     phases_.end();

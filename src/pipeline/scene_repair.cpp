@@ -152,7 +152,7 @@ EscalationOptions SceneRepair::escalation_options() {
 
 EscalationResult SceneRepair::untangle(SceneIndex& index, std::span<const IntersectingPair> ignored,
                                        const EscalationOptions& escalation) {
-  return job_.options.paper ? untangle_whole(scene_, index, pairs_.size(), ignored, escalation)
+  return job_.options.paper ? untangle_whole(scene_, index, pairs_.size(), ignored, *job_.options.paper, escalation)
                             : escalate(scene_, index, ignored, escalation);
 }
 

@@ -43,10 +43,12 @@ Json history_json(std::span<const RegionHistory> history) {
   Json json = Json::array();
   for (const RegionHistory& region : history) {
     Json pairs = Json::array(), step = Json::array(), min_gap = Json::array(), energy = Json::object();
+    Json bandwidth = Json::array();
     for (const IterationRecord& iteration : region.iterations) {
       pairs.push_back(iteration.pairs);
       step.push_back(iteration.step);
       min_gap.push_back(iteration.min_gap);
+      bandwidth.push_back(iteration.bandwidth);
     }
     for (std::size_t term = 0; term < energy_term_count; ++term) {
       Json values = Json::array();
@@ -64,6 +66,9 @@ Json history_json(std::span<const RegionHistory> history) {
                     {"step", std::move(step)},
                     {"min_gap", std::move(min_gap)},
                     {"energy", std::move(energy)}});
+    if (region.bandwidths.empty()) continue;
+    json.back()["bandwidth"] = std::move(bandwidth);
+    json.back()["bandwidths"] = packed<float>(region.bandwidths);
   }
   return json;
 }

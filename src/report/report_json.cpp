@@ -30,7 +30,7 @@ Json options_json(const RepairOptions& options) {
           {"time_limit_s", options.time_limit_s},
           {"memory_limit_mb", options.memory_limit_mb},
           {"recover", options.recover},
-          {"paper", options.paper}};
+          {"paper", options.paper.has_value()}};
 }
 
 Json stages_json(const RepairResult& result, const ReportFiles& files) {

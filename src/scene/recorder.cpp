@@ -27,8 +27,9 @@ void Recorder::add(Trajectory trajectory, std::string strategy, std::size_t regi
   track.strategy = std::move(strategy);
   track.region = region;
   track.iterations = std::move(trajectory.iterations);
-  if (options_.frames == 0) return;
+  track.bandwidths = std::move(trajectory.bandwidths);
   track.vertices.assign(vertices.begin(), vertices.end());
+  if (options_.frames == 0) return;
   track.states = std::move(trajectory.states);
   Positions end(3, static_cast<Index>(vertices.size()));
   for (std::size_t i = 0; i < vertices.size(); ++i) end.col(static_cast<Index>(i)) = x.col(vertices[i]);
@@ -53,8 +54,13 @@ void Recorder::thin_out() {
 std::vector<RegionHistory> Recorder::history() const {
   std::vector<RegionHistory> history;
   for (const auto& stage : stages_)
-    for (const Track& track : stage->tracks)
-      history.push_back({stage->phase, track.strategy, track.region, track.iterations});
+    for (const Track& track : stage->tracks) {
+      history.push_back({stage->phase, track.strategy, track.region, track.iterations, {}});
+      if (track.bandwidths.empty()) continue;
+      std::vector<double>& all = history.back().bandwidths;
+      all.assign(static_cast<std::size_t>(input_.cols()), IterationRecord::none);
+      for (std::size_t i = 0; i < track.vertices.size(); ++i) all[track.vertices[i]] = track.bandwidths[i];
+    }
   return history;
 }
 

@@ -33,7 +33,8 @@ class Recorder {
       std::string strategy;
       std::size_t region = 0;
       std::vector<IterationRecord> iterations;
-      std::vector<Index> vertices;  // of the scene
+      std::vector<double> bandwidths;  // of the vertices
+      std::vector<Index> vertices;     // of the scene
       std::vector<Trajectory::State> states;
     };
     std::string phase;
@@ -48,6 +49,7 @@ class Recorder {
   /// Forgets what came after.
   void restore(Stages stages) { stages_ = std::move(stages); }
 
+  /// Bandwidths are those of the scene's vertices.
   std::vector<RegionHistory> history() const;
 
  private:

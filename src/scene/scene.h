@@ -13,6 +13,7 @@ struct Scene {
   Positions rest;  ///< the input
   Positions x;     ///< now
   std::vector<Triangle> triangles;
+  std::vector<Index> face_of;  ///< of each triangle the face of the input that it is a piece of; empty: each is one
   std::vector<std::uint8_t> fixed;  ///< one flag a vertex
   IndexLists triangles_of_vertex;
   IndexLists neighbours;  ///< of vertices, by edges

@@ -39,7 +39,8 @@ class Trajectory {
   void end_at_fewest_pairs();
 
   std::vector<IterationRecord> iterations;
-  std::vector<State> states;  ///< ascending by iteration
+  std::vector<State> states;       ///< ascending by iteration
+  std::vector<double> bandwidths;  ///< of the free vertices at the end, where the method has them
 
  private:
   void thin_out();

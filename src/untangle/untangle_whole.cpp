@@ -11,7 +11,8 @@
 namespace unsnarl {
 
 EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
-                                std::span<const IntersectingPair> ignored, const EscalationOptions& options) {
+                                std::span<const IntersectingPair> ignored, const PaperOptions& paper,
+                                const EscalationOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   index.update();
   std::vector<Index> free;
@@ -25,7 +26,7 @@ EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pai
     patch.trajectory = &trajectory;
   }
   const Positions start = patch.x;
-  const PaperResult untangled = paper_untangle(patch, {}, options.stop);
+  const PaperResult untangled = paper_untangle(patch, paper, scene.face_of, options.stop);
   const double motion = (patch.x - start).colwise().norm().maxCoeff();
   paste_patch(patch, scene, index);
   EscalationResult result;

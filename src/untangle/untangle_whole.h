@@ -1,12 +1,15 @@
 #pragma once
 
+#include "unsnarl/paper.h"
 #include "untangle/escalation.h"
 
 namespace unsnarl {
 
 /// Untangles the whole scene as one patch, as the paper does it (paper_untangle), until no disjoint pair is left; in
-/// the place of escalate(). `pairs`: how many there are. Of the options only the callbacks and logs count.
+/// the place of escalate(). `pairs`: how many there are. Of `options` only the
+/// callbacks and logs count.
 EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
-                                std::span<const IntersectingPair> ignored, const EscalationOptions& options);
+                                std::span<const IntersectingPair> ignored, const PaperOptions& paper,
+                                const EscalationOptions& options);
 
 }  // namespace unsnarl

@@ -2,7 +2,7 @@
 """Checks what the sources include.
 
 layers  a file includes only from its own layer or one below; public headers only each other and the standard library;
-        the command line, the Python module and the examples only public headers and files of their own folder
+        the command line, the C interface and the examples only public headers and files of their own folder
 gpl     the product includes no part of CGAL that is under the GPL, and CGAL at all in one file only
 
 usage: check_includes.py {layers,gpl} PROJECT_DIR
@@ -31,7 +31,7 @@ BELOW = {
     "samples": ["geometry", "mesh"],
 }
 # They use the library as its users do.
-USERS = ["apps", "python", "examples"]
+USERS = ["apps", "src/c_interface", "examples"]
 THIRD_PARTY = re.compile(r"^(Eigen|CGAL|tbb|oneapi|fmt|nlohmann|CLI|png|zlib|boost|gmp|mpfr|pugixml|gtest|benchmark)\b")
 CGAL_ONLY_IN = "src/geometry/exact_predicates.cpp"
 # The kernel, its number types and Intersections_3 are under the LGPL.
@@ -59,7 +59,7 @@ def sources(folder):
 
 def layer_of(included):
     first, _, rest = included.partition("/")
-    return first if rest and first in BELOW else None
+    return first if rest and (first in BELOW or f"src/{first}" in USERS) else None
 
 
 def check_layers(project):

@@ -28,6 +28,7 @@ class Layers(unittest.TestCase):
     def test_a_layer_includes_nothing_from_above(self):
         self.refused("src/mesh/a.cpp", '#include "pipeline/b.h"')
         self.refused("src/report/a.cpp", '#include "render/b.h"')
+        self.refused("src/pipeline/a.cpp", '#include "c_interface/b.h"')
         self.accepted("src/pipeline/a.cpp", '#include "mesh/b.h"')
 
     def test_public_headers_include_public_headers(self):
@@ -36,7 +37,7 @@ class Layers(unittest.TestCase):
         self.accepted("include/unsnarl/a.h", '#include "unsnarl/b.h"')
 
     def test_users_of_the_library_include_public_headers(self):
-        for user in ("apps/unsnarl", "python", "examples"):
+        for user in ("apps/unsnarl", "src/c_interface", "examples"):
             with self.subTest(user=user):
                 self.refused(f"{user}/a.cpp", '#include "report/b.h"')
                 self.refused(f"{user}/a.cpp", '#include "report/b.h"', ["src/report/b.h"])

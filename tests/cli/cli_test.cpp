@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "cli/program.h"
@@ -83,6 +84,17 @@ TEST_F(Cli, HelpAndVersionGoToStandardOutput) {
   const Outcome outcome = run({"--version"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out.rfind("unsnarl ", 0), 0u);
+}
+
+TEST_F(Cli, VersionsOfAllLibraries) {
+  for (const bool json_first : {false, true}) {
+    const Outcome outcome = json_first ? run({"--json", "--version"}) : run({"--version", "--json"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ("unsnarl " + json["unsnarl"].get<std::string>() + "\n", run({"--version"}).out);
+    for (const char* name : {"CGAL", "CLI11", "GMP", "OpenSSL", "glibc", "oneTBB", "zlib", "{fmt}"})
+      EXPECT_TRUE(std::regex_match(json["libraries"][name].get<std::string>(), std::regex(R"(\d+(\.\d+)+.*)"))) << name;
+  }
 }
 
 TEST_F(Cli, UsageErrorsExitWith2) {

@@ -55,6 +55,9 @@ TEST(GaussianContact, GradientMatchesFiniteDifferencesInEveryDimension) {
   expect_gradient(plane);
   expect_gradient(space);
   expect_gradient(four);
+  space.energy.independent = true;
+  expect_gradient(space);
+  space.energy.independent = false;
   space.x.col(1) = space.x.col(0);  // coincident points: finite, no force between them
   space.x.col(2) = space.x.col(0);
   expect_gradient(space);

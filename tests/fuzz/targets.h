@@ -31,6 +31,8 @@ void mdd(Bytes bytes);
 /// of untangle_curves.
 void curves_svg(Bytes bytes);
 void curves_json(Bytes bytes);
+/// A plan of routes: read or refused; what was read comes back as it was written, and is judged without failing.
+void routes_plan(Bytes bytes);
 /// A small mesh on a lattice: the pairs found are those that brute force finds.
 void intersections(Bytes bytes);
 /// A small mesh on a lattice: what `repair` returns is what it promises.
@@ -40,7 +42,7 @@ struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 18> targets = {{{"obj", obj},
+inline constexpr std::array<Target, 19> targets = {{{"obj", obj},
                                                     {"off", off},
                                                     {"ply", ply},
                                                     {"stl", stl},
@@ -56,6 +58,7 @@ inline constexpr std::array<Target, 18> targets = {{{"obj", obj},
                                                     {"mdd", mdd},
                                                     {"curves_svg", curves_svg},
                                                     {"curves_json", curves_json},
+                                                    {"routes_plan", routes_plan},
                                                     {"intersections", intersections},
                                                     {"repair", repair}}};
 

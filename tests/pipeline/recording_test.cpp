@@ -156,7 +156,7 @@ TEST(Recording, flow_and_paper_have_all_their_energies) {
   const Surface surface = shapes::crossing_bumps(5, 0.3).surface();
   RepairOptions options;
   options.record.history = true;
-  options.paper = true;
+  options.paper.emplace();
   options.recover = false;
   const RepairResult result = repair(surface, options);
   ASSERT_EQ(result.report.history.size(), 1u);

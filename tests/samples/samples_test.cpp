@@ -108,6 +108,7 @@ const std::map<std::string, Shape>& shapes() {
       {"linked_rings", {3, 0, 0, orientable, 0}},
       {"jellyfish", {12, 24, 0, orientable, 0}},
       {"anchored_balls", {6, 0, 0, orientable, 12}},
+      {"medusa", {61, 0, 0, orientable, 122}},
       {"posed_limb", {1, 0, 0, orientable, 2}},
       {"overlapping_quads", {3, 1, 0, orientable, 5}},
       {"hair_cards", {61, 60, 0, orientable, 62}},
@@ -266,8 +267,13 @@ TEST(Samples, AreAtLeastTwentySixAnalyticOnes) {
   ASSERT_GE(all_samples().size(), analytic_sample_count);
   for (std::size_t k = 0; k < analytic_sample_count; ++k)
     EXPECT_TRUE(all_samples()[k].embeddable) << all_samples()[k].name;
-  EXPECT_EQ(all_samples()[analytic_sample_count].name, "posed_limb") << "analytic ones come first";
+  EXPECT_EQ(all_samples()[analytic_sample_count].name, "jellyfish") << "analytic ones come first";
   EXPECT_EQ(shapes().size(), all_samples().size());
+}
+
+TEST(Samples, TheSnakesOfMedusaAreThickenedAroundSpinesThatKeepApart) {
+  EXPECT_FALSE(runs_through_itself(make_sample("medusa", 64, {{"thickness", 0.25}, {"push", 0}})));
+  EXPECT_GT(make_sample("medusa", 240).view().face_count(), 430000U);
 }
 
 TEST(Samples, HaveDistinctNamesAndOneLineDescriptions) {

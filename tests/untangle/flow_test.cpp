@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -347,14 +349,14 @@ TEST(FlowSamples, GeodesicsFollowTheSurface) {
   }
 }
 
-class PaperUntangleTest : public testing::TestWithParam<std::pair<BandwidthScope, bool>> {};
+class PaperUntangleTest : public testing::TestWithParam<std::pair<PaperBandwidth, bool>> {};
 
 TEST_P(PaperUntangleTest, PartsTwoSpheres) {
   Shape shape = sphere(Vec3(0, 0, 0), 1, 12);
   shape.add(sphere(Vec3(1.9, 0.05, 0.02), 1, 12));
   Patch patch = patch_of(shape);
   PaperOptions options;
-  options.scope = GetParam().first;
+  options.bandwidth = GetParam().first;
   options.adaptive = GetParam().second;
   options.max_iterations = 300;
   const PaperResult result = paper_untangle(patch, options);
@@ -367,11 +369,11 @@ TEST_P(PaperUntangleTest, PartsTwoSpheres) {
                            [](const IntersectingPair& pair) { return pair.kind == PairClass::disjoint; }));
 }
 
-INSTANTIATE_TEST_SUITE_P(AllModels, PaperUntangleTest,
-                         testing::Values(std::pair{BandwidthScope::global, false},
-                                         std::pair{BandwidthScope::global, true},
-                                         std::pair{BandwidthScope::local, false},
-                                         std::pair{BandwidthScope::local, true}));
+INSTANTIATE_TEST_SUITE_P(
+    AllModels, PaperUntangleTest,
+    testing::Values(std::pair{PaperBandwidth::global, false}, std::pair{PaperBandwidth::global, true},
+                    std::pair{PaperBandwidth::independent, false}, std::pair{PaperBandwidth::independent, true},
+                    std::pair{PaperBandwidth::symmetric, false}, std::pair{PaperBandwidth::symmetric, true}));
 
 TEST(PaperUntangle, DoesNotDependOnTheUnit) {
   Patch small = patch_of(limb_and_sheet()), large = small;
@@ -389,10 +391,10 @@ TEST(PaperUntangle, EveryEnergyCanBeLeftOut) {
   Shape shape = sphere(Vec3(0, 0, 0), 1, 12);
   shape.add(sphere(Vec3(1.9, 0.05, 0.02), 1, 12));
   PaperOptions by_length, gaussian_alone, nothing;
-  by_length.mesh_energy = MeshEnergy::intersection_length;
+  by_length.mesh_energy = PaperMeshEnergy::intersection_length;
   by_length.lambda_gaussian = 0;
-  gaussian_alone.lambda_minkowski = 0;
-  nothing.lambda_gaussian = nothing.lambda_minkowski = 0;
+  gaussian_alone.lambda_mesh = 0;
+  nothing.lambda_gaussian = nothing.lambda_mesh = 0;
   for (PaperOptions* options : {&by_length, &gaussian_alone}) {
     options->max_iterations = 300;
     Patch patch = patch_of(shape);
@@ -405,7 +407,7 @@ TEST(PaperUntangle, EveryEnergyCanBeLeftOut) {
 
 TEST(PaperUntangle, BandwidthsAreScaledAfterTheyAreFound) {
   PaperOptions options;
-  options.scope = BandwidthScope::global;
+  options.bandwidth = PaperBandwidth::global;
   options.adaptive = false;
   options.max_iterations = 1;
   const auto bandwidth = [&](double scale) {
@@ -414,6 +416,30 @@ TEST(PaperUntangle, BandwidthsAreScaledAfterTheyAreFound) {
     return paper_untangle(patch, options).mean_bandwidth;
   };
   EXPECT_NEAR(bandwidth(3), 3 * bandwidth(1), 1e-9 * bandwidth(1));
+}
+
+TEST(PaperUntangle, GoesOnWhereNoDirectionDescends) {
+  // With the penalty alone the first line search ends at a kink.
+  Patch patch = patch_of(figure_eight_torus());
+  PaperOptions options;
+  options.lambda_gaussian = 0;
+  options.lambda_mesh = 1;
+  options.max_iterations = 60;
+  EXPECT_EQ(paper_untangle(patch, options).iterations, 60);
+}
+
+TEST(PaperUntangle, OptionsHaveRanges) {
+  EXPECT_NO_THROW(check_paper_options({}));
+  const auto refuses = [](auto&& change) {
+    PaperOptions options;
+    change(options);
+    EXPECT_THROW(check_paper_options(options), std::invalid_argument);
+  };
+  refuses([](PaperOptions& o) { o.lambda_mesh = -1; });
+  refuses([](PaperOptions& o) { o.neighbourhood = 0; });
+  refuses([](PaperOptions& o) { o.damping = 1.5; });
+  refuses([](PaperOptions& o) { o.memory = 0; });
+  refuses([](PaperOptions& o) { o.start_bandwidth = std::numeric_limits<double>::quiet_NaN(); });
 }
 
 TEST(PaperUntangle, FixedVerticesStay) {

@@ -1,0 +1,75 @@
+#include "paper_options.h"
+
+#include <limits>
+#include <map>
+
+namespace unsnarl::app {
+namespace {
+
+constexpr const char* group = "For research, with --paper";
+constexpr double most = std::numeric_limits<double>::max();
+
+/// A choice among names, each of a value of an enum.
+template <class Value>
+void add_choice(CLI::App& command, const std::string& name, Value& value, const std::map<std::string, Value>& choices,
+                const std::string& type_name, const std::string& description) {
+  command
+      .add_option_function<std::string>(
+          name, [&value, choices](const std::string& given) { value = choices.at(given); }, description)
+      ->check(CLI::IsMember(choices).description(""))
+      ->type_name(type_name)
+      ->needs("--paper")
+      ->group(group);
+}
+
+template <class Number>
+void add_number(CLI::App& command, const std::string& name, Number& value, Number least, const std::string& type_name,
+                const std::string& description) {
+  command.add_option(name, value, description)
+      ->check(CLI::Range(least, static_cast<Number>(std::min<double>(most, std::numeric_limits<Number>::max())))
+                  .description(""))
+      ->type_name(type_name)
+      ->needs("--paper")
+      ->group(group);
+}
+
+}  // namespace
+
+void add_paper_options(CLI::App& command, PaperOptions& options) {
+  constexpr double positive = std::numeric_limits<double>::min();
+  add_choice<PaperBandwidth>(command, "--paper-bandwidth", options.bandwidth,
+                             {{"global", PaperBandwidth::global},
+                              {"independent", PaperBandwidth::independent},
+                              {"symmetric", PaperBandwidth::symmetric}},
+                             "global|independent|symmetric",
+                             "Bandwidths of the Gaussian energy (Table 2): one, or one a vertex by model (I) or (II);\n"
+                             "default: symmetric, (II)");
+  command
+      .add_flag_callback(
+          "--paper-frozen", [&options] { options.adaptive = false; },
+          "Bandwidths stay as they are found at the start (§5.6)")
+      ->needs("--paper")
+      ->group(group);
+  add_number(command, "--paper-bandwidth-scale", options.bandwidth_scale, positive, "X",
+             "Times the bandwidths found (Fig. 14); default 1");
+  add_number(command, "--paper-neighbourhood", options.neighbourhood, positive, "X",
+             "Vertices farther apart, in bandwidths, do not repel each other (§3.5.4); default 1.5");
+  add_number(command, "--paper-gaussian", options.lambda_gaussian, 0.0, "W",
+             "Weight of the Gaussian energy; default 1");
+  add_number(command, "--paper-mesh", options.lambda_mesh, 0.0, "W", "Weight of the mesh energy; default 0.03");
+  add_choice<PaperMeshEnergy>(
+      command, "--paper-mesh-energy", options.mesh_energy,
+      {{"depth", PaperMeshEnergy::penetration_depth}, {"length", PaperMeshEnergy::intersection_length}}, "depth|length",
+      "Penetration depth (default), or the length of the intersection curves (§3.2)");
+  command
+      .add_flag_callback(
+          "--paper-triangles", [&options] { options.whole_polygons = false; },
+          "Penetration between the triangles of polygons, not between polygons as they are")
+      ->needs("--paper")
+      ->group(group);
+  add_number(command, "--paper-arap", options.lambda_arap, 0.0, "W", "Weight of the regularisation (§5.8); default 1");
+  add_number(command, "--paper-memory", options.memory, 1, "N", "Steps that L-BFGS keeps; default 8");
+  add_number(command, "--paper-iterations", options.max_iterations, 0, "N", "Most of them; default 3000");
+}
+
+}  // namespace unsnarl::app

@@ -1,0 +1,274 @@
+#include "routes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "command_options.h"
+#include "mesh_input.h"
+#include "pictures.h"
+#include "progress.h"
+#include "staged_output.h"
+#include "standard_streams.h"
+#include "surface_files.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/pictures.h"
+#include "unsnarl/routes.h"
+#include "usage_error.h"
+
+namespace unsnarl::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_bytes(const std::string& path) {
+  std::string bytes;
+  if (path == standard_stream) {
+    bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
+    if (std::cin.bad()) throw FileError("standard input: cannot read");
+    return bytes;
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(path + ": cannot open");
+  bytes.assign(std::istreambuf_iterator<char>(file), {});
+  if (file.bad()) throw FileError(path + ": cannot read");
+  return bytes;
+}
+
+/// The error of a parser, with the name of the file in front.
+template <class Parse>
+auto parsed(const std::string& path, Parse&& parse) {
+  try {
+    return parse(read_bytes(path));
+  } catch (const FileError& e) {
+    throw FileError(std::string(e.what()).starts_with(path + ":") ? e.what() : fmt::format("{}: {}", path, e.what()));
+  }
+}
+
+std::string as_text(const RoutePlan& plan, const RouteFindings& f) {
+  const auto measured = [](double clearance) {
+    return clearance < RouteFindings::measured_up_to ? fmt::format("{:.5f}", clearance)
+                                                     : fmt::format("{} or more", RouteFindings::measured_up_to);
+  };
+  std::string text = "distances / those needed, at least: ";
+  if (plan.agents.size() > 1) text += measured(f.clearance) + " between routes, ";
+  if (!plan.obstacles.empty()) text += measured(f.obstacle_clearance) + " from obstacles, ";
+  return text + fmt::format(
+                    "{} within a route\n"
+                    "radius * curvature: {:.3f} at most; length / straight: mean {:.3f}, largest {:.3f}\n",
+                    measured(f.self_clearance), f.turn, f.mean_ratio(), f.max_ratio());
+}
+
+int check_file(const RoutesCommandOptions& options, const RoutePlan& plan) {
+  RouteFindings found;
+  try {
+    found =
+        check_routes(plan, parsed(options.check, [&](const std::string& bytes) { return parse_routes(bytes, plan); }));
+  } catch (const std::invalid_argument& e) {
+    throw FileError(fmt::format("{}: {}", options.check, e.what()));
+  }
+  if (!options.quiet)
+    tell(as_text(plan, found) + route_faults(plan, found) +
+         (found.hold() ? "the routes keep clear of each other\n" : ""));
+  return found.hold() ? exit_embedded : exit_intersecting;
+}
+
+/// Pairs of faces of which at least one is of a tube: obstacles may intersect themselves and each other.
+std::vector<IntersectingPair> pairs_of_tubes(const RoutePlan& plan, const Surface& tubes) {
+  const auto faces = static_cast<std::int32_t>(tubes.view().face_count());
+  FindOptions find;
+  find.weld = Weld::none;
+  std::vector<IntersectingPair> pairs = find_intersections(with_obstacles(plan, tubes), find);
+  std::erase_if(pairs, [&](const IntersectingPair& pair) { return pair.a >= faces; });  // a < b
+  return pairs;
+}
+
+std::vector<std::int32_t> faces_in(const std::vector<IntersectingPair>& pairs) {
+  std::vector<std::int32_t> faces;
+  for (const IntersectingPair& pair : pairs) faces.insert(faces.end(), {pair.a, pair.b});
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+/// Without obstacles that would hide all: those above every route.
+RoutePlan seen_from_above(const RoutePlan& plan, const Surface& tubes) {
+  double highest = tubes.positions[1];
+  for (std::size_t k = 1; k < tubes.positions.size(); k += 3) highest = std::max(highest, tubes.positions[k]);
+  RoutePlan seen = plan;
+  std::erase_if(seen.obstacles, [&](const RouteObstacle& obstacle) {
+    const std::vector<double>& p = obstacle.surface.positions;
+    bool is_above = true;
+    for (std::size_t k = 1; k < p.size(); k += 3) is_above = is_above && p[k] >= highest;
+    return is_above;
+  });
+  return seen;
+}
+
+std::string picture(const RoutePlan& plan, const Surface& before, const Surface& after, std::vector<SceneFile> parts,
+                    const std::string& label = "routes") {
+  const RoutePlan seen = seen_from_above(plan, after);
+  PictureOptions options;
+  options.before_label = "as asked";
+  options.after_label = label;
+  options.inset = false;
+  const Surface all_before = with_obstacles(seen, before), all_after = with_obstacles(seen, after, &parts);
+  options.files = parts;
+  return picture_png(all_before, faces_in(pairs_of_tubes(seen, before)), all_after, {}, options);
+}
+
+std::vector<std::string> names_of(const RoutePlan& plan) {
+  std::vector<std::string> names;
+  for (const RouteAgent& agent : plan.agents) names.push_back(agent.name);
+  return names;
+}
+
+/// Writes tubes, reads them back; throws std::logic_error where they are others or intersect.
+void write_tubes(const std::string& path, const RoutePlan& plan, const Surface& tubes, Interruption& interruption) {
+  StagedOutput staged(path, interruption);
+  staged.write({OutputFile{{}, surface_file(tubes, Format::obj, "tubes of routes by unsnarl", names_of(plan))}});
+  const Document written = Document::read(staged.main_file(), Format::obj);
+  if (written.surface().positions != tubes.positions || written.surface().corners != tubes.corners ||
+      !pairs_of_tubes(plan, written.surface()).empty())
+    throw std::logic_error("the tubes to be written are not the ones that were certified");
+  staged.commit();
+}
+
+int tell_failure(const RoutesCommandOptions& options, const RoutePlan& plan, const RoutesResult& made) {
+  if (options.quiet) return exit_code_of(made.status);
+  for (const std::string& message : made.messages) tell(message + "\n");
+  if (made.status == Status::no_progress && made.messages.empty())
+    tell("no routes were found that keep clear of each other; of the best:\n" + route_faults(plan, made.found));
+  tell(fmt::format("{}: nothing was written\n", to_string(made.status)));
+  return exit_code_of(made.status);
+}
+
+/// The paper's own way: surfaces of straight tubes, untangled as any surface is; only their ends stay.
+int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, const RoutesResult& made,
+                   Context& context, Interruption& interruption) {
+  std::vector<SceneFile> parts;
+  const Surface tubes = route_tubes(plan, made.asked, options.sides, &parts);
+  Surface scene = with_obstacles(plan, tubes);
+  RepairOptions wanted;
+  wanted.find.weld = Weld::none;
+  wanted.time_limit_s = options.time_limit_s;
+  wanted.precision = Precision::float64;
+  wanted.fixed.assign(scene.view().vertex_count(), 1);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    // Half balls and rings at the ends are the vertices within a radius of them.
+    for (std::size_t v = parts[i].first_vertex; v < parts[i].first_vertex + parts[i].vertices; ++v) wanted.fixed[v] = 0;
+    const std::size_t cap = parts[i].vertices - static_cast<std::size_t>(options.sides) * made.asked[i].points.size();
+    const std::size_t ends = cap / 2 + static_cast<std::size_t>(options.sides);
+    for (std::size_t k = 0; k < ends; ++k)
+      wanted.fixed[parts[i].first_vertex + k] = wanted.fixed[parts[i].first_vertex + parts[i].vertices - 1 - k] = 1;
+  }
+  const RepairResult repaired = repair(scene, wanted, &context);
+  Surface after = tubes;
+  std::copy_n(repaired.positions.begin(), after.positions.size(), after.positions.begin());
+  const std::vector<IntersectingPair> left = pairs_of_tubes(plan, after);
+  if (!left.empty()) {
+    if (!options.quiet)
+      tell(fmt::format("{}: {} pairs of faces still intersect; nothing was written\n", to_string(repaired.status),
+                       left.size()));
+    return repaired.status == Status::embedded ? exit_intersecting : exit_code_of(repaired.status);
+  }
+  const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
+  write_tubes(path("tubes.obj"), plan, after, interruption);
+  write_file(path("picture.png"), picture(plan, tubes, after, parts, "free tubes"), interruption);
+  if (!options.quiet)
+    tell(
+        fmt::format("{} free tubes, no two faces intersect; they are no longer round, so that the agents' distances\n"
+                    "are not certified\nwrote {}\n",
+                    plan.agents.size(), options.folder));
+  return exit_embedded;
+}
+
+}  // namespace
+
+void add_routes_options(CLI::App& command, RoutesCommandOptions& options) {
+  command
+      .add_option("PLAN", options.plan,
+                  "A plan: *.json with agents (name, radius, start, goal, waypoints) and obstacles (file,\n"
+                  "hollow); '-' for standard input")
+      ->required();
+  command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")->type_name("DIR");
+  command
+      .add_option("--spacing", options.spacing,
+                  "Distance of the points of a route / the agent's radius, 0.1 to 2 (default 0.5)")
+      ->check(CLI::Range(0.1, 2.0).description(""))
+      ->type_name("X");
+  command.add_option("--sides", options.sides, "Corners of the tubes' rings, 3 to 256 (default 16)")
+      ->check(CLI::Range(3, 256).description(""))
+      ->type_name("N");
+  command.add_flag("--free-tubes", options.free_tubes,
+                   "As the paper does: straight tubes as surfaces, untangled; they do not stay tubes");
+  add_time_limit(command, options.time_limit_s);
+  command.add_option("--check", options.check, "Instead of making routes, certify these")->type_name("ROUTES.json");
+  add_progress(command, options.progress);
+  add_quiet(command, options.quiet);
+  command.footer(
+      "Written into DIR:\n"
+      "  routes.json    points, lengths and what was certified of each agent's route\n"
+      "  tubes.obj      what the agents pass through, a component and group each\n"
+      "  animation.svg  the agents on their way\n"
+      "  picture.png    the ways that were asked for, and the routes\n"
+      "With --free-tubes only tubes.obj and picture.png.\n\n"
+      "Examples:\n"
+      "  unsnarl sample routes_star_6 -o plan.json && unsnarl routes plan.json -o out\n"
+      "  unsnarl routes plan.json --check out/routes.json\n\n"
+      "Exit codes: 0 certified routes, 1 none found (--check: not all holds), 2 usage, 3 cannot read,\n"
+      "4 cannot write, 5 time limit, 6 interrupted, 7 an obstruction that no routes can mend, 70 internal error.");
+}
+
+int run_routes(const RoutesCommandOptions& options, Interruption& interruption) {
+  if (options.folder.empty() == options.check.empty())
+    throw UsageError("say where the routes go, -o DIR, or which ones to certify, --check ROUTES.json");
+  const RoutePlan plan = parsed(options.plan, [&](const std::string& bytes) {
+    return parse_route_plan(bytes, options.plan == standard_stream ? fs::path() : fs::path(options.plan).parent_path());
+  });
+  if (!options.check.empty()) return check_file(options, plan);
+  prepare_picture_folder(options.folder);
+
+  ProgressDisplay display(progress_style(options.progress, options.quiet));
+  Context context;
+  context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
+  interruption.set_handler([&] { context.cancel(); });
+  RouteOptions wanted;
+  wanted.spacing = options.spacing;
+  wanted.time_limit_s = options.time_limit_s;
+  wanted.ways_only = options.free_tubes;
+  const RoutesResult made = plan_routes(plan, wanted, &context);
+  if (options.free_tubes && !made.asked.empty()) {
+    const int exit_code = run_free_tubes(options, plan, made, context, interruption);
+    display.clear();
+    return exit_code;
+  }
+  display.clear();
+  if (made.status != Status::embedded) return tell_failure(options, plan, made);
+  interruption.set_handler(nullptr);
+
+  const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
+  std::vector<SceneFile> parts;
+  const Surface tubes = route_tubes(plan, made.routes, options.sides, &parts);
+  {
+    StagedOutput staged(path("routes.json"), interruption);
+    staged.write({OutputFile{{}, routes_json(plan, made)}});
+    const RouteFindings found = check_routes(plan, parse_routes(read_bytes(staged.main_file().string()), plan));
+    if (!found.hold()) throw std::logic_error("the routes to be written do not hold: " + route_faults(plan, found));
+    write_tubes(path("tubes.obj"), plan, tubes, interruption);
+    staged.commit();
+  }
+  write_file(path("animation.svg"), routes_animation_svg(plan, made.routes), interruption);
+  write_file(path("picture.png"), picture(plan, route_tubes(plan, made.asked, options.sides), tubes, std::move(parts)),
+             interruption);
+  if (!options.quiet)
+    tell(fmt::format("{} route{}, certified as written:\n{}wrote {}, {:.1f} s\n", made.routes.size(),
+                     made.routes.size() == 1 ? "" : "s", as_text(plan, made.found), options.folder, made.seconds));
+  return exit_embedded;
+}
+
+}  // namespace unsnarl::app

@@ -1,0 +1,309 @@
+/* The C interface of unsnarl: C99 and C++, one shared library, libunsnarl_c.
+ *
+ *   unsnarl_surface mesh = {.size = sizeof mesh, .positions = p, .vertex_count = n, .corners = c, .corner_count = 3 *
+ * m}; unsnarl_result* result; if (unsnarl_repair(&mesh, NULL, NULL, &result) != UNSNARL_OK) { fprintf(stderr, "%s\n",
+ * unsnarl_error_message()); return 1;
+ *   }
+ *   unsnarl_array moved;
+ *   unsnarl_result_array(result, "positions", &moved);  // moved.data: 3 n doubles
+ *   puts(unsnarl_result_status(result));                // "embedded"
+ *   unsnarl_result_free(result);
+ *
+ * How all functions behave:
+ *
+ * - Functions that return int return UNSNARL_OK or another unsnarl_error, and then write nothing through their
+ * pointers; unsnarl_error_message() says what was wrong, where, and what to do. A mesh that could not be untangled is
+ * no error: unsnarl_result_status() says so.
+ * - What is passed in is not changed, and not kept after the call.
+ * - Whatever a function hands out (a text, an array) belongs to the handle that it came from and is gone with it.
+ *   Handles are freed by the function named after them; NULL may be freed.
+ * - Structs begin with their size, which the caller sets (`.size = sizeof mesh`; unsnarl_options_init does it for
+ *   options). Later versions add fields at the end, and take what was compiled for this version as it was meant.
+ * - Texts are UTF-8, names of choices those of the command line and of Python; where a name is asked for, NULL is the
+ *   default.
+ * - Any number of threads may call at the same time, with handles of their own. unsnarl_context_cancel alone may be
+ *   called with a handle that another thread is using.
+ */
+#ifndef UNSNARL_UNSNARL_H
+#define UNSNARL_UNSNARL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define UNSNARL_EXPORT __attribute__((visibility("default")))
+#else
+#define UNSNARL_EXPORT
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- errors and versions ------------------------------------------------------------------------------------ */
+
+typedef enum unsnarl_error {
+  UNSNARL_OK = 0,
+  UNSNARL_INVALID_ARGUMENT = 1, /* an argument makes no sense; the message names face, vertex, curve or option */
+  UNSNARL_CANNOT_READ = 2,      /* a file is missing or makes no sense */
+  UNSNARL_CANNOT_WRITE = 3,     /* a file cannot be written; what was there before is still there */
+  UNSNARL_OUT_OF_MEMORY = 4,
+  UNSNARL_INTERNAL_ERROR = 70 /* please report it */
+} unsnarl_error;
+
+/* What the last call that failed in this thread complained of; "" if none did. Valid until the next one fails. */
+UNSNARL_EXPORT const char* unsnarl_error_message(void);
+
+/* Version of the library, "major.minor.patch". */
+UNSNARL_EXPORT const char* unsnarl_version(void);
+
+/* ---- surfaces, curves, options ------------------------------------------------------------------------------ */
+
+typedef struct unsnarl_document unsnarl_document; /* a mesh file, see below */
+
+/* A polygon mesh, or several that lie one after another in the same arrays. */
+typedef struct unsnarl_surface {
+  size_t size;             /* sizeof(unsnarl_surface) */
+  const double* positions; /* x y z of each vertex */
+  size_t vertex_count;
+  const int32_t* corners; /* the vertices of all faces, counted from 0, face after face */
+  size_t corner_count;
+  const int32_t* offsets;   /* face f has the corners [offsets[f], offsets[f + 1]); NULL: every face is a triangle */
+  size_t offset_count;      /* number of faces + 1; 0: every face is a triangle */
+  const uint8_t* fixed;     /* one flag a vertex, nonzero: a repair must not move it; NULL: all may move */
+  const size_t* mesh_sizes; /* several meshes: vertices and faces of each, two numbers a mesh, which reports then list
+                               one by one; NULL: it is one */
+  size_t mesh_count;        /* 0: it is one */
+  const unsnarl_document* document; /* the file that the arrays are of, set by unsnarl_document_surface: a repair then
+                                       holds in the digits that the file will be written with; else NULL */
+} unsnarl_surface;
+
+/* Polylines in the plane, or closed polygons in space (a link). */
+typedef struct unsnarl_curves {
+  size_t size;            /* sizeof(unsnarl_curves) */
+  const double* points;   /* in the plane x y, in space x y z of each point */
+  const int32_t* offsets; /* curve c has the points [offsets[c], offsets[c + 1]) */
+  size_t curve_count;     /* offsets has one entry more */
+  const uint8_t* closed;  /* one flag a curve, nonzero: its last point is joined to its first, which is not repeated;
+                             NULL: all are closed. Links always are */
+  const uint8_t* fixed;   /* one flag a point, nonzero: must not move; NULL: all may move */
+} unsnarl_curves;
+
+/* Options of all functions, by the names that Python gives them; a function leaves alone what does not concern it. NULL
+ * in place of options: the defaults. Flags: zero is false. */
+typedef struct unsnarl_options {
+  size_t size; /* set by unsnarl_options_init, as is everything else */
+
+  /* what counts as an intersection, of surfaces */
+  const char* weld; /* which vertices are one: "none"; "seams": ends of open edges at equal positions; "all": any at
+                       equal positions. Default "seams" */
+  double weld_tolerance;  /* length, >= 0: vertices this close count as equal. Default 0 */
+  int32_t both_diagonals; /* faces intersect where they do for any choice of the diagonals of quads. Default 0 */
+  int32_t threads;        /* >= 0; 0: as many as the machine has (default). Results do not depend on it */
+
+  /* unsnarl_repair and unsnarl_repair_sequence */
+  const char* goal;        /* "all": no intersecting pair (default); "disjoint": none of faces that share no vertex */
+  const char* precision;   /* numbers the result must hold in: "float32", "float64", "auto": float32 where the
+                              coordinates allow it (default) */
+  double min_gap;          /* wanted gap between sheets, a fraction of the diagonal of the bounding box, >= 0; 0: just
+                              enough to be safe (default) */
+  double max_displacement; /* how far any vertex may move, a fraction of the diagonal, >= 0; 0: any distance. Default
+                              0 */
+  int32_t absolute;        /* min_gap and max_displacement are lengths in the units of the positions. Default 0 */
+  double min_dihedral;     /* degrees, [0, 90): faces that are folded together closer are opened. Default 0; not of
+                              sequences */
+  double memory_limit;    /* MB (10^6 bytes) that the process may hold, >= 0; 0: no limit (default); not of sequences */
+  int32_t each_component; /* repair every component as if alone. Default 0; not of sequences */
+  int32_t paper;          /* the configuration of the paper, for research. Default 0; not of sequences */
+
+  /* all that takes long */
+  double time_limit; /* seconds, >= 0, of sequences for each frame; 0: none (default) */
+  int32_t recover; /* 0: stop after untangling, without moving back toward the input, for research. Default 1; surfaces
+                      and curves, not sequences */
+
+  /* unsnarl_repair_sequence */
+  size_t first_frame; /* the frames wanted, the last one excluded: all by default */
+  size_t last_frame;  /* SIZE_MAX: to the end */
+
+  /* unsnarl_untangle_curves */
+  double gap; /* distance to keep where a crossing was opened, a fraction of the diagonal, (0, 0.1]. Default 4e-3 */
+  double junction;  /* an open curve that ends this close to another one ends on it and stays there, a fraction of the
+                       diagonal, [0, 0.1]. Default 1e-9 */
+  int32_t fix_ends; /* the ends of open curves must not move. Default 0 */
+
+  /* unsnarl_seifert_surface; `views` also unsnarl_check_seifert_surface */
+  double edge; /* edge length inside the surface, a fraction of the diagonal, [0, 0.5]; 0: that of the link (default) */
+  int32_t views; /* from how many sides to look for the simplest diagram, [3, 10000]. Default 60 */
+  int32_t fair;  /* 0: the surface as Seifert's algorithm builds it. Default 1 */
+
+  /* unsnarl_planar_isotopy */
+  int32_t points; /* of every curve on the way, 0 or [16, 100000]; 0: as many as the longer, 200 at least (default) */
+} unsnarl_options;
+
+/* Sets all options to their defaults. size: sizeof(unsnarl_options). */
+UNSNARL_EXPORT int unsnarl_options_init(unsnarl_options* options, size_t size);
+
+/* ---- progress and cancellation ------------------------------------------------------------------------------ */
+
+typedef struct unsnarl_progress {
+  size_t size;             /* of this struct in the library that calls */
+  double fraction;         /* [0, 1], never decreases */
+  const char* phase;       /* "diagnose", "untangle", "recover", "certify", "frames", ... */
+  size_t pairs_left;       /* intersecting pairs of triangles, or of segments, at this moment */
+  double displacement_rel; /* largest displacement at this moment / diagonal of the bounding box */
+} unsnarl_progress;
+
+/* Called in the thread that called the function at work, a few times a second at most. Nonzero: cancel. */
+typedef int (*unsnarl_progress_function)(const unsnarl_progress* progress, void* data);
+
+typedef struct unsnarl_context unsnarl_context;
+
+/* For one call at a time. on_progress: may be NULL. data: handed to it. NULL: there is not enough memory. */
+UNSNARL_EXPORT unsnarl_context* unsnarl_context_new(unsnarl_progress_function on_progress, void* data);
+/* Ends the call that works with this context soon, with status "cancelled"; those to come at once. Safe from any thread
+ * and from a signal handler. */
+UNSNARL_EXPORT void unsnarl_context_cancel(unsnarl_context* context);
+UNSNARL_EXPORT void unsnarl_context_free(unsnarl_context* context);
+
+/* ---- results ------------------------------------------------------------------------------------------------ */
+
+typedef struct unsnarl_result unsnarl_result;
+
+typedef enum unsnarl_type { UNSNARL_FLOAT64 = 0, UNSNARL_INT32 = 1, UNSNARL_UINT8 = 2 } unsnarl_type;
+
+/* Row after row, without gaps. */
+typedef struct unsnarl_array {
+  const void* data;
+  size_t rows;
+  size_t columns;
+  unsnarl_type type;
+} unsnarl_array;
+
+/* How the work ended: "embedded", "reduced", "no_progress", "obstructed", "time_limit", "memory_limit",
+ * "displacement_exceeded" or "cancelled"; only "embedded" promises that nothing intersects. "" where nothing was to be
+ * moved. */
+UNSNARL_EXPORT const char* unsnarl_result_status(const unsnarl_result* result);
+/* What was found, as JSON: an object, or for sequences an array of them. */
+UNSNARL_EXPORT const char* unsnarl_result_report(const unsnarl_result* result);
+/* The array of this name; each function below says which there are. */
+UNSNARL_EXPORT int unsnarl_result_array(const unsnarl_result* result, const char* name, unsnarl_array* array);
+UNSNARL_EXPORT void unsnarl_result_free(unsnarl_result* result);
+
+/* ---- surfaces ----------------------------------------------------------------------------------------------- */
+
+/* All pairs of faces that meet anywhere but in the hull of the vertices they share, decided exactly. Touching counts.
+ *
+ * Arrays: "pairs" (k, 2) int32, faces a < b, or a == b where a polygon meets itself, sorted; "kinds" (k, 1) uint8, how
+ * the two are related, see unsnarl_pair_kind. Report: their number by kind. */
+UNSNARL_EXPORT int unsnarl_find_intersections(const unsnarl_surface* surface, const unsnarl_options* options,
+                                              unsnarl_result** result);
+
+/* Name of a kind of pair: 0 "disjoint" (the faces share no vertex), 1 "one_vertex" (they share one and meet elsewhere
+ * too), 2 "folded" (they share an edge and overlap flat), 3 "duplicate" (they have the same three vertices), 4
+ * "degenerate" (one of them has no area). NULL for any other number. */
+UNSNARL_EXPORT const char* unsnarl_pair_kind(int kind);
+
+/* Decides exactly whether the faces are embedded with their vertices at `moved` (x y z of each, moved_count vertices).
+ * Vertices are welded and polygons split as on the positions of `surface`.
+ *
+ * Report: "embedded", "float32_embedded" (after rounding to float32), "pairs" and "pairs_float32" by kind,
+ * "new_zero_area_faces", "seams_closed". */
+UNSNARL_EXPORT int unsnarl_certify(const unsnarl_surface* surface, const double* moved, size_t moved_count,
+                                   const unsnarl_options* options, unsnarl_result** result);
+
+/* Moves the vertices as little as possible so that no two faces intersect; connectivity is kept. The same input and
+ * options give the same bytes at any number of threads (time limits and cancellation aside).
+ *
+ * Arrays: "positions" (n, 3) float64; what did not have to move is bit-identical. Report: that of `unsnarl fix
+ * --report` (docs/report.md). */
+UNSNARL_EXPORT int unsnarl_repair(const unsnarl_surface* surface, const unsnarl_options* options,
+                                  unsnarl_context* context, unsnarl_result** result);
+
+/* Repairs the frames of a moving surface so that corrections go on smoothly in time; each frame is certified by itself
+ * (docs/sequences.md). surface->positions holds frame_count times vertex_count positions, one frame after another.
+ *
+ * Arrays: "positions" (frames wanted * n, 3) float64. Report: an array of one object a frame, with the fields of
+ * unsnarl::FrameReport (sequence.h). Status: that of the first frame that is not "embedded". */
+UNSNARL_EXPORT int unsnarl_repair_sequence(const unsnarl_surface* surface, size_t frame_count,
+                                           const unsnarl_options* options, unsnarl_context* context,
+                                           unsnarl_result** result);
+
+/* Array "components" (m, 1) int32: the component of each face (faces joined by a vertex that they share, welded),
+ * counted from 0 in the order of their first faces; -1 for a face without any triangle. */
+UNSNARL_EXPORT int unsnarl_component_of_faces(const unsnarl_surface* surface, const unsnarl_options* options,
+                                              unsnarl_result** result);
+/* Array "vertices" (n, 1) uint8, flags: on an edge of one face only, after welding. */
+UNSNARL_EXPORT int unsnarl_boundary_vertices(const unsnarl_surface* surface, const unsnarl_options* options,
+                                             unsnarl_result** result);
+/* Array "vertices" (n, 1) uint8, flags: used by one of the faces that are flagged. faces: face_count flags, one a face.
+ */
+UNSNARL_EXPORT int unsnarl_vertices_of_faces(const unsnarl_surface* surface, const uint8_t* faces, size_t face_count,
+                                             unsnarl_result** result);
+
+/* ---- mesh files --------------------------------------------------------------------------------------------- */
+
+/* Reads a mesh file with all that it holds. format: "obj", "ply", ... (docs/formats.md); NULL: by the extension. */
+UNSNARL_EXPORT int unsnarl_document_read(const char* path, const char* format, unsnarl_document** document);
+/* The mesh of the file, for the functions above. surface->size is to be set. The arrays are the document's. */
+UNSNARL_EXPORT int unsnarl_document_surface(const unsnarl_document* document, unsnarl_surface* surface);
+/* JSON: "format", "vertices", "faces", "notes" (sentences worth telling the user). */
+UNSNARL_EXPORT const char* unsnarl_document_report(const unsnarl_document* document);
+/* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was, and reads them
+ * back bit for bit. path may be that of the file that was read. The old file or the whole new one is there, never a
+ * part. */
+UNSNARL_EXPORT int unsnarl_document_write(const unsnarl_document* document, const unsnarl_result* repaired,
+                                          const char* path);
+UNSNARL_EXPORT void unsnarl_document_free(unsnarl_document* document);
+
+/* ---- curves in the plane ------------------------------------------------------------------------------------ */
+
+/* All pairs of segments that meet anywhere but in an end that they share along one curve, decided exactly.
+ *
+ * Array "crossings" (k, 4) int32: curve, segment, curve, segment, sorted; segment k starts at point k. */
+UNSNARL_EXPORT int unsnarl_find_crossings(const unsnarl_curves* curves, unsnarl_result** result);
+
+/* Moves the points as little as possible until no two segments cross or touch (docs/curves.md). Where an open curve
+ * ends on a segment of another one, that gets a point more.
+ *
+ * Arrays: "points" (p, 2) float64 and "offsets" (curves + 1, 1) int32 as in unsnarl_curves; "obstructions" and "left",
+ * crossings (k, 4) int32 as of unsnarl_find_crossings, in terms of the result: those of segments that must not move,
+ * and all. Report: counts, displacement, distance, "joints" (docs/curves.md). */
+UNSNARL_EXPORT int unsnarl_untangle_curves(const unsnarl_curves* curves, const unsnarl_options* options,
+                                           unsnarl_context* context, unsnarl_result** result);
+
+/* Moves closed curves to others so that at no time one crosses itself or another (docs/isotopy.md). Curve k of the
+ * start becomes curve k of the end.
+ *
+ * Arrays: "times" (r, 1) float64 from 0 to 1; the curves at these times, those of the first, then those of the second,
+ * ...: "points" (p, 2) float64 and "offsets" (r * curves + 1, 1) int32; the surface that they sweep: "positions" (n, 3)
+ * float64, z being time times the diagonal of both sides' bounding box, and "corners" (m, 3) int32. */
+UNSNARL_EXPORT int unsnarl_planar_isotopy(const unsnarl_curves* start, const unsnarl_curves* end,
+                                          const unsnarl_options* options, unsnarl_context* context,
+                                          unsnarl_result** result);
+
+/* ---- surfaces of links -------------------------------------------------------------------------------------- */
+
+/* An oriented surface without self-intersections whose boundary is the link (docs/seifert.md).
+ *
+ * Arrays: "positions" (n, 3) float64, the points of the link first, and "corners" (m, 3) int32. Report: what
+ * unsnarl_check_seifert_surface finds; "crossings" and "circles" of the diagram, "area", "seconds". */
+UNSNARL_EXPORT int unsnarl_seifert_surface(const unsnarl_curves* link, const unsnarl_options* options,
+                                           unsnarl_context* context, unsnarl_result** result);
+
+/* Checks a Seifert surface, of triangles, from the mesh and the link alone.
+ *
+ * Report: "intersecting_pairs", "oriented", "spans_link", "components", "genus", "euler_characteristic",
+ * "expected_euler_characteristic", "alexander_of_surface" and "alexander_of_link" (coefficients from the constant up,
+ * as decimal texts, which may have any number of digits), "hold": all that a Seifert surface promises. */
+UNSNARL_EXPORT int unsnarl_check_seifert_surface(const unsnarl_surface* surface, const unsnarl_curves* link,
+                                                 const unsnarl_options* options, unsnarl_result** result);
+
+/* A knot or link by its name: "3_1" to "10_165" as in Rolfsen's table, "hopf", "borromean", ... Arrays "points" (p, 3)
+ * float64 and "offsets" (curves + 1, 1) int32 as in unsnarl_curves. */
+UNSNARL_EXPORT int unsnarl_knot_of_table(const char* name, unsnarl_result** result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

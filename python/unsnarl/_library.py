@@ -1,0 +1,142 @@
+"""The shared library libunsnarl_c beside this file: its structs and functions, as unsnarl.h has them."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import POINTER, c_char_p, c_double, c_int, c_int32, c_size_t, c_void_p
+from pathlib import Path
+from typing import Any
+
+_PATH = Path(__file__).with_name("libunsnarl_c.so")
+try:
+    library = ctypes.CDLL(str(_PATH))
+except OSError as error:
+    raise ImportError(f"{error}. The package unsnarl is not whole: install it with pip") from error
+
+
+class _Struct(ctypes.Structure):
+    """A struct that begins with its size. Holds on to the arrays that it points to."""
+
+    def __init__(self, **fields: Any):
+        super().__init__(size=ctypes.sizeof(self))
+        self.arrays = []
+        for name, value in fields.items():
+            if hasattr(value, "ctypes"):  # numpy.ndarray
+                self.arrays.append(value)
+                value = value.ctypes.data if value.size > 0 else None
+            setattr(self, name, value)
+
+
+class SurfaceStruct(_Struct):
+    _fields_ = [
+        ("size", c_size_t),
+        ("positions", c_void_p),
+        ("vertex_count", c_size_t),
+        ("corners", c_void_p),
+        ("corner_count", c_size_t),
+        ("offsets", c_void_p),
+        ("offset_count", c_size_t),
+        ("fixed", c_void_p),
+        ("mesh_sizes", c_void_p),
+        ("mesh_count", c_size_t),
+        ("document", c_void_p),
+    ]
+
+
+class CurvesStruct(_Struct):
+    _fields_ = [
+        ("size", c_size_t),
+        ("points", c_void_p),
+        ("offsets", c_void_p),
+        ("curve_count", c_size_t),
+        ("closed", c_void_p),
+        ("fixed", c_void_p),
+    ]
+
+
+class OptionsStruct(_Struct):
+    _fields_ = [
+        ("size", c_size_t),
+        ("weld", c_char_p),
+        ("weld_tolerance", c_double),
+        ("both_diagonals", c_int32),
+        ("threads", c_int32),
+        ("goal", c_char_p),
+        ("precision", c_char_p),
+        ("min_gap", c_double),
+        ("max_displacement", c_double),
+        ("absolute", c_int32),
+        ("min_dihedral", c_double),
+        ("memory_limit", c_double),
+        ("each_component", c_int32),
+        ("paper", c_int32),
+        ("time_limit", c_double),
+        ("recover", c_int32),
+        ("first_frame", c_size_t),
+        ("last_frame", c_size_t),
+        ("gap", c_double),
+        ("junction", c_double),
+        ("fix_ends", c_int32),
+        ("edge", c_double),
+        ("views", c_int32),
+        ("fair", c_int32),
+        ("points", c_int32),
+    ]
+
+
+class ProgressStruct(ctypes.Structure):
+    _fields_ = [
+        ("size", c_size_t),
+        ("fraction", c_double),
+        ("phase", c_char_p),
+        ("pairs_left", c_size_t),
+        ("displacement_rel", c_double),
+    ]
+
+
+class ArrayStruct(ctypes.Structure):
+    _fields_ = [("data", c_void_p), ("rows", c_size_t), ("columns", c_size_t), ("type", c_int)]
+
+
+ProgressFunction = ctypes.CFUNCTYPE(c_int, POINTER(ProgressStruct), c_void_p)
+
+#: What functions take and return that is not int, or not told by what is passed.
+_SIGNATURES = {
+    "error_message": ([], c_char_p),
+    "version": ([], c_char_p),
+    "pair_kind": ([c_int], c_char_p),
+    "context_new": ([ProgressFunction, c_void_p], c_void_p),
+    "context_cancel": ([c_void_p], None),
+    "context_free": ([c_void_p], None),
+    "result_status": ([c_void_p], c_char_p),
+    "result_report": ([c_void_p], c_char_p),
+    "result_array": ([c_void_p, c_char_p, POINTER(ArrayStruct)], c_int),
+    "result_free": ([c_void_p], None),
+}
+for _name, (_arguments, _result) in _SIGNATURES.items():
+    _function = getattr(library, f"unsnarl_{_name}")
+    _function.argtypes, _function.restype = _arguments, _result
+
+#: By unsnarl_error; what is not there is an error of the library's own.
+_EXCEPTIONS = {1: ValueError, 2: OSError, 3: OSError, 4: MemoryError}
+
+
+def check(code: int) -> None:
+    """Raises what the last call in this thread complained of, if it did."""
+    if code != 0:
+        message = library.unsnarl_error_message().decode("utf-8", "replace")
+        raise _EXCEPTIONS.get(code, RuntimeError)(message)
+
+
+version: str = library.unsnarl_version().decode()
+
+
+def _pair_kinds() -> tuple[str, ...]:
+    kinds: list[str] = []
+    while kind := library.unsnarl_pair_kind(len(kinds)):
+        kinds.append(kind.decode())
+    return tuple(kinds)
+
+
+#: Names of the kinds of intersecting pairs, in the order in which they are numbered.
+pair_kinds = _pair_kinds()

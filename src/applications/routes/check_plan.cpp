@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+#include "applications/routes/proven_bounds.h"
+#include "applications/routes/segments.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr double largest_coordinate = 1e70;  // its sixth power is finite
+
+void check_point(const RoutePoint& p, const std::string& place) {
+  for (const double c : p)
+    if (!(std::abs(c) <= largest_coordinate))
+      throw std::invalid_argument(
+          fmt::format("{}: the coordinate {} is not a number up to {}", place, c, largest_coordinate));
+}
+
+void check_name(const std::string& name, const std::string& place) {
+  if (name.empty()) throw std::invalid_argument(place + ".name is empty");
+  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' '; }))
+    throw std::invalid_argument(place + ".name has a line break or another control character");
+}
+
+void check_agent(const RouteAgent& agent, const std::string& place) {
+  check_name(agent.name, place);
+  if (!(agent.radius > 0 && agent.radius <= largest_coordinate))
+    throw std::invalid_argument(fmt::format("{}.radius is {}; give a number above 0", place, agent.radius));
+  check_point(agent.start, place + ".start");
+  check_point(agent.goal, place + ".goal");
+  for (std::size_t k = 0; k < agent.waypoints.size(); ++k)
+    check_point(agent.waypoints[k], fmt::format("{}.waypoints[{}]", place, k));
+  const std::vector<Vec3> places = places_of(agent);
+  for (std::size_t k = 0; k + 1 < places.size(); ++k)
+    if (places[k] == places[k + 1])
+      throw std::invalid_argument(fmt::format("{}: agent '{}' goes from ({}, {}, {}) to the same place", place,
+                                              agent.name, places[k][0], places[k][1], places[k][2]));
+}
+
+void check_obstacle(const RouteObstacle& obstacle, const std::string& place) {
+  check_name(obstacle.name, place);
+  const SurfaceView surface = obstacle.surface;
+  if (surface.positions.size() % 3 != 0)
+    throw std::invalid_argument(place + ": its positions are not three numbers a vertex");
+  for (std::size_t v = 0; v < surface.vertex_count(); ++v)
+    check_point({surface.positions[3 * v], surface.positions[3 * v + 1], surface.positions[3 * v + 2]},
+                fmt::format("{}.vertices[{}]", place, v));
+  for (std::size_t f = 0; f < surface.face_count(); ++f)
+    for (const std::int32_t v : surface.face(f))
+      if (v < 0 || static_cast<std::size_t>(v) >= surface.vertex_count())
+        throw std::invalid_argument(
+            fmt::format("{}.faces[{}] uses vertex {}, but it has {} vertices", place, f, v, surface.vertex_count()));
+}
+
+/// Whether every edge, by the positions of its ends, has an even number of faces.
+bool is_closed(const ObstacleTriangles& triangles, int obstacle) {
+  using Place = std::array<double, 3>;
+  std::map<std::pair<Place, Place>, bool> open;
+  const auto place = [](const Vec3& p) { return Place{p[0], p[1], p[2]}; };
+  for (Index t = 0; t < triangles.size(); ++t) {
+    if (triangles.obstacle(t) != obstacle) continue;
+    for (int k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(place(triangles.corners(t)[k]), place(triangles.corners(t)[(k + 1) % 3]));
+      bool& is_open = open[{a, b}];
+      is_open = !is_open;
+    }
+  }
+  return !open.empty() && std::none_of(open.begin(), open.end(), [](const auto& edge) { return edge.second; });
+}
+
+/// How often the obstacle winds around a point (A. van Oosterom, J. Strackee: "The Solid Angle of a Plane Triangle",
+/// 1983).
+double winding_number(const ObstacleTriangles& triangles, int obstacle, const Vec3& p) {
+  double sum = 0;
+  for (Index t = 0; t < triangles.size(); ++t) {
+    if (triangles.obstacle(t) != obstacle) continue;
+    const std::array<Vec3, 3>& corners = triangles.corners(t);
+    const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+struct Place {
+  std::string name;
+  Vec3 at;
+};
+std::vector<Place> named_places(const RouteAgent& agent) {
+  std::vector<Place> places{{fmt::format("the start of '{}'", agent.name), vec(agent.start)}};
+  for (std::size_t k = 0; k < agent.waypoints.size(); ++k)
+    places.push_back({fmt::format("way-point {} of '{}'", k, agent.name), vec(agent.waypoints[k])});
+  places.push_back({fmt::format("the goal of '{}'", agent.name), vec(agent.goal)});
+  return places;
+}
+
+void add_obstructions_of_agents(const RoutePlan& plan, std::vector<std::string>& found) {
+  std::vector<Box> boxes;
+  std::vector<Place> places;
+  std::vector<int> agent;
+  for (std::size_t i = 0; i < plan.agents.size(); ++i)
+    for (Place& place : named_places(plan.agents[i])) {
+      // Twice what rounding could take away from a sum of two radii.
+      const Vec3 reach = Vec3::Constant(plan.agents[i].radius * (1 + 1e-12)) + 1e-15 * place.at.cwiseAbs();
+      boxes.push_back({place.at - reach, place.at + reach});
+      places.push_back(std::move(place));
+      agent.push_back(static_cast<int>(i));
+    }
+  Bvh bvh;
+  bvh.build(boxes);
+  std::vector<std::array<Index, 2>> near;
+  bvh.self_pairs([&](Index a, Index b) {
+    if (agent[a] != agent[b]) near.push_back({std::min(a, b), std::max(a, b)});
+  });
+  std::sort(near.begin(), near.end());
+  for (const auto& [a, b] : near) {
+    const double r = plan.agents[agent[a]].radius, s = plan.agents[agent[b]].radius;
+    if (!is_as_far(places[a].at, places[b].at, r, s))
+      found.push_back(fmt::format("{} and {} are {:.6g} apart, less than the {:.6g} of both radii", places[a].name,
+                                  places[b].name, (places[a].at - places[b].at).norm(), r + s));
+  }
+}
+
+void add_obstructions_of_obstacles(const RoutePlan& plan, std::vector<std::string>& found) {
+  const ObstacleTriangles triangles(plan);
+  if (triangles.empty()) return;
+  std::vector<int> solid;
+  for (std::size_t o = 0; o < plan.obstacles.size(); ++o)
+    if (!plan.obstacles[o].hollow && is_closed(triangles, static_cast<int>(o))) solid.push_back(static_cast<int>(o));
+  for (const RouteAgent& agent : plan.agents)
+    for (const Place& place : named_places(agent)) {
+      int nearest = -1;
+      double distance = agent.radius;
+      Box box;
+      box.extend(place.at);
+      triangles.near(box.inflated(agent.radius * (1 + 1e-12) + 1e-15 * place.at.cwiseAbs().maxCoeff()), [&](Index t) {
+        const std::array<Vec3, 3>& c = triangles.corners(t);
+        const Closest closest = closest_vertex_face(place.at, c[0], c[1], c[2]);
+        const std::array<Vec3, 1> point{place.at};
+        if (closest.distance <= distance && proven_clearance(point, c, closest.direction, agent.radius, 0) < 1) {
+          distance = closest.distance;
+          nearest = triangles.obstacle(t);
+        }
+      });
+      if (nearest >= 0) {
+        found.push_back(fmt::format("{} is {:.6g} from the obstacle '{}', nearer than its radius of {:.6g}", place.name,
+                                    distance, plan.obstacles[nearest].name, agent.radius));
+        continue;
+      }
+      for (const int o : solid)
+        if (std::abs(winding_number(triangles, o, place.at)) > 0.5)
+          found.push_back(fmt::format("{} is inside the obstacle '{}'; if that is a room, give it \"hollow\": true",
+                                      place.name, plan.obstacles[o].name));
+    }
+}
+
+}  // namespace
+
+void check_plan(const RoutePlan& plan) {
+  if (plan.agents.empty()) throw std::invalid_argument("agents: there are none");
+  std::map<std::string, std::size_t> names;
+  for (std::size_t i = 0; i < plan.agents.size(); ++i) {
+    const std::string place = fmt::format("agents[{}]", i);
+    check_agent(plan.agents[i], place);
+    const auto [at, is_new] = names.emplace(plan.agents[i].name, i);
+    if (!is_new)
+      throw std::invalid_argument(
+          fmt::format("{}.name: '{}' is the name of agents[{}] too", place, plan.agents[i].name, at->second));
+  }
+  names.clear();
+  for (std::size_t o = 0; o < plan.obstacles.size(); ++o) {
+    const std::string place = fmt::format("obstacles[{}]", o);
+    check_obstacle(plan.obstacles[o], place);
+    const auto [at, is_new] = names.emplace(plan.obstacles[o].name, o);
+    if (!is_new)
+      throw std::invalid_argument(
+          fmt::format("{}.name: '{}' is the name of obstacles[{}] too", place, plan.obstacles[o].name, at->second));
+  }
+}
+
+std::vector<std::string> route_obstructions(const RoutePlan& plan) {
+  check_plan(plan);
+  std::vector<std::string> found;
+  add_obstructions_of_agents(plan, found);
+  add_obstructions_of_obstacles(plan, found);
+  return found;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "applications/routes/proven_bounds.h"
+#include "applications/routes/segments.h"
+
+namespace unsnarl {
+namespace {
+
+/// Boxes are this much larger than they need be, so that what is left out is apart whatever was rounded.
+constexpr double rounding_room = 1e-12;
+/// Taken off the arc length from which segments of one route count, so that rounding leaves none out.
+constexpr double arc_rounding = 1e-9;
+
+struct Segments {
+  std::vector<std::array<Vec3, 2>> ends;
+  std::vector<int> agent;
+  std::vector<double> from, to;  // arc length along the route
+
+  Segments(std::span<const Route> routes) {
+    for (std::size_t i = 0; i < routes.size(); ++i) {
+      double arc = 0;
+      for (std::size_t k = 0; k + 1 < routes[i].points.size(); ++k) {
+        ends.push_back({vec(routes[i].points[k]), vec(routes[i].points[k + 1])});
+        agent.push_back(static_cast<int>(i));
+        from.push_back(arc);
+        arc += (ends.back()[1] - ends.back()[0]).norm();
+        to.push_back(arc);
+      }
+    }
+  }
+  Index size() const { return static_cast<Index>(ends.size()); }
+  Box box(Index s, double reach) const {
+    Box box;
+    box.extend(ends[s][0]);
+    box.extend(ends[s][1]);
+    const double size = std::max(ends[s][0].cwiseAbs().maxCoeff(), ends[s][1].cwiseAbs().maxCoeff());
+    return box.inflated(reach * (1 + rounding_room) + rounding_room * size);
+  }
+};
+
+void check_distances(const RoutePlan& plan, const Segments& segments, RouteFindings& found) {
+  std::vector<Box> boxes;
+  for (Index s = 0; s < segments.size(); ++s)
+    boxes.push_back(segments.box(s, RouteFindings::measured_up_to * plan.agents[segments.agent[s]].radius));
+  Bvh bvh;
+  bvh.build(boxes);
+  bvh.self_pairs([&](Index a, Index b) {
+    if (a > b) std::swap(a, b);
+    const int i = segments.agent[a], j = segments.agent[b];
+    const double r = plan.agents[i].radius, s = plan.agents[j].radius;
+    // The route's own segments count from half a turn of the smallest circle on that it may run along.
+    if (i == j && segments.from[b] - segments.to[a] < (std::numbers::pi - arc_rounding) * r) return;
+    const auto &p = segments.ends[a], &q = segments.ends[b];
+    const Closest closest = closest_edge_edge(p[0], p[1], q[0], q[1]);
+    const double bound = proven_clearance(p, q, closest.direction, r, s);
+    if (i == j && bound < found.self_clearance) {
+      found.self_clearance = bound;
+      found.self = i;
+    }
+    if (i != j && bound < found.clearance) {
+      found.clearance = bound;
+      found.agents = {std::min(i, j), std::max(i, j)};
+    }
+  });
+}
+
+void check_obstacles(const RoutePlan& plan, const Segments& segments, RouteFindings& found) {
+  const ObstacleTriangles triangles(plan);
+  for (Index s = 0; s < segments.size(); ++s) {
+    const int i = segments.agent[s];
+    const double r = plan.agents[i].radius;
+    const auto& p = segments.ends[s];
+    triangles.near(segments.box(s, RouteFindings::measured_up_to * r), [&](Index t) {
+      const std::array<Vec3, 3>& corners = triangles.corners(t);
+      const Vec3 direction = closest_segment_triangle(p[0], p[1], corners).direction;
+      const double bound = proven_clearance(p, corners, direction, r, 0);
+      if (bound < found.obstacle_clearance) {
+        found.obstacle_clearance = bound;
+        found.obstacle = {i, triangles.obstacle(t)};
+      }
+    });
+  }
+}
+
+bool goes_through_places(const RouteAgent& agent, const Route& route) {
+  if (route.points.front() != agent.start || route.points.back() != agent.goal) return false;
+  auto at = route.points.begin() + 1;
+  for (const RoutePoint& p : agent.waypoints) {
+    at = std::find(at, route.points.end(), p);
+    if (at == route.points.end()) return false;
+    ++at;
+  }
+  return at != route.points.end();
+}
+
+}  // namespace
+
+double RouteFindings::mean_ratio() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < length.size(); ++i) sum += length[i] / straight[i];
+  return length.empty() ? 1 : sum / static_cast<double>(length.size());
+}
+
+double RouteFindings::max_ratio() const {
+  double most = 1;
+  for (std::size_t i = 0; i < length.size(); ++i) most = std::max(most, length[i] / straight[i]);
+  return most;
+}
+
+RouteFindings check_routes(const RoutePlan& plan, std::span<const Route> routes) {
+  check_plan(plan);
+  if (routes.size() != plan.agents.size())
+    throw std::invalid_argument(fmt::format("there are {} routes, but {} agents", routes.size(), plan.agents.size()));
+  RouteFindings found;
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    const RouteAgent& agent = plan.agents[i];
+    const std::vector<RoutePoint>& points = routes[i].points;
+    if (points.size() < 2)
+      throw std::invalid_argument(fmt::format("the route of '{}' has fewer than two points", agent.name));
+    for (std::size_t k = 0; k < points.size(); ++k)
+      for (const double c : points[k])
+        if (!(std::abs(c) <= 1e90))
+          throw std::invalid_argument(fmt::format("point {} of the route of '{}' is not finite", k, agent.name));
+    found.places_kept = found.places_kept && goes_through_places(agent, routes[i]);
+    for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+      const double turn = proven_turn(vec(points[k - 1]), vec(points[k]), vec(points[k + 1]), agent.radius);
+      if (turn > found.turn) {
+        found.turn = turn;
+        found.turn_agent = static_cast<int>(i);
+      }
+    }
+    double length = 0, straight = 0;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) length += (vec(points[k + 1]) - vec(points[k])).norm();
+    const std::vector<Vec3> places = places_of(agent);
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) straight += (places[k + 1] - places[k]).norm();
+    found.length.push_back(length);
+    found.straight.push_back(straight);
+  }
+  const Segments segments(routes);
+  check_distances(plan, segments, found);
+  check_obstacles(plan, segments, found);
+  return found;
+}
+
+std::string route_faults(const RoutePlan& plan, const RouteFindings& f) {
+  const auto name = [&](int agent) -> const std::string& { return plan.agents[agent].name; };
+  std::string text;
+  if (!f.places_kept) text += "a route does not go through the places of its agent\n";
+  if (f.clearance < 1)
+    text += fmt::format("the routes of '{}' and '{}' have {:.6g} of the distance that they need\n", name(f.agents[0]),
+                        name(f.agents[1]), f.clearance);
+  if (f.obstacle_clearance < 1)
+    text += fmt::format("the route of '{}' has {:.6g} of the distance from the obstacle '{}' that it needs\n",
+                        name(f.obstacle[0]), f.obstacle_clearance, plan.obstacles[f.obstacle[1]].name);
+  if (f.self_clearance < 1)
+    text += fmt::format("the route of '{}' has {:.6g} of the distance from itself that it needs\n", name(f.self),
+                        f.self_clearance);
+  if (!(f.turn <= 1))
+    text += fmt::format("the route of '{}' turns {:.6g} times as tight as its radius\n", name(f.turn_agent), f.turn);
+  return text;
+}
+
+}  // namespace unsnarl

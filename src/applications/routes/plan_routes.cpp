@@ -1,0 +1,262 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "applications/routes/route_energy.h"
+#include "applications/routes/way_finder.h"
+#include "optimize/lbfgs.h"
+#include "unsnarl/stage_clock.h"
+
+namespace unsnarl {
+namespace {
+
+/// Distances from obstacles / radius at which ways are looked for, the widest first.
+constexpr std::array<double, 3> way_distances = {1.05, 1.01, 1.001};
+/// How far the middle of each leg is pushed aside before anything else, so that no two routes cross or lie on each
+/// other; / radius, one a try.
+constexpr std::array<double, 3> pushed_aside = {0.3, 2, 6};
+/// Parts of the radii that tubes swell to, step by step: thin ones find a way past each other.
+constexpr std::array<double, 6> swelling = {0.1, 0.2, 0.35, 0.55, 0.8, 1};
+constexpr int swelling_steps = 25;
+constexpr int parting_steps = 50;
+/// Weights of what must not be grow by this factor until nothing is violated, this often at most.
+constexpr double harder = 4;
+constexpr int most_rounds = 9;
+/// Weight of contacts and turns to begin with: small, as what begins with hard pushes has kinks to be undone. 50 agents
+/// took 10 s from 0.005 and 24 s from 0.02; routes of 20 agents were 2 % longer from 1.
+constexpr double first_weight = 0.005;
+/// Weights of barriers while routes are pulled tight.
+constexpr std::array<double, 2> barrier_weights = {0.1, 0.01};
+constexpr int tightening_steps = 100;
+constexpr int alone_steps = 100;
+constexpr int steps_a_factorisation = 5;
+/// Steps end where the energy falls by less than this part in so many steps.
+constexpr double settled = 1e-5;
+constexpr int settled_steps = 10;
+/// No vertex moves by more in one step / radius of the smallest agent.
+constexpr double most_motion = 2;
+/// What is left above the needed distance, and below the tightest turn, when barriers begin.
+constexpr double margin = 1e-6;
+
+class Planning {
+ public:
+  Planning(const RoutePlan& plan, const RouteOptions& options, Context* context)
+      : plan_(plan), options_(options), context_(context), triangles_(plan) {}
+
+  RoutesResult run() {
+    made_.messages = route_obstructions(plan_);
+    if (!made_.messages.empty()) return ended(Status::obstructed);
+    if (!find_ways()) return ended(made_.messages.empty() ? stopped_ : Status::no_progress);
+    if (options_.ways_only) {
+      const RouteChains chains = sample_chains(plan_, ways_, options_.spacing, true);
+      made_.asked = chains.routes(chains.x);
+      return ended(Status::no_progress);
+    }
+    for (std::size_t k = 0; k < pushed_aside.size() && !is_stopped(); ++k) {
+      part(pushed_aside[k], static_cast<double>(k) / pushed_aside.size(), 1 << k);
+      if (made_.found.hold()) return ended(Status::embedded);
+    }
+    return ended(is_stopped() ? stopped_ : Status::no_progress);
+  }
+
+ private:
+  bool is_stopped() {
+    if (context_ && context_->is_cancelled()) stopped_ = Status::cancelled;
+    if (options_.time_limit_s > 0 && clock_.stage("").seconds >= options_.time_limit_s) stopped_ = Status::time_limit;
+    return stopped_ != Status::no_progress;
+  }
+  RoutesResult ended(Status status) {
+    made_.status = status;
+    made_.seconds = clock_.stage("").seconds;
+    return std::move(made_);
+  }
+  void report(double fraction, std::string_view phase) {
+    done_ = std::max(done_, fraction);
+    if (context_ && context_->on_progress) context_->on_progress({.fraction = done_, .phase = phase});
+  }
+
+  bool find_ways() {
+    report(0, "find ways");
+    std::optional<WayFinder> finder;
+    if (!triangles_.empty()) finder.emplace(plan_, triangles_);
+    double widest = 0;
+    for (const RouteAgent& agent : plan_.agents) widest = std::max(widest, agent.radius);
+    for (const RouteAgent& agent : plan_.agents) {
+      Legs& legs = ways_.emplace_back();
+      const std::vector<Vec3> places = places_of(agent);
+      for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+        if (is_stopped()) return false;
+        std::optional<std::vector<Vec3>> way;
+        if (!finder) way = {places[k], places[k + 1]};
+        for (std::size_t d = 0; d < way_distances.size() && !way; ++d)
+          way = finder->find(places[k], places[k + 1], way_distances[d] * agent.radius);
+        if (!way) {
+          made_.messages.push_back(
+              fmt::format("no way was found for '{}' from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}): the "
+                          "obstacles leave "
+                          "no gap for its radius of {:.6g}, or none that a grid shows",
+                          agent.name, places[k][0], places[k][1], places[k][2], places[k + 1][0], places[k + 1][1],
+                          places[k + 1][2], agent.radius));
+          continue;
+        }
+        if (finder) finder->avoid(*way, agent.radius + widest);
+        legs.push_back(std::move(*way));
+      }
+    }
+    if (!made_.messages.empty()) return false;
+    return true;
+  }
+
+  /// The middles of legs aside, each its own way: directions by the golden angle.
+  Positions aside(const RouteChains& chains, double by) const {
+    Positions x = chains.x;
+    Index leg = 0;
+    for (const RouteChains::Chain& chain : chains.chains)
+      for (Index first = chain.first; first < chain.last(); ++leg) {
+        Index last = first + 1;
+        while (!chains.pinned[last]) ++last;
+        const Vec3 along = (chains.x.col(last) - chains.x.col(first)).normalized();
+        const Vec3 e = along.unitOrthogonal(), f = along.cross(e);
+        const double angle = 2 * std::numbers::pi * std::fmod(leg * std::numbers::phi, 1);
+        // Not all by the same: lines through one centre with equal offsets would touch one ball and cross on it.
+        const double amount = by * chain.radius * (0.5 + std::fmod(leg * std::numbers::sqrt2, 1));
+        const Vec3 offset = amount * (std::cos(angle) * e + std::sin(angle) * f);
+        for (double part = 1; part > 0.01; part /= 2) {  // as far as no obstacle is in the way
+          Positions moved = chains.x;
+          bool is_clear = true;
+          for (Index v = first + 1; v < last; ++v)
+            moved.col(v) += part * std::sin(std::numbers::pi * (v - first) / (last - first)) * offset;
+          for (Index v = first; v < last && is_clear; ++v)
+            is_clear = triangles_.is_clear(moved.col(v), moved.col(v + 1), chain.radius * (1 + margin));
+          if (!is_clear) continue;
+          x.middleCols(first, last - first) = moved.middleCols(first, last - first);
+          break;
+        }
+        first = last;
+      }
+    return x;
+  }
+
+  /// Minimises for some steps, or until it settles.
+  void minimise(RouteEnergy& energy, Eigen::VectorXd& x, int steps, double radius) {
+    if (is_stopped()) return;
+    energy.factorise(x);
+    LbfgsOptions options;
+    options.max_iterations = steps;
+    options.max_motion = most_motion * radius;
+    std::vector<double> values;
+    minimize_lbfgs([&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) { return energy(at, gradient); }, x,
+                   options, [&](const Eigen::VectorXd& v, Eigen::VectorXd& out) { energy.precondition(v, out); },
+                   [&](LbfgsIteration& state) {
+                     values.push_back(state.value);
+                     if (state.iteration > 0 && state.iteration % steps_a_factorisation == 0) {
+                       energy.factorise(state.x);
+                       state.forget = true;
+                     }
+                     const std::size_t n = values.size();
+                     return is_stopped() || (n > settled_steps && values[n - 1 - settled_steps] - values[n - 1] <
+                                                                      settled * std::abs(values[n - 1]));
+                   });
+  }
+
+  Eigen::VectorXd flat(const Positions& x) const { return Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()); }
+  Positions columns(const Eigen::VectorXd& x) const { return Eigen::Map<const Positions>(x.data(), 3, x.size() / 3); }
+
+  /// Lengths of the routes that agents get alone.
+  void measure_alone(const RouteChains& chains) {
+    RouteEnergy energy(chains, triangles_);
+    Eigen::VectorXd x = flat(chains.x);
+    minimise(energy, x, alone_steps, chains.least_radius);
+    for (const Route& route : chains.routes(columns(x))) {
+      double length = 0;
+      for (std::size_t k = 0; k + 1 < route.points.size(); ++k)
+        length += (vec(route.points[k + 1]) - vec(route.points[k])).norm();
+      made_.alone_length.push_back(length);
+    }
+  }
+
+  /// One try; `before`: part of all work that is done; `longer`: factor of the steps it may take.
+  void part(double by, double before, int longer) {
+    const auto tell = [&](double fraction, std::string_view phase) {
+      report(before + fraction / pushed_aside.size(), phase);
+    };
+    RouteChains chains = sample_chains(plan_, ways_, options_.spacing, true);
+    if (made_.alone_length.empty()) measure_alone(chains);
+    Eigen::VectorXd x = flat(aside(chains, by));
+    {
+      RouteEnergy energy(chains, triangles_);
+      energy.settings.contact = first_weight;
+      for (const double part : swelling) {
+        tell(0.4 * part, "swell");
+        energy.settings.swelling = part;
+        energy.forget_neighbours();
+        minimise(energy, x, longer * swelling_steps, chains.least_radius);
+      }
+    }
+    // Routes have become longer: their vertices are spread evenly once more. Obstacles may forbid the new corners.
+    const std::vector<Legs> legs = chains.legs(columns(x));
+    RouteChains even = sample_chains(plan_, legs, options_.spacing, false);
+    RouteEnergy probe(even, triangles_);
+    Eigen::VectorXd even_x = flat(even.x), gradient;
+    if (probe(even_x, gradient) < std::numeric_limits<double>::infinity()) {
+      chains = std::move(even);
+      x = even_x;
+    } else {
+      chains.x = columns(x);
+    }
+    RouteEnergy energy(chains, triangles_);
+    energy.settings.contact = first_weight;
+    const auto is_apart = [&] {
+      const RouteMargins margins = energy.margins(x);
+      return margins.contact >= 1 + margin && margins.turn <= 1 - margin;
+    };
+    for (int round = 0; round < most_rounds && !is_stopped(); ++round) {
+      tell(0.4 + 0.4 * round / most_rounds, "part");
+      minimise(energy, x, longer * parting_steps, chains.least_radius);
+      if (is_apart()) break;
+      energy.settings.contact *= harder;
+      energy.settings.turn *= harder;
+    }
+    if (is_apart()) {
+      energy.settings.strict = true;
+      for (const double weight : barrier_weights) {
+        tell(0.8, "tighten");
+        energy.settings.contact = energy.settings.turn = weight;
+        minimise(energy, x, tightening_steps, chains.least_radius);
+      }
+    }
+    tell(0.98, "certify");
+    const std::vector<Route> routes = chains.routes(columns(x));
+    RouteFindings found = check_routes(plan_, routes);
+    if (made_.found.length.empty() || found.hold() || found.clearance > made_.found.clearance) {
+      made_.routes = routes;
+      made_.asked = sampled_alike(chains, ways_);
+      made_.found = std::move(found);
+    }
+  }
+
+  const RoutePlan& plan_;
+  const RouteOptions& options_;
+  Context* context_;
+  StageClock clock_;
+  Status stopped_ = Status::no_progress;
+  double done_ = 0;
+  ObstacleTriangles triangles_;
+  std::vector<Legs> ways_;
+  RoutesResult made_;
+};
+
+}  // namespace
+
+RoutesResult plan_routes(const RoutePlan& plan, const RouteOptions& options, Context* context) {
+  check_plan(plan);
+  if (!(options.spacing > 0 && options.spacing <= 2))
+    throw std::invalid_argument(fmt::format("spacing is {}; give a number above 0, 2 at most", options.spacing));
+  if (!(options.time_limit_s >= 0)) throw std::invalid_argument("time_limit_s is below 0");
+  return Planning(plan, options, context).run();
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,82 @@
+#include "applications/routes/proven_bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <limits>
+
+#include "geometry/predicates.h"
+
+namespace unsnarl {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+using ExactVec = std::array<Rational, 3>;
+
+/// Relative, for a handful of operations that each round once.
+constexpr double few_roundings = 16 * detail::half_ulp;
+
+ExactVec exact(const Vec3& v) {
+  return {Rational(v[0]), Rational(v[1]), Rational(v[2])};
+}
+ExactVec difference(const Vec3& a, const Vec3& b) {
+  return {Rational(a[0]) - Rational(b[0]), Rational(a[1]) - Rational(b[1]), Rational(a[2]) - Rational(b[2])};
+}
+Rational dot(const ExactVec& a, const ExactVec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Whether the gap across n is at least as wide as r + s.
+bool is_gap(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& n, double r, double s) {
+  const ExactVec direction = exact(n);
+  Rational gap;
+  bool first = true;
+  for (const Vec3& p : a)
+    for (const Vec3& q : b) {
+      const Rational along = dot(direction, difference(p, q));
+      if (first || along < gap) gap = along;
+      first = false;
+    }
+  const Rational reach = Rational(r) + Rational(s);
+  return gap > 0 && gap * gap >= reach * reach * dot(direction, direction);
+}
+
+}  // namespace
+
+double proven_clearance(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& direction, double r, double s) {
+  const double norm = direction.norm();
+  if (!(norm > 0)) return 0;
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Vec3& p : a)
+    for (const Vec3& q : b) {
+      const double along = direction.dot(p - q);
+      const double magnitude = direction.cwiseAbs().dot(p.cwiseAbs() + q.cwiseAbs());
+      gap = std::min(gap, along - few_roundings * magnitude);
+    }
+  const double bound = std::max(gap / (norm * (r + s)) * (1 - few_roundings), 0.0);
+  return bound < 1 && is_gap(a, b, direction, r, s) ? 1 : bound;
+}
+
+bool is_as_far(const Vec3& a, const Vec3& b, double r, double s) {
+  const ExactVec d = difference(a, b);
+  const Rational reach = Rational(r) + Rational(s);
+  return dot(d, d) >= reach * reach;
+}
+
+double proven_turn(const Vec3& a, const Vec3& b, const Vec3& c, double r) {
+  // With u, v the edges and m the shorter one: tan(angle / 2) = |u x v| / (|u| |v| + u . v), so that the turn is at
+  // most t where 2 r |u x v| <= t m (|u| |v| + u . v). All but |u| |v| is rational; a lower bound takes its place.
+  const ExactVec u = difference(b, a), v = difference(c, b);
+  const Rational uu = dot(u, u), vv = dot(v, v), uv = dot(u, v);
+  const double lengths = std::sqrt(uu.convert_to<double>()) * std::sqrt(vv.convert_to<double>());
+  Rational product(lengths);
+  if (product * product > uu * vv) product = Rational(lengths * (1 - few_roundings));
+  if (product * product > uu * vv || !(product + uv > 0)) return std::numeric_limits<double>::infinity();
+  const Rational left = 4 * Rational(r) * Rational(r) * (uu * vv - uv * uv);  // |u x v|^2 by Lagrange's identity
+  const Rational right = std::min(uu, vv) * (product + uv) * (product + uv);
+  const double estimate = std::sqrt(Rational(left / right).convert_to<double>()) * (1 + few_roundings);
+  return left <= right ? std::min(estimate, 1.0) : std::max(estimate, std::nextafter(1.0, 2.0));
+}
+
+}  // namespace unsnarl

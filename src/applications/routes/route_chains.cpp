@@ -1,0 +1,136 @@
+#include "applications/routes/route_chains.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unsnarl {
+namespace {
+
+constexpr double most_segments = 3000;        ///< of a route; a long thin one has wider spacing
+constexpr double most_segments_of_all = 2e5;  ///< the same of all routes
+constexpr double least_segments_a_leg = 4;    ///< fewer could not bend
+
+double length_of(std::span<const Vec3> polyline) {
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < polyline.size(); ++k) length += (polyline[k + 1] - polyline[k]).norm();
+  return length;
+}
+
+/// Points at equal distances along a polyline, the first and last exactly its ends.
+std::vector<Vec3> evenly(std::span<const Vec3> polyline, Index segments) {
+  std::vector<Vec3> points{polyline.front()};
+  const double step = length_of(polyline) / segments;
+  double before = 0;
+  std::size_t k = 0;
+  for (Index i = 1; i < segments; ++i) {
+    double along = (polyline[k + 1] - polyline[k]).norm();
+    while (before + along < step * i && k + 2 < polyline.size()) {
+      before += along;
+      ++k;
+      along = (polyline[k + 1] - polyline[k]).norm();
+    }
+    const double t = along > 0 ? std::clamp((step * i - before) / along, 0.0, 1.0) : 0;
+    points.push_back((1 - t) * polyline[k] + t * polyline[k + 1]);
+  }
+  points.push_back(polyline.back());
+  return points;
+}
+
+/// Points of the polyline and others evenly between them, no farther apart than this.
+std::vector<Vec3> with_corners(std::span<const Vec3> polyline, double most) {
+  const double least = std::ceil(least_segments_a_leg / static_cast<double>(polyline.size() - 1));
+  std::vector<Vec3> points{polyline.front()};
+  for (std::size_t k = 0; k + 1 < polyline.size(); ++k) {
+    const std::span<const Vec3> piece = polyline.subspan(k, 2);
+    const std::vector<Vec3> even =
+        evenly(piece, static_cast<Index>(std::max(least, std::ceil(length_of(piece) / most))));
+    points.insert(points.end(), even.begin() + 1, even.end());
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Route> RouteChains::routes(const Positions& at) const {
+  std::vector<Route> routes;
+  for (const Chain& chain : chains) {
+    Route& route = routes.emplace_back();
+    for (Index v = chain.first; v <= chain.last(); ++v) route.points.push_back({at(0, v), at(1, v), at(2, v)});
+  }
+  return routes;
+}
+
+std::vector<Legs> RouteChains::legs(const Positions& at) const {
+  std::vector<Legs> all;
+  for (const Chain& chain : chains) {
+    Legs& legs = all.emplace_back();
+    for (Index v = chain.first; v <= chain.last(); ++v) {
+      if (!legs.empty()) legs.back().push_back(at.col(v));
+      if (pinned[v] && v < chain.last()) legs.push_back({at.col(v)});
+    }
+  }
+  return all;
+}
+
+RouteChains sample_chains(const RoutePlan& plan, std::span<const Legs> routes, double spacing, bool keep_corners) {
+  std::vector<double> edges;
+  double total = 0;
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    double length = 0;
+    for (const std::vector<Vec3>& leg : routes[i]) length += length_of(leg);
+    edges.push_back(std::max(spacing * plan.agents[i].radius, length / most_segments));
+    total += length / edges.back();
+  }
+  const double wider = std::max(1.0, total / most_segments_of_all);
+  RouteChains made;
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    RouteChains::Chain& chain = made.chains.emplace_back();
+    chain.first = static_cast<Index>(points.size());
+    chain.radius = plan.agents[i].radius;
+    double length = 0;
+    for (const std::vector<Vec3>& leg : routes[i]) {
+      const double along = length_of(leg);
+      const double most = wider * edges[i];
+      const std::vector<Vec3> even =
+          keep_corners ? with_corners(leg, most)
+                       : evenly(leg, static_cast<Index>(std::max(least_segments_a_leg, std::ceil(along / most))));
+      const bool joins = static_cast<Index>(points.size()) > chain.first;
+      points.insert(points.end(), even.begin() + (joins ? 1 : 0), even.end());
+      made.pinned.resize(points.size(), 0);
+      made.pinned[points.size() - even.size()] = made.pinned.back() = 1;
+      length += along;
+    }
+    chain.count = static_cast<Index>(points.size()) - chain.first;
+    chain.edge = length / (chain.count - 1);
+    made.least_radius = i == 0 ? chain.radius : std::min(made.least_radius, chain.radius);
+    for (Index v = chain.first; v < chain.last(); ++v) {
+      made.segment_vertex.push_back(v);
+      made.segment_chain.push_back(static_cast<Index>(i));
+    }
+  }
+  made.x.resize(3, static_cast<Index>(points.size()));
+  for (std::size_t v = 0; v < points.size(); ++v) made.x.col(static_cast<Index>(v)) = points[v];
+  return made;
+}
+
+std::vector<Route> sampled_alike(const RouteChains& chains, std::span<const Legs> routes) {
+  std::vector<Route> all;
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    Route& route = all.emplace_back();
+    const RouteChains::Chain& chain = chains.chains[i];
+    Index first = chain.first;
+    for (const std::vector<Vec3>& leg : routes[i]) {
+      Index last = first + 1;
+      while (!chains.pinned[last]) ++last;
+      for (const Vec3& p : evenly(leg, last - first)) {
+        const RoutePoint point = {p[0], p[1], p[2]};
+        if (route.points.empty() || route.points.back() != point) route.points.push_back(point);
+      }
+      first = last;
+    }
+  }
+  return all;
+}
+
+}  // namespace unsnarl

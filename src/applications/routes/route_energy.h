@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <vector>
+
+#include "applications/routes/route_chains.h"
+#include "applications/routes/segments.h"
+#include "geometry/parallel_sums.h"
+
+namespace unsnarl {
+
+struct RouteEnergySettings {
+  /// Of a route against being bent, / (tension radius^2). A free corner then turns no tighter than the radius: under
+  /// the tension T, a rod of stiffness B that is folded over has a radius of at least sqrt(B / 4 T).
+  double stiffness = 4;
+  double swelling = 1;  ///< tubes have this part of their radius, (0, 1]
+  /// Distance from which tubes push each other away / needed distance, beyond 1. 50 agents took 23 s of a processor
+  /// with 0.02, 10 s with 0.05, 9 s with 0.1.
+  double cushion = 0.05;
+  double contact = 0;  ///< weight of tubes that push each other; 0: they may overlap
+  double turn = 1;     ///< weight against turns that are too tight
+  /// Distances needed and tightest turns are never passed (the start must keep them); otherwise, passing them costs.
+  bool strict = false;
+  double obstacle = 0.05;  ///< weight of obstacles, whose distance is never passed
+  /// Turns count from this part of the tightest one on.
+  double turn_from = 0.85;
+};
+
+/// How near routes are to what is not allowed.
+struct RouteMargins {
+  double contact = 2;  ///< smallest distance of segments / needed; 2: none is near
+  double turn = 0;     ///< largest turn, 1: just allowed
+};
+
+/// Elastic curves under tension with tubes that push: sums of, in lengths,
+/// - edges e of rest length h: |e|^2 / (2 h); bends: stiffness r^2 |second difference|^2 / (2 h^3);
+/// - pairs of segments with needed distance R, (h_i h_j / R) contact p(d / R); of segments and faces of obstacles, h
+///   obstacle p(d / r), p being quadratic or the barrier of Incremental Potential Contact, 0 from 1 + cushion on;
+/// - turns t (see RouteFindings::turn), h turn p, from `turn_from` on.
+/// The gradient is zero at pinned vertices.
+class RouteEnergy {
+ public:
+  RouteEnergy(const RouteChains& chains, const ObstacleTriangles& obstacles);
+
+  RouteEnergySettings settings;  ///< after a change of distances, call forget_neighbours()
+  void forget_neighbours() { near_at_.resize(3, 0); }
+
+  /// Infinite where a distance or turn that must not be passed is.
+  double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
+  RouteMargins margins(const Eigen::VectorXd& x);
+  /// Makes precondition() fit the curvature of the energy at x.
+  void factorise(const Eigen::VectorXd& x);
+  void precondition(const Eigen::VectorXd& v, Eigen::VectorXd& out) const;
+
+ private:
+  using Points = Eigen::Map<const Positions>;
+  struct Pair {
+    Index a, b;  // segments, or a segment and a triangle
+  };
+  /// A value with its first two derivatives.
+  struct Push {
+    double value = 0, slope = 0, curvature = 0;
+  };
+  Push push_of(double excess, bool is_strict) const;
+  double reach(Index segment) const;
+  double slack(Index chain) const { return 0.25 * chains_.chains[chain].radius; }
+  void find_neighbours(const Points& x);
+  Closest closest_pair(const Points& x, const Pair& pair) const;
+  /// Whether two pinned vertices are closest: that is looked at before, and does not change.
+  bool is_constant(const Pair& pair, const Closest& closest) const;
+  /// The same of a segment from vertex v and a triangle.
+  bool is_constant(Index v, const ClosestToTriangle& closest) const;
+  double needed(const Pair& pair) const;
+  double elastic(const Points& x, Positions& gradient) const;
+  double turns(const Points& x, Positions& gradient) const;
+  double contacts(const Points& x, Positions& gradient);
+  double obstacles(const Points& x, Positions& gradient);
+
+  const RouteChains& chains_;
+  const ObstacleTriangles& triangles_;
+  Positions near_at_;  // where the pairs were found; empty: they are to be found anew
+  std::vector<Pair> pairs_, obstacle_pairs_;
+  ScatteredSum sum_;
+  std::vector<Index> free_;  // number of each vertex among those not pinned, or -1
+  Index free_count_ = 0;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+}  // namespace unsnarl

@@ -1,0 +1,233 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "unsnarl/document.h"
+#include "unsnarl/routes.h"
+#include "unsnarl/version.h"
+
+namespace unsnarl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void refuse(const std::string& place, const std::string& what) {
+  throw FileError(fmt::format("{}: {}", place, what));
+}
+
+/// The text of a value, cut short.
+std::string shown(const Json& value) {
+  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (text.size() > 40) text = text.substr(0, 37) + "...";
+  return text;
+}
+
+Json parsed(std::string_view text) {
+  try {
+    return Json::parse(text);
+  } catch (const nlohmann::json::parse_error& e) {
+    throw FileError(fmt::format("byte {}: this is not JSON", e.byte));
+  } catch (const nlohmann::json::exception&) {
+    throw FileError("a number is too large for double precision");
+  }
+}
+
+const Json& object(const Json& value, const std::string& place, std::initializer_list<std::string_view> keys) {
+  if (!value.is_object()) refuse(place, fmt::format("{} is not an object", shown(value)));
+  for (const auto& [key, member] : value.items())
+    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+      refuse(place, fmt::format("there is no \"{}\" to give here; there are {}", key,
+                                fmt::format("{}", fmt::join(keys, ", "))));
+  return value;
+}
+
+const Json& member(const Json& value, const std::string& place, const char* key) {
+  const auto found = value.find(key);
+  if (found == value.end()) refuse(place, fmt::format("\"{}\" is missing", key));
+  return *found;
+}
+
+const Json& list(const Json& value, const std::string& place) {
+  if (!value.is_array()) refuse(place, fmt::format("{} is not a list", shown(value)));
+  return value;
+}
+
+double number(const Json& value, const std::string& place) {
+  if (!value.is_number()) refuse(place, fmt::format("{} is not a number", shown(value)));
+  return value.get<double>();
+}
+
+std::string text(const Json& value, const std::string& place) {
+  if (!value.is_string()) refuse(place, fmt::format("{} is not a text in quotes", shown(value)));
+  return value.get<std::string>();
+}
+
+RoutePoint point(const Json& value, const std::string& place) {
+  if (!value.is_array() || value.size() != 3) refuse(place, fmt::format("{} is not [x, y, z]", shown(value)));
+  RoutePoint p;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = number(value[k], fmt::format("{}[{}]", place, k));
+  return p;
+}
+
+std::vector<RoutePoint> points(const Json& value, const std::string& place) {
+  std::vector<RoutePoint> all;
+  for (const Json& item : list(value, place)) all.push_back(point(item, fmt::format("{}[{}]", place, all.size())));
+  return all;
+}
+
+RouteAgent agent(const Json& value, std::size_t number_of_agent) {
+  const std::string place = fmt::format("agents[{}]", number_of_agent);
+  object(value, place, {"name", "radius", "start", "goal", "waypoints"});
+  RouteAgent made;
+  made.name = value.contains("name") ? text(value["name"], place + ".name") : fmt::format("agent_{}", number_of_agent);
+  made.radius = number(member(value, place, "radius"), place + ".radius");
+  made.start = point(member(value, place, "start"), place + ".start");
+  made.goal = point(member(value, place, "goal"), place + ".goal");
+  if (value.contains("waypoints")) made.waypoints = points(value["waypoints"], place + ".waypoints");
+  return made;
+}
+
+Surface written_surface(const Json& value, const std::string& place) {
+  Surface surface;
+  for (const RoutePoint& p : points(member(value, place, "vertices"), place + ".vertices"))
+    surface.positions.insert(surface.positions.end(), p.begin(), p.end());
+  surface.offsets.push_back(0);
+  for (const Json& face : list(member(value, place, "faces"), place + ".faces")) {
+    const std::string here = fmt::format("{}.faces[{}]", place, surface.offsets.size() - 1);
+    if (list(face, here).size() < 3) refuse(here, "a face has three corners at least");
+    for (const Json& corner : face) {
+      if (!corner.is_number_integer()) refuse(here, fmt::format("{} is not the number of a vertex", shown(corner)));
+      const auto v = corner.get<std::int64_t>();
+      if (v < 0 || v >= static_cast<std::int64_t>(surface.positions.size() / 3))
+        refuse(here,
+               fmt::format("there is no vertex {}; there are {}, counted from 0", v, surface.positions.size() / 3));
+      surface.corners.push_back(static_cast<std::int32_t>(v));
+    }
+    surface.offsets.push_back(static_cast<std::int32_t>(surface.corners.size()));
+  }
+  return surface;
+}
+
+RouteObstacle obstacle(const Json& value, std::size_t number_of_obstacle, const std::filesystem::path& folder) {
+  const std::string place = fmt::format("obstacles[{}]", number_of_obstacle);
+  object(value, place, {"name", "file", "vertices", "faces", "hollow"});
+  RouteObstacle made;
+  made.name = fmt::format("obstacle_{}", number_of_obstacle);
+  if (value.contains("file")) {
+    if (value.contains("vertices") || value.contains("faces"))
+      refuse(place, "give either a file or vertices and faces");
+    const std::string file = text(value["file"], place + ".file");
+    try {
+      made.surface = Document::read(folder / file).surface();
+    } catch (const FileError& e) {
+      refuse(place + ".file", e.what());
+    }
+    made.name = std::filesystem::path(file).stem().string();
+  } else {
+    if (!value.contains("vertices")) refuse(place, "\"file\" is missing, or \"vertices\" and \"faces\"");
+    made.surface = written_surface(value, place);
+  }
+  if (value.contains("name")) made.name = text(value["name"], place + ".name");
+  if (value.contains("hollow")) {
+    if (!value["hollow"].is_boolean()) refuse(place + ".hollow", "give true or false");
+    made.hollow = value["hollow"].get<bool>();
+  }
+  return made;
+}
+
+}  // namespace
+
+RoutePlan parse_route_plan(std::string_view text, const std::filesystem::path& folder) {
+  const Json root = parsed(text);
+  object(root, "the plan", {"agents", "obstacles"});
+  RoutePlan plan;
+  for (const Json& item : list(member(root, "the plan", "agents"), "agents"))
+    plan.agents.push_back(agent(item, plan.agents.size()));
+  if (root.contains("obstacles"))
+    for (const Json& item : list(root["obstacles"], "obstacles"))
+      plan.obstacles.push_back(obstacle(item, plan.obstacles.size(), folder));
+  try {
+    check_plan(plan);
+  } catch (const std::invalid_argument& e) {
+    throw FileError(e.what());
+  }
+  return plan;
+}
+
+std::string route_plan_json(const RoutePlan& plan) {
+  Json json = {{"agents", Json::array()}};
+  for (const RouteAgent& a : plan.agents) {
+    Json item = {{"name", a.name}, {"radius", a.radius}, {"start", a.start}, {"goal", a.goal}};
+    if (!a.waypoints.empty()) item["waypoints"] = a.waypoints;
+    json["agents"].push_back(std::move(item));
+  }
+  if (!plan.obstacles.empty()) json["obstacles"] = Json::array();
+  for (const RouteObstacle& o : plan.obstacles) {
+    Json item = {{"name", o.name}, {"vertices", Json::array()}, {"faces", Json::array()}};
+    const SurfaceView surface = o.surface;
+    for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+      const auto p = surface.positions.subspan(3 * v, 3);
+      item["vertices"].push_back({p[0], p[1], p[2]});
+    }
+    for (std::size_t f = 0; f < surface.face_count(); ++f)
+      item["faces"].push_back(std::vector<std::int32_t>(surface.face(f).begin(), surface.face(f).end()));
+    if (o.hollow) item["hollow"] = true;
+    json["obstacles"].push_back(std::move(item));
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string routes_json(const RoutePlan& plan, const RoutesResult& result) {
+  const RouteFindings& f = result.found;
+  Json json = {{"schema", "unsnarl-routes"},
+               {"schema_version", 1},
+               {"program", std::string("unsnarl ") + version},
+               {"hold", f.hold()},
+               {"clearance", f.clearance},
+               {"obstacle_clearance", f.obstacle_clearance},
+               {"self_clearance", f.self_clearance},
+               {"clearances_measured_up_to", RouteFindings::measured_up_to},
+               {"turn", f.turn},
+               {"mean_ratio", f.mean_ratio()},
+               {"max_ratio", f.max_ratio()},
+               {"seconds", result.seconds},
+               {"routes", Json::array()}};
+  for (std::size_t i = 0; i < result.routes.size(); ++i) {
+    Json item = {{"name", plan.agents[i].name}, {"radius", plan.agents[i].radius}};
+    if (i < f.length.size()) {
+      item["length"] = f.length[i];
+      item["straight"] = f.straight[i];
+    }
+    if (i < result.alone_length.size()) item["alone"] = result.alone_length[i];
+    item["points"] = result.routes[i].points;
+    json["routes"].push_back(std::move(item));
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<Route> parse_routes(std::string_view bytes, const RoutePlan& plan) {
+  const Json root = parsed(bytes);
+  if (!root.is_object()) refuse("the file", "it is not an object with \"routes\"");
+  std::vector<Route> routes(plan.agents.size());
+  std::size_t k = 0;
+  for (const Json& item : list(member(root, "the file", "routes"), "routes")) {
+    const std::string place = fmt::format("routes[{}]", k++);
+    if (!item.is_object()) refuse(place, fmt::format("{} is not an object", shown(item)));
+    const std::string name = text(member(item, place, "name"), place + ".name");
+    const auto found =
+        std::find_if(plan.agents.begin(), plan.agents.end(), [&](const RouteAgent& a) { return a.name == name; });
+    if (found == plan.agents.end()) refuse(place + ".name", fmt::format("the plan has no agent '{}'", name));
+    Route& route = routes[static_cast<std::size_t>(found - plan.agents.begin())];
+    if (!route.points.empty()) refuse(place + ".name", fmt::format("there is a route of '{}' before", name));
+    route.points = points(member(item, place, "points"), place + ".points");
+    if (route.points.size() < 2) refuse(place + ".points", "a route has two points at least");
+  }
+  for (std::size_t i = 0; i < routes.size(); ++i)
+    if (routes[i].points.empty()) refuse("routes", fmt::format("there is none of '{}'", plan.agents[i].name));
+  return routes;
+}
+
+}  // namespace unsnarl

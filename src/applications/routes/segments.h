@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+
+#include "contact/bvh.h"
+#include "contact/distances.h"
+#include "geometry/types.h"
+#include "unsnarl/routes.h"
+
+namespace unsnarl {
+
+inline Vec3 vec(const RoutePoint& p) {
+  return {p[0], p[1], p[2]};
+}
+
+/// Start, way-points, goal.
+std::vector<Vec3> places_of(const RouteAgent& agent);
+
+/// Where a segment is closest to a triangle: the vector from there is weights[0] p + weights[1] q - a point of the
+/// triangle, of this length along `direction`. Distance and direction are zero where they meet.
+struct ClosestToTriangle {
+  double distance = 0;
+  Vec3 direction = Vec3::Zero();
+  std::array<double, 2> weights = {0, 0};
+};
+ClosestToTriangle closest_segment_triangle(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& triangle);
+
+/// The triangles of all obstacles.
+class ObstacleTriangles {
+ public:
+  explicit ObstacleTriangles(const RoutePlan& plan);
+
+  bool empty() const { return corners_.empty(); }
+  Index size() const { return static_cast<Index>(corners_.size()); }
+  const std::array<Vec3, 3>& corners(Index t) const { return corners_[t]; }
+  int obstacle(Index t) const { return obstacle_[t]; }
+  const Box& bounds() const { return bounds_; }
+
+  /// Calls visit(Index) for the triangles whose boxes overlap this one, in an order that the triangles alone decide.
+  template <class Visit>
+  void near(const Box& box, Visit&& visit) const {
+    bvh_.query(box, visit);
+  }
+  /// Whether the segment stays at least this far from all.
+  bool is_clear(const Vec3& p, const Vec3& q, double distance) const;
+  /// Distance to the nearest one, up to `most`.
+  double distance(const Vec3& p, double most) const;
+
+ private:
+  std::vector<std::array<Vec3, 3>> corners_;
+  std::vector<int> obstacle_;
+  Box bounds_;
+  Bvh bvh_;
+};
+
+}  // namespace unsnarl

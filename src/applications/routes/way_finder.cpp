@@ -1,0 +1,192 @@
+#include "applications/routes/way_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace unsnarl {
+namespace {
+
+constexpr double cell_of_radius = 1;  ///< of the smallest agent: two cells fit into what it passes
+constexpr double most_nodes = 4e6;    ///< 40 MB; beyond, cells are larger
+constexpr double room_in_radii = 8;   ///< around everything, of the largest agent
+/// Each earlier way nearby makes a step longer by this part: a free gap beside is worth a detour.
+constexpr double crowding = 1;
+constexpr int nodes_around_a_place = 3;  ///< cells to each side that a place is joined to the grid in
+
+/// Steps to the neighbours of a node have numbers up to this one; the one in the middle goes nowhere.
+constexpr std::uint8_t no_step = 27;
+
+std::array<Index, 3> direction_of(std::uint8_t step) {
+  return {step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1};
+}
+
+}  // namespace
+
+WayFinder::WayFinder(const RoutePlan& plan, const ObstacleTriangles& triangles) : triangles_(triangles) {
+  Box box = triangles.bounds();
+  double least = plan.agents[0].radius, most = 0;
+  for (const RouteAgent& agent : plan.agents) {
+    for (const Vec3& p : places_of(agent)) box.extend(p);
+    least = std::min(least, agent.radius);
+    most = std::max(most, agent.radius);
+  }
+  box = box.inflated(room_in_radii * most);
+  corner_ = box.lo;
+  const Vec3 extent = box.hi - box.lo;
+  cell_ = std::max(cell_of_radius * least, std::cbrt(extent.prod() / most_nodes));
+  const auto count = [&] {
+    double nodes = 1;
+    for (int k = 0; k < 3; ++k) nodes *= std::floor(extent[k] / cell_) + 2;
+    return nodes;
+  };
+  while (count() > most_nodes) cell_ *= 1.1;
+  for (int k = 0; k < 3; ++k) size_[k] = static_cast<Index>(extent[k] / cell_) + 2;
+  far_ = 2 * most + 2 * cell_;
+  const auto nodes = static_cast<std::size_t>(count());
+  distance_.assign(nodes, -1.0F);
+  crowd_.assign(nodes, 0);
+  cost_.assign(nodes, 0);
+  step_.assign(nodes, 0);
+}
+
+std::array<Index, 3> WayFinder::place_of(Node node) const {
+  const Node row = node / size_[0];
+  return {static_cast<Index>(node % size_[0]), static_cast<Index>(row % size_[1]), static_cast<Index>(row / size_[1])};
+}
+
+WayFinder::Node WayFinder::node_at(const std::array<Index, 3>& p) const {
+  return (static_cast<Node>(p[2]) * size_[1] + p[1]) * size_[0] + p[0];
+}
+
+WayFinder::Node WayFinder::offset_of(std::uint8_t step) const {
+  const std::array<Index, 3> d = direction_of(step);
+  return (static_cast<Node>(d[2]) * size_[1] + d[1]) * size_[0] + d[0];
+}
+
+Vec3 WayFinder::position(Node node) const {
+  const std::array<Index, 3> p = place_of(node);
+  return corner_ + cell_ * Vec3(p[0], p[1], p[2]);
+}
+
+double WayFinder::distance_of(Node node) {
+  float& known = distance_[static_cast<std::size_t>(node)];
+  if (known < 0) known = static_cast<float>(triangles_.distance(position(node), far_));
+  return known;
+}
+
+bool WayFinder::is_clear(Node a, Node b, double distance) {
+  const double da = distance_of(a), db = distance_of(b);
+  if (std::min(da, db) < distance) return false;
+  // The distance changes by no more than the way that is gone.
+  const double length = (position(a) - position(b)).norm();
+  return 0.5 * (da + db - length) >= distance * (1 + 1e-6) || triangles_.is_clear(position(a), position(b), distance);
+}
+
+std::vector<WayFinder::Node> WayFinder::nodes_around(const Vec3& p, double distance) {
+  std::vector<Node> nodes;
+  std::array<Index, 3> lo{}, hi{};
+  for (int k = 0; k < 3; ++k) {
+    const auto at = static_cast<Index>((p[k] - corner_[k]) / cell_);
+    lo[k] = std::max(0, at + 1 - nodes_around_a_place);
+    hi[k] = std::min(size_[k] - 1, at + nodes_around_a_place);
+  }
+  for (Index z = lo[2]; z <= hi[2]; ++z)
+    for (Index y = lo[1]; y <= hi[1]; ++y)
+      for (Index x = lo[0]; x <= hi[0]; ++x) {
+        const Node node = node_at({x, y, z});
+        if (distance_of(node) >= distance && triangles_.is_clear(p, position(node), distance)) nodes.push_back(node);
+      }
+  return nodes;
+}
+
+void WayFinder::avoid(std::span<const Vec3> way, double distance) {
+  std::vector<Node> touched;
+  for (std::size_t k = 0; k + 1 < way.size(); ++k) {
+    Box box;
+    box.extend(way[k]);
+    box.extend(way[k + 1]);
+    box = box.inflated(distance);
+    std::array<Index, 3> lo{}, hi{};
+    for (int i = 0; i < 3; ++i) {
+      lo[i] = std::clamp(static_cast<Index>((box.lo[i] - corner_[i]) / cell_), 0, size_[i] - 1);
+      hi[i] = std::clamp(static_cast<Index>((box.hi[i] - corner_[i]) / cell_) + 1, 0, size_[i] - 1);
+    }
+    for (Index z = lo[2]; z <= hi[2]; ++z)
+      for (Index y = lo[1]; y <= hi[1]; ++y)
+        for (Index x = lo[0]; x <= hi[0]; ++x) {
+          const Node node = node_at({x, y, z});
+          if (closest_vertex_edge(position(node), way[k], way[k + 1]).distance < distance) touched.push_back(node);
+        }
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  for (const Node node : touched) {
+    std::uint8_t& crowd = crowd_[static_cast<std::size_t>(node)];
+    if (crowd < 255) ++crowd;
+  }
+}
+
+std::vector<Vec3> WayFinder::pulled(const std::vector<Vec3>& way, double distance) const {
+  std::vector<Vec3> result{way.front()};
+  std::size_t at = 0;
+  while (at + 1 < way.size()) {
+    std::size_t next = way.size() - 1;
+    while (next > at + 1 && !triangles_.is_clear(way[at], way[next], distance)) --next;
+    result.push_back(way[next]);
+    at = next;
+  }
+  return result;
+}
+
+std::optional<std::vector<Vec3>> WayFinder::find(const Vec3& from, const Vec3& to, double distance) {
+  if (triangles_.is_clear(from, to, distance)) return std::vector<Vec3>{from, to};
+  std::fill(cost_.begin(), cost_.end(), std::numeric_limits<float>::infinity());
+  using Entry = std::pair<float, Node>;  // cost and the way that is left, at least
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  const auto reach = [&](Node node, double cost, std::uint8_t step) {
+    const auto at = static_cast<std::size_t>(node);
+    const auto rounded = static_cast<float>(cost);
+    if (rounded >= cost_[at]) return;
+    cost_[at] = rounded;
+    step_[at] = step;
+    open.emplace(rounded + static_cast<float>((position(node) - to).norm()), node);
+  };
+  const std::vector<Node> ends = nodes_around(to, distance);
+  for (const Node node : nodes_around(from, distance)) reach(node, (position(node) - from).norm(), no_step);
+  while (!open.empty()) {
+    const auto [bound, node] = open.top();
+    open.pop();
+    const float cost = cost_[static_cast<std::size_t>(node)];
+    if (bound > cost + static_cast<float>((position(node) - to).norm())) continue;  // a shorter way was found since
+    if (std::binary_search(ends.begin(), ends.end(), node)) {
+      std::vector<Vec3> way{to};
+      for (Node at = node;;) {
+        way.push_back(position(at));
+        const std::uint8_t step = step_[static_cast<std::size_t>(at)];
+        if (step == no_step) break;
+        at -= offset_of(step);
+      }
+      way.push_back(from);
+      std::reverse(way.begin(), way.end());
+      return pulled(way, distance);
+    }
+    const std::array<Index, 3> place = place_of(node);
+    for (std::uint8_t step = 0; step < no_step; ++step) {
+      const std::array<Index, 3> d = direction_of(step);
+      bool is_inside = true;
+      for (int k = 0; k < 3; ++k) is_inside = is_inside && place[k] + d[k] >= 0 && place[k] + d[k] < size_[k];
+      if (!is_inside) continue;
+      const Node next = node + offset_of(step);
+      const double crowd = 1 + crowding * crowd_[static_cast<std::size_t>(next)];
+      const double there =
+          cost + crowd * cell_ * std::sqrt(static_cast<double>(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]));
+      if (static_cast<float>(there) < cost_[static_cast<std::size_t>(next)] && is_clear(node, next, distance))
+        reach(next, there, step);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace unsnarl

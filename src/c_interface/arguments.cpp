@@ -1,0 +1,225 @@
+#include "arguments.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "errors.h"
+#include "handles.h"
+#include "unsnarl/isotopy.h"
+#include "unsnarl/report.h"
+#include "unsnarl/report_json.h"
+#include "unsnarl/seifert.h"
+#include "unsnarl/sequence.h"
+
+namespace unsnarl::c_interface {
+namespace {
+
+/// Fields of the caller's struct over those of `whole`; its version of the struct may be older.
+template <class Struct>
+Struct read(const Struct* given, const char* name, Struct whole = {}) {
+  require(given, name);
+  check_size(given->size, sizeof whole, name);
+  std::memcpy(&whole, given, given->size);
+  return whole;
+}
+
+/// The one of `choices` that is called `name`.
+template <class Enum>
+Enum named(const char* option, const std::string& name, std::initializer_list<Enum> choices) {
+  std::string all;
+  for (const Enum choice : choices) {
+    if (to_string(choice) == name) return choice;
+    all += (all.empty() ? "'" : ", '") + std::string(to_string(choice)) + "'";
+  }
+  throw std::invalid_argument(std::string(option) + " is '" + name + "'; choose one of " + all);
+}
+
+void check_offsets(std::span<const std::int32_t> offsets, std::size_t corners, const std::string& what) {
+  if (offsets.front() != 0 || static_cast<std::size_t>(offsets.back()) != corners)
+    throw std::invalid_argument("offsets run from " + std::to_string(offsets.front()) + " to " +
+                                std::to_string(offsets.back()) + "; give them from 0 to " + std::to_string(corners));
+  const auto descent = std::adjacent_find(offsets.begin(), offsets.end(), std::greater<>());
+  if (descent != offsets.end())
+    throw std::invalid_argument(what + " " + std::to_string(descent - offsets.begin()) + " runs from offset " +
+                                std::to_string(descent[0]) + " to " + std::to_string(descent[1]));
+}
+
+unsnarl_options default_options() {
+  const RepairOptions repair;
+  const SequenceOptions sequence;
+  const CurveOptions curves;
+  const SeifertOptions seifert;
+  const IsotopyOptions isotopy;
+  unsnarl_options options = {};
+  options.size = sizeof options;
+  // Views of string literals, which end in a zero.
+  options.weld = to_string(repair.find.weld).data();
+  options.weld_tolerance = repair.find.weld_tolerance;
+  options.both_diagonals = repair.find.both_diagonals;
+  options.threads = repair.find.threads;
+  options.goal = to_string(repair.goal).data();
+  options.precision = "auto";
+  options.min_gap = repair.min_gap_rel;
+  options.max_displacement = repair.max_displacement_rel;
+  options.min_dihedral = repair.min_dihedral_deg;
+  options.memory_limit = repair.memory_limit_mb;
+  options.each_component = repair.each_component;
+  options.paper = repair.paper.has_value();
+  options.time_limit = repair.time_limit_s;
+  options.recover = repair.recover;
+  options.first_frame = sequence.first;
+  options.last_frame = sequence.last;
+  options.gap = curves.gap_rel;
+  options.junction = curves.junction_rel;
+  options.fix_ends = curves.fix_ends;
+  options.edge = seifert.edge_rel;
+  options.views = seifert.views;
+  options.fair = seifert.fair;
+  options.points = isotopy.points;
+  return options;
+}
+
+}  // namespace
+
+void check_size(std::size_t given, std::size_t known, const char* name) {
+  if (given <= sizeof given || given > known)
+    throw std::invalid_argument(std::string(name) + ": its size is " + std::to_string(given) +
+                                "; set it to sizeof of the struct, which has " + std::to_string(known) +
+                                " bytes or, in older versions of the library, fewer");
+}
+
+unsnarl_options options_of(const unsnarl_options* given) {
+  const unsnarl_options defaults = default_options();
+  if (given == nullptr) return defaults;
+  unsnarl_options options = read(given, "options", defaults);
+  if (options.weld == nullptr) options.weld = defaults.weld;
+  if (options.goal == nullptr) options.goal = defaults.goal;
+  if (options.precision == nullptr) options.precision = defaults.precision;
+  return options;
+}
+
+unsnarl_surface surface_of(const unsnarl_surface* given) {
+  const unsnarl_surface surface = read(given, "surface");
+  if (surface.vertex_count > 0) require(surface.positions, "surface: positions");
+  if (surface.corner_count > 0) require(surface.corners, "surface: corners");
+  constexpr std::size_t largest = std::numeric_limits<std::int32_t>::max();
+  if (surface.vertex_count > largest || surface.corner_count > largest)
+    throw std::invalid_argument("surface: more than 2^31 - 1 vertices or corners of faces");
+  if (surface.offsets != nullptr && surface.offset_count > 0)
+    check_offsets({surface.offsets, surface.offset_count}, surface.corner_count, "face");
+  else if (surface.corner_count % 3 != 0)
+    throw std::invalid_argument("surface: " + std::to_string(surface.corner_count) +
+                                " corners are no triangles; give offsets for faces of other sizes");
+  if (surface.mesh_count > 0) require(surface.mesh_sizes, "surface: mesh_sizes");
+  return surface;
+}
+
+unsnarl_curves curves_of(const unsnarl_curves* given, const char* name) {
+  const unsnarl_curves curves = read(given, name);
+  if (curves.curve_count == 0) return curves;
+  require(curves.offsets, "curves: offsets");
+  check_offsets({curves.offsets, curves.curve_count + 1}, curves.offsets[curves.curve_count], "curve");
+  if (curves.offsets[curves.curve_count] > 0) require(curves.points, "curves: points");
+  return curves;
+}
+
+FindOptions find_options(const unsnarl_options& options) {
+  return {.weld = named("weld", options.weld, {Weld::none, Weld::seams, Weld::all}),
+          .weld_tolerance = options.weld_tolerance,
+          .both_diagonals = options.both_diagonals != 0,
+          .threads = options.threads};
+}
+
+RepairOptions frame_options(const unsnarl_options& options, const unsnarl_surface& surface) {
+  RepairOptions repair;
+  repair.find = find_options(options);
+  repair.goal = named("goal", options.goal, {Goal::all, Goal::disjoint});
+  if (options.precision != std::string_view("auto"))
+    repair.precision = named("precision", options.precision, {Precision::float32, Precision::float64});
+  repair.min_gap_rel = options.min_gap;
+  repair.max_displacement_rel = options.max_displacement;
+  repair.time_limit_s = options.time_limit;
+  if (surface.fixed != nullptr) repair.fixed.assign(surface.fixed, surface.fixed + surface.vertex_count);
+  return repair;
+}
+
+RepairOptions repair_options(const unsnarl_options& options, const unsnarl_surface& surface) {
+  RepairOptions repair = frame_options(options, surface);
+  if (const double diagonal = options.absolute ? diagonal_of(view_of(surface)) : 0; diagonal > 0) {
+    repair.min_gap_rel *= 1 / diagonal;
+    repair.max_displacement_rel *= 1 / diagonal;
+  }
+  repair.min_dihedral_deg = options.min_dihedral;
+  repair.memory_limit_mb = options.memory_limit;
+  repair.recover = options.recover != 0;
+  if (options.paper) repair.paper.emplace();
+  repair.each_component = options.each_component != 0;
+  if (surface.document != nullptr) {
+    const Document& document = surface.document->document;
+    if (document.stores_float32()) {
+      if (repair.precision == Precision::float64)
+        throw std::invalid_argument("precision is 'float64', but this file stores 32-bit numbers");
+      repair.precision = Precision::float32;
+    }
+    repair.as_written = [&document](std::span<const double> positions, bool float32) {
+      return document.as_written(positions, float32);
+    };
+  }
+  return repair;
+}
+
+SurfaceView view_of(const unsnarl_surface& surface) {
+  SurfaceView view{{surface.positions, 3 * surface.vertex_count}, {surface.corners, surface.corner_count}};
+  if (surface.offsets != nullptr) view.offsets = {surface.offsets, surface.offset_count};
+  return view;
+}
+
+std::vector<SceneFile> meshes_of(const unsnarl_surface& surface) {
+  std::vector<SceneFile> meshes;
+  std::size_t vertices = 0, faces = 0;
+  for (std::size_t i = 0; i < surface.mesh_count; ++i) {
+    const std::size_t* const size = surface.mesh_sizes + 2 * i;
+    meshes.push_back({std::to_string(i), vertices, size[0], faces, size[1]});
+    vertices += size[0];
+    faces += size[1];
+  }
+  const SurfaceView view = view_of(surface);
+  if (!meshes.empty() && (vertices != view.vertex_count() || faces != view.face_count()))
+    throw std::invalid_argument("surface: mesh_sizes count " + std::to_string(vertices) + " vertices and " +
+                                std::to_string(faces) + " faces; there are " + std::to_string(view.vertex_count()) +
+                                " and " + std::to_string(view.face_count()));
+  return meshes;
+}
+
+void check_corners(const SurfaceView& surface) {
+  for (std::size_t f = 0; f < surface.face_count(); ++f)
+    for (const std::int32_t v : surface.face(f))
+      if (v < 0 || static_cast<std::size_t>(v) >= surface.vertex_count())
+        throw std::invalid_argument("face " + std::to_string(f) + " uses vertex " + std::to_string(v) +
+                                    ", but there are " + std::to_string(surface.vertex_count()));
+}
+
+std::vector<Curve> plane_curves(const unsnarl_curves& curves) {
+  std::vector<Curve> result(curves.curve_count);
+  for (std::size_t c = 0; c < curves.curve_count; ++c) {
+    const std::int32_t begin = curves.offsets[c], end = curves.offsets[c + 1];
+    result[c].points.assign(curves.points + 2 * begin, curves.points + 2 * end);
+    result[c].closed = curves.closed == nullptr || curves.closed[c] != 0;
+    if (curves.fixed != nullptr) result[c].fixed.assign(curves.fixed + begin, curves.fixed + end);
+  }
+  return result;
+}
+
+Link link_of(const unsnarl_curves& curves) {
+  Link link;
+  for (std::size_t c = 0; c < curves.curve_count; ++c)
+    link.components.emplace_back(curves.points + 3 * curves.offsets[c], curves.points + 3 * curves.offsets[c + 1]);
+  return link;
+}
+
+}  // namespace unsnarl::c_interface

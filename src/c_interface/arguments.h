@@ -1,0 +1,42 @@
+// The structs of unsnarl.h as the library takes them. All functions throw std::invalid_argument for what makes no
+// sense.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "unsnarl/curves.h"
+#include "unsnarl/intersections.h"
+#include "unsnarl/link.h"
+#include "unsnarl/repair.h"
+#include "unsnarl/scene_document.h"
+#include "unsnarl/surface.h"
+#include "unsnarl/unsnarl.h"
+
+namespace unsnarl::c_interface {
+
+/// Throws unless `given` can be the size of a struct that has `known` bytes in this version of the library.
+void check_size(std::size_t given, std::size_t known, const char* name);
+
+/// What the caller's struct says, and defaults for fields that it does not have yet. NULL: the defaults.
+unsnarl_options options_of(const unsnarl_options* given);
+/// Every field, those that the caller's struct does not have yet as zero; arrays have the lengths they say.
+unsnarl_surface surface_of(const unsnarl_surface* given);
+unsnarl_curves curves_of(const unsnarl_curves* given, const char* name);
+
+FindOptions find_options(const unsnarl_options& options);
+/// `options` for a repair of `surface`.
+RepairOptions repair_options(const unsnarl_options& options, const unsnarl_surface& surface);
+/// Goal, precision, welding and limits alone, what a sequence knows of. All lengths are relative.
+RepairOptions frame_options(const unsnarl_options& options, const unsnarl_surface& surface);
+
+SurfaceView view_of(const unsnarl_surface& surface);
+/// The meshes that lie one after another in `surface`, called by their numbers; empty where it is one.
+std::vector<SceneFile> meshes_of(const unsnarl_surface& surface);
+/// Throws where a face uses a vertex that does not exist.
+void check_corners(const SurfaceView& surface);
+
+std::vector<Curve> plane_curves(const unsnarl_curves& curves);
+Link link_of(const unsnarl_curves& curves);
+
+}  // namespace unsnarl::c_interface

@@ -1,0 +1,102 @@
+#include "unsnarl/curves.h"
+
+#include <nlohmann/json.hpp>
+
+#include "arguments.h"
+#include "results.h"
+#include "unsnarl/isotopy.h"
+
+namespace unsnarl::c_interface {
+namespace {
+
+std::vector<std::int32_t> rows_of(std::span<const CurveCrossing> crossings) {
+  std::vector<std::int32_t> rows;
+  rows.reserve(4 * crossings.size());
+  for (const CurveCrossing& c : crossings) rows.insert(rows.end(), {c.curve_a, c.segment_a, c.curve_b, c.segment_b});
+  return rows;
+}
+
+unsnarl_result untangled(const std::vector<Curve>& curves, const unsnarl_options& given, Context* context) {
+  CurveOptions options;
+  options.gap_rel = given.gap;
+  options.junction_rel = given.junction;
+  options.fix_ends = given.fix_ends != 0;
+  options.recover = given.recover != 0;
+  options.time_limit_s = given.time_limit;
+  const CurveResult made = untangle_curves(curves, options, context);
+
+  const CurveReport& r = made.report;
+  unsnarl_result result;
+  result.status = to_string(made.status);
+  result.report = Json{
+      {"crossings_before", r.crossings_before},
+      {"crossings_after", r.crossings_after},
+      {"points", r.points},
+      {"diagonal", r.diagonal},
+      {"displacement_mean_rel", r.displacement_mean_rel},
+      {"displacement_max_rel", r.displacement_max_rel},
+      {"distance_mean_rel", r.distance_mean_rel},
+      {"distance_max_rel", r.distance_max_rel},
+      {"moved_points", r.moved_points},
+      {"turned_points", r.turned_points},
+      {"inserted_points", r.inserted_points},
+      {"joints", r.joints},
+      {"seconds",
+       r.seconds}}.dump();
+  std::vector<std::vector<double>> points;
+  for (const Curve& curve : made.curves) points.push_back(curve.points);
+  add_polylines(result, points, 2);
+  result.arrays["obstructions"] = {rows_of(r.fixed), 4};
+  result.arrays["left"] = {rows_of(r.left), 4};
+  return result;
+}
+
+unsnarl_result isotopy(const std::vector<Curve>& start, const std::vector<Curve>& end, const unsnarl_options& given,
+                       Context* context) {
+  IsotopyOptions options;
+  options.points = given.points;
+  options.time_limit_s = given.time_limit;
+  Isotopy made = planar_isotopy(start, end, options, context);
+
+  unsnarl_result result;
+  result.status = to_string(made.status);
+  std::vector<double> times;
+  std::vector<std::vector<double>> points;
+  for (const IsotopyRing& ring : made.rings) {
+    times.push_back(ring.time);
+    points.insert(points.end(), ring.curves.begin(), ring.curves.end());
+  }
+  result.arrays["times"] = {std::move(times)};
+  add_polylines(result, points, 2);
+  add_triangles(result, std::move(made.surface));
+  return result;
+}
+
+}  // namespace
+}  // namespace unsnarl::c_interface
+
+using namespace unsnarl;
+using namespace unsnarl::c_interface;
+
+int unsnarl_find_crossings(const unsnarl_curves* curves, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    unsnarl_result found;
+    found.arrays["crossings"] = {rows_of(find_crossings(plane_curves(curves_of(curves, "curves")))), 4};
+    return found;
+  });
+}
+
+int unsnarl_untangle_curves(const unsnarl_curves* curves, const unsnarl_options* options, unsnarl_context* context,
+                            unsnarl_result** result) {
+  return hand_out(result, [&] {
+    return untangled(plane_curves(curves_of(curves, "curves")), options_of(options), context_of(context));
+  });
+}
+
+int unsnarl_planar_isotopy(const unsnarl_curves* start, const unsnarl_curves* end, const unsnarl_options* options,
+                           unsnarl_context* context, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    return isotopy(plane_curves(curves_of(start, "start")), plane_curves(curves_of(end, "end")), options_of(options),
+                   context_of(context));
+  });
+}

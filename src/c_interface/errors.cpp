@@ -1,0 +1,57 @@
+#include "errors.h"
+
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
+#include "unsnarl/document.h"
+#include "unsnarl/version.h"
+
+namespace unsnarl::c_interface {
+namespace {
+
+thread_local std::string last_message;
+
+int keep(unsnarl_error code, const char* message) noexcept {
+  try {
+    last_message = message;
+  } catch (...) {
+    last_message.clear();  // not even enough memory for the message
+  }
+  return code;
+}
+
+}  // namespace
+
+int code_of_current_exception() noexcept {
+  try {
+    throw;
+  } catch (const std::logic_error& e) {
+    // Other kinds of std::logic_error are broken promises of the library's own.
+    const bool about_arguments = dynamic_cast<const std::invalid_argument*>(&e) != nullptr;
+    return keep(about_arguments ? UNSNARL_INVALID_ARGUMENT : UNSNARL_INTERNAL_ERROR, e.what());
+  } catch (const FileError& e) {
+    return keep(UNSNARL_CANNOT_READ, e.what());
+  } catch (const WriteError& e) {
+    return keep(UNSNARL_CANNOT_WRITE, e.what());
+  } catch (const std::bad_alloc&) {
+    return keep(UNSNARL_OUT_OF_MEMORY, "there is not enough memory");
+  } catch (const std::exception& e) {
+    return keep(UNSNARL_INTERNAL_ERROR, e.what());
+  } catch (...) {
+    return keep(UNSNARL_INTERNAL_ERROR, "an unknown exception");
+  }
+}
+
+void require(const void* argument, const char* name) {
+  if (argument == nullptr) throw std::invalid_argument(std::string(name) + " is NULL");
+}
+
+}  // namespace unsnarl::c_interface
+
+const char* unsnarl_error_message(void) {
+  return unsnarl::c_interface::last_message.c_str();
+}
+const char* unsnarl_version(void) {
+  return unsnarl::version;
+}

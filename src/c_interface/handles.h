@@ -1,0 +1,36 @@
+// What the opaque handles of unsnarl.h stand for.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "unsnarl/document.h"
+#include "unsnarl/repair.h"
+#include "unsnarl/unsnarl.h"
+
+struct unsnarl_context {
+  unsnarl::Context context;
+};
+
+struct unsnarl_document {
+  std::filesystem::path path;
+  unsnarl::Document document;
+  std::string report;
+};
+
+struct unsnarl_result {
+  struct Array {
+    std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::uint8_t>> values;
+    std::size_t columns = 1;
+  };
+
+  std::string status, report;
+  std::map<std::string, Array, std::less<>> arrays;
+  std::optional<unsnarl::Precision> precision;  // of a repair
+};

@@ -1,0 +1,76 @@
+#include "unsnarl/link.h"
+
+#include <nlohmann/json.hpp>
+
+#include "arguments.h"
+#include "results.h"
+#include "unsnarl/seifert.h"
+
+namespace unsnarl::c_interface {
+namespace {
+
+Json json_of(const SeifertFindings& found) {
+  return {{"intersecting_pairs", found.intersecting_pairs},
+          {"oriented", found.oriented},
+          {"spans_link", found.spans_link},
+          {"components", found.components},
+          {"genus", found.genus},
+          {"euler_characteristic", found.euler_characteristic},
+          {"expected_euler_characteristic", found.expected_euler_characteristic},
+          {"alexander_of_surface", found.alexander_of_surface},
+          {"alexander_of_link", found.alexander_of_link},
+          {"hold", found.hold()}};
+}
+
+unsnarl_result spanned(const Link& link, const unsnarl_options& given, Context* context) {
+  SeifertOptions options;
+  options.edge_rel = given.edge;
+  options.views = given.views;
+  options.fair = given.fair != 0;
+  options.time_limit_s = given.time_limit;
+  SeifertResult made = seifert_surface(link, options, context);
+
+  Json json = json_of(check_seifert_surface(made.surface, link, options.views));
+  json["crossings"] = made.crossings;
+  json["circles"] = made.circles;
+  json["area"] = made.area;
+  json["seconds"] = made.seconds;
+  unsnarl_result result;
+  result.status = to_string(made.status);
+  result.report = json.dump();
+  add_triangles(result, std::move(made.surface));
+  return result;
+}
+
+}  // namespace
+}  // namespace unsnarl::c_interface
+
+using namespace unsnarl;
+using namespace unsnarl::c_interface;
+
+int unsnarl_seifert_surface(const unsnarl_curves* link, const unsnarl_options* options, unsnarl_context* context,
+                            unsnarl_result** result) {
+  return hand_out(result,
+                  [&] { return spanned(link_of(curves_of(link, "link")), options_of(options), context_of(context)); });
+}
+
+int unsnarl_check_seifert_surface(const unsnarl_surface* surface, const unsnarl_curves* link,
+                                  const unsnarl_options* options, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    const SurfaceView view = view_of(surface_of(surface));
+    check_corners(view);
+    unsnarl_result found;
+    found.report =
+        json_of(check_seifert_surface(view, link_of(curves_of(link, "link")), options_of(options).views)).dump();
+    return found;
+  });
+}
+
+int unsnarl_knot_of_table(const char* name, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    require(name, "name");
+    unsnarl_result found;
+    add_polylines(found, knot_of_table(name).components, 3);
+    return found;
+  });
+}

@@ -1,0 +1,217 @@
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "arguments.h"
+#include "errors.h"
+#include "handles.h"
+#include "results.h"
+#include "unsnarl/certify.h"
+#include "unsnarl/clearance.h"
+#include "unsnarl/parts.h"
+#include "unsnarl/report_json.h"
+#include "unsnarl/sequence.h"
+#include "unsnarl/stage_clock.h"
+
+namespace unsnarl::c_interface {
+namespace {
+
+Json by_kind(const PairCounts& counts) {
+  Json json = Json::object();
+  for (std::size_t kind = 0; kind < pair_class_count; ++kind)
+    json[std::string(pair_class_names[kind])] = counts.by_class[kind];
+  return json;
+}
+
+SceneReport report_by_mesh(const SurfaceView& surface, const FindOptions& find, std::span<const double> positions,
+                           std::span<const SceneFile> meshes) {
+  Certifier certifier(surface, find);
+  return scene_report(surface, meshes, certifier.find_intersections(surface.positions), positions,
+                      certifier.find_intersections(positions));
+}
+
+unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& given_options, Context* context) {
+  const StageClock clock;
+  const SurfaceView surface = view_of(given);
+  const RepairOptions options = repair_options(given_options, given);
+  const std::vector<SceneFile> meshes = meshes_of(given);
+  RepairResult repaired = repair(surface, options, context);
+
+  ReportFiles files;
+  files.vertices = surface.vertex_count();
+  files.faces = surface.face_count();
+  if (given.document != nullptr) {
+    files.input = given.document->path.string();
+    files.format = to_string(given.document->document.format());
+    files.notes = given.document->document.notes();
+  }
+  if (!meshes.empty()) files.scene = report_by_mesh(surface, options.find, repaired.positions, meshes);
+  files.clearance_before = measure_clearance(surface, surface.positions, options.find);
+  const bool float32 = repaired.report.precision == Precision::float32;
+  files.clearance_after = measure_clearance(
+      surface, options.as_written ? options.as_written(repaired.positions, float32) : repaired.positions, options.find);
+  files.whole = clock.stage("repair");
+  unsnarl_result result;
+  result.status = to_string(repaired.status);
+  result.report = report_json(repaired, options, files);
+  result.precision = repaired.report.precision;
+  result.arrays["positions"] = {std::move(repaired.positions), 3};
+  return result;
+}
+
+Json json_of(const std::optional<Jitter>& jitter) {
+  if (!jitter) return nullptr;
+  return {{"mean", jitter->mean_rel}, {"max", jitter->max_rel}};
+}
+
+Json json_of(const FrameReport& frame) {
+  return {{"frame", frame.frame},
+          {"status", to_string(frame.status)},
+          {"before", by_kind(frame.before)},
+          {"after", by_kind(frame.after)},
+          {"diagonal", frame.diagonal},
+          {"displacement_mean_rel", frame.displacement_mean_rel},
+          {"displacement_max_rel", frame.displacement_max_rel},
+          {"untouched_share", frame.untouched_share},
+          {"float32_embedded", frame.float32_embedded},
+          {"precision", to_string(frame.precision)},
+          {"is_smoothed", frame.is_smoothed},
+          {"alone", json_of(frame.alone)},
+          {"jitter", json_of(frame.jitter)}};
+}
+
+unsnarl_result repaired_sequence(const unsnarl_surface& given, std::size_t frame_count,
+                                 const unsnarl_options& given_options, Context* context) {
+  const std::size_t size = 3 * given.vertex_count;
+  const std::span<const double> frames(given.positions, size * frame_count);
+  SequenceOptions options;
+  options.first = given_options.first_frame;
+  options.last = std::min(given_options.last_frame, frame_count);
+  if (options.first > options.last)
+    throw std::invalid_argument("first_frame is " + std::to_string(options.first) + ", last_frame " +
+                                std::to_string(options.last) + " (excluded), of " + std::to_string(frame_count));
+  options.repair = frame_options(given_options, given);
+  SequenceSource source;
+  const SurfaceView surface = view_of(given);
+  source.corners = surface.corners;
+  source.offsets = surface.offsets;
+  source.frames = frame_count;
+  source.positions = [&](std::size_t t) {
+    const auto frame = frames.subspan(t * size, size);
+    return std::vector<double>(frame.begin(), frame.end());
+  };
+  const auto wanted = frames.subspan(options.first * size, (options.last - options.first) * size);
+  std::vector<double> positions(wanted.begin(), wanted.end());
+  const auto take = [&](FrameResult&& frame) {
+    const std::size_t begin = (frame.report.frame - options.first) * size;
+    std::copy(frame.positions.begin(), frame.positions.end(), positions.begin() + static_cast<std::ptrdiff_t>(begin));
+  };
+  const std::vector<FrameReport> reports = repair_sequence(source, options, take, context);
+
+  unsnarl_result result;
+  const auto open = std::find_if(reports.begin(), reports.end(),
+                                 [](const FrameReport& frame) { return frame.status != Status::embedded; });
+  const bool all_reached = reports.size() == options.last - options.first;
+  result.status = to_string(open != reports.end() ? open->status : all_reached ? Status::embedded : Status::cancelled);
+  Json json = Json::array();
+  for (const FrameReport& frame : reports) json.push_back(json_of(frame));
+  result.report = json.dump();
+  result.arrays["positions"] = {std::move(positions), 3};
+  return result;
+}
+
+}  // namespace
+}  // namespace unsnarl::c_interface
+
+using namespace unsnarl;
+using namespace unsnarl::c_interface;
+
+int unsnarl_find_intersections(const unsnarl_surface* surface, const unsnarl_options* options,
+                               unsnarl_result** result) {
+  return hand_out(result, [&] {
+    const std::vector<IntersectingPair> pairs =
+        find_intersections(view_of(surface_of(surface)), find_options(options_of(options)));
+    std::vector<std::int32_t> faces;
+    std::vector<std::uint8_t> kinds;
+    faces.reserve(2 * pairs.size());
+    kinds.reserve(pairs.size());
+    for (const IntersectingPair& pair : pairs) {
+      faces.insert(faces.end(), {pair.a, pair.b});
+      kinds.push_back(static_cast<std::uint8_t>(pair.kind));
+    }
+    unsnarl_result found;
+    found.report = by_kind(count_by_class(pairs)).dump();
+    found.arrays["pairs"] = {std::move(faces), 2};
+    found.arrays["kinds"] = {std::move(kinds), 1};
+    return found;
+  });
+}
+
+const char* unsnarl_pair_kind(int kind) {
+  const bool is_one = kind >= 0 && static_cast<std::size_t>(kind) < pair_class_count;
+  return is_one ? pair_class_names[static_cast<std::size_t>(kind)].data() : nullptr;
+}
+
+int unsnarl_certify(const unsnarl_surface* surface, const double* moved, size_t moved_count,
+                    const unsnarl_options* options, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    if (moved_count > 0) require(moved, "moved");
+    const Certificate certificate =
+        certify(view_of(surface_of(surface)), {moved, 3 * moved_count}, find_options(options_of(options)));
+    unsnarl_result found;
+    found.report = Json{{"embedded", certificate.embedded()},
+                        {"float32_embedded", certificate.float32_embedded()},
+                        {"pairs", by_kind(certificate.pairs)},
+                        {"pairs_float32", by_kind(certificate.pairs_float32)},
+                        {"new_zero_area_faces", certificate.new_zero_area_faces},
+                        {"seams_closed", certificate.seams_closed}}
+                       .dump();
+    return found;
+  });
+}
+
+int unsnarl_repair(const unsnarl_surface* surface, const unsnarl_options* options, unsnarl_context* context,
+                   unsnarl_result** result) {
+  return hand_out(result, [&] { return repaired(surface_of(surface), options_of(options), context_of(context)); });
+}
+
+int unsnarl_repair_sequence(const unsnarl_surface* surface, size_t frame_count, const unsnarl_options* options,
+                            unsnarl_context* context, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    return repaired_sequence(surface_of(surface), frame_count, options_of(options), context_of(context));
+  });
+}
+
+int unsnarl_component_of_faces(const unsnarl_surface* surface, const unsnarl_options* options,
+                               unsnarl_result** result) {
+  return hand_out(result, [&] {
+    unsnarl_result found;
+    found.arrays["components"] = {component_of_faces(view_of(surface_of(surface)), find_options(options_of(options)))};
+    return found;
+  });
+}
+
+int unsnarl_boundary_vertices(const unsnarl_surface* surface, const unsnarl_options* options, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    unsnarl_result found;
+    found.arrays["vertices"] = {boundary_vertices(view_of(surface_of(surface)), find_options(options_of(options)))};
+    return found;
+  });
+}
+
+int unsnarl_vertices_of_faces(const unsnarl_surface* surface, const uint8_t* faces, size_t face_count,
+                              unsnarl_result** result) {
+  return hand_out(result, [&] {
+    const SurfaceView view = view_of(surface_of(surface));
+    check_corners(view);
+    if (face_count != view.face_count())
+      throw std::invalid_argument("there are " + std::to_string(face_count) + " flags for " +
+                                  std::to_string(view.face_count()) + " faces");
+    if (face_count > 0) require(faces, "faces");
+    unsnarl_result found;
+    found.arrays["vertices"] = {vertices_of_faces(view, {faces, face_count})};
+    return found;
+  });
+}

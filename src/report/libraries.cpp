@@ -1,0 +1,45 @@
+#include "unsnarl/libraries.h"
+
+#include <fmt/format.h>
+#include <gif_lib.h>
+#include <gmp.h>
+#include <gnu/libc-version.h>
+#include <png.h>
+#include <tbb/version.h>
+#include <zip.h>
+#include <zlib.h>
+
+#include <Eigen/Core>
+#include <boost/version.hpp>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+
+namespace unsnarl {
+
+std::vector<LibraryVersion> libraries() {
+  const unsigned png = png_access_version_number();
+  return {
+      {"Boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
+      {"CGAL", UNSNARL_CGAL_VERSION},
+#ifdef __clang__
+      {"Clang", fmt::format("{}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__)},
+#endif
+      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+#ifndef __clang__
+      {"GCC", fmt::format("{}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__)},
+#endif
+      {"giflib", fmt::format("{}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE)},
+      {"glibc", gnu_get_libc_version()},
+      {"GMP", gmp_version},
+      {"libpng", fmt::format("{}.{}.{}", png / 10000, png / 100 % 100, png % 100)},
+      {"libzip", zip_libzip_version()},
+      {"nlohmann/json",
+       fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+      {"oneTBB", TBB_runtime_version()},
+      {"pugixml", fmt::format("{}.{}", PUGIXML_VERSION / 1000, PUGIXML_VERSION / 10 % 100)},
+      {"zlib", zlibVersion()},
+      {"{fmt}", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+  };
+}
+
+}  // namespace unsnarl

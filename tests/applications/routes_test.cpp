@@ -1,0 +1,331 @@
+#include "unsnarl/routes.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "unsnarl/document.h"
+#include "unsnarl/intersections.h"
+
+namespace unsnarl {
+namespace {
+
+RouteAgent agent(const std::string& name, double radius, const RoutePoint& start, const RoutePoint& goal) {
+  return {name, radius, start, goal, {}};
+}
+
+RouteObstacle box(const std::string& name, const RoutePoint& low, const RoutePoint& high) {
+  RouteObstacle made;
+  made.name = name;
+  for (int k = 0; k < 8; ++k)
+    for (int axis = 0; axis < 3; ++axis) made.surface.positions.push_back((k >> axis & 1 ? high : low)[axis]);
+  made.surface.corners = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
+  made.surface.offsets = {0, 4, 8, 12, 16, 20, 24};
+  return made;
+}
+
+Route straight(const RouteAgent& a, int segments = 20) {
+  Route route;
+  for (int k = 0; k < segments; ++k) {
+    RoutePoint p{};
+    for (int i = 0; i < 3; ++i) p[i] = a.start[i] + (a.goal[i] - a.start[i]) * k / segments;
+    route.points.push_back(p);
+  }
+  route.points.push_back(a.goal);
+  return route;
+}
+
+/// Distance of two segments by golden-section search in both parameters: slow, and shares no code with the library.
+double distance_by_search(const RoutePoint& a, const RoutePoint& b, const RoutePoint& c, const RoutePoint& d) {
+  const auto least = [](auto&& f) {
+    double lo = 0, hi = 1;
+    for (int k = 0; k < 50; ++k) {
+      const double s = lo + 0.382 * (hi - lo), t = lo + 0.618 * (hi - lo);
+      (f(s) < f(t) ? hi : lo) = f(s) < f(t) ? t : s;
+    }
+    return f(0.5 * (lo + hi));
+  };
+  return least([&](double s) {
+    return least([&](double t) {
+      double sum = 0;
+      for (int i = 0; i < 3; ++i) {
+        const double along = a[i] + s * (b[i] - a[i]) - c[i] - t * (d[i] - c[i]);
+        sum += along * along;
+      }
+      return std::sqrt(sum);
+    });
+  });
+}
+
+/// Looks at the routes again, in another way.
+void expect_routes(const RoutePlan& plan, const RoutesResult& made) {
+  ASSERT_EQ(made.status, Status::embedded) << route_faults(plan, made.found);
+  EXPECT_TRUE(made.found.hold());
+  for (std::size_t i = 0; i < plan.agents.size(); ++i) {
+    EXPECT_EQ(made.routes[i].points.front(), plan.agents[i].start);
+    EXPECT_EQ(made.routes[i].points.back(), plan.agents[i].goal);
+    EXPECT_GE(made.found.length[i], made.found.straight[i] * (1 - 1e-12));
+  }
+  double least = 10;
+  for (std::size_t i = 0; i < plan.agents.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k + 1 < made.routes[i].points.size(); k += 3)
+        for (std::size_t l = 0; l + 1 < made.routes[j].points.size(); l += 3) {
+          const auto &p = made.routes[i].points, &q = made.routes[j].points;
+          least = std::min(least, distance_by_search(p[k], p[k + 1], q[l], q[l + 1]) /
+                                      (plan.agents[i].radius + plan.agents[j].radius));
+        }
+  EXPECT_GE(least, made.found.clearance * (1 - 1e-6));
+  std::vector<SceneFile> parts;
+  const Surface tubes = route_tubes(plan, made.routes, 8, &parts);
+  EXPECT_EQ(parts.size(), plan.agents.size());
+  EXPECT_TRUE(find_intersections(tubes).empty());
+}
+
+RoutePlan three_crossing() {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.5, {-5, 0, 0}, {5, 0, 0}), agent("b", 0.5, {0, -5, 0}, {0, 5, 0}),
+                 agent("c", 0.3, {0, 0, -5}, {0, 0, 5})};
+  return plan;
+}
+
+TEST(PlanRoutes, AgentsThatMeetInOnePointGoAroundEachOther) {
+  const RoutePlan plan = three_crossing();
+  const RoutesResult made = plan_routes(plan);
+  expect_routes(plan, made);
+  EXPECT_LT(made.found.max_ratio(), 1.1);
+  EXPECT_LT(check_routes(plan, made.asked).clearance, 1);
+}
+
+TEST(PlanRoutes, SixAgentsInAPlaneLeaveIt) {
+  const RoutePlan plan = sample_route_plan("star_6");
+  const RoutesResult made = plan_routes(plan);
+  expect_routes(plan, made);
+  EXPECT_LT(made.found.mean_ratio(), 1.1);
+}
+
+TEST(PlanRoutes, AWallIsGoneAroundAndARoundTurnMade) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.3, {-4, 0, 0}, {4, 0, 0}), agent("b", 0.3, {-4, 1, 0}, {4, -1, 0})};
+  plan.obstacles = {box("wall", {-0.2, -2, -2}, {0.2, 2, 2})};
+  const RoutesResult made = plan_routes(plan);
+  expect_routes(plan, made);
+  EXPECT_LT(made.found.obstacle_clearance, 1.2);
+  ASSERT_EQ(made.alone_length.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(made.found.length[i], 1.1 * made.alone_length[i]);
+}
+
+TEST(PlanRoutes, AWayThereAndBackTurnsNoTighterThanTheRadius) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.5, {0, 0, 0}, {0, 2, 0})};
+  plan.agents[0].waypoints = {{6, 0, 0}};
+  const RoutesResult made = plan_routes(plan);
+  expect_routes(plan, made);
+  EXPECT_GT(made.found.turn, 0.5);
+}
+
+TEST(PlanRoutes, TheSameAtAnyNumberOfThreads) {
+  const RoutePlan plan = three_crossing();
+  std::vector<std::string> made;
+  for (const std::size_t threads : {1, 4}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    RoutesResult result = plan_routes(plan);
+    result.seconds = 0;
+    made.push_back(routes_json(plan, result));
+  }
+  EXPECT_EQ(made[0], made[1]);
+}
+
+TEST(PlanRoutes, ObstructionsAreNamedBeforeAnythingRuns) {
+  RoutePlan plan = three_crossing();
+  plan.agents[1].start = {-5, 0.9, 0};
+  plan.agents[2].goal = {3, 3, 3};
+  plan.obstacles = {box("block", {2, 2, 2}, {4, 4, 4}), box("plate", {-6, -1, -1}, {-5.25, 1, 1})};
+  const RoutesResult made = plan_routes(plan);
+  EXPECT_EQ(made.status, Status::obstructed);
+  EXPECT_TRUE(made.routes.empty());
+  ASSERT_EQ(made.messages.size(), 4U);
+  EXPECT_EQ(made.messages[0], "the start of 'a' and the start of 'b' are 0.9 apart, less than the 1 of both radii");
+  EXPECT_EQ(made.messages[1], "the start of 'a' is 0.25 from the obstacle 'plate', nearer than its radius of 0.5");
+  EXPECT_NE(made.messages[3].find("the goal of 'c' is inside the obstacle 'block'"), std::string::npos);
+}
+
+TEST(PlanRoutes, WhatJustTouchesIsNoObstruction) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.5, {0, 0, 0}, {9, 0, 0}), agent("b", 0.5, {0, 1, 0}, {9, 1, 0})};
+  EXPECT_TRUE(route_obstructions(plan).empty());
+  plan.agents[1].start[1] = std::nextafter(1.0, 0.0);
+  EXPECT_EQ(route_obstructions(plan).size(), 1U);
+}
+
+TEST(PlanRoutes, ARoomIsHollowOnlyWhereThePlanSaysSo) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.5, {-2, 0, 0}, {2, 0, 0})};
+  plan.obstacles = {box("room", {-4, -4, -4}, {4, 4, 4})};
+  EXPECT_EQ(route_obstructions(plan).size(), 2U);
+  plan.obstacles[0].hollow = true;
+  expect_routes(plan, plan_routes(plan));
+}
+
+TEST(PlanRoutes, AgentsThatAreShutInAreNamed) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.5, {0, 0, 0}, {9, 0, 0})};
+  plan.obstacles = {box("cell", {-2, -2, -2}, {2, 2, 2})};
+  plan.obstacles[0].hollow = true;
+  const RoutesResult made = plan_routes(plan);
+  EXPECT_EQ(made.status, Status::no_progress);
+  ASSERT_EQ(made.messages.size(), 1U);
+  EXPECT_NE(made.messages[0].find("no way was found for 'a'"), std::string::npos);
+}
+
+TEST(PlanRoutes, StopsWhenItIsCancelled) {
+  Context context;
+  context.on_progress = [&](const Context::Progress& progress) {
+    EXPECT_LE(progress.fraction, 1);
+    if (progress.phase == "swell") context.cancel();
+  };
+  EXPECT_EQ(plan_routes(three_crossing(), {}, &context).status, Status::cancelled);
+}
+
+TEST(PlanRoutes, OptionsOutOfRangeAreRefused) {
+  EXPECT_THROW(plan_routes(three_crossing(), {.spacing = 0}), std::invalid_argument);
+  EXPECT_THROW(plan_routes(three_crossing(), {.time_limit_s = -1}), std::invalid_argument);
+  EXPECT_THROW(sample_route_plan("stars"), std::invalid_argument);
+}
+
+TEST(CheckRoutes, FindsWhatIsWrong) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.5, {0, 0, 0}, {10, 0, 0}), agent("b", 0.5, {0, 1, 0}, {10, 1, 0})};
+  plan.obstacles = {box("wall", {4, -2, 0.5}, {5, 2, 1})};
+  std::vector<Route> routes = {straight(plan.agents[0]), straight(plan.agents[1])};
+  const RouteFindings good = check_routes(plan, routes);
+  EXPECT_TRUE(good.hold()) << route_faults(plan, good);
+  EXPECT_EQ(good.clearance, 1);  // they touch, exactly
+  EXPECT_EQ(good.obstacle_clearance, 1);
+  EXPECT_EQ(good.agents, (std::array<int, 2>{0, 1}));
+
+  std::vector<Route> bad = routes;
+  bad[1].points[7][1] = std::nextafter(1.0, 0.0);
+  EXPECT_LT(check_routes(plan, bad).clearance, 1);
+  bad = routes;
+  bad[0].points[9][2] = 1e-12;
+  EXPECT_LT(check_routes(plan, bad).obstacle_clearance, 1);
+  bad[0].points[9][2] = 3;
+  EXPECT_EQ(check_routes(plan, bad).obstacle_clearance, 0);  // through the wall
+  bad = routes;
+  bad[0].points.back()[0] += 1e-9;
+  EXPECT_FALSE(check_routes(plan, bad).places_kept);
+  bad = routes;
+  bad[1].points[3][1] = 1.3;
+  EXPECT_GT(check_routes(plan, bad).turn, 1);
+  EXPECT_NE(route_faults(plan, check_routes(plan, bad)).find("turns"), std::string::npos);
+  plan.agents[0].waypoints = {{5, 0, 0}, {2, 0, 0}};  // in the other order
+  EXPECT_FALSE(check_routes(plan, routes).places_kept);
+}
+
+TEST(CheckRoutes, ACircleTurnsAsTightAsItsRadiusAndMeetsItself) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 1, {3, 0, 0}, {3, 0, 0.5})};
+  const auto helix = [&](double turns) {
+    Route route;
+    const int n = 400;
+    for (int k = 0; k <= n; ++k) {
+      const double angle = 2 * std::numbers::pi * turns * k / n;
+      route.points.push_back({3 * std::cos(angle), 3 * std::sin(angle), 0.5 * k / n});
+    }
+    route.points.back() = plan.agents[0].goal;
+    return route;
+  };
+  const std::vector<Route> once = {helix(1)};
+  const RouteFindings found = check_routes(plan, once);
+  EXPECT_NEAR(found.turn, 1.0 / 3, 1e-3);
+  EXPECT_LT(found.self_clearance, 0.26);  // 0.5 of the 2 needed
+  EXPECT_EQ(found.self, 0);
+}
+
+TEST(RouteTubes, LieWithinWhatIsCertified) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.7, {0, 0, 0}, {3, 1, 0})};
+  const std::vector<Route> routes = {{{{0, 0, 0}, {1, 0.2, 0.1}, {2, 0.1, 0.4}, {3, 1, 0}}}};
+  const Surface tube = route_tubes(plan, routes, 12);
+  EXPECT_EQ(tube.positions.size() / 3 + tube.corners.size() / 3 - tube.corners.size() / 2, 2U);  // a sphere
+  for (std::size_t v = 0; v < tube.positions.size(); v += 3) {
+    const RoutePoint p = {tube.positions[v], tube.positions[v + 1], tube.positions[v + 2]};
+    double least = 10;
+    for (std::size_t k = 0; k + 1 < 4; ++k)
+      least = std::min(least, distance_by_search(routes[0].points[k], routes[0].points[k + 1], p, p));
+    EXPECT_LT(least, 0.7);
+    EXPECT_GT(least, 0.6);
+  }
+  EXPECT_THROW(route_tubes(plan, routes, 2), std::invalid_argument);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_route_plan(text);
+  } catch (const FileError& e) {
+    return e.what();
+  }
+  return "taken";
+}
+
+TEST(RoutePlanFile, WhatIsWrongIsNamedWithItsPlace) {
+  const auto one = [](const std::string& members) { return "{\"agents\": [{" + members + "}]}"; };
+  EXPECT_EQ(refusal("{\"agents\": ["), "byte 13: this is not JSON");
+  EXPECT_EQ(refusal("{}"), "the plan: \"agents\" is missing");
+  EXPECT_EQ(refusal("{\"agents\": []}"), "agents: there are none");
+  EXPECT_EQ(refusal(one("\"start\": [0, 0, 0]")), "agents[0]: \"radius\" is missing");
+  EXPECT_EQ(refusal(one("\"speed\": 1")),
+            "agents[0]: there is no \"speed\" to give here; there are name, radius, start, goal, waypoints");
+  EXPECT_EQ(refusal(one("\"radius\": 1, \"start\": [0, 0], \"goal\": [1, 0, 0]")),
+            "agents[0].start: [0,0] is not [x, y, z]");
+  EXPECT_EQ(refusal(one("\"radius\": 0, \"start\": [0, 0, 0], \"goal\": [1, 0, 0]")),
+            "agents[0].radius is 0; give a number above 0");
+  EXPECT_EQ(refusal(one("\"radius\": 1e999")), "a number is too large for double precision");
+  EXPECT_EQ(refusal(one("\"radius\": NaN")), "byte 24: this is not JSON");
+  EXPECT_NE(refusal(one("\"radius\": 1, \"start\": [0, 0, 0], \"goal\": [0, 0, 0]")).find("to the same place"),
+            std::string::npos);
+  const std::string a = "{\"name\": \"a\", \"radius\": 1, \"start\": [0, 0, 0], \"goal\": [9, 0, 0]}";
+  EXPECT_EQ(refusal("{\"agents\": [" + a + ", " + a + "]}"), "agents[1].name: 'a' is the name of agents[0] too");
+  const auto with = [&](const std::string& obstacle) {
+    return "{\"agents\": [" + a + "], \"obstacles\": [" + obstacle + "]}";
+  };
+  EXPECT_NE(refusal(with("{\"file\": \"none.obj\"}")).find("obstacles[0].file: "), std::string::npos);
+  EXPECT_EQ(refusal(with("{}")), "obstacles[0]: \"file\" is missing, or \"vertices\" and \"faces\"");
+  EXPECT_EQ(refusal(with("{\"vertices\": [[0, 0, 0]], \"faces\": [[0, 1, 2]]}")),
+            "obstacles[0].faces[0]: there is no vertex 1; there are 1, counted from 0");
+  EXPECT_EQ(refusal(with("{\"vertices\": [], \"faces\": [], \"hollow\": 1}")),
+            "obstacles[0].hollow: give true or false");
+}
+
+TEST(RoutePlanFile, PlansAndRoutesComeBackAsTheyWere) {
+  for (const RoutePlanSample& sample : route_plan_samples()) {
+    const RoutePlan plan = sample_route_plan(sample.name);
+    EXPECT_TRUE(route_obstructions(plan).empty()) << sample.name;
+    const std::string text = route_plan_json(plan);
+    EXPECT_EQ(route_plan_json(parse_route_plan(text)), text);
+  }
+  const RoutePlan plan = three_crossing();
+  RoutesResult result;
+  for (const RouteAgent& a : plan.agents) result.routes.push_back(straight(a, 7));
+  const std::vector<Route> back = parse_routes(routes_json(plan, result), plan);
+  for (std::size_t i = 0; i < back.size(); ++i) EXPECT_EQ(back[i].points, result.routes[i].points);
+  EXPECT_THROW(parse_routes("{\"routes\": []}", plan), FileError);
+  EXPECT_THROW(parse_routes("{\"routes\": [{\"name\": \"d\", \"points\": []}]}", plan), FileError);
+}
+
+TEST(RoutesAnimation, HasACircleForEachAgent) {
+  const RoutePlan plan = three_crossing();
+  std::vector<Route> routes;
+  for (const RouteAgent& a : plan.agents) routes.push_back(straight(a));
+  const std::string svg = routes_animation_svg(plan, routes, 5);
+  std::size_t circles = 0;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++circles;
+  EXPECT_EQ(circles, 3U);
+  EXPECT_THROW(routes_animation_svg(plan, routes, 1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace unsnarl

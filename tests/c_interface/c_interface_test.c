@@ -1,0 +1,406 @@
+/* The C interface as C99 sees it. c_interface_test FOLDER */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "unsnarl/unsnarl.h"
+
+static int failures = 0;
+
+#define CHECK(condition)                                              \
+  do {                                                                \
+    if (!(condition)) {                                               \
+      printf("%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);  \
+      printf("  the last error says: %s\n", unsnarl_error_message()); \
+      ++failures;                                                     \
+    }                                                                 \
+  } while (0)
+
+/* Two triangles, one of them through the other. */
+static const double crossing_positions[] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 2, 2, 1, 2};
+static const int32_t crossing_corners[] = {0, 1, 2, 3, 4, 5};
+
+static unsnarl_surface crossing(void) {
+  unsnarl_surface surface = {.size = sizeof surface,
+                             .positions = crossing_positions,
+                             .vertex_count = 6,
+                             .corners = crossing_corners,
+                             .corner_count = 6};
+  return surface;
+}
+
+static unsnarl_options defaults(void) {
+  unsnarl_options options;
+  CHECK(unsnarl_options_init(&options, sizeof options) == UNSNARL_OK);
+  return options;
+}
+
+static unsnarl_array array(const unsnarl_result* result, const char* name) {
+  unsnarl_array found = {NULL, 0, 0, UNSNARL_UINT8};
+  CHECK(unsnarl_result_array(result, name, &found) == UNSNARL_OK);
+  return found;
+}
+
+static size_t pairs_of(const unsnarl_surface* surface) {
+  unsnarl_result* result = NULL;
+  size_t pairs;
+  CHECK(unsnarl_find_intersections(surface, NULL, &result) == UNSNARL_OK);
+  pairs = array(result, "pairs").rows;
+  unsnarl_result_free(result);
+  return pairs;
+}
+
+static int says(const char* text, const char* part) {
+  return strstr(text, part) != NULL;
+}
+
+static void finds_and_repairs(void) {
+  const unsnarl_surface surface = crossing();
+  unsnarl_surface moved = surface;
+  unsnarl_result* result = NULL;
+  unsnarl_result* certificate = NULL;
+  unsnarl_array pairs, kinds, positions;
+
+  CHECK(unsnarl_find_intersections(&surface, NULL, &result) == UNSNARL_OK);
+  pairs = array(result, "pairs");
+  kinds = array(result, "kinds");
+  CHECK(pairs.rows == 1 && pairs.columns == 2 && pairs.type == UNSNARL_INT32);
+  CHECK(((const int32_t*)pairs.data)[0] == 0 && ((const int32_t*)pairs.data)[1] == 1);
+  CHECK(kinds.rows == 1 && kinds.type == UNSNARL_UINT8);
+  CHECK(strcmp(unsnarl_pair_kind(((const uint8_t*)kinds.data)[0]), "disjoint") == 0);
+  CHECK(unsnarl_pair_kind(5) == NULL && unsnarl_pair_kind(-1) == NULL);
+  CHECK(says(unsnarl_result_report(result), "\"disjoint\":1"));
+  CHECK(strcmp(unsnarl_result_status(result), "") == 0);
+  unsnarl_result_free(result);
+
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  CHECK(says(unsnarl_result_report(result), "unsnarl-report"));
+  positions = array(result, "positions");
+  CHECK(positions.rows == 6 && positions.columns == 3 && positions.type == UNSNARL_FLOAT64);
+  moved.positions = positions.data;
+  CHECK(pairs_of(&moved) == 0);
+  CHECK(unsnarl_certify(&surface, positions.data, 6, NULL, &certificate) == UNSNARL_OK);
+  CHECK(says(unsnarl_result_report(certificate), "\"embedded\":true"));
+  unsnarl_result_free(certificate);
+  unsnarl_result_free(result);
+}
+
+static void heeds_options(void) {
+  const uint8_t all[] = {1, 1, 1, 1, 1, 1};
+  const size_t sizes[] = {3, 1, 3, 1};
+  const int32_t offsets[] = {0, 3, 6};
+  unsnarl_surface surface = crossing();
+  unsnarl_options options = defaults();
+  unsnarl_result* result = NULL;
+
+  CHECK(strcmp(options.weld, "seams") == 0 && strcmp(options.goal, "all") == 0);
+  CHECK(strcmp(options.precision, "auto") == 0 && options.recover == 1 && options.views == 60);
+
+  surface.fixed = all;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "obstructed") == 0);
+  unsnarl_result_free(result);
+
+  surface.fixed = NULL;
+  surface.mesh_sizes = sizes;
+  surface.mesh_count = 2;
+  surface.offsets = offsets;
+  surface.offset_count = 3;
+  options.precision = "float64";
+  options.min_gap = 0.1;
+  options.absolute = 1;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  CHECK(says(unsnarl_result_report(result), "between_files"));
+  CHECK(says(unsnarl_result_report(result), "\"precision\": \"float64\""));
+  unsnarl_result_free(result);
+}
+
+static void takes_structs_of_older_callers(void) {
+  unsnarl_options options = defaults();
+  unsnarl_surface surface = crossing();
+  unsnarl_result* result = NULL;
+
+  /* Nothing behind `threads` is known to this caller, whatever lies there. */
+  options.size = offsetof(unsnarl_options, goal);
+  options.goal = "nonsense";
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  unsnarl_result_free(result);
+
+  surface.size = offsetof(unsnarl_surface, fixed);
+  surface.fixed = (const uint8_t*)"nonsense";
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  unsnarl_result_free(result);
+
+  options.size = sizeof options + 8;
+  CHECK(unsnarl_find_intersections(&surface, &options, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "options: its size is"));
+  options.size = 0;
+  CHECK(unsnarl_find_intersections(&surface, &options, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_options_init(&options, 3) == UNSNARL_INVALID_ARGUMENT);
+}
+
+static void says_what_is_wrong(void) {
+  const int32_t no_vertex[] = {0, 1, 2, 3, 4, 6};
+  const int32_t back[] = {0, 4, 3, 6};
+  const double no_number[] = {0, 0, 0, 1, 0, 0, NAN, 1, 0};
+  unsnarl_surface surface = crossing();
+  unsnarl_options options = defaults();
+  unsnarl_result* result = NULL;
+  unsnarl_array found;
+
+  surface.corners = no_vertex;
+  CHECK(unsnarl_find_intersections(&surface, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "face 1 uses vertex 6, but there are 6"));
+  surface = crossing();
+  surface.offsets = back;
+  surface.offset_count = 4;
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "face 1 runs from offset 4 to 3"));
+  surface = crossing();
+  surface.corner_count = 5;
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "5 corners are no triangles"));
+  surface = crossing();
+  surface.positions = no_number;
+  surface.vertex_count = 3;
+  surface.corner_count = 3;
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "vertex 2"));
+  surface.positions = NULL;
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "positions is NULL"));
+  CHECK(unsnarl_repair(NULL, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  surface = crossing();
+  CHECK(unsnarl_repair(&surface, NULL, NULL, NULL) == UNSNARL_INVALID_ARGUMENT);
+  options.weld = "some";
+  CHECK(unsnarl_find_intersections(&surface, &options, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "weld is 'some'; choose one of 'none', 'seams', 'all'"));
+  CHECK(unsnarl_certify(&surface, crossing_positions, 5, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_certify(&surface, NULL, 6, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  surface.mesh_sizes = (const size_t[]){3, 1};
+  surface.mesh_count = 1;
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "mesh_sizes count 3 vertices and 1 faces; there are 6 and 2"));
+  CHECK(result == NULL);
+
+  surface = crossing();
+  CHECK(unsnarl_find_intersections(&surface, NULL, &result) == UNSNARL_OK);
+  CHECK(unsnarl_result_array(result, "positions", &found) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "it has 'kinds', 'pairs'"));
+  unsnarl_result_free(result);
+  unsnarl_result_free(NULL);
+  unsnarl_context_free(NULL);
+  unsnarl_document_free(NULL);
+}
+
+struct Watch {
+  int calls, cancel_at;
+  double fraction;
+};
+
+static int watch(const unsnarl_progress* progress, void* data) {
+  struct Watch* const seen = data;
+  CHECK(progress->size == sizeof *progress);
+  CHECK(progress->fraction >= seen->fraction && progress->fraction <= 1);
+  CHECK(strlen(progress->phase) > 0);
+  seen->fraction = progress->fraction;
+  return ++seen->calls == seen->cancel_at;
+}
+
+static void tells_progress_and_cancels(void) {
+  const unsnarl_surface surface = crossing();
+  struct Watch seen = {0, 0, 0}, stopping = {0, 1, 0};
+  unsnarl_context* context = unsnarl_context_new(watch, &seen);
+  unsnarl_result* result = NULL;
+
+  CHECK(unsnarl_repair(&surface, NULL, context, &result) == UNSNARL_OK);
+  CHECK(seen.calls > 0 && seen.fraction == 1);
+  unsnarl_result_free(result);
+  unsnarl_context_free(context);
+
+  context = unsnarl_context_new(watch, &stopping);
+  CHECK(unsnarl_repair(&surface, NULL, context, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "cancelled") == 0);
+  unsnarl_result_free(result);
+  unsnarl_context_free(context);
+
+  context = unsnarl_context_new(NULL, NULL);
+  unsnarl_context_cancel(context);
+  CHECK(unsnarl_repair(&surface, NULL, context, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "cancelled") == 0);
+  CHECK(memcmp(array(result, "positions").data, crossing_positions, sizeof crossing_positions) == 0);
+  unsnarl_result_free(result);
+  unsnarl_context_free(context);
+}
+
+static void repairs_sequences(void) {
+  double frames[3 * 18];
+  unsnarl_surface surface = crossing();
+  unsnarl_options options = defaults();
+  unsnarl_result* result = NULL;
+  int t;
+
+  for (t = 0; t < 3; ++t) {
+    memcpy(frames + (size_t)t * 18, crossing_positions, sizeof crossing_positions);
+    frames[t * 18] = 0.01 * t;
+  }
+  surface.positions = frames;
+  options.first_frame = 1;
+  CHECK(unsnarl_repair_sequence(&surface, 3, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  CHECK(array(result, "positions").rows == 12);
+  CHECK(says(unsnarl_result_report(result), "\"frame\":1") && !says(unsnarl_result_report(result), "\"frame\":0"));
+  surface.positions = array(result, "positions").data;
+  CHECK(pairs_of(&surface) == 0);
+  unsnarl_result_free(result);
+  options.first_frame = 4;
+  CHECK(unsnarl_repair_sequence(&surface, 2, &options, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+}
+
+static void knows_parts(void) {
+  const uint8_t second[] = {0, 1};
+  unsnarl_surface surface = crossing();
+  unsnarl_result* result = NULL;
+
+  CHECK(unsnarl_component_of_faces(&surface, NULL, &result) == UNSNARL_OK);
+  CHECK(((const int32_t*)array(result, "components").data)[1] == 1);
+  unsnarl_result_free(result);
+  CHECK(unsnarl_boundary_vertices(&surface, NULL, &result) == UNSNARL_OK);
+  CHECK(array(result, "vertices").rows == 6 && ((const uint8_t*)array(result, "vertices").data)[0] == 1);
+  unsnarl_result_free(result);
+  CHECK(unsnarl_vertices_of_faces(&surface, second, 2, &result) == UNSNARL_OK);
+  CHECK(((const uint8_t*)array(result, "vertices").data)[0] == 0);
+  CHECK(((const uint8_t*)array(result, "vertices").data)[5] == 1);
+  unsnarl_result_free(result);
+  CHECK(unsnarl_vertices_of_faces(&surface, second, 1, &result) == UNSNARL_INVALID_ARGUMENT);
+  surface.vertex_count = 5;
+  CHECK(unsnarl_vertices_of_faces(&surface, second, 2, &result) == UNSNARL_INVALID_ARGUMENT);
+}
+
+static void untangles_curves(void) {
+  const double bow[] = {0, 0, 1, 1, 2, 2, 2, 0, 1, 0.9, 0, 2}; /* closed, crosses itself */
+  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, ell[] = {0, 0, 5, 0, 5, 1, 1, 1, 1, 5, 0, 5};
+  const int32_t offsets[] = {0, 6}, square_offsets[] = {0, 4};
+  unsnarl_curves curves = {.size = sizeof curves, .points = bow, .offsets = offsets, .curve_count = 1};
+  unsnarl_curves start = {.size = sizeof start, .points = square, .offsets = square_offsets, .curve_count = 1};
+  unsnarl_result* result = NULL;
+  unsnarl_result* found = NULL;
+
+  CHECK(unsnarl_find_crossings(&curves, &found) == UNSNARL_OK);
+  CHECK(array(found, "crossings").rows == 1 && array(found, "crossings").columns == 4);
+  unsnarl_result_free(found);
+  CHECK(unsnarl_untangle_curves(&curves, NULL, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  curves.points = array(result, "points").data;
+  curves.offsets = array(result, "offsets").data;
+  CHECK(unsnarl_find_crossings(&curves, &found) == UNSNARL_OK);
+  CHECK(array(found, "crossings").rows == 0);
+  unsnarl_result_free(found);
+  unsnarl_result_free(result);
+
+  curves.points = ell;
+  curves.offsets = offsets;
+  CHECK(unsnarl_planar_isotopy(&start, &curves, NULL, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  CHECK(array(result, "offsets").rows == array(result, "times").rows + 1);
+  CHECK(memcmp(array(result, "points").data, square, sizeof square) == 0);
+  unsnarl_result_free(result);
+}
+
+static void spans_links(void) {
+  unsnarl_result* knot = NULL;
+  unsnarl_result* spanned = NULL;
+  unsnarl_result* checked = NULL;
+  unsnarl_curves link = {.size = sizeof link};
+  unsnarl_surface surface = {.size = sizeof surface};
+  unsnarl_options options = defaults();
+
+  CHECK(unsnarl_knot_of_table("no knot", &knot) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_knot_of_table("hopf", &knot) == UNSNARL_OK);
+  link.points = array(knot, "points").data;
+  link.offsets = array(knot, "offsets").data;
+  link.curve_count = array(knot, "offsets").rows - 1;
+  CHECK(link.curve_count == 2);
+  options.fair = 0;
+  CHECK(unsnarl_seifert_surface(&link, &options, NULL, &spanned) == UNSNARL_OK);
+  CHECK(says(unsnarl_result_report(spanned), "\"hold\":true"));
+  surface.positions = array(spanned, "positions").data;
+  surface.vertex_count = array(spanned, "positions").rows;
+  surface.corners = array(spanned, "corners").data;
+  surface.corner_count = 3 * array(spanned, "corners").rows;
+  CHECK(unsnarl_check_seifert_surface(&surface, &link, NULL, &checked) == UNSNARL_OK);
+  CHECK(says(unsnarl_result_report(checked), "\"hold\":true"));
+  unsnarl_result_free(checked);
+  unsnarl_result_free(spanned);
+  unsnarl_result_free(knot);
+}
+
+static void write_text(const char* path, const char* text) {
+  FILE* const file = fopen(path, "wb");
+  CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0);
+}
+
+static void reads_and_writes_files(const char* folder) {
+  char in[4096], out[4096], other[4096];
+  unsnarl_document* document = NULL;
+  unsnarl_surface surface = {.size = sizeof surface};
+  unsnarl_result* result = NULL;
+  FILE* file;
+  char line[64] = "";
+
+  snprintf(in, sizeof in, "%s/c_in.obj", folder);
+  snprintf(out, sizeof out, "%s/c_out.obj", folder);
+  snprintf(other, sizeof other, "%s/c_out.ply", folder);
+  write_text(in, "# kept\nv 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 2\nv 2 1 2\nf 1 2 3\nf 4 5 6\n");
+  remove(out);
+  CHECK(unsnarl_document_read(in, NULL, &document) == UNSNARL_OK);
+  CHECK(says(unsnarl_document_report(document), "\"format\":\"obj\""));
+  CHECK(unsnarl_document_surface(document, &surface) == UNSNARL_OK);
+  CHECK(surface.vertex_count == 6 && surface.document == document);
+  CHECK(pairs_of(&surface) == 1);
+
+  CHECK(unsnarl_find_intersections(&surface, NULL, &result) == UNSNARL_OK);
+  CHECK(unsnarl_document_write(document, result, out) == UNSNARL_INVALID_ARGUMENT);
+  unsnarl_result_free(result);
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_OK);
+  CHECK(unsnarl_document_write(document, result, other) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "keeps the format of the input, obj"));
+  CHECK(unsnarl_document_write(document, result, "/no/such/folder/a.obj") == UNSNARL_CANNOT_WRITE);
+  CHECK(unsnarl_document_write(document, result, out) == UNSNARL_OK);
+  unsnarl_result_free(result);
+  unsnarl_document_free(document);
+
+  file = fopen(out, "rb");
+  CHECK(file != NULL && fgets(line, sizeof line, file) != NULL && strcmp(line, "# kept\n") == 0);
+  if (file != NULL) fclose(file);
+  CHECK(unsnarl_document_read(out, "obj", &document) == UNSNARL_OK);
+  CHECK(unsnarl_document_surface(document, &surface) == UNSNARL_OK);
+  CHECK(pairs_of(&surface) == 0);
+  unsnarl_document_free(document);
+
+  CHECK(unsnarl_document_read("/no/such/file.obj", NULL, &document) == UNSNARL_CANNOT_READ);
+  CHECK(unsnarl_document_read(in, "no format", &document) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_document_read(in, "ply", &document) == UNSNARL_CANNOT_READ);
+  CHECK(strlen(unsnarl_version()) >= 5);
+}
+
+int main(int count, char** arguments) {
+  if (count != 2) return 2;
+  finds_and_repairs();
+  heeds_options();
+  takes_structs_of_older_callers();
+  says_what_is_wrong();
+  tells_progress_and_cancels();
+  repairs_sequences();
+  knows_parts();
+  untangles_curves();
+  spans_links();
+  reads_and_writes_files(arguments[1]);
+  printf("%d failures\n", failures);
+  return failures == 0 ? 0 : 1;
+}

@@ -1,0 +1,3 @@
+#include "unsnarl/unsnarl.h"
+
+static_assert(sizeof(unsnarl_surface) > sizeof(size_t));

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace unsnarl::cli {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string crossing =
+    R"({"agents": [{"name": "a", "radius": 0.5, "start": [-4, 0, 0], "goal": [4, 0, 0]},
+                   {"name": "b", "radius": 0.5, "start": [0, -4, 0], "goal": [0, 4, 0]}],
+        "obstacles": [{"file": "wall.off"}]})";
+const std::string wall = "OFF\n4 1 0\n-1 -1 2\n1 -1 2\n1 1 2\n-1 1 2\n4 0 1 2 3\n";
+
+TEST(RoutesCommand, RoutesAreWrittenAndCertified) {
+  Folder folder;
+  write(folder / "plan.json", crossing);
+  write(folder / "wall.off", wall);
+  const Outcome made = run({"routes", folder / "plan.json", "-o", folder / "out"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(contains(made.err, "2 routes, certified as written"));
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"plan.json", "wall.off", "out", "out/routes.json", "out/tubes.obj",
+                                                   "out/animation.svg", "out/picture.png"}));
+  EXPECT_EQ(run({"check", folder / "out/tubes.obj", "-q"}).exit_code, 0);
+  EXPECT_TRUE(contains(contents(folder / "out/tubes.obj"), "\ng a\n"));
+  auto routes = nlohmann::json::parse(contents(folder / "out/routes.json"));
+  EXPECT_EQ(routes["hold"], true);
+  EXPECT_GE(routes["clearance"], 1);
+  EXPECT_EQ(run({"routes", folder / "plan.json", "--check", folder / "out/routes.json"}).exit_code, 0);
+  EXPECT_EQ(run({"routes", folder / "plan.json", "-o", folder / "out"}).exit_code, 2);  // not empty
+  routes["routes"][0]["points"] = nlohmann::json::parse("[[-4, 0, 0], [4, 0, 0]]");
+  routes["routes"][1]["points"] = nlohmann::json::parse("[[0, -4, 0], [0, 4, 0]]");
+  write(folder / "straight.json", routes.dump());
+  const Outcome straight = run({"routes", folder / "plan.json", "--check", folder / "straight.json"});
+  EXPECT_EQ(straight.exit_code, 1);
+  EXPECT_TRUE(contains(straight.err, "the routes of 'a' and 'b' have 0 of the distance that they need"));
+}
+
+TEST(RoutesCommand, FreeTubesAreUntangledAsSurfaces) {
+  Folder folder;
+  write(folder / "plan.json", crossing);
+  write(folder / "wall.off", wall);
+  const Outcome made = run({"routes", folder / "plan.json", "-o", folder / "out", "--free-tubes", "--sides", "8"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(run({"check", folder / "out/tubes.obj", "-q"}).exit_code, 0);
+  EXPECT_EQ(folder.names(),
+            (std::set<std::string>{"plan.json", "wall.off", "out", "out/tubes.obj", "out/picture.png"}));
+}
+
+TEST(RoutesCommand, ErrorsAndObstructions) {
+  Folder folder;
+  const auto said = [&](const std::string& plan, int exit_code) {
+    const Outcome outcome = run({"routes", "-", "-o", folder / "out"}, {.input = plan});
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_TRUE(contains(said("{\"agents\": 1}", 3), "-: agents: 1 is not a list"));
+  EXPECT_TRUE(contains(said(crossing, 3), "-: obstacles[0].file: "));
+  const std::string near = R"({"agents": [{"name": "a", "radius": 1, "start": [0, 0, 0], "goal": [9, 0, 0]},
+                                          {"name": "b", "radius": 1, "start": [0, 1, 0], "goal": [9, 9, 0]}]})";
+  EXPECT_TRUE(contains(said(near, 7), "the start of 'a' and the start of 'b' are 1 apart"));
+  EXPECT_EQ(run({"routes", "-"}, {.input = near}).exit_code, 2);
+  EXPECT_EQ(run({"routes", folder / "none.json", "-o", folder / "out"}).exit_code, 3);
+  EXPECT_EQ(run({"sample", "routes_maze", "-o", folder / "maze.json"}).exit_code, 0);
+  EXPECT_EQ(run({"routes", folder / "maze.json", "-o", folder / "out", "--time-limit", "0.05"}).exit_code, 5);
+  EXPECT_FALSE(fs::exists(folder / "out/routes.json"));
+}
+
+}  // namespace
+}  // namespace unsnarl::cli
