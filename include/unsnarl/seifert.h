@@ -46,8 +46,8 @@ struct SeifertFindings {
 };
 
 /// Everything by exact arithmetic and integers. The surface must consist of triangles. views: as in SeifertOptions.
-/// Throws std::invalid_argument for a surface that is no triangle mesh, or whose sides 64-bit numbers cannot tell apart,
-/// or as check_link does.
+/// Throws std::invalid_argument for a surface that is no triangle mesh, or whose sides 64-bit numbers cannot tell
+/// apart, or as check_link does.
 SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views = 60);
 
 struct SeifertResult {
