@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "file_places.h"
 #include "mesh_input.h"
 #include "staged_output.h"
 #include "standard_streams.h"
@@ -142,15 +143,15 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
 }
 
 int run_check(const CheckOptions& options, Interruption& interruption) {
+  if (options.pairs == standard_stream) throw UsageError("--pairs needs a file of its own");
   const SceneDocument scene = read_scene(options.inputs, format_from_name(options.format));
+  FilePlaces places;
+  claim_inputs(places, "the input", options.inputs, scene);
+  places.writes("--pairs", options.pairs);
+  places.require_writable(interruption);
   const CheckReport found = check(scene.surface(), options.find());
   const ReportFiles files = described(options, scene, found);
-  if (!options.pairs.empty()) {
-    if (options.pairs == standard_stream ||
-        std::find(options.inputs.begin(), options.inputs.end(), options.pairs) != options.inputs.end())
-      throw UsageError("--pairs needs a file of its own");
-    write_file(options.pairs, pairs_table(found.pairs), interruption);
-  }
+  if (!options.pairs.empty()) write_file(options.pairs, pairs_table(found.pairs), interruption);
   if (options.json) {
     write_to_stream(standard_stream, check_json(found, options.goal_wanted(), options.find(), files) + "\n");
   } else if (!options.quiet) {

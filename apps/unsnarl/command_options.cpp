@@ -1,5 +1,7 @@
 #include "command_options.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "unsnarl/document.h"
@@ -9,8 +11,18 @@ namespace unsnarl::app {
 CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::IsMember(std::move(words)).description("");
 }
+CLI::Validator number_within(double least, double most) {
+  // CLI::Range lets NaN through, which is on no side of any bound.
+  const auto fault = [least, most](const std::string& text) {
+    double number = 0;
+    if (CLI::detail::lexical_cast(text, number) && number >= least && number <= most) return std::string();
+    return most == std::numeric_limits<double>::max() ? fmt::format("{} is no number from {} up", text, least)
+                                                      : fmt::format("{} is no number from {} to {}", text, least, most);
+  };
+  return CLI::Validator(fault, "");
+}
 CLI::Validator not_negative() {
-  return CLI::Range(0.0, std::numeric_limits<double>::max()).description("");
+  return number_within(0, std::numeric_limits<double>::max());
 }
 
 void add_time_limit(CLI::App& command, double& seconds, const std::string& group) {

@@ -10,6 +10,7 @@ namespace unsnarl::app {
 
 /// Checks of values that say nothing in the help text, where the name of the type says it all.
 CLI::Validator one_of(std::vector<std::string> words);
+CLI::Validator number_within(double least, double most);
 CLI::Validator not_negative();
 
 /// Options that commands share word for word. group: the heading that they stand under in the help.

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "command_options.h"
+#include "file_places.h"
 #include "mesh_input.h"
 #include "progress.h"
 #include "staged_output.h"
@@ -88,7 +89,6 @@ class Curves {
     const std::vector<Curve> input = curves_to_move(document_, options_.fix);
     if (!options_.integrand.empty()) write_integrand(input);
     if (options_.output.empty()) return exit_embedded;
-    if (!is_stream(options_.output)) StagedOutput(options_.output, interruption_);
 
     CurveOptions wanted;
     wanted.gap_rel = options_.gap;
@@ -136,17 +136,13 @@ class Curves {
     if (format && *format != document_.format())
       throw UsageError(fmt::format("{}: the result keeps the format of the input, {}; name it *.{}", options_.output,
                                    to_string(document_.format()), to_string(document_.format())));
-    std::vector<std::string> paths;
-    for (const std::string& path :
-         {options_.input, options_.output, options_.report, options_.picture, options_.integrand}) {
-      if (path.empty() || is_stream(path)) continue;
-      std::error_code ignored;
-      for (const std::string& other : paths)
-        if (std::filesystem::path(path).lexically_normal() == std::filesystem::path(other).lexically_normal() ||
-            std::filesystem::equivalent(path, other, ignored))
-          throw UsageError(fmt::format("{} is named twice; give every file a name of its own", path));
-      paths.push_back(path);
-    }
+    FilePlaces places;
+    places.reads("the input", options_.input);
+    places.writes("-o", options_.output);
+    places.writes("--report", options_.report);
+    places.writes("--picture", options_.picture);
+    places.writes("--integrand", options_.integrand);
+    places.require_writable(interruption_);
   }
 
   void write_output() {
@@ -283,7 +279,7 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
       ->type_name("svg|json");
   command.add_flag("--keep-partial", options.keep_partial,
                    "Write the result also where crossings are left or a limit was reached");
-  const CLI::Validator fraction = CLI::Range(1e-12, 0.1).description("");
+  const CLI::Validator fraction = number_within(1e-12, 0.1);
   command
       .add_option("--flatten", options.flatten,
                   "How far flattened Béziers and arcs may be from the true curve, as a fraction of the\n"
@@ -299,7 +295,7 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
       .add_option("--junction", options.junction,
                   "How near an open curve must end to another one to end on it, and stay there, as a fraction\n"
                   "of the diagonal (default 1e-9); flattened curves add what they are flattened by")
-      ->check(CLI::Range(0.0, 0.1).description(""))
+      ->check(number_within(0, 0.1))
       ->type_name("X");
   const std::string what = "What may move";
   command
@@ -333,7 +329,7 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
   command
       .add_option("--bandwidth", options.bandwidth,
                   "Bandwidth of the energy, as a fraction of the diagonal (default 0.05)")
-      ->check(CLI::Range(1e-6, 10.0).description(""))
+      ->check(number_within(1e-6, 10.0))
       ->type_name("X")
       ->group(shown);
   add_progress(command, options.progress, shown);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <optional>
 
+#include "file_places.h"
 #include "fix_summary.h"
 #include "intersecting_faces.h"
 #include "memory_guard.h"
@@ -30,52 +32,44 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_same_file(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  return a.lexically_normal() == b.lexically_normal() || fs::equivalent(a, b, ignored);
-}
-
-/// Refuses what would overwrite the input or one output with another, before any work is done.
+/// Path of the result, or of the folder of several.
 std::string checked_output(const FixOptions& options) {
   scene_names(options.inputs);  // throws where two are the same
-  const bool from_stream = options.inputs[0] == standard_stream;
   if (options.is_scene() && options.in_place)
     throw UsageError("--in-place takes one file; of several, give -o FOLDER for all of them");
   if (options.is_scene() && is_stream(options.output))
     throw UsageError(fmt::format("-o {}: several files need a folder to go to", options.output));
   if (options.in_place) {
     if (!options.output.empty()) throw UsageError("--in-place and -o exclude each other: give one of them");
-    if (from_stream) throw UsageError("--in-place needs a file, not standard input");
+    if (options.inputs[0] == standard_stream) throw UsageError("--in-place needs a file, not standard input");
   } else if (options.output.empty()) {
     throw UsageError("where should the result go? Give -o OUT ('-' for standard output), or --in-place");
   }
-  std::vector<std::pair<std::string, std::string>> paths;  // option, path
-  const std::string& output = options.in_place ? options.inputs[0] : options.output;
-  if (!from_stream && !options.in_place)
-    for (const std::string& input : options.inputs) paths.emplace_back("the input", input);
-  if (options.is_scene())
-    for (const std::string& input : options.inputs)
-      paths.emplace_back("-o", (fs::path(output) / fs::path(input).filename()).string());
-  else
-    paths.emplace_back(options.in_place ? "the input" : "-o", output);
-  for (const auto& [name, path] : {std::pair{"--report", options.report},
-                                   {"--highlight", options.highlight},
-                                   {"--picture", options.picture},
-                                   {"--record", options.record},
-                                   {"--view", options.view}})
-    if (!path.empty()) paths.emplace_back(name, path);
-  for (std::size_t i = 0; i < paths.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const std::string &a = paths[j].second, &b = paths[i].second;
-      const bool both_streams = a == standard_stream && b == standard_stream;
-      if (both_streams || (!is_stream(a) && !is_stream(b) && is_same_file(a, b)))
-        throw UsageError(fmt::format("{} and {} are the same ({}); {}", paths[j].first, paths[i].first, b,
-                                     paths[j].first != "the input" || paths[i].first != "-o"
-                                         ? "give them different names"
-                                     : options.is_scene() ? "name another folder"
-                                                          : "use --in-place to overwrite the input"));
-    }
-  return output;
+  return options.in_place ? options.inputs[0] : options.output;
+}
+
+/// Path that file `i` of those given is written to.
+fs::path target_of(const FixOptions& options, std::size_t i) {
+  const fs::path input = options.inputs[i];
+  if (options.in_place) return input;
+  return options.is_scene() ? fs::path(options.output) / input.filename() : fs::path(options.output);
+}
+
+/// All files but the buffers of glTFs.
+FilePlaces checked_places(const FixOptions& options) {
+  FilePlaces places;
+  if (!options.in_place)
+    for (const std::string& input : options.inputs) places.reads("the input", input);
+  places.reads("--fix-vertices", options.fix_vertices);
+  for (std::size_t i = 0; i < options.inputs.size(); ++i)
+    places.writes(options.in_place ? "the input" : "-o", target_of(options, i),
+                  options.is_scene() ? "name another folder" : "use --in-place to overwrite the input");
+  places.writes("--report", options.report);
+  places.writes("--highlight", options.highlight);
+  if (picture_kind(options.picture) != PictureKind::folder) places.writes("--picture", options.picture);
+  places.writes("--record", options.record);
+  places.writes("--view", options.view);
+  return places;
 }
 
 /// The result is the input's file with other positions, so it cannot change its format.
@@ -129,10 +123,12 @@ class Fix {
       : options_(options),
         interruption_(interruption),
         output_(checked_output(options)),
+        places_(checked_places(options)),
         display_(progress_style(options.progress, options.quiet)),
         memory_guard_(options.memory_limit_mb),
         scene_(read_scene(options.inputs, format_from_name(options.format))),
         repair_options_(repair_options(options, scene_)) {
+    claim_buffers();
     if (!options.is_scene()) {
       check_format_of_output(output_, scene_.document(0));
       files_.input = options_.inputs[0];
@@ -152,9 +148,8 @@ class Fix {
     // A folder that is missing or must not be written to is found now rather than after the work.
     std::optional<OutputFolder> folder;
     if (options_.is_scene()) folder.emplace(output_);
-    for (std::size_t i = 0; i < scene_.files().size(); ++i)
-      if (!is_stream(output_)) StagedOutput(target(i), interruption_);
-    if (picture_kind(options_.picture) == PictureKind::folder) prepare_picture_folder(options_.picture);
+    places_.require_writable(interruption_);
+    if (picture_kind(options_.picture) == PictureKind::folder) prepare_picture_folder(options_.picture, "--picture");
 
     Context context;
     context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
@@ -186,10 +181,7 @@ class Fix {
 
  private:
   const Surface& surface() const { return scene_.surface(); }
-  /// Path that a file of the scene is written to.
-  fs::path target(std::size_t file) const {
-    return options_.is_scene() ? fs::path(output_) / scene_.files()[file].name : fs::path(output_);
-  }
+  fs::path target(std::size_t file) const { return target_of(options_, file); }
   Certifier& certifier() {
     if (!certifier_) certifier_.emplace(surface(), repair_options_.find);
     return *certifier_;
@@ -202,26 +194,40 @@ class Fix {
     tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
   }
 
+  /// The buffers of a glTF keep their names: beside the result lies what may belong to something else.
+  void claim_buffers() {
+    if (!options_.in_place) claim_inputs(places_, "the input", options_.inputs, scene_);
+    for (std::size_t i = 0; i < scene_.files().size(); ++i) {
+      const Document& document = scene_.document(i);
+      const std::vector<fs::path> names = buffer_files(document);
+      if (is_stream(output_) && !names.empty())
+        throw UsageError("this glTF keeps its geometry in other files, which cannot go to a stream; give -o FILE");
+      if (names.empty()) continue;
+      // The files of a scene all have names; of a single one links are followed.
+      const fs::path main = options_.is_scene() ? target(i) : fs::weakly_canonical(target(i));
+      const std::vector<fs::path> replaced = buffer_files(main, document.format());
+      for (const fs::path& name : names) {
+        const fs::path place = main.parent_path() / name;
+        places_.writes("a buffer of " + scene_.files()[i].name, place, "write the result to another folder");
+        if (fs::exists(place) && std::find(replaced.begin(), replaced.end(), name) == replaced.end())
+          throw UsageError(
+              fmt::format("{} is there already and would be overwritten by the buffer of this name; write the result "
+                          "to another folder",
+                          place.string()));
+      }
+    }
+  }
+
   bool float32_digits() const { return result_.report.precision == Precision::float32; }
 
   void write_output() {
     std::vector<OutputFile> all;
     for (std::size_t i = 0; i < scene_.files().size(); ++i) {
       std::vector<OutputFile> files = scene_.patched(i, result_.positions, float32_digits());
-      if (!is_stream(output_)) refuse_to_overwrite_buffers(i, files);
       if (options_.is_scene()) files[0].name = scene_.files()[i].name;
-      for (OutputFile& file : files) {
-        if (std::any_of(all.begin(), all.end(), [&](const OutputFile& other) { return other.name == file.name; }))
-          throw UsageError(
-              fmt::format("two of the files keep geometry in a file called {}, which would go to one "
-                          "place; repair them apart, or rename it in one of them",
-                          file.name.string()));
-        all.push_back(std::move(file));
-      }
+      std::move(files.begin(), files.end(), std::back_inserter(all));
     }
     if (is_stream(output_)) {
-      if (all.size() > 1)
-        throw UsageError("this glTF keeps its geometry in other files, which cannot go to a stream; give -o FILE");
       verify(Document::parse(all[0].bytes, scene_.document(0).format()).surface());
       write_to_stream(output_, all[0].bytes);
     } else {
@@ -252,19 +258,6 @@ class Fix {
       throw std::logic_error(
           fmt::format("the file written does not hold what was certified: {}. It was removed", broken));
     if (options_.is_scene()) written_ = written.positions;
-  }
-
-  /// External buffers of a glTF keep their names, so beside the input they would replace the input's.
-  void refuse_to_overwrite_buffers(std::size_t file, const std::vector<OutputFile>& files) const {
-    const fs::path input = options_.inputs[file];
-    if (options_.in_place || input == standard_stream) return;
-    for (std::size_t i = 1; i < files.size(); ++i)
-      if (const fs::path own = target(file).parent_path() / files[i].name;
-          is_same_file(own, input.parent_path() / files[i].name))
-        throw UsageError(
-            fmt::format("{} holds part of the input and would be overwritten; write the result to another "
-                        "folder, or use --in-place",
-                        own.string()));
   }
 
   /// By file, as read back where it was written.
@@ -351,6 +344,7 @@ class Fix {
   const FixOptions& options_;
   Interruption& interruption_;
   std::string output_;
+  FilePlaces places_;
   ProgressDisplay display_;
   MemoryGuard memory_guard_;
   SceneDocument scene_;

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "fix.h"
 #include "mesh_input.h"
 #include "paper_options.h"
@@ -120,7 +122,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       .add_option("--min-dihedral", options.min_dihedral_deg,
                   "Open two faces at an edge that are folded together closer than this angle, as programs that\n"
                   "mesh volumes ask for (TetGen: 0.1); 0: leave them. In degrees, less than 90")
-      ->check(not_negative())
+      ->check(number_within(0, std::nextafter(90.0, 0.0)))
       ->type_name("DEG")
       ->group(what);
   command

@@ -47,9 +47,12 @@ void run_backwards(Curve& curve) {
 
 double signed_area(const Curve& curve) {
   double area = 0;
+  // Seen from a point of the curve: far from the origin, products of the coordinates would round the area away.
+  const auto x = [&](std::size_t k) { return curve.points[2 * k] - curve.points[0]; };
+  const auto y = [&](std::size_t k) { return curve.points[2 * k + 1] - curve.points[1]; };
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const std::size_t l = (k + 1) % curve.size();
-    area += curve.points[2 * k] * curve.points[2 * l + 1] - curve.points[2 * l] * curve.points[2 * k + 1];
+    area += x(k) * y(l) - x(l) * y(k);
   }
   return area;
 }
@@ -98,7 +101,7 @@ void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
       .add_option("--flatten", options.flatten,
                   "How far flattened Béziers and arcs may be from the true curve, as a fraction of the\n"
                   "bounding-box diagonal (default 0.0001)")
-      ->check(CLI::Range(1e-12, 0.1).description(""))
+      ->check(number_within(1e-12, 0.1))
       ->type_name("X");
   add_time_limit(command, options.time_limit_s);
   add_progress(command, options.progress);
@@ -122,7 +125,7 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
   if (options.reverse)
     for (std::size_t c = 0; c < std::min(start.size(), end.size()); ++c)
       if (signed_area(start[c]) * signed_area(end[c]) < 0) run_backwards(end[c]);
-  prepare_picture_folder(options.folder);
+  prepare_picture_folder(options.folder, "-o");
 
   ProgressDisplay display(progress_style(options.progress, options.quiet));
   Context context;

@@ -51,6 +51,36 @@ SceneDocument read_scene(const std::vector<std::string>& paths, const std::optio
   return {std::move(documents), std::move(names)};
 }
 
+std::vector<std::filesystem::path> buffer_files(const Document& document) {
+  std::vector<std::filesystem::path> names;
+  if (document.format() != Format::gltf && document.format() != Format::glb) return names;
+  const std::vector<OutputFile> files = document.patched(document.surface().positions, true);
+  for (std::size_t i = 1; i < files.size(); ++i) names.push_back(files[i].name);
+  return names;
+}
+
+std::vector<std::filesystem::path> buffer_files(const std::filesystem::path& path, Format format) {
+  std::error_code ignored;
+  if ((format != Format::gltf && format != Format::glb) || !std::filesystem::is_regular_file(path, ignored)) return {};
+  try {
+    return buffer_files(Document::read(path, format));
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+void claim_input(FilePlaces& places, const std::string& what, const std::string& path, const Document& document) {
+  places.reads(what, path);
+  if (path == standard_stream) return;
+  for (const std::filesystem::path& name : buffer_files(document))
+    places.reads("a buffer of " + what, std::filesystem::path(path).parent_path() / name);
+}
+
+void claim_inputs(FilePlaces& places, const std::string& what, const std::vector<std::string>& paths,
+                  const SceneDocument& scene) {
+  for (std::size_t i = 0; i < paths.size(); ++i) claim_input(places, what, paths[i], scene.document(i));
+}
+
 std::vector<std::uint8_t> read_vertex_flags(const std::string& path, std::size_t vertex_count) {
   std::ifstream file(path);
   if (!file) throw FileError(path + ": cannot open; --fix-vertices needs a file of 0-based vertex ids");

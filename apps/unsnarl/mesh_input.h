@@ -1,9 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "file_places.h"
 #include "unsnarl/document.h"
 #include "unsnarl/scene_document.h"
 
@@ -23,6 +25,16 @@ std::vector<std::string> scene_names(const std::vector<std::string>& paths);
 
 /// Reads meshes that are one scene. One may come from standard input alone. Throws FileError, UsageError.
 SceneDocument read_scene(const std::vector<std::string>& paths, const std::optional<Format>& format);
+
+/// Names of the files beside a glTF in which its buffers are, relative to its folder.
+std::vector<std::filesystem::path> buffer_files(const Document& document);
+/// The same of what is at `path`; empty where that is no mesh.
+std::vector<std::filesystem::path> buffer_files(const std::filesystem::path& path, Format format);
+
+/// Names all files of a mesh as inputs. Throws UsageError where one of them is an output.
+void claim_input(FilePlaces& places, const std::string& what, const std::string& path, const Document& document);
+void claim_inputs(FilePlaces& places, const std::string& what, const std::vector<std::string>& paths,
+                  const SceneDocument& scene);
 
 /// Whitespace-separated 0-based ids, '#' to the end of a line is a comment; one flag a vertex. Throws FileError.
 std::vector<std::uint8_t> read_vertex_flags(const std::string& path, std::size_t vertex_count);

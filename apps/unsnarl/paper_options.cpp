@@ -1,7 +1,10 @@
 #include "paper_options.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
+
+#include "command_options.h"
 
 namespace unsnarl::app {
 namespace {
@@ -26,8 +29,7 @@ template <class Number>
 void add_number(CLI::App& command, const std::string& name, Number& value, Number least, const std::string& type_name,
                 const std::string& description) {
   command.add_option(name, value, description)
-      ->check(CLI::Range(least, static_cast<Number>(std::min<double>(most, std::numeric_limits<Number>::max())))
-                  .description(""))
+      ->check(number_within(least, std::min<double>(most, std::numeric_limits<Number>::max())))
       ->type_name(type_name)
       ->needs("--paper")
       ->group(group);

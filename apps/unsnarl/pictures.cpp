@@ -18,12 +18,12 @@ PictureKind picture_kind(const std::string& path) {
   return path.ends_with(".gif") || path.ends_with(".GIF") ? PictureKind::gif : PictureKind::still;
 }
 
-void prepare_picture_folder(const std::string& path) {
+void prepare_picture_folder(const std::string& path, const std::string& option) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) throw WriteError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
   if (!fs::is_empty(path, error) || error)
-    throw UsageError(fmt::format("--picture {}: this folder is not empty; name another, or empty it first", path));
+    throw UsageError(fmt::format("{} {}: this folder is not empty; name another, or empty it first", option, path));
 }
 
 void write_animation(const std::string& path, const SurfaceView& surface, std::span<const SceneFile> files,

@@ -18,7 +18,7 @@ enum class PictureKind {
 PictureKind picture_kind(const std::string& path);
 
 /// Makes sure that there is an empty folder. Throws UsageError, WriteError.
-void prepare_picture_folder(const std::string& path);
+void prepare_picture_folder(const std::string& path, const std::string& option);
 
 /// The frames of a repair of `surface`, which is of `files`, as a GIF or into a folder. Throws WriteError.
 void write_animation(const std::string& path, const SurfaceView& surface, std::span<const SceneFile> files,

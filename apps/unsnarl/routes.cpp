@@ -199,7 +199,7 @@ void add_routes_options(CLI::App& command, RoutesCommandOptions& options) {
   command
       .add_option("--spacing", options.spacing,
                   "Distance of the points of a route / the agent's radius, 0.1 to 2 (default 0.5)")
-      ->check(CLI::Range(0.1, 2.0).description(""))
+      ->check(number_within(0.1, 2))
       ->type_name("X");
   command.add_option("--sides", options.sides, "Corners of the tubes' rings, 3 to 256 (default 16)")
       ->check(CLI::Range(3, 256).description(""))
@@ -231,7 +231,7 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
     return parse_route_plan(bytes, options.plan == standard_stream ? fs::path() : fs::path(options.plan).parent_path());
   });
   if (!options.check.empty()) return check_file(options, plan);
-  prepare_picture_folder(options.folder);
+  prepare_picture_folder(options.folder, "-o");
 
   ProgressDisplay display(progress_style(options.progress, options.quiet));
   Context context;

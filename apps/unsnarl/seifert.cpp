@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_options.h"
+#include "file_places.h"
 #include "mesh_input.h"
 #include "progress.h"
 #include "staged_output.h"
@@ -59,6 +60,7 @@ std::string faults(const SeifertFindings& f) {
   if (f.intersecting_pairs > 0) text += fmt::format("{} pairs of faces intersect\n", f.intersecting_pairs);
   if (!f.oriented) text += "it is no oriented manifold with boundary\n";
   if (f.oriented && !f.spans_link) text += "its boundary is not the link\n";
+  if (f.closed_components > 0) text += fmt::format("{} of its components have no boundary\n", f.closed_components);
   if (f.oriented && f.euler_characteristic != f.expected_euler_characteristic)
     text += "its Euler characteristic is not that of Seifert's algorithm\n";
   if (f.oriented && f.spans_link && f.intersecting_pairs == 0 && f.alexander_of_surface != f.alexander_of_link)
@@ -71,6 +73,7 @@ nlohmann::ordered_json as_json(const SeifertFindings& f) {
           {"oriented", f.oriented},
           {"spans_link", f.spans_link},
           {"components", f.components},
+          {"closed_components", f.closed_components},
           {"genus", f.genus},
           {"euler_characteristic", f.euler_characteristic},
           {"expected_euler_characteristic", f.expected_euler_characteristic},
@@ -79,8 +82,10 @@ nlohmann::ordered_json as_json(const SeifertFindings& f) {
           {"hold", f.hold()}};
 }
 
-int check_file(const SeifertCommandOptions& options, const Link& link, Interruption& interruption) {
+int check_file(const SeifertCommandOptions& options, const Link& link, FilePlaces& places, Interruption& interruption) {
   const Document document = read_mesh(options.check, format_from_name(options.format));
+  claim_input(places, "--check", options.check, document);
+  places.require_writable(interruption);
   SeifertFindings found;
   try {
     found = check_seifert_surface(document.surface(), link, options.views);
@@ -108,8 +113,8 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
   command
       .add_option("--edge", options.edge,
                   "Edge length inside the surface, as a fraction of the diagonal; 0: that of the link, within\n"
-                  "1/45 and 1/20 of the diagonal")
-      ->check(CLI::Range(0.0, 0.5).description(""))
+                  "1/45 and 1/20 of the diagonal; else 0.001 at least")
+      ->check(number_within(0, 0.5))
       ->type_name("X");
   command
       .add_option("--views", options.views,
@@ -142,17 +147,21 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
 int run_seifert(const SeifertCommandOptions& options, Interruption& interruption) {
   if (options.output.empty() == options.check.empty())
     throw UsageError("say where the surface goes, -o OUT, or which one to certify, --check MESH");
+  FilePlaces places;
+  places.reads("the input", options.input);
+  places.writes("-o", options.output);
+  places.writes("--report", options.report);
+  places.writes("--picture", options.picture);
   const Link link = read_link(options.input);
-  if (!options.check.empty()) return check_file(options, link, interruption);
+  if (!options.check.empty()) return check_file(options, link, places, interruption);
   std::optional<Format> format = format_from_name(options.format);
   if (!format) format = format_from_extension(options.output);
   if (!format) throw UsageError(options.output + ": name it *.obj, *.off or *.ply, or add --format");
-  if (!is_stream(options.output)) StagedOutput(options.output, interruption);
+  places.require_writable(interruption);
 
   ProgressDisplay display(progress_style(options.progress, options.quiet));
   Context context;
   context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
-  interruption.set_handler([&] { context.cancel(); });
   SeifertOptions wanted;
   wanted.edge_rel = options.edge;
   wanted.views = options.views;
@@ -164,18 +173,17 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   } catch (const std::invalid_argument& e) {
     throw FileError(fmt::format("{}: {}", options.input, e.what()));
   }
-  interruption.set_handler(nullptr);
   display.clear();
-  if (result.status == Status::cancelled) {
-    if (!options.quiet) tell("interrupted; nothing was written\n");
-    return exit_cancelled;
-  }
 
   const std::string bytes =
       surface_file(result.surface, *format, fmt::format("Seifert surface of {}, by unsnarl", options.input));
   SeifertFindings found;
   const auto certify = [&](const Document& document) {
-    found = check_seifert_surface(document.surface(), link, options.views);
+    try {
+      found = check_seifert_surface(document.surface(), link, options.views);
+    } catch (const std::invalid_argument& e) {
+      throw FileError(fmt::format("{}: {}; nothing was written", options.input, e.what()));
+    }
     if (!found.hold())
       throw std::logic_error("the file to be written is no Seifert surface of the link: " + faults(found));
   };

@@ -15,8 +15,10 @@ namespace unsnarl::app {
 
 void open_missing_streams() {
   for (const int id : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // The lowest free number is taken, which is this one.
-    if (::fcntl(id, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", O_RDWR));
+    // The lowest free number is taken, which is this one. A result for a standard output that is closed is not lost
+    // without a word: writing to it fails.
+    const int mode = id == STDOUT_FILENO ? O_RDONLY : O_RDWR;
+    if (::fcntl(id, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", mode));
   }
 }
 
@@ -35,7 +37,8 @@ void write_to_stream(const std::string& path, std::string_view bytes) {
   if (path != standard_stream) return write_atomically(path, bytes);
   std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   std::cout.flush();
-  if (!std::cout) throw WriteError("standard output: cannot write; its reader has gone, or the disk is full");
+  if (!std::cout)
+    throw WriteError("standard output: cannot write; it is closed, its reader has gone, or the disk is full");
 }
 
 }  // namespace unsnarl::app

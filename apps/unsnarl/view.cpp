@@ -8,6 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "file_places.h"
 #include "mesh_input.h"
 #include "staged_output.h"
 #include "standard_streams.h"
@@ -99,17 +100,12 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
   const Meshes meshes = sorted_out(options);
   if (std::count(options.inputs.begin(), options.inputs.end(), standard_stream) > 1)
     throw UsageError("IN and OUT cannot both come from standard input");
-  std::vector<std::string> sources = meshes.inputs;
-  sources.insert(sources.end(), meshes.repaired.begin(), meshes.repaired.end());
-  sources.push_back(options.report);
-  for (const std::string& source : sources)
-    if (!is_stream(options.output) && !source.empty() && source != standard_stream) {
-      std::error_code ignored;
-      if (std::filesystem::equivalent(source, options.output, ignored))
-        throw UsageError(fmt::format("the page would overwrite {}; give it a name of its own", source));
-    }
+  FilePlaces places;
+  places.reads("--report", options.report);
+  places.writes("-o", options.output);
   const std::optional<Format> format = format_from_name(options.format);
   const SceneDocument scene = read_scene(meshes.inputs, format);
+  claim_inputs(places, "the input", meshes.inputs, scene);
   PageSource source;
   source.input_name = scene_name(meshes.inputs);
   source.before = scene.surface();
@@ -117,6 +113,7 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
   std::optional<SceneDocument> repaired;
   if (!meshes.repaired.empty()) {
     repaired.emplace(read_repaired(meshes, scene, format));
+    claim_inputs(places, "the input", meshes.repaired, *repaired);
     source.output_name = meshes.repaired.size() == 1 ? page_name(meshes.repaired[0]) : page_name(options.inputs.back());
     source.after = repaired->surface().positions;
   }

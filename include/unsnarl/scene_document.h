@@ -35,7 +35,7 @@ class SceneDocument {
     return documents_.size() == 1 ? documents_[0].face_labels() : labels_;
   }
   /// Those of all files; of several with their names in front, and one where extents differ so much that their units
-  /// may.
+  /// may; and one where 32-bit numbers are too coarse for where it lies.
   const std::vector<std::string>& notes() const { return notes_; }
   /// The first file that stores 32-bit floats, where one does: then the whole scene has to hold in them.
   std::optional<std::size_t> float32_file() const;

@@ -12,8 +12,8 @@
 namespace unsnarl {
 
 struct SeifertOptions {
-  /// Edge length of the triangles inside the surface / diagonal of the link's bounding box. (0, 0.5]; 0: the mean edge
-  /// of the link, but within 1/45 and 1/20 of the diagonal.
+  /// Edge length of the triangles inside the surface / diagonal of the link's bounding box. [0.001, 0.5]; 0: the mean
+  /// edge of the link, but within 1/45 and 1/20 of the diagonal.
   double edge_rel = 0;
   /// Views to look for the simplest diagram among, [3, 10000]: the coordinate axes, then a half sphere evenly.
   int views = 60;
@@ -28,6 +28,7 @@ struct SeifertFindings {
   bool oriented = false;               ///< a manifold with boundary whose faces agree on a side
   bool spans_link = false;             ///< its boundary runs along the link and through its very points, bit for bit
   int components = 0;                  ///< of the surface
+  int closed_components = 0;           ///< those without a boundary
   int euler_characteristic = 0;
   int genus = 0;  ///< sum over the components
   /// Of the diagram that the link shows to its best view: Seifert circles - crossings.
@@ -39,13 +40,14 @@ struct SeifertFindings {
 
   /// All that a Seifert surface promises.
   bool hold() const {
-    return intersecting_pairs == 0 && oriented && spans_link && euler_characteristic == expected_euler_characteristic &&
-           alexander_of_surface == alexander_of_link;
+    return intersecting_pairs == 0 && oriented && spans_link && closed_components == 0 &&
+           euler_characteristic == expected_euler_characteristic && alexander_of_surface == alexander_of_link;
   }
 };
 
 /// Everything by exact arithmetic and integers. The surface must consist of triangles. views: as in SeifertOptions.
-/// Throws std::invalid_argument for a surface that is no triangle mesh, or as check_link does.
+/// Throws std::invalid_argument for a surface that is no triangle mesh, or whose sides 64-bit numbers cannot tell
+/// apart, or as check_link does.
 SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views = 60);
 
 struct SeifertResult {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -21,6 +22,22 @@ double extent_of(std::span<const double> positions) {
   for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
     box.extend(Vec3(positions[i], positions[i + 1], positions[i + 2]));
   return positions.empty() ? 0 : box.diagonal();
+}
+
+/// Steps of 32-bit floats within an extent that are too few to move anything by less than what it is apart.
+constexpr double fewest_steps = 3000;
+
+/// 32-bit numbers are far apart far from the origin. Empty: nothing to say.
+std::string note_on_rounding(std::span<const double> positions, double extent) {
+  double largest = 0;
+  for (const double x : positions) largest = std::max(largest, std::abs(x));
+  const auto number = static_cast<float>(largest);
+  const double step = static_cast<double>(std::nextafter(number, std::numeric_limits<float>::infinity())) - number;
+  if (!(extent > 0) || step * fewest_steps < extent) return {};
+  return fmt::format(
+      "at {:.3g} the 32-bit numbers of the file are {:.2g} apart, with an extent of {:.3g}: move it to the "
+      "origin before, or its repair may take long and fail",
+      largest, step, extent);
 }
 
 void append_faces(const Surface& part, std::int32_t first_vertex, bool with_offsets, Surface& whole) {
@@ -70,6 +87,9 @@ SceneDocument::SceneDocument(std::vector<Document> documents, std::vector<std::s
     notes_ = documents_[0].notes();
   else
     join();
+  if (float32_file())
+    if (std::string note = note_on_rounding(surface().positions, extent_of(surface().positions)); !note.empty())
+      notes_.push_back(std::move(note));
 }
 
 void SceneDocument::join() {

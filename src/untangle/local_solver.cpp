@@ -11,6 +11,7 @@
 
 #include "contact/intersection_finder.h"
 #include "energy/minkowski_penalty.h"
+#include "geometry/splitmix.h"
 #include "scene/trajectory.h"
 #include "untangle/contours.h"
 #include "untangle/flip_guard.h"
@@ -176,12 +177,8 @@ void smooth(const Patch& patch, const Metric& metric, double range, Positions& x
 }  // namespace
 
 double jitter_of(Index v, int k) {
-  // splitmix64
-  std::uint64_t z = (static_cast<std::uint64_t>(v) * 3 + static_cast<std::uint64_t>(k) + 1) * 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31;
-  return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
+  return 2 * splitmix_number((static_cast<std::uint64_t>(v) * 3 + static_cast<std::uint64_t>(k) + 1) * splitmix_step) -
+         1;
 }
 
 void add_jitter(const Patch& patch, std::span<const Edge> edges, double share, Positions& x) {

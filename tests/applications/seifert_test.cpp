@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "applications/seifert/link_diagram.h"
+#include "geometry/splitmix.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl {
@@ -111,6 +114,38 @@ TEST(SeifertSurface, SticksLatticesAndSplitLinks) {
   EXPECT_TRUE(found.hold());
 }
 
+TEST(SeifertSurface, RandomPolygonsOfFewPointsAreSpanned) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    std::uint64_t state = seed << 32;
+    Link link;
+    std::vector<double>& points = link.components.emplace_back();
+    for (std::uint64_t k = 0; k < 3 * (6 + seed % 7); ++k) points.push_back(splitmix_number(state += splitmix_step));
+    EXPECT_TRUE(spanned(link, {.fair = false}).hold());
+  }
+}
+
+TEST(SeifertSurface, FlatAndSteepKnotsAndPlanarDiagramsAreSpanned) {
+  for (const double height : {1e-6, 1e-3, 1e3}) {
+    SCOPED_TRACE(height);
+    Link link = knot_of_table("4_1");
+    for (std::size_t k = 2; k < link.components[0].size(); k += 3) link.components[0][k] *= height;
+    EXPECT_TRUE(spanned(link, {.fair = false}).hold());
+  }
+  EXPECT_TRUE(spanned(parse_link("X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]"), {.fair = false}).hold());
+  Link flat = knot_of_table("4_1");
+  for (std::size_t k = 2; k < flat.components[0].size(); k += 3) flat.components[0][k] *= 1e-9;
+  EXPECT_THROW(spanned(flat, {.fair = false}), std::invalid_argument);
+}
+
+TEST(SeifertSurface, TheTimeLimitHoldsWhileTrianglesAreSplit) {
+  const Link link = knot_of_table("3_1");
+  const SeifertResult made = seifert_surface(link, {.edge_rel = 0.002, .time_limit_s = 0.05});
+  EXPECT_EQ(made.status, Status::time_limit);
+  EXPECT_LT(made.surface.view().face_count(), 100000U);  // the first split alone would make more
+  EXPECT_THROW(seifert_surface(link, {.edge_rel = 1e-4}), std::invalid_argument);
+}
+
 TEST(SeifertSurface, RepeatsItselfAndStopsWhenAsked) {
   const Link link = knot_of_table("3_1");
   EXPECT_EQ(seifert_surface(link).surface.positions, seifert_surface(link).surface.positions);
@@ -140,6 +175,31 @@ TEST(CheckSeifertSurface, FindsWhatIsWrong) {
   Surface pierced = good;
   for (int k = 0; k < 3; ++k) pierced.positions[pierced.positions.size() - 3 + k] = k == 2 ? 3 : 0;
   EXPECT_GT(check_seifert_surface(pierced, link).intersecting_pairs, 0U);
+}
+
+TEST(CheckSeifertSurface, AClosedComponentBoundsNothing) {
+  const Link split = parse_link("0 0 0\n1 0 0\n0 1 0\n\n5 0 0\n6 0 0\n5 1 0\n");
+  Surface surface;
+  for (const auto& component : split.components)
+    surface.positions.insert(surface.positions.end(), component.begin(), component.end());
+  surface.corners = {0, 1, 2, 3, 4, 5};
+  const int n = 4;  // a torus far away, which changes no Euler characteristic
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double a = 2 * std::numbers::pi * i / n, b = 2 * std::numbers::pi * j / n, r = 3 + std::cos(b);
+      surface.positions.insert(surface.positions.end(), {50 + r * std::cos(a), r * std::sin(a), std::sin(b)});
+      const auto at = [&](int k, int l) { return 6 + k % n * n + l % n; };
+      const auto [p, q, s, t] = std::array{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+      surface.corners.insert(surface.corners.end(), {p, q, s, p, s, t});
+    }
+  for (std::size_t k = 0; k <= surface.corners.size(); k += 3) surface.offsets.push_back(static_cast<Index>(k));
+  SeifertFindings found = check_seifert_surface(surface, split);
+  EXPECT_EQ(found.intersecting_pairs, 0U);
+  EXPECT_TRUE(found.oriented);
+  EXPECT_TRUE(found.spans_link);
+  EXPECT_EQ(found.closed_components, 1);
+  EXPECT_EQ(found.euler_characteristic, found.expected_euler_characteristic);
+  EXPECT_FALSE(found.hold());
 }
 
 }  // namespace

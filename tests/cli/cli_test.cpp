@@ -61,6 +61,15 @@ class Cli : public ::testing::Test {
   Folder folder;
 };
 
+TEST_F(Cli, WhatIsNoNumberInTheRangeIsRefused) {
+  const std::string in = file("in.obj", crossing);
+  for (const char* value : {"90", "200", "-1", "nan", "inf", "x"})
+    expect_refusal({"fix", in, "-o", folder / "out.obj", "--min-dihedral", value}, 2, "--min-dihedral");
+  for (const char* option : {"--max-displacement", "--min-gap", "--time-limit", "--memory-limit", "--weld-tolerance"})
+    for (const char* value : {"nan", "-1"})
+      expect_refusal({"fix", in, "-o", folder / "out.obj", option, value}, 2, option);
+}
+
 TEST_F(Cli, HelpAndVersionGoToStandardOutput) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"fix", "--help"},

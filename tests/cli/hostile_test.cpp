@@ -209,6 +209,7 @@ TEST_F(Hostile, StandardStreamsMayBeClosedOrFull) {
     EXPECT_EQ(run({"fix", folder / "missing.obj", "-o", out}, {.in_child = prepare}).exit_code, 3);
     fs::remove(out);
   }
+  EXPECT_EQ(run({"fix", in, "-o", "-"}, {.in_child = [] { ::close(STDOUT_FILENO); }}).exit_code, 4);
   EXPECT_EQ(contents(in), crossing);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/program.h"
 #include "unsnarl/document.h"
@@ -205,6 +206,59 @@ TEST_F(Sequence, PointCachesKeepAllButPositions) {
     EXPECT_NE(run(call).err.find("10 were done before"), std::string::npos);
     EXPECT_EQ(contents(folder / ("caches/" + name)), bytes);
   }
+}
+
+TEST_F(Sequence, APointCacheHasItsNameOnceAllOfItIsDoneAndNothingOfAnotherIsInIt) {
+  const std::string in = folder / "walk.pc2", name = folder / "caches/walk.pc2", part = name + ".part";
+  const auto repair_cache = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> call = {"fix", "--sequence", path(0), in, "-o", folder / "caches"};
+    call.insert(call.end(), more.begin(), more.end());
+    return run(call);
+  };
+  write(in, cache(true));
+  ASSERT_EQ(repair_cache().exit_code, 0);
+  const std::string whole = contents(name);
+  fs::remove_all(folder / "caches");
+
+  const Outcome half = repair_cache({"--frames", "0:5"});
+  EXPECT_EQ(half.exit_code, 0);
+  EXPECT_NE(half.err.find(".part until all 10 frames are done"), std::string::npos) << half.err;
+  EXPECT_FALSE(fs::exists(name));
+  ASSERT_EQ(repair_cache({"--frames", "5:"}).exit_code, 0);
+  EXPECT_EQ(contents(name), whole);
+  EXPECT_FALSE(fs::exists(part));
+
+  // Another animation of as many points and frames: nothing of the old one gets into it.
+  std::string other = cache(true);
+  const std::size_t last_frame = other.size() - 4;
+  other[last_frame + 1] = static_cast<char>(other[last_frame + 1] ^ 64);
+  write(in, other);
+  EXPECT_EQ(repair_cache({"--frames", "0:7"}).exit_code, 0);
+  EXPECT_EQ(contents(name), whole);
+  EXPECT_EQ(contents(part).substr(contents(part).size() - 4), other.substr(last_frame));
+  ASSERT_EQ(repair_cache().exit_code, 0);
+  EXPECT_EQ(contents(name).substr(last_frame), other.substr(last_frame));
+
+  // Two calls at once take in what the other one has done.
+  fs::remove_all(folder / "caches");
+  write(in, cache(true));
+  std::thread first([&] { EXPECT_EQ(repair_cache({"--frames", "0:5"}).exit_code, 0); });
+  EXPECT_EQ(repair_cache({"--frames", "5:10"}).exit_code, 0);
+  first.join();
+  EXPECT_EQ(contents(name), whole);
+  EXPECT_FALSE(fs::exists(part));
+}
+
+TEST_F(Sequence, TheNumberThatChangesSaysWhichFrameItIs) {
+  fs::create_directory(folder / "lod");
+  for (const int t : {0, 1, 2}) write(folder / fmt::format("lod/f{}_lod0.obj", t), obj(0));
+  const std::vector<std::string> call = {"fix", "--sequence", folder / "lod/*.obj", "-o", out};
+  EXPECT_EQ(run(call).exit_code, 0);
+  fs::remove_all(out);
+  fs::rename(folder / "lod/f2_lod0.obj", folder / "lod/f7_lod0.obj");
+  expect_refusal(call, 2, "is a frame missing");
+  fs::rename(folder / "lod/f7_lod0.obj", folder / "lod/f01_lod0.obj");
+  expect_refusal(call, 2, "are the same frame");
 }
 
 TEST_F(Sequence, WhatMakesNoSenseIsRefused) {

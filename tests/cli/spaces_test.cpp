@@ -62,6 +62,15 @@ TEST(IsotopyCommand, ACurveMovesToAnother) {
   EXPECT_TRUE(contains(other_way.err, "runs around the other way"));
   EXPECT_EQ(run({"isotopy", folder / "a.svg", folder / "c.json", "-o", folder / "back", "--reverse", "-q"}).exit_code,
             0);
+  // Far from the origin, squares that are small: products of their coordinates say nothing about their areas.
+  write(folder / "far.json", R"({"curves": [{"closed": true, "points":
+      [[1000000, 1000000], [1000000.001, 1000000], [1000000.001, 1000000.001], [1000000, 1000000.001]]}]})");
+  const Outcome far =
+      run({"isotopy", folder / "far.json", folder / "far.json", "-o", folder / "stay", "--reverse", "-q"});
+  EXPECT_EQ(far.exit_code, 0) << far.err;
+  const Outcome full = run({"isotopy", folder / "a.svg", folder / "a.svg", "-o", folder / "way"});
+  EXPECT_TRUE(contains(full.err, "-o ")) << full.err;
+  EXPECT_FALSE(contains(full.err, "--picture")) << full.err;
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST_F(View, RefusesWhatMakesNoSense) {
   write(text, "{}");
   write(old, R"({"schema": "unsnarl-report", "schema_version": 1})");
   EXPECT_TRUE(contains(complaint({"view", in}, 2), "-o"));
-  EXPECT_TRUE(contains(complaint({"view", in, "-o", in}, 2), "overwrite"));
+  EXPECT_TRUE(contains(complaint({"view", in, "-o", in}, 2), "overwritten"));
   EXPECT_TRUE(contains(complaint({"view", in, other, "-o", page}, 3), "not those of"));
   EXPECT_TRUE(contains(complaint({"view", in, "--report", text, "-o", page}, 3), "no"));
   EXPECT_TRUE(contains(complaint({"view", in, "--report", old, "-o", page}, 3), "schema version 1"));

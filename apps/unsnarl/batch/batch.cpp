@@ -21,6 +21,7 @@
 #include "batch/resources.h"
 #include "batch/summary.h"
 #include "content_hash.h"
+#include "file_places.h"
 #include "fix.h"
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
@@ -89,10 +90,7 @@ class Batch {
         journal_(folder_.journal()),
         progress_(mine_, options.quiet) {
     const FixOptions fix = parsed_fix_options(options.fix_options);
-    for (const BatchMesh& mesh : all_)
-      if (std::error_code ignored; fs::equivalent(mesh.path, folder_.root / BatchFolder::mesh(mesh.name), ignored))
-        throw UsageError(fmt::format("{} is a result of a batch in {}; name another folder for the results",
-                                     mesh.path.string(), folder_.root.string()));
+    require_own_places(fix.fix_vertices);
     const std::string program_hash = sha256_of_file(program_);
     if (program_hash.empty()) throw FileError(program_ + ": cannot be read; --worker needs a program");
     same_for_all_ = fmt::format("{}\n{}\n", key_version, program_hash);
@@ -124,6 +122,17 @@ class Batch {
   }
 
  private:
+  void require_own_places(const std::string& fix_vertices) const {
+    FilePlaces places;
+    if (std::error_code ignored; !fs::is_directory(options_.input, ignored))
+      places.reads("the list of meshes", options_.input);
+    places.reads("--fix-vertices", fix_vertices);
+    for (const BatchMesh& mesh : all_) places.reads("a mesh of the batch", mesh.path);
+    for (const BatchMesh& mesh : all_)
+      places.writes("a result of a batch", folder_.root / BatchFolder::mesh(mesh.name),
+                    "name another folder for the results");
+  }
+
   std::string key_of(const BatchMesh& mesh, const std::string& content) const {
     return sha256(same_for_all_ + mesh.name + '\n' + content);
   }

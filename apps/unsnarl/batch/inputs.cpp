@@ -7,9 +7,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "batch/folder.h"
 #include "content_hash.h"
 #include "mesh_input.h"
 #include "unsnarl/document.h"
@@ -78,12 +80,22 @@ void sort_and_check(std::vector<BatchMesh>& meshes) {
             [](const BatchMesh& a, const BatchMesh& b) { return std::tie(a.name, a.path) < std::tie(b.name, b.path); });
   const auto same = [](const BatchMesh& a, const BatchMesh& b) { return a.name == b.name && a.path == b.path; };
   meshes.erase(std::unique(meshes.begin(), meshes.end(), same), meshes.end());
-  for (std::size_t i = 1; i < meshes.size(); ++i)
-    if (meshes[i - 1].name == meshes[i].name)
+  std::map<fs::path, const BatchMesh*> by_place;
+  for (const BatchMesh& mesh : meshes) {
+    const auto [same, is_new] = by_place.emplace(BatchFolder::mesh(mesh.name), &mesh);
+    if (!is_new)
       throw UsageError(
           fmt::format("{} and {} would both be written to {}; give one another name, after a tab in the "
                       "list",
-                      meshes[i - 1].path.string(), meshes[i].path.string(), meshes[i].name));
+                      same->second->path.string(), mesh.path.string(), mesh.name));
+  }
+  for (const auto& [place, mesh] : by_place)
+    for (fs::path folder = place.parent_path(); !folder.empty(); folder = folder.parent_path())
+      if (const auto file = by_place.find(folder); file != by_place.end())
+        throw UsageError(
+            fmt::format("{} and {} would be written to {} and to a folder of that name; give one another name, after "
+                        "a tab in the list",
+                        file->second->path.string(), mesh->path.string(), file->second->name));
 }
 
 std::optional<std::size_t> whole_number(const char* text) {

@@ -36,16 +36,6 @@ bool is_there(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-bool is_same(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  return a.lexically_normal() == b.lexically_normal() || fs::equivalent(a, b, ignored);
-}
-
-void refuse_to_overwrite(const fs::path& input, const fs::path& output) {
-  if (is_same(input, output))
-    throw UsageError(fmt::format("{} would be overwritten; name another folder", input.string()));
-}
-
 std::vector<std::string> matches_of(const std::string& pattern) {
   if (is_there(pattern)) return {pattern};  // its name may hold brackets
   glob_t found{};
@@ -56,15 +46,36 @@ std::vector<std::string> matches_of(const std::string& pattern) {
   return paths;
 }
 
-/// The number that tells frames apart: the last one in the name. Empty: none, or too long to count with.
-std::optional<long long> number_in(const std::string& path) {
+/// The numbers in a name, but those too long to count with.
+std::vector<long long> numbers_in(const std::string& path) {
   const std::string name = fs::path(path).stem().string();
-  std::size_t end = name.size();
-  while (end > 0 && !std::isdigit(static_cast<unsigned char>(name[end - 1]))) --end;
-  std::size_t begin = end;
-  while (begin > 0 && std::isdigit(static_cast<unsigned char>(name[begin - 1]))) --begin;
-  if (begin == end || end - begin > 15) return {};
-  return std::stoll(name.substr(begin, end - begin));
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  std::vector<long long> numbers;
+  for (auto begin = std::find_if(name.begin(), name.end(), is_digit); begin != name.end();) {
+    const auto end = std::find_if_not(begin, name.end(), is_digit);
+    if (end - begin <= 15) numbers.push_back(std::stoll(std::string(begin, end)));
+    begin = std::find_if(end, name.end(), is_digit);
+  }
+  return numbers;
+}
+
+/// The numbers that tell frames apart: the last ones in their names, but not those that are the same in all names
+/// ("f2_lod0" is frame 2).
+std::vector<long long> frame_numbers(const std::vector<std::string>& paths) {
+  std::vector<std::vector<long long>> all;
+  for (const std::string& path : paths) {
+    all.push_back(numbers_in(path));
+    if (all.back().empty())
+      throw UsageError(fmt::format("{}: there is no number in this name that says which frame it is", path));
+  }
+  const auto ends_alike = [&](const std::vector<long long>& numbers) {
+    return numbers.size() > 1 && numbers.size() == all[0].size() && numbers.back() == all[0].back();
+  };
+  while (std::all_of(all.begin(), all.end(), ends_alike))
+    for (std::vector<long long>& numbers : all) numbers.pop_back();
+  std::vector<long long> last;
+  for (const std::vector<long long>& numbers : all) last.push_back(numbers.back());
+  return last;
 }
 
 /// Frames in natural order, one of each, with numbers that go up evenly.
@@ -76,18 +87,17 @@ std::vector<std::string> sorted_frames(const std::vector<std::string>& patterns)
   }
   std::sort(paths.begin(), paths.end(), natural_order);
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
-  std::optional<long long> step;
+  if (paths.size() < 2) return paths;
+  const std::vector<long long> numbers = frame_numbers(paths);
   for (std::size_t t = 1; t < paths.size(); ++t) {
-    const std::optional<long long> before = number_in(paths[t - 1]), here = number_in(paths[t]);
-    if (!before || !here)
-      throw UsageError(fmt::format("{}: there is no number in this name that says which frame it is",
-                                   before ? paths[t] : paths[t - 1]));
-    if (step && *here - *before != *step)
+    const long long step = numbers[1] - numbers[0], here = numbers[t] - numbers[t - 1];
+    if (here == 0)
+      throw UsageError(fmt::format("{} and {} are the same frame, {}", paths[t - 1], paths[t], numbers[t]));
+    if (here != step)
       throw UsageError(
           fmt::format("the numbers of the frames go up by {}, but by {} from {} to {}: is a frame missing, "
                       "or one too many?",
-                      *step, *here - *before, paths[t - 1], paths[t]));
-    step = *here - *before;
+                      step, here, paths[t - 1], paths[t]));
   }
   return paths;
 }
@@ -107,7 +117,8 @@ class NumberedFiles : public SequenceFiles {
         recompute_normals_(recompute_normals),
         interruption_(interruption),
         first_(read_scene({paths_[0]}, format)) {
-    for (std::size_t t = 0; t < paths_.size(); ++t) refuse_to_overwrite(paths_[t], target(t));
+    if (!buffer_files(first_.document(0)).empty())
+      throw UsageError(paths_[0] + ": this glTF keeps its geometry in other files; give frames of one file each");
   }
 
   std::size_t count() const override { return paths_.size(); }
@@ -115,10 +126,10 @@ class NumberedFiles : public SequenceFiles {
   const SceneDocument& mesh() const override { return first_; }
   bool stores_float32() const override { return first_.float32_file().has_value(); }
   std::string output() const override { return folder_.string(); }
-  bool holds(const fs::path& path) const override {
+  void claim(FilePlaces& places) const override {
+    for (const std::string& path : paths_) places.reads("one of the frames", path);
     for (std::size_t t = 0; t < paths_.size(); ++t)
-      if (is_same(path, paths_[t]) || is_same(path, target(t))) return true;
-    return false;
+      places.writes("a repaired frame", target(t), "it would be overwritten: name another folder");
   }
 
   std::string content_hash(std::size_t t) override {
@@ -156,9 +167,11 @@ class NumberedFiles : public SequenceFiles {
     documents_.erase(documents_.begin(), documents_.upper_bound(t));
     return written.surface().positions;
   }
-  void flush() override {}
+  bool is_one_file() const override { return false; }
+  void gather(const IsRecorded&) override {}
+  void flush(const IsRecorded&) override {}
+  bool finish(const IsRecorded&) override { return true; }
   std::size_t frames_between_flushes() const override { return 1; }
-  void finish() override {}
 
  private:
   fs::path target(std::size_t t) const { return folder_ / names_[t]; }
@@ -197,7 +210,7 @@ class NumberedFiles : public SequenceFiles {
   std::map<std::size_t, Document> documents_;
 };
 
-/// A mesh and a point cache. Until all frames wanted are done, what there is of the output has another name.
+/// A mesh and a point cache. Until all frames are done, what there is of the output has another name.
 class CacheFrames : public SequenceFiles {
  public:
   CacheFrames(const std::string& mesh, const std::string& cache, std::optional<Format> format,
@@ -207,20 +220,13 @@ class CacheFrames : public SequenceFiles {
         name_(fs::path(cache).filename().string()),
         target_(fs::path(folder) / name_),
         part_(fs::path(folder) / (name_ + ".part")),
-        own_{mesh, cache, target_, part_},
+        inputs_{mesh, cache},
         input_(parsed(cache, cache)),
-        output_(input_) {
-    refuse_to_overwrite(cache, target_);
+        output_(input_),
+        is_done_(input_.frames(), false) {
     const std::size_t vertices = mesh_.surface().view().vertex_count();
     if (input_.points() != vertices)
       throw FileError(fmt::format("{}: {} points, but {} has {} vertices", cache, input_.points(), mesh, vertices));
-    for (const fs::path& earlier : {part_, target_}) {
-      if (!is_there(earlier)) continue;
-      const PointCache found = parsed(earlier, cache);
-      if (found.points() != input_.points() || found.frames() != input_.frames()) continue;
-      output_ = found;
-      break;
-    }
   }
 
   std::size_t count() const override { return input_.frames(); }
@@ -228,8 +234,10 @@ class CacheFrames : public SequenceFiles {
   const SceneDocument& mesh() const override { return mesh_; }
   bool stores_float32() const override { return true; }
   std::string output() const override { return target_.string(); }
-  bool holds(const fs::path& path) const override {
-    return std::any_of(own_.begin(), own_.end(), [&](const fs::path& own) { return is_same(path, own); });
+  void claim(FilePlaces& places) const override {
+    for (const std::string& input : inputs_) places.reads("one of the frames", input);
+    for (const fs::path& place : {target_, part_})
+      places.writes("the repaired cache", place, "it would be overwritten: name another folder");
   }
 
   std::string content_hash(std::size_t t) override {
@@ -250,20 +258,38 @@ class CacheFrames : public SequenceFiles {
   std::vector<double> write(std::size_t t, std::span<const double> positions, bool) override {
     output_.set_positions(t, input_.positions(t));  // what does not move has the input's bytes
     output_.set_positions(t, positions);
+    is_done_[t] = true;
     is_flushed_ = false;
     return output_.positions(t);
   }
-  void flush() override {
-    if (!is_flushed_) write_file(part_.string(), output_.bytes(), interruption_);
+
+  bool is_one_file() const override { return true; }
+  void gather(const IsRecorded& is_recorded) override {
+    for (const fs::path& place : {part_, target_}) {
+      const std::optional<PointCache> found = earlier(place);
+      for (std::size_t t = 0; found && t < count(); ++t) {
+        if (is_done_[t] || !is_recorded(t, sha256(found->frame_bytes(t)))) continue;
+        output_.set_positions(t, found->positions(t));
+        is_done_[t] = true;
+      }
+    }
+  }
+  void flush(const IsRecorded& is_recorded) override {
+    if (is_flushed_) return;
+    gather(is_recorded);
+    write_file(part_.string(), output_.bytes(), interruption_);
     is_flushed_ = true;
   }
   std::size_t frames_between_flushes() const override { return whole_writes_after; }
-  void finish() override {
+  bool finish(const IsRecorded& is_recorded) override {
+    gather(is_recorded);
+    if (std::find(is_done_.begin(), is_done_.end(), false) != is_done_.end()) return false;
     StagedOutput staged(target_, interruption_);
     staged.write({{{}, output_.bytes()}});
     staged.commit();
     std::error_code ignored;
     fs::remove(part_, ignored);
+    return true;
   }
 
  private:
@@ -275,13 +301,26 @@ class CacheFrames : public SequenceFiles {
     }
   }
 
+  /// A cache of as many points and frames at this place; empty: there is none.
+  std::optional<PointCache> earlier(const fs::path& place) const {
+    if (!is_there(place)) return {};
+    try {
+      PointCache found = parsed(place, name_);
+      if (found.points() == input_.points() && found.frames() == input_.frames()) return found;
+    } catch (const FileError&) {
+      // What is no cache holds no frame that is recorded.
+    }
+    return {};
+  }
+
   Interruption& interruption_;
   const SceneDocument mesh_;
   const std::string name_;
   const fs::path target_, part_;
-  const std::vector<fs::path> own_;
+  const std::vector<std::string> inputs_;
   const PointCache input_;
   PointCache output_;
+  std::vector<bool> is_done_;  // frames of output_ that are recorded or written; all others are the input's
   std::string faces_hash_;
   bool is_flushed_ = true;
 };

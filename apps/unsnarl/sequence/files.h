@@ -1,18 +1,22 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "file_places.h"
 #include "interruption.h"
 #include "unsnarl/document.h"
 #include "unsnarl/scene_document.h"
 
 namespace unsnarl::app {
+
+/// Says whether an output of this SHA-256 is noted for a frame as what is asked for now.
+using IsRecorded = std::function<bool(std::size_t frame, const std::string& output_hash)>;
 
 /// The frames of a sequence on disk, and the place where repaired ones go. Frames count from 0.
 class SequenceFiles {
@@ -36,14 +40,21 @@ class SequenceFiles {
   virtual std::vector<double> output_positions(std::size_t frame) = 0;
   /// Writes a frame, or keeps it for flush(), and returns what was read back. Throws WriteError.
   virtual std::vector<double> write(std::size_t frame, std::span<const double> positions, bool float32) = 0;
+
+  // Frames that share one file, where several calls may be at work on different ones: the record is locked for these
+  // three, and what is not recorded is taken from the input, never from an output that happens to be there.
+  virtual bool is_one_file() const = 0;
+  /// Takes what is recorded from the outputs on the disk.
+  virtual void gather(const IsRecorded& is_recorded) = 0;
   /// After this all frames written are on the disk. Throws WriteError.
-  virtual void flush() = 0;
-  /// How many frames may be lost by a sudden end without it.
+  virtual void flush(const IsRecorded& is_recorded) = 0;
+  /// Gives the output its name if all frames of the sequence are recorded. False: some are not. Throws WriteError.
+  virtual bool finish(const IsRecorded& is_recorded) = 0;
+
+  /// How many frames may be lost by a sudden end without flush().
   virtual std::size_t frames_between_flushes() const = 0;
-  /// All frames wanted are written: the output gets its name. Throws WriteError.
-  virtual void finish() = 0;
-  /// Is this file one of those that are read, or the place of an output?
-  virtual bool holds(const std::filesystem::path& path) const = 0;
+  /// Names what is read, and the places of outputs. Throws UsageError where two are the same.
+  virtual void claim(FilePlaces& places) const = 0;
   /// Where the output is.
   virtual std::string output() const = 0;
 };

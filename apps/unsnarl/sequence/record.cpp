@@ -1,7 +1,12 @@
 #include "sequence/record.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <utility>
 
@@ -9,7 +14,30 @@
 
 namespace unsnarl::app {
 
+SequenceRecord::Lock::Lock(const std::filesystem::path& path)
+    : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (file_ < 0) throw WriteError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+  while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+  }
+}
+
+SequenceRecord::Lock::~Lock() {
+  ::close(file_);
+}
+
 SequenceRecord::SequenceRecord(std::filesystem::path path) : path_(std::move(path)) {
+  read();
+}
+
+std::unique_ptr<SequenceRecord::Lock> SequenceRecord::lock() {
+  auto lock = std::make_unique<Lock>(path_);
+  read();
+  return lock;
+}
+
+void SequenceRecord::read() {
+  lines_.clear();
+  ends_in_a_line_ = true;
   std::ifstream file(path_);
   for (std::string line; std::getline(file, line);) {
     ends_in_a_line_ = !file.eof();

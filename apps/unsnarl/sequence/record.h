@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -17,12 +18,28 @@ class SequenceRecord {
 
   explicit SequenceRecord(std::filesystem::path path);
 
+  /// Keeps other calls from reading and adding while it lives. Where the file system has no locks it does nothing.
+  class Lock {
+   public:
+    explicit Lock(const std::filesystem::path& path);
+    ~Lock();
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
+
+   private:
+    int file_ = -1;
+  };
+  /// Waits for other calls, then reads what they have added. Throws WriteError.
+  std::unique_ptr<Lock> lock();
+
   /// The line of a frame that is done; null: it is not.
   const Json* find(const std::string& name, const std::string& key, const std::string& output_hash) const;
   /// Throws WriteError.
   void add(const std::string& name, const std::string& key, const std::string& output_hash, Json report);
 
  private:
+  void read();
+
   std::filesystem::path path_;
   std::map<std::string, Json> lines_;  // the last of each frame
   bool ends_in_a_line_ = true;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "content_hash.h"
+#include "file_places.h"
 #include "mesh_input.h"
 #include "progress.h"
 #include "sequence/files.h"
@@ -112,10 +113,12 @@ class SequenceRun {
       sequence_.repair.precision = Precision::float32;
     }
     for (const std::string& note : files_->mesh().notes()) say("note: {}", note);
-    if (!options_.report.empty() && !is_stream(options_.report) && files_->holds(options_.report))
-      throw UsageError(fmt::format("--report {}: this is one of the frames; give it another name", options_.report));
-    StagedOutput(fs::path(options_.output) / record_name, interruption_);  // may be written to?
+    require_own_places();
     read_contents();
+    if (files_->is_one_file()) {
+      const auto lock = record_.lock();
+      files_->gather(is_recorded());
+    }
 
     Context context;
     context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
@@ -128,10 +131,13 @@ class SequenceRun {
     interruption_.set_handler(nullptr);
     flush();
     if (context.is_cancelled()) exit_code_ = exit_cancelled;
-    const bool is_whole = unwritten_ == 0 && !context.is_cancelled();
-    if (is_whole) files_->finish();
+    is_range_done_ = unwritten_ == 0 && !context.is_cancelled();
+    if (is_range_done_) {
+      const auto lock = record_.lock();
+      is_whole_ = files_->finish(is_recorded());
+    }
     if (!options_.report.empty()) write_file(options_.report, report_json() + "\n", interruption_);
-    summarise(is_whole);
+    summarise();
     return exit_code_;
   }
 
@@ -143,10 +149,23 @@ class SequenceRun {
     tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
   }
 
+  void require_own_places() const {
+    FilePlaces places;
+    files_->claim(places);
+    places.reads("--fix-vertices", options_.fix_vertices);
+    const fs::path record = fs::path(options_.output) / record_name;
+    places.writes("the record of what is done", record);
+    places.writes("--report", options_.report);
+    for (const fs::path& place : {record, fs::path(options_.report)})
+      if (!place.empty() && !is_stream(place.string())) StagedOutput(place, interruption_);
+  }
+
   /// Checks all frames that matter before any work.
   void read_contents() {
-    const std::size_t begin = sequence_.first - std::min(sequence_.first, sequence_reach);
-    const std::size_t end = std::min(sequence_.last + sequence_reach, files_->count());
+    // Of frames in one file those outside the range matter too, for they may be done.
+    const bool all = files_->is_one_file();
+    const std::size_t begin = all ? 0 : sequence_.first - std::min(sequence_.first, sequence_reach);
+    const std::size_t end = all ? files_->count() : std::min(sequence_.last + sequence_reach, files_->count());
     contents_.resize(files_->count());
     for (std::size_t t = begin; t < end; ++t) contents_[t] = files_->content_hash(t);
     Json asked = Json::parse(unsnarl::report_json({}, sequence_.repair))["options"];
@@ -173,9 +192,10 @@ class SequenceRun {
     source.positions = [this](std::size_t t) { return files_->positions(t); };
     source.done = [this](std::size_t t) {
       const Json* const line = record_.find(files_->name(t), key_of(t), files_->output_hash(t));
-      if (!line) return std::vector<double>();
+      const std::string status = line ? (*line)["report"].value("status", std::string()) : std::string();
+      if (!is_good(status)) return std::vector<double>();  // what was reached is tried again
       done_[t] = (*line)["report"];
-      note_status(done_[t].value("status", std::string()));
+      note_status(status);
       ++done_before_;
       return files_->output_positions(t);
     };
@@ -187,12 +207,11 @@ class SequenceRun {
 
   void take(FrameResult&& result) {
     const std::size_t t = result.report.frame;
-    const Status status = result.report.status;
-    const bool is_good = status == Status::embedded || status == Status::obstructed;
-    note_status(std::string(to_string(status)));
-    if (!is_good && !options_.keep_partial) {
+    const std::string status(to_string(result.report.status));
+    note_status(status);
+    if (!is_good(status) && !options_.keep_partial) {
       ++unwritten_;
-      say("{}: {}; not written: --keep-partial writes what was reached", files_->name(t), to_string(status));
+      say("{}: {}; not written: --keep-partial writes what was reached", files_->name(t), status);
       return;
     }
     const bool float32_digits = result.report.precision == Precision::float32;
@@ -200,16 +219,27 @@ class SequenceRun {
     if (files_->write(t, result.positions, float32_digits) != result.positions)
       throw std::logic_error(files_->name(t) + ": the file written does not hold what was certified");
     done_[t] = frame_json(result.report);
-    if (!is_good) return;  // tried again by the next call
     unrecorded_.push_back(t);
     if (unrecorded_.size() >= files_->frames_between_flushes()) flush();
   }
 
   /// What was written becomes what is recorded.
   void flush() {
-    files_->flush();
+    if (unrecorded_.empty()) return;
+    const auto lock = record_.lock();
+    files_->flush(is_recorded());
     for (const std::size_t t : unrecorded_) record_.add(files_->name(t), key_of(t), files_->output_hash(t), done_[t]);
     unrecorded_.clear();
+  }
+
+  IsRecorded is_recorded() const {
+    return [this](std::size_t t, const std::string& output_hash) {
+      return record_.find(files_->name(t), key_of(t), output_hash) != nullptr;
+    };
+  }
+
+  static bool is_good(const std::string& status) {
+    return status == to_string(Status::embedded) || status == to_string(Status::obstructed);
   }
 
   void note_status(const std::string& status) {
@@ -227,7 +257,7 @@ class SequenceRun {
   };
   Summary summary() const;
   std::string report_json() const;
-  void summarise(bool is_whole);
+  void summarise();
 
   const FixOptions& options_;
   Interruption& interruption_;
@@ -242,6 +272,7 @@ class SequenceRun {
   std::vector<Json> done_;             // report of each frame that is written; null: it is not
   std::vector<std::size_t> unrecorded_;
   std::size_t done_before_ = 0, unwritten_ = 0;
+  bool is_range_done_ = false, is_whole_ = false;
   std::vector<FrameReport> reports_;
   ExitCode exit_code_ = exit_embedded;
 };
@@ -311,7 +342,7 @@ std::string SequenceRun::report_json() const {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-void SequenceRun::summarise(bool is_whole) {
+void SequenceRun::summarise() {
   const Summary sum = summary();
   const StageReport whole = clock_.stage("sequence");
   const SurfaceView mesh = files_->mesh().surface();
@@ -319,14 +350,17 @@ void SequenceRun::summarise(bool is_whole) {
       done_before_ > 0 ? fmt::format("; {} were done before", done_before_) : "");
   say("  intersecting pairs before: {}, in {} frames", sum.pairs_before, sum.with_pairs);
   say("  intersecting pairs after:  {}", sum.pairs_after == 0 ? "none" : std::to_string(sum.pairs_after));
-  say("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
-      100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, 100 * sum.displacement_mean);
+  if (sum.frames > 0)
+    say("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
+        100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, 100 * sum.displacement_mean);
   if (sum.jitter_frames > 0)
     say("  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; repaired one by one {:.2g} % and {:.2g} %",
         100 * sum.jitter.max_rel, 100 * sum.jitter.mean_rel, 100 * sum.alone.max_rel, 100 * sum.alone.mean_rel);
   say("  {} of {} frames written; {:.1f} s, {:.0f} MB", sum.frames, sequence_.last - sequence_.first, whole.seconds,
       whole.peak_memory_mb);
-  if (is_whole) say("  wrote {}", files_->output());
+  if (is_whole_) say("  wrote {}", files_->output());
+  if (is_range_done_ && !is_whole_)
+    say("  gathered in {}.part until all {} frames are done", files_->output(), files_->count());
 }
 
 }  // namespace

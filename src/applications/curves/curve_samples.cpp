@@ -6,23 +6,19 @@
 #include <stdexcept>
 
 #include "applications/curves/curve_net.h"
+#include "geometry/splitmix.h"
 
 namespace unsnarl {
 namespace {
 
 constexpr std::array<std::string_view, 6> kinds = {"waves", "walk", "star", "noise", "spiral", "chaos"};
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers everywhere.
+/// The same numbers everywhere.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
   /// In [0, 1).
-  double operator()() {
-    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15ULL);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
+  double operator()() { return splitmix_number(state_ += splitmix_step); }
   double between(double low, double high) { return low + (high - low) * (*this)(); }
 
  private:

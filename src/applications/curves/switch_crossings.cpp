@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/splitmix.h"
+
 namespace unsnarl {
 namespace {
 
@@ -102,12 +104,9 @@ Path straight(const Vec2& from, const Vec2& to, Index m) {
   return result;
 }
 
-/// A number in [-1, 1) that depends on nothing but its arguments (splitmix64).
+/// A number in [-1, 1) that depends on nothing but its arguments.
 double noise(std::uint64_t vertex, std::uint64_t axis, std::uint64_t round) {
-  std::uint64_t z = (vertex * 2 + axis) * 0x9E3779B97F4A7C15ULL + round * 0xD1B54A32D192ED03ULL;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+  return 2 * splitmix_number((vertex * 2 + axis) * splitmix_step + round * 0xD1B54A32D192ED03ULL) - 1;
 }
 
 class Switcher {

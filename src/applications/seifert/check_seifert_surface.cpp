@@ -137,6 +137,9 @@ SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& li
   UnionFind parts = vertices_joined_by(mesh.faces, static_cast<Index>(mesh.x.size()));
   for (std::size_t v = 0; v < mesh.x.size(); ++v)
     found.components += parts.find(static_cast<Index>(v)) == static_cast<Index>(v);
+  std::vector<bool> is_bounded(mesh.x.size(), false);
+  for (const std::vector<Index>& loop : loops) is_bounded[parts.find(loop[0])] = true;
+  found.closed_components = found.components - static_cast<int>(std::count(is_bounded.begin(), is_bounded.end(), true));
   found.genus = (2 * found.components - found.euler_characteristic - static_cast<int>(loops.size())) / 2;
   // In several parts it bounds a link whose polynomial is zero: a tube between them would add a loop that links none.
   if (found.components == 1 && found.intersecting_pairs == 0 && found.spans_link)

@@ -22,19 +22,37 @@ double length(const EmbeddedMesh& mesh, const Edge& e) {
   return (mesh.position(e[0]) - mesh.position(e[1])).norm();
 }
 
-void remesh(EmbeddedMesh& mesh, double edge) {
+/// Whether to go on, asked at every `often`-th step.
+class Pace {
+ public:
+  explicit Pace(const std::function<bool()>& goes_on) : goes_on_(goes_on) {}
+  bool operator()() {
+    if (++steps_ % often == 0) is_over_ = is_over_ || !goes_on_();
+    return !is_over_;
+  }
+
+ private:
+  static constexpr int often = 64;  // steps of about 10 us
+  const std::function<bool()>& goes_on_;
+  int steps_ = 0;
+  bool is_over_ = false;
+};
+
+void remesh(EmbeddedMesh& mesh, double edge, Pace& pace) {
   for (int round = 0; round < most_split_rounds; ++round) {
     bool any = false;
     for (const Edge& e : mesh.interior_edges())
-      if (length(mesh, e) > split_above * edge) any |= mesh.split(e);
+      if (pace() && length(mesh, e) > split_above * edge) any |= mesh.split(e);
     if (!any) break;
   }
   std::vector<Edge> edges = mesh.interior_edges();
   for (const Edge& e : edges) {
+    if (!pace()) return;
     if (!mesh.is_alive(e[0]) || !mesh.is_alive(e[1]) || length(mesh, e) > collapse_below * edge) continue;
     mesh.collapse(e, split_above * edge);
   }
-  for (const Edge& e : mesh.interior_edges()) mesh.flip(e);
+  for (const Edge& e : mesh.interior_edges())
+    if (pace()) mesh.flip(e);
 }
 
 double cotangent(const Vec3& corner, const Vec3& a, const Vec3& b) {
@@ -72,17 +90,19 @@ Vec3 wanted(const EmbeddedMesh& mesh, Index v, double over_relaxation) {
 }  // namespace
 
 SpanningMesh fair(SpanningMesh start, Index boundary_count, double edge, const FairOptions& options,
-                  const std::function<bool(double)>& progress) {
+                  const std::function<void(double)>& progress, const std::function<bool()>& goes_on) {
+  Pace pace(goes_on);
   const int all = options.sweeps * options.levels * (options.levels + 1) / 2;
   int done = 0;
   for (int level = options.levels - 1; level >= 0; --level) {
     const double wished = edge * (1 << level);
     EmbeddedMesh mesh(std::move(start), boundary_count, wished, options.gap_of_edge * wished);
     for (int sweep = 0; sweep < options.sweeps * (level + 1); ++sweep, ++done) {
-      if (!progress(static_cast<double>(done) / all)) return mesh.compact();
-      if (sweep % options.sweeps_a_remeshing == 0) remesh(mesh, wished);
+      progress(static_cast<double>(done) / all);
+      if (!goes_on()) return mesh.compact();
+      if (sweep % options.sweeps_a_remeshing == 0) remesh(mesh, wished, pace);
       const Index n = mesh.vertex_count();
-      for (Index k = boundary_count; k < n; ++k) {
+      for (Index k = boundary_count; k < n && pace(); ++k) {
         const Index v = sweep % 2 == 0 ? k : n - 1 - (k - boundary_count);  // to and fro
         if (!mesh.is_alive(v)) continue;
         const Vec3 from = mesh.position(v), to = wanted(mesh, v, options.over_relaxation);

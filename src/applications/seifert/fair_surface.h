@@ -23,8 +23,8 @@ struct FairOptions {
 /// keeps it embedded in every step: vertices go to where the area of the triangles around them is least (the mean
 /// curvature flow of U. Pinkall and K. Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993),
 /// and along the surface to the middle of their neighbours. Sheets that meet stay apart by a gap.
-/// `progress`: called with the part that is done, in [0, 1]; false: stop.
+/// `progress`: called once a sweep with the part that is done, in [0, 1]. `goes_on`: asked all the time; false: stop.
 SpanningMesh fair(SpanningMesh mesh, Index boundary_count, double edge, const FairOptions& options,
-                  const std::function<bool(double)>& progress);
+                  const std::function<void(double)>& progress, const std::function<bool()>& goes_on);
 
 }  // namespace unsnarl

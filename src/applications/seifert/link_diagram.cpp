@@ -16,6 +16,16 @@ namespace {
 /// told apart / size of the link: a thousand times what rounding does to rotated points.
 constexpr double least_room_rel = 1e-12;
 
+/// Of the room around a crossing in the picture, the half length of its band along both strands. Where the strand
+/// below is wound around, from 1.6 times as far on, windings around one edge stay apart: together below 1/2.
+constexpr double band_of_room = 0.3;
+/// Along a band both strands together climb by at most this part of the gap between them, so that each band stays
+/// between its strands.
+constexpr double climb_of_gap = 0.25;
+/// Windings around an edge are nested by part of their width. No less of it than this / size of the link: a hundred
+/// times what rounding does to points.
+constexpr double least_nesting_rel = 1e-14;
+
 Vec3 point_of(const Link& link, Index component, Index k) {
   const std::vector<double>& p = link.components[component];
   const auto n = static_cast<Index>(p.size() / 3);
@@ -58,7 +68,8 @@ Sign turn(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 /// False: the view is not generic.
-bool find_crossings(const Link& link, const std::vector<FlatEdge>& edges, double room, LinkDiagram& diagram) {
+bool find_crossings(const Link& link, const std::vector<FlatEdge>& edges, double size, LinkDiagram& diagram) {
+  const double room = least_room_rel * size;
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (std::size_t j = i + 1; j < edges.size(); ++j) {
       const FlatEdge &e = edges[i], &f = edges[j];
@@ -95,6 +106,16 @@ bool find_crossings(const Link& link, const std::vector<FlatEdge>& edges, double
         if (k != i && k != j)
           crossing.radius = std::min(crossing.radius, distance(crossing.place, edges[k].a, edges[k].b));
       if (crossing.radius < room) return false;
+      const auto slope = [&](const FlatEdge& edge) {
+        const Positions& p = diagram.points[edge.component];
+        return std::abs(p(2, (edge.edge + 1) % edge.count) - p(2, edge.edge)) / (edge.b - edge.a).norm();
+      };
+      crossing.band = band_of_room * crossing.radius;
+      if (const double climb = crossing.band * (slope(e) + slope(f)); climb > climb_of_gap * crossing.gap)
+        crossing.band *= climb_of_gap * crossing.gap / climb;
+      crossing.beside = crossing.band * std::abs(cross) / (de.norm() * df.norm());
+      const double longest = std::max(de.norm(), df.norm());
+      if (std::min(crossing.gap, crossing.beside) * crossing.band / longest < least_nesting_rel * size) return false;
       diagram.crossings.push_back(crossing);
     }
   return true;
@@ -195,7 +216,7 @@ std::optional<LinkDiagram> diagram_of(const Link& link, const Eigen::Matrix3d& f
     const Vec2 next = p.col((e.edge + 2) % e.count).head<2>();
     if (turn(e.a, e.b, next) == 0 && (next - e.b).dot(e.b - e.a) < 0) return {};
   }
-  if (!find_crossings(link, edges, room, diagram)) return {};
+  if (!find_crossings(link, edges, size, diagram)) return {};
   order_passes(diagram);
   count_circles(diagram);
   return diagram;

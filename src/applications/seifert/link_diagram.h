@@ -23,6 +23,8 @@ struct LinkDiagram {
     Vec2 place;
     double gap = 0;     ///< between the strands, along the axis
     double radius = 0;  ///< distance from `place` to the nearest other edge, or to an end of either strand
+    double band = 0;    ///< half length that a band between the strands may have along either, in the picture
+    double beside = 0;  ///< from an end of such a band to the other strand
     int sign = 0;       ///< +1: right-handed
   };
   /// One visit of a crossing.
@@ -43,7 +45,8 @@ struct LinkDiagram {
 };
 
 /// None where the view along the third row of the (orthogonal) frame is not generic: three strands in one place, a
-/// vertex on an edge, strands too near each other to tell which is on top. Decided by exact arithmetic.
+/// vertex on an edge, strands too near each other to tell which is on top, or to keep anything built between them from
+/// rounding. Decided by exact arithmetic.
 std::optional<LinkDiagram> diagram_of(const Link& link, const Eigen::Matrix3d& frame);
 
 /// Of `directions` views, the one whose surface is connected and of largest Euler characteristic; the roomiest of

@@ -10,15 +10,18 @@
 
 #include "applications/seifert/embedded_mesh.h"
 #include "geometry/predicates.h"
+#include "geometry/splitmix.h"
 #include "geometry/triangle_intersection.h"
 #include "mesh/union_find.h"
 
 namespace unsnarl {
 namespace {
 
-/// First distance of a push-off / smallest height of the triangle; each further try is a tenth of the one before.
-constexpr double first_offset = 1e-3;
-constexpr int most_tries = 8;
+/// Distance of a push-off / smallest height of the triangle.
+constexpr double offset_of_height = 1e-3;
+/// No distance is larger than this / size of the mesh; where a large triangle has another sheet near, it is lowered to
+/// a tenth at a time, down to a hundred times what rounding does.
+constexpr double first_limit_rel = 1e-3, least_limit_rel = 1e-14;
 constexpr double grid_cells = 40;  // along the longest side
 
 /// A loop: faces, each joined to the next by an edge.
@@ -116,7 +119,7 @@ using Polygon = std::vector<Vec3>;
 class PushOffs {
  public:
   PushOffs(std::span<const Vec3> x, std::span<const Triangle> faces, const Loops& loops)
-      : x_(x), faces_(faces), loops_(loops), grid_(make_grid()) {
+      : x_(x), faces_(faces), loops_(loops), size_(size_of(x)), grid_(make_grid()) {
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const auto [lo, hi] = box({x[faces[f][0]], x[faces[f][1]], x[faces[f][2]]});
       grid_.insert(static_cast<Index>(f), lo, hi);
@@ -124,17 +127,20 @@ class PushOffs {
   }
 
   /// The loop on either side; none where some part of it meets the surface.
-  std::optional<std::array<Polygon, 2>> push(const Loop& loop, double offset) {
+  /// The distance is at most `limit_rel` / size.
+  std::optional<std::array<Polygon, 2>> push(const Loop& loop, double limit_rel) {
+    const double limit = limit_rel * size_;
+    const auto offset = [&](Index f) { return std::min(offset_of_height * room(f), limit); };
     std::array<Polygon, 2> sides;
     const std::size_t n = loop.faces.size();
     for (std::size_t k = 0; k < n; ++k) {
       const Index f = loop.faces[k], g = loop.faces[(k + 1) % n];
-      const Vec3 up = offset * room(f) * normal(f), above = place(f, 0) + up, below = place(f, 1) - up;
+      const Vec3 up = offset(f) * normal(f), above = place(f, 0) + up, below = place(f, 1) - up;
       if (!is_clear(above, below, {f, f})) return {};
       sides[0].push_back(above);
       sides[1].push_back(below);
       const Edge& edge = loops_.edge(loop.edges[k]);
-      const Vec3 out = offset * std::min(room(f), room(g)) * (normal(f) + normal(g)).normalized();
+      const Vec3 out = std::min(offset(f), offset(g)) * (normal(f) + normal(g)).normalized();
       const auto at_edge = [&](double t) { return Vec3((1 - t) * x_[edge[0]] + t * x_[edge[1]]); };
       const Vec3 out_above = at_edge(jitter(2 * loop.edges[k])) + out,
                  out_below = at_edge(jitter(2 * loop.edges[k] + 1)) - out;
@@ -152,20 +158,23 @@ class PushOffs {
   static std::array<Vec3, 2> box(const std::array<Vec3, 3>& t) {
     return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
   }
+  static double size_of(std::span<const Vec3> x) {
+    const auto [lo, hi] = box_of(x);
+    return (hi - lo).maxCoeff();
+  }
+  static std::array<Vec3, 2> box_of(std::span<const Vec3> x) {
+    std::array<Vec3, 2> result{x[0], x[0]};
+    for (const Vec3& p : x) result = {result[0].cwiseMin(p), result[1].cwiseMax(p)};
+    return result;
+  }
   FaceGrid make_grid() const {
-    Vec3 lo = x_[0], hi = x_[0];
-    for (const Vec3& p : x_) {
-      lo = lo.cwiseMin(p);
-      hi = hi.cwiseMax(p);
-    }
-    return {lo, hi, (hi - lo).maxCoeff() / grid_cells};
+    const auto [lo, hi] = box_of(x_);
+    return {lo, hi, size_ / grid_cells};
   }
 
   /// Between 0.4 and 0.6, another one for each number: points of symmetric meshes, and those above and below a level
   /// face, would lie in line.
-  static double jitter(Index id) {
-    return 0.4 + 0.2 * static_cast<double>((static_cast<std::uint32_t>(id) * 2654435761u) >> 8) / 16777216.0;
-  }
+  static double jitter(Index id) { return 0.4 + 0.2 * splitmix_number(static_cast<std::uint64_t>(id) * splitmix_step); }
   Vec3 place(Index f, Index side) const {
     const double s = jitter(4 * f + side), t = jitter(4 * f + 2 + side);
     const Vec3 middle = (1 - s) * x_[faces_[f][0]] + s * x_[faces_[f][1]];
@@ -196,6 +205,7 @@ class PushOffs {
   std::span<const Vec3> x_;
   std::span<const Triangle> faces_;
   const Loops& loops_;
+  double size_;  // longest side of the bounding box
   FaceGrid grid_;
 };
 
@@ -233,16 +243,19 @@ SeifertMatrix seifert_matrix(std::span<const Vec3> x, std::span<const Triangle> 
   PushOffs push_offs(x, faces, loops);
   std::vector<std::array<Polygon, 2>> pushed;
   for (const Loop& loop : basis) {
-    double offset = first_offset;
     std::optional<std::array<Polygon, 2>> sides;
-    for (int k = 0; k < most_tries && !sides; ++k, offset /= 10) sides = push_offs.push(loop, offset);
-    if (!sides) throw std::runtime_error("the sheets of the surface are too close to push a loop off it");
+    for (double limit_rel = first_limit_rel; limit_rel >= least_limit_rel && !sides; limit_rel /= 10)
+      sides = push_offs.push(loop, limit_rel);
+    if (!sides)
+      throw std::invalid_argument(
+          "the surface is too thin to tell its sides apart in 64-bit numbers; is the link much longer one way than "
+          "another? Stretch it");
     pushed.push_back(std::move(*sides));
   }
   for (std::size_t i = 0; i < basis.size(); ++i)
     for (std::size_t j = 0; j < basis.size(); ++j) {
       const std::optional<std::int64_t> number = linking_number(pushed[i][1], pushed[j][0]);
-      if (!number) throw std::runtime_error("two loops of the surface lie in line");
+      if (!number) throw std::invalid_argument("two loops of the surface lie in line; turn the link a little");
       matrix.entries[i * basis.size() + j] = *number;
     }
   return matrix;

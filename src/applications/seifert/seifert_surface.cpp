@@ -14,12 +14,14 @@ namespace {
 
 /// Edge lengths are chosen within these / diagonal: about 10,000 and 1,000 triangles for a surface of a few sheets.
 constexpr double finest_edge_rel = 1.0 / 45, coarsest_edge_rel = 1.0 / 20;
+/// Of what may be asked for: some ten million triangles.
+constexpr double least_edge_rel = 1e-3;
 /// Between the discs of nested circles / edge length of the coarsest level, so that fairing has room there.
 constexpr double disc_step = 1;
 
 void check(const SeifertOptions& options) {
-  if (!(options.edge_rel >= 0 && options.edge_rel <= 0.5))
-    throw std::invalid_argument(fmt::format("edge_rel is {}; give 0 to 0.5", options.edge_rel));
+  if (options.edge_rel != 0 && !(options.edge_rel >= least_edge_rel && options.edge_rel <= 0.5))
+    throw std::invalid_argument(fmt::format("edge_rel is {}; give {} to 0.5, or 0", options.edge_rel, least_edge_rel));
   if (options.views < 3 || options.views > 10000)
     throw std::invalid_argument(fmt::format("views is {}; give 3 to 10000", options.views));
   if (!(options.time_limit_s >= 0)) throw std::invalid_argument("time_limit_s is below 0");
@@ -59,12 +61,14 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
   if (options.fair) {
     const auto progress = [&](double fraction) {
       if (context && context->on_progress) context->on_progress({.fraction = fraction, .phase = "fair"});
+    };
+    const auto goes_on = [&] {
       if (context && context->is_cancelled()) result.status = Status::cancelled;
       if (options.time_limit_s > 0 && clock.stage("").seconds >= options.time_limit_s)
         result.status = Status::time_limit;
       return result.status == Status::embedded;
     };
-    mesh = fair(std::move(mesh), static_cast<Index>(link.point_count()), edge, {}, progress);
+    mesh = fair(std::move(mesh), static_cast<Index>(link.point_count()), edge, {}, progress, goes_on);
   }
   for (const Vec3& p : mesh.x) result.surface.positions.insert(result.surface.positions.end(), {p[0], p[1], p[2]});
   for (const Triangle& t : mesh.faces) {

@@ -4,20 +4,19 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/splitmix.h"
 #include "mesh/ear_clipper.h"
 
 namespace unsnarl {
 namespace {
 
-/// Of the room around a crossing in the picture, the half length of its band along both strands.
-constexpr double band_of_room = 0.4;
 /// The rim of the strand below winds around it on either side of the band: it starts this much farther from the
 /// crossing.
 constexpr double winding_of_band = 1.6;
-/// Of the smallest gap between the strands of a crossing, and of the smallest band, the width of the collar: all of it
-/// stays apart from the other strand's.
+/// Of the smallest gap between the strands of a crossing, and of the smallest room beside a strand within a band, the
+/// width of the collar: all of it stays apart from the other strand's.
 constexpr double collar_of_gap = 0.25;
-/// Corners of discs are moved by up to half of this aside / width of the collar.
+/// Corners of discs are moved by up to half of this aside / the smallest room beside a strand within a band.
 constexpr double corner_shift = 1e-3;
 
 /// A point of the collar's free rim, in the frame of the diagram.
@@ -56,11 +55,19 @@ class Construction {
     const Positions& p = diagram_.points[strand.component];
     return (p.col((strand.edge + 1) % p.cols()) - p.col(strand.edge)).head<2>().normalized();
   }
+  /// The strand below has the one above it to its left (1) or right (-1) where that comes from.
+  int side_of_over(const LinkDiagram::Crossing& c) const {
+    const Vec2 a = direction(c.under), b = direction(c.over);
+    return a.x() * b.y() - a.y() * b.x() > 0 ? 1 : -1;
+  }
 
   void make_rim() {
     double& collar = collar_ = step_;
-    for (const LinkDiagram::Crossing& c : diagram_.crossings)
-      collar = std::min({collar, collar_of_gap * c.gap, collar_of_gap * band_of_room * c.radius});
+    beside_ = step_;
+    for (const LinkDiagram::Crossing& c : diagram_.crossings) {
+      beside_ = std::min(beside_, c.beside);
+      collar = std::min({collar, collar_of_gap * c.gap, collar_of_gap * beside_});
+    }
     Index first_vertex = 0;
     for (std::size_t c = 0; c < diagram_.points.size(); ++c) {
       const Positions& p = diagram_.points[c];
@@ -84,16 +91,18 @@ class Construction {
           const LinkDiagram::Crossing& crossing = diagram_.crossings[visit.crossing];
           const LinkDiagram::Strand& strand = visit.over ? crossing.over : crossing.under;
           if (strand.edge != k) break;
-          const double half = band_of_room * crossing.radius / length;
+          const double half = crossing.band / length;
           if (!visit.over) put(strand.fraction - winding_of_band * half);
           for (const bool arrives : {true, false}) {
             RimPoint& r = put(strand.fraction + (arrives ? -half : half));
             r.crossing = visit.crossing;
             r.over = visit.over;
             r.arrives = arrives;
-            // Below, the rim changes sides above its strand: from the side of the one circle to that of the other.
+            // Below, the rim changes sides above its strand: from the side of the one circle to that of the other. It
+            // does so straight across the strand and by the same way at every crossing, see hang_collar().
             if (!visit.over) {
-              r.x.head<2>() += (arrives ? collar : -collar) * direction(crossing.over);
+              const Vec2 along = direction(crossing.under), left(-along.y(), along.x());
+              r.x.head<2>() += (arrives == (side_of_over(crossing) > 0) ? collar : -collar) * left;
               r.x.z() += 2 * collar;
             }
           }
@@ -109,6 +118,11 @@ class Construction {
 
   /// From every edge of the link to the rim below it: a fan from its first end, up to the middle, and one from its
   /// second.
+  ///
+  /// Seen from an end, however often the rim winds around the edge, it does not cross itself: across the edge, all of
+  /// its points have the places (0, -w) or (+-w, w), the corners of one triangle T around the edge, and the farther
+  /// ones are seen nearer to the edge. Along each piece of the rim, which follows a side of T or leads straight to the
+  /// edge, the size of T that is seen there falls evenly; so no size, and no place, is seen twice.
   void hang_collar() {
     for (std::size_t k = 0; k < rim_.size(); ++k) {
       const RimPoint &r = rim_[k], &next = rim_[r.next];
@@ -172,10 +186,9 @@ class Construction {
     for (std::size_t i = 0; i < circles.size(); ++i) hang_wall(circles[i], lowest - step_ * (1 + deepest - depth[i]));
   }
 
-  /// Another one for each number, far below the width of the collar.
+  /// Another one for each number, far below the room between walls.
   double shift(Index k) const {
-    const auto hash = static_cast<double>((static_cast<std::uint32_t>(k) * 2654435761u) >> 8) * 0x1p-24;
-    return corner_shift * collar_ * (hash - 0.5);
+    return corner_shift * beside_ * (splitmix_number(static_cast<std::uint64_t>(k) * splitmix_step) - 0.5);
   }
 
   void hang_wall(const std::vector<Index>& circle, double height) {
@@ -205,6 +218,7 @@ class Construction {
   const LinkDiagram& diagram_;
   const double step_;
   double collar_ = 0;  // its width
+  double beside_ = 0;  // the smallest room beside a strand within a band, in the picture
   SpanningMesh mesh_;
   std::vector<RimPoint> rim_;
   std::vector<Index> rim_vertex_;

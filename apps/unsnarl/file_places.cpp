@@ -1,0 +1,60 @@
+#include "file_places.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include "mesh_input.h"
+#include "staged_output.h"
+#include "standard_streams.h"
+#include "usage_error.h"
+
+namespace unsnarl::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Two paths of one file have one of these in common: the path without links, or the file's number on its device.
+std::vector<std::string> identities_of(const fs::path& path) {
+  if (path == standard_stream) return {standard_stream};
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(path), error);
+  std::vector<std::string> identities = {(error ? fs::absolute(path).lexically_normal() : canonical).string()};
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0)
+    identities.push_back(fmt::format("file {} on device {}", status.st_ino, status.st_dev));
+  return identities;
+}
+
+bool is_device(const fs::path& path) {
+  return path != standard_stream && is_stream(path.string());
+}
+
+}  // namespace
+
+void FilePlaces::reads(const std::string& what, const fs::path& path) {
+  if (path.empty() || is_stream(path.string())) return;
+  claim(path, {what, "", false});
+}
+
+void FilePlaces::writes(const std::string& what, const fs::path& path, const std::string& advice) {
+  if (path.empty() || is_device(path)) return;
+  claim(path, {what, advice, true});
+  if (path != standard_stream) outputs_.push_back(path);
+}
+
+void FilePlaces::claim(const fs::path& path, const File& file) {
+  const std::vector<std::string> identities = identities_of(path);
+  for (const std::string& identity : identities) {
+    const auto other = files_.find(identity);
+    if (other == files_.end() || !(other->second.is_written || file.is_written)) continue;
+    throw UsageError(fmt::format("{} and {} are the same ({}); {}", other->second.what, file.what, path.string(),
+                                 file.is_written ? file.advice : other->second.advice));
+  }
+  for (const std::string& identity : identities) files_.emplace(identity, file);
+}
+
+void FilePlaces::require_writable(Interruption& interruption) const {
+  for (const fs::path& path : outputs_) StagedOutput(path, interruption);
+}
+
+}  // namespace unsnarl::app
