@@ -100,7 +100,7 @@ TEST_F(Cli, VersionsOfAllLibraries) {
 TEST_F(Cli, UsageErrorsExitWith2) {
   const std::string in = file("in.obj", clean_cube);
   expect_refusal({}, 2, "");
-  expect_refusal({"mend"}, 2, "fix, batch, check, view, sample, curves, isotopy or seifert");
+  expect_refusal({"mend"}, 2, "fix, batch, check, view, sample, curves, isotopy, seifert or routes");
   expect_refusal({"fix"}, 2, "IN");
   expect_refusal({"fix", in}, 2, "-o");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--frobnicate"}, 2, "frobnicate");
