@@ -259,6 +259,11 @@ RecoverOptions RecoverOptions::paper() {
   options.step.shorten_all = true;
   options.step.kept_distance = CcdOptions{}.slack;
   options.objective.time_step = 1;
+  // The default's additions.
+  options.objective.flip_weight = 0;
+  options.step.kept_area = 0;
+  options.step.cap = std::numeric_limits<double>::infinity();
+  options.snap_reach = 0;
   options.unflip_rounds = 0;
   options.most_farther = std::numeric_limits<double>::infinity();
   return options;
