@@ -311,13 +311,13 @@ class Fix {
   void measure_clearances() {
     if (options_.report.empty() && options_.min_dihedral_deg <= 0) return;
     const Surface& input = surface();
-    const auto measured = [&](std::span<const double> positions) {
-      return measure_clearance(input, positions, repair_options_.find);
+    const auto measured = [&](std::span<const double> positions, std::size_t pairs) {
+      return measure_clearance(input, positions, repair_options_.find, pairs == 0);
     };
-    files_.clearance_before = measured(input.positions);
+    files_.clearance_before = measured(input.positions, result_.report.before.total());
     if (files_.output.empty()) return;
     const std::vector<double> written = scene_.as_written(result_.positions, float32_digits());
-    files_.clearance_after = written == input.positions ? files_.clearance_before : measured(written);
+    files_.clearance_after = written == input.positions ? files_.clearance_before : measured(written, result_.report.after.total());
   }
 
   void write_report() {

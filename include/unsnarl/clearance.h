@@ -27,8 +27,9 @@ struct Clearance {
 };
 
 /// Measures `positions` (3 n doubles, vertex order of `input`) of the input's faces, which are welded and cut into
-/// triangles as the input is. Throws std::invalid_argument as certify() does.
+/// triangles as the input is. is_embedded: that no two faces intersect there is known, and not looked for again; else
+/// false. Throws std::invalid_argument as certify() does.
 Clearance measure_clearance(const SurfaceView& input, std::span<const double> positions,
-                            const FindOptions& options = {});
+                            const FindOptions& options = {}, bool is_embedded = false);
 
 }  // namespace unsnarl

@@ -25,7 +25,8 @@ void take(const SmallestGap& gap, const std::vector<Index>& polygon, double& dis
 
 }  // namespace
 
-Clearance measure_clearance(const SurfaceView& input, std::span<const double> positions, const FindOptions& options) {
+Clearance measure_clearance(const SurfaceView& input, std::span<const double> positions, const FindOptions& options,
+                            bool is_embedded) {
   if (positions.size() != input.positions.size())
     throw std::invalid_argument("there are " + std::to_string(positions.size() / 3) + " positions for a surface of " +
                                 std::to_string(input.vertex_count()) + " vertices");
@@ -41,7 +42,8 @@ Clearance measure_clearance(const SurfaceView& input, std::span<const double> po
     result.dihedral_faces = {polygon[hinges[angle.hinge].first], polygon[hinges[angle.hinge].second]};
   }
   const Components components = find_components(triangles, static_cast<Index>(x.cols()), build_edges(triangles));
-  const std::vector<IntersectingPair> pairs = IntersectionFinder(triangles).find(x);
+  std::vector<IntersectingPair> pairs;
+  if (!is_embedded) pairs = IntersectionFinder(triangles).find(x);
   for (const IntersectingPair& pair : pairs) {
     result.gap = 0;
     if (components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b]) result.component_gap = 0;
