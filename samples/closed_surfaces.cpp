@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "samples/block_surface.h"
 #include "samples/mesh_builder.h"
@@ -10,8 +9,6 @@
 
 namespace unsnarl {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// A sphere's steps along its equator are four sides of the cube that it is made from.
 int cube_divisions(int resolution) {

@@ -1,13 +1,11 @@
 #include <cmath>
-#include <numbers>
 
+#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 
 namespace unsnarl {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Paper fig. 21, left. The radius swells once on the way, so that the windings cross instead of coinciding.
 Surface cylinder_wrapped(int resolution, const SampleValues& values) {

@@ -1,11 +1,10 @@
 #include "samples/klein_maps.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "samples/mesh_builder.h"
 
 namespace unsnarl {
-
-constexpr double pi = std::numbers::pi;
 
 Vec3 klein_bottle_map(double t, double v) {
   constexpr double a = 0.75, b = 2.0;  // half the width and height of the drop

@@ -1,13 +1,11 @@
 #include <cmath>
-#include <numbers>
 
+#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 
 namespace unsnarl {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Surface enneper(int resolution, const SampleValues& values) {
   const double reach = values["reach"];

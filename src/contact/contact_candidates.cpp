@@ -11,11 +11,11 @@ namespace unsnarl {
 namespace {
 
 /// What rounding may add to a length relative to it, with much to spare.
-constexpr double rounding = 1e-9;
+constexpr double length_rounding = 1e-9;
 /// Cross products shorter than this are not made unit vectors: their squares may underflow.
 constexpr double least_normal = 1e-140;
 
-constexpr Index chunk = 1024;  // triangles or edges a task
+constexpr Index primitives_a_task = 1024;  // triangles or edges
 
 /// What is passed along an axis by points that start at `at` and move by up to `motion`.
 struct Interval {
@@ -46,7 +46,7 @@ bool stay_apart_along_normal(double length, const Positions& x, const Positions&
   const double p2 = std::max(
       {p.col(e[0]).squaredNorm(), p.col(e[1]).squaredNorm(), p.col(g[0]).squaredNorm(), p.col(g[1]).squaredNorm()});
   const double extent2 = 4 * (u2 + v2 + r.squaredNorm() + 4 * p2);
-  const double error2 = rounding * rounding * extent2 * u2 * v2;
+  const double error2 = length_rounding * length_rounding * extent2 * u2 * v2;
   return apart > 0 && apart * apart > 1.001 * length * length * n.squaredNorm() + 1001 * error2;
 }
 
@@ -134,7 +134,7 @@ void ContactCandidates::update_triangle(const Positions& x, double radius, const
     box.extend(ways[k]);
   }
   const auto reaching = [&](const Box& way, double around) {
-    return way.inflated(0.5 * radius + (1 + rounding) * around);
+    return way.inflated(0.5 * radius + (1 + length_rounding) * around);
   };
   boxes_[t] = reaching(box, slab.around);
   Reach& reach = reach_[t];
@@ -166,7 +166,7 @@ void ContactCandidates::gather(const Positions& x, double radius, const MotionBo
   // What stands still needs no looking at, however much of it there is: only pairs with a moving triangle are visited.
   const Index triangle_count = static_cast<Index>(triangles_.size());
   moving_.resize(triangles_.size());
-  for_chunks(triangle_count, chunk, [&](Index begin, Index end) {
+  for_chunks(triangle_count, primitives_a_task, [&](Index begin, Index end) {
     for (Index t = begin; t < end; ++t) {
       const Triangle& f = triangles_[t];
       moving_[t] = moves[f[0]] || moves[f[1]] || moves[f[2]];
@@ -195,7 +195,7 @@ void ContactCandidates::gather_around(std::span<const Index> vertices, const Pos
       moving_[t] = 1;
     }
   }
-  for_chunks(static_cast<Index>(touched.size()), chunk, [&](Index begin, Index end) {
+  for_chunks(static_cast<Index>(touched.size()), primitives_a_task, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) update_triangle(x, radius, bounds, touched[k]);
   });
   bvh_.refit(boxes_, touched);
@@ -231,7 +231,8 @@ void ContactCandidates::gather_pair(const Positions& x, double radius, const Mot
       const double reach = radius + (bounds.around[v] + slab.around);
       const Vec3 to = x.col(v) - x.col(f[0]);
       const Interval range(slab.normal.dot(to), slab.normal.dot(bounds.along.col(v)));
-      if (std::max(range.lo - slab.hi, slab.lo - range.hi) > reach + rounding * (reach + to.cwiseAbs().sum())) return;
+      if (std::max(range.lo - slab.hi, slab.lo - range.hi) > reach + length_rounding * (reach + to.cwiseAbs().sum()))
+        return;
       append({StencilKind::vertex_face, {v, f[0], f[1], f[2]}, {v, other}});
     });
   };

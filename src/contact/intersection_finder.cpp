@@ -12,12 +12,12 @@ namespace unsnarl {
 namespace {
 
 /// Share of the triangles, or of the active ones, below which those that moved are worth telling apart.
-constexpr double few = 0.25;
+constexpr double few_moved = 0.25;
 /// A surface that has moved as a whole so many times will go on to do so.
 constexpr int seldom = 2;
 
 bool is_few(std::size_t count, std::size_t of) {
-  return static_cast<double>(count) < few * static_cast<double>(of);
+  return static_cast<double>(count) < few_moved * static_cast<double>(of);
 }
 
 TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {

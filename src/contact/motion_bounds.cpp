@@ -8,7 +8,7 @@ namespace unsnarl {
 namespace {
 
 /// What rounding may add to a projection, relative to the lengths projected, with much to spare.
-constexpr double rounding = 1e-14;
+constexpr double projection_rounding = 1e-14;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ double least_distance(const Stencil& s, const Positions& x, const MotionBounds& 
       farthest = std::max(farthest, at + std::max(0.0, motion));
     length = std::max(length, from_origin.cwiseAbs().sum() + p.cwiseAbs().sum());
   }
-  return nearest - farthest - (around[0] + around[1]) - rounding * length;
+  return nearest - farthest - (around[0] + around[1]) - projection_rounding * length;
 }
 
 }  // namespace unsnarl

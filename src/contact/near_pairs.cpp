@@ -4,18 +4,19 @@
 
 #include "geometry/parallel_lists.h"
 #include "geometry/parallel_sums.h"
+#include "mesh/adjacency.h"
 
 namespace unsnarl {
 namespace {
 
-constexpr Index chunk = 2048;  // triangles a task
+constexpr Index triangles_a_task = 2048;
 // Room around a box: for so many motions like the last, within these shares of the mean diagonal of the boxes. Who is
 // faster still would leave it at once and gets none.
 constexpr double motions = 12;
 constexpr double least_room = 0.03;
 constexpr double most_room = 0.4;
 /// Share of the triangles up to which those that left their boxes are looked up one by one.
-constexpr double few = 0.2;
+constexpr double few_left = 0.2;
 
 bool contains(const Box& outer, const Box& inner) {
   return (outer.lo.array() <= inner.lo.array()).all() && (inner.hi.array() <= outer.hi.array()).all();
@@ -23,10 +24,6 @@ bool contains(const Box& outer, const Box& inner) {
 
 double motion(const Box& from, const Box& to) {
   return std::max((to.lo - from.lo).cwiseAbs().maxCoeff(), (to.hi - from.hi).cwiseAbs().maxCoeff());
-}
-
-bool share_a_vertex(const Triangle& a, const Triangle& b) {
-  return std::any_of(a.begin(), a.end(), [&](Index v) { return v == b[0] || v == b[1] || v == b[2]; });
 }
 
 }  // namespace
@@ -44,7 +41,7 @@ void NearPairs::update(const Positions& x, double margin) {
       length_ += boxes_[t].diagonal() / n;
     }
   }
-  const double left = sum_in_chunks(n, chunk, [&](Index begin, Index end) {
+  const double left = sum_in_chunks(n, triangles_a_task, [&](Index begin, Index end) {
     double count = 0;
     for (Index t = begin; t < end; ++t) {
       const Box box = box_of(x, triangles_[t]);
@@ -73,7 +70,7 @@ void NearPairs::update(const Positions& x, double margin) {
   } else {
     bvh_.refit(roomy_);
   }
-  if (left > few * n)
+  if (left > few_left * n)
     look_for_all();
   else
     look_for_those_that_left();
@@ -90,7 +87,7 @@ void NearPairs::look_for_all() {
 void NearPairs::look_for_those_that_left() {
   std::erase_if(pairs_, [&](const Pair& pair) { return left_[pair[0]] || left_[pair[1]]; });
   std::vector<Pair> found;
-  gather_in_chunks(static_cast<Index>(triangles_.size()), chunk, found,
+  gather_in_chunks(static_cast<Index>(triangles_.size()), triangles_a_task, found,
                    [&](Index begin, Index end, std::vector<Pair>& list) {
                      for (Index t = begin; t < end; ++t) {
                        if (!left_[t]) continue;

@@ -7,13 +7,10 @@
 
 #include "contact/distances.h"
 #include "geometry/box.h"
+#include "mesh/adjacency.h"
 
 namespace unsnarl {
 namespace {
-
-bool share_a_vertex(const Triangle& s, const Triangle& t) {
-  return std::any_of(s.begin(), s.end(), [&](Index v) { return std::find(t.begin(), t.end(), v) != t.end(); });
-}
 
 /// A lower bound of the distance of two triangles: how far apart their projections are onto the line of their centres.
 double gap_between_projections(const Positions& x, const Triangle& s, const Triangle& t) {

@@ -9,7 +9,7 @@
 namespace unsnarl {
 namespace {
 
-constexpr Index chunk = 1024;               // vertices a task
+constexpr Index vertices_a_task = 1024;
 constexpr std::size_t most_triangles = 16;  // of a fan: ordering them costs their square
 constexpr std::uint8_t no_axis = 3;
 
@@ -105,7 +105,7 @@ void VertexFans::update_vertex(const Positions& x, Index v) {
 }
 
 void VertexFans::update(const Positions& x) {
-  for_chunks(static_cast<Index>(unfolded_.size()), chunk, [&](Index begin, Index end) {
+  for_chunks(static_cast<Index>(unfolded_.size()), vertices_a_task, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v) update_vertex(x, v);
   });
 }

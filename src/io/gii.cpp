@@ -2,7 +2,6 @@
 // the TRIANGLE arrays in the same order. Coordinate systems, metadata and all other arrays are passed on.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -14,20 +13,16 @@
 namespace unsnarl {
 namespace {
 
-struct TypeName {
-  std::string_view name;
-  NumberType type;
-};
-constexpr auto type_names = std::to_array<TypeName>({{"NIFTI_TYPE_INT8", NumberType::int8},
-                                                     {"NIFTI_TYPE_UINT8", NumberType::uint8},
-                                                     {"NIFTI_TYPE_INT16", NumberType::int16},
-                                                     {"NIFTI_TYPE_UINT16", NumberType::uint16},
-                                                     {"NIFTI_TYPE_INT32", NumberType::int32},
-                                                     {"NIFTI_TYPE_UINT32", NumberType::uint32},
-                                                     {"NIFTI_TYPE_INT64", NumberType::int64},
-                                                     {"NIFTI_TYPE_UINT64", NumberType::uint64},
-                                                     {"NIFTI_TYPE_FLOAT32", NumberType::float32},
-                                                     {"NIFTI_TYPE_FLOAT64", NumberType::float64}});
+constexpr auto gii_types = std::to_array<NumberTypeName>({{"NIFTI_TYPE_INT8", NumberType::int8},
+                                                          {"NIFTI_TYPE_UINT8", NumberType::uint8},
+                                                          {"NIFTI_TYPE_INT16", NumberType::int16},
+                                                          {"NIFTI_TYPE_UINT16", NumberType::uint16},
+                                                          {"NIFTI_TYPE_INT32", NumberType::int32},
+                                                          {"NIFTI_TYPE_UINT32", NumberType::uint32},
+                                                          {"NIFTI_TYPE_INT64", NumberType::int64},
+                                                          {"NIFTI_TYPE_UINT64", NumberType::uint64},
+                                                          {"NIFTI_TYPE_FLOAT32", NumberType::float32},
+                                                          {"NIFTI_TYPE_FLOAT64", NumberType::float64}});
 
 class GiftiParser {
  public:
@@ -81,9 +76,9 @@ class GiftiParser {
     numbers.count = 3 * result.rows;
     result.by_columns = element.attribute("ArrayIndexingOrder").value() == std::string_view("ColumnMajorOrder");
     const std::string_view type_name = element.attribute("DataType").value();
-    const auto* type = std::find_if(type_names.begin(), type_names.end(), [&](auto& t) { return t.name == type_name; });
-    if (type == type_names.end()) fail("DataType is no type of GIFTI");
-    numbers.type = type->type;
+    const std::optional<NumberType> type = number_type(type_name, gii_types);
+    if (!type) fail("DataType is no type of GIFTI");
+    numbers.type = *type;
     const bool is_big = element.attribute("Endian").value() == std::string_view("BigEndian");
     numbers.order = is_big ? std::endian::big : std::endian::little;
 

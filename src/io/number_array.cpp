@@ -41,6 +41,11 @@ bool is_integer(NumberType type) {
   return type != NumberType::float32 && type != NumberType::float64;
 }
 
+std::optional<NumberType> number_type(std::string_view name, std::span<const NumberTypeName> names) {
+  const auto found = std::find_if(names.begin(), names.end(), [&](const NumberTypeName& t) { return t.name == name; });
+  return found != names.end() ? std::optional(found->type) : std::nullopt;
+}
+
 double load_number(const char* from, NumberType type, std::endian order) {
   return with_type(type, [&](auto zero) { return static_cast<double>(load<decltype(zero)>(from, order)); });
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,14 @@ namespace unsnarl {
 enum class NumberType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 std::size_t size_of(NumberType type);
 bool is_integer(NumberType type);
+
+/// The name that a format gives a type of numbers.
+struct NumberTypeName {
+  std::string_view name;
+  NumberType type;
+};
+/// Nothing: none of `names` is this one.
+std::optional<NumberType> number_type(std::string_view name, std::span<const NumberTypeName> names);
 
 /// The number stored at `from`, which need not be aligned; whole numbers are exact up to 2^53.
 double load_number(const char* from, NumberType type, std::endian order);

@@ -11,7 +11,7 @@
 namespace unsnarl {
 namespace {
 
-enum Magic : std::uint32_t { triangles = 0xFFFFFE, quads_of_integers = 0xFFFFFF, quads_of_floats = 0xFFFFFD };
+enum Magic : std::uint32_t { triangles_magic = 0xFFFFFE, quads_of_integers = 0xFFFFFF, quads_of_floats = 0xFFFFFD };
 
 /// Three bytes.
 std::uint32_t short_word(std::string_view bytes, std::size_t at) {
@@ -30,7 +30,7 @@ class SurfParser {
           "byte 0: a FreeSurfer surface starts with the bytes FF FF FE (triangles), FF FF FF or FF FF FD "
           "(quadrangles); check the format");
     }
-    if (short_word(bytes_, 0) == triangles) {
+    if (short_word(bytes_, 0) == triangles_magic) {
       parse_triangles();
     } else {
       parse_quads(short_word(bytes_, 0) == quads_of_integers);

@@ -2,7 +2,6 @@
 // Formats"; vtkDataReader.cxx for 5.1). Polygons and triangle strips make the surface; all else is passed on.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <tuple>
 
@@ -13,24 +12,20 @@
 namespace unsnarl {
 namespace {
 
-struct TypeName {
-  std::string_view name;
-  NumberType type;
-};
-constexpr auto type_names = std::to_array<TypeName>({{"float", NumberType::float32},
-                                                     {"double", NumberType::float64},
-                                                     {"char", NumberType::int8},
-                                                     {"signed_char", NumberType::int8},
-                                                     {"unsigned_char", NumberType::uint8},
-                                                     {"short", NumberType::int16},
-                                                     {"unsigned_short", NumberType::uint16},
-                                                     {"int", NumberType::int32},
-                                                     {"unsigned_int", NumberType::uint32},
-                                                     {"long", NumberType::int64},
-                                                     {"unsigned_long", NumberType::uint64},
-                                                     {"vtkidtype", NumberType::int32},
-                                                     {"vtktypeint64", NumberType::int64},
-                                                     {"vtktypeuint64", NumberType::uint64}});
+constexpr auto vtk_types = std::to_array<NumberTypeName>({{"float", NumberType::float32},
+                                                          {"double", NumberType::float64},
+                                                          {"char", NumberType::int8},
+                                                          {"signed_char", NumberType::int8},
+                                                          {"unsigned_char", NumberType::uint8},
+                                                          {"short", NumberType::int16},
+                                                          {"unsigned_short", NumberType::uint16},
+                                                          {"int", NumberType::int32},
+                                                          {"unsigned_int", NumberType::uint32},
+                                                          {"long", NumberType::int64},
+                                                          {"unsigned_long", NumberType::uint64},
+                                                          {"vtkidtype", NumberType::int32},
+                                                          {"vtktypeint64", NumberType::int64},
+                                                          {"vtktypeuint64", NumberType::uint64}});
 
 std::string lower_case(std::string_view word) {
   std::string result(word);
@@ -109,10 +104,10 @@ class VtkParser {
   NumberType type() {
     text_.skip_space();
     const std::string name = lower_case(text_.peek());
-    const auto* known = std::find_if(type_names.begin(), type_names.end(), [&](auto& t) { return t.name == name; });
-    if (known == type_names.end()) text_.fail(fmt::format("{} is no type of numbers that is read", in_quotes(name)));
+    const std::optional<NumberType> known = number_type(name, vtk_types);
+    if (!known) text_.fail(fmt::format("{} is no type of numbers that is read", in_quotes(name)));
     text_.token();
-    return known->type;
+    return *known;
   }
 
   /// The array that starts here; in binary that is the next line.

@@ -19,20 +19,16 @@
 namespace unsnarl {
 namespace {
 
-struct TypeName {
-  std::string_view name;
-  NumberType type;
-};
-constexpr auto type_names = std::to_array<TypeName>({{"Int8", NumberType::int8},
-                                                     {"UInt8", NumberType::uint8},
-                                                     {"Int16", NumberType::int16},
-                                                     {"UInt16", NumberType::uint16},
-                                                     {"Int32", NumberType::int32},
-                                                     {"UInt32", NumberType::uint32},
-                                                     {"Int64", NumberType::int64},
-                                                     {"UInt64", NumberType::uint64},
-                                                     {"Float32", NumberType::float32},
-                                                     {"Float64", NumberType::float64}});
+constexpr auto vtp_types = std::to_array<NumberTypeName>({{"Int8", NumberType::int8},
+                                                          {"UInt8", NumberType::uint8},
+                                                          {"Int16", NumberType::int16},
+                                                          {"UInt16", NumberType::uint16},
+                                                          {"Int32", NumberType::int32},
+                                                          {"UInt32", NumberType::uint32},
+                                                          {"Int64", NumberType::int64},
+                                                          {"UInt64", NumberType::uint64},
+                                                          {"Float32", NumberType::float32},
+                                                          {"Float64", NumberType::float64}});
 
 /// Numbers before a piece of binary data, which say how long it is.
 struct Headers {
@@ -315,13 +311,12 @@ class VtpParser {
     NumberArray result;
     result.where = std::move(where);
     const std::string_view type_name = element.attribute("type").value();
-    const auto* type = std::find_if(type_names.begin(), type_names.end(), [&](auto& t) { return t.name == type_name; });
-    if (type == type_names.end())
-      xml_.fail(element, fmt::format("{}: type {} is not read", result.where, in_quotes(type_name)));
+    const std::optional<NumberType> type = number_type(type_name, vtp_types);
+    if (!type) xml_.fail(element, fmt::format("{}: type {} is not read", result.where, in_quotes(type_name)));
     if (rows > bytes_.size() * largest_numbers_per_byte)
       xml_.fail(element, fmt::format("{}: {} rows cannot be in a file of {} bytes; it is cut short or damaged",
                                      result.where, rows, bytes_.size()));
-    result.type = type->type;
+    result.type = *type;
     result.count = components * rows;
     result.order = headers_.order;
     const std::string_view format = element.attribute("format").value();

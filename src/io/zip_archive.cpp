@@ -38,11 +38,11 @@ struct Discard {
   void operator()(zip_file_t* file) const { zip_fclose(file); }
 };
 using Archive = std::unique_ptr<zip_t, Discard>;
-using Source = std::unique_ptr<zip_source_t, Discard>;
+using ZipSource = std::unique_ptr<zip_source_t, Discard>;
 
 /// An archive over `bytes`, and its source, which stays usable after the archive is closed. One that is to be written
 /// gets a copy, since libzip 1.7 frees the unchanged part at the front of a written buffer, whosever it is.
-std::pair<Archive, Source> opened(std::string_view bytes, bool is_written) {
+std::pair<Archive, ZipSource> opened(std::string_view bytes, bool is_written) {
   Error error;
   const char* data = bytes.data();
   if (is_written) {
@@ -51,7 +51,7 @@ std::pair<Archive, Source> opened(std::string_view bytes, bool is_written) {
     std::copy(bytes.begin(), bytes.end(), copy);
     data = copy;
   }
-  Source source(zip_source_buffer_create(data, bytes.size(), is_written ? 1 : 0, error.get()));
+  ZipSource source(zip_source_buffer_create(data, bytes.size(), is_written ? 1 : 0, error.get()));
   if (!source) throw std::bad_alloc();
   zip_source_keep(source.get());
   Archive archive(zip_open_from_source(source.get(), is_written ? 0 : ZIP_RDONLY, error.get()));
@@ -76,7 +76,7 @@ void check(bool is_good, zip_t* archive) {
 
 struct ZipArchive::Handle {
   Archive archive;
-  Source source;
+  ZipSource source;
 };
 
 ZipArchive::ZipArchive(std::string_view bytes) : bytes_(bytes), handle_(std::make_unique<Handle>()) {

@@ -10,7 +10,7 @@ namespace unsnarl {
 namespace {
 
 /// Deflate makes nothing smaller than this (zlib's Technical Details, "Maximum Compression Factor").
-constexpr std::size_t largest_ratio = 1032;
+constexpr std::size_t largest_zlib_ratio = 1032;
 constexpr int any_wrapper = MAX_WBITS + 32, gzip_wrapper = MAX_WBITS + 16;
 
 /// Gives the stream as many bytes as its counters can count.
@@ -32,7 +32,7 @@ void offer(z_stream& z, std::string_view& input, char*& output, std::size_t& roo
 }  // namespace
 
 std::optional<std::string> inflated(std::string_view stream, std::size_t size) {
-  if (size / largest_ratio > stream.size()) return std::nullopt;
+  if (size / largest_zlib_ratio > stream.size()) return std::nullopt;
   std::string result(size + 1, '\0');  // one more, to see a stream that is too long
   z_stream z{};
   if (inflateInit2(&z, any_wrapper) != Z_OK) throw std::bad_alloc();

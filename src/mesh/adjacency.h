@@ -1,11 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "geometry/types.h"
 
 namespace unsnarl {
+
+inline bool share_a_vertex(const Triangle& a, const Triangle& b) {
+  return std::any_of(a.begin(), a.end(), [&](Index v) { return v == b[0] || v == b[1] || v == b[2]; });
+}
 
 /// Lists of indices, one list an element, stored end to end.
 struct IndexLists {

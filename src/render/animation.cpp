@@ -22,7 +22,7 @@ constexpr Colour red = {0.80, 0.16, 0.14}, pale_red = {0.93, 0.83, 0.82};
 constexpr Colour blue = {0.20, 0.38, 0.66}, pale_blue = {0.78, 0.83, 0.90};
 
 /// Largest side of a magnified part, in heights of the view: it is magnified three times at least.
-constexpr double largest_window = 0.28;
+constexpr double largest_animated_window = 0.28;
 /// In heights of the view: red faces that do not all fit are magnified where six of their edges are shorter.
 constexpr double small_window = 0.1;
 /// Most frames to show; of more, every second one is left out: each takes up to 100 kB of a GIF.
@@ -170,8 +170,8 @@ void draw_legend(Image& image, double y, double size, int x_end) {
 /// The part to show beside the whole: all conflicts where they lie close together, else most of them if they are hard
 /// to see.
 std::optional<Window> close_up(const Drawable& drawable, const Camera& camera, int width, int height) {
-  const auto window = worth_magnifying(drawable, camera, width, height, largest_window);
-  const bool is_all = window && window->side < 0.999 * largest_window * height;
+  const auto window = worth_magnifying(drawable, camera, width, height, largest_animated_window);
+  const bool is_all = window && window->side < 0.999 * largest_animated_window * height;
   return is_all || worth_magnifying(drawable, camera, width, height, small_window) ? window : std::nullopt;
 }
 

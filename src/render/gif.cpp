@@ -18,7 +18,7 @@ namespace {
 constexpr int colour_count = 256;
 constexpr std::uint8_t unchanged = colour_count - 1;  // transparent: what was there before shows through
 
-struct Rectangle {
+struct PixelRange {
   int left, top, right, bottom;  // right and bottom are outside
 };
 
@@ -50,7 +50,7 @@ class GifWriter {
   GifWriter(const GifWriter&) = delete;
   GifWriter& operator=(const GifWriter&) = delete;
 
-  void add(const std::vector<std::uint8_t>& pixels, int width, const Rectangle& part, int delay_hundredths) {
+  void add(const std::vector<std::uint8_t>& pixels, int width, const PixelRange& part, int delay_hundredths) {
     const GraphicsControlBlock control{DISPOSE_DO_NOT, false, delay_hundredths, unchanged};
     std::array<GifByteType, 4> block{};
     EGifGCBToExtension(&control, block.data());
@@ -104,7 +104,7 @@ std::string encode_gif(std::span<const Image> images, std::span<const double> de
   std::vector<std::uint8_t> shown(size), next(size), difference(size);
   for (std::size_t f = 0; f < images.size(); ++f) {
     for (std::size_t i = 0; i < size; ++i) next[i] = palette.nearest(&images[f].pixels[3 * i]);
-    Rectangle part{width, height, 0, 0};
+    PixelRange part{width, height, 0, 0};
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const std::size_t i = static_cast<std::size_t>(y) * width + x;

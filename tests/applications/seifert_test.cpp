@@ -13,7 +13,7 @@
 namespace unsnarl {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string link_refusal(const std::string& text) {
   try {
     check_link(parse_link(text));
   } catch (const std::exception& e) {
@@ -68,18 +68,19 @@ TEST(ParseLink, PlanarDiagramsKeepTheirHandedness) {
 }
 
 TEST(ParseLink, SaysWhatIsWrongAndWhere) {
-  EXPECT_NE(refusal("").find("nothing in it"), std::string::npos);
-  EXPECT_EQ(refusal("0 0 0\n1 0\n"), "line 2: 2 numbers; a point has three, 'x y z'");
-  EXPECT_NE(refusal("0 0 0\n1 x 0\n").find("line 2: 'x 0' is no coordinate"), std::string::npos);
-  EXPECT_NE(refusal("0 0 0\n1 0 0\n").find("component 0 has 2 points"), std::string::npos);
-  EXPECT_NE(refusal("0 0 0\n1 0 0\n1 0 0\n0 1 0\n").find("points 1 and 2 of component 0 are one"), std::string::npos);
-  EXPECT_NE(refusal("0 0 0\n2 2 0\n2 0 0\n0 2 0\n").find("touch"), std::string::npos);
-  EXPECT_NE(refusal("0 0 0\n2 0 0\n1 0 0\n0 2 0\n").find("touch"), std::string::npos);
-  EXPECT_NE(refusal("X[1,2,3]").find("four edges a crossing"), std::string::npos);
-  EXPECT_NE(refusal("X[1,4,2,5] X[3,6,4,1] X[5,2,6,7]").find("has an edge 7"), std::string::npos);
-  EXPECT_NE(refusal("X[1,1,2,2]").find("nugatory"), std::string::npos);
-  EXPECT_NE(refusal("braid 3: 1 3").find("generator 2 of the braid is 3"), std::string::npos);
-  EXPECT_NE(refusal("braid three: 1").find("is no whole number"), std::string::npos);
+  EXPECT_NE(link_refusal("").find("nothing in it"), std::string::npos);
+  EXPECT_EQ(link_refusal("0 0 0\n1 0\n"), "line 2: 2 numbers; a point has three, 'x y z'");
+  EXPECT_NE(link_refusal("0 0 0\n1 x 0\n").find("line 2: 'x 0' is no coordinate"), std::string::npos);
+  EXPECT_NE(link_refusal("0 0 0\n1 0 0\n").find("component 0 has 2 points"), std::string::npos);
+  EXPECT_NE(link_refusal("0 0 0\n1 0 0\n1 0 0\n0 1 0\n").find("points 1 and 2 of component 0 are one"),
+            std::string::npos);
+  EXPECT_NE(link_refusal("0 0 0\n2 2 0\n2 0 0\n0 2 0\n").find("touch"), std::string::npos);
+  EXPECT_NE(link_refusal("0 0 0\n2 0 0\n1 0 0\n0 2 0\n").find("touch"), std::string::npos);
+  EXPECT_NE(link_refusal("X[1,2,3]").find("four edges a crossing"), std::string::npos);
+  EXPECT_NE(link_refusal("X[1,4,2,5] X[3,6,4,1] X[5,2,6,7]").find("has an edge 7"), std::string::npos);
+  EXPECT_NE(link_refusal("X[1,1,2,2]").find("nugatory"), std::string::npos);
+  EXPECT_NE(link_refusal("braid 3: 1 3").find("generator 2 of the braid is 3"), std::string::npos);
+  EXPECT_NE(link_refusal("braid three: 1").find("is no whole number"), std::string::npos);
 }
 
 TEST(SeifertSurface, KnotsAndLinksAreSpanned) {

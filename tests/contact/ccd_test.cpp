@@ -3,23 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
+
+#include "contact/dice.h"
 
 namespace unsnarl {
 namespace {
-
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  double symmetric() { return 2 * unit() - 1; }
-  Vec3 vector() { return {symmetric(), symmetric(), symmetric()}; }
-  int integer(int lo, int hi) { return lo + static_cast<int>(engine_() % static_cast<std::uint64_t>(hi - lo + 1)); }
-  Vec3 lattice(int n) { return Vec3(integer(-n, n), integer(-n, n), integer(-n, n)); }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 using Four = std::array<Vec3, 4>;
 const Vec3 zero = Vec3::Zero();

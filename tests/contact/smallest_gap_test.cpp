@@ -9,14 +9,14 @@ namespace unsnarl {
 namespace {
 
 /// So many triangles of size `size`, none near another's vertices, at random places.
-struct Soup {
+struct LooseTriangles {
   Positions x;
   std::vector<Triangle> triangles;
 };
-Soup soup(int count, double size, unsigned seed) {
+LooseTriangles loose_triangles(int count, double size, unsigned seed) {
   std::mt19937 random(seed);
   const auto number = [&random] { return static_cast<double>(random()) / 4294967296.0; };
-  Soup result;
+  LooseTriangles result;
   result.x.resize(3, 3 * count);
   for (int t = 0; t < count; ++t) {
     const Vec3 place(number(), number(), number());
@@ -42,7 +42,7 @@ double sampled_distance(const Positions& x, const Triangle& s, const Triangle& t
 
 TEST(SmallestGap, IsThatOfTheNearestTwoOfAll) {
   for (const unsigned seed : {1u, 2u, 3u}) {
-    const Soup s = soup(12, 0.05, seed);
+    const LooseTriangles s = loose_triangles(12, 0.05, seed);
     double nearest = 1e300;
     for (std::size_t i = 0; i < s.triangles.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
@@ -56,7 +56,7 @@ TEST(SmallestGap, IsThatOfTheNearestTwoOfAll) {
 
 /// Every pair is looked at here, so that a branch cut by mistake shows.
 TEST(SmallestGap, OfGroupsIsThatOfTheNearestTwoOfDifferentOnes) {
-  Soup s = soup(400, 0.01, 4);
+  LooseTriangles s = loose_triangles(400, 0.01, 4);
   std::vector<Index> group;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) group.push_back(s.x(0, 3 * static_cast<Index>(t)) < 0.5 ? 0 : 1);
   for (Index v = 0; v < s.x.cols(); ++v)

@@ -8,17 +8,17 @@
 namespace unsnarl {
 namespace {
 
-double uniform(std::mt19937& generator) {
+double fraction(std::mt19937& generator) {
   return static_cast<double>(generator()) / 4294967295.0;
 }
 
 std::vector<BandwidthPair> random_pairs(Index n, std::mt19937& generator) {
   Positions x(3, n);
-  for (Index i = 0; i < x.size(); ++i) x(i) = uniform(generator);
+  for (Index i = 0; i < x.size(); ++i) x(i) = fraction(generator);
   std::vector<BandwidthPair> pairs;
   for (Index i = 0; i < n; ++i) {
     for (Index j = i + 1; j < n; ++j) {
-      pairs.push_back({i, j, (x.col(i) - x.col(j)).squaredNorm(), 0.5 + uniform(generator)});
+      pairs.push_back({i, j, (x.col(i) - x.col(j)).squaredNorm(), 0.5 + fraction(generator)});
     }
   }
   return pairs;
@@ -89,7 +89,7 @@ TEST(SymmetricLocalBandwidth, IsALocalMaximum) {
       if (probe < 14) {
         other[probe / 2] *= probe % 2 ? 1.02 : 0.98;
       } else {
-        for (double& eps2 : other) eps2 *= 1 + 0.02 * (2 * uniform(generator) - 1);
+        for (double& eps2 : other) eps2 *= 1 + 0.02 * (2 * fraction(generator) - 1);
       }
       EXPECT_LE(local_energy(pairs, other), energy * (1 + 1e-9));
     }

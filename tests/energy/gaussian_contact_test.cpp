@@ -5,12 +5,10 @@
 #include <cmath>
 #include <random>
 
+#include "energy/uniform.h"
+
 namespace unsnarl {
 namespace {
-
-double uniform(std::mt19937& generator) {
-  return static_cast<double>(generator()) / 4294967295.0 * 2 - 1;
-}
 
 template <int Dim>
 struct Sample {

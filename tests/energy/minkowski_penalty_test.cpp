@@ -6,14 +6,13 @@
 #include <cmath>
 #include <random>
 
+#include "energy/uniform.h"
+
 namespace unsnarl {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-double uniform(std::mt19937& generator) {
-  return static_cast<double>(generator()) / 4294967295.0 * 2 - 1;
-}
 Vec3 random_point(std::mt19937& generator) {
   const double x = uniform(generator), y = uniform(generator), z = uniform(generator);
   return {x, y, z};

@@ -7,7 +7,7 @@
 #include "io/zlib_stream.h"
 #include "packed_numbers.h"
 
-namespace unsnarl {
+namespace unsnarl::gii_files {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -222,4 +222,4 @@ TEST(Gii, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::gii_files

@@ -1,6 +1,6 @@
 #include "document_checks.h"
 
-namespace unsnarl {
+namespace unsnarl::inp_files {
 namespace {
 
 const std::vector<double> positions = {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4.25, 7, 7, 7};
@@ -93,4 +93,4 @@ TEST(Inp, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::inp_files

@@ -1,7 +1,7 @@
 #include "document_checks.h"
 #include "packed_numbers.h"
 
-namespace unsnarl {
+namespace unsnarl::msh_files {
 namespace {
 
 constexpr std::endian little = std::endian::little;
@@ -141,4 +141,4 @@ TEST(Msh, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::msh_files

@@ -5,7 +5,7 @@
 #include "packed_numbers.h"
 #include "unsnarl/document.h"
 
-namespace unsnarl {
+namespace unsnarl::number_arrays {
 namespace {
 
 constexpr std::endian little = std::endian::little, big = std::endian::big;
@@ -56,4 +56,4 @@ TEST(NumberArray, text_says_where_it_ends) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::number_arrays

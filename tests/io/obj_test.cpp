@@ -1,6 +1,6 @@
 #include "document_checks.h"
 
-namespace unsnarl {
+namespace unsnarl::obj_files {
 namespace {
 
 const std::string tetrahedron =
@@ -123,4 +123,4 @@ TEST(Obj, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::obj_files

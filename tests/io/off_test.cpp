@@ -1,6 +1,6 @@
 #include "document_checks.h"
 
-namespace unsnarl {
+namespace unsnarl::off_files {
 namespace {
 
 const std::string tetrahedron =
@@ -84,4 +84,4 @@ TEST(Off, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::off_files

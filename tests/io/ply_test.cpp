@@ -1,7 +1,7 @@
 #include "document_checks.h"
 #include "io/byte_order.h"
 
-namespace unsnarl {
+namespace unsnarl::ply_files {
 namespace {
 
 const std::string ascii =
@@ -192,4 +192,4 @@ TEST(Ply, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::ply_files

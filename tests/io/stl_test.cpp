@@ -1,7 +1,7 @@
 #include "document_checks.h"
 #include "io/byte_order.h"
 
-namespace unsnarl {
+namespace unsnarl::stl_files {
 namespace {
 
 const std::string ascii =
@@ -135,4 +135,4 @@ TEST(Stl, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::stl_files

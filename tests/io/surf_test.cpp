@@ -4,7 +4,7 @@
 #include "document_checks.h"
 #include "packed_numbers.h"
 
-namespace unsnarl {
+namespace unsnarl::surf_files {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -127,4 +127,4 @@ TEST(Surf, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::surf_files

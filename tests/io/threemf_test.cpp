@@ -2,7 +2,7 @@
 #include "document_checks.h"
 #include "io/zip_archive.h"
 
-namespace unsnarl {
+namespace unsnarl::threemf_files {
 namespace {
 
 const std::string relations =
@@ -118,4 +118,4 @@ TEST(Threemf, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::threemf_files

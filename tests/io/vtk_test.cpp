@@ -1,7 +1,7 @@
 #include "document_checks.h"
 #include "packed_numbers.h"
 
-namespace unsnarl {
+namespace unsnarl::vtk_files {
 namespace {
 
 constexpr std::endian big = std::endian::big;
@@ -103,4 +103,4 @@ TEST(Vtk, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::vtk_files

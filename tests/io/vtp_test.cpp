@@ -5,7 +5,7 @@
 #include "io/zlib_stream.h"
 #include "packed_numbers.h"
 
-namespace unsnarl {
+namespace unsnarl::vtp_files {
 namespace {
 
 constexpr std::endian little = std::endian::little;
@@ -207,4 +207,4 @@ TEST(Vtp, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::vtp_files

@@ -9,39 +9,39 @@
 namespace unsnarl::oracle {
 namespace {
 
-struct Point {
+struct PlanePoint {
   CGAL::Gmpq x, y;
-  friend bool operator==(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
+  friend bool operator==(const PlanePoint& a, const PlanePoint& b) { return a.x == b.x && a.y == b.y; }
 };
 
-struct Segment {
+struct PlaneSegment {
   std::array<int, 2> id;
-  std::array<Point, 2> p;
+  std::array<PlanePoint, 2> p;
   std::array<double, 4> box;  // low and high x, low and high y
 };
 
-int orientation(const Point& a, const Point& b, const Point& c) {
+int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   const CGAL::Gmpq det = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   return det > 0 ? 1 : det < 0 ? -1 : 0;
 }
 
-CGAL::Gmpq along(const Point& a, const Point& b, const Point& c) {
+CGAL::Gmpq along(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return (b.x - a.x) * (c.x - a.x) + (b.y - a.y) * (c.y - a.y);
 }
 
 /// p on the closed segment from a to b.
-bool is_on(const Point& p, const Point& a, const Point& b) {
+bool is_on(const PlanePoint& p, const PlanePoint& a, const PlanePoint& b) {
   return orientation(a, b, p) == 0 && along(p, a, b) <= 0;
 }
 
-bool meet(const Segment& s, const Segment& t) {
+bool meet(const PlaneSegment& s, const PlaneSegment& t) {
   std::vector<std::array<int, 2>> shared;
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j)
       if (s.id[i] == t.id[j]) shared.push_back({i, j});
   if (shared.size() >= 2) return true;
   if (shared.size() == 1) {
-    const Point &at = s.p[shared[0][0]], &p = s.p[1 - shared[0][0]], &q = t.p[1 - shared[0][1]];
+    const PlanePoint &at = s.p[shared[0][0]], &p = s.p[1 - shared[0][0]], &q = t.p[1 - shared[0][1]];
     return orientation(at, p, q) == 0 && along(at, p, q) > 0;
   }
   if (is_on(s.p[0], t.p[0], t.p[1]) || is_on(s.p[1], t.p[0], t.p[1]) || is_on(t.p[0], s.p[0], s.p[1]) ||
@@ -60,13 +60,13 @@ std::size_t count_crossings(std::span<const Curve> curves, std::span<const Curve
     for (const auto& [c, k] : joint) id_of[{c, k}] = ids;
     ++ids;
   }
-  std::vector<Segment> segments;
+  std::vector<PlaneSegment> segments;
   for (int c = 0; c < static_cast<int>(curves.size()); ++c) {
     const auto n = static_cast<int>(curves[c].size());
     for (int k = 0; k < n; ++k)
       if (id_of.try_emplace({c, k}, ids).second) ++ids;
     for (int k = 0; k + (curves[c].closed ? 0 : 1) < n; ++k) {
-      Segment s;
+      PlaneSegment s;
       for (int e = 0; e < 2; ++e) {
         const int v = (k + e) % n;
         s.id[e] = id_of[{c, v}];

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "mesh/triangulation.h"
-#include "oracle/intersections_oracle.h"
+#include "pipeline/judged.h"
 #include "scene/shapes.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/repair.h"
@@ -14,10 +13,6 @@ namespace unsnarl {
 namespace {
 
 using shapes::Shape;
-
-std::vector<IntersectingPair> judged(const Surface& surface, const std::vector<double>& positions) {
-  return oracle::intersections_by_cgal(positions, triangulate(surface).triangles);
-}
 
 std::vector<std::uint8_t> component_flags(const Surface& surface, std::int32_t component) {
   return vertices_of_faces(surface, faces_in_parts(surface, {}, {.components = {component}}));

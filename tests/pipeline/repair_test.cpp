@@ -13,6 +13,7 @@
 
 #include "mesh/triangulation.h"
 #include "oracle/intersections_oracle.h"
+#include "pipeline/judged.h"
 #include "scene/shapes.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/samples.h"
@@ -22,11 +23,6 @@ namespace unsnarl {
 namespace {
 
 using shapes::Shape;
-
-// By CGAL, on the triangles that the polygons are cut into.
-std::vector<IntersectingPair> judged(const Surface& surface, const std::vector<double>& positions) {
-  return oracle::intersections_by_cgal(positions, triangulate(surface).triangles);
-}
 
 std::vector<double> as_float32(std::vector<double> positions) {
   for (double& value : positions) value = static_cast<float>(value);

@@ -9,7 +9,7 @@ namespace unsnarl {
 namespace {
 
 /// A grid of n x n triangle pairs over [-1, 1]^2.
-Surface plate(int n) {
+Surface triangulated_plate(int n) {
   Surface surface;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j)
@@ -59,7 +59,7 @@ std::size_t red_pixels(const Image& image, int left, int right, int top, int bot
 TEST(Animation, draws_every_frame_with_its_red_faces) {
   std::vector<std::int32_t> red(60);
   std::iota(red.begin(), red.end(), 30);
-  const std::vector<Image> images = drawn(plate(10), frames_of(red));
+  const std::vector<Image> images = drawn(triangulated_plate(10), frames_of(red));
   ASSERT_EQ(images.size(), 5u);
   for (const Image& image : images) {
     EXPECT_EQ(image.width, 320);
@@ -72,27 +72,27 @@ TEST(Animation, draws_every_frame_with_its_red_faces) {
 
 TEST(Animation, magnifies_small_conflicts_beside_the_whole) {
   // Two faces of 1800: hardly to be seen in the whole, plain in the close-up on the right.
-  const std::vector<Image> images = drawn(plate(30), frames_of({900, 901}), {400, 240});
+  const std::vector<Image> images = drawn(triangulated_plate(30), frames_of({900, 901}), {400, 240});
   const std::size_t left = red_pixels(images[0], 0, 200, 30, 215), right = red_pixels(images[0], 230, 400, 30, 215);
   EXPECT_LT(left, 200u);
   EXPECT_GT(right, 4 * left);
 }
 
 TEST(Animation, nothing_red_is_drawn_as_well) {
-  const std::vector<Image> images = drawn(plate(4), frames_of({}));
+  const std::vector<Image> images = drawn(triangulated_plate(4), frames_of({}));
   EXPECT_EQ(images.size(), 5u);
-  EXPECT_TRUE(drawn(plate(4), {}).empty());
+  EXPECT_TRUE(drawn(triangulated_plate(4), {}).empty());
 }
 
 TEST(Animation, refuses_what_it_cannot_draw) {
-  EXPECT_THROW(drawn(plate(4), frames_of({}), {64, 200}), std::invalid_argument);
-  EXPECT_THROW(drawn(plate(4), frames_of({400})), std::invalid_argument);
+  EXPECT_THROW(drawn(triangulated_plate(4), frames_of({}), {64, 200}), std::invalid_argument);
+  EXPECT_THROW(drawn(triangulated_plate(4), frames_of({400})), std::invalid_argument);
   std::vector<RecordedFrame> frames = frames_of({});
   frames[2].vertices[2] = 25;
-  EXPECT_THROW(drawn(plate(4), frames), std::invalid_argument);
+  EXPECT_THROW(drawn(triangulated_plate(4), frames), std::invalid_argument);
   frames = frames_of({});
   frames[1].displacements.pop_back();
-  EXPECT_THROW(drawn(plate(4), frames), std::invalid_argument);
+  EXPECT_THROW(drawn(triangulated_plate(4), frames), std::invalid_argument);
 }
 
 TEST(Animation, takes_its_time_and_leaves_out_what_cannot_be_seen) {
@@ -102,7 +102,8 @@ TEST(Animation, takes_its_time_and_leaves_out_what_cannot_be_seen) {
   for (int k = 0; k < 3; ++k) still.displacements[3 * k + 2] = 0.2 + 1e-6;  // where frame 2 is, but for a hair
   for (int k = 0; k < 20; ++k) frames.insert(frames.begin() + 3, still);
   std::vector<double> delays;
-  render_animation(plate(10), frames, {320, 200}, [&](const Image&, double seconds) { delays.push_back(seconds); });
+  render_animation(triangulated_plate(10), frames, {320, 200},
+                   [&](const Image&, double seconds) { delays.push_back(seconds); });
   ASSERT_EQ(delays.size(), 5u);
   EXPECT_GT(delays.back(), delays.front());
   EXPECT_GT(delays.front(), delays[1]);

@@ -13,7 +13,7 @@ namespace {
 
 const Surface triangle = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}, {}};
 const std::vector<std::int32_t> red = {0};
-const PictureOptions small = {.width = 128, .height = 64};
+const PictureOptions thumbnail = {.width = 128, .height = 64};
 
 std::vector<RecordedFrame> two_frames() {
   std::vector<RecordedFrame> frames(2);
@@ -25,10 +25,10 @@ std::vector<RecordedFrame> two_frames() {
 }
 
 TEST(Pictures, pngs_are_those_of_the_pixels) {
-  EXPECT_EQ(picture_png(triangle, red, triangle, {}, small),
-            encode_png(render_pair(triangle, red, triangle, {}, small)));
-  EXPECT_EQ(picture_png(triangle, red, small), encode_png(render_surface(triangle, red, small)));
-  EXPECT_THROW(picture_png(triangle, std::vector<std::int32_t>{1}, small), std::invalid_argument);
+  EXPECT_EQ(picture_png(triangle, red, triangle, {}, thumbnail),
+            encode_png(render_pair(triangle, red, triangle, {}, thumbnail)));
+  EXPECT_EQ(picture_png(triangle, red, thumbnail), encode_png(render_surface(triangle, red, thumbnail)));
+  EXPECT_THROW(picture_png(triangle, std::vector<std::int32_t>{1}, thumbnail), std::invalid_argument);
 }
 
 TEST(Pictures, animation_as_gif_and_as_pngs) {

@@ -50,9 +50,9 @@ std::vector<double> distances_from_drawing(const CurveNet& net, const Points2& x
   return result;
 }
 
-class Run {
+class CurveUntangling {
  public:
-  Run(std::span<const Curve> input, const CurveOptions& options, Context* context)
+  CurveUntangling(std::span<const Curve> input, const CurveOptions& options, Context* context)
       : options_(options), context_(context), start_(Clock::now()) {
     result_.curves.assign(input.begin(), input.end());
   }
@@ -203,7 +203,7 @@ std::vector<CurveCrossing> find_crossings(std::span<const Curve> curves, std::sp
 CurveResult untangle_curves(std::span<const Curve> curves, const CurveOptions& options, Context* context) {
   check_options(options);
   check_curves(curves);
-  return Run(curves, options, context)();
+  return CurveUntangling(curves, options, context)();
 }
 
 }  // namespace unsnarl

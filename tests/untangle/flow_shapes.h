@@ -1,0 +1,105 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "contact/intersection_finder.h"
+#include "scene/shapes.h"
+
+/// Surfaces that cannot come apart by a short step.
+namespace unsnarl::shapes {
+
+inline constexpr double tau = 2 * std::numbers::pi;
+
+/// A grid of points f(i / m, j / n), closed in either direction where asked for.
+inline Shape unit_grid(Index m, Index n, bool close_u, bool close_v, const std::function<Vec3(double, double)>& f) {
+  Shape shape;
+  const Index rows = close_u ? m : m + 1, columns = close_v ? n : n + 1;
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < columns; ++j)
+      shape.points.push_back(f(static_cast<double>(i) / m, static_cast<double>(j) / n));
+  }
+  for (Index i = 0; i < m; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      const auto id = [&](Index a, Index b) { return (a % rows) * columns + b % columns; };
+      shape.triangles.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
+      shape.triangles.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
+    }
+  }
+  return shape;
+}
+
+inline Shape sphere(const Vec3& center, double radius, Index n) {
+  Shape shape = unit_grid(n, 2 * n, false, true, [&](double u, double v) {
+    const double polar = (0.02 + 0.96 * u) * tau / 2;
+    return Vec3(center + radius * Vec3(std::sin(polar) * std::cos(tau * v), std::sin(polar) * std::sin(tau * v),
+                                       std::cos(polar)));
+  });
+  return shape;
+}
+
+/// A tube around the closed curve c.
+inline Shape tube(Index along, Index around, double radius, const std::function<Vec3(double)>& c) {
+  return unit_grid(along, around, true, true, [&](double u, double v) {
+    const Vec3 p = c(u), tangent = (c(u + 1e-4) - c(u - 1e-4)).normalized();
+    const Vec3 side = tangent.cross(Vec3::UnitZ()).normalized(), up = side.cross(tangent);
+    return Vec3(p + radius * (std::cos(tau * v) * side + std::sin(tau * v) * up));
+  });
+}
+
+/// A trefoil too thick for its curve.
+inline Shape thick_trefoil() {
+  return tube(72, 8, 0.75, [](double t) {
+    const double a = tau * t;
+    return Vec3(std::sin(a) + 2 * std::sin(2 * a), std::cos(a) - 2 * std::cos(2 * a), -0.6 * std::sin(3 * a));
+  });
+}
+
+/// A figure eight swept around a ring, with one full turn.
+inline Shape figure_eight_torus() {
+  return unit_grid(40, 20, true, true, [](double u, double v) {
+    const double s = std::sin(tau * v), d = 0.5 * std::sin(2 * tau * v), a = tau * u;
+    const double x = std::cos(a) * s - std::sin(a) * d, z = std::sin(a) * s + std::cos(a) * d;
+    return Vec3((3 + x) * std::cos(a), (3 + x) * std::sin(a), z);
+  });
+}
+
+/// A limb pressed through a sheet.
+inline Shape limb_and_sheet() {
+  Shape shape = unit_grid(16, 16, false, false, [](double u, double v) { return Vec3(4 * u - 2, 4 * v - 2, 0.003); });
+  shape.add(unit_grid(16, 12, false, true, [](double u, double v) {
+    return Vec3(3 * u - 1.5 + 0.013, 0.4 * std::cos(tau * v) + 0.007, 0.4 * std::sin(tau * v) + 0.25);
+  }));
+  return shape;
+}
+
+/// Reorders vertices and triangles so that those for which `fixed` says so come last.
+inline Patch patch_with_fixed(const Shape& shape, const std::function<bool(const Vec3&)>& fixed) {
+  Shape sorted;
+  std::vector<Index> id(shape.points.size());
+  Index free_count = 0;
+  for (const bool last : {false, true}) {
+    for (std::size_t i = 0; i < shape.points.size(); ++i) {
+      if (fixed(shape.points[i]) != last) continue;
+      id[i] = static_cast<Index>(sorted.points.size());
+      sorted.points.push_back(shape.points[i]);
+    }
+    if (!last) free_count = static_cast<Index>(sorted.points.size());
+  }
+  for (const Triangle& t : shape.triangles) sorted.triangles.push_back({id[t[0]], id[t[1]], id[t[2]]});
+  const auto is_active = [&](const Triangle& t) { return *std::min_element(t.begin(), t.end()) < free_count; };
+  const auto middle = std::stable_partition(sorted.triangles.begin(), sorted.triangles.end(), is_active);
+  Patch patch = patch_of(sorted);
+  patch.free_count = free_count;
+  patch.active_count = static_cast<Index>(middle - sorted.triangles.begin());
+  return patch;
+}
+
+inline std::size_t count_pairs(const Patch& patch) {
+  return IntersectionFinder(patch.triangles, patch.active_count).find(patch.x).size();
+}
+
+}  // namespace unsnarl::shapes
