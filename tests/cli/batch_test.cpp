@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include <algorithm>
@@ -7,18 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cli/program.h"
+#include "cli/program_test.h"
 
 namespace unsnarl::cli {
 namespace {
 
 const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-/// A tetrahedron, and a small one whose tip sticks into it.
-const std::string crossing =
-    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nv 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
-    "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n";
-
-class BatchCli : public ::testing::Test {
+class BatchCli : public ProgramTest {
  protected:
   void mesh(const std::string& name, const std::string& bytes) {
     fs::create_directories(fs::path(folder / ("in/" + name)).parent_path());
@@ -51,7 +45,6 @@ class BatchCli : public ::testing::Test {
     const std::string text = contents(folder / "calls");
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   }
-  Folder folder;
   std::string in = folder / "in", out = folder / "out", jobs = "2";
 };
 

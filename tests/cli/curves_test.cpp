@@ -8,10 +8,6 @@
 namespace unsnarl::cli {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 class Curves : public ::testing::Test {
  protected:
   Folder folder;

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "cli/program.h"
+#include "cli/program_test.h"
 
 namespace unsnarl::cli {
 namespace {
@@ -43,7 +43,7 @@ std::string tetrahedron(double shift) {
   return fmt::format("v {0} 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n", shift);
 }
 
-class FilePlaces : public ::testing::Test {
+class FilePlaces : public ProgramTest {
  protected:
   std::string mesh(const std::string& name, float scale) {
     fs::create_directory(folder / name);
@@ -51,21 +51,9 @@ class FilePlaces : public ::testing::Test {
     write(folder / (name + "/scene.gltf"), gltf(scale));
     return folder / (name + "/scene.gltf");
   }
-  /// The call is refused before any work, and every file is as it was.
   void expect_refusal(const std::vector<std::string>& arguments, const std::string& words, int exit_code = 2) {
-    const auto state = [&] {
-      std::vector<std::string> all;
-      for (const std::string& name : folder.names())
-        all.push_back(name + '\n' + (fs::is_regular_file(folder / name) ? contents(folder / name) : ""));
-      return all;
-    };
-    const auto before = state();
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-    EXPECT_EQ(state(), before);
+    ProgramTest::expect_refusal(arguments, exit_code, words);
   }
-  Folder folder;
 };
 
 TEST_F(FilePlaces, ABufferBesideTheResultBelongsToIt) {

@@ -1,23 +1,15 @@
 // Broken files, broken devices, too little memory, and being killed at any moment: the program ends with an exit code
 // and a reason, the target is the old file or the complete new one, and nothing else is left behind.
-#include <gtest/gtest.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
 #include <array>
 #include <thread>
 
-#include "cli/program.h"
-#include "unsnarl/document.h"
-#include "unsnarl/intersections.h"
+#include "cli/program_test.h"
 
 namespace unsnarl::cli {
 namespace {
-
-/// A tetrahedron, and a small one whose tip sticks into it.
-const std::string crossing =
-    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nv 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
-    "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n";
 
 constexpr std::array<const char*, 13> formats = {"obj", "off", "ply", "stl", "glb", "gltf", "surf",
                                                  "gii", "vtk", "vtp", "msh", "inp", "3mf"};
@@ -47,19 +39,7 @@ std::string random_bytes(std::size_t size) {
   return bytes;
 }
 
-class Hostile : public ::testing::Test {
- protected:
-  std::string file(const std::string& name, const std::string& bytes) {
-    write(folder / name, bytes);
-    return folder / name;
-  }
-  std::string sample(const std::string& name, const std::string& resolution) {
-    const std::string path = folder / (name + ".obj");
-    EXPECT_EQ(run({"sample", name, "-o", path, "--resolution", resolution}).exit_code, 0);
-    return path;
-  }
-  Folder folder;
-};
+using Hostile = ProgramTest;
 
 std::string repeated(const std::string& part, std::size_t size) {
   std::string bytes;
@@ -214,7 +194,7 @@ TEST_F(Hostile, StandardStreamsMayBeClosedOrFull) {
 }
 
 TEST_F(Hostile, KilledAtAnyMomentTheTargetIsTheOldFileOrTheNewOne) {
-  const std::string in = sample("folded_sheet", "20"), out = folder / "out.obj", report = folder / "report.json";
+  const std::string in = sample("folded_sheet", {"--resolution", "20"}), out = folder / "out.obj", report = folder / "report.json";
   const std::string input = contents(in), old = "precious";
   ASSERT_EQ(run({"fix", in, "-o", out}).exit_code, 0);
   const std::string complete = contents(out);
@@ -243,7 +223,7 @@ TEST_F(Hostile, KilledAtAnyMomentTheTargetIsTheOldFileOrTheNewOne) {
 
 TEST_F(Hostile, TooLittleMemoryIsNoCrash) {
   if (!memory_can_be_limited) GTEST_SKIP() << "the sanitizer needs all addresses";
-  const std::string in = sample("folded_sheet", "30"), out = file("out.obj", "precious");
+  const std::string in = sample("folded_sheet", {"--resolution", "30"}), out = file("out.obj", "precious");
   const auto before = folder.names();
   bool ran_out = false;
   for (rlim_t mb = 16; mb <= 60; mb += mb < 40 ? 2 : 10) {

@@ -7,20 +7,16 @@
 namespace unsnarl::cli {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-const std::string crossing =
+const std::string crossing_agents =
     R"({"agents": [{"name": "a", "radius": 0.5, "start": [-4, 0, 0], "goal": [4, 0, 0]},
                    {"name": "b", "radius": 0.5, "start": [0, -4, 0], "goal": [0, 4, 0]}],
         "obstacles": [{"file": "wall.off"}]})";
-const std::string wall = "OFF\n4 1 0\n-1 -1 2\n1 -1 2\n1 1 2\n-1 1 2\n4 0 1 2 3\n";
+const std::string wall_of_plan = "OFF\n4 1 0\n-1 -1 2\n1 -1 2\n1 1 2\n-1 1 2\n4 0 1 2 3\n";
 
 TEST(RoutesCommand, RoutesAreWrittenAndCertified) {
   Folder folder;
-  write(folder / "plan.json", crossing);
-  write(folder / "wall.off", wall);
+  write(folder / "plan.json", crossing_agents);
+  write(folder / "wall.off", wall_of_plan);
   const Outcome made = run({"routes", folder / "plan.json", "-o", folder / "out"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_TRUE(contains(made.err, "2 routes, certified as written"));
@@ -43,8 +39,8 @@ TEST(RoutesCommand, RoutesAreWrittenAndCertified) {
 
 TEST(RoutesCommand, FreeTubesAreUntangledAsSurfaces) {
   Folder folder;
-  write(folder / "plan.json", crossing);
-  write(folder / "wall.off", wall);
+  write(folder / "plan.json", crossing_agents);
+  write(folder / "wall.off", wall_of_plan);
   const Outcome made = run({"routes", folder / "plan.json", "-o", folder / "out", "--free-tubes", "--sides", "8"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_EQ(run({"check", folder / "out/tubes.obj", "-q"}).exit_code, 0);
@@ -60,7 +56,7 @@ TEST(RoutesCommand, ErrorsAndObstructions) {
     return outcome.err;
   };
   EXPECT_TRUE(contains(said("{\"agents\": 1}", 3), "-: agents: 1 is not a list"));
-  EXPECT_TRUE(contains(said(crossing, 3), "-: obstacles[0].file: "));
+  EXPECT_TRUE(contains(said(crossing_agents, 3), "-: obstacles[0].file: "));
   const std::string near = R"({"agents": [{"name": "a", "radius": 1, "start": [0, 0, 0], "goal": [9, 0, 0]},
                                           {"name": "b", "radius": 1, "start": [0, 1, 0], "goal": [9, 9, 0]}]})";
   EXPECT_TRUE(contains(said(near, 7), "the start of 'a' and the start of 'b' are 1 apart"));

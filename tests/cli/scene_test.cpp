@@ -1,9 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "cli/program.h"
+#include "cli/program_test.h"
 #include "unsnarl/document.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/scene_document.h"
@@ -22,7 +20,7 @@ const std::string small =
 /// Away from both.
 const std::string apart = "OFF\n4 4 0\n9 9 9\n10 9 9\n9 10 9\n9 9 10\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
 
-class SceneFiles : public ::testing::Test {
+class SceneFiles : public ProgramTest {
  protected:
   SceneFiles() {
     write(a, large);
@@ -34,14 +32,6 @@ class SceneFiles : public ::testing::Test {
     for (const std::string& path : paths) documents.push_back(Document::read(path));
     return find_intersections(SceneDocument(std::move(documents), paths).surface()).size();
   }
-  void expect_refusal(const std::vector<std::string>& arguments, int exit_code, const std::string& words) {
-    const auto before = folder.names();
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-    EXPECT_EQ(folder.names(), before);
-  }
-  Folder folder;
   const std::string a = folder / "a.obj", b = folder / "b.ply", c = folder / "c.off", out = folder / "new/out";
 };
 

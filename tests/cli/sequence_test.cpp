@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "cli/program.h"
+#include "cli/program_test.h"
 #include "unsnarl/document.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/point_cache.h"
@@ -80,7 +80,7 @@ std::string cache(bool pc2) {
   return bytes;
 }
 
-class Sequence : public ::testing::Test {
+class Sequence : public ProgramTest {
  protected:
   Sequence() {
     fs::create_directory(folder / "in");
@@ -88,27 +88,16 @@ class Sequence : public ::testing::Test {
   }
   std::string path(int t) const { return folder / fmt::format("in/f{}.obj", t + 5); }  // f5 ... f14
   std::string result(int t) const { return out + fmt::format("/f{}.obj", t + 5); }
-  static std::size_t pairs_in(const std::string& path) {
-    return find_intersections(Document::read(path).surface()).size();
-  }
   Outcome repair(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {"fix", "--sequence", pattern, "-o", out};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
-  }
-  void expect_refusal(const std::vector<std::string>& arguments, int exit_code, const std::string& words) {
-    const auto before = folder.names();
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-    EXPECT_EQ(folder.names(), before);
   }
   std::vector<std::string> results() const {
     std::vector<std::string> all;
     for (int t = 0; t < frame_count; ++t) all.push_back(contents(result(t)));
     return all;
   }
-  Folder folder;
   const std::string pattern = folder / "in/f*.obj", out = folder / "out";
 };
 

@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/program_test.h"
+
+namespace unsnarl::cli {
+namespace {
+
+using Check = ProgramTest;
+
+TEST_F(Check, CheckCountsAndLocates) {
+  const std::string in = file("in.obj", crossing);
+  const Outcome text = run({"check", in, "--pairs", folder / "pairs.csv"});
+  EXPECT_EQ(text.exit_code, 1);
+  EXPECT_EQ(text.err, "");
+  EXPECT_NE(text.out.find("disjoint"), std::string::npos);
+  const Outcome outcome = run({"check", in, "--json"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["schema"], "unsnarl-check");
+  EXPECT_EQ(json["pairs"]["total"], pairs_in(in));
+  EXPECT_EQ(json["components"]["intersecting"], 2);
+  EXPECT_EQ(json["components"]["pairs_between"], pairs_in(in));
+  ASSERT_EQ(json["components"]["list"].size(), 2u);
+  EXPECT_EQ(json["components"]["list"][1]["first_face"], 4);
+  EXPECT_EQ(json["components"]["list"][1]["pairs_with_others"], pairs_in(in));
+  EXPECT_EQ(json["components"]["list"][1]["pairs_within"], 0);
+  EXPECT_NE(text.out.find("component 1"), std::string::npos);
+  ASSERT_EQ(json["places"].size(), 1u);
+  EXPECT_EQ(json["places"][0]["pairs"], pairs_in(in));
+  EXPECT_EQ(json["topology"]["closed_components"], 2);
+  std::istringstream table(contents(folder / "pairs.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "face_a,face_b,class");
+  std::size_t rows = 0;
+  while (std::getline(table, line)) ++rows;
+  EXPECT_EQ(rows, pairs_in(in));
+
+  const Outcome clean = run({"check", file("clean.obj", clean_cube)});
+  EXPECT_EQ(clean.exit_code, 0);
+  EXPECT_NE(clean.out.find("no self-intersections"), std::string::npos);
+}
+
+TEST_F(Check, CheckForTheGoalDisjointSeesNoOthers) {
+  // Two faces of one fan pass through each other at their common vertex only.
+  const std::string in = file("in.obj", "v 0 0 0\nv 2 -1 0\nv 2 1 0\nv 2 0 -1\nv 2 0 1\nf 1 2 3\nf 1 4 5\n");
+  EXPECT_EQ(run({"check", in}).exit_code, 1);
+  EXPECT_EQ(run({"check", in, "--goal", "disjoint"}).exit_code, 0);
+}
+
+TEST_F(Check, WeldDecidesWhatTouchingMeans) {
+  // Two triangles with a common side, written with corners of their own.
+  const std::string in = file("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 0\nv 1 0 0\nv 1 1 1\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_EQ(run({"check", in}).exit_code, 0);
+  EXPECT_EQ(run({"check", in, "--weld", "none"}).exit_code, 1);
+  const std::string near =
+      file("near.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -0.001 1 0\nv 0.999 0 0\nv 1 1 0\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_EQ(run({"check", near}).exit_code, 1);
+  EXPECT_EQ(run({"check", near, "--weld-tolerance", "0.01"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace unsnarl::cli

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/program_test.h"
+#include "unsnarl/document.h"
+
+namespace unsnarl::cli {
+namespace {
+
+using Fix = ProgramTest;
+
+TEST_F(Fix, CleanInputComesBackByteForByte) {
+  const std::string in = file("in.obj", clean_cube), out = folder / "out.obj";
+  const Outcome outcome = run({"fix", in, "-o", out});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(contents(out), clean_cube);
+  EXPECT_EQ(contents(in), clean_cube);
+}
+
+TEST_F(Fix, RepairsAndKeepsEverythingElse) {
+  const std::string in = file("in.obj", crossing), out = folder / "out.obj";
+  EXPECT_GT(pairs_in(in), 0u);
+  const Outcome outcome = run({"fix", in, "-o", out});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("embedded"), std::string::npos);
+  EXPECT_EQ(pairs_in(out), 0u);
+  EXPECT_EQ(contents(in), crossing);
+  EXPECT_NE(contents(out).find("# top"), std::string::npos);
+  EXPECT_EQ(contents(out).substr(contents(out).find("f 1 3 2")), crossing.substr(crossing.find("f 1 3 2")));
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "out.obj"}));
+}
+
+TEST_F(Fix, QuietSaysNothing) {
+  const std::string in = file("in.obj", crossing);
+  const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  const Outcome check = run({"check", in, "--quiet"});
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_EQ(check.out + check.err, "");
+}
+
+TEST_F(Fix, InPlaceReplacesTheInputAndKeepsItsPermissions) {
+  const std::string in = file("in.obj", crossing);
+  fs::permissions(in, fs::perms(0640));
+  fs::create_symlink("in.obj", folder / "link.obj");
+  EXPECT_EQ(run({"fix", folder / "link.obj", "--in-place"}).exit_code, 0);
+  EXPECT_EQ(pairs_in(in), 0u);
+  EXPECT_EQ(fs::status(in).permissions(), fs::perms(0640));
+  EXPECT_TRUE(fs::is_symlink(folder / "link.obj"));
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "link.obj"}));
+}
+
+TEST_F(Fix, OutputIsReplacedOnlyBySuccess) {
+  const std::string in = file("in.obj", hopeless), out = file("out.obj", "precious");
+  const std::string ids = file("ids.txt", "1 2 3 4 5\n");
+  const Outcome outcome = run({"fix", in, "-o", out, "--fix-vertices", ids});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(contents(out), "precious");
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "out.obj", "ids.txt"}));
+}
+
+TEST_F(Fix, NothingBetterThanTheInputExitsWith1) {
+  const std::string in = file("in.obj", hopeless), out = folder / "out.obj", report = folder / "report.json";
+  const std::string ids = file("ids.txt", "1 2 # those around it\n3 4 5\n");
+  const Outcome outcome = run({"fix", in, "-o", out, "--fix-vertices", ids, "--report", report});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_FALSE(fs::exists(out));
+  const auto json = nlohmann::json::parse(contents(report));
+  EXPECT_EQ(json["exit_code"], 1);
+  EXPECT_EQ(json["output"]["written"], false);
+  EXPECT_EQ(json["options"]["fixed_vertices"], 5);
+  // With --keep-partial what was reached is written, and it is no worse.
+  EXPECT_EQ(run({"fix", in, "-o", out, "--fix-vertices", ids, "--keep-partial"}).exit_code, 1);
+  EXPECT_LE(pairs_in(out), pairs_in(in));
+}
+
+TEST_F(Fix, BothDiagonalsOfQuadsCountWhereAskedFor) {
+  const std::string in = file("in.obj",
+                              "v 0 0 0\nv 4 0 1\nv 4 4 0\nv 0 4 1\nv 1.9 2.1 0.6\nv 2.2 1.9 0.5\nv 2 2 3\n"
+                              "f 1 2 3 4\nf 5 6 7\n");
+  const std::string out = folder / "out.obj";
+  EXPECT_EQ(run({"check", in}).exit_code, 0);
+  EXPECT_EQ(run({"check", in, "--both-diagonals"}).exit_code, 1);
+  const Outcome outcome = run({"fix", in, "-o", out, "--both-diagonals"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(run({"check", out, "--both-diagonals"}).exit_code, 0);
+}
+
+TEST_F(Fix, ObstructedExitsWith7) {
+  const std::string bottle = sample("klein_bottle"), out = folder / "out.obj";
+  const Outcome refused = run({"fix", bottle, "-o", out});
+  EXPECT_EQ(refused.exit_code, 7) << refused.err;
+  EXPECT_NE(refused.err.find("non-orientable"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out));
+
+  // With something else to repair the result is written, and only the obstruction is left.
+  const Surface surface = Document::read(bottle).surface();
+  std::ostringstream both;
+  both << contents(bottle);
+  for (int i = 0; i < 2; ++i)
+    both << "v 100 0 " << i << "\nv 104 0 " << i << "\nv 100 4 " << i << "\nv 101 1 " << i + 4 - 6 * i << "\n";
+  const auto n = static_cast<int>(surface.positions.size() / 3);
+  for (int i = 0; i < 2; ++i)
+    for (const auto& f : {std::array{1, 3, 2}, {1, 2, 4}, {2, 3, 4}, {3, 1, 4}})
+      both << "f " << n + 4 * i + f[0] << ' ' << n + 4 * i + f[1] << ' ' << n + 4 * i + f[2] << '\n';
+  const std::string in = file("both.obj", both.str());
+  ASSERT_GT(pairs_in(in), pairs_in(bottle));
+  EXPECT_EQ(run({"fix", in, "-o", out}).exit_code, 7);
+  ASSERT_TRUE(fs::exists(out));
+  EXPECT_EQ(pairs_in(out), pairs_in(bottle));
+}
+
+TEST_F(Fix, StandardInputAndOutput) {
+  const Outcome outcome = run({"fix", "-", "--format", "obj", "-o", "-"}, {.input = crossing});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  write(folder / "out.obj", outcome.out);
+  EXPECT_EQ(pairs_in(folder / "out.obj"), 0u);
+  EXPECT_EQ(run({"fix", "-", "--format", "obj", "-o", "-"}, {.input = clean_cube}).out, clean_cube);
+  EXPECT_EQ(run({"check", "-", "--format", "obj"}, {.input = crossing}).exit_code, 1);
+  EXPECT_EQ(run({"fix", "-", "--format", "obj", "-o", "-", "--report", "-"}, {.input = crossing}).exit_code, 2);
+}
+
+TEST_F(Fix, SameBytesAtAnyThreadCount) {
+  const std::string in = file("in.obj", crossing);
+  std::set<std::string> results;
+  for (const char* threads : {"1", "2", "4"}) results.insert(run({"fix", in, "-o", "-", "--threads", threads}).out);
+  EXPECT_EQ(results.size(), 1u);
+}
+
+}  // namespace
+}  // namespace unsnarl::cli
