@@ -22,8 +22,8 @@ class BuildWithLibrary(build_py):
         build = os.environ.get("UNSNARL_BUILD_DIR")  # one that is configured and built already
         if not build:
             build = Path(self.get_finalized_command("build").build_temp).resolve()
-            cmake("-S", PROJECT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DUNSNARL_BUILD_PYTHON=ON",
-                  "-DUNSNARL_BUILD_APPS=OFF", "-DUNSNARL_BUILD_TESTS=OFF")
+            cmake("-S", PROJECT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
+                  "-DUNSNARL_BUILD_PYTHON=ON", "-DUNSNARL_BUILD_APPS=OFF", "-DUNSNARL_BUILD_TESTS=OFF")
             jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or os.cpu_count() or 1
             cmake("--build", build, "--target", "unsnarl_c", "--parallel", jobs)
         # An editable package is where its sources are.

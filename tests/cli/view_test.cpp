@@ -5,11 +5,11 @@
 namespace unsnarl::cli {
 namespace {
 
-const std::string crossing = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 1 9 0\nf 1 2 3\nf 4 5 6\n";
+const std::string crossing_triangles = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 1 9 0\nf 1 2 3\nf 4 5 6\n";
 
 class View : public ::testing::Test {
  protected:
-  View() { write(in, crossing); }
+  View() { write(in, crossing_triangles); }
   std::string complaint(std::vector<std::string> arguments, int exit_code) {
     const auto before = folder.names();
     const Outcome outcome = run(arguments);
@@ -22,10 +22,6 @@ class View : public ::testing::Test {
 };
 
 #if UNSNARL_VIEWER
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST_F(View, WritesOnePageThatNeedsNothingElse) {
   const Outcome outcome = run({"view", in, "-o", page});
@@ -60,7 +56,7 @@ TEST_F(View, TheSamePageAtAnyNumberOfThreads) {
 
 TEST_F(View, RefusesWhatMakesNoSense) {
   const std::string other = folder / "other.obj", text = folder / "text.json", old = folder / "old.json";
-  write(other, crossing + "f 1 2 4\n");
+  write(other, crossing_triangles + "f 1 2 4\n");
   write(text, "{}");
   write(old, R"({"schema": "unsnarl-report", "schema_version": 1})");
   EXPECT_TRUE(contains(complaint({"view", in}, 2), "-o"));
