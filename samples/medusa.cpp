@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/box.h"
 #include "samples/lattice_noise.h"
 #include "samples/mesh_builder.h"
 #include "samples/sphere_grid.h"
@@ -63,18 +64,23 @@ Spine spine_from(const Vec3& root, std::uint32_t seed, double push) {
 /// Places along spines; near what it holds, a snake would have to be thinner than asked for.
 class Spines {
  public:
-  /// The least distance of the spine from those added, and from itself beyond its next neighbourhood.
-  double clearance(const Spine& spine) const {
+  /// The least distance of the spine from those added, and from itself beyond its next neighbourhood; 0 where that is
+  /// no more than `least`.
+  double clearance_above(double least, const Spine& spine) const {
     const std::vector<Vec3> own = places(spine);
-    double least = 1;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      for (const Vec3& other : all_) least = std::min(least, (own[i] - other).norm());
-      for (std::size_t j = i + 10; j < own.size(); ++j) least = std::min(least, (own[i] - own[j]).norm());
+    double squared = 1;
+    for (std::size_t i = 0; i < own.size() && squared > least * least; ++i) {
+      for (const Added& other : added_)
+        if (other.box.overlaps(Box{own[i], own[i]}.inflated(std::sqrt(squared))))
+          for (const Vec3& place : other.places) squared = std::min(squared, (own[i] - place).squaredNorm());
+      for (std::size_t j = i + 10; j < own.size(); ++j) squared = std::min(squared, (own[i] - own[j]).squaredNorm());
     }
-    return least;
+    return squared > least * least ? std::sqrt(squared) : 0;
   }
   void add(const Spine& spine) {
-    for (const Vec3& place : places(spine)) all_.push_back(place);
+    Added added = {places(spine), {}};
+    for (const Vec3& place : added.places) added.box.extend(place);
+    added_.push_back(std::move(added));
   }
 
  private:
@@ -83,7 +89,11 @@ class Spines {
     for (int i = 0; i <= 64; ++i) all.push_back(spine(i / 64.0));
     return all;
   }
-  std::vector<Vec3> all_;
+  struct Added {
+    std::vector<Vec3> places;
+    Box box;
+  };
+  std::vector<Added> added_;
 };
 
 }  // namespace
@@ -98,11 +108,11 @@ Surface medusa(int resolution, const SampleValues& values) {
   for (int k = 0; k < count; ++k) {
     // The first of many ways to grow that keeps apart from all spines before it, or the one that comes closest to that.
     const Vec3 root = root_of(k, count);
-    std::uint32_t best = 0;
-    double widest = -1;
+    std::uint32_t best = 64 * static_cast<std::uint32_t>(k);
+    double widest = 0;
     for (std::uint32_t way = 0; way < 64 && widest < 0.06; ++way) {
       const std::uint32_t seed = 64 * static_cast<std::uint32_t>(k) + way;
-      const double clearance = spines.clearance(spine_from(root, seed, 0));
+      const double clearance = spines.clearance_above(widest, spine_from(root, seed, 0));
       if (clearance > widest) std::tie(widest, best) = std::pair(clearance, seed);
     }
     spines.add(spine_from(root, best, 0));
