@@ -43,6 +43,7 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
   Positions p(3, x.cols());
   Positions safe;
   for (;; ++result.rounds) {
+    if (options.stop && options.stop()) return result;
     rules.gather(x, options.target, bounds, moves, close);
     p.setZero();
     std::fill(pushes.begin(), pushes.end(), 0);

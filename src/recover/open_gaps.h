@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "recover/contact_rules.h"
@@ -10,9 +11,10 @@
 namespace unsnarl {
 
 struct OpenGapsOptions {
-  double target = 0;    ///< length to which every gap is opened (less where a stencil's reach is less)
-  int max_rounds = 12;  ///< a start at 1e-17 took 1 to 6 rounds in the prototypes
-  double step_cap = 0;  ///< length: largest motion of a vertex in one round
+  double target = 0;           ///< length to which every gap is opened (less where a stencil's reach is less)
+  int max_rounds = 12;         ///< a start at 1e-17 took 1 to 6 rounds in the prototypes
+  double step_cap = 0;         ///< length: largest motion of a vertex in one round
+  std::function<bool()> stop;  ///< asked before each round; true ends it
 };
 
 struct OpenGapsResult {

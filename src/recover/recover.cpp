@@ -160,6 +160,7 @@ void Recovery::open() {
                          options_.least_gaps * min_gap);
   open.max_rounds = options_.open_rounds;
   open.step_cap = open.target;  // five of them end as close, but look 11 gaps around, not 3: up to 9 GB, not 2
+  open.stop = stop_;
   open_gaps(patch_.x, rules_, orientation_of_all(), guard_, everything(), open);
 }
 

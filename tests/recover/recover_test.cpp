@@ -385,6 +385,11 @@ TEST(Recover, TheCallerCanStopIt) {
   EXPECT_EQ(intersections(patch, patch.x), 0u);
 }
 
+TEST(Recover, StoppedAtOnceItDoesNotOpenGaps) {
+  Patch patch = crossing_bumps(12, 0.4, 1e-12);
+  EXPECT_LT(recover(patch, with_gap(1e-5), [] { return true; }).min_gap, 1e-9);
+}
+
 TEST(Recover, PairsThatCannotBePartedAreNoObstacle) {
   // A duplicate of a free face: an intersecting pair before and after, and no other.
   Patch patch = crossing_bumps(12, 0.4, 1e-12);
