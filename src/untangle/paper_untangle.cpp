@@ -23,7 +23,7 @@
 namespace unsnarl {
 namespace {
 
-/// Bandwidths stay above this many mean edges: between vertices at one place they would fall to zero.
+/// Bandwidths stay above this many mean edges: between vertices at one place they would fall to zero. Not measured.
 constexpr double smallest_bandwidth = 0.01;
 
 std::vector<std::vector<Index>> faces_of(const Patch& patch, std::span<const Index> face_of) {
