@@ -13,7 +13,8 @@ struct Exhibit {
   std::string label;  ///< '\n' starts a second, smaller line
 };
 
-/// Surfaces beside each other and below, seen by one camera, intersecting faces in red. `width`: pixels of a panel.
+/// Surfaces beside each other and below, seen by one camera unless they are twice as large as the first, intersecting
+/// faces in red. `width`: pixels of a panel.
 Image gallery(const std::vector<Exhibit>& exhibits, int columns, int width);
 
 }  // namespace unsnarl::peers
