@@ -84,16 +84,20 @@ def find_meshes(roots):
     return found
 
 
+def sample_names(program):
+    listing = subprocess.run([program, "sample", "--list"], capture_output=True, text=True)
+    if listing.returncode:
+        sys.exit(f"'{program} sample --list' failed:\n{listing.stderr}")
+    # One sample a line, its name first; headings and continued lines do not begin with a name.
+    return re.findall(r"^ {0,2}([a-z][a-z0-9_]*)\s", listing.stdout + "\n", re.MULTILINE)
+
+
 def make_samples(program, folder, names=None):
     """Writes the built-in samples (or those named) into a folder, as NAME.obj; returns their paths. `names` may be a
     dictionary name -> resolution."""
     folder.mkdir(parents=True, exist_ok=True)
     if names is None:
-        listing = subprocess.run([program, "sample", "--list"], capture_output=True, text=True)
-        if listing.returncode:
-            sys.exit(f"'{program} sample --list' failed:\n{listing.stderr}")
-        # One sample a line, its name first; headings and continued lines do not begin with a name.
-        names = re.findall(r"^ {0,2}([a-z][a-z0-9_]*)\s", listing.stdout + "\n", re.MULTILINE)
+        names = sample_names(program)
     paths = []
     for name in names:
         path = folder / f"{name}.obj"
