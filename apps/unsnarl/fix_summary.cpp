@@ -1,12 +1,14 @@
 #include "fix_summary.h"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cstdint>
-#include <string>
-#include <vector>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "mesh_input.h"
 
@@ -15,10 +17,13 @@ namespace {
 
 std::string in_words(const PairCounts& pairs) {
   if (pairs.total() == 0) return "none";
+  // "116 disjoint" alone would sound like pairs that do not intersect.
+  static constexpr std::array<std::string_view, pair_class_count> words = {
+      "sharing no vertex", "sharing a vertex", "folded along an edge", "on the same vertices",
+      "of a face without area"};
   std::string text;
   for (std::size_t i = 0; i < pair_class_count; ++i)
-    if (pairs.by_class[i] > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], pair_class_names[i]);
+    if (pairs.by_class[i] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], words[i]);
   return text;
 }
 
@@ -70,8 +75,8 @@ std::string fate_of_output(Status status, const std::string& output) {
                                       : "nothing written; --keep-partial writes what was reached";
 }
 
-/// Diagonals from rest beyond which a region is named: those who mesh volumes reject repairs that move farther than 1
-/// %.
+/// Diagonals from rest beyond which a region is named: repairs that move farther than 1 % are rejected by programs that
+/// mesh volumes.
 constexpr double far_rel = 0.01;
 constexpr std::size_t most_far_regions = 3;  // lines
 
