@@ -161,7 +161,9 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
   command.add_option("--record", options.record, "Write how it went as JSON: iterations, the surface on the way")
       ->type_name("FILE.json")
       ->group(shown);
-  command.add_option("--highlight", options.highlight, "Write a PLY in which intersecting faces are coloured")
+  command
+      .add_option("--highlight", options.highlight,
+                  "Write a PLY in which intersecting faces are coloured, with the displacement of each vertex")
       ->check(file_named({"ply"}))
       ->type_name("FILE.ply")
       ->group(shown);

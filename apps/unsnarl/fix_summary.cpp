@@ -146,6 +146,9 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   for (const std::string& words : far_regions(r)) line("  " + words);
   if (options.min_dihedral_deg > 0 && files.clearance_after)
     line(dihedral_in_words(*files.clearance_after, options.min_dihedral_deg));
+  if (result.status == Status::displacement_exceeded && r.displacement_lower_bound_rel > options.max_displacement_rel)
+    line(fmt::format("  needed at least: {:.2g} % of the diagonal, half the depth of the deepest overlap",
+                     100 * r.displacement_lower_bound_rel));
   for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
   line(fmt::format("  {}{}; {:.2f} s, {:.0f} MB", explanation(result.status, options.goal), float32_remark(result),
                    files.whole.seconds, files.whole.peak_memory_mb));

@@ -32,6 +32,7 @@ TEST_F(Report, ReportPictureAndHighlight) {
   EXPECT_EQ(highlighted.positions, Document::read(out).surface().positions);
   EXPECT_EQ(highlighted.corners, Document::read(out).surface().corners);
   EXPECT_NE(contents(folder / "h.ply").find("property int pairs_before"), std::string::npos);
+  EXPECT_NE(contents(folder / "h.ply").find("property double displacement"), std::string::npos);
 }
 
 TEST_F(Report, ReportsNameFilesWithAnyBytes) {
