@@ -11,7 +11,7 @@
 namespace unsnarl::app {
 namespace {
 
-/// What has not changed for so long is shown again.
+/// Progress that has not changed for so long is shown again.
 constexpr std::chrono::milliseconds show_again_after{900};
 
 }  // namespace

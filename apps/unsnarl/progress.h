@@ -20,8 +20,8 @@ enum class ProgressStyle { none, line, json };
 /// "auto", "json" or "none" as users give it; auto: a line on a terminal, else nothing. Throws UsageError.
 ProgressStyle progress_style(const std::string& name, bool quiet);
 
-/// What a command says on standard error: progress and notes. A line on a terminal is wiped when it goes. What was
-/// shown last is shown again each second with the seconds that have passed, so that a long step is not taken for the
+/// Progress and notes of a command on standard error. A line on a terminal is wiped when it goes. The last state is
+/// shown again each second with the seconds that have passed, so that a long step is not taken for the
 /// end. Safe from any thread.
 class ProgressDisplay {
  public:
