@@ -2,27 +2,70 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <limits>
 
+#include "standard_streams.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl::app {
+namespace {
+
+/// `reaches`: whether a number is no larger than allowed, which the message says in `words` and with `most`.
+template <class Reaches>
+CLI::Validator number_in(double least, double most, const Reaches& reaches, const char* words) {
+  // CLI::Range lets NaN through, which is on no side of any bound.
+  const auto fault = [=](const std::string& text) {
+    double number = 0;
+    if (CLI::detail::lexical_cast(text, number) && number >= least && reaches(number)) return std::string();
+    const std::string hint = text.ends_with('%') && CLI::detail::lexical_cast(text.substr(0, text.size() - 1), number)
+                                 ? fmt::format("; {} is {:.6g}", text, number / 100)
+                                 : "";
+    return most == std::numeric_limits<double>::max()
+               ? fmt::format("{} is no number from {} up{}", text, least, hint)
+               : fmt::format("{} is no number from {} {} {}{}", text, least, words, most, hint);
+  };
+  return CLI::Validator(fault, "");
+}
+
+}  // namespace
 
 CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::IsMember(std::move(words)).description("");
 }
 CLI::Validator number_within(double least, double most) {
-  // CLI::Range lets NaN through, which is on no side of any bound.
-  const auto fault = [least, most](const std::string& text) {
-    double number = 0;
-    if (CLI::detail::lexical_cast(text, number) && number >= least && number <= most) return std::string();
-    return most == std::numeric_limits<double>::max() ? fmt::format("{} is no number from {} up", text, least)
-                                                      : fmt::format("{} is no number from {} to {}", text, least, most);
-  };
-  return CLI::Validator(fault, "");
+  return number_in(
+      least, most, [=](double number) { return number <= most; }, "to");
+}
+CLI::Validator number_below(double least, double bound) {
+  return number_in(
+      least, bound, [=](double number) { return number < bound; }, "to less than");
 }
 CLI::Validator not_negative() {
   return number_within(0, std::numeric_limits<double>::max());
+}
+CLI::Validator whole_number_within(long least, long most) {
+  const auto fault = [least, most](const std::string& text) {
+    long number = 0;
+    if (CLI::detail::lexical_cast(text, number) && number >= least && number <= most) return std::string();
+    return fmt::format("{} is no whole number from {} to {}", text, least, most);
+  };
+  return CLI::Validator(fault, "");
+}
+
+CLI::Validator file_named(std::vector<std::string> extensions, bool folders, const std::string& advice) {
+  const auto fault = [=](const std::string& path) {
+    if (is_stream(path) || path.ends_with('/')) return std::string();
+    std::error_code ignored;
+    if (folders && std::filesystem::is_directory(path, ignored)) return std::string();
+    std::string extension = CLI::detail::to_lower(std::filesystem::path(path).extension().string());
+    extension.erase(0, 1);
+    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return std::string();
+    return fmt::format("{}: name it *.{}{}", path, fmt::join(extensions, " or *."),
+                       advice.empty() ? "" : fmt::format("; {}", advice));
+  };
+  return CLI::Validator(fault, "");
 }
 
 void add_time_limit(CLI::App& command, double& seconds, const std::string& group) {
@@ -72,7 +115,7 @@ void add_mesh_options(CLI::App& command, MeshOptions& options, const std::string
                    "Programs that read the file may split quads along either diagonal: faces intersect where they do\n"
                    "for any choice. Else a quad is split from its first corner (or its second, if that folds)");
   command.add_option("--threads", options.threads, "Threads to use; 0: as many as the machine has")
-      ->check(CLI::Range(0, 1024).description(""))
+      ->check(whole_number_within(0, 1024))
       ->type_name("N");
   add_quiet(command, options.quiet);
 }

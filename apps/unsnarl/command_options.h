@@ -11,7 +11,12 @@ namespace unsnarl::app {
 /// Checks of values that say nothing in the help text, where the name of the type says it all.
 CLI::Validator one_of(std::vector<std::string> words);
 CLI::Validator number_within(double least, double most);
+CLI::Validator number_below(double least, double bound);  ///< the bound itself is not allowed
 CLI::Validator not_negative();
+CLI::Validator whole_number_within(long least, long most);
+/// The name of a file to be written has to end in one of these ("png"), unless it is a stream or device; what is
+/// written there has no other format. Folders are allowed where `folders` says so. `advice`: what else to do.
+CLI::Validator file_named(std::vector<std::string> extensions, bool folders = false, const std::string& advice = "");
 
 /// Options that commands share word for word. group: the heading that they stand under in the help.
 void add_time_limit(CLI::App& command, double& seconds, const std::string& group = "Options");

@@ -80,12 +80,12 @@ class Curves {
   Curves(const CurvesOptions& options, Interruption& interruption)
       : options_(options),
         interruption_(interruption),
-        display_(progress_style(options.progress, options.quiet)),
+        display_(options.progress, options.quiet),
         document_(read_curves(options)) {}
 
   int run() {
     check_outputs();
-    for (const std::string& note : document_.notes()) say("note: {}", note);
+    for (const std::string& note : document_.notes()) display_.say("note: {}", note);
     const std::vector<Curve> input = curves_to_move(document_, options_.fix);
     if (!options_.integrand.empty()) write_integrand(input);
     if (options_.output.empty()) return exit_embedded;
@@ -121,13 +121,6 @@ class Curves {
   }
 
  private:
-  template <class... Args>
-  void say(fmt::format_string<Args...> text, Args&&... args) {
-    if (options_.quiet) return;
-    display_.clear();
-    tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
-  }
-
   void check_outputs() const {
     if (options_.output.empty() && options_.integrand.empty())
       throw UsageError("where should the result go? Give -o OUT ('-' for standard output)");
@@ -200,39 +193,12 @@ class Curves {
   }
 
   void write_report(bool is_written) {
-    const CurveReport& r = result_.report;
-    const auto places = [&](const std::vector<CurveCrossing>& crossings) {
-      nlohmann::ordered_json list = nlohmann::ordered_json::array();
-      for (const CurveCrossing& c : crossings)
-        list.push_back(
-            {{"curve_a", c.curve_a}, {"segment_a", c.segment_a}, {"curve_b", c.curve_b}, {"segment_b", c.segment_b}});
-      return list;
-    };
-    const nlohmann::ordered_json json = {
-        {"schema", "unsnarl-curves-report"},
-        {"schema_version", 1},
-        {"program", std::string("unsnarl ") + version},
-        {"input", options_.input},
-        {"output", is_written ? options_.output : ""},
-        {"status", to_string(result_.status)},
-        {"exit_code", static_cast<int>(exit_code_of(result_.status))},
-        {"curves", result_.curves.size()},
-        {"points", r.points},
-        {"crossings_before", r.crossings_before},
-        {"crossings_after", r.crossings_after},
-        {"diagonal", r.diagonal},
-        {"displacement_mean_rel", r.displacement_mean_rel},
-        {"displacement_max_rel", r.displacement_max_rel},
-        {"distance_mean_rel", r.distance_mean_rel},
-        {"distance_max_rel", r.distance_max_rel},
-        {"moved_points", r.moved_points},
-        {"turned_points", r.turned_points},
-        {"inserted_points", r.inserted_points},
-        {"joints", r.joints.size()},
-        {"obstructions", places(r.fixed)},
-        {"left", places(r.left)},
-        {"seconds", r.seconds},
-    };
+    nlohmann::ordered_json json = {{"schema", "unsnarl-curves-report"},
+                                   {"schema_version", 1},
+                                   {"program", std::string("unsnarl ") + version},
+                                   {"input", options_.input},
+                                   {"output", is_written ? options_.output : ""}};
+    json.update(nlohmann::ordered_json::parse(curve_report_json(result_)));
     write_file(options_.report, json.dump(2) + "\n", interruption_);
   }
 
@@ -313,12 +279,14 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
       ->type_name("FILE")
       ->group(shown);
   command.add_option("--picture", options.picture, "Write a picture, before and after, crossings in red")
+      ->check(file_named({"svg"}))
       ->type_name("FILE.svg")
       ->group(shown);
   command
       .add_option("--integrand", options.integrand,
                   "Write a picture of the self-contact energy's integrand over pairs of points of one curve\n"
                   "(the paper's Fig. 4); needs no -o")
+      ->check(file_named({"png"}))
       ->type_name("FILE.png")
       ->group(shown);
   command

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "file_places.h"
@@ -24,6 +25,7 @@
 #include "unsnarl/pictures.h"
 #include "unsnarl/report_json.h"
 #include "unsnarl/stage_clock.h"
+#include "unsnarl/version.h"
 #include "usage_error.h"
 #include "viewer.h"
 
@@ -43,7 +45,10 @@ std::string checked_output(const FixOptions& options) {
     if (!options.output.empty()) throw UsageError("--in-place and -o exclude each other: give one of them");
     if (options.inputs[0] == standard_stream) throw UsageError("--in-place needs a file, not standard input");
   } else if (options.output.empty()) {
-    throw UsageError("where should the result go? Give -o OUT ('-' for standard output), or --in-place");
+    const std::string wanted = options.inputs.back();
+    const bool is_result = options.inputs.size() == 2 && !fs::exists(wanted);
+    throw UsageError("where should the result go? Give -o OUT ('-' for standard output), or --in-place" +
+                     (is_result ? fmt::format("; for {0}: unsnarl fix {1} -o {0}", wanted, options.inputs[0]) : ""));
   }
   return options.in_place ? options.inputs[0] : options.output;
 }
@@ -124,7 +129,7 @@ class Fix {
         interruption_(interruption),
         output_(checked_output(options)),
         places_(checked_places(options)),
-        display_(progress_style(options.progress, options.quiet)),
+        display_(options.progress, options.quiet),
         memory_guard_(options.memory_limit_mb),
         scene_(read_scene(options.inputs, format_from_name(options.format))),
         repair_options_(repair_options(options, scene_)) {
@@ -135,7 +140,8 @@ class Fix {
       files_.format = to_string(scene_.document(0).format());
     }
     if (options.recompute_normals && !scene_.recompute_normals())
-      say("note: --recompute-normals: there are no vertex normals in {} that could be updated", names_of(scene_));
+      display_.say("note: --recompute-normals: there are no vertex normals in {} that could be updated",
+                   names_of(scene_));
     files_.vertices = surface().view().vertex_count();
     files_.faces = surface().view().face_count();
     files_.notes = scene_.notes();
@@ -144,7 +150,7 @@ class Fix {
 
   int run() {
     if (!options_.view.empty()) require_viewer();
-    for (const std::string& note : scene_.notes()) say("note: {}", note);
+    for (const std::string& note : scene_.notes()) display_.say("note: {}", note);
     // A folder that is missing or must not be written to is found now rather than after the work.
     std::optional<OutputFolder> folder;
     if (options_.is_scene()) folder.emplace(output_);
@@ -175,6 +181,9 @@ class Fix {
     if (!options_.quiet) {
       display_.clear();
       tell(fix_summary(result_, repair_options_, files_));
+      for (const std::string& path :
+           {options_.report, options_.picture, options_.view, options_.record, options_.highlight})
+        if (!path.empty() && !is_stream(path)) tell(fmt::format("  wrote {}\n", path));
     }
     return exit_code_of(result_.status);
   }
@@ -185,13 +194,6 @@ class Fix {
   Certifier& certifier() {
     if (!certifier_) certifier_.emplace(surface(), repair_options_.find);
     return *certifier_;
-  }
-
-  template <class... Args>
-  void say(fmt::format_string<Args...> text, Args&&... args) {
-    if (options_.quiet) return;
-    display_.clear();
-    tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
   }
 
   /// The buffers of a glTF keep their names: beside the result lies what may belong to something else.
@@ -317,7 +319,8 @@ class Fix {
     files_.clearance_before = measured(input.positions, result_.report.before.total());
     if (files_.output.empty()) return;
     const std::vector<double> written = scene_.as_written(result_.positions, float32_digits());
-    files_.clearance_after = written == input.positions ? files_.clearance_before : measured(written, result_.report.after.total());
+    files_.clearance_after =
+        written == input.positions ? files_.clearance_before : measured(written, result_.report.after.total());
   }
 
   void write_report() {
@@ -355,11 +358,30 @@ class Fix {
   ReportFiles files_;
 };
 
+/// The report about an input that is refused, so that no earlier one is taken for its own. Nothing but a report is
+/// overwritten: the files that a broken input refers to are not known.
+void write_refusal(const FixOptions& options, const std::string& error, Interruption& interruption) {
+  const fs::path path = options.report;
+  if (path.empty() || (fs::exists(path) && !is_stream(path.string()) && path.extension() != ".json")) return;
+  const nlohmann::ordered_json json = {{"schema", "unsnarl-report"},
+                                       {"schema_version", report_schema_version},
+                                       {"version", version},
+                                       {"status", "invalid_input"},
+                                       {"exit_code", static_cast<int>(exit_invalid_input)},
+                                       {"input", {{"path", fmt::format("{}", fmt::join(options.inputs, ", "))}}},
+                                       {"output", {{"written", false}, {"path", nullptr}}},
+                                       {"error", error}};
+  write_file(options.report, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n", interruption);
+}
+
 }  // namespace
 
 int run_fix(const FixOptions& options, Interruption& interruption) {
   try {
     return options.sequence ? run_sequence(options, interruption) : Fix(options, interruption).run();
+  } catch (const FileError& error) {
+    if (!options.sequence) write_refusal(options, error.what(), interruption);
+    throw;
   } catch (const std::bad_alloc&) {
     if (options.memory_limit_mb <= 0) throw;
     tell(fmt::format("unsnarl: {} MB are not enough to read, examine and write this mesh; raise --memory-limit\n",

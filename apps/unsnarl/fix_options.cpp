@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "fix.h"
 #include "mesh_input.h"
 #include "paper_options.h"
@@ -122,7 +120,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       .add_option("--min-dihedral", options.min_dihedral_deg,
                   "Open two faces at an edge that are folded together closer than this angle, as programs that\n"
                   "mesh volumes ask for (TetGen: 0.1); 0: leave them. In degrees, less than 90")
-      ->check(number_within(0, std::nextafter(90.0, 0.0)))
+      ->check(number_below(0, 90))
       ->type_name("DEG")
       ->group(what);
   command
@@ -147,19 +145,26 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       .add_option("--picture", options.picture,
                   "Write a picture, before and after, intersecting faces in red; FILE.gif or a folder (of PNG):\n"
                   "an animation of the repair")
+      ->check(file_named({"png", "gif"}, true,
+                         "or give a folder for pictures of an animation, which 'ffmpeg -i FOLDER/%04d.png OUT.mp4' "
+                         "makes a video of"))
       ->type_name("FILE.png")
       ->group(shown);
   command.add_option("--picture-width", options.picture_width, "Width of that picture; 1600 by default")
-      ->check(CLI::Range(128, 16384).description(""))
+      ->check(whole_number_within(128, 16384))
       ->type_name("PIXELS")
       ->group(shown);
   command.add_option("--view", options.view, "Write a page to look at: before, after, displacement (see unsnarl view)")
+      ->check(file_named({"html", "htm"}))
       ->type_name("PAGE.html")
       ->group(shown);
   command.add_option("--record", options.record, "Write how it went as JSON: iterations, the surface on the way")
       ->type_name("FILE.json")
       ->group(shown);
-  command.add_option("--highlight", options.highlight, "Write a PLY in which intersecting faces are coloured")
+  command
+      .add_option("--highlight", options.highlight,
+                  "Write a PLY in which intersecting faces are coloured, with the displacement of each vertex")
+      ->check(file_named({"ply"}))
       ->type_name("FILE.ply")
       ->group(shown);
   add_progress(command, options.progress, shown);

@@ -1,12 +1,14 @@
 #include "fix_summary.h"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cstdint>
-#include <string>
-#include <vector>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "mesh_input.h"
 
@@ -15,10 +17,13 @@ namespace {
 
 std::string in_words(const PairCounts& pairs) {
   if (pairs.total() == 0) return "none";
+  // "116 disjoint" alone would sound like pairs that do not intersect.
+  static constexpr std::array<std::string_view, pair_class_count> words = {
+      "sharing no vertex", "sharing a vertex", "folded along an edge", "on the same vertices",
+      "of a face without area"};
   std::string text;
   for (std::size_t i = 0; i < pair_class_count; ++i)
-    if (pairs.by_class[i] > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], pair_class_names[i]);
+    if (pairs.by_class[i] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], words[i]);
   return text;
 }
 
@@ -70,8 +75,8 @@ std::string fate_of_output(Status status, const std::string& output) {
                                       : "nothing written; --keep-partial writes what was reached";
 }
 
-/// Diagonals from rest beyond which a region is named: those who mesh volumes reject repairs that move farther than 1
-/// %.
+/// Diagonals from rest beyond which a region is named: repairs that move farther than 1 % are rejected by programs that
+/// mesh volumes.
 constexpr double far_rel = 0.01;
 constexpr std::size_t most_far_regions = 3;  // lines
 
@@ -141,6 +146,9 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   for (const std::string& words : far_regions(r)) line("  " + words);
   if (options.min_dihedral_deg > 0 && files.clearance_after)
     line(dihedral_in_words(*files.clearance_after, options.min_dihedral_deg));
+  if (result.status == Status::displacement_exceeded && r.displacement_lower_bound_rel > options.max_displacement_rel)
+    line(fmt::format("  needed at least: {:.2g} % of the diagonal, half the depth of the deepest overlap",
+                     100 * r.displacement_lower_bound_rel));
   for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
   line(fmt::format("  {}{}; {:.2f} s, {:.0f} MB", explanation(result.status, options.goal), float32_remark(result),
                    files.whole.seconds, files.whole.peak_memory_mb));

@@ -91,10 +91,10 @@ void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
   command
       .add_option("--points", options.points,
                   "Points of every curve on the way; 0: as many as the longer of both has, 200 at least")
-      ->check(CLI::Range(0, 100000).description(""))
+      ->check(whole_number_within(0, 100000))
       ->type_name("N");
   command.add_option("--frames", options.frames, "SVG files, evenly in time, 2 to 10000 (default 25)")
-      ->check(CLI::Range(2, 10000).description(""))
+      ->check(whole_number_within(2, 10000))
       ->type_name("N");
   command.add_flag("--reverse", options.reverse, "Take curves of END backwards where they run around the other way");
   command
@@ -127,7 +127,7 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
       if (signed_area(start[c]) * signed_area(end[c]) < 0) run_backwards(end[c]);
   prepare_picture_folder(options.folder, "-o");
 
-  ProgressDisplay display(progress_style(options.progress, options.quiet));
+  ProgressDisplay display(options.progress, options.quiet);
   Context context;
   context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
   interruption.set_handler([&] { context.cancel(); });

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "batch/batch.h"
 #include "check.h"
@@ -22,6 +23,7 @@
 #include "unsnarl/document.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/version.h"
+#include "usage.h"
 #include "usage_error.h"
 #include "version.h"
 #include "view.h"
@@ -42,7 +44,8 @@ int run(int argc, char** argv) {
       "unsnarl");
   bool as_json = false;
   program.add_flag("--json", as_json, "With --version: as JSON, with the versions of all libraries inside");
-  program.set_version_flag("--version", [&] { return as_json ? version_json() : std::string("unsnarl ") + version; });
+  const auto versions = [&] { return as_json ? version_json() : std::string("unsnarl ") + version; };
+  program.set_version_flag("--version,-V", versions);
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
   FixOptions fix;
@@ -77,6 +80,8 @@ int run(int argc, char** argv) {
   add_isotopy_options(*isotopy_command, isotopy);
   add_seifert_options(*seifert_command, seifert);
   add_routes_options(*routes_command, routes);
+  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    command->set_version_flag("--version", versions)->group("");  // the same for all, so not listed again
   program.footer(
       "Examples:\n"
       "  unsnarl check hand.obj                              does it intersect itself, and where?\n"
@@ -86,15 +91,13 @@ int run(int argc, char** argv) {
       "3 cannot read, 4 cannot write, 5 limit of time, memory or displacement, 6 interrupted,\n"
       "7 all repaired but what no motion can resolve, 70 internal error.\n"
       "'unsnarl fix --help' explains the options.");
+  const std::vector<std::string> words = with_usual_spelling({argv + 1, argv + argc});
   try {
-    program.parse(argc, argv);
+    program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() != 0 && program.get_subcommands().empty())
-      return complain(
-          exit_usage,
-          "say what to do: fix, batch, check, view, sample, curves, isotopy, seifert or routes; 'unsnarl --help' "
-          "explains");
-    return program.exit(e, std::cout, std::cerr) == 0 ? exit_embedded : exit_usage;
+    if (e.get_exit_code() != 0) return complain(exit_usage, explain_usage(program, e, words));
+    program.exit(e, std::cout, std::cerr);
+    return exit_embedded;
   }
   std::optional<tbb::global_control> limit;
   if (const int threads = *fix_command ? fix.threads : *view_command ? view.threads : check.threads; threads > 0)

@@ -1,14 +1,20 @@
 #include "progress.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "standard_streams.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
+namespace {
+
+/// Progress that has not changed for so long is shown again.
+constexpr std::chrono::milliseconds show_again_after{900};
+
+}  // namespace
 
 ProgressStyle progress_style(const std::string& name, bool quiet) {
   if (name == "json") return ProgressStyle::json;
@@ -17,26 +23,73 @@ ProgressStyle progress_style(const std::string& name, bool quiet) {
   return !quiet && ::isatty(STDERR_FILENO) ? ProgressStyle::line : ProgressStyle::none;
 }
 
+ProgressDisplay::~ProgressDisplay() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+    wipe();
+  }
+  ends_or_changes_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
 void ProgressDisplay::show(const Context::Progress& progress) {
-  switch (style_) {
-    case ProgressStyle::none: return;
-    case ProgressStyle::json: {
-      const nlohmann::ordered_json json = {{"fraction", progress.fraction},
-                                           {"phase", progress.phase},
-                                           {"pairs_left", progress.pairs_left},
-                                           {"displacement_rel", progress.displacement_rel}};
-      tell(json.dump() + "\n");
-      break;
-    }
-    case ProgressStyle::line:
-      tell(fmt::format("\r\x1b[K{:<9} {:3.0f} %   {} intersecting pairs left   moved up to {:.2g} % of the diagonal",
-                       progress.phase, 100 * progress.fraction, progress.pairs_left, 100 * progress.displacement_rel));
-      line_shown_ = true;
-      break;
+  if (style_ == ProgressStyle::none) return;
+  {
+    const std::lock_guard lock(mutex_);
+    shown_ = progress;
+    ++changes_;
+    draw();
+  }
+  ends_or_changes_.notify_all();
+  if (thread_.joinable()) return;
+  try {
+    thread_ = std::thread([this] { show_again(); });
+  } catch (const std::system_error&) {
+    // Without memory for a thread, progress is shown where there is some.
   }
 }
 
 void ProgressDisplay::clear() {
+  const std::lock_guard lock(mutex_);
+  shown_.reset();
+  wipe();
+}
+
+void ProgressDisplay::say_line(const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  wipe();
+  tell(line);
+}
+
+void ProgressDisplay::show_again() {
+  std::unique_lock lock(mutex_);
+  while (!is_ending_) {
+    const unsigned known = changes_;
+    const bool has_news =
+        ends_or_changes_.wait_for(lock, show_again_after, [&] { return is_ending_ || changes_ != known; });
+    if (!has_news && shown_) draw();
+  }
+}
+
+void ProgressDisplay::draw() {
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  if (style_ == ProgressStyle::json) {
+    const nlohmann::ordered_json json = {{"fraction", shown_->fraction},
+                                         {"phase", shown_->phase},
+                                         {"pairs_left", shown_->pairs_left},
+                                         {"displacement_rel", shown_->displacement_rel},
+                                         {"seconds", seconds}};
+    tell(json.dump() + "\n");
+    return;
+  }
+  tell(fmt::format(
+      "\r\x1b[K{:<9} {:3.0f} %   {} intersecting pairs left   moved up to {:.2g} % of the diagonal   {:.0f} s",
+      shown_->phase, 100 * shown_->fraction, shown_->pairs_left, 100 * shown_->displacement_rel, seconds));
+  line_shown_ = true;
+}
+
+void ProgressDisplay::wipe() {
   if (!line_shown_) return;
   tell("\r\x1b[K");
   line_shown_ = false;

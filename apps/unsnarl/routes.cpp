@@ -202,7 +202,7 @@ void add_routes_options(CLI::App& command, RoutesCommandOptions& options) {
       ->check(number_within(0.1, 2))
       ->type_name("X");
   command.add_option("--sides", options.sides, "Corners of the tubes' rings, 3 to 256 (default 16)")
-      ->check(CLI::Range(3, 256).description(""))
+      ->check(whole_number_within(3, 256))
       ->type_name("N");
   command.add_flag("--free-tubes", options.free_tubes,
                    "As the paper does: straight tubes as surfaces, untangled; they do not stay tubes");
@@ -233,7 +233,7 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
   if (!options.check.empty()) return check_file(options, plan);
   prepare_picture_folder(options.folder, "-o");
 
-  ProgressDisplay display(progress_style(options.progress, options.quiet));
+  ProgressDisplay display(options.progress, options.quiet);
   Context context;
   context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
   interruption.set_handler([&] { context.cancel(); });

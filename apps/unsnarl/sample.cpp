@@ -166,7 +166,7 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
       ->type_name("FORMAT");
   command
       .add_option("--resolution", options.resolution, "Sampling steps along the longest direction; 0: the sample's own")
-      ->check(CLI::Range(0, 2000).description(""))
+      ->check(whole_number_within(0, 2000))
       ->type_name("N");
   command.add_option("--set", options.parameters, "Change a parameter; may be repeated")->type_name("NAME=VALUE");
   command.add_flag("--list", options.list, "List all samples; with NAME: describe that one and its parameters");

@@ -119,7 +119,7 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
   command
       .add_option("--views", options.views,
                   "From how many sides to look for the simplest diagram, 3 to 10000 (default 60)")
-      ->check(CLI::Range(3, 10000).description(""))
+      ->check(whole_number_within(3, 10000))
       ->type_name("N");
   command.add_flag("--no-fair", options.no_fair, "Leave the surface as Seifert's algorithm builds it");
   command.add_option("--time-limit", options.time_limit_s, "Stop fairing after this many seconds; 0: none")
@@ -131,6 +131,7 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
       ->type_name("FILE")
       ->group(shown);
   command.add_option("--picture", options.picture, "Write a picture: as it was built, and the result")
+      ->check(file_named({"png"}))
       ->type_name("FILE.png")
       ->group(shown);
   add_progress(command, options.progress, shown);
@@ -159,7 +160,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   if (!format) throw UsageError(options.output + ": name it *.obj, *.off or *.ply, or add --format");
   places.require_writable(interruption);
 
-  ProgressDisplay display(progress_style(options.progress, options.quiet));
+  ProgressDisplay display(options.progress, options.quiet);
   Context context;
   context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
   SeifertOptions wanted;

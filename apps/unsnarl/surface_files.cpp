@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "unsnarl/parts.h"
@@ -91,11 +92,16 @@ std::string highlight_file(const SurfaceView& surface, std::span<const double> p
   const std::vector<std::int32_t> count_after = pairs_of_faces(after, surface.face_count());
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment intersecting faces: red now, orange before\n"
-      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\nproperty double displacement\n"
       "element face {}\nproperty list int int vertex_indices\nproperty uchar red\nproperty uchar green\n"
       "property uchar blue\nproperty int pairs_before\nproperty int pairs_after\nend_header\n",
       surface.vertex_count(), surface.face_count());
-  for (const double x : positions) append_little_endian(bytes, x);
+  for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
+    for (std::size_t k = i; k < i + 3; ++k) append_little_endian(bytes, positions[k]);
+    append_little_endian(bytes,
+                         std::hypot(positions[i] - surface.positions[i], positions[i + 1] - surface.positions[i + 1],
+                                    positions[i + 2] - surface.positions[i + 2]));
+  }
   for (std::size_t f = 0; f < surface.face_count(); ++f) {
     const auto corners = surface.face(f);
     append_little_endian(bytes, static_cast<std::int32_t>(corners.size()));

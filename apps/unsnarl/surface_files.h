@@ -16,7 +16,8 @@ std::string surface_file(const SurfaceView& surface, Format format, const std::s
                          const std::vector<std::string>& groups = {});
 
 /// A binary PLY for looking at: the surface at `positions`, faces coloured red where they intersect, orange where they
-/// did before, grey elsewhere; and the number of pairs that each face is in, before and after, as face properties.
+/// did before, grey elsewhere; the number of pairs that each face is in, before and after, as face properties; and how
+/// far each vertex is from where it was in `surface`, a length, as a vertex property.
 std::string highlight_file(const SurfaceView& surface, std::span<const double> positions,
                            const std::vector<IntersectingPair>& before, const std::vector<IntersectingPair>& after);
 

@@ -37,7 +37,7 @@ std::string read_report(const std::string& path) {
   return text;
 }
 
-/// What is to be seen, by paths.
+/// The paths of the meshes to be shown.
 struct Meshes {
   std::vector<std::string> inputs, repaired;  // one each, or none
 };
@@ -80,6 +80,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
                    "repaired files; leave it out to look at IN alone. Formats");
   command.add_flag("--scene", options.scene, "Two files are two of a scene, not IN and OUT");
   command.add_option("-o,--output", options.output, "Where the page goes; '-' for standard output")
+      ->check(file_named({"html", "htm"}))
       ->type_name("PAGE.html")
       ->required();
   command.add_option("--report", options.report, "The JSON report of the repair, to be shown beside the meshes")

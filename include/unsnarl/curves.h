@@ -94,6 +94,10 @@ struct CurveResult {
 CurveResult untangle_curves(std::span<const Curve> curves, const CurveOptions& options = {},
                             Context* context = nullptr);
 
+/// The report as a JSON object: status, exit code, counts, displacements, obstructions and crossings left
+/// (docs/curves.md explains the keys).
+std::string curve_report_json(const CurveResult& result);
+
 enum class CurveFormat : std::uint8_t { svg, json };
 std::string_view to_string(CurveFormat format);
 /// By the extension of a path, or the bare name. Case does not matter.

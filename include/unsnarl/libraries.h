@@ -10,8 +10,8 @@ struct LibraryVersion {
   std::string version;  ///< as its authors count
 };
 
-/// What this library is made with: of shared libraries the version that is loaded, of those that are
-/// headers only the one that was compiled in; "GCC" or "Clang" that compiled it, and "glibc" that runs it.
+/// The versions of all that this library is made with. Shared libraries count with the version that is loaded,
+/// libraries of headers with the one that was compiled in. "GCC" or "Clang" compiled it, "glibc" runs it.
 std::vector<LibraryVersion> libraries();
 
 }  // namespace unsnarl

@@ -40,8 +40,7 @@ struct RoutePlan {
 /// A plan from JSON: {"agents": [{"name": "a", "radius": 1, "start": [x, y, z], "goal": [x, y, z], "waypoints":
 /// [...]}], "obstacles": [{"name": "wall", "file": "wall.obj", "hollow": false}]}; a name, way-points, obstacles and
 /// "hollow" may be missing; instead of a file, an obstacle may have "vertices" ([[x, y, z], ...]) and "faces" ([[0, 1,
-/// 2],
-/// ...]). `folder`: the one that files are named relative to.
+/// 2], ...]). `folder`: the one that files are named relative to.
 /// Throws FileError, naming the place as in "agents[2].radius", for anything that is not such a plan or check_plan()
 /// refuses.
 RoutePlan parse_route_plan(std::string_view text, const std::filesystem::path& folder = {});
@@ -52,8 +51,9 @@ std::string route_plan_json(const RoutePlan& plan);
 /// the same, faces of vertices that do not exist.
 void check_plan(const RoutePlan& plan);
 
-/// What no routes can mend, one sentence each: a start, goal or way-point within the reach of one of another agent, or
-/// nearer to an obstacle than the radius, or inside a solid one. Decided exactly, but for the inside. Empty: nothing.
+/// Lists what no routes can mend, one sentence each: a start, goal or way-point within the reach of one of another
+/// agent, or nearer to an obstacle than the radius, or inside a solid one. Decided exactly, but for the inside. Empty:
+/// nothing.
 std::vector<std::string> route_obstructions(const RoutePlan& plan);
 
 /// A polyline from start to goal; way-points are among its points.
@@ -61,21 +61,21 @@ struct Route {
   std::vector<RoutePoint> points;
 };
 
-/// What is certified of routes. A distance / the one that is needed: 1 is just enough.
+/// The properties of routes that are certified. Distances are relative to those that are needed: 1 is just enough.
 struct RouteFindings {
   /// Proven lower bounds, up to `measured_up_to`: of segments of two agents / the sum of their radii; of segments and
   /// faces of obstacles / the radius; of segments of one route that are pi radii apart along it / twice the radius.
   double clearance = measured_up_to, obstacle_clearance = measured_up_to, self_clearance = measured_up_to;
-  std::array<int, 2> agents = {-1, -1};    ///< that are nearest to each other; -1: none is near another
+  std::array<int, 2> agents = {-1, -1};    ///< those nearest to each other; -1: none is near another
   std::array<int, 2> obstacle = {-1, -1};  ///< agent and obstacle that are nearest
   int self = -1;                           ///< agent whose route is nearest to itself
   /// Proven upper bound of radius * curvature, 2 tan(a / 2) / min(|e|, |f|) where edges e, f meet at an angle a
   /// (E. Rawdon's MinRad): arcs of circles that are no smaller fit into all corners.
   double turn = 0;
-  int turn_agent = -1;         ///< whose route turns most
+  int turn_agent = -1;         ///< the one whose route turns most
   bool places_kept = true;     ///< starts, goals and way-points are points of their routes, bit for bit, in order
   std::vector<double> length;  ///< of each route
-  /// Of each agent: from place to place, straight. No route is shorter.
+  /// The length of straight lines from place to place, for each agent. No route is shorter.
   std::vector<double> straight;
 
   static constexpr double measured_up_to = 1.5;

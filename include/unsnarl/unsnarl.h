@@ -138,6 +138,22 @@ typedef struct unsnarl_options {
 
   /* unsnarl_planar_isotopy */
   int32_t points; /* of every curve on the way, 0 or [16, 100000]; 0: as many as the longer, 200 at least (default) */
+
+  /* unsnarl_repair with `paper`: the settings of unsnarl::PaperOptions (paper.h), which names their sources */
+  const char* paper_bandwidth;   /* "global", "independent" or "symmetric" (default) */
+  int32_t paper_adaptive;        /* bandwidths follow the surface. Default 1 */
+  double paper_bandwidth_scale;  /* times the bandwidths found, > 0. Default 1 */
+  double paper_neighbourhood;    /* bandwidths beyond which vertices do not repel each other, > 0. Default 1.5 */
+  double paper_gaussian;         /* weight of the Gaussian energy, >= 0. Default 1 */
+  double paper_mesh;             /* weight of the mesh energy, >= 0. Default 0.03 */
+  const char* paper_mesh_energy; /* "depth" (default) or "length" */
+  int32_t paper_whole_polygons;  /* penetration between polygons as they are, not their triangles. Default 1 */
+  double paper_arap;             /* weight of the regularisation, >= 0. Default 1 */
+  int32_t paper_memory;          /* steps that L-BFGS keeps, >= 1. Default 8 */
+  int32_t paper_iterations;      /* at most, >= 0. Default 3000 */
+
+  /* unsnarl_plan_routes */
+  double spacing; /* distance of the points of a route / its radius, (0, 2]. Default 0.5 */
 } unsnarl_options;
 
 /* Sets all options to their defaults. size: sizeof(unsnarl_options). */
@@ -149,7 +165,7 @@ typedef struct unsnarl_progress {
   size_t size;             /* of this struct in the library that calls */
   double fraction;         /* [0, 1], never decreases */
   const char* phase;       /* "diagnose", "untangle", "recover", "certify", "frames", ... */
-  size_t pairs_left;       /* intersecting pairs of triangles, or of segments, at this moment */
+  size_t pairs_left;       /* intersecting pairs of faces, or of segments, at this moment */
   double displacement_rel; /* largest displacement at this moment / diagonal of the bounding box */
 } unsnarl_progress;
 
@@ -240,6 +256,13 @@ UNSNARL_EXPORT int unsnarl_boundary_vertices(const unsnarl_surface* surface, con
 UNSNARL_EXPORT int unsnarl_vertices_of_faces(const unsnarl_surface* surface, const uint8_t* faces, size_t face_count,
                                              unsnarl_result** result);
 
+/* A picture for looking at: the surface, and beside it the same with its vertices at `moved` (x y z of each,
+ * moved_count vertices), if moved is not NULL; intersecting faces in red. width: pixels, [128, 8192].
+ *
+ * Array: "png" (k, 1) uint8, the bytes of a PNG file. */
+UNSNARL_EXPORT int unsnarl_picture(const unsnarl_surface* surface, const double* moved, size_t moved_count,
+                                   int32_t width, const unsnarl_options* options, unsnarl_result** result);
+
 /* ---- mesh files --------------------------------------------------------------------------------------------- */
 
 /* Reads a mesh file with all that it holds. format: "obj", "ply", ... (docs/formats.md); NULL: by the extension. */
@@ -280,6 +303,21 @@ UNSNARL_EXPORT int unsnarl_untangle_curves(const unsnarl_curves* curves, const u
 UNSNARL_EXPORT int unsnarl_planar_isotopy(const unsnarl_curves* start, const unsnarl_curves* end,
                                           const unsnarl_options* options, unsnarl_context* context,
                                           unsnarl_result** result);
+
+/* ---- routes in space ---------------------------------------------------------------------------------------- */
+
+/* Routes for agents with radii, past each other and past obstacles, whose tubes keep clear of each other
+ * (docs/routes.md). plan: JSON as of `unsnarl routes`, with obstacles as "vertices" and "faces", or as files relative
+ * to the working directory.
+ *
+ * Arrays: "points" (p, 3) float64 and "offsets" (agents + 1, 1) int32. Report: what is certified of them, "messages",
+ * "seconds". */
+UNSNARL_EXPORT int unsnarl_plan_routes(const char* plan, const unsnarl_options* options, unsnarl_context* context,
+                                       unsnarl_result** result);
+
+/* Certifies routes, one an agent, as they are. Report: "hold", "clearance", ... as of unsnarl_plan_routes, and
+ * "faults", one line each of what does not hold. */
+UNSNARL_EXPORT int unsnarl_check_routes(const char* plan, const unsnarl_curves* routes, unsnarl_result** result);
 
 /* ---- surfaces of links -------------------------------------------------------------------------------------- */
 

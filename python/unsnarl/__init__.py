@@ -17,6 +17,10 @@ repair and certify also a list of these, ``repair([(V, F), mesh])``: meshes in o
     ``(corners, offsets)`` for polygons of mixed sizes, where face f has the vertices
     ``corners[offsets[f]:offsets[f + 1]]``.
 
+Files: ``fix("in.obj", "out.obj")`` repairs one as the program does, ``check("in.obj")`` looks for intersections,
+``V, F = read("in.obj")`` gives arrays. What a repair came to goes to the logger "unsnarl" too, and a Result shows
+itself in notebooks.
+
 What is passed in is never changed. Arguments that make no sense raise ValueError or TypeError; a mesh that could not be
 untangled raises nothing, its ``Result.status`` says so.
 """
@@ -24,11 +28,13 @@ untangled raises nothing, its ``Result.status`` says so.
 from ._call import Status
 from ._certify import Certificate, certify
 from ._curves import CurveResult, find_crossings, untangle_curves
+from ._files import check, fix, read
 from ._intersections import Intersections, find_intersections
 from ._library import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._progress import Progress
 from ._repair import Result, repair
+from ._routes import Routes, check_routes, plan_routes
 from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
 from ._spaces import (
     Isotopy,
@@ -48,17 +54,23 @@ __all__ = [
     "Jitter",
     "Progress",
     "Result",
+    "Routes",
     "SeifertSurface",
     "SequenceResult",
     "Status",
     "boundary_vertices",
     "certify",
+    "check",
+    "check_routes",
     "check_seifert_surface",
     "component_of_faces",
     "find_crossings",
     "find_intersections",
+    "fix",
     "knot_of_table",
+    "plan_routes",
     "planar_isotopy",
+    "read",
     "repair",
     "repair_sequence",
     "seifert_surface",

@@ -129,6 +129,8 @@ def call_and_wait(name: str, *arguments: Any, progress: OnProgress) -> Outcome:
         while came_to is None:
             try:
                 report = _next(news)
+                if report is None and isinstance(show, ProgressBar):
+                    show.show_again()
                 if not isinstance(report, Progress):
                     came_to = report
                 elif raised is None and show is not None:

@@ -81,6 +81,18 @@ class OptionsStruct(_Struct):
         ("views", c_int32),
         ("fair", c_int32),
         ("points", c_int32),
+        ("paper_bandwidth", c_char_p),
+        ("paper_adaptive", c_int32),
+        ("paper_bandwidth_scale", c_double),
+        ("paper_neighbourhood", c_double),
+        ("paper_gaussian", c_double),
+        ("paper_mesh", c_double),
+        ("paper_mesh_energy", c_char_p),
+        ("paper_whole_polygons", c_int32),
+        ("paper_arap", c_double),
+        ("paper_memory", c_int32),
+        ("paper_iterations", c_int32),
+        ("spacing", c_double),
     ]
 
 
@@ -112,6 +124,11 @@ _SIGNATURES = {
     "result_report": ([c_void_p], c_char_p),
     "result_array": ([c_void_p, c_char_p, POINTER(ArrayStruct)], c_int),
     "result_free": ([c_void_p], None),
+    "document_read": ([c_char_p, c_char_p, POINTER(c_void_p)], c_int),
+    "document_surface": ([c_void_p, c_void_p], c_int),
+    "document_report": ([c_void_p], c_char_p),
+    "document_write": ([c_void_p, c_void_p, c_char_p], c_int),
+    "document_free": ([c_void_p], None),
 }
 for _name, (_arguments, _result) in _SIGNATURES.items():
     _function = getattr(library, f"unsnarl_{_name}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import os
 import re
 from collections.abc import Callable
 from typing import Any, Optional
@@ -21,6 +22,11 @@ def opened(V: Any, F: Any) -> tuple[Any, Any, Optional[MovedTo]]:
     """Positions and faces as given, or those of the mesh that was given in their place."""
     if F is not None:
         return V, F, None
+    if isinstance(V, (str, bytes, os.PathLike)):
+        raise TypeError(
+            f"{V!r} is the name of a file: unsnarl.fix(IN, OUT) repairs files, unsnarl.check(IN) looks for "
+            "intersections, unsnarl.read(IN) gives V and F"
+        )
     if hasattr(V, "vertices") and hasattr(V, "faces"):  # trimesh
         return V.vertices, V.faces, _moved_to(V, "vertices")
     if hasattr(V, "points") and hasattr(V, "faces"):  # pyvista.PolyData

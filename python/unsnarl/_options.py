@@ -12,7 +12,7 @@ import numpy as np
 from ._library import OptionsStruct, check, library
 
 _LARGEST_COUNT = np.iinfo(np.int32).max
-_COUNTS = {"threads", "views", "points"}
+_COUNTS = {"threads", "views", "points", "paper_memory", "paper_iterations"}
 
 
 def options_of(**given: Any) -> OptionsStruct:
@@ -22,6 +22,17 @@ def options_of(**given: Any) -> OptionsStruct:
     for option, value in given.items():
         setattr(options, option, _CHECKS[option](option, value))
     return options
+
+
+def paper_options(paper: Any) -> dict[str, Any]:
+    """The options that `paper` stands for: a bool, or settings by their names without "paper_"."""
+    if not isinstance(paper, dict):
+        return {"paper": paper}
+    known = [name[len("paper_") :] for name, _ in OptionsStruct._fields_ if name.startswith("paper_")]
+    for name in paper:
+        if name not in known:
+            raise ValueError(f"paper has no setting {name!r}; there are: {', '.join(known)}")
+    return {"paper": True, **{f"paper_{name}": value for name, value in paper.items()}}
 
 
 def name_of(option: str, value: Any) -> bytes:

@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+import base64
+import ctypes
+import html
+import logging
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Optional
 
 import numpy as np
 
-from ._call import Status, call_and_wait
-from ._options import options_of
+from ._arguments import Surface
+from ._call import Outcome, Status, call, call_and_wait
+from ._options import options_of, paper_options
 from ._progress import OnProgress
 from ._scenes import scene_of
+
+_log = logging.getLogger("unsnarl")
+_log.addHandler(logging.NullHandler())
+
+#: Faces beyond which notebooks do not draw a result unasked: it would take seconds.
+_MOST_DRAWN_FACES = 300_000
 
 
 @dataclass(frozen=True, repr=False)
@@ -28,6 +40,38 @@ class Result:
     #: Where a mesh was given: a copy of it, of its own type, at the new positions. Else None. Of a list of meshes: a
     #: list.
     mesh: Any = None
+    #: Of fix(): the file that was written; None: none was.
+    output: Optional[Path] = None
+    _before: Optional[Surface] = field(default=None, compare=False)
+    _after: Any = field(default=None, compare=False)
+
+    def picture(self, width: int = 1200) -> bytes:
+        """Before and after, side by side, intersecting faces in red: the bytes of a PNG file.
+
+        width: pixels, from 128 to 8192.
+        """
+        if self._before is None:
+            raise ValueError("this result does not know its input; take the one that repair or fix returned")
+        return picture_of(self._before, self._after, width)
+
+    def _repr_html_(self) -> str:
+        report = self.report
+        rows = {
+            "status": str(self.status),
+            "intersecting pairs": f"{report['before']['total']} before, {report['after']['total']} after",
+            "moved": f"{100 * (1 - report['untouched_share']):.3g} % of the vertices, "
+            f"by {100 * report['displacement_max_rel']:.2g} % of the diagonal at most",
+            "time": f"{report['seconds']:.2f} s",
+        }
+        if self.output is not None:
+            rows["file"] = str(self.output)
+        rows.update({"cannot be resolved": o["message"] for o in report["obstructions"][:1]})
+        text = "".join(f"<tr><th>{html.escape(k)}</th><td>{html.escape(v)}</td></tr>" for k, v in rows.items())
+        text = f"<table>{text}</table>"
+        if self._before is None or self._before.face_count > _MOST_DRAWN_FACES:
+            return text
+        png = base64.b64encode(self.picture(960)).decode()
+        return text + f'<img alt="before and after" src="data:image/png;base64,{png}"/>'
 
     def __repr__(self) -> str:
         before, after = self.report["before"]["total"], self.report["after"]["total"]
@@ -56,7 +100,7 @@ def repair(
     each_component: bool = False,
     threads: int = 0,
     recover: bool = True,
-    paper: bool = False,
+    paper: Any = False,
     progress: OnProgress = None,
 ) -> Result:
     """Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
@@ -101,7 +145,9 @@ def repair(
     recover
         False: stop after untangling, without moving back toward the input (for research).
     paper
-        The configuration of the paper instead of the regional one (for research).
+        The configuration of the paper instead of the regional one (for research). True, or a dict of its settings:
+        bandwidth ("global", "independent", "symmetric"), adaptive, bandwidth_scale, neighbourhood, gaussian, mesh,
+        mesh_energy ("depth", "length"), whole_polygons, arap, memory, iterations; docs/paper.md explains them.
     progress
         Called with a Progress now and then, from the thread that called repair. What it returns is ignored. True draws
         a bar on standard error, also in notebooks.
@@ -130,17 +176,45 @@ def repair(
         each_component=each_component,
         threads=threads,
         recover=recover,
-        paper=paper,
+        **paper_options(paper),
     )
     sizes = np.array([scene.vertex_counts, scene.face_counts], dtype=np.uintp).T if scene.is_list else np.empty(0)
     surface = scene.surface.struct(
         fixed=scene.flags_of_vertices(fixed), mesh_sizes=np.ascontiguousarray(sizes), mesh_count=len(sizes)
     )
     repaired = call_and_wait("repair", surface, options, progress=progress)
-    moved = scene.split(repaired.array("positions"))
+    log(repaired)
+    positions = repaired.array("positions")
+    moved = scene.split(positions)
     if precision == "float32":
         moved = [own.astype(dtype) if small else own for own, dtype, small in zip(moved, scene.dtypes, is_float32)]
     meshes = [moved_to(own) if moved_to else None for own, moved_to in zip(moved, scene.moved_to)]
     if not scene.is_list:
-        return Result(moved[0], repaired.status, repaired.report, meshes[0])
-    return Result(moved, repaired.status, repaired.report, meshes)
+        return Result(moved[0], repaired.status, repaired.report, meshes[0], None, scene.surface, positions)
+    return Result(moved, repaired.status, repaired.report, meshes, None, scene.surface, positions)
+
+
+def log(repaired: Outcome) -> None:
+    """Tells the logger "unsnarl" what a repair came to: a warning where it is not embedded."""
+    report = repaired.report
+    for note in report["input"]["notes"]:
+        _log.info("%s", note)
+    level = logging.INFO if repaired.status == "embedded" else logging.WARNING
+    _log.log(
+        level,
+        "%s: %d intersecting pairs before, %d after; moved by %.2g of the diagonal at most; %.2f s",
+        repaired.status,
+        report["before"]["total"],
+        report["after"]["total"],
+        report["displacement_max_rel"],
+        report["seconds"],
+    )
+
+
+def picture_of(before: Surface, after: Any, width: int) -> bytes:
+    """A PNG of a surface, and of it at positions `after` (n, 3) unless that is None."""
+    moved = None if after is None else np.ascontiguousarray(after, dtype=np.float64)
+    pointer = None if moved is None else ctypes.c_void_p(moved.ctypes.data)
+    drawn = call("picture", before.struct(), pointer, ctypes.c_size_t(0 if moved is None else len(moved)),
+                 ctypes.c_int32(width), None)
+    return drawn.array("png").tobytes()

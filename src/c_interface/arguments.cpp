@@ -7,12 +7,15 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "errors.h"
 #include "handles.h"
 #include "unsnarl/isotopy.h"
+#include "unsnarl/paper.h"
 #include "unsnarl/report.h"
 #include "unsnarl/report_json.h"
+#include "unsnarl/routes.h"
 #include "unsnarl/seifert.h"
 #include "unsnarl/sequence.h"
 
@@ -37,6 +40,38 @@ Enum named(const char* option, const std::string& name, std::initializer_list<En
     all += (all.empty() ? "'" : ", '") + std::string(to_string(choice)) + "'";
   }
   throw std::invalid_argument(std::string(option) + " is '" + name + "'; choose one of " + all);
+}
+
+/// The value of the choice that is called `name`.
+template <class Enum>
+Enum chosen(const char* option, const std::string& name, std::initializer_list<std::pair<const char*, Enum>> choices) {
+  std::string all;
+  for (const auto& [choice, value] : choices) {
+    if (choice == name) return value;
+    all += (all.empty() ? "'" : ", '") + std::string(choice) + "'";
+  }
+  throw std::invalid_argument(std::string(option) + " is '" + name + "'; choose one of " + all);
+}
+
+PaperOptions paper_options(const unsnarl_options& options) {
+  PaperOptions paper;
+  paper.bandwidth = chosen<PaperBandwidth>("paper_bandwidth", options.paper_bandwidth,
+                                           {{"global", PaperBandwidth::global},
+                                            {"independent", PaperBandwidth::independent},
+                                            {"symmetric", PaperBandwidth::symmetric}});
+  paper.adaptive = options.paper_adaptive != 0;
+  paper.bandwidth_scale = options.paper_bandwidth_scale;
+  paper.neighbourhood = options.paper_neighbourhood;
+  paper.lambda_gaussian = options.paper_gaussian;
+  paper.lambda_mesh = options.paper_mesh;
+  paper.mesh_energy = chosen<PaperMeshEnergy>(
+      "paper_mesh_energy", options.paper_mesh_energy,
+      {{"depth", PaperMeshEnergy::penetration_depth}, {"length", PaperMeshEnergy::intersection_length}});
+  paper.whole_polygons = options.paper_whole_polygons != 0;
+  paper.lambda_arap = options.paper_arap;
+  paper.memory = options.paper_memory;
+  paper.max_iterations = options.paper_iterations;
+  return paper;
 }
 
 void check_offsets(std::span<const std::int32_t> offsets, std::size_t corners, const std::string& what) {
@@ -81,6 +116,19 @@ unsnarl_options default_options() {
   options.views = seifert.views;
   options.fair = seifert.fair;
   options.points = isotopy.points;
+  const PaperOptions paper;
+  options.paper_bandwidth = "symmetric";
+  options.paper_adaptive = paper.adaptive;
+  options.paper_bandwidth_scale = paper.bandwidth_scale;
+  options.paper_neighbourhood = paper.neighbourhood;
+  options.paper_gaussian = paper.lambda_gaussian;
+  options.paper_mesh = paper.lambda_mesh;
+  options.paper_mesh_energy = "depth";
+  options.paper_whole_polygons = paper.whole_polygons;
+  options.paper_arap = paper.lambda_arap;
+  options.paper_memory = paper.memory;
+  options.paper_iterations = paper.max_iterations;
+  options.spacing = RouteOptions().spacing;
   return options;
 }
 
@@ -100,6 +148,8 @@ unsnarl_options options_of(const unsnarl_options* given) {
   if (options.weld == nullptr) options.weld = defaults.weld;
   if (options.goal == nullptr) options.goal = defaults.goal;
   if (options.precision == nullptr) options.precision = defaults.precision;
+  if (options.paper_bandwidth == nullptr) options.paper_bandwidth = defaults.paper_bandwidth;
+  if (options.paper_mesh_energy == nullptr) options.paper_mesh_energy = defaults.paper_mesh_energy;
   return options;
 }
 
@@ -157,7 +207,7 @@ RepairOptions repair_options(const unsnarl_options& options, const unsnarl_surfa
   repair.min_dihedral_deg = options.min_dihedral;
   repair.memory_limit_mb = options.memory_limit;
   repair.recover = options.recover != 0;
-  if (options.paper) repair.paper.emplace();
+  if (options.paper) repair.paper = paper_options(options);
   repair.each_component = options.each_component != 0;
   if (surface.document != nullptr) {
     const Document& document = surface.document->document;

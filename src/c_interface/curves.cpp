@@ -1,7 +1,5 @@
 #include "unsnarl/curves.h"
 
-#include <nlohmann/json.hpp>
-
 #include "arguments.h"
 #include "results.h"
 #include "unsnarl/isotopy.h"
@@ -25,29 +23,14 @@ unsnarl_result untangled(const std::vector<Curve>& curves, const unsnarl_options
   options.time_limit_s = given.time_limit;
   const CurveResult made = untangle_curves(curves, options, context);
 
-  const CurveReport& r = made.report;
   unsnarl_result result;
   result.status = to_string(made.status);
-  result.report = Json{
-      {"crossings_before", r.crossings_before},
-      {"crossings_after", r.crossings_after},
-      {"points", r.points},
-      {"diagonal", r.diagonal},
-      {"displacement_mean_rel", r.displacement_mean_rel},
-      {"displacement_max_rel", r.displacement_max_rel},
-      {"distance_mean_rel", r.distance_mean_rel},
-      {"distance_max_rel", r.distance_max_rel},
-      {"moved_points", r.moved_points},
-      {"turned_points", r.turned_points},
-      {"inserted_points", r.inserted_points},
-      {"joints", r.joints},
-      {"seconds",
-       r.seconds}}.dump();
+  result.report = curve_report_json(made);
   std::vector<std::vector<double>> points;
   for (const Curve& curve : made.curves) points.push_back(curve.points);
   add_polylines(result, points, 2);
-  result.arrays["obstructions"] = {rows_of(r.fixed), 4};
-  result.arrays["left"] = {rows_of(r.left), 4};
+  result.arrays["obstructions"] = {rows_of(made.report.fixed), 4};
+  result.arrays["left"] = {rows_of(made.report.left), 4};
   return result;
 }
 

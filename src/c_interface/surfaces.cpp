@@ -48,10 +48,15 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
     files.notes = given.document->document.notes();
   }
   if (!meshes.empty()) files.scene = report_by_mesh(surface, options.find, repaired.positions, meshes);
-  files.clearance_before = measure_clearance(surface, surface.positions, options.find);
+  files.clearance_before =
+      measure_clearance(surface, surface.positions, options.find, repaired.report.before.total() == 0);
   const bool float32 = repaired.report.precision == Precision::float32;
-  files.clearance_after = measure_clearance(
-      surface, options.as_written ? options.as_written(repaired.positions, float32) : repaired.positions, options.find);
+  const std::vector<double> written =
+      options.as_written ? options.as_written(repaired.positions, float32) : repaired.positions;
+  const bool is_unchanged = std::equal(written.begin(), written.end(), surface.positions.begin());
+  files.clearance_after = is_unchanged
+                              ? files.clearance_before
+                              : measure_clearance(surface, written, options.find, repaired.report.after.total() == 0);
   files.whole = clock.stage("repair");
   unsnarl_result result;
   result.status = to_string(repaired.status);

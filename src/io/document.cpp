@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "io/content.h"
 #include "io/foreign_formats.h"
 #include "io/formats.h"
 #include "io/mesh_file.h"
-#include "io/surf.h"
 
 namespace unsnarl {
 namespace {
@@ -68,13 +68,19 @@ Document::~Document() = default;
 
 Document Document::read(const std::filesystem::path& path, std::optional<Format> format) {
   if (!format) format = format_from_extension(path.string());
-  std::string bytes = read_file(path);
-  try {
-    if (!format) refuse_foreign_format(bytes, path.string());
-    if (!format && is_freesurfer_surface(bytes)) format = Format::surf;
-    if (!format) {
-      throw FileError(fmt::format("the extension does not tell the format; name one of {}", format_names()));
+  std::string bytes = read_file(path, [&](std::string_view start) {
+    try {
+      if (!format) refuse_foreign_format(start, path.string());
+      if (!format) format = format_of_content(start);
+      if (!format)
+        throw FileError(
+            fmt::format("neither the extension nor the content tells the format; name one of {}", format_names()));
+      refuse_other_content(start, *format);
+    } catch (const FileError& error) {
+      throw FileError(fmt::format("{}: {}", path.string(), error.what()));
     }
+  });
+  try {
     return parse(std::move(bytes), *format, path.parent_path());
   } catch (const FileError& error) {
     throw FileError(fmt::format("{}: {}", path.string(), error.what()));
@@ -84,7 +90,9 @@ Document Document::read(const std::filesystem::path& path, std::optional<Format>
 Document Document::parse(std::string bytes, Format format, const std::filesystem::path& folder) {
   const auto entry = static_cast<std::size_t>(format);
   if (entry >= formats.size()) throw std::invalid_argument("unknown format");
-  refuse_foreign_format(bytes, {});
+  const std::string_view start = std::string_view(bytes).substr(0, checked_start);
+  refuse_foreign_format(start, {});
+  refuse_other_content(start, format);
   return Document(format, formats[entry].parse(std::move(bytes), folder));
 }
 

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -89,7 +90,7 @@ class TemporaryFile {
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const std::filesystem::path& path, const std::function<void(std::string_view)>& check_start) {
   // O_NONBLOCK: opening a pipe that nobody writes to must not hang.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
@@ -100,16 +101,26 @@ std::string read_file(const std::filesystem::path& path) {
   if (!S_ISREG(status.st_mode)) {
     throw FileError(fmt::format("{}: is not a regular file; pipe it in through standard input ('-')", path.string()));
   }
-  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
-  std::size_t size = 0;
-  while (size < bytes.size()) {
-    const ssize_t got = ::read(file.id(), bytes.data() + size, bytes.size() - size);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw FileError(fmt::format("{}: cannot read: {}", path.string(), reason()));
-    if (got == 0) break;
-    size += static_cast<std::size_t>(got);
+  std::string bytes;
+  const auto read_up_to = [&](std::size_t end) {
+    std::size_t size = bytes.size();
+    bytes.resize(end);
+    while (size < end) {
+      const ssize_t got = ::read(file.id(), bytes.data() + size, end - size);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) throw FileError(fmt::format("{}: cannot read: {}", path.string(), reason()));
+      if (got == 0) break;
+      size += static_cast<std::size_t>(got);
+    }
+    bytes.resize(size);
+  };
+  const auto whole = static_cast<std::size_t>(status.st_size);
+  if (check_start) {
+    read_up_to(std::min(whole, checked_start));
+    check_start(bytes);
+    bytes.reserve(whole);
   }
-  bytes.resize(size);
+  read_up_to(whole);
   return bytes;
 }
 

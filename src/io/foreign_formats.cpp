@@ -11,20 +11,46 @@ namespace {
 
 struct ForeignFormat {
   std::string_view name;
-  std::array<std::string_view, 4> extensions;
+  std::array<std::string_view, 8> extensions;
   std::array<std::string_view, 3> first_bytes;
   std::string_view conversion;
 };
+constexpr std::string_view by_blender = "import it into Blender and export it as glTF or OBJ (File > Export)";
+constexpr std::string_view by_assimp = "convert it: assimp export IN OUT.glb (assimp-utils), or import it into Blender";
+constexpr std::string_view by_meshio = "convert it: meshio convert IN OUT.ply";
+constexpr std::string_view meshed_by_gmsh = "mesh its curved surfaces: gmsh -2 IN -o OUT.msh";
+constexpr std::string_view segmented_by_slicer =
+    "segment the volume in 3D Slicer, and export the segments as OBJ or STL";
+constexpr std::string_view first_a_surface =
+    "points have no faces; reconstruct a surface first (MeshLab, CloudCompare)";
+/// docs/formats.md has the same as a table.
 constexpr auto foreign_formats = std::to_array<ForeignFormat>({
-    {"FBX",
-     {".fbx"},
-     {"Kaydara FBX Binary", "; FBX "},
-     "import it into Blender and export it as glTF or OBJ (File > Export)"},
-    {"USD",
-     {".usd", ".usda", ".usdc", ".usdz"},
-     {"PXR-USDC", "#usda "},
-     "import it into Blender and export it as glTF or OBJ (File > Export)"},
+    {"FBX", {".fbx"}, {"Kaydara FBX Binary", "; FBX "}, by_blender},
+    {"USD", {".usd", ".usda", ".usdc", ".usdz"}, {"PXR-USDC", "#usda "}, by_blender},
     {"Blend", {".blend"}, {"BLENDER"}, "open it in Blender and export it as glTF or OBJ (File > Export)"},
+    {"Alembic", {".abc"}, {"Ogawa"}, by_blender},
+    {"COLLADA", {".dae"}, {}, by_assimp},
+    {"3DS", {".3ds"}, {}, by_assimp},
+    {"X3D", {".x3d", ".x3db"}, {}, by_assimp},
+    {"LightWave", {".lwo"}, {}, by_assimp},
+    {"VRML", {".wrl", ".vrml"}, {"#VRML"}, "import it into Blender or MeshLab, and export it as PLY or OBJ"},
+    {"STEP", {".step", ".stp"}, {"ISO-10303-21;"}, meshed_by_gmsh},
+    {"IGES", {".iges", ".igs"}, {}, meshed_by_gmsh},
+    {"BREP", {".brep"}, {"DBRep_DrawableShape"}, meshed_by_gmsh},
+    {"Medit", {".mesh", ".meshb"}, {"MeshVersionFormatted"}, by_meshio},
+    {"VTK grid",
+     {".vtu", ".vtr", ".vts", ".vti"},
+     {},
+     "extract the surface in ParaView and save it as VTP; of triangles alone, meshio convert IN OUT.ply"},
+    {"XDMF", {".xdmf", ".xmf"}, {}, by_meshio},
+    {"MED", {".med"}, {}, by_meshio},
+    {"Exodus", {".e", ".exo"}, {}, by_meshio},
+    {"Nastran", {".bdf", ".nas", ".fem"}, {}, by_meshio},
+    {"SU2", {".su2"}, {}, by_meshio},
+    {"Draco", {".drc"}, {"DRACO"}, "decompress it: draco_decoder -i IN -o OUT.obj"},
+    {"DICOM or NIfTI", {".dcm", ".nii", ".nrrd", ".mha", ".mhd"}, {}, segmented_by_slicer},
+    {"point", {".xyz", ".pcd", ".las", ".laz", ".pts", ".e57"}, {"# .PCD"}, first_a_surface},
+    {"archive", {".zip", ".gz", ".7z", ".tar", ".bz2", ".xz"}, {"7z\xBC\xAF", "\x1F\x8B"}, "unpack it first"},
 });
 
 bool has_extension(std::string_view path, std::string_view extension) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "unsnarl/document.h"
@@ -32,6 +34,10 @@ class MeshFile {
 };
 
 /// Reads a regular file whole. Throws FileError (missing, a folder, a pipe, unreadable).
-std::string read_file(const std::filesystem::path& path);
+/// `check_start` is called with the first bytes (all, or at least `checked_start`) before the others are read, which
+/// may be gigabytes; what it throws ends the reading.
+inline constexpr std::size_t checked_start = 4096;
+std::string read_file(const std::filesystem::path& path,
+                      const std::function<void(std::string_view start)>& check_start = {});
 
 }  // namespace unsnarl

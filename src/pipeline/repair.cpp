@@ -200,7 +200,7 @@ class Repair {
     result_.status = acceptance_->status(left, reached_);
     if (result_.status == Status::reduced || result_.status == Status::no_progress)
       result_.status = limits_.status_or(displacement_is_exceeded_ ? Status::displacement_exceeded : result_.status);
-    // Who cancels is not given, unasked, what lies farther off than it need.
+    // An unfinished result lies farther off than it need, so a call that was cancelled says so.
     if (limits_.status_or(result_.status) == Status::cancelled) result_.status = Status::cancelled;
     report.float32_embedded = acceptance_->is_embedded_in_float32(reached_);
     measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
@@ -219,7 +219,7 @@ class Repair {
       region.bandwidths = std::move(of_file);
     }
     result_.frames = recorded_frames(*recorder_, surface_, prepared_, result_.positions, *acceptance_);
-    phases_.report(1, left.triangles.size(), reached_, prepared_.rest, diagonal_);
+    phases_.report(1, left.of_faces.size(), reached_, prepared_.rest, diagonal_);
     phases_.end();
   }
 

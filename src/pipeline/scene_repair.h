@@ -84,11 +84,13 @@ class SceneRepair {
                             const EscalationOptions& escalation);
   /// Says of each region how deep it was and how far it went.
   void measure_regions(EscalationResult& untangled) const;
-  double recover(const std::vector<std::vector<Index>>& regions, SceneIndex& index);
+  /// `left`: pairs of triangles that could not be untangled.
+  double recover(const std::vector<std::vector<Index>>& regions, std::span<const IntersectingPair> left,
+                 SceneIndex& index);
   /// A candidate by itself.
   void recover(Patch& patch) const;
   bool stays_near(Patch& patch);
-  void report_progress(double fraction, std::size_t pairs_left);
+  void report_progress(double fraction, std::span<const IntersectingPair> left);
 
   const Job& job_;
   Scene scene_;

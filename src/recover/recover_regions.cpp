@@ -33,6 +33,7 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
   std::vector<Trajectory> trajectories(regions.size(), recorder.new_trajectory());
   recorder.begin_stage("recover");
   double smallest = std::numeric_limits<double>::infinity();
+  std::size_t done = 0;
   run_in_batches(
       boxes,
       [&](std::size_t r) {
@@ -49,6 +50,7 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
         paste_patch(patches[r], scene, index);
         recorder.add(std::move(trajectories[r]), "", r, regions[r], scene.x);
         patches[r] = {};
+        if (options.on_progress) options.on_progress(++done);
       });
   return smallest;
 }

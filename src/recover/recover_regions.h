@@ -14,6 +14,7 @@ struct RecoverRegionsOptions {
   RecoverOptions recover;  ///< all but min_gap
   std::function<double(std::span<const Index> vertices)> min_gap;
   std::function<bool()> stop;
+  std::function<void(std::size_t regions_done)> on_progress;  ///< none: nobody is told
 };
 
 /// Recovers every region (free vertices, ascending; no two regions share one) with all around it held, those that do

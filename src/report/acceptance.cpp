@@ -46,8 +46,10 @@ bool Acceptance::is_worse(const Pairs& pairs) const {
 }
 
 Status Acceptance::status(const Pairs& pairs, const Positions& x) const {
-  // A pair of the input may be tolerated; a new one counts, unless it is between components that are left alone.
+  // A pair of the input may be tolerated. A new one counts, unless it is of a class that the goal leaves out, or
+  // between components that are left alone.
   const auto is_fine = [&](const IntersectingPair& pair) {
+    if (options_.goal == Goal::disjoint && pair.kind != PairClass::disjoint) return true;
     if (std::binary_search(diagnosis_.pairs.begin(), diagnosis_.pairs.end(), pair)) return is_tolerated(pair);
     return options_.each_component && are_of_two_components(diagnosis_.components, pair);
   };

@@ -108,7 +108,7 @@ class Escalation {
 
   void find_pairs() {
     pairs_ = blocking_pairs(index_.find_pairs(), ignored_);
-    if (options_.on_progress) options_.on_progress(pairs_.size());
+    if (options_.on_progress) options_.on_progress(pairs_);
   }
 
   Index level_of(const ConflictRegion& region) const {

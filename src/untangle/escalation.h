@@ -25,7 +25,7 @@ struct EscalationOptions {
   double rings_per_depth = 1.5;
 
   std::function<bool()> stop;
-  std::function<void(std::size_t pairs_left)> on_progress;
+  std::function<void(std::span<const IntersectingPair> left)> on_progress;  ///< pairs of triangles
   /// Distance that faces have to have in the end (RecoverOptions::min_gap) around these vertices; none: any.
   std::function<double(std::span<const Index> vertices)> min_gap;
   /// Asked about a candidate without pairs (from any thread); may improve it. False: the region goes on with the next

@@ -90,7 +90,7 @@ TEST_F(FilePlaces, NoCommandOverwritesWhatItReads) {
   write(knot, "0 0 0\n1 0 0\n0 1 0\n");
   expect_refusal({"seifert", knot, "-o", knot}, "the input and -o");
   expect_refusal({"seifert", knot, "-o", out, "--report", knot}, "the input and --report");
-  expect_refusal({"seifert", knot, "-o", out, "--picture", out}, "-o and --picture");
+  expect_refusal({"seifert", knot, "-o", out, "--report", out}, "-o and --report");
   ASSERT_EQ(run({"seifert", knot, "-o", out, "--no-fair"}).exit_code, 0);
   expect_refusal({"seifert", knot, "--check", out, "--report", out}, "--check");
 
@@ -115,8 +115,11 @@ TEST_F(FilePlaces, AFrameDoesNotOverwriteAnotherFrameThroughALink) {
 TEST_F(FilePlaces, EveryPlaceIsTestedBeforeTheWork) {
   const std::string in = folder / "in.obj", out = folder / "out.obj";
   write(in, tetrahedron(0));
-  for (const char* option : {"--report", "--highlight", "--record", "--picture"})
-    expect_refusal({"fix", in, "-o", out, option, folder / "none/file"}, "cannot create files", 4);
+  for (const auto& [option, name] : {std::pair("--report", "none/file"),
+                                     {"--highlight", "none/file.ply"},
+                                     {"--record", "none/file"},
+                                     {"--picture", "none/file.png"}})
+    expect_refusal({"fix", in, "-o", out, option, folder / name}, "cannot create files", 4);
   write(folder / "k.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   expect_refusal({"seifert", folder / "k.xyz", "-o", out, "--report", folder / "none/file"}, "cannot create files", 4);
 }

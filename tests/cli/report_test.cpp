@@ -32,6 +32,7 @@ TEST_F(Report, ReportPictureAndHighlight) {
   EXPECT_EQ(highlighted.positions, Document::read(out).surface().positions);
   EXPECT_EQ(highlighted.corners, Document::read(out).surface().corners);
   EXPECT_NE(contents(folder / "h.ply").find("property int pairs_before"), std::string::npos);
+  EXPECT_NE(contents(folder / "h.ply").find("property double displacement"), std::string::npos);
 }
 
 TEST_F(Report, ReportsNameFilesWithAnyBytes) {
@@ -40,6 +41,50 @@ TEST_F(Report, ReportsNameFilesWithAnyBytes) {
   const std::string path = nlohmann::json::parse(contents(folder / "r.json"))["input"]["path"];
   EXPECT_TRUE(path.ends_with("in\xef\xbf\xbd.obj")) << path;
   EXPECT_EQ(run({"check", in, "--json"}).exit_code, 1);
+}
+
+TEST_F(Report, AnInputThatIsRefusedHasOneToo) {
+  const std::string in = file("in.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), report = folder / "r.json";
+  const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--report", report});
+  EXPECT_EQ(outcome.exit_code, 3);
+  const auto json = nlohmann::json::parse(contents(report));
+  EXPECT_EQ(json["schema"], "unsnarl-report");
+  EXPECT_EQ(json["status"], "invalid_input");
+  EXPECT_EQ(json["exit_code"], 3);
+  EXPECT_TRUE(contains(json["error"], "'nan'")) << json["error"];
+  write(folder / "scene.bin", "precious");
+  EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj", "--report", folder / "scene.bin"}).exit_code, 3);
+  EXPECT_EQ(contents(folder / "scene.bin"), "precious");
+}
+
+TEST_F(Report, EveryFileThatWasWrittenIsNamed) {
+  const std::string in = file("in.obj", crossing);
+  std::vector<std::string> call = {"fix", in, "-o", folder / "out.obj"};
+  for (const auto& [option, name] :
+       {std::pair("--report", "r.json"), {"--picture", "p.png"}, {"--record", "c.json"}, {"--highlight", "h.ply"}})
+    call.insert(call.end(), {option, folder / name});
+  const Outcome outcome = run(call);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* name : {"out.obj", "r.json", "p.png", "c.json", "h.ply"})
+    EXPECT_TRUE(contains(outcome.err, "wrote " + (folder / name) + "\n")) << outcome.err;
+}
+
+TEST_F(Report, ProgressIsShownEachSecondAndCountsFaces) {
+  const std::string in = sample("crossing_tubes");  // quads, some of which both triangles of are hit
+  const Outcome fixed = run({"fix", in, "-o", folder / "out.obj", "--progress", "json", "--report", folder / "r.json"});
+  ASSERT_EQ(fixed.exit_code, 0) << fixed.err;
+  std::istringstream lines(fixed.err);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(nlohmann::json::parse(line)["pairs_left"],
+            nlohmann::json::parse(contents(folder / "r.json"))["before"]["total"]);
+  double last = 0;
+  do {
+    if (!line.starts_with('{')) break;
+    const double seconds = nlohmann::json::parse(line)["seconds"];
+    EXPECT_LT(seconds - last, 5) << line;  // a second, on a machine that does nothing else
+    last = seconds;
+  } while (std::getline(lines, line));
 }
 
 TEST_F(Report, ProgressAsJsonNeverGoesBack) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -41,6 +42,10 @@ TEST_F(Usage, UsageErrorsExitWith2) {
   const std::string in = file("in.obj", clean_cube);
   expect_refusal({}, 2, "");
   expect_refusal({"mend"}, 2, "fix, batch, check, view, sample, curves, isotopy, seifert or routes");
+  expect_refusal({"fxi", in}, 2, "there is no command 'fxi'; did you mean fix?");
+  expect_refusal({in}, 2, "'unsnarl check " + in + "'");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--max-displacment", "1"}, 2, "did you mean --max-displacement?");
+  expect_refusal({"fix", in, folder / "o.obj"}, 2, "unsnarl fix " + in + " -o " + (folder / "o.obj"));
   expect_refusal({"fix"}, 2, "IN");
   expect_refusal({"fix", in}, 2, "-o");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--frobnicate"}, 2, "frobnicate");
@@ -62,6 +67,24 @@ TEST_F(Usage, UsageErrorsExitWith2) {
   EXPECT_EQ(contents(in), clean_cube);
 }
 
+TEST_F(Usage, HelpAndVersionAreFoundHoweverAskedFor) {
+  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+  EXPECT_EQ(run({"help", "fix"}).out, run({"fix", "--help"}).out);
+  EXPECT_EQ(run({"fix", "--version"}).out, run({"--version"}).out);
+  EXPECT_EQ(run({"-V"}).out, run({"--version"}).out);
+}
+
+TEST_F(Usage, FilesAreNamedByWhatIsWrittenToThem) {
+  const std::string in = file("in.obj", crossing), out = folder / "out.obj";
+  for (const char* name : {"x.jpg", "x.mp4", "x"})
+    expect_refusal({"fix", in, "-o", out, "--picture", folder / name}, 2, "name it *.png or *.gif");
+  expect_refusal({"fix", in, "-o", out, "--view", folder / "x.png"}, 2, "name it *.html");
+  expect_refusal({"fix", in, "-o", out, "--highlight", folder / "x.obj"}, 2, "name it *.ply");
+  expect_refusal({"view", in, "-o", folder / "x.png"}, 2, "name it *.html");
+  expect_refusal({"sample", "book", "-o", folder / "x.vtk"}, 2, "vtk");
+  expect_refusal({"fix", in, "-o", folder / "x.vtk"}, 2, "keeps the format");
+}
+
 TEST_F(Usage, WhatIsNoNumberInTheRangeIsRefused) {
   const std::string in = file("in.obj", crossing);
   for (const char* value : {"90", "200", "-1", "nan", "inf", "x"})
@@ -69,6 +92,11 @@ TEST_F(Usage, WhatIsNoNumberInTheRangeIsRefused) {
   for (const char* option : {"--max-displacement", "--min-gap", "--time-limit", "--memory-limit", "--weld-tolerance"})
     for (const char* value : {"nan", "-1"})
       expect_refusal({"fix", in, "-o", folder / "out.obj", option, value}, 2, option);
+  expect_refusal({"fix", in, "-o", folder / "out.obj", "--max-displacement", "1%"}, 2,
+                 "1% is no number from 0 up; 1% is 0.01");
+  expect_refusal({"fix", in, "-o", folder / "out.obj", "--min-dihedral", "90"}, 2,
+                 "90 is no number from 0 to less than 90");
+  expect_refusal({"fix", in, "-o", folder / "out.obj", "--threads", "-3"}, 2, "-3 is no whole number from 0 to 1024");
 }
 
 TEST_F(Usage, InputsThatMakeNoSenseExitWith3) {
@@ -90,6 +118,36 @@ TEST_F(Usage, ForeignFormatsAreRefusedWithAHint) {
   expect_refusal({"fix", file("a.fbx", "Kaydara FBX Binary"), "-o", out}, 3,
                  "FBX files are not read; import it into Blender");
   expect_refusal({"check", file("b.blend", "")}, 3, "Blend files are not read");
+  for (const auto& [name, advice] : {std::pair("a.dae", "assimp export IN OUT.glb"),
+                                     {"a.step", "gmsh -2 IN -o OUT.msh"},
+                                     {"a.mesh", "meshio convert IN OUT.ply"},
+                                     {"a.nii", "3D Slicer"},
+                                     {"a.xyz", "points have no faces"},
+                                     {"a.zip", "unpack it first"}})
+    expect_refusal({"check", file(name, "x")}, 3, advice);
+  expect_refusal({"check", file("a.unknown", crossing)}, 3, "neither the extension nor the content tells the format");
+}
+
+TEST_F(Usage, ContentAndNameAreOfOneFormat) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 0\nproperty list uchar int vertex_indices\nend_header\n";
+  expect_refusal({"check", file("a.obj", ply)}, 3, "a ply file by its content, not obj; name it *.ply");
+  expect_refusal({"check", file("a.stl", ply)}, 3, "a ply file by its content, not stl");
+  EXPECT_EQ(run({"check", file("a", ply)}).exit_code, 0);
+  EXPECT_EQ(run({"check", file("b.obj", ply), "--format", "ply"}).exit_code, 0);
+  // Two gigabytes of nothing are refused by the first bytes.
+  fs::resize_file(file("sparse.stl", ""), std::uintmax_t{2} << 30);
+  const auto before = folder.names();
+  RunOptions little_memory;
+  if (memory_can_be_limited)
+    little_memory.in_child = [] {
+      const rlimit both = {rlim_t{1} << 30, rlim_t{1} << 30};
+      ::setrlimit(RLIMIT_AS, &both);
+    };
+  const Outcome outcome = run({"check", folder / "sparse.stl", "--threads", "1"}, little_memory);
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "the first 4096 bytes are zero")) << outcome.err;
 }
 
 TEST_F(Usage, OutputsThatCannotBeWrittenExitWith4) {

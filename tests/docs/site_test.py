@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The site builds without a warning, holds every page, and its pages load nothing from the network."""
 
+import json
 import os
 import subprocess
 import sys
@@ -56,6 +57,18 @@ class Site(unittest.TestCase):
                         self.assertTrue((page.parent / address.partition("?")[0]).exists(), address)
         for sheet in self.site.rglob("*.css"):
             self.assertNotRegex(sheet.read_text(), r"(@import|url\()\s*[\"']?(\w+:)?//")
+
+    def test_every_page_can_be_searched(self):
+        text = (self.site / "assets/search_index.js").read_text()
+        sections = json.loads(text[text.index("["):text.rindex(";")])
+        for page, anchor, title, _ in sections:
+            self.assertIn(f'id="{anchor}"', (self.site / page).read_text(), title)
+        self.assertEqual({page for page, *_ in sections}, {p.with_suffix(".html").name for p in (pages.PROJECT / "docs").glob("*.md")})
+        self.assertTrue(any("--max-displacement" in words for *_, words in sections))
+        for page in self.site.glob("*.html"):
+            if page.name != "404.html":
+                self.assertEqual(page.read_text().count('class="site-search"'), 1, page.name)
+        self.assertIn(".site-search", (self.site / "assets/colours.css").read_text())
 
     def test_what_is_put_in_is_there(self):
         text = (self.site / "command_line.html").read_text()

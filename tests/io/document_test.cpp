@@ -40,7 +40,7 @@ TEST(Document, FreeSurferSurfacesNeedNoExtension) {
     }
   };
   EXPECT_EQ(error_of("lh.pial_semi", std::string("\xFF\xFF\xFE\n\n\0\0\0\0\0\0\0\0", 13)), "read as surf");
-  EXPECT_PRED2(message_contains, error_of("mesh", triangle), "the extension does not tell the format");
+  EXPECT_PRED2(message_contains, error_of("mesh", triangle), "neither the extension nor the content tells the format");
   EXPECT_PRED2(message_contains, error_of("a.FBX", "anything"), "FBX files are not read; import it into Blender");
   EXPECT_PRED2(message_contains, error_of("a.usdz", "PK"), "USD files are not read");
   EXPECT_PRED2(message_contains, error_of("a.obj", "Kaydara FBX Binary  "), "FBX files are not read");

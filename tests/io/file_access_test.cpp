@@ -86,12 +86,14 @@ TEST_F(FileAccess, FailuresLeaveNothingBehind) {
   EXPECT_EQ(files_in_folder(), 0u);
 }
 
-TEST_F(FileAccess, ReadsWithTheFormatOfTheExtension) {
+TEST_F(FileAccess, ReadsWithTheFormatOfTheExtensionOrTheContent) {
   write_atomically(folder_ / "a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_EQ(Document::read(folder_ / "a.off").format(), Format::off);
   fs::rename(folder_ / "a.off", folder_ / "a");
   EXPECT_EQ(Document::read(folder_ / "a", Format::off).surface().view().vertex_count(), 3u);
-  EXPECT_NE(read_error(folder_ / "a").find("does not tell the format"), std::string::npos);
+  EXPECT_EQ(Document::read(folder_ / "a").format(), Format::off);  // by its content
+  write_atomically(folder_ / "b", "v 0 0 0\n");
+  EXPECT_NE(read_error(folder_ / "b").find("nor the content tells the format"), std::string::npos);
 }
 
 TEST_F(FileAccess, RefusesWhatIsNoFileAndNamesIt) {

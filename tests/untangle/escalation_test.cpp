@@ -31,7 +31,7 @@ TEST(Escalation, clears_a_crossing_and_says_how) {
   Scene scene = shapes::scene_of(shape);
   std::vector<std::size_t> left;
   EscalationOptions options;
-  options.on_progress = [&](std::size_t pairs) { left.push_back(pairs); };
+  options.on_progress = [&](std::span<const IntersectingPair> pairs) { left.push_back(pairs.size()); };
   const EscalationResult result = untangle(scene, {}, options);
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());

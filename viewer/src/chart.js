@@ -1,7 +1,7 @@
 import { element } from './element.js';
 import { short } from './numbers.js';
 
-const size = { width: 288, height: 104, left: 40, right: 6, top: 8, bottom: 18 };
+const size = { width: 288, height: 104, left: 52, right: 6, top: 10, bottom: 18 };
 
 /** Positions along an axis: logarithmic where values span more than two decades and none is negative. */
 function axis(values, from, to) {

@@ -11,6 +11,7 @@ const keys = [
   ['E  X', 'edges, intersection curves'],
   ['N  P', 'next, previous intersecting face'],
   ['F', 'show all'],
+  ['U', 'turn another axis up: y, z, x'],
   ['S', 'save a picture'],
   ['T', 'light or dark'],
   ['Esc', 'let the picked face go'],

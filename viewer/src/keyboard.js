@@ -14,6 +14,7 @@ export function listenToKeys(viewer) {
     n: () => viewer.pickNext(1),
     p: () => viewer.pickNext(-1),
     f: () => viewer.stage.showAll(),
+    u: () => viewer.stage.turnUp(),
     s: () => viewer.save(),
     t: () => viewer.theme.toggle(),
     '?': () => help.showModal(),

@@ -8,6 +8,22 @@ export function heatRanges(displacement) {
   return { all: moved[moved.length - 1], most: moved[Math.floor(0.99 * (moved.length - 1))] };
 }
 
+/**
+ * What the colours of intersections mean. shown: { red: are there any, curves: are they drawn, picked: is a face }.
+ * False: nothing to explain.
+ */
+export function fillColourLegend(node, { red, curves, picked }) {
+  const entries = [
+    red ? ['--red', '', 'intersects another face'] : null,
+    red && curves ? ['--curve', 'line', 'where faces cross'] : null,
+    picked ? ['--selected', '', 'picked face'] : null,
+    picked && red ? ['--partner', '', 'faces that it meets'] : null,
+  ].filter(Boolean);
+  node.replaceChildren(element('ul', {}, entries.map(([colour, kind, words]) => element('li', {},
+    element('i', { class: kind, style: `--own: var(${colour})` }), words))));
+  return entries.length > 0;
+}
+
 /** The colour scale of displacement; a click changes its range. */
 export function fillLegend(node, full, range, diagonal, onChange) {
   const ticks = [0, 0.25, 0.5, 0.75, 1];

@@ -17,13 +17,8 @@ export class Stage {
     this.renderer.setClearColor(0, 0);
     this.camera = new THREE.PerspectiveCamera(2 * THREE.MathUtils.radToDeg(halfFieldOfView), 1, 0.01, 100);
     this.camera.up.fromArray(page.scene.camera.up);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enableDamping = true;
-    this.controls.dampingFactor = 0.12;
-    this.controls.zoomToCursor = true;
-    this.controls.minDistance = 1e-5;
-    this.controls.maxDistance = 50;
-    this.controls.addEventListener('change', () => this.changed());
+    this.toward = page.scene.camera.toward;
+    this.controls = this.#newControls();
     this.draws = 0;
     this.drawSeconds = 0;
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
@@ -63,13 +58,37 @@ export class Stage {
 
   /** The direction in which pictures are taken, from as near as shows all. */
   showAll() {
-    const toward = new THREE.Vector3().fromArray(this.page.scene.camera.toward);
+    const toward = new THREE.Vector3().fromArray(this.toward);
     this.controls.target.set(0, 0, 0);
     this.camera.position.copy(toward);
     this.camera.lookAt(this.controls.target);
     this.camera.updateMatrixWorld();
     this.#retreat(toward, this.page.before.positions);
     this.changed();
+  }
+
+  /** The next axis (y after x, z after y, x after z) points up; the view goes round with it. */
+  turnUp() {
+    const { up } = this.camera;
+    // The cyclic rotation of the axes takes the usual direction to the same one above the new ground.
+    const turned = ([x, y, z]) => [z, x, y];
+    this.toward = turned(this.toward);
+    up.fromArray(turned(up.toArray()));
+    // OrbitControls reads `up` when it is made.
+    this.controls.dispose();
+    this.controls = this.#newControls();
+    this.showAll();
+  }
+
+  #newControls() {
+    const controls = new OrbitControls(this.camera, this.canvas);
+    controls.enableDamping = true;
+    controls.dampingFactor = 0.12;
+    controls.zoomToCursor = true;
+    controls.minDistance = 1e-5;
+    controls.maxDistance = 50;
+    controls.addEventListener('change', () => this.changed());
+    return controls;
   }
 
   /** Looks at a sphere from where the camera is. */

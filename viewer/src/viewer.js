@@ -5,7 +5,7 @@ import { FramePlayer } from './frames.js';
 import { fillHelp } from './help.js';
 import { historySection } from './history.js';
 import { strengthsOf, viewsOf } from './layouts.js';
-import { fillLegend, heatRanges } from './legend.js';
+import { fillColourLegend, fillLegend, heatRanges } from './legend.js';
 import { plural } from './numbers.js';
 import { selectionSection } from './selection.js';
 import { Stage } from './stage.js';
@@ -62,8 +62,7 @@ export class Viewer {
     shared.heated.value = state.colouring === 'displacement';
     const full = this.ranges?.[state.range] ?? 1;
     shared.heatFull.value = full;
-    byId('legend').hidden = !shared.heated.value;
-    if (shared.heated.value) fillLegend(byId('legend'), full, state.range, this.page.scene.diagonal, () => this.changeRange());
+    this.#showLegend(full);
     byId('divider').hidden = state.layout !== 'wipe';
     byId('divider').style.left = `${100 * state.divider}%`;
     this.#showCaptions();
@@ -155,7 +154,7 @@ export class Viewer {
     this.surface.select(face, partners.map((p) => p.face));
     this.panelSelection.replaceWith(this.panelSelection = selectionSection(
       this.page, this.faces, this.before, this.after, face, (other) => this.pick(other)));
-    this.stage.changed();
+    this.update();
   }
 
   /** The next face (by) after the picked one that intersects another, before or after. */
@@ -222,6 +221,19 @@ export class Viewer {
       count += 1;
     }
     return count ? sum / count : 1;
+  }
+
+  #showLegend(full) {
+    const node = byId('legend');
+    const { state, surface } = this;
+    const isScale = surface.shared.heated.value;
+    node.classList.toggle('of-colours', !isScale);
+    node.hidden = false;
+    if (isScale) fillLegend(node, full, state.range, this.page.scene.diagonal, () => this.changeRange());
+    else {
+      const red = this.before.count > 0 || this.after?.count > 0;
+      node.hidden = !fillColourLegend(node, { red, curves: state.curves && state.layout !== 'replay', picked: state.face >= 0 });
+    }
   }
 
   #showCaptions() {

@@ -366,10 +366,10 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
                      "After '--': options for 'unsnarl fix', the same for every mesh");
   command.add_option("-o,--output", options.output, "Folder for the results")->type_name("OUTDIR")->required();
   command.add_option("--jobs,-j", options.jobs, "Meshes to repair at a time; 0: as many as there are processors")
-      ->check(CLI::Range(0, 1024).description(""))
+      ->check(whole_number_within(0, 1024))
       ->type_name("N");
   command.add_option("--threads", options.threads, "Threads for each mesh; 0: the processors divided by --jobs")
-      ->check(CLI::Range(0, 1024).description(""))
+      ->check(whole_number_within(0, 1024))
       ->type_name("N");
   command
       .add_option("--shard", options.shard,
@@ -394,7 +394,7 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
   command
       .add_option("--attempts", options.attempts,
                   "How often a mesh is tried whose worker is killed or dies, or with which the batch itself does")
-      ->check(CLI::Range(1, 100).description(""))
+      ->check(whole_number_within(1, 100))
       ->type_name("N")
       ->group(limits);
   command.add_option("--worker", options.worker, "Program to run as 'unsnarl fix' is run; this one by default")

@@ -118,7 +118,7 @@ Record record_of(const std::string& mesh, const WorkerEnd& end, const std::files
                  const std::filesystem::path& standard_error) {
   std::ifstream file(report_path, std::ios::binary);
   const Record report = file ? Record::parse(file, nullptr, false) : Record();
-  const bool is_whole = report.is_object();
+  const bool is_whole = report.is_object() && report.contains("before");  // else the mesh was refused
   Record record;
   record["mesh"] = mesh;
   record["status"] = status_of(end, is_whole ? report : Record::object());

@@ -308,7 +308,7 @@ class CacheFrames : public SequenceFiles {
       PointCache found = parsed(place, name_);
       if (found.points() == input_.points() && found.frames() == input_.frames()) return found;
     } catch (const FileError&) {
-      // What is no cache holds no frame that is recorded.
+      // A file that is no cache holds no frame that is recorded.
     }
     return {};
   }

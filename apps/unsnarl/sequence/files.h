@@ -24,7 +24,7 @@ class SequenceFiles {
   virtual ~SequenceFiles() = default;
 
   virtual std::size_t count() const = 0;
-  /// What a frame is called in messages and in the record of what is done.
+  /// The name of a frame in messages and in the record of what is done.
   virtual std::string name(std::size_t frame) const = 0;
   /// The mesh whose faces all frames have, and whose parts may be held.
   virtual const SceneDocument& mesh() const = 0;
@@ -32,7 +32,8 @@ class SequenceFiles {
   /// SHA-256 of all that is given of a frame. Throws FileError where it cannot be read, or has other faces than mesh().
   virtual std::string content_hash(std::size_t frame) = 0;
   virtual std::vector<double> positions(std::size_t frame) = 0;
-  /// What will be read back. From any thread, of a frame whose positions were asked for and that is not yet written.
+  /// The positions that will be read back. May be called from any thread, for a frame whose positions were asked for
+  /// and that is not yet written.
   virtual std::vector<double> as_written(std::size_t frame, std::span<const double> positions, bool float32) = 0;
   /// SHA-256 of the output of a frame as it is there; empty: none is.
   virtual std::string output_hash(std::size_t frame) = 0;
@@ -55,7 +56,7 @@ class SequenceFiles {
   virtual std::size_t frames_between_flushes() const = 0;
   /// Names what is read, and the places of outputs. Throws UsageError where two are the same.
   virtual void claim(FilePlaces& places) const = 0;
-  /// Where the output is.
+  /// The path of the output, or of the folder of all.
   virtual std::string output() const = 0;
 };
 

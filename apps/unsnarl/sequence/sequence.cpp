@@ -96,7 +96,7 @@ class SequenceRun {
   SequenceRun(const FixOptions& options, Interruption& interruption)
       : options_(options),
         interruption_(interruption),
-        display_(progress_style(options.progress, options.quiet)),
+        display_(options.progress, options.quiet),
         folder_(checked_folder(options)),
         files_(open_sequence(options.inputs, format_from_name(options.format), options.output,
                              options.recompute_normals, interruption)),
@@ -112,7 +112,7 @@ class SequenceRun {
         throw UsageError("--precision float64: a point cache stores 32-bit numbers; leave the option out");
       sequence_.repair.precision = Precision::float32;
     }
-    for (const std::string& note : files_->mesh().notes()) say("note: {}", note);
+    for (const std::string& note : files_->mesh().notes()) display_.say("note: {}", note);
     require_own_places();
     read_contents();
     if (files_->is_one_file()) {
@@ -142,13 +142,6 @@ class SequenceRun {
   }
 
  private:
-  template <class... Args>
-  void say(fmt::format_string<Args...> text, Args&&... args) {
-    if (options_.quiet) return;
-    display_.clear();
-    tell(fmt::format(text, std::forward<Args>(args)...) + "\n");
-  }
-
   void require_own_places() const {
     FilePlaces places;
     files_->claim(places);
@@ -162,7 +155,7 @@ class SequenceRun {
 
   /// Checks all frames that matter before any work.
   void read_contents() {
-    // Of frames in one file those outside the range matter too, for they may be done.
+    // In one file, frames outside the range matter too, for they may be done.
     const bool all = files_->is_one_file();
     const std::size_t begin = all ? 0 : sequence_.first - std::min(sequence_.first, sequence_reach);
     const std::size_t end = all ? files_->count() : std::min(sequence_.last + sequence_reach, files_->count());
@@ -211,11 +204,11 @@ class SequenceRun {
     note_status(status);
     if (!is_good(status) && !options_.keep_partial) {
       ++unwritten_;
-      say("{}: {}; not written: --keep-partial writes what was reached", files_->name(t), status);
+      display_.say("{}: {}; not written: --keep-partial writes what was reached", files_->name(t), status);
       return;
     }
     const bool float32_digits = result.report.precision == Precision::float32;
-    // What was certified are these positions, bit for bit.
+    // The certificate is about these positions, bit for bit.
     if (files_->write(t, result.positions, float32_digits) != result.positions)
       throw std::logic_error(files_->name(t) + ": the file written does not hold what was certified");
     done_[t] = frame_json(result.report);
@@ -223,7 +216,7 @@ class SequenceRun {
     if (unrecorded_.size() >= files_->frames_between_flushes()) flush();
   }
 
-  /// What was written becomes what is recorded.
+  /// Records all frames that have been written.
   void flush() {
     if (unrecorded_.empty()) return;
     const auto lock = record_.lock();
@@ -346,21 +339,22 @@ void SequenceRun::summarise() {
   const Summary sum = summary();
   const StageReport whole = clock_.stage("sequence");
   const SurfaceView mesh = files_->mesh().surface();
-  say("{} frames of {} vertices, {} faces{}", sequence_.last - sequence_.first, mesh.vertex_count(), mesh.face_count(),
-      done_before_ > 0 ? fmt::format("; {} were done before", done_before_) : "");
-  say("  intersecting pairs before: {}, in {} frames", sum.pairs_before, sum.with_pairs);
-  say("  intersecting pairs after:  {}", sum.pairs_after == 0 ? "none" : std::to_string(sum.pairs_after));
+  display_.say("{} frames of {} vertices, {} faces{}", sequence_.last - sequence_.first, mesh.vertex_count(),
+               mesh.face_count(), done_before_ > 0 ? fmt::format("; {} were done before", done_before_) : "");
+  display_.say("  intersecting pairs before: {}, in {} frames", sum.pairs_before, sum.with_pairs);
+  display_.say("  intersecting pairs after:  {}", sum.pairs_after == 0 ? "none" : std::to_string(sum.pairs_after));
   if (sum.frames > 0)
-    say("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
-        100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, 100 * sum.displacement_mean);
+    display_.say("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
+                 100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, 100 * sum.displacement_mean);
   if (sum.jitter_frames > 0)
-    say("  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; repaired one by one {:.2g} % and {:.2g} %",
+    display_.say(
+        "  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; repaired one by one {:.2g} % and {:.2g} %",
         100 * sum.jitter.max_rel, 100 * sum.jitter.mean_rel, 100 * sum.alone.max_rel, 100 * sum.alone.mean_rel);
-  say("  {} of {} frames written; {:.1f} s, {:.0f} MB", sum.frames, sequence_.last - sequence_.first, whole.seconds,
-      whole.peak_memory_mb);
-  if (is_whole_) say("  wrote {}", files_->output());
+  display_.say("  {} of {} frames written; {:.1f} s, {:.0f} MB", sum.frames, sequence_.last - sequence_.first,
+               whole.seconds, whole.peak_memory_mb);
+  if (is_whole_) display_.say("  wrote {}", files_->output());
   if (is_range_done_ && !is_whole_)
-    say("  gathered in {}.part until all {} frames are done", files_->output(), files_->count());
+    display_.say("  gathered in {}.part until all {} frames are done", files_->output(), files_->count());
 }
 
 }  // namespace

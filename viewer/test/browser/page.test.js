@@ -135,6 +135,46 @@ test('displacement has colours and a legend', async () => {
   await page.keyboard.press('c');
 });
 
+test('the legend says what the colours mean', async () => {
+  const entries = () => page.locator('#legend li').allTextContents();
+  assert.deepEqual(await entries(), ['intersects another face', 'where faces cross']);
+  await page.keyboard.press('n');
+  assert.deepEqual((await entries()).slice(2), ['picked face', 'faces that it meets']);
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('x');
+  assert.deepEqual(await entries(), ['intersects another face']);
+  await page.keyboard.press('x');
+});
+
+test('another axis turns up, and three turns are none', async () => {
+  await page.keyboard.press('f');
+  const start = await pixels();
+  const up = () => page.evaluate(() => window.unsnarl.stage.camera.up.toArray());
+  const first = await up();
+  await page.keyboard.press('u');
+  assert.deepEqual(await up(), [first[2], first[0], first[1]]);
+  const turned = await pixels();
+  assert.notEqual(turned.digest, start.digest);
+  assert.ok(turned.drawn > 0.02);
+  await page.keyboard.press('u');
+  await page.keyboard.press('u');
+  assert.deepEqual(await up(), first);
+});
+
+test('a phone has the drawing above and the rest below', async () => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.waitForTimeout(200);
+  const box = async (id) => page.locator(id).boundingBox();
+  const [stage, panel, header] = [await box('#stage'), await box('#panel'), await box('header')];
+  assert.equal(stage.width, 390);
+  assert.ok(stage.height > 400 && panel.y >= stage.y + stage.height && panel.width === 390);
+  assert.ok(header.width === 390 && await page.evaluate(() => document.documentElement.scrollWidth) <= 390);
+  assert.ok((await pixels()).drawn > 0.02);
+  if (process.env.PHONE_PICTURE) await page.screenshot({ path: process.env.PHONE_PICTURE });
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await page.waitForTimeout(200);
+});
+
 test('a picked face shows its ids and what it meets', async () => {
   await page.keyboard.press('n');
   const face = Number(await page.locator('#picked-face').textContent());

@@ -1,0 +1,67 @@
+#include "unsnarl/pictures.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "arguments.h"
+#include "results.h"
+#include "unsnarl/certify.h"
+
+namespace unsnarl::c_interface {
+namespace {
+
+std::vector<std::int32_t> faces_in(const std::vector<IntersectingPair>& pairs) {
+  std::vector<std::int32_t> faces;
+  for (const IntersectingPair& pair : pairs) faces.insert(faces.end(), {pair.a, pair.b});
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+std::string label(const std::string& when, std::size_t pairs) {
+  if (pairs == 0) return when + "\nno self-intersections";
+  return when + "\n" + std::to_string(pairs) + (pairs == 1 ? " intersecting pair" : " intersecting pairs") +
+         " of faces";
+}
+
+std::string picture(const SurfaceView& before, std::span<const double> moved, int width, const FindOptions& find) {
+  if (width < 128 || width > 8192)
+    throw std::invalid_argument("width is " + std::to_string(width) + "; give pixels from 128 to 8192");
+  Certifier certifier(before, find);
+  const std::vector<IntersectingPair> pairs_before = certifier.find_intersections(before.positions);
+  PictureOptions options;
+  options.width = width;
+  if (moved.empty()) {
+    options.height = width * 3 / 4;
+    options.before_label = label("mesh", pairs_before.size());
+    return picture_png(before, faces_in(pairs_before), options);
+  }
+  if (moved.size() != before.positions.size())
+    throw std::invalid_argument("moved has " + std::to_string(moved.size() / 3) + " vertices, the surface " +
+                                std::to_string(before.vertex_count()));
+  const std::vector<IntersectingPair> pairs_after = certifier.find_intersections(moved);
+  options.height = width / 2;
+  options.before_label = label("before", pairs_before.size());
+  options.after_label = label("after", pairs_after.size());
+  return picture_png(before, faces_in(pairs_before), {moved, before.corners, before.offsets}, faces_in(pairs_after),
+                     options);
+}
+
+}  // namespace
+}  // namespace unsnarl::c_interface
+
+using namespace unsnarl;
+using namespace unsnarl::c_interface;
+
+int unsnarl_picture(const unsnarl_surface* surface, const double* moved, size_t moved_count, int32_t width,
+                    const unsnarl_options* options, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    const SurfaceView before = view_of(surface_of(surface));
+    check_corners(before);
+    const std::span<const double> after = moved ? std::span(moved, 3 * moved_count) : std::span<const double>();
+    const std::string png = picture(before, after, width, find_options(options_of(options)));
+    unsnarl_result drawn;
+    drawn.arrays["png"] = {std::vector<std::uint8_t>(png.begin(), png.end()), 1};
+    return drawn;
+  });
+}
