@@ -11,6 +11,15 @@
 #include "unsnarl/document.h"
 
 namespace unsnarl {
+
+struct ZipDiscard {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+  void operator()(zip_source_t* source) const { zip_source_free(source); }
+  void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
+using ZipHandle = std::unique_ptr<zip_t, ZipDiscard>;
+using ZipSource = std::unique_ptr<zip_source_t, ZipDiscard>;
+
 namespace {
 
 /// Deflate makes nothing smaller than this (zlib's Technical Details, "Maximum Compression Factor").
@@ -32,17 +41,9 @@ class Error {
   zip_error_t error_{};
 };
 
-struct Discard {
-  void operator()(zip_t* archive) const { zip_discard(archive); }
-  void operator()(zip_source_t* source) const { zip_source_free(source); }
-  void operator()(zip_file_t* file) const { zip_fclose(file); }
-};
-using Archive = std::unique_ptr<zip_t, Discard>;
-using ZipSource = std::unique_ptr<zip_source_t, Discard>;
-
 /// An archive over `bytes`, and its source, which stays usable after the archive is closed. One that is to be written
 /// gets a copy, since libzip 1.7 frees the unchanged part at the front of a written buffer, whosever it is.
-std::pair<Archive, ZipSource> opened(std::string_view bytes, bool is_written) {
+std::pair<ZipHandle, ZipSource> opened(std::string_view bytes, bool is_written) {
   Error error;
   const char* data = bytes.data();
   if (is_written) {
@@ -54,7 +55,7 @@ std::pair<Archive, ZipSource> opened(std::string_view bytes, bool is_written) {
   ZipSource source(zip_source_buffer_create(data, bytes.size(), is_written ? 1 : 0, error.get()));
   if (!source) throw std::bad_alloc();
   zip_source_keep(source.get());
-  Archive archive(zip_open_from_source(source.get(), is_written ? 0 : ZIP_RDONLY, error.get()));
+  ZipHandle archive(zip_open_from_source(source.get(), is_written ? 0 : ZIP_RDONLY, error.get()));
   if (!archive) {
     zip_source_free(source.get());
     throw FileError(
@@ -75,7 +76,7 @@ void check(bool is_good, zip_t* archive) {
 }  // namespace
 
 struct ZipArchive::Handle {
-  Archive archive;
+  ZipHandle archive;
   ZipSource source;
 };
 
