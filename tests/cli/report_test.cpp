@@ -69,7 +69,7 @@ TEST_F(Report, EveryFileThatWasWrittenIsNamed) {
     EXPECT_TRUE(contains(outcome.err, "wrote " + (folder / name) + "\n")) << outcome.err;
 }
 
-TEST_F(Report, ProgressIsShownEachSecondAndCountsFaces) {
+TEST_F(Report, ProgressCountsFacesAsTheReportDoes) {
   const std::string in = sample("crossing_tubes");  // quads, some of which both triangles of are hit
   const Outcome fixed = run({"fix", in, "-o", folder / "out.obj", "--progress", "json", "--report", folder / "r.json"});
   ASSERT_EQ(fixed.exit_code, 0) << fixed.err;
@@ -78,13 +78,6 @@ TEST_F(Report, ProgressIsShownEachSecondAndCountsFaces) {
   std::getline(lines, line);
   EXPECT_EQ(nlohmann::json::parse(line)["pairs_left"],
             nlohmann::json::parse(contents(folder / "r.json"))["before"]["total"]);
-  double last = 0;
-  do {
-    if (!line.starts_with('{')) break;
-    const double seconds = nlohmann::json::parse(line)["seconds"];
-    EXPECT_LT(seconds - last, 5) << line;  // a second, on a machine that does nothing else
-    last = seconds;
-  } while (std::getline(lines, line));
 }
 
 TEST_F(Report, ProgressAsJsonNeverGoesBack) {
