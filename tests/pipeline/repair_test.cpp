@@ -324,7 +324,9 @@ TEST(Repair, coordinates_beyond_float32_are_repaired_in_float64) {
       options.precision = precision;
       const RepairResult result = repair(scaled, options);
       EXPECT_GT(result.report.before.total(), 0u);
-      if (exponent == 140) EXPECT_EQ(result.status, Status::embedded);
+      if (exponent == 140) {
+        EXPECT_EQ(result.status, Status::embedded);
+      }
       EXPECT_TRUE(
           std::all_of(result.positions.begin(), result.positions.end(), [](double v) { return std::isfinite(v); }));
       EXPECT_EQ(result.report.precision, Precision::float64);

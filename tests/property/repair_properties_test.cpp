@@ -84,7 +84,9 @@ TEST(RepairProperties, what_is_reported_is_what_happened) {
     EXPECT_LE(report.displacement_mean_rel, report.displacement_rms_rel * (1 + 1e-12));
     EXPECT_LE(report.displacement_rms_rel, report.displacement_max_rel * (1 + 1e-12));
     EXPECT_GT(report.displacement_max_rel, 0);
-    if (result.status == Status::embedded) EXPECT_GE(report.displacement_max_rel, report.displacement_lower_bound_rel);
+    if (result.status == Status::embedded) {
+      EXPECT_GE(report.displacement_max_rel, report.displacement_lower_bound_rel);
+    }
     EXPECT_GE(report.edge_stretch_max, report.edge_stretch_p999);
     EXPECT_GE(report.edge_stretch_p999, 1);
     EXPECT_FALSE(report.regions.empty());
