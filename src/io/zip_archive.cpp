@@ -100,7 +100,7 @@ std::optional<std::string> ZipArchive::content(const std::string& name) const {
   if (zip_stat_index(archive, static_cast<zip_uint64_t>(entry), 0, &status) < 0) fail(zip_strerror(archive));
   if (status.comp_size > bytes_.size() || status.size / largest_ratio > status.comp_size)
     fail("its size makes no sense; the file is damaged");
-  const std::unique_ptr<zip_file_t, Discard> file(zip_fopen_index(archive, static_cast<zip_uint64_t>(entry), 0));
+  const std::unique_ptr<zip_file_t, ZipDiscard> file(zip_fopen_index(archive, static_cast<zip_uint64_t>(entry), 0));
   if (!file) fail(zip_strerror(archive));
   std::string result(status.size, '\0');
   std::size_t done = 0;
