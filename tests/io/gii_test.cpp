@@ -178,7 +178,7 @@ TEST(Gii, MissingVerticesStayAndSoDoTheirFaces) {
 TEST(Gii, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("", Format::gii, "empty");
   EXPECT_PARSE_ERROR("v 0 0 0\n", Format::gii, "line 1: this is no XML");
-  EXPECT_PARSE_ERROR("<VTKFile/>", Format::gii, "line 1: the root element is <VTKFile>, but <GIFTI> should be here");
+  EXPECT_PARSE_ERROR("<Mesh/>", Format::gii, "line 1: the root element is <Mesh>, but <GIFTI> should be here");
   EXPECT_PARSE_ERROR(ascii.substr(0, 700), Format::gii, "this is no XML");
   EXPECT_PARSE_ERROR(gifti(""), Format::gii, "no DataArray of NIFTI_INTENT_POINTSET");
   EXPECT_PARSE_ERROR(gifti(data_array("POINTSET", "FLOAT32", 4, "ASCII", points_text)), Format::gii,

@@ -157,7 +157,7 @@ TEST(Ply, TooLargeForFloatIsAWriteError) {
 
 TEST(Ply, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("", Format::ply, "empty");
-  EXPECT_PARSE_ERROR("OFF\n", Format::ply, "'ply' missing");
+  EXPECT_PARSE_ERROR("4 4 6\n", Format::ply, "'ply' missing");
   EXPECT_PARSE_ERROR("ply\nformat ascii 1.0\n", Format::ply, "within the header");
   EXPECT_PARSE_ERROR(replaced(ascii, "format ascii", "format morse"), Format::ply, "line 2: unknown format 'morse'");
   EXPECT_PARSE_ERROR(replaced(ascii, "property uchar red", "property rgb red"), Format::ply,

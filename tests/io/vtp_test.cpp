@@ -169,7 +169,7 @@ TEST(Vtp, SeveralPiecesAreOneScene) {
 
 TEST(Vtp, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("", Format::vtp, "empty");
-  EXPECT_PARSE_ERROR("<GIFTI/>", Format::vtp, "the root element is <GIFTI>, but <VTKFile> should be here");
+  EXPECT_PARSE_ERROR("<Mesh/>", Format::vtp, "the root element is <Mesh>, but <VTKFile> should be here");
   EXPECT_PARSE_ERROR(replaced(ascii, "PolyData", "UnstructuredGrid"), Format::vtp,
                      "line 2: type 'UnstructuredGrid': only PolyData");
   EXPECT_PARSE_ERROR(replaced(file_of<float>({"binary", "raw", true}), "vtkZLib", "vtkLZ4"), Format::vtp,
