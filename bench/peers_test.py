@@ -74,7 +74,7 @@ class PeersTest(unittest.TestCase):
 
     def test_tables_and_resuming(self):
         text = self.peers("default", "cmcf", "contours", "smoothing")
-        # Of "stubborn" nothing was written: it is judged as the input is.
+        # No result of "stubborn" is written, so its input is judged.
         self.assertRegex(text, r"\| unsnarl \| 2 \| 1 \| 1 \| 5 \| \d+ \| 1 \|  \| 2 \| 3 \| 4 \|")
         # Moved by 20 %, and unsnarl on the one mesh that both resolve by 1 %.
         self.assertRegex(text, r"\| Conformalised flow \| 2 \| 2 \| 2 \| 0 \| \d+ \| 20 \| 1 \| 40 \| 60 \| 8 \|")

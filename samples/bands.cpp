@@ -1,11 +1,13 @@
 #include <cmath>
+#include <numbers>
 
-#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 /// Paper fig. 20. A band wider than its ring meets its own other side: at half width 2 it reaches the opposite core.
 Surface mobius_extended(int resolution, const SampleValues& values) {

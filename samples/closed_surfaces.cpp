@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "samples/block_surface.h"
 #include "samples/mesh_builder.h"
@@ -9,6 +10,8 @@
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 /// A sphere's steps along its equator are four sides of the cube that it is made from.
 int cube_divisions(int resolution) {

@@ -1,11 +1,13 @@
 #include <cmath>
+#include <numbers>
 
-#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 /// Paper fig. 21, left. The radius swells once on the way, so that the windings cross instead of coinciding.
 Surface cylinder_wrapped(int resolution, const SampleValues& values) {

@@ -1,10 +1,11 @@
 #include "samples/klein_maps.h"
 
 #include <cmath>
-
-#include "samples/mesh_builder.h"
+#include <numbers>
 
 namespace unsnarl {
+
+using std::numbers::pi;
 
 Vec3 klein_bottle_map(double t, double v) {
   constexpr double a = 0.75, b = 2.0;  // half the width and height of the drop

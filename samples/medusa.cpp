@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "geometry/box.h"
 #include "samples/lattice_noise.h"
-#include "samples/mesh_builder.h"
 #include "samples/sphere_grid.h"
 #include "samples/tube.h"
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 double hill(double x, double y, double width, double height) {
   return std::exp(-(x * x / (width * width) + y * y / (height * height)));

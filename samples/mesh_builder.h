@@ -1,14 +1,11 @@
 #pragma once
 
 #include <initializer_list>
-#include <numbers>
 
 #include "geometry/types.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
-
-inline constexpr double pi = std::numbers::pi;
 
 enum class FaceKind { triangles, quads };
 

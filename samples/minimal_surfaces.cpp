@@ -1,11 +1,13 @@
 #include <cmath>
+#include <numbers>
 
-#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 Surface enneper(int resolution, const SampleValues& values) {
   const double reach = values["reach"];

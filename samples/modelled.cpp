@@ -1,15 +1,17 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "samples/block_surface.h"
 #include "samples/lattice_noise.h"
-#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 #include "samples/sphere_grid.h"
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 double smooth_step(double x) {
   const double t = std::clamp(x, 0.0, 1.0);

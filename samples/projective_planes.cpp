@@ -1,13 +1,15 @@
 #include <cmath>
 #include <complex>
+#include <numbers>
 
-#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/projective_maps.h"
 #include "samples/sample_maker.h"
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 /// The projective plane without a disc is a Moebius band: half the equator around, latitude across, the two poles'
 /// surroundings being the (one) disc that is left out.

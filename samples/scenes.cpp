@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "samples/lattice_noise.h"
 #include "samples/medusa.h"
-#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 #include "samples/sphere_grid.h"
@@ -11,6 +11,8 @@
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 /// Paper fig. 8 shows such a scene: a bell, a second one inside, and tentacles through both and through each other.
 Surface jellyfish(int resolution, const SampleValues& values) {

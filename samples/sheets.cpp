@@ -1,12 +1,14 @@
 #include <cmath>
+#include <numbers>
 
 #include "samples/lattice_noise.h"
-#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 /// Paper fig. 12: x^2 = y^2 z. The double line ends in a pinch point in the middle of the sheet.
 Surface whitney_umbrella(int resolution, const SampleValues& values) {

@@ -1,12 +1,14 @@
 #include <cmath>
+#include <numbers>
 
-#include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 #include "samples/tube.h"
 
 namespace unsnarl {
 namespace {
+
+using std::numbers::pi;
 
 Surface knotted_tube(const SpaceCurve& centre, double length, double radius, int resolution, FaceKind faces) {
   return sample_tube({centre, 0, 2 * pi, true, [=](double) { return radius; }, resolution,

@@ -10,7 +10,6 @@
 
 #include "file_places.h"
 #include "fix_summary.h"
-#include "intersecting_faces.h"
 #include "memory_guard.h"
 #include "mesh_input.h"
 #include "pictures.h"
@@ -289,17 +288,12 @@ class Fix {
       picture.files = scene_.files();
       picture.width = options_.picture_width;
       picture.height = options_.picture_width / 2;
-      const auto label = [](const char* when, std::size_t pairs) {
-        return fmt::format("{}\n{}", when,
-                           pairs == 0   ? "no self-intersections"
-                           : pairs == 1 ? "1 intersecting pair of faces"
-                                        : fmt::format("{} intersecting pairs of faces", pairs));
-      };
-      picture.before_label = label("before", pairs_before.size());
-      picture.after_label = label("after", pairs_after.size());
+      picture.before_label = picture_label("before", pairs_before.size());
+      picture.after_label = picture_label("after", pairs_after.size());
       const SurfaceView before = surface();
       const SurfaceView after = {result_.positions, before.corners, before.offsets};
-      write_file(options_.picture, picture_png(before, faces_in(pairs_before), after, faces_in(pairs_after), picture),
+      write_file(options_.picture,
+                 picture_png(before, intersecting_faces(pairs_before), after, intersecting_faces(pairs_after), picture),
                  interruption_);
     }
   }

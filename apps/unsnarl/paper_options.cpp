@@ -1,6 +1,7 @@
 #include "paper_options.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <map>
 
@@ -12,10 +13,16 @@ namespace {
 constexpr const char* group = "For research, with --paper";
 constexpr double most = std::numeric_limits<double>::max();
 
-/// A choice among names, each of a value of an enum.
+/// A choice among values of an enum, by their names.
 template <class Value>
-void add_choice(CLI::App& command, const std::string& name, Value& value, const std::map<std::string, Value>& choices,
-                const std::string& type_name, const std::string& description) {
+void add_choice(CLI::App& command, const std::string& name, Value& value, std::initializer_list<Value> values,
+                const std::string& description) {
+  std::map<std::string, Value> choices;
+  std::string type_name;
+  for (const Value choice : values) {
+    choices.emplace(to_string(choice), choice);
+    type_name += (type_name.empty() ? "" : "|") + std::string(to_string(choice));
+  }
   command
       .add_option_function<std::string>(
           name, [&value, choices](const std::string& given) { value = choices.at(given); }, description)
@@ -39,13 +46,10 @@ void add_number(CLI::App& command, const std::string& name, Number& value, Numbe
 
 void add_paper_options(CLI::App& command, PaperOptions& options) {
   constexpr double positive = std::numeric_limits<double>::min();
-  add_choice<PaperBandwidth>(command, "--paper-bandwidth", options.bandwidth,
-                             {{"global", PaperBandwidth::global},
-                              {"independent", PaperBandwidth::independent},
-                              {"symmetric", PaperBandwidth::symmetric}},
-                             "global|independent|symmetric",
-                             "Bandwidths of the Gaussian energy (Table 2): one, or one a vertex by model (I) or (II);\n"
-                             "default: symmetric, (II)");
+  add_choice(command, "--paper-bandwidth", options.bandwidth,
+             {PaperBandwidth::global, PaperBandwidth::independent, PaperBandwidth::symmetric},
+             "Bandwidths of the Gaussian energy (Table 2): one, or one a vertex by model (I) or (II);\n"
+             "default: symmetric, (II)");
   command
       .add_flag_callback(
           "--paper-frozen", [&options] { options.adaptive = false; },
@@ -59,10 +63,9 @@ void add_paper_options(CLI::App& command, PaperOptions& options) {
   add_number(command, "--paper-gaussian", options.lambda_gaussian, 0.0, "W",
              "Weight of the Gaussian energy; default 1");
   add_number(command, "--paper-mesh", options.lambda_mesh, 0.0, "W", "Weight of the mesh energy; default 0.03");
-  add_choice<PaperMeshEnergy>(
-      command, "--paper-mesh-energy", options.mesh_energy,
-      {{"depth", PaperMeshEnergy::penetration_depth}, {"length", PaperMeshEnergy::intersection_length}}, "depth|length",
-      "Penetration depth (default), or the length of the intersection curves (§3.2)");
+  add_choice(command, "--paper-mesh-energy", options.mesh_energy,
+             {PaperMeshEnergy::penetration_depth, PaperMeshEnergy::intersection_length},
+             "Penetration depth (default), or the length of the intersection curves (§3.2)");
   command
       .add_flag_callback(
           "--paper-triangles", [&options] { options.whole_polygons = false; },

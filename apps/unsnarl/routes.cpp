@@ -87,14 +87,6 @@ std::vector<IntersectingPair> pairs_of_tubes(const RoutePlan& plan, const Surfac
   return pairs;
 }
 
-std::vector<std::int32_t> faces_in(const std::vector<IntersectingPair>& pairs) {
-  std::vector<std::int32_t> faces;
-  for (const IntersectingPair& pair : pairs) faces.insert(faces.end(), {pair.a, pair.b});
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
-}
-
 /// Without obstacles that would hide all: those above every route.
 RoutePlan seen_from_above(const RoutePlan& plan, const Surface& tubes) {
   double highest = tubes.positions[1];
@@ -118,7 +110,7 @@ std::string picture(const RoutePlan& plan, const Surface& before, const Surface&
   options.inset = false;
   const Surface all_before = with_obstacles(seen, before), all_after = with_obstacles(seen, after, &parts);
   options.files = parts;
-  return picture_png(all_before, faces_in(pairs_of_tubes(seen, before)), all_after, {}, options);
+  return picture_png(all_before, intersecting_faces(pairs_of_tubes(seen, before)), all_after, {}, options);
 }
 
 std::vector<std::string> names_of(const RoutePlan& plan) {

@@ -66,8 +66,8 @@ class InstantRepair : public Peer {
   }
 
  private:
-  /// Of the sum over pairs, and over both orders of a pair, of area(b) times the cosine between the normal of b and the
-  /// way from each corner of a to the centre of b. Areas and normals count as constants.
+  /// The gradient of the penetration: area(b) times the cosine between the normal of b and the way from each corner of
+  /// a to the centre of b, summed over pairs and both orders of each. Areas and normals count as constants.
   Eigen::MatrixX3d penetration_gradient(const std::vector<IntersectingPair>& pairs, const Positions& x) const {
     Eigen::MatrixX3d gradient = Eigen::MatrixX3d::Zero(x.cols(), 3);
     for (const IntersectingPair& pair : pairs) {

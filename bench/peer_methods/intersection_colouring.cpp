@@ -41,7 +41,7 @@ struct Cut {
   std::vector<Index> edges, triangles;
 };
 
-/// What the curve cuts out of the sheet: vertices; the triangles at them and along the curve.
+/// The part of a sheet that a curve cuts out: its vertices, and the triangles at these and along the curve.
 struct Piece {
   std::vector<Index> vertices, triangles;
 };
@@ -168,7 +168,7 @@ class IntersectionColouring : public Peer {
     }
   }
 
-  /// Of an edge that pierces a face where no vertex has gone through, the nearer end counts as one.
+  /// An edge may pierce a face though neither of its ends has gone through: the nearer end is attracted then.
   void attract_end(const Positions& x, const Crossing& crossing, Positions& motion, Eigen::VectorXd& contacts) const {
     const Index v = edges_.edges[crossing.edge][crossing.along < 0.5 ? 0 : 1];
     const Triangle& corners = triangles_[crossing.face];

@@ -74,7 +74,7 @@ Json measure_files(const std::string& before, const std::string& after) {
            {"displacement_max_rel", report.displacement_max_rel},
            {"flipped_triangles", report.flipped_triangles},
            {"closed_components", diagnosis.topology.closed_components}};
-  // Of closed components alone; of others a volume means nothing.
+  // Only closed components have a volume.
   if (diagnosis.topology.closed_components > 0) row["volume_change_rel"] = report.volume_change_rel;
   return row;
 }

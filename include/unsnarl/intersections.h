@@ -63,4 +63,7 @@ std::vector<IntersectingPair> find_intersections(const SurfaceView& surface, con
 
 PairCounts count_by_class(const std::vector<IntersectingPair>& pairs);
 
+/// Ids of the faces in any of the pairs, ascending.
+std::vector<std::int32_t> intersecting_faces(const std::vector<IntersectingPair>& pairs);
+
 }  // namespace unsnarl

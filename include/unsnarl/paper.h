@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace unsnarl {
 
@@ -15,6 +16,9 @@ enum class PaperBandwidth : std::uint8_t {
 /// The measure of what intersects: penetration depth is the paper's; intersection length is what it argues against
 /// (§3.2).
 enum class PaperMeshEnergy : std::uint8_t { penetration_depth, intersection_length };
+
+std::string_view to_string(PaperBandwidth bandwidth);  ///< "global", "independent", "symmetric"
+std::string_view to_string(PaperMeshEnergy energy);    ///< "depth", "length"
 
 /// The untangling of the paper (§3.1 to 3.3, §3.5): lambda_G E_G + lambda_M E_M + lambda_reg E_ARAP, minimised by
 /// L-BFGS at unit scale (§3.5.5) until no two faces that share no vertex intersect. The paper names neither weights nor

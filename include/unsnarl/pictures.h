@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "unsnarl/recording.h"
 #include "unsnarl/scene_document.h"
@@ -23,6 +25,9 @@ struct PictureOptions {
   /// The files that the surface is of: of several, each gets a colour of its own; empty: it is one.
   std::span<const SceneFile> files = {};
 };
+
+/// A label of two lines: `title`, and how many pairs of faces intersect.
+std::string picture_label(std::string_view title, std::size_t pairs);
 
 /// Before and after side by side, as the bytes of a PNG file. The camera looks down on both at a three-quarter angle: y
 /// up (z where they reach much further along z), the longer horizontal axis to the right. Red faces show through what

@@ -7,7 +7,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "errors.h"
 #include "handles.h"
@@ -42,31 +41,17 @@ Enum named(const char* option, const std::string& name, std::initializer_list<En
   throw std::invalid_argument(std::string(option) + " is '" + name + "'; choose one of " + all);
 }
 
-/// The value of the choice that is called `name`.
-template <class Enum>
-Enum chosen(const char* option, const std::string& name, std::initializer_list<std::pair<const char*, Enum>> choices) {
-  std::string all;
-  for (const auto& [choice, value] : choices) {
-    if (choice == name) return value;
-    all += (all.empty() ? "'" : ", '") + std::string(choice) + "'";
-  }
-  throw std::invalid_argument(std::string(option) + " is '" + name + "'; choose one of " + all);
-}
-
 PaperOptions paper_options(const unsnarl_options& options) {
   PaperOptions paper;
-  paper.bandwidth = chosen<PaperBandwidth>("paper_bandwidth", options.paper_bandwidth,
-                                           {{"global", PaperBandwidth::global},
-                                            {"independent", PaperBandwidth::independent},
-                                            {"symmetric", PaperBandwidth::symmetric}});
+  paper.bandwidth = named("paper_bandwidth", options.paper_bandwidth,
+                          {PaperBandwidth::global, PaperBandwidth::independent, PaperBandwidth::symmetric});
   paper.adaptive = options.paper_adaptive != 0;
   paper.bandwidth_scale = options.paper_bandwidth_scale;
   paper.neighbourhood = options.paper_neighbourhood;
   paper.lambda_gaussian = options.paper_gaussian;
   paper.lambda_mesh = options.paper_mesh;
-  paper.mesh_energy = chosen<PaperMeshEnergy>(
-      "paper_mesh_energy", options.paper_mesh_energy,
-      {{"depth", PaperMeshEnergy::penetration_depth}, {"length", PaperMeshEnergy::intersection_length}});
+  paper.mesh_energy = named("paper_mesh_energy", options.paper_mesh_energy,
+                            {PaperMeshEnergy::penetration_depth, PaperMeshEnergy::intersection_length});
   paper.whole_polygons = options.paper_whole_polygons != 0;
   paper.lambda_arap = options.paper_arap;
   paper.memory = options.paper_memory;
@@ -117,13 +102,13 @@ unsnarl_options default_options() {
   options.fair = seifert.fair;
   options.points = isotopy.points;
   const PaperOptions paper;
-  options.paper_bandwidth = "symmetric";
+  options.paper_bandwidth = to_string(paper.bandwidth).data();
   options.paper_adaptive = paper.adaptive;
   options.paper_bandwidth_scale = paper.bandwidth_scale;
   options.paper_neighbourhood = paper.neighbourhood;
   options.paper_gaussian = paper.lambda_gaussian;
   options.paper_mesh = paper.lambda_mesh;
-  options.paper_mesh_energy = "depth";
+  options.paper_mesh_energy = to_string(paper.mesh_energy).data();
   options.paper_whole_polygons = paper.whole_polygons;
   options.paper_arap = paper.lambda_arap;
   options.paper_memory = paper.memory;

@@ -10,20 +10,6 @@
 namespace unsnarl::c_interface {
 namespace {
 
-std::vector<std::int32_t> faces_in(const std::vector<IntersectingPair>& pairs) {
-  std::vector<std::int32_t> faces;
-  for (const IntersectingPair& pair : pairs) faces.insert(faces.end(), {pair.a, pair.b});
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
-}
-
-std::string label(const std::string& when, std::size_t pairs) {
-  if (pairs == 0) return when + "\nno self-intersections";
-  return when + "\n" + std::to_string(pairs) + (pairs == 1 ? " intersecting pair" : " intersecting pairs") +
-         " of faces";
-}
-
 std::string picture(const SurfaceView& before, std::span<const double> moved, int width, const FindOptions& find) {
   if (width < 128 || width > 8192)
     throw std::invalid_argument("width is " + std::to_string(width) + "; give pixels from 128 to 8192");
@@ -33,18 +19,18 @@ std::string picture(const SurfaceView& before, std::span<const double> moved, in
   options.width = width;
   if (moved.empty()) {
     options.height = width * 3 / 4;
-    options.before_label = label("mesh", pairs_before.size());
-    return picture_png(before, faces_in(pairs_before), options);
+    options.before_label = picture_label("mesh", pairs_before.size());
+    return picture_png(before, intersecting_faces(pairs_before), options);
   }
   if (moved.size() != before.positions.size())
     throw std::invalid_argument("moved has " + std::to_string(moved.size() / 3) + " vertices, the surface " +
                                 std::to_string(before.vertex_count()));
   const std::vector<IntersectingPair> pairs_after = certifier.find_intersections(moved);
   options.height = width / 2;
-  options.before_label = label("before", pairs_before.size());
-  options.after_label = label("after", pairs_after.size());
-  return picture_png(before, faces_in(pairs_before), {moved, before.corners, before.offsets}, faces_in(pairs_after),
-                     options);
+  options.before_label = picture_label("before", pairs_before.size());
+  options.after_label = picture_label("after", pairs_after.size());
+  return picture_png(before, intersecting_faces(pairs_before), {moved, before.corners, before.offsets},
+                     intersecting_faces(pairs_after), options);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numeric>
 
 #include "unsnarl/intersections.h"
@@ -12,6 +13,15 @@ PairCounts count_by_class(const std::vector<IntersectingPair>& pairs) {
   PairCounts counts;
   for (const IntersectingPair& pair : pairs) ++counts[pair.kind];
   return counts;
+}
+
+std::vector<std::int32_t> intersecting_faces(const std::vector<IntersectingPair>& pairs) {
+  std::vector<std::int32_t> faces;
+  faces.reserve(2 * pairs.size());
+  for (const IntersectingPair& pair : pairs) faces.insert(faces.end(), {pair.a, pair.b});
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
 }
 
 }  // namespace unsnarl

@@ -55,7 +55,7 @@ void refuse_other_content(std::string_view start, Format format) {
   const std::optional<Format> content = format_of_content(start);
   if (!content || *content == format) return;
   const std::string_view name = to_string(*content);
-  throw FileError(fmt::format("this is a {} file by its content, not {}; name it *.{}, or give --format {}", name,
+  throw FileError(fmt::format("by its content this is {}, not {}; name it *.{}, or give --format {}", name,
                               to_string(format), name, name));
 }
 

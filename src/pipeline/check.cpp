@@ -22,15 +22,6 @@ void extend_by_face(Bounds& bounds, const SurfaceView& surface, Index f) {
     }
 }
 
-std::vector<Index> faces_in(const std::vector<IntersectingPair>& pairs) {
-  std::vector<Index> faces;
-  faces.reserve(2 * pairs.size());
-  for (const IntersectingPair& pair : pairs) faces.insert(faces.end(), {pair.a, pair.b});
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
-}
-
 std::vector<ConflictPlace> find_places(const SurfaceView& surface, const WeldMap& weld_map,
                                        const std::vector<IntersectingPair>& pairs, const std::vector<Index>& faces) {
   UnionFind sets(surface.face_count());
@@ -92,7 +83,7 @@ CheckReport check(const SurfaceView& surface, const FindOptions& options) {
   const PreparedSurface prepared = prepare(surface, options);
   found.pairs = FacePairFinder(prepared).find(prepared.rest);
   found.counts = count_by_class(found.pairs);
-  found.faces = faces_in(found.pairs);
+  found.faces = intersecting_faces(found.pairs);
   found.triangulation = prepared.triangulation.statistics.describe();
   const EdgeTable edges = build_edges(prepared.triangles());
   const Components components = find_components(prepared.triangles(), prepared.weld_map.count, edges);

@@ -14,6 +14,7 @@
 #include "render/drawable.h"
 #include "render/layout.h"
 #include "render/shading.h"
+#include "unsnarl/pictures.h"
 
 namespace unsnarl {
 namespace {
@@ -125,13 +126,10 @@ std::vector<double> seconds_of(std::span<const RecordedFrame> frames, std::span<
 }
 
 std::string caption(const RecordedFrame& frame) {
-  const std::string pairs = frame.pairs == 0   ? "no self-intersections"
-                            : frame.pairs == 1 ? "1 intersecting pair of faces"
-                                               : std::to_string(frame.pairs) + " intersecting pairs of faces";
-  if (frame.phase == "input" || frame.phase == "result") return frame.phase + "\n" + pairs;
+  if (frame.phase == "input" || frame.phase == "result") return picture_label(frame.phase, frame.pairs);
   const std::string strategy = frame.strategy.empty() ? "" : " of " + frame.strategy;
-  return (frame.phase == "recover" ? "back towards the input\n" : "untangling\n") + pairs + ", iteration " +
-         std::to_string(frame.iteration) + strategy;
+  return picture_label(frame.phase == "recover" ? "back towards the input" : "untangling", frame.pairs) +
+         ", iteration " + std::to_string(frame.iteration) + strategy;
 }
 
 /// Pairs as columns, displacement as a line, over all frames; what is still to come is pale.

@@ -10,6 +10,13 @@
 
 namespace unsnarl {
 
+std::string picture_label(std::string_view title, std::size_t pairs) {
+  const std::string count = pairs == 0   ? "no self-intersections"
+                            : pairs == 1 ? "1 intersecting pair of faces"
+                                         : std::to_string(pairs) + " intersecting pairs of faces";
+  return std::string(title) + "\n" + count;
+}
+
 std::string picture_png(const SurfaceView& before, std::span<const std::int32_t> red_before, const SurfaceView& after,
                         std::span<const std::int32_t> red_after, const PictureOptions& options) {
   return encode_png(render_pair(before, red_before, after, red_after, options));

@@ -46,13 +46,7 @@ bool Acceptance::is_worse(const Pairs& pairs) const {
 }
 
 Status Acceptance::status(const Pairs& pairs, const Positions& x) const {
-  // A pair of the input may be tolerated. A new one counts, unless it is of a class that the goal leaves out, or
-  // between components that are left alone.
-  const auto is_fine = [&](const IntersectingPair& pair) {
-    if (options_.goal == Goal::disjoint && pair.kind != PairClass::disjoint) return true;
-    if (std::binary_search(diagnosis_.pairs.begin(), diagnosis_.pairs.end(), pair)) return is_tolerated(pair);
-    return options_.each_component && are_of_two_components(diagnosis_.components, pair);
-  };
+  const auto is_fine = [&](const IntersectingPair& pair) { return is_tolerated(pair); };
   const bool is_done = std::all_of(pairs.triangles.begin(), pairs.triangles.end(), is_fine) &&
                        !pairs.by_other_diagonals && count_lost_areas(prepared_.rest, x, prepared_.triangles()) == 0;
   if (!is_done) return pairs.faces.total() < before_.faces.total() ? Status::reduced : Status::no_progress;

@@ -228,7 +228,7 @@ TEST_F(Hostile, TooLittleMemoryIsNoCrash) {
   bool ran_out = false;
   for (rlim_t mb = 16; mb <= 60; mb += mb < 40 ? 2 : 10) {
     const RunOptions options = {.in_child = with_limit(RLIMIT_AS, mb << 20)};
-    // Where not even what is loaded and set up before main finds room, there is nobody to say so.
+    // The program cannot complain where the libraries it loads before main find no room.
     if (run({"--version"}, options).exit_code != 0) continue;
     const Outcome outcome = run({"fix", in, "-o", out, "--threads", "2", "--quiet"}, options);
     EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 5) << mb << " MB: " << outcome.exit_code << outcome.err;

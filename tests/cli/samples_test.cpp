@@ -30,7 +30,7 @@ TEST_F(Samples, SamplesAreListedDescribedAndWritten) {
   EXPECT_EQ(run({"sample", "book", "-o", "-"}).out, contents(obj));
 }
 
-// What was written is verified by run().
+// run() verifies every file that was written.
 TEST_F(Samples, EverySampleEndsAsTheExitCodeSays) {
   std::istringstream list(run({"sample", "--list"}).out);
   int samples = 0, left = 0;

@@ -132,8 +132,8 @@ TEST_F(Usage, ContentAndNameAreOfOneFormat) {
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 0\nproperty list uchar int vertex_indices\nend_header\n";
-  expect_refusal({"check", file("a.obj", ply)}, 3, "a ply file by its content, not obj; name it *.ply");
-  expect_refusal({"check", file("a.stl", ply)}, 3, "a ply file by its content, not stl");
+  expect_refusal({"check", file("a.obj", ply)}, 3, "by its content this is ply, not obj; name it *.ply");
+  expect_refusal({"check", file("a.stl", ply)}, 3, "by its content this is ply, not stl");
   EXPECT_EQ(run({"check", file("a", ply)}).exit_code, 0);
   EXPECT_EQ(run({"check", file("b.obj", ply), "--format", "ply"}).exit_code, 0);
   // Two gigabytes of nothing are refused by the first bytes.
