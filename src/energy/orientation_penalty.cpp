@@ -58,17 +58,47 @@ bool OrientationPenalty::is_flipped(const Positions& x, Index t) const {
   return kept.weight > 0 && kept.normal.dot(area_vector(x, kept.corners)) < 0;
 }
 
+double OrientationPenalty::share_of_moved(const Positions& x, const Positions& p, const Kept& kept,
+                                          std::array<Vec3, 3>& corners) {
+  for (int k = 0; k < 3; ++k) corners[k] = x.col(kept.corners[k]) + p.col(kept.corners[k]);
+  return kept.normal.dot((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+}
+
+bool OrientationPenalty::project(const Positions& x, std::span<const Index> which, double share,
+                                 std::span<const std::uint8_t> moves, Positions& p) const {
+  bool any = false;
+  std::array<Vec3, 3> corners, gradient;
+  for (Index t : which) {
+    const Kept& kept = triangles_[t];
+    if (!(kept.weight > 0)) continue;
+    const double now = kept.normal.dot(area_vector(x, kept.corners));
+    if (!(now > 0)) continue;
+    const double missing = share * now - share_of_moved(x, p, kept, corners);
+    if (!(missing > 0)) continue;
+    double squared = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (!moves[kept.corners[k]]) continue;
+      gradient[k] = kept.normal.cross(corners[(k + 2) % 3] - corners[(k + 1) % 3]);
+      squared += gradient[k].squaredNorm();
+    }
+    if (!(squared > 0)) continue;
+    any = true;
+    for (int k = 0; k < 3; ++k)
+      if (moves[kept.corners[k]]) p.col(kept.corners[k]) += missing / squared * gradient[k];
+  }
+  return any;
+}
+
 bool OrientationPenalty::filter(const Positions& x, std::span<const Index> which, double share, double factor,
                                 Positions& p) const {
   constexpr int rounds = 30;
+  std::array<Vec3, 3> corners;
   const auto flips = [&](Index t) {
     const Kept& kept = triangles_[t];
     if (!(kept.weight > 0)) return false;
     const double now = kept.normal.dot(area_vector(x, kept.corners));
     if (!(now > 0)) return false;
-    const auto moved = [&](int k) { return Vec3(x.col(kept.corners[k]) + p.col(kept.corners[k])); };
-    const Vec3 a = moved(0);
-    return kept.normal.dot((moved(1) - a).cross(moved(2) - a)) < share * now;
+    return share_of_moved(x, p, kept, corners) < share * now;
   };
   std::vector<Index> flipping;
   for (int round = 0;; ++round) {

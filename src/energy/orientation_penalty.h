@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,6 +39,11 @@ class OrientationPenalty {
 
   /// Whether triangle t has area at rest and is flipped at x.
   bool is_flipped(const Positions& x, Index t) const;
+  /// One sweep over those triangles of `which` that are not flipped at x and would keep less than `share` of their c:
+  /// changes the displacements p of their corners that move by the shortest way, to first order, that lets them keep
+  /// it. Returns whether there were any.
+  bool project(const Positions& x, std::span<const Index> which, double share, std::span<const std::uint8_t> moves,
+               Positions& p) const;
   /// Scales the displacements p of the corners of those triangles of `which` that are not flipped at x and would keep
   /// less than `share` of their c by `factor`, in [0, 1), until none does; the last ones stay where they are. Returns
   /// whether there were any.
@@ -48,6 +55,9 @@ class OrientationPenalty {
     Vec3 normal;  // A0 / |A0|^2
     double weight = 0;
   };
+  /// c at x + p, and where the corners are there.
+  static double share_of_moved(const Positions& x, const Positions& p, const Kept& kept, std::array<Vec3, 3>& corners);
+
   std::vector<Kept> triangles_;
   double activation_ = 1;
   double most_ = 1;  // of 1 - c / activation, up to which the energy is quadratic

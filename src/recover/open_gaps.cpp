@@ -1,6 +1,7 @@
 #include "recover/open_gaps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/predicates.h"
@@ -10,6 +11,11 @@ namespace {
 
 /// Computed differences point the right way only this many times above the round-off of a distance.
 constexpr double direction_margin = 1e4;
+
+/// Share of its target that a gap has where it counts as opened.
+constexpr double wide_enough = 0.9;
+/// Sum of the squared weights of a stencil's moving vertices below which it is not pushed: they would go far for it.
+constexpr double least_squared_weights = 1e-6;
 
 /// The distance wanted for a stencil.
 double target_of(const ContactRule& rule, double target) {
@@ -28,6 +34,41 @@ Vec3 exact_direction(const Stencil& s, const Positions& x) {
   return (side / length) * n;
 }
 
+/// A gap that is to be `missing` wider (negative: may be so much narrower), to first order: it widens by the sum of
+/// weights[i] * direction . p_i.
+struct Widening {
+  Stencil stencil;
+  Vec3 direction;  // of length 1
+  std::array<double, 4> weights;
+  double missing = 0;
+  double squared_weights = 0;  // of the vertices that move
+};
+
+Widening widening_of(const ContactRule& rule, double missing, const Positions& x, double roundoff,
+                     std::span<const std::uint8_t> moves) {
+  Widening result;
+  result.stencil = rule.stencil.stencil;
+  const Stencil& s = result.stencil;
+  const Closest at = closest(s, x);
+  result.direction = rule.distance > direction_margin * roundoff ? at.direction : exact_direction(s, x);
+  result.missing = missing;
+  for (int i = 0; i < s.size(); ++i) {
+    result.weights[i] = moves[s.v[i]] ? at.weights[i] : 0;
+    result.squared_weights += result.weights[i] * result.weights[i];
+  }
+  return result;
+}
+
+/// Changes the displacements of a gap's vertices by the shortest way that leaves it wide enough. False: it was.
+bool widen(const Widening& gap, Positions& p) {
+  double change = 0;
+  for (int i = 0; i < gap.stencil.size(); ++i) change += gap.weights[i] * gap.direction.dot(p.col(gap.stencil.v[i]));
+  if (!(change < gap.missing)) return false;
+  const double push = (gap.missing - change) / gap.squared_weights;
+  for (int i = 0; i < gap.stencil.size(); ++i) p.col(gap.stencil.v[i]) += push * gap.weights[i] * gap.direction;
+  return true;
+}
+
 }  // namespace
 
 OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented, EmbeddingGuard& guard,
@@ -36,7 +77,7 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
   const double roundoff = rules.options().roundoff;
   std::vector<ContactRule> close;
   std::vector<SeparatedStencil> filter;
-  std::vector<int> pushes(static_cast<std::size_t>(x.cols()));
+  std::vector<Widening> gaps;
   MotionBounds bounds;
   bounds.reset(static_cast<Index>(x.cols()));
   for (std::size_t v = 0; v < moves.size(); ++v) bounds.around[v] = moves[v] ? options.step_cap : 0;
@@ -45,37 +86,31 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
   for (;; ++result.rounds) {
     if (options.stop && options.stop()) return result;
     rules.gather(x, options.target, bounds, moves, close);
-    p.setZero();
-    std::fill(pushes.begin(), pushes.end(), 0);
+    gaps.clear();
     result.still_closed = 0;
-    Index to_open = 0;
+    bool any_narrow = false;
     for (const ContactRule& rule : close) {
-      const Stencil& s = rule.stencil.stencil;
       const double target = target_of(rule, options.target);
-      if (rule.distance >= 0.9 * target) continue;
-      ++to_open;
+      any_narrow |= rule.distance < wide_enough * target;
       if (rule.distance < 0.5 * target) ++result.still_closed;
-      const Closest at = closest(s, x);
-      const Vec3 direction = rule.distance > direction_margin * roundoff ? at.direction : exact_direction(s, x);
-      double denominator = 0;
-      for (int i = 0; i < s.size(); ++i) {
-        if (moves[s.v[i]]) denominator += at.weights[i] * at.weights[i];
-      }
-      if (!(denominator > 1e-6)) continue;
-      const double push = (target - rule.distance) / denominator;
-      for (int i = 0; i < s.size(); ++i) {
-        if (!moves[s.v[i]] || at.weights[i] == 0) continue;
-        p.col(s.v[i]) += push * at.weights[i] * direction;
-        ++pushes[s.v[i]];
-      }
+      const Widening gap = widening_of(rule, target - rule.distance, x, roundoff, moves);
+      if (gap.squared_weights > least_squared_weights) gaps.push_back(gap);
     }
-    if (to_open == 0 || result.rounds == options.max_rounds) return result;
-    for (Index v = 0; v < x.cols(); ++v) {
-      if (pushes[v] == 0) continue;
-      p.col(v) /= pushes[v];
-      const double length = p.col(v).norm();
-      if (length > options.step_cap) p.col(v) *= options.step_cap / length;
+    if (!any_narrow || result.rounds == options.max_rounds) return result;
+    p.setZero();
+    bool changed = true;
+    for (int sweep = 0; changed && sweep < projection_sweeps; ++sweep) {
+      changed = false;
+      for (const Widening& gap : gaps) changed |= widen(gap, p);
+      for (Index v = 0; v < x.cols(); ++v) {
+        const double length = p.col(v).norm();
+        if (length > options.step_cap) p.col(v) *= options.step_cap / length;
+      }
+      changed |= oriented.project(x, moves, p);
     }
+    // One factor for all: a face that is squeezed to a needle flips where its corners are shortened by different ones.
+    const double longest = std::sqrt(p.colwise().squaredNorm().maxCoeff());
+    if (longest > options.step_cap) p *= options.step_cap / longest;
     // Distances of the order of round-off tell CCD nothing; there the exact guard checks.
     bool doubtful = false;
     filter.clear();

@@ -262,7 +262,7 @@ RecoverOptions RecoverOptions::paper() {
   options.objective.time_step = 1;
   // The default's additions.
   options.objective.flip_weight = 0;
-  options.step.kept_area = 0;
+  options.step.kept_area = -std::numeric_limits<double>::infinity();
   options.step.cap = std::numeric_limits<double>::infinity();
   options.snap_reach = 0;
   options.unflip_rounds = 0;

@@ -179,10 +179,18 @@ bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
   return true;
 }
 
+OrientedFaces RecoveryProblem::oriented() const {
+  return {objective_.orientation(), objective_.triangles(), options_.kept_area};
+}
+
 void RecoveryProblem::filter(Eigen::Matrix3Xd& step) {
   spread(step);
-  filter_step(contacts_.in_the_way(), {objective_.orientation(), objective_.triangles(), options_.kept_area}, patch_.x,
-              displacement_, OnCollision::shorten, {.slack = options_.kept_distance});
+  // What would flip slides along where it can, and may meet others there.
+  int sweeps = 0;
+  while (sweeps < projection_sweeps && oriented().project(patch_.x, moving().moves, displacement_)) ++sweeps;
+  if (sweeps > 0) contacts_.follow(patch_.x, displacement_, moving());
+  filter_step(contacts_.in_the_way(), oriented(), patch_.x, displacement_, OnCollision::shorten,
+              {.slack = options_.kept_distance});
   for (Index i = 0; i < unknowns(); ++i) step.col(i) = displacement_.col(moving().vertices[i]);
 }
 

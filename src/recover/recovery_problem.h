@@ -52,6 +52,7 @@ class RecoveryProblem final : public NewtonProblem {
   const Positions& spread(const Eigen::Matrix3Xd& step);
   /// Per part: whether a contact with something else is active.
   std::vector<std::uint8_t> touched_parts();
+  OrientedFaces oriented() const;
   Index part_of(Index v) const { return moving().slot[v] < 0 ? -1 : part_[moving().slot[v]]; }
 
   Patch& patch_;

@@ -109,5 +109,30 @@ TEST(OrientationPenalty, FilterLetsFlippedFacesMove) {
   EXPECT_EQ(p, whole);
 }
 
+TEST(OrientationPenalty, ProjectsAFlipOntoTheShareThatIsKept) {
+  const Positions x = corner(1);
+  const OrientationPenalty penalty(x, one, {});
+  Positions p = Positions::Zero(3, 3);
+  p.col(2) = Vec3(0.3, -1.5, 0.7);
+  ASSERT_LT(area_share(x, x + p), 0);
+  const std::vector<std::uint8_t> moves = {0, 1, 1};
+  int sweeps = 0;
+  while (penalty.project(x, first, 0.2, moves, p)) ASSERT_LT(++sweeps, 20);
+  EXPECT_GE(area_share(x, x + p), 0.2);
+  EXPECT_LT(area_share(x, x + p), 0.21);
+  EXPECT_TRUE(p.col(0).isZero(0));
+  EXPECT_NEAR(p(2, 2), 0.7, 1e-12);  // along the face it may go
+}
+
+TEST(OrientationPenalty, ProjectionLeavesAloneWhatKeepsItsShare) {
+  const Positions x = corner(1);
+  const OrientationPenalty penalty(x, one, {});
+  Positions p = Positions::Zero(3, 3);
+  p.col(2) = Vec3(5, -0.7, 2);
+  const Positions wanted = p;
+  EXPECT_FALSE(penalty.project(x, first, 0.2, std::vector<std::uint8_t>(3, 1), p));
+  EXPECT_EQ(p, wanted);
+}
+
 }  // namespace
 }  // namespace unsnarl

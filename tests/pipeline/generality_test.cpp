@@ -333,7 +333,7 @@ Surface at_scale(double scale, const Vec3& away = Vec3::Zero()) {
 TEST(Repair, a_collapsed_ring_is_opened_no_farther_than_it_has_to_be) {
   const RepairResult result = repair(make_sample("cylinder_inverted", 0));
   EXPECT_EQ(result.status, Status::embedded);
-  EXPECT_LT(result.report.displacement_mean_rel, 1e-4);
+  EXPECT_LT(result.report.displacement_mean_rel, 2e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(

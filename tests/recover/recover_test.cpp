@@ -83,6 +83,28 @@ Patch crumpled_sheet(int n, double noise, std::uint64_t seed) {
   return sheets.patch;
 }
 
+/// Three sheets 1e-9 apart within their fixed borders, crumpled at rest, every second vertex 1e-9 away from an opposite edge of its star:
+/// needles that are hemmed in from all sides.
+Patch needles_between_sheets(int n, std::uint64_t seed) {
+  constexpr double tiny = 1e-9;
+  Sheets sheets(n, 3);
+  std::mt19937_64 engine(seed);
+  const auto random = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
+  for (int s = 0; s < 3; ++s)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const Index v = sheets.at(s, i, j);
+        const bool is_free = v < sheets.patch.free_count;
+        sheets.patch.rest.col(v) = sheets.patch.x.col(v) = Vec3(i, j, s * (is_free ? tiny : 0.1));
+        if (!is_free) continue;
+        sheets.patch.rest.col(v) += 0.6 * Vec3(random(), random(), random());
+        if (i % 2 != 0 || j % 2 != 0) continue;
+        const bool right = random() > -0.5;  // the two edges that cross its squares
+        sheets.patch.x.col(v).head(2) += (0.5 - tiny) * Eigen::Vector2d(right ? 1 : -1, right ? -1 : 1);
+      }
+  return sheets.patch;
+}
+
 std::size_t intersections(const Patch& patch, const Positions& x) {
   IntersectionFinder finder(patch.triangles, patch.active_count);
   return finder.find(x).size();
@@ -420,6 +442,19 @@ TEST(Recover, ThePapersVariantGoesOnUntilNothingFalls) {
   EXPECT_LT(rms_to_rest(by_paper, by_paper.x), 0.5 * rms_to_rest(patch, patch.x));
   EXPECT_GT(slow.solver_iterations, 2 * fast.solver_iterations);
   EXPECT_LE(slow.iterations, 500);
+}
+
+TEST(Recover, OpensNeedlesThatAreHemmedIn) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    Patch patch = needles_between_sheets(9, seed);
+    ASSERT_EQ(intersections(patch, patch.x), 0u);
+    RecoverOptions options;
+    options.min_gap = 1e-5;
+    const RecoverResult result = recover(patch, options, {});
+    EXPECT_EQ(intersections(patch, patch.x), 0u);
+    EXPECT_EQ(result.closed, 0) << seed << " " << result.min_gap;
+    EXPECT_GE(result.min_gap, 1e-5);
+  }
 }
 
 }  // namespace
