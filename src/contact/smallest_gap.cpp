@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/distances.h"
+#include "contact/face_tree.h"
 #include "geometry/box.h"
 #include "mesh/adjacency.h"
 
@@ -21,7 +22,7 @@ double gap_between_projections(const Positions& x, const Triangle& s, const Tria
 }
 
 /// Of triangles that do not intersect.
-double distance(const Positions& x, const Triangle& s, const Triangle& t) {
+double distance_of(const Positions& x, const Triangle& s, const Triangle& t) {
   double nearest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const Vec3 p = x.col(s[i]), q = x.col(t[i]);
@@ -131,7 +132,7 @@ class Search {
     if (squared_distance(boxes_[s], boxes_[t]) >= nearest_.distance * nearest_.distance) return;
     if (share_a_vertex(triangles_[s], triangles_[t])) return;
     if (gap_between_projections(x_, triangles_[s], triangles_[t]) >= nearest_.distance) return;
-    const double d = distance(x_, triangles_[s], triangles_[t]);
+    const double d = distance_of(x_, triangles_[s], triangles_[t]);
     if (d < nearest_.distance) nearest_ = {d, std::min(s, t), std::max(s, t)};
   }
 
@@ -148,6 +149,24 @@ class Search {
 
 SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group) {
   return Search(triangles, x, group).nearest();
+}
+
+std::vector<std::array<Index, 2>> pairs_closer_than(std::span<const Triangle> triangles, const Positions& x,
+                                                    double distance) {
+  FaceTree tree(triangles);
+  tree.update(x, 0.5 * distance);
+  std::vector<std::vector<std::array<Index, 2>>> found(static_cast<std::size_t>(tree.task_count()));
+  tree.self_pairs([&](Index task, Index s, Index t) {
+    if (share_a_vertex(triangles[s], triangles[t]) ||
+        gap_between_projections(x, triangles[s], triangles[t]) >= distance ||
+        distance_of(x, triangles[s], triangles[t]) >= distance)
+      return;
+    found[static_cast<std::size_t>(task)].push_back({s, t});
+  });
+  std::vector<std::array<Index, 2>> pairs;
+  for (const auto& list : found) pairs.insert(pairs.end(), list.begin(), list.end());
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 }  // namespace unsnarl

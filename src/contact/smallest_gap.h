@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "geometry/types.h"
 
@@ -16,5 +18,10 @@ struct SmallestGap {
 /// group: one entry a triangle; only triangles of different groups count. Empty: all.
 /// Precondition: no two of these triangles intersect.
 SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group = {});
+
+/// The pairs of triangles (the smaller number first, sorted) that share no vertex and are less than `distance` apart.
+/// Whether those that intersect are among them is not said.
+std::vector<std::array<Index, 2>> pairs_closer_than(std::span<const Triangle> triangles, const Positions& x,
+                                                    double distance);
 
 }  // namespace unsnarl

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "contact/smallest_gap.h"
 #include "mesh/areas.h"
 #include "mesh/dihedral_angles.h"
 
@@ -58,14 +59,15 @@ class Opening {
   std::size_t run() {
     std::vector<std::size_t> closed = closed_hinges();
     if (closed.empty()) return 0;
-    const std::vector<IntersectingPair> tolerated = options_.pairs_at(scene_.x);
+    tolerated_ = options_.pairs_at(scene_.x);
+    tolerated_near_ = near_pairs();
     std::size_t way = 0, failed = 0;
     for (int round = 0; round < most_rounds && failed < ways.size() && !closed.empty() && !options_.stop(); ++round) {
       const Positions before = scene_.x;
       turn(closed, ways[way]);
       keep_near();
       scene_.x = options_.as_written(scene_.x);
-      take_back_new_pairs(before, tolerated);
+      take_back_new_pairs(before);
       const std::size_t were_closed = closed.size();
       if (scene_.x != before) closed = closed_hinges();
       failed = closed.size() < were_closed ? 0 : failed + 1;
@@ -138,17 +140,33 @@ class Opening {
     }
   }
 
-  /// Puts the vertices of newly intersecting faces back until there are none; where these were not moved, everything.
-  void take_back_new_pairs(const Positions& before, const std::vector<IntersectingPair>& tolerated) {
+  std::vector<std::array<Index, 2>> near_pairs() const {
+    if (!(options_.least_gap > 0)) return {};
+    return pairs_closer_than(scene_.triangles, scene_.x, options_.least_gap);
+  }
+
+  /// The faces that intersect or are too near to each other now and were not at the start.
+  std::vector<std::array<Index, 2>> new_pairs() const {
+    const std::vector<IntersectingPair> pairs = options_.pairs_at(scene_.x);
+    std::vector<IntersectingPair> more;
+    std::set_difference(pairs.begin(), pairs.end(), tolerated_.begin(), tolerated_.end(), std::back_inserter(more));
+    const std::vector<std::array<Index, 2>> near = near_pairs();
+    std::vector<std::array<Index, 2>> result;
+    std::set_difference(near.begin(), near.end(), tolerated_near_.begin(), tolerated_near_.end(),
+                        std::back_inserter(result));
+    for (const IntersectingPair& pair : more) result.push_back({pair.a, pair.b});
+    return result;
+  }
+
+  /// Puts the vertices of such faces back until there are none; where these were not moved, everything.
+  void take_back_new_pairs(const Positions& before) {
     for (;;) {
-      const std::vector<IntersectingPair> pairs = options_.pairs_at(scene_.x);
-      std::vector<IntersectingPair> more;
-      std::set_difference(pairs.begin(), pairs.end(), tolerated.begin(), tolerated.end(), std::back_inserter(more));
+      const std::vector<std::array<Index, 2>> more = new_pairs();
       const bool loses_area = count_lost_areas(before, scene_.x, scene_.triangles) > 0;
       if (more.empty() && !loses_area) return;
       bool any = false;
-      for (const IntersectingPair& pair : more)
-        for (const Index t : {pair.a, pair.b})
+      for (const std::array<Index, 2>& pair : more)
+        for (const Index t : pair)
           for (const Index v : scene_.triangles[t]) {
             any |= scene_.x.col(v) != before.col(v);
             scene_.x.col(v) = before.col(v);
@@ -163,6 +181,8 @@ class Opening {
   Scene& scene_;
   const OpenDihedralsOptions& options_;
   const std::vector<Hinge> hinges_;
+  std::vector<IntersectingPair> tolerated_;
+  std::vector<std::array<Index, 2>> tolerated_near_;
 };
 
 }  // namespace

@@ -47,6 +47,13 @@ Jitter jitter_of(const Positions& before, const Positions& here, const Positions
   return {differences.mean() / diagonal, differences.maxCoeff() / diagonal};
 }
 
+/// Of a vertex at one position from itself at the other.
+double largest_distance(const std::vector<double>& positions, const std::vector<double>& others) {
+  const auto n = static_cast<Index>(positions.size() / 3);
+  using Columns = Eigen::Map<const Positions>;
+  return n > 0 ? (Columns(positions.data(), 3, n) - Columns(others.data(), 3, n)).colwise().norm().maxCoeff() : 0;
+}
+
 class SequenceRepair {
  public:
   SequenceRepair(const SequenceSource& source, const SequenceOptions& options,
@@ -206,6 +213,8 @@ class SequenceRepair {
         if (target[k] != frame.input[k]) target[k] = static_cast<double>(static_cast<float>(target[k]));
     RepairResult smoothed = repair(surface(target), options, &context_);
     if (smoothed.status != Status::embedded) return;
+    // A layer that came out on another side would pop.
+    if (largest_distance(smoothed.positions, target) > largest_distance(result.positions, target)) return;
     // Welding and triangulation are those of the input, not of the target.
     Certifier certifier(surface(frame.input), find());
     const Certificate certificate = certifier.certify(smoothed.positions);

@@ -120,6 +120,7 @@ void SceneRepair::open_dihedrals(Finders& finders) {
   OpenDihedralsOptions options;
   options.least_radians = job_.options.min_dihedral_deg * std::numbers::pi / 180;
   options.most_motion = job_.options.max_displacement_rel * job_.diagonal;
+  options.least_gap = job_.options.min_gap_rel * job_.diagonal;
   options.as_written = [this](const Positions& x) { return as_written(x); };
   options.pairs_at = [&](const Positions& x) {
     std::vector<IntersectingPair> pairs = finders.as_is.find(x);

@@ -86,5 +86,20 @@ TEST(SmallestGap, LooksAsFarAsItHasTo) {
   EXPECT_TRUE(std::isinf(smallest_gap(joined, x).distance));
 }
 
+TEST(SmallestGap, PairsCloserThanADistanceAreThoseThatMeasureLess) {
+  const LooseTriangles s = loose_triangles(60, 0.05, 5);
+  const double distance = 1.5 * smallest_gap(s.triangles, s.x).distance + 0.05;
+  const std::vector<std::array<Index, 2>> pairs = pairs_closer_than(s.triangles, s.x, distance);
+  std::vector<std::array<Index, 2>> expected;
+  for (Index i = 0; i < static_cast<Index>(s.triangles.size()); ++i)
+    for (Index j = i + 1; j < static_cast<Index>(s.triangles.size()); ++j) {
+      const std::vector<Triangle> two = {s.triangles[i], s.triangles[j]};
+      if (smallest_gap(two, s.x).distance < distance) expected.push_back({i, j});
+    }
+  EXPECT_GT(pairs.size(), 1u);
+  EXPECT_EQ(pairs, expected);
+  EXPECT_TRUE(pairs_closer_than(s.triangles, s.x, 0).empty());
+}
+
 }  // namespace
 }  // namespace unsnarl

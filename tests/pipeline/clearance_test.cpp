@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "unsnarl/certify.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/samples.h"
@@ -77,6 +79,28 @@ TEST(Clearance, RepairedSamplesHaveTheAngleAskedFor) {
     EXPECT_GE(measure_clearance(surface, result.positions).dihedral_deg, 0.2) << name;
     EXPECT_TRUE(certify(surface, result.positions).embedded()) << name;
   }
+}
+
+/// It is opened between two faces that leave it little more than the gap that is asked for.
+TEST(Clearance, OpeningFoldsKeepsTheGapAskedFor) {
+  Surface thin = flat_tetrahedron(1e-4);
+  for (const double z : {-0.004, 0.004}) {
+    const std::int32_t first = static_cast<std::int32_t>(thin.positions.size() / 3);
+    thin.positions.insert(thin.positions.end(), {-5, -5, z, 6, -5, z, 0, 6, z});
+    thin.corners.insert(thin.corners.end(), {first, first + 1, first + 2});
+  }
+  RepairOptions options;
+  options.min_dihedral_deg = 0.5;
+  options.fixed.assign(thin.positions.size() / 3, 1);
+  std::fill_n(options.fixed.begin(), 4, 0);
+  const RepairResult any_gap = repair(thin, options);
+  ASSERT_LT(measure_clearance(thin, any_gap.positions).gap, 0.003);
+  options.min_gap_rel = 0.003 / any_gap.report.diagonal;
+  const RepairResult result = repair(thin, options);
+  EXPECT_EQ(result.status, Status::embedded);
+  EXPECT_GE(measure_clearance(thin, result.positions).gap, 0.003);
+  EXPECT_GT(measure_clearance(thin, result.positions).dihedral_deg,
+            measure_clearance(thin, thin.positions).dihedral_deg);
 }
 
 }  // namespace
