@@ -53,6 +53,16 @@ double mean_edge_length(const Positions& x, std::span<const Triangle> triangles)
   return sum / (3.0 * static_cast<double>(triangles.size()));
 }
 
+double mean_least_altitude(const Positions& x, std::span<const Triangle> triangles) {
+  double sum = 0;
+  for (const Triangle& t : triangles) {
+    double longest = 0;
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, (x.col(t[k]) - x.col(t[(k + 1) % 3])).norm());
+    if (longest > 0) sum += 2 * triangle_area(x, t) / longest;
+  }
+  return triangles.empty() ? 0 : sum / static_cast<double>(triangles.size());
+}
+
 double mean_equilateral_side(const Positions& x, std::span<const Triangle> triangles) {
   constexpr double side_per_root_area = 1.5196713713031853;  // 2 / 3^(1/4)
   double sum = 0;

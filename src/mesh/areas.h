@@ -32,6 +32,9 @@ double signed_volume(const Positions& x, std::span<const Triangle> triangles);
 /// Mean length of the sides of the triangles (an edge of two triangles counts twice); 0 without triangles.
 double mean_edge_length(const Positions& x, std::span<const Triangle> triangles);
 
+/// Mean over triangles of the altitude on the longest edge, a length; 0 without triangles.
+double mean_least_altitude(const Positions& x, std::span<const Triangle> triangles);
+
 /// Mean side of the equilateral triangles with the same areas; 0 without triangles. Unlike the mean edge it is small
 /// for needles, whose length says nothing about how close their neighbours are.
 double mean_equilateral_side(const Positions& x, std::span<const Triangle> triangles);
