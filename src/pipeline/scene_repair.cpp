@@ -23,9 +23,9 @@ namespace {
 /// Rounding, repair of what rounding brought, and again.
 constexpr int rounding_rounds = 4;
 
-/// Fractions of the progress that is reported: what has been done when recovery begins, and when it has ended. On the
-/// samples untangling takes about two thirds of the time, certification a tenth.
-constexpr double untangled_fraction = 0.7, recovered_fraction = 0.9;
+/// Fractions of the progress that is reported: what has been done when recovery begins, and when it has ended. Mean
+/// over 39 samples: 58 % of the time for untangling, 37 % for recovery, 3 % for certification.
+constexpr double untangled_fraction = 0.6, recovered_fraction = 0.97;
 
 }  // namespace
 
