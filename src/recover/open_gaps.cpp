@@ -14,6 +14,10 @@ constexpr double direction_margin = 1e4;
 
 /// Share of its target that a gap has where it counts as opened.
 constexpr double wide_enough = 0.9;
+/// A vertex moves in one round by this many times the least gap at it, at most: farther off, what touches at 1e-10
+/// meets elsewhere than to first order. With 4, 10, 100 times, 5, 2 and 2 gaps stay closed on 108k faces of a warped
+/// torus, 31 without.
+constexpr double most_growth = 10;
 /// Sum of the squared weights of a stencil's moving vertices below which it is not pushed: they would go far for it.
 constexpr double least_squared_weights = 1e-6;
 
@@ -81,6 +85,7 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
   MotionBounds bounds;
   bounds.reset(static_cast<Index>(x.cols()));
   for (std::size_t v = 0; v < moves.size(); ++v) bounds.around[v] = moves[v] ? options.step_cap : 0;
+  std::vector<double> cap(static_cast<std::size_t>(x.cols()));
   Positions p(3, x.cols());
   Positions safe;
   for (;; ++result.rounds) {
@@ -97,6 +102,11 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
       if (gap.squared_weights > least_squared_weights) gaps.push_back(gap);
     }
     if (!any_narrow || result.rounds == options.max_rounds) return result;
+    std::fill(cap.begin(), cap.end(), options.step_cap);
+    for (const ContactRule& rule : close) {
+      const Stencil& s = rule.stencil.stencil;
+      for (int i = 0; i < s.size(); ++i) cap[s.v[i]] = std::min(cap[s.v[i]], most_growth * rule.distance);
+    }
     p.setZero();
     bool changed = true;
     for (int sweep = 0; changed && sweep < projection_sweeps; ++sweep) {
@@ -104,7 +114,7 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
       for (const Widening& gap : gaps) changed |= widen(gap, p);
       for (Index v = 0; v < x.cols(); ++v) {
         const double length = p.col(v).norm();
-        if (length > options.step_cap) p.col(v) *= options.step_cap / length;
+        if (length > cap[v]) p.col(v) *= cap[v] / length;
       }
       changed |= oriented.project(x, moves, p);
     }
