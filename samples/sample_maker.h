@@ -37,7 +37,8 @@ std::vector<SampleMaker> klein_bottle_samples();      ///< with a disc removed
 std::vector<SampleMaker> tube_samples();
 std::vector<SampleMaker> closed_surface_samples();
 std::vector<SampleMaker> scene_samples();
-std::vector<SampleMaker> modelled_samples();    ///< as modellers leave them
+std::vector<SampleMaker> modelled_samples();  ///< as modellers leave them
+std::vector<SampleMaker> regular_map_samples();
 std::vector<SampleMaker> obstructed_samples();  ///< not embeddable
 
 }  // namespace unsnarl

@@ -19,7 +19,7 @@ const std::vector<SampleMaker>& makers() {
     std::vector<SampleMaker> list;
     for (auto family : {band_samples, cylinder_samples, sheet_samples, minimal_surface_samples,
                         projective_plane_samples, klein_bottle_samples, tube_samples, closed_surface_samples,
-                        scene_samples, modelled_samples, obstructed_samples})
+                        scene_samples, modelled_samples, regular_map_samples, obstructed_samples})
       for (SampleMaker& maker : family()) list.push_back(std::move(maker));
     return list;
   }();

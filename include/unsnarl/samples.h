@@ -32,14 +32,14 @@ struct Sample {
 
 /// All samples in a fixed order: the first `analytic_sample_count` are given by formulas (the data set that appendix A
 /// of Minarčík, Liu, Crane, Li: "Untangling Surfaces via Shape and Mesh Repulsion" asks for), then shapes as modellers
-/// leave them, then obstructions.
+/// leave them, then regular maps, then obstructions.
 std::span<const Sample> all_samples();
 inline constexpr std::size_t analytic_sample_count = 30;
 
 /// resolution: sampling steps along the longest direction of the surface's parameter domain, [8, 2000]; 0: the sample's
-/// own, which gives 1,000 to 5,000 faces. y points up. Parts of a sample meet by index, without
-/// duplicated vertices; the result is the same on every run.
-/// Throws std::invalid_argument, naming the valid choices, for an unknown sample or parameter or a value out of range.
+/// own, which gives 1,000 to 5,000 faces. Regular maps are the same at any. y points up. Parts of a sample meet by
+/// index, without duplicated vertices; the result is the same on every run. Throws std::invalid_argument, naming the
+/// valid choices, for an unknown sample or parameter or a value out of range.
 Surface make_sample(std::string_view name, int resolution = 0, const std::map<std::string, double>& parameters = {});
 
 }  // namespace unsnarl
