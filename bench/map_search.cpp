@@ -3,15 +3,19 @@
 // samples/regular_maps.cpp were found so, and docs/regular_maps.md has a table.
 //   build/release/bench/unsnarl_map_search klein --symmetry T --grid 20 --starts 30 --roomier 1500 -o klein.obj
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <fstream>
+#include <iostream>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "bench/map_automorphisms.h"
 #include "contact/distances.h"
@@ -99,6 +103,7 @@ std::vector<Action> actions(const std::vector<VertexMap>& automorphisms, const s
   std::vector<std::size_t> choice(rotations.size(), 0);
   for (bool more = true; more;) {
     std::vector<VertexMap> chosen;
+    chosen.reserve(choice.size());
     for (const std::size_t k : choice) chosen.push_back(automorphisms[k]);
     if (const auto action = generated(chosen, rotations, vertex_count); action && !seen.contains(action->vertices)) {
       for (const VertexMap& a : automorphisms) {
@@ -391,7 +396,7 @@ int main(int argc, char** argv) {
   try {
     unsnarl::search(options);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    std::cerr << "error: " << error.what() << "\n";
     return 1;
   }
 }

@@ -1,5 +1,7 @@
 #include "samples/regular_maps.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 

@@ -63,7 +63,7 @@ TEST(RegularMaps, AreFacedOutwardsWithoutNoise) {
     EXPECT_EQ(surface.view().face_count(), map.faces.size());
     double volume = 0;
     for (const Triangle& t : map.faces) {
-      const auto p = [&](Index v) { return Vec3(surface.positions.data() + 3 * v); };
+      const auto p = [&](Index v) { return Vec3(&surface.positions[3 * static_cast<std::size_t>(v)]); };
       volume += p(t[0]).dot(p(t[1]).cross(p(t[2]))) / 6;
     }
     EXPECT_GT(volume, 0.1) << map.sample;
