@@ -54,7 +54,8 @@ class Recovery {
   void step(const std::vector<std::uint8_t>& moves, double activation, int steps, const RecoverOptions::Stop& stop);
   /// Steps of the contact region, as many as are left.
   void stage(double activation, const RecoverOptions::Stop& stop);
-  void open();
+  /// Opens gaps to `target`, or to what the barrier needs where that is more.
+  void open(double target);
   /// Active faces that are flipped.
   std::vector<Index> flipped_faces() const;
   /// Steps around flipped faces with an ever heavier penalty of these; kept where fewer are left.
@@ -153,11 +154,9 @@ void Recovery::stage(double activation, const RecoverOptions::Stop& stop) {
     step(moves, activation, options_.max_steps - result_.iterations, stop);
 }
 
-void Recovery::open() {
+void Recovery::open(double target) {
   OpenGapsOptions open;
-  const double min_gap = rules_.options().min_gap;
-  open.target = std::max(std::min(options_.open_target * h_, options_.activation_motion * start_motion_),
-                         options_.least_gaps * min_gap);
+  open.target = std::max(target, options_.least_gaps * rules_.options().min_gap);
   open.max_rounds = options_.open_rounds;
   open.step_cap = open.target;  // five of them end as close, but look 11 gaps around, not 3: up to 9 GB, not 2
   open.stop = stop_;
@@ -222,7 +221,7 @@ RecoverResult Recovery::run() {
   const double activation = activation_of(options_.activation);
   const double last_activation = options_.last_activation > 0 ? activation_of(options_.last_activation) : activation;
 
-  open();
+  open(std::min(options_.open_target * h_, options_.activation_motion * start_motion_));
   safe_ = patch_.x;
   const Positions opened = patch_.x;
 
@@ -238,6 +237,10 @@ RecoverResult Recovery::run() {
   snap(everything());
 
   measure_gap(std::max(2 * min_gap, last_activation));
+  if (result_.closed > 0 && !result_.stopped) {
+    open(0);  // where all has room now
+    measure_gap(std::max(2 * min_gap, last_activation));
+  }
   for (Index v = 0; v < patch_.free_count; ++v) {
     result_.at_rest += patch_.x.col(v) == patch_.rest.col(v);
     result_.moved |= patch_.x.col(v) != start_.col(v);
