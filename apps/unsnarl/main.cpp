@@ -16,6 +16,7 @@
 #include "fix.h"
 #include "interruption.h"
 #include "isotopy.h"
+#include "knot_isotopy.h"
 #include "routes.h"
 #include "sample.h"
 #include "seifert.h"
@@ -56,6 +57,7 @@ int run(int argc, char** argv) {
   CurvesOptions curves;
   SeifertCommandOptions seifert;
   IsotopyCommandOptions isotopy;
+  KnotIsotopyCommandOptions knot_isotopy;
   RoutesCommandOptions routes;
   CLI::App* const fix_command = program.add_subcommand("fix", "Repair a mesh");
   CLI::App* const batch_command = program.add_subcommand("batch", "Repair many meshes, each in a process of its own");
@@ -69,6 +71,8 @@ int run(int argc, char** argv) {
       program.add_subcommand("isotopy", "Move closed curves in the plane to others without ever crossing: SVG or JSON");
   CLI::App* const seifert_command =
       program.add_subcommand("seifert", "Span a knot or link by an oriented surface without self-intersections");
+  CLI::App* const knot_isotopy_command =
+      program.add_subcommand("knot-isotopy", "Move a knot in space to another one without ever passing through itself");
   CLI::App* const routes_command =
       program.add_subcommand("routes", "Find ways in space that keep clear of each other and of obstacles");
   add_fix_options(*fix_command, fix);
@@ -79,6 +83,7 @@ int run(int argc, char** argv) {
   add_curves_options(*curves_command, curves);
   add_isotopy_options(*isotopy_command, isotopy);
   add_seifert_options(*seifert_command, seifert);
+  add_knot_isotopy_options(*knot_isotopy_command, knot_isotopy);
   add_routes_options(*routes_command, routes);
   for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
     command->set_version_flag("--version", versions)->group("");  // the same for all, so not listed again
@@ -109,6 +114,7 @@ int run(int argc, char** argv) {
   if (*curves_command) return run_curves(curves, interruption);
   if (*isotopy_command) return run_isotopy(isotopy, interruption);
   if (*seifert_command) return run_seifert(seifert, interruption);
+  if (*knot_isotopy_command) return run_knot_isotopy(knot_isotopy, interruption);
   if (*routes_command) return run_routes(routes, interruption);
   return run_sample(sample, interruption);
 }

@@ -1,0 +1,223 @@
+#include "knot_isotopy.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "command_options.h"
+#include "file_places.h"
+#include "mesh_input.h"
+#include "pictures.h"
+#include "progress.h"
+#include "staged_output.h"
+#include "standard_streams.h"
+#include "unsnarl/exit_code.h"
+#include "unsnarl/knot_isotopy.h"
+#include "usage_error.h"
+
+namespace unsnarl::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Double points that are named one by one.
+constexpr std::size_t most_named = 12;
+
+std::string bytes_of(const std::string& path) {
+  std::string bytes;
+  if (path == standard_stream) {
+    bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
+    if (std::cin.bad()) throw FileError("standard input: cannot read");
+    return bytes;
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(path + ": cannot open");
+  bytes.assign(std::istreambuf_iterator<char>(file), {});
+  if (file.bad()) throw FileError(path + ": cannot read");
+  return bytes;
+}
+
+Link read_knot(const std::string& path) {
+  try {
+    Link link = parse_link(bytes_of(path));
+    check_link(link);
+    return link;
+  } catch (const FileError& e) {
+    throw FileError(std::string(e.what()).starts_with(path + ":") ? e.what() : fmt::format("{}: {}", path, e.what()));
+  } catch (const std::invalid_argument& e) {
+    throw FileError(fmt::format("{}: {}", path, e.what()));
+  }
+}
+
+KnotMethod method_named(const std::string& name) {
+  if (name == "direct") return KnotMethod::direct;
+  return name == "relax" ? KnotMethod::relax : KnotMethod::automatic;
+}
+
+std::string as_text(const KnotIsotopyFindings& f) {
+  std::string text;
+  if (!f.ends_kept) text += "its first and last ring are not the two knots\n";
+  if (f.meeting_triangles > 0) text += fmt::format("{} pairs of its triangles in R^4 meet\n", f.meeting_triangles);
+  if (f.unproven_motions > 0)
+    text +=
+        fmt::format("between {} pairs of rings the moving polygon is not proven to be simple\n", f.unproven_motions);
+  return text;
+}
+
+std::string as_text(const std::vector<KnotDoublePoint>& points) {
+  std::string text;
+  for (std::size_t k = 0; k < points.size() && k < most_named; ++k)
+    text += fmt::format("  time {:.4f}, {:.5g} {:.5g} {:.5g}, sign {}\n", points[k].time, points[k].place[0],
+                        points[k].place[1], points[k].place[2],
+                        points[k].sign > 0   ? "+1"
+                        : points[k].sign < 0 ? "-1"
+                                             : "none: the triangles overlap");
+  if (points.size() > most_named) text += fmt::format("  and {} more\n", points.size() - most_named);
+  return text;
+}
+
+int check_file(const KnotIsotopyCommandOptions& options, const Link& start, const Link& end,
+               Interruption& interruption) {
+  KnotIsotopy isotopy;
+  KnotIsotopyFindings found;
+  try {
+    isotopy = parse_knot_isotopy(bytes_of(options.check));
+    found = check_knot_isotopy(isotopy, start, end);
+  } catch (const FileError& e) {
+    throw FileError(std::string(e.what()).starts_with(options.check + ":")
+                        ? e.what()
+                        : fmt::format("{}: {}", options.check, e.what()));
+  } catch (const std::invalid_argument& e) {
+    throw FileError(fmt::format("{}: {}", options.check, e.what()));
+  }
+  isotopy.status = found.hold() ? Status::embedded : Status::no_progress;
+  if (!options.report.empty()) {
+    isotopy.found = "checked as it was given";
+    isotopy.rings.clear();
+    write_file(options.report, knot_isotopy_json(isotopy, found), interruption);
+  }
+  if (!options.quiet) tell(as_text(found) + (found.hold() ? "an isotopy between the two knots\n" : ""));
+  return found.hold() ? exit_embedded : exit_intersecting;
+}
+
+}  // namespace
+
+void add_knot_isotopy_options(CLI::App& command, KnotIsotopyCommandOptions& options) {
+  command
+      .add_option("START", options.start,
+                  "A knot: points 'x y z', one a line; or a planar diagram code; or a braid, 'braid 2: 1 1 1'.\n"
+                  "'-' for standard input")
+      ->required();
+  command.add_option("END", options.end, "A knot")->required();
+  command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")->type_name("DIR");
+  command
+      .add_option("--method", options.method,
+                  "auto; direct: untangle the cylinder between the knots in R^4; relax: let both knots repel\n"
+                  "themselves until they come to rest, and join the shapes (default auto: the one, then the other)")
+      ->check(one_of({"auto", "direct", "relax"}))
+      ->type_name("METHOD");
+  command
+      .add_option("--points", options.points,
+                  "Points of the knot on the way, 16 to 4000; 0: as many as the knot with more of them has, 200\n"
+                  "at least")
+      ->check(whole_number_within(0, 4000))
+      ->type_name("N");
+  command.add_option("--frames", options.frames, "Files of points, evenly in time, 2 to 1000 (default 25)")
+      ->check(whole_number_within(2, 1000))
+      ->type_name("N");
+  add_time_limit(command, options.time_limit_s);
+  command.add_option("--check", options.check, "Instead of looking for an isotopy, certify this one")
+      ->type_name("ISOTOPY.json");
+  command
+      .add_option("--report", options.report,
+                  "Write a JSON report: what was certified, or where it stopped, with the double points")
+      ->type_name("FILE");
+  add_progress(command, options.progress);
+  add_quiet(command, options.quiet);
+  command.footer(
+      "Written into DIR:\n"
+      "  isotopy.json        the rings of the cylinder in R^4: times and points\n"
+      "  animation.gif       a tube around the knot on its way\n"
+      "  picture.png         the same at five times\n"
+      "  frame_0000.xyz ...  the knot, evenly in time: cuts of the cylinder\n\n"
+      "Examples:\n"
+      "  unsnarl sample knot_goeritz -o goeritz.xyz && unsnarl sample knot_circle -o circle.xyz\n"
+      "  unsnarl knot-isotopy goeritz.xyz circle.xyz -o way\n"
+      "  unsnarl knot-isotopy goeritz.xyz circle.xyz --check way/isotopy.json\n\n"
+      "Exit codes: 0 a certified isotopy, 1 none found (--check: not all holds), 2 usage, 3 cannot read,\n"
+      "4 cannot write, 5 time limit, 6 interrupted, 70 internal error.");
+}
+
+int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& interruption) {
+  if (options.folder.empty() == options.check.empty())
+    throw UsageError("say where the isotopy goes, -o DIR, or which one to certify, --check ISOTOPY.json");
+  FilePlaces places;
+  places.reads("START", options.start);
+  places.reads("END", options.end);
+  places.reads("--check", options.check);
+  places.writes("--report", options.report);
+  const Link start = read_knot(options.start), end = read_knot(options.end);
+  places.require_writable(interruption);
+  if (!options.check.empty()) return check_file(options, start, end, interruption);
+  prepare_picture_folder(options.folder, "-o");
+
+  ProgressDisplay display(options.progress, options.quiet);
+  Context context;
+  context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
+  interruption.set_handler([&] { context.cancel(); });
+  KnotIsotopyOptions wanted;
+  wanted.points = options.points;
+  wanted.method = method_named(options.method);
+  wanted.time_limit_s = options.time_limit_s;
+  KnotIsotopy made;
+  try {
+    made = knot_isotopy(start, end, wanted, &context);
+  } catch (const std::invalid_argument& e) {
+    throw FileError(fmt::format("{}, {}: {}", options.start, options.end, e.what()));
+  }
+  interruption.set_handler(nullptr);
+  display.clear();
+  if (made.status != Status::embedded) {
+    if (!options.report.empty()) write_file(options.report, knot_isotopy_json(made, {}), interruption);
+    if (!options.quiet) {
+      if (made.status == Status::no_progress)
+        tell(fmt::format("no isotopy was found, which does not prove that there is none\n{}\n", made.found));
+      if (!made.left_double_points.empty())
+        tell("double points that are left of the cylinder between the knots:\n" + as_text(made.left_double_points));
+      tell(fmt::format("{}: nothing was written\n", to_string(made.status)));
+    }
+    return exit_code_of(made.status);
+  }
+
+  const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
+  StagedOutput staged(path("isotopy.json"), interruption);
+  KnotIsotopyFindings found = check_knot_isotopy(made, start, end);
+  std::vector<OutputFile> files{{{}, knot_isotopy_json(made, found)},
+                                {"animation.gif", knot_isotopy_gif(made)},
+                                {"picture.png", knot_isotopy_png(made)}};
+  for (int k = 0; k < options.frames; ++k)
+    files.push_back({fmt::format("frame_{:04}.xyz", k),
+                     link_text(knot_isotopy_slice(made, static_cast<double>(k) / (options.frames - 1)))});
+  staged.write(files);
+  found = check_knot_isotopy(parse_knot_isotopy(bytes_of(staged.main_file().string())), start, end);
+  if (!found.hold()) throw std::logic_error("the isotopy to be written does not hold: " + as_text(found));
+  staged.commit();
+  if (!options.report.empty()) {
+    KnotIsotopy without_rings = made;
+    without_rings.rings.clear();
+    write_file(options.report, knot_isotopy_json(without_rings, found), interruption);
+  }
+  if (!options.quiet)
+    tell(
+        fmt::format("{}{}\n{} rings of {} points; no two triangles of the cylinder in R^4 meet, so that the knot is "
+                    "simple at\nevery time; the same holds for points that move straight from ring to ring\n"
+                    "wrote {}, {:.1f} s\n",
+                    made.found, made.reversed ? "; END is run along backwards" : "", made.rings.size(),
+                    made.rings[1].points.size() / 3, options.folder, made.seconds));
+  return exit_embedded;
+}
+
+}  // namespace unsnarl::app

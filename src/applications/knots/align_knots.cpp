@@ -1,0 +1,49 @@
+#include "applications/knots/align_knots.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+namespace unsnarl {
+
+Positions Alignment::applied(const Positions& x) const {
+  return ((scale * rotation) * (x.colwise() - from)).colwise() + to;
+}
+
+Positions reordered(const Positions& x, Index first, bool backwards) {
+  const auto n = static_cast<Index>(x.cols());
+  Positions y(3, n);
+  for (Index k = 0; k < n; ++k) y.col(k) = x.col((first + (backwards ? n - k : k)) % n);
+  return y;
+}
+
+std::vector<Alignment> alignments(const Positions& x, const Positions& y, bool backwards, std::size_t most) {
+  const auto n = static_cast<Index>(x.cols());
+  const Vec3 x_centre = x.rowwise().mean(), y_centre = y.rowwise().mean();
+  const Positions a = x.colwise() - x_centre;
+  std::vector<Alignment> all(n);
+  for (Index first = 0; first < n; ++first) {
+    Alignment& made = all[first];
+    const Positions b = reordered(y, first, backwards).colwise() - y_centre;
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(a * b.transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Vec3 signs(1, 1, svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1 : 1);
+    made.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+    made.scale = a.norm() / b.norm();
+    made.from = y_centre;
+    made.to = x_centre;
+    made.first = first;
+    made.backwards = backwards;
+    made.distance = (a - made.scale * made.rotation * b).norm() / a.norm();
+  }
+  std::vector<Alignment> best;
+  for (Index k = 0; k < n; ++k)
+    if (all[k].distance <= all[(k + 1) % n].distance && all[k].distance < all[(k + n - 1) % n].distance)
+      best.push_back(all[k]);
+  std::stable_sort(best.begin(), best.end(),
+                   [](const Alignment& p, const Alignment& q) { return p.distance < q.distance; });
+  if (best.empty()) best.push_back(all[0]);  // of two regular polygons all are alike
+  if (best.size() > most) best.resize(most);
+  return best;
+}
+
+}  // namespace unsnarl

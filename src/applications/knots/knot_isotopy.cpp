@@ -1,0 +1,302 @@
+#include "unsnarl/knot_isotopy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "applications/knots/align_knots.h"
+#include "applications/knots/knot_path.h"
+#include "applications/knots/moving_polygon.h"
+#include "applications/knots/relax_knot.h"
+#include "applications/knots/untangle_cylinder.h"
+#include "geometry/splitmix.h"
+#include "unsnarl/stage_clock.h"
+
+namespace unsnarl {
+namespace {
+
+constexpr int least_points = 200;  ///< unless it is said; coarser ones let strands come nearer than edges are long
+constexpr int fewest_points = 16, most_points = 4000;
+/// Places where the shapes at rest are laid on each other, of each direction. A knot's symmetries give a few that are
+/// equally good.
+constexpr std::size_t most_alignments = 6;
+/// Times that both are brought to rest: shapes that balance on a ridge fall to one side when they are shaken.
+constexpr int most_rounds = 3;
+/// How far a shake moves points / root mean square of their distances from the centre.
+constexpr double shake_rel = 0.05;
+constexpr int shake_waves = 5;         ///< of the longest waves along the knot, in which it is shaken
+constexpr double rotation_step = 0.5;  ///< radian, from ring to ring before they are thinned out
+/// The least that the time grows by from ring to ring / the mean of all.
+constexpr double least_time = 0.2;
+
+void check_options(const Link& start, const Link& end, const KnotIsotopyOptions& options) {
+  for (const auto& [side, link] : {std::pair("start", &start), std::pair("end", &end)}) {
+    try {
+      check_link(*link);
+    } catch (const std::invalid_argument& e) {
+      throw std::invalid_argument(fmt::format("the {}: {}", side, e.what()));
+    }
+    if (link->components.size() != 1)
+      throw std::invalid_argument(fmt::format(
+          "the {} has {} components; an isotopy is made between knots, which have one", side, link->components.size()));
+    if (link->point_count() > most_points)
+      throw std::invalid_argument(
+          fmt::format("the {} has {} points; knots may have {} at most", side, link->point_count(), most_points));
+  }
+  const int given = options.points;
+  if (given != 0 && (given < fewest_points || given > most_points))
+    throw std::invalid_argument(fmt::format("points is {}; give {} to {}, or 0", given, fewest_points, most_points));
+  const std::size_t longer = std::max(start.point_count(), end.point_count());
+  if (given != 0 && static_cast<std::size_t>(given) < longer)
+    throw std::invalid_argument(fmt::format("points is {}, but a knot has {}; give no fewer", given, longer));
+  if (!(options.time_limit_s >= 0))
+    throw std::invalid_argument(fmt::format("time_limit_s is {}; give 0 or more", options.time_limit_s));
+}
+
+double spread(const Positions& x) {
+  return std::sqrt((x.colwise() - Vec3(x.rowwise().mean())).squaredNorm() / static_cast<double>(x.cols()));
+}
+
+/// Long waves along the polygon, as far as they are proven to be an isotopy.
+Positions shaken(const Positions& x, std::uint64_t seed) {
+  const auto n = static_cast<Index>(x.cols());
+  std::uint64_t state = seed << 32;
+  const auto dice = [&] { return 2 * splitmix_number(state += splitmix_step) - 1; };
+  Positions shift = Positions::Zero(3, n);
+  for (int wave = 1; wave <= shake_waves; ++wave)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double c = dice(), s = dice();
+      for (Index k = 0; k < n; ++k) {
+        const double angle = 2 * std::numbers::pi * wave * k / n;
+        shift(axis, k) += c * std::cos(angle) + s * std::sin(angle);
+      }
+    }
+  shift *= shake_rel * spread(x) / std::sqrt(shift.colwise().squaredNorm().maxCoeff());
+  for (int halvings = 0; halvings < 10; ++halvings, shift *= 0.5)
+    if (is_proven_way(x, x + shift)) return x + shift;
+  return x;
+}
+
+class Making {
+ public:
+  Making(const Link& start, const Link& end, const KnotIsotopyOptions& options, Context* context)
+      : start_link_(start), end_link_(end), options_(options), context_(context) {}
+
+  KnotIsotopy run() {
+    scale();
+    const Index n = options_.points > 0
+                        ? options_.points
+                        : static_cast<Index>(std::max(
+                              {std::size_t{least_points}, start_link_.point_count(), end_link_.point_count()}));
+    start_ = densified(start_exact_, n);
+    end_ = densified(end_exact_, n);
+    check_room("start", start_exact_, start_);
+    check_room("end", end_exact_, end_);
+    if (options_.method != KnotMethod::relax) direct();
+    if (made_.status == Status::no_progress && options_.method != KnotMethod::direct && !stopped()) relax();
+    if (made_.status != Status::embedded && stopped()) {
+      made_.status = cancelled_ ? Status::cancelled : Status::time_limit;
+      made_.found = "stopped";
+    }
+    if (made_.status != Status::embedded) made_.rings.clear();
+    made_.seconds = clock_.stage("").seconds;
+    return std::move(made_);
+  }
+
+ private:
+  bool stopped() {
+    cancelled_ = cancelled_ || (context_ != nullptr && context_->is_cancelled());
+    out_of_time_ = out_of_time_ || (options_.time_limit_s > 0 && clock_.stage("").seconds > options_.time_limit_s);
+    return cancelled_ || out_of_time_;
+  }
+  void tell(double fraction, std::string_view phase) {
+    fraction_ = std::max(fraction_, fraction);
+    if (context_ != nullptr && context_->on_progress) context_->on_progress({fraction_, phase, 0, 0});
+  }
+
+  /// Powers of two, so that all digits stay.
+  void scale() {
+    start_exact_ = points_of(start_link_.components[0]);
+    end_exact_ = points_of(end_link_.components[0]);
+    const double largest = std::max(start_exact_.cwiseAbs().maxCoeff(), end_exact_.cwiseAbs().maxCoeff());
+    unit_ = std::exp2(std::ceil(std::log2(largest)));
+    for (Positions* const x : {&start_exact_, &end_exact_}) {
+      const Positions scaled = *x / unit_;
+      if (scaled * unit_ != *x)
+        throw std::invalid_argument("coordinates differ in size by more than double precision can hold");
+      *x = scaled;
+    }
+  }
+
+  static void check_room(const char* side, const Positions& exact, const DensePolygon& dense) {
+    if (!meeting_pairs(exact, dense.points, strip_to_finer(dense.pieces), 1).empty() ||
+        !stays_simple(dense.points, dense.points))
+      throw std::invalid_argument(
+          fmt::format("the {}: two edges are nearer to each other than rounding can tell; move them apart", side));
+  }
+
+  void direct() {
+    // The end's own points, in the order in which they are nearest to the start's.
+    std::vector<Alignment> all = alignments(start_.points, end_.points, false, 1);
+    const Positions to = reordered(end_.points, all[0].first, false);
+    UntangledCylinder cylinder = untangle_cylinder(start_.points, to, [&](double fraction) {
+      tell(0.2 * fraction, "untangle");
+      return stopped();
+    });
+    made_.straight_double_points = in_units(cylinder.straight);
+    made_.left_double_points = in_units(cylinder.left);
+    if (stopped()) return;
+    if (cylinder.left.empty() && finish(std::move(cylinder.rings), all[0])) {
+      made_.found = cylinder.straight.empty() ? "the straight way is an isotopy"
+                                              : fmt::format("{} double points of the straight cylinder were untangled",
+                                                            cylinder.straight.size());
+      return;
+    }
+    int sum = 0;
+    for (const KnotDoublePoint& p : made_.left_double_points) sum += p.sign;
+    made_.found = fmt::format("{} of {} double points of the straight cylinder are left, the sum of their signs is {}",
+                              made_.left_double_points.size(), made_.straight_double_points.size(), sum);
+  }
+
+  std::vector<KnotDoublePoint> in_units(std::vector<KnotDoublePoint> points) const {
+    for (KnotDoublePoint& p : points)
+      for (double& c : p.place) c *= unit_;
+    return points;
+  }
+
+  /// Goes on with a knot from its last state. False: stopped.
+  bool to_rest(RelaxedKnot& knot, double gradient_rel, double begin, double end, std::string_view phase) {
+    RelaxOptions options;
+    options.gradient_rel = gradient_rel;
+    double steps = 0;
+    RelaxedKnot more = relax_knot(knot.states.back(), options, [&](double) {
+      steps += 1;
+      tell(begin + (end - begin) * steps / (steps + 100), phase);  // 100: a usual number
+      return stopped();
+    });
+    knot.states.insert(knot.states.end(), more.states.begin() + 1, more.states.end());
+    knot.energy = more.energy;
+    knot.at_rest = more.at_rest;
+    return !stopped();
+  }
+
+  void relax() {
+    made_.relaxed = true;
+    RelaxedKnot from, to;
+    from.states.push_back(start_.points);
+    to.states.push_back(end_.points);
+    RelaxOptions options;
+    for (int round = 0; round < most_rounds; ++round) {
+      const double begin = 0.2 + 0.7 * round / most_rounds, half = 0.35 / most_rounds;
+      if (round > 0) {
+        from.states.push_back(shaken(from.states.back(), 2 * round));
+        to.states.push_back(shaken(to.states.back(), 2 * round + 1));
+      }
+      const double gradient_rel = options.gradient_rel / (1 << round);
+      if (!to_rest(from, gradient_rel, begin, begin + half, "relax the start") ||
+          !to_rest(to, gradient_rel, begin + half, begin + 2 * half, "relax the end"))
+        return;
+      made_.start_energy = from.energy;
+      made_.end_energy = to.energy;
+      if (join(from, to)) {
+        made_.found = fmt::format("both knots came to rest in one shape, with energies {:.2f} and {:.2f}", from.energy,
+                                  to.energy);
+        return;
+      }
+      if (stopped()) return;
+    }
+    made_.found = fmt::format(
+        "{}, with energies {:.2f} and {:.2f}, and no straight way joins their shapes: these may be different knots, or "
+        "shapes of one that both are at rest",
+        from.at_rest && to.at_rest ? "both knots came to rest" : "the knots could not be brought to rest", from.energy,
+        to.energy);
+  }
+
+  bool join(const RelaxedKnot& from, const RelaxedKnot& to) {
+    const Positions &x = from.states.back(), &y = to.states.back();
+    for (const bool backwards : {false, true})
+      for (const Alignment& alignment : alignments(x, y, backwards, most_alignments)) {
+        if (stopped()) return false;
+        if (!is_proven_way(x, alignment.applied(reordered(y, alignment.first, backwards)))) continue;
+        std::vector<Positions> path = from.states;
+        // The end's shape turns back from where it fits the start's to where it came to rest.
+        const Eigen::AngleAxisd turn(alignment.rotation);
+        const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn.angle()) / rotation_step)));
+        for (int k = steps; k >= 0; --k) {
+          Alignment part = alignment;
+          part.rotation = Eigen::AngleAxisd(turn.angle() * k / steps, turn.axis()).toRotationMatrix();
+          path.push_back(part.applied(reordered(y, alignment.first, backwards)));
+        }
+        for (auto state = to.states.rbegin(); state != to.states.rend(); ++state)
+          path.push_back(reordered(*state, alignment.first, backwards));
+        if (finish(std::move(path), alignment)) return true;
+      }
+    return false;
+  }
+
+  /// From the start's dense polygon to the end's, in the order of the alignment. False: it is no isotopy, or not
+  /// proven.
+  bool finish(std::vector<Positions> path, const Alignment& alignment) {
+    tell(0.9, "thin out");
+    path = thinned_path(std::move(path), [&] { return stopped(); });
+    if (path.empty()) return false;
+    tell(0.98, "certify");
+    const auto n = static_cast<Index>(start_.points.cols());
+    const auto m = static_cast<Index>(end_exact_.cols());
+    const Positions last = reordered(end_exact_, 0, alignment.backwards);
+    std::vector<Index> pieces = end_.pieces;
+    if (alignment.backwards)
+      for (Index k = 0; k < m; ++k) pieces[k] = end_.pieces[m - 1 - k];
+    const Index end_first = alignment.backwards ? alignment.first : (n - alignment.first) % n;
+    if (!meeting_pairs(start_exact_, path.front(), strip_to_finer(start_.pieces), 1).empty() ||
+        !meeting_pairs(path.back(), last, strip_from_finer(pieces, end_first), 1).empty())
+      return false;
+    path.insert(path.begin(), start_exact_);
+    path.push_back(last);
+    std::vector<double> effort{0};
+    for (std::size_t k = 1; k < path.size(); ++k)
+      effort.push_back(effort.back() + (path[k].cols() == path[k - 1].cols()
+                                            ? std::sqrt((path[k] - path[k - 1]).colwise().squaredNorm().maxCoeff())
+                                            : 0));
+    const double intervals = static_cast<double>(path.size() - 1);
+    const double mean = std::max(effort.back(), spread(start_exact_) * 1e-6) / intervals;
+    const double sum = effort.back() + least_time * mean * intervals;
+    made_.rings.clear();
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      KnotRing& ring = made_.rings.emplace_back();
+      ring.time = k + 1 == path.size() ? 1 : (effort[k] + least_time * mean * static_cast<double>(k)) / sum;
+      const Positions back = path[k] * unit_;
+      ring.points.assign(back.data(), back.data() + back.size());
+    }
+    made_.start_pieces.assign(start_.pieces.begin(), start_.pieces.end());
+    made_.end_pieces.assign(pieces.begin(), pieces.end());
+    made_.end_first = end_first;
+    made_.reversed = alignment.backwards;
+    if (!check_knot_isotopy(made_, start_link_, end_link_).hold()) return false;
+    made_.status = Status::embedded;
+    return true;
+  }
+
+  const Link &start_link_, &end_link_;
+  const KnotIsotopyOptions& options_;
+  Context* context_;
+  StageClock clock_;
+  double unit_ = 1;
+  Positions start_exact_, end_exact_;
+  DensePolygon start_, end_;
+  KnotIsotopy made_;
+  double fraction_ = 0;
+  bool cancelled_ = false, out_of_time_ = false;
+};
+
+}  // namespace
+
+KnotIsotopy knot_isotopy(const Link& start, const Link& end, const KnotIsotopyOptions& options, Context* context) {
+  check_options(start, end, options);
+  return Making(start, end, options, context).run();
+}
+
+}  // namespace unsnarl

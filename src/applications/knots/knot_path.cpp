@@ -1,0 +1,90 @@
+#include "applications/knots/knot_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "applications/knots/relax_knot.h"
+
+namespace unsnarl {
+namespace {
+
+/// Halvings of a step that is not proven. A step that was proven with its quads cut the other way needs one or two.
+constexpr int most_halvings = 6;
+
+/// Appends states after `from` that lead to `to`. False: no proof was found.
+bool bridge(const Positions& from, const Positions& to, int halvings, std::vector<Positions>& states) {
+  if (is_proven_way(from, to)) {
+    states.push_back(to);
+    return true;
+  }
+  if (halvings == 0) return false;
+  const Positions middle = 0.5 * (from + to);
+  return bridge(from, middle, halvings - 1, states) && bridge(middle, to, halvings - 1, states);
+}
+
+}  // namespace
+
+Positions points_of(const std::vector<double>& points) {
+  return Eigen::Map<const Positions>(points.data(), 3, static_cast<Index>(points.size() / 3));
+}
+
+DensePolygon densified(const Positions& polygon, Index n) {
+  const auto m = static_cast<Index>(polygon.cols());
+  DensePolygon made;
+  made.pieces.assign(m, 1);
+  const auto length = [&](Index k) { return (polygon.col((k + 1) % m) - polygon.col(k)).norm(); };
+  const auto shorter = [](const std::pair<double, Index>& a, const std::pair<double, Index>& b) {
+    return a.first != b.first ? a.first < b.first : a.second > b.second;
+  };
+  std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, decltype(shorter)> queue(
+      shorter);
+  for (Index k = 0; k < m; ++k) queue.push({length(k), k});
+  for (Index count = m; count < n; ++count) {
+    const Index k = queue.top().second;
+    queue.pop();
+    queue.push({length(k) / ++made.pieces[k], k});
+  }
+  made.points.resize(3, std::max(m, n));
+  Index at = 0;
+  for (Index k = 0; k < m; ++k)
+    for (Index i = 0; i < made.pieces[k]; ++i) {
+      const double t = static_cast<double>(i) / made.pieces[k];
+      made.points.col(at++) = polygon.col(k) + t * (polygon.col((k + 1) % m) - polygon.col(k));
+    }
+  return made;
+}
+
+std::vector<Positions> thinned_path(std::vector<Positions> states, const std::function<bool()>& stop) {
+  std::vector<Positions> kept{states.front()};
+  std::size_t at = 0, last_step = 1;
+  while (at + 1 < states.size()) {
+    if (stop()) return {};
+    const std::size_t most = states.size() - 1 - at;
+    const auto fits = [&](std::size_t step) { return is_proven_way(states[at], states[at + step]); };
+    // Steps change little from one to the next: begin with the last one.
+    std::size_t good = 0, bad = most + 1;
+    for (std::size_t step = std::min(last_step, most); step > good; step = std::min(2 * good, most)) {
+      if (!fits(step)) {
+        bad = step;
+        break;
+      }
+      good = step;
+    }
+    while (bad - good > 1 + good / 8) {  // an eighth more is not worth the search
+      const std::size_t middle = (good + bad) / 2;
+      (fits(middle) ? good : bad) = middle;
+    }
+    if (good == 0) {
+      if (!bridge(states[at], states[at + 1], most_halvings, kept)) return {};
+      good = 1;
+    } else {
+      kept.push_back(states[at + good]);
+    }
+    last_step = good;
+    at += good;
+  }
+  return kept;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "applications/knots/strip.h"
+#include "unsnarl/link.h"
+
+namespace unsnarl {
+
+/// A knot's points as columns.
+Positions points_of(const std::vector<double>& points);
+
+/// A closed polygon with points added on its edges, always on the longest piece, until it has `n`.
+struct DensePolygon {
+  Positions points;           ///< the polygon's own among them, bit for bit
+  std::vector<Index> pieces;  ///< of each edge
+};
+DensePolygon densified(const Positions& polygon, Index n);
+
+/// The states of a polygon that moves straight from one to the next: the subsequence that greedy long steps leave, each
+/// of which is proven (is_proven_way), the first and the last among them; where a step from one to the next is not,
+/// states halfway are put in. Empty: stopped, or that did not help either.
+std::vector<Positions> thinned_path(std::vector<Positions> states, const std::function<bool()>& stop);
+
+}  // namespace unsnarl
