@@ -45,6 +45,14 @@ const KnotEntry* knot_of(std::string_view name) {
   return nullptr;
 }
 
+/// The unknot that a sample is called after; null: it is none.
+const UnknotEntry* unknot_of(std::string_view name) {
+  if (!name.starts_with(knot_prefix)) return nullptr;
+  for (const UnknotEntry& entry : unknot_table())
+    if (entry.name == name.substr(knot_prefix.size())) return &entry;
+  return nullptr;
+}
+
 /// The plan that a sample is called after; null: it is none.
 const RoutePlanSample* plan_of(std::string_view name) {
   if (!name.starts_with(routes_prefix)) return nullptr;
@@ -71,13 +79,16 @@ std::string curves_hint() {
   for (const KnotEntry& entry : knot_table())
     if (entry.name.find_first_not_of("0123456789_") != std::string::npos)
       links += fmt::format(", {}{}", knot_prefix, entry.name);
+  std::string unknots;
+  for (const UnknotEntry& entry : unknot_table())
+    unknots += fmt::format("{}{}{}", unknots.empty() ? "" : ", ", knot_prefix, entry.name);
   std::string plans;
   for (const RoutePlanSample& sample : route_plan_samples())
     plans += fmt::format("{}{}{}", plans.empty() ? "" : ", ", routes_prefix, sample.name);
   return fmt::format(
       "random closed curves, for 'unsnarl curves': {}\nknots, for 'unsnarl seifert': {}3_1 to {}10_165, as in "
-      "Rolfsen's table{}\nplans, for 'unsnarl routes': {}\n",
-      names, knot_prefix, knot_prefix, links, plans);
+      "Rolfsen's table{}\nunknots, for 'unsnarl knot-isotopy': {}\nplans, for 'unsnarl routes': {}\n",
+      names, knot_prefix, knot_prefix, links, unknots, plans);
 }
 
 std::string description_of(const std::string& name) {
@@ -90,6 +101,8 @@ std::string description_of(const std::string& name) {
   if (const KnotEntry* const entry = knot_of(name))
     return fmt::format("{}: {} points of the closure of a braid of {} strands and {} crossings\n", name,
                        knot_of_table(entry->name).point_count(), entry->strands, entry->braid.size());
+  if (const UnknotEntry* const entry = unknot_of(name))
+    return fmt::format("{}: {}, {} points\n", name, entry->description, knot_of_table(entry->name).point_count());
   if (const RoutePlanSample* const plan = plan_of(name)) return fmt::format("{}: {}\n", name, plan->description);
   const auto samples = all_samples();
   const auto found = std::find_if(samples.begin(), samples.end(), [&](const Sample& s) { return s.name == name; });
@@ -155,7 +168,8 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
       "NAME", options.name,
       "Which one; see --list. For 'unsnarl curves', a random closed curve: curve_waves, curve_walk,\n"
       "curve_star, curve_noise, curve_spiral or curve_chaos. For 'unsnarl seifert', a knot: knot_3_1 to\n"
-      "knot_10_165, and links. For 'unsnarl routes', a plan: routes_star_6, routes_star_20,\n"
+      "knot_10_165, and links. For 'unsnarl knot-isotopy', an unknot: knot_circle, knot_kinks_1 to\n"
+      "knot_kinks_6, knot_goeritz, ... For 'unsnarl routes', a plan: routes_star_6, routes_star_20,\n"
       "routes_star_50, routes_ring or routes_maze");
   command
       .add_option("-o,--output", options.output,
@@ -190,9 +204,9 @@ int run_sample(const SampleOptions& options, Interruption& interruption) {
     write_file(options.output, curve_file(options, kind), interruption);
     return exit_embedded;
   }
-  if (const KnotEntry* const entry = knot_of(options.name)) {
+  if (knot_of(options.name) != nullptr || unknot_of(options.name) != nullptr) {
     if (!options.parameters.empty()) throw UsageError("--set: knots have no parameters");
-    write_file(options.output, link_text(knot_of_table(entry->name)), interruption);
+    write_file(options.output, link_text(knot_of_table(options.name.substr(knot_prefix.size()))), interruption);
     return exit_embedded;
   }
   if (const RoutePlanSample* const plan = plan_of(options.name)) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,7 +48,16 @@ struct KnotEntry {
 };
 /// All knots to ten crossings (Rolfsen's table without the duplicate of Perko's pair), then links and others.
 std::span<const KnotEntry> knot_table();
-/// Throws std::invalid_argument for a name that is not in the table.
+/// Diagrams of the unknot: a circle, some that are wound up, and those of the literature that are hard to untangle.
+struct UnknotEntry {
+  std::string_view name;  ///< "circle", "kinks_1" to "kinks_6", "goeritz", "ochiai", ...
+  std::string_view description;
+};
+std::span<const UnknotEntry> unknot_table();
+/// None where there is none of this name.
+std::optional<Link> unknot_of_table(std::string_view name);
+
+/// Of either table. Throws std::invalid_argument for a name that is in neither.
 Link knot_of_table(std::string_view name);
 
 /// The closure of a braid as polygons around the z axis: strands run counter-clockwise at distances 1, 1.5, ... from

@@ -172,7 +172,7 @@ class Making {
     RelaxOptions options;
     options.gradient_rel = gradient_rel;
     double steps = 0;
-    RelaxedKnot more = relax_knot(knot.states.back(), options, [&](double) {
+    RelaxedKnot more = relax_knot(knot.states.back(), options, [&] {
       steps += 1;
       tell(begin + (end - begin) * steps / (steps + 100), phase);  // 100: a usual number
       return stopped();

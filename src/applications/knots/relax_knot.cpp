@@ -1,10 +1,12 @@
 #include "applications/knots/relax_knot.h"
 
 #include <cmath>
+#include <optional>
 
 #include "applications/knots/knot_energy.h"
 #include "applications/knots/moving_polygon.h"
 #include "applications/knots/strip.h"
+#include "optimize/lbfgs.h"
 
 namespace unsnarl {
 namespace {
@@ -21,9 +23,15 @@ Positions of_length(const Positions& x, double length) {
   return (length / length_of(x) * (x.colwise() - centre)).colwise() + centre;
 }
 
+using VectorMap = Eigen::Map<const Eigen::VectorXd>;
+
+VectorMap as_vector(const Positions& x) {
+  return {x.data(), x.size()};
+}
+
 constexpr double armijo = 1e-4;    // part of the decrease that the slope promises, as usual
-constexpr double longest = 64;     // factor of the gradient; between 1 and 4 in most steps
-constexpr double shortest = 1e-9;  // where rounding is all that is left of a decrease
+constexpr double shortest = 1e-9;  // step where rounding is all that is left of a decrease
+constexpr int memory = 8;          // steps that L-BFGS keeps, as elsewhere
 
 }  // namespace
 
@@ -31,33 +39,38 @@ bool is_proven_way(const Positions& from, const Positions& to) {
   return stays_simple(from, to) && is_isotopy(from, to);
 }
 
-RelaxedKnot relax_knot(Positions x, const RelaxOptions& options, const std::function<bool(double energy)>& stop) {
+RelaxedKnot relax_knot(Positions x, const RelaxOptions& options, const std::function<bool()>& stop) {
   const KnotEnergy energy;
-  RelaxedKnot made;
   const double length = length_of(x);
+  RelaxedKnot made;
   made.states.push_back(x);
   Positions gradient;
   made.energy = energy(x, gradient);
+  std::optional<KnotMetric> metric;
+  Lbfgs lbfgs(memory, [&](const Eigen::VectorXd& v, Eigen::VectorXd& out) {
+    out = as_vector(metric->solve(Eigen::Map<const Positions>(v.data(), 3, v.size() / 3)));
+  });
+  Eigen::VectorXd d;
   double step = 1;
-  for (int k = 0; k < options.most_steps && !stop(made.energy); ++k) {
-    const Positions direction = KnotMetric(x, energy.evenness).solve(gradient);
+  for (int k = 0; k < options.most_steps && !stop(); ++k) {
+    metric.emplace(x, energy.evenness);
+    const double steepness = gradient.cwiseProduct(metric->solve(gradient)).sum();
+    made.at_rest = steepness <= options.gradient_rel * options.gradient_rel * made.energy;
+    if (made.at_rest || !std::isfinite(steepness)) break;
+    lbfgs.direction(as_vector(gradient), d);
+    const Eigen::Map<const Positions> direction(d.data(), 3, x.cols());
     const double slope = gradient.cwiseProduct(direction).sum();
-    if (!(slope >= 0)) break;
-    if (slope <= options.gradient_rel * options.gradient_rel * made.energy) {
-      made.at_rest = true;
-      break;
-    }
     Positions next;
-    double value = 0;
-    for (step = std::min(2 * step, longest); step >= shortest; step *= 0.5) {
-      next = of_length(x - step * direction, length);
-      value = energy(next);
-      if (value <= made.energy - armijo * step * slope && is_proven_way(x, next)) break;
+    for (step = std::min(2 * step, 1.0); step >= shortest; step *= 0.5) {
+      next = of_length(x + step * direction, length);
+      if (energy(next) <= made.energy + armijo * step * slope && is_proven_way(x, next)) break;
     }
     if (step < shortest) break;
+    const Positions before = gradient, moved = next - x;
     x = next;
     made.states.push_back(x);
     made.energy = energy(x, gradient);
+    lbfgs.remember(as_vector(moved), as_vector(gradient - before));
   }
   return made;
 }

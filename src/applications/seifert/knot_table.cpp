@@ -298,12 +298,14 @@ std::span<const KnotEntry> knot_table() {
 }
 
 Link knot_of_table(std::string_view name) {
+  if (std::optional<Link> unknot = unknot_of_table(name)) return std::move(*unknot);
   const auto table = knot_table();
   const auto entry = std::find_if(table.begin(), table.end(), [&](const KnotEntry& e) { return e.name == name; });
   if (entry == table.end())
     throw std::invalid_argument(
         fmt::format("there is no knot '{}' in the table; give 3_1 to 10_165, or hopf, whitehead, "
-                    "borromean, t_2_4, t_2_4_reversed, t_3_7, unknot",
+                    "borromean, t_2_4, t_2_4_reversed, t_3_7, unknot, circle, kinks_1 to kinks_6, culprit, goeritz, "
+                    "thistlethwaite, ochiai, ochiai_2",
                     name));
   Link link = braid_closure(entry->strands, entry->braid);
   if (entry->reversed >= 0) {
