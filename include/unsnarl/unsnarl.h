@@ -136,8 +136,9 @@ typedef struct unsnarl_options {
   int32_t views; /* from how many sides to look for the simplest diagram, [3, 10000]. Default 60 */
   int32_t fair;  /* 0: the surface as Seifert's algorithm builds it. Default 1 */
 
-  /* unsnarl_planar_isotopy */
-  int32_t points; /* of every curve on the way, 0 or [16, 100000]; 0: as many as the longer, 200 at least (default) */
+  /* unsnarl_planar_isotopy, unsnarl_knot_isotopy */
+  int32_t points; /* of every curve on the way, 0 or [16, 100000] (of knots 4000); 0: as many as the longer, 200 at
+                     least (default) */
 
   /* unsnarl_repair with `paper`: the settings of unsnarl::PaperOptions (paper.h), which names their sources */
   const char* paper_bandwidth;   /* "global", "independent" or "symmetric" (default) */
@@ -336,8 +337,17 @@ UNSNARL_EXPORT int unsnarl_seifert_surface(const unsnarl_curves* link, const uns
 UNSNARL_EXPORT int unsnarl_check_seifert_surface(const unsnarl_surface* surface, const unsnarl_curves* link,
                                                  const unsnarl_options* options, unsnarl_result** result);
 
-/* A knot or link by its name: "3_1" to "10_165" as in Rolfsen's table, "hopf", "borromean", ... Arrays "points" (p, 3)
- * float64 and "offsets" (curves + 1, 1) int32 as in unsnarl_curves. */
+/* Moves a knot to another polygon of the same knot without ever passing through itself (docs/knot_isotopy.md). Start and
+ * end have one curve each. Status "no_progress": none was found, which does not prove that there is none.
+ *
+ * Arrays: "times" (r, 1) float64 from 0 to 1; the knot at these times, "points" (p, 3) float64 and "offsets" (r + 1, 1)
+ * int32. Report: what is certified of it, "found", the double points of the cylinders that were not embedded. */
+UNSNARL_EXPORT int unsnarl_knot_isotopy(const unsnarl_curves* start, const unsnarl_curves* end,
+                                        const unsnarl_options* options, unsnarl_context* context,
+                                        unsnarl_result** result);
+
+/* A knot or link by its name: "3_1" to "10_165" as in Rolfsen's table, "hopf", "borromean", "circle", "goeritz", ...
+ * Arrays "points" (p, 3) float64 and "offsets" (curves + 1, 1) int32 as in unsnarl_curves. */
 UNSNARL_EXPORT int unsnarl_knot_of_table(const char* name, unsnarl_result** result);
 
 #ifdef __cplusplus

@@ -30,6 +30,18 @@ def test_a_square_becomes_an_l():
         unsnarl.planar_isotopy(square, ell[::-1])
 
 
+def test_an_unknot_becomes_a_circle_and_a_trefoil_does_not():
+    knot, circle, trefoil = (unsnarl.knot_of_table(name)[0] for name in ("kinks_1", "circle", "3_1"))
+    way = unsnarl.knot_isotopy(knot, circle)
+    assert way.status == "embedded" and way.report["hold"] and way.times[0] == 0 and way.times[-1] == 1
+    np.testing.assert_array_equal(way.rings[0], knot)
+    np.testing.assert_array_equal(way.rings[-1], circle)
+    none = unsnarl.knot_isotopy(trefoil, circle)
+    assert none.status == "no_progress" and not none.rings and not none.report["hold"]
+    with pytest.raises(ValueError, match="edge 0 of component 0"):
+        unsnarl.knot_isotopy(np.array([[0, 0, 0], [2, 2, 0], [2, 0, 0], [0, 2, 0]]), circle)
+
+
 def test_what_makes_no_sense():
     with pytest.raises(ValueError, match="component 0 has shape"):
         unsnarl.seifert_surface(np.zeros((4, 2)))

@@ -38,8 +38,10 @@ from ._routes import Routes, check_routes, plan_routes
 from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
 from ._spaces import (
     Isotopy,
+    KnotIsotopy,
     SeifertSurface,
     check_seifert_surface,
+    knot_isotopy,
     knot_of_table,
     planar_isotopy,
     seifert_surface,
@@ -52,6 +54,7 @@ __all__ = [
     "Intersections",
     "Isotopy",
     "Jitter",
+    "KnotIsotopy",
     "Progress",
     "Result",
     "Routes",
@@ -67,6 +70,7 @@ __all__ = [
     "find_crossings",
     "find_intersections",
     "fix",
+    "knot_isotopy",
     "knot_of_table",
     "plan_routes",
     "planar_isotopy",

@@ -1,4 +1,4 @@
-"""Seifert surfaces of knots and links, and isotopies between closed curves in the plane."""
+"""Seifert surfaces of knots and links, and isotopies of curves in the plane and of knots."""
 
 from __future__ import annotations
 
@@ -89,7 +89,8 @@ def _findings(outcome: Outcome) -> dict[str, Any]:
 
 def knot_of_table(name: str) -> list[NDArray[np.float64]]:
     """The points (n, 3) of each component of a knot or link: "3_1" to "10_165" as in Rolfsen's table, "hopf",
-    "whitehead", "borromean", "t_2_4", "t_2_4_reversed", "t_3_7", "unknot". Raises ValueError for another name."""
+    "whitehead", "borromean", "t_2_4", "t_2_4_reversed", "t_3_7", "unknot"; diagrams of the unknot: "circle", "kinks_1"
+    to "kinks_6", "culprit", "goeritz", "thistlethwaite", "ochiai", "ochiai_2". Raises ValueError for another name."""
     return call("knot_of_table", name_of("name", name)).polylines()
 
 
@@ -142,3 +143,50 @@ def planar_isotopy(
     count = len(both[0].sizes)
     rings = [curves[first : first + count] for first in range(0, len(made.array("times")) * count, count)]
     return Isotopy(made.array("times"), rings, made.array("positions"), made.array("corners"), made.status)
+
+
+@dataclass(frozen=True)
+class KnotIsotopy:
+    """What knot_isotopy gives back."""
+
+    times: NDArray[np.float64]
+    """Of the rings, from 0 to 1."""
+    rings: list[NDArray[np.float64]]
+    """For each time the points (n, 3) of the knot: first those of the start, last those of the end. All between have
+    equally many and move straight from ring to ring."""
+    status: Status
+    """embedded; no_progress: none was found; time_limit, cancelled. In all but the first case there are no rings."""
+    report: dict[str, Any]
+    """What is certified ("hold", ...), how it was found or where it stopped ("found"), double points."""
+
+
+def knot_isotopy(
+    start: Any,
+    end: Any,
+    *,
+    points: int = 0,
+    time_limit: float = 0,
+    progress: OnProgress = None,
+) -> KnotIsotopy:
+    """Moves a knot to another polygon of the same knot without ever passing through itself.
+
+    Parameters
+    ----------
+    start, end
+        Arrays (n, 3) of points. The last point is joined to the first.
+    points
+        Of the knot on the way, 16 to 4000; 0: as many as the longer of both has, 200 at least.
+    time_limit
+        Seconds after which to stop. 0: none.
+    progress
+        Called with a Progress now and then; True draws a bar.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For what is no knot: edges that touch or have no length, several components; naming the place.
+    """
+    both = [polylines_of(side, 3, "component") for side in (start, end)]
+    options = options_of(points=points, time_limit=time_limit)
+    made = call_and_wait("knot_isotopy", *(side.struct() for side in both), options, progress=progress)
+    return KnotIsotopy(made.array("times"), made.polylines(), made.status, made.report)

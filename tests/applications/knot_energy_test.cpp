@@ -39,7 +39,7 @@ TEST(KnotEnergy, SizePlaceAndDirectionDoNotMatter) {
   const double value = energy(x);
   EXPECT_NEAR(energy(Positions((7 * x).colwise() + Vec3(3, 4, 5))), value, 1e-9 * value);
   EXPECT_NEAR(energy(Positions(x.rowwise().reverse())), value, 1e-9 * value);
-  EXPECT_NEAR(energy(Positions(Eigen::AngleAxisd(1, Vec3(1, 2, 2) / 3) * x)), value, 1e-9 * value);
+  EXPECT_NEAR(energy(Positions(Eigen::AngleAxisd(1, Vec3(1, 2, 2) / 3).toRotationMatrix() * x)), value, 1e-9 * value);
 }
 
 TEST(KnotMetric, IsPositive) {

@@ -340,6 +340,30 @@ static void spans_links(void) {
   unsnarl_result_free(knot);
 }
 
+static void moves_knots(void) {
+  unsnarl_result* circle = NULL;
+  unsnarl_result* knot = NULL;
+  unsnarl_result* way = NULL;
+  unsnarl_curves start = {.size = sizeof start};
+  unsnarl_curves end = {.size = sizeof end};
+
+  CHECK(unsnarl_knot_of_table("kinks_1", &knot) == UNSNARL_OK);
+  CHECK(unsnarl_knot_of_table("circle", &circle) == UNSNARL_OK);
+  start.points = array(knot, "points").data;
+  start.offsets = array(knot, "offsets").data;
+  end.points = array(circle, "points").data;
+  end.offsets = array(circle, "offsets").data;
+  start.curve_count = end.curve_count = 1;
+  CHECK(unsnarl_knot_isotopy(&start, &end, NULL, NULL, &way) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(way), "embedded") == 0);
+  CHECK(says(unsnarl_result_report(way), "\"hold\":true"));
+  CHECK(array(way, "offsets").rows == array(way, "times").rows + 1);
+  CHECK(memcmp(array(way, "points").data, start.points, 3 * sizeof(double) * array(knot, "points").rows) == 0);
+  unsnarl_result_free(way);
+  unsnarl_result_free(circle);
+  unsnarl_result_free(knot);
+}
+
 static void write_text(const char* path, const char* text) {
   FILE* const file = fopen(path, "wb");
   CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0);
@@ -400,6 +424,7 @@ int main(int count, char** arguments) {
   knows_parts();
   untangles_curves();
   spans_links();
+  moves_knots();
   reads_and_writes_files(arguments[1]);
   printf("%d failures\n", failures);
   return failures == 0 ? 0 : 1;

@@ -69,5 +69,75 @@ TEST(IsotopyCommand, ACurveMovesToAnother) {
   EXPECT_FALSE(contains(full.err, "--picture")) << full.err;
 }
 
+TEST(KnotIsotopyCommand, AnUnknotMovesToACircle) {
+  Folder folder;
+  const std::string knot = folder / "knot.xyz", circle = folder / "circle.xyz", way = folder / "way";
+  ASSERT_EQ(run({"sample", "knot_kinks_2", "-o", knot}).exit_code, 0);
+  ASSERT_EQ(run({"sample", "knot_circle", "-o", circle}).exit_code, 0);
+  const Outcome made =
+      run({"knot-isotopy", knot, circle, "-o", way, "--frames", "3", "--report", folder / "report.json"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(contains(made.err, "no two triangles of the cylinder in R^4 meet"));
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"knot.xyz", "circle.xyz", "report.json", "way", "way/isotopy.json",
+                                                   "way/animation.gif", "way/picture.png", "way/frame_0000.xyz",
+                                                   "way/frame_0001.xyz", "way/frame_0002.xyz"}));
+  const auto report = nlohmann::json::parse(contents(folder / "report.json"));
+  EXPECT_EQ(report["hold"], true);
+  EXPECT_EQ(report["status"], "embedded");
+  EXPECT_EQ(contents(way + "/frame_0000.xyz"), contents(knot));
+  EXPECT_EQ(contents(way + "/frame_0002.xyz"), contents(circle));
+  const std::string isotopy = way + "/isotopy.json";
+  EXPECT_EQ(run({"knot-isotopy", knot, circle, "--check", isotopy}).exit_code, 0);
+  EXPECT_EQ(run({"knot-isotopy", circle, knot, "--check", isotopy, "-q"}).exit_code, 1);
+  EXPECT_EQ(run({"knot-isotopy", knot, circle, "-o", way}).exit_code, 2);  // not empty
+}
+
+TEST(KnotIsotopyCommand, WhatIsNotFoundIsSaidAndNothingWritten) {
+  Folder folder;
+  write(folder / "left.xyz", "braid 2: -1 -1 -1\n");
+  write(folder / "right.xyz", "braid 2: 1 1 1\n");
+  const Outcome none = run({"knot-isotopy", folder / "left.xyz", folder / "right.xyz", "-o", folder / "way", "--report",
+                            folder / "report.json"});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_TRUE(contains(none.err, "does not prove that there is none"));
+  EXPECT_TRUE(contains(none.err, ", sign "));
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"left.xyz", "right.xyz", "report.json"}));
+  const auto report = nlohmann::json::parse(contents(folder / "report.json"));
+  EXPECT_EQ(report["hold"], false);
+  EXPECT_FALSE(report["left_double_points"].empty());
+
+  const Outcome late =
+      run({"knot-isotopy", folder / "left.xyz", folder / "right.xyz", "-o", folder / "way", "--time-limit", "0.001"});
+  EXPECT_EQ(late.exit_code, 5);
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"left.xyz", "right.xyz", "report.json"}));
+}
+
+TEST(KnotIsotopyCommand, BadInputIsNamed) {
+  Folder folder;
+  write(folder / "circle.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  const auto refuse = [&](const std::string& text, const std::string& says, int exit_code = 3) {
+    write(folder / "bad.xyz", text);
+    const Outcome outcome = run({"knot-isotopy", folder / "circle.xyz", folder / "bad.xyz", "-o", folder / "way"});
+    EXPECT_EQ(outcome.exit_code, exit_code) << text;
+    EXPECT_TRUE(contains(outcome.err, says)) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "bad.xyz")) << outcome.err;
+  };
+  refuse("0 0 0\n2 2 0\n2 0 0\n0 2 0\n", "edge 0 of component 0 and edge 2 of component 0 touch");
+  refuse("0 0 0\n1 0 0\n1 0 0\n0 2 0\n", "points 1 and 2 of component 0 are one");
+  refuse("0 0 0\n1 0 0\n", "has 2 points");
+  refuse("0 0 0\n1 0\n", "line 2: 2 numbers");
+  refuse("0 0 0\n1 0 x\n", "line 2: 'x' is no coordinate");
+  refuse("", "nothing in it");
+  refuse("braid 2: 1 1\n", "has 2 components");
+  write(folder / "isotopy.json", "{\"rings\": [{\"time\": 0}]}");
+  const Outcome wrong =
+      run({"knot-isotopy", folder / "circle.xyz", folder / "circle.xyz", "--check", folder / "isotopy.json"});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_TRUE(contains(wrong.err, "isotopy.json: rings[0]: \"points\" is missing")) << wrong.err;
+  EXPECT_EQ(run({"knot-isotopy", folder / "circle.xyz", folder / "circle.xyz"}).exit_code, 2);
+  EXPECT_EQ(run({"knot-isotopy", folder / "none", folder / "circle.xyz", "-o", folder / "way"}).exit_code, 3);
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"circle.xyz", "bad.xyz", "isotopy.json"}));
+}
+
 }  // namespace
 }  // namespace unsnarl::cli

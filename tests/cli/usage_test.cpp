@@ -41,7 +41,7 @@ TEST_F(Usage, VersionsOfAllLibraries) {
 TEST_F(Usage, UsageErrorsExitWith2) {
   const std::string in = file("in.obj", clean_cube);
   expect_refusal({}, 2, "");
-  expect_refusal({"mend"}, 2, "fix, batch, check, view, sample, curves, isotopy, seifert or routes");
+  expect_refusal({"mend"}, 2, "fix, batch, check, view, sample, curves, isotopy, seifert, knot-isotopy or routes");
   expect_refusal({"fxi", in}, 2, "there is no command 'fxi'; did you mean fix?");
   expect_refusal({in}, 2, "'unsnarl check " + in + "'");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--max-displacment", "1"}, 2, "did you mean --max-displacement?");

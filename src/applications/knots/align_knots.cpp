@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace unsnarl {
 
@@ -15,6 +16,20 @@ Positions reordered(const Positions& x, Index first, bool backwards) {
   Positions y(3, n);
   for (Index k = 0; k < n; ++k) y.col(k) = x.col((first + (backwards ? n - k : k)) % n);
   return y;
+}
+
+Index nearest_order(const Positions& x, const Positions& y) {
+  const auto n = static_cast<Index>(x.cols());
+  Index best = 0;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (Index first = 0; first < n; ++first) {
+    const double product = x.cwiseProduct(reordered(y, first, false)).sum();
+    if (product > largest) {
+      largest = product;
+      best = first;
+    }
+  }
+  return best;
 }
 
 std::vector<Alignment> alignments(const Positions& x, const Positions& y, bool backwards, std::size_t most) {

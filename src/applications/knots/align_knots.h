@@ -26,4 +26,8 @@ Positions reordered(const Positions& x, Index first, bool backwards);
 /// at most. `backwards`: of y run along the other way. Closed form (W. Kabsch, 1976) for every first point.
 std::vector<Alignment> alignments(const Positions& x, const Positions& y, bool backwards, std::size_t most);
 
+/// The first point of y for which the squares of the distances from point k of x to point first + k of y have the
+/// smallest sum.
+Index nearest_order(const Positions& x, const Positions& y);
+
 }  // namespace unsnarl

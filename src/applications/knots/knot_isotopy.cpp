@@ -139,9 +139,9 @@ class Making {
   }
 
   void direct() {
-    // The end's own points, in the order in which they are nearest to the start's.
-    std::vector<Alignment> all = alignments(start_.points, end_.points, false, 1);
-    const Positions to = reordered(end_.points, all[0].first, false);
+    Alignment order;
+    order.first = nearest_order(start_.points, end_.points);
+    const Positions to = reordered(end_.points, order.first, false);
     UntangledCylinder cylinder = untangle_cylinder(start_.points, to, [&](double fraction) {
       tell(0.2 * fraction, "untangle");
       return stopped();
@@ -149,7 +149,7 @@ class Making {
     made_.straight_double_points = in_units(cylinder.straight);
     made_.left_double_points = in_units(cylinder.left);
     if (stopped()) return;
-    if (cylinder.left.empty() && finish(std::move(cylinder.rings), all[0])) {
+    if (cylinder.left.empty() && finish(std::move(cylinder.rings), order)) {
       made_.found = cylinder.straight.empty() ? "the straight way is an isotopy"
                                               : fmt::format("{} double points of the straight cylinder were untangled",
                                                             cylinder.straight.size());

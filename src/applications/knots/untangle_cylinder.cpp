@@ -1,9 +1,20 @@
 #include "applications/knots/untangle_cylinder.h"
 
-#include "applications/knots/strip.h"
+#include <array>
+
+#include "applications/knots/cylinder_energy.h"
+#include "optimize/lbfgs.h"
 
 namespace unsnarl {
 namespace {
+
+constexpr int ring_count = 13;  ///< both ends among them
+/// Ranges of the Gaussian, mean edges, one after the other.
+constexpr std::array<double, 3> ranges = {8, 4, 2};
+constexpr int iterations = 40;  ///< with each range, at most
+constexpr int look_every = 10;  ///< iterations after which double points are counted
+
+}  // namespace
 
 std::vector<KnotDoublePoint> double_points(const std::vector<Positions>& rings) {
   std::vector<KnotDoublePoint> points;
@@ -21,14 +32,44 @@ std::vector<KnotDoublePoint> double_points(const std::vector<Positions>& rings) 
   return points;
 }
 
-}  // namespace
-
 UntangledCylinder untangle_cylinder(const Positions& from, const Positions& to,
                                     const std::function<bool(double fraction)>& stop) {
   UntangledCylinder made;
   made.rings = {from, to};
-  made.straight = made.left = double_points(made.rings);
-  stop(1);
+  made.left = double_points(made.rings);
+  if (made.left.empty() || stop(0)) return made;
+  std::vector<Positions> rings;
+  for (int r = 0; r < ring_count; ++r) {
+    const double t = static_cast<double>(r) / (ring_count - 1);
+    rings.push_back((1 - t) * from + t * to);
+  }
+  CylinderEnergy energy(std::move(rings));
+  Eigen::VectorXd displacement = Eigen::VectorXd::Zero(energy.size());
+  double stage = 0;
+  for (const double epsilon : ranges) {
+    energy.epsilon = epsilon;
+    LbfgsOptions options;
+    options.max_iterations = iterations;
+    bool done = false;
+    minimize_lbfgs(
+        [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) { return energy(x, gradient); }, displacement, options,
+        [&](const Eigen::VectorXd& v, Eigen::VectorXd& out) { energy.precondition(v, out); },
+        [&](LbfgsIteration& at) {
+          if (at.iteration % look_every == 0) {
+            std::vector<Positions> now = energy.rings_at(at.x);
+            std::vector<KnotDoublePoint> left = double_points(now);
+            if (left.size() <= made.left.size()) {
+              made.left = std::move(left);
+              made.rings = std::move(now);
+            }
+          }
+          done = made.left.empty() ||
+                 stop((stage + static_cast<double>(at.iteration) / iterations) / static_cast<double>(ranges.size()));
+          return done;
+        });
+    if (done) break;
+    stage += 1;
+  }
   return made;
 }
 
