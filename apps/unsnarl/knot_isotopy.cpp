@@ -115,8 +115,8 @@ void add_knot_isotopy_options(CLI::App& command, KnotIsotopyCommandOptions& opti
   command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")->type_name("DIR");
   command
       .add_option("--method", options.method,
-                  "auto; direct: untangle the cylinder between the knots in R^4; relax: let both knots repel\n"
-                  "themselves until they come to rest, and join the shapes (default auto: the one, then the other)")
+                  "relax: let both knots repel themselves until they come to rest, and join the shapes; direct:\n"
+                  "untangle the cylinder of straight ways between them in R^4; default auto: the one, then the other")
       ->check(one_of({"auto", "direct", "relax"}))
       ->type_name("METHOD");
   command
@@ -185,8 +185,8 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
     if (!options.quiet) {
       if (made.status == Status::no_progress)
         tell(fmt::format("no isotopy was found, which does not prove that there is none\n{}\n", made.found));
-      if (!made.left_double_points.empty())
-        tell("double points that are left of the cylinder between the knots:\n" + as_text(made.left_double_points));
+      const auto& points = made.left_double_points.empty() ? made.straight_double_points : made.left_double_points;
+      if (!points.empty()) tell("double points of the cylinder between the knots:\n" + as_text(points));
       tell(fmt::format("{}: nothing was written\n", to_string(made.status)));
     }
     return exit_code_of(made.status);

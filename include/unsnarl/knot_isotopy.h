@@ -12,9 +12,9 @@ namespace unsnarl {
 
 /// How to look for an isotopy.
 enum class KnotMethod {
-  automatic,  ///< direct; where that leaves double points, relax
-  direct,     ///< untangle the cylinder between both knots, seen as a surface in R^4 (paper §4.5)
-  relax,  ///< let both knots repel themselves until they come to rest, which gives one shape for one knot; join those
+  automatic,  ///< the straight way from one to the other; relax; direct: the first that is an isotopy
+  direct,     ///< untangle the cylinder of straight ways between both knots, a surface in R^4 (paper §4.5)
+  relax,      ///< let both knots repel themselves until they come to rest, and join these shapes
 };
 
 struct KnotIsotopyOptions {
@@ -54,9 +54,9 @@ struct KnotIsotopy {
   /// The end is run along backwards: its point 0, then its last one, ... Some knots, from 8_17 on, cannot be turned
   /// around.
   bool reversed = false;
-  /// Of the straight cylinder between both knots, from which `direct` begins; empty with `relax`.
+  /// Of the cylinder of straight ways between both knots.
   std::vector<KnotDoublePoint> straight_double_points;
-  /// Of the cylinder that `direct` ended with.
+  /// Of the cylinder that `direct` ended with; empty where it was not tried.
   std::vector<KnotDoublePoint> left_double_points;
   bool relaxed = false;     ///< by way of the shapes at rest
   double start_energy = 0;  ///< of the knots at rest, see docs/knot_isotopy.md; 0: none

@@ -104,7 +104,7 @@ TEST(KnotIsotopyCommand, WhatIsNotFoundIsSaidAndNothingWritten) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"left.xyz", "right.xyz", "report.json"}));
   const auto report = nlohmann::json::parse(contents(folder / "report.json"));
   EXPECT_EQ(report["hold"], false);
-  EXPECT_FALSE(report["left_double_points"].empty());
+  EXPECT_FALSE(report["straight_double_points"].empty());
 
   const Outcome late =
       run({"knot-isotopy", folder / "left.xyz", folder / "right.xyz", "-o", folder / "way", "--time-limit", "0.001"});

@@ -131,7 +131,9 @@ KnotMetric::KnotMetric(const Positions& x, double evenness) {
                 0.25 * (of_middles(p, q) + of_middles(p, j) + of_middles(i, q) + of_middles(i, j));
     }
   // Translations are in the kernel.
-  a.array() += a.trace() / (static_cast<double>(n) * n);
+  double trace = 0;
+  for (Index i = 0; i < n; ++i) trace += a(i, i);
+  a.array() += trace / (static_cast<double>(n) * n);
   factor_.compute(a);
 }
 

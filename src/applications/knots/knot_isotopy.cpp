@@ -95,8 +95,10 @@ class Making {
     end_ = densified(end_exact_, n);
     check_room("start", start_exact_, start_);
     check_room("end", end_exact_, end_);
-    if (options_.method != KnotMethod::relax) direct();
-    if (made_.status == Status::no_progress && options_.method != KnotMethod::direct && !stopped()) relax();
+    straight();
+    const bool everything = options_.method == KnotMethod::automatic;
+    if (is_open() && (everything || options_.method == KnotMethod::relax)) relax();
+    if (is_open() && (everything || options_.method == KnotMethod::direct)) direct();
     if (made_.status != Status::embedded && stopped()) {
       made_.status = cancelled_ ? Status::cancelled : Status::time_limit;
       made_.found = "stopped";
@@ -138,27 +140,41 @@ class Making {
           fmt::format("the {}: two edges are nearer to each other than rounding can tell; move them apart", side));
   }
 
-  void direct() {
+  bool is_open() { return made_.status != Status::embedded && !stopped(); }
+
+  /// The end's points, in the order in which they are nearest to the start's.
+  Alignment straight_order() const {
     Alignment order;
     order.first = nearest_order(start_.points, end_.points);
-    const Positions to = reordered(end_.points, order.first, false);
-    UntangledCylinder cylinder = untangle_cylinder(start_.points, to, [&](double fraction) {
-      tell(0.2 * fraction, "untangle");
-      return stopped();
-    });
-    made_.straight_double_points = in_units(cylinder.straight);
+    return order;
+  }
+
+  void straight() {
+    const Alignment order = straight_order();
+    const std::vector<Positions> rings{start_.points, reordered(end_.points, order.first, false)};
+    made_.straight_double_points = in_units(double_points(rings));
+    if (made_.straight_double_points.empty() && finish(rings, order)) made_.found = "the straight way is an isotopy";
+  }
+
+  void direct() {
+    const Alignment order = straight_order();
+    UntangledCylinder cylinder =
+        untangle_cylinder(start_.points, reordered(end_.points, order.first, false), [&](double fraction) {
+          tell(0.7 + 0.2 * fraction, "untangle");
+          return stopped();
+        });
     made_.left_double_points = in_units(cylinder.left);
     if (stopped()) return;
     if (cylinder.left.empty() && finish(std::move(cylinder.rings), order)) {
-      made_.found = cylinder.straight.empty() ? "the straight way is an isotopy"
-                                              : fmt::format("{} double points of the straight cylinder were untangled",
-                                                            cylinder.straight.size());
+      made_.found = fmt::format("{} double points of the straight cylinder were untangled in R^4",
+                                made_.straight_double_points.size());
       return;
     }
     int sum = 0;
     for (const KnotDoublePoint& p : made_.left_double_points) sum += p.sign;
-    made_.found = fmt::format("{} of {} double points of the straight cylinder are left, the sum of their signs is {}",
-                              made_.left_double_points.size(), made_.straight_double_points.size(), sum);
+    made_.found += fmt::format(
+        "{}of {} double points of the straight cylinder in R^4 untangling left {}, with signs that sum to {}",
+        made_.found.empty() ? "" : "; ", made_.straight_double_points.size(), made_.left_double_points.size(), sum);
   }
 
   std::vector<KnotDoublePoint> in_units(std::vector<KnotDoublePoint> points) const {
@@ -190,7 +206,7 @@ class Making {
     to.states.push_back(end_.points);
     RelaxOptions options;
     for (int round = 0; round < most_rounds; ++round) {
-      const double begin = 0.2 + 0.7 * round / most_rounds, half = 0.35 / most_rounds;
+      const double begin = 0.7 * round / most_rounds, half = 0.35 / most_rounds;
       if (round > 0) {
         from.states.push_back(shaken(from.states.back(), 2 * round));
         to.states.push_back(shaken(to.states.back(), 2 * round + 1));
