@@ -121,9 +121,9 @@ void add_knot_isotopy_options(CLI::App& command, KnotIsotopyCommandOptions& opti
       ->type_name("METHOD");
   command
       .add_option("--points", options.points,
-                  "Points of the knot on the way, 16 to 4000; 0: as many as the knot with more of them has, 200\n"
+                  "Points of the knot on the way, 16 to 2000; 0: as many as the knot with more of them has, 200\n"
                   "at least")
-      ->check(whole_number_within(0, 4000))
+      ->check(whole_number_within(0, 2000))
       ->type_name("N");
   command.add_option("--frames", options.frames, "Files of points, evenly in time, 2 to 1000 (default 25)")
       ->check(whole_number_within(2, 1000))

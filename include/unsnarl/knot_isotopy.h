@@ -19,7 +19,7 @@ enum class KnotMethod {
 
 struct KnotIsotopyOptions {
   /// Points of the knot on the way. 0: as many as the knot of the two that has more, 200 at least. At least as many as
-  /// either has, [16, 4000].
+  /// either has, [16, 2000].
   int points = 0;
   KnotMethod method = KnotMethod::automatic;
   double time_limit_s = 0;  ///< wall-clock seconds; 0: none

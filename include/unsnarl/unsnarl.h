@@ -137,7 +137,7 @@ typedef struct unsnarl_options {
   int32_t fair;  /* 0: the surface as Seifert's algorithm builds it. Default 1 */
 
   /* unsnarl_planar_isotopy, unsnarl_knot_isotopy */
-  int32_t points; /* of every curve on the way, 0 or [16, 100000] (of knots 4000); 0: as many as the longer, 200 at
+  int32_t points; /* of every curve on the way, 0 or [16, 100000] (of knots 2000); 0: as many as the longer, 200 at
                      least (default) */
 
   /* unsnarl_repair with `paper`: the settings of unsnarl::PaperOptions (paper.h), which names their sources */

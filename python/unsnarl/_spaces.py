@@ -175,7 +175,7 @@ def knot_isotopy(
     start, end
         Arrays (n, 3) of points. The last point is joined to the first.
     points
-        Of the knot on the way, 16 to 4000; 0: as many as the longer of both has, 200 at least.
+        Of the knot on the way, 16 to 2000; 0: as many as the longer of both has, 200 at least.
     time_limit
         Seconds after which to stop. 0: none.
     progress

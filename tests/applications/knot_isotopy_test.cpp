@@ -188,6 +188,7 @@ TEST(CheckKnotIsotopy, FindsWhatIsWrong) {
   EXPECT_TRUE(check_knot_isotopy(read, knot, other).hold());
   EXPECT_FALSE(check_knot_isotopy(read, other, knot).ends_kept);
   EXPECT_FALSE(check_knot_isotopy(read, knot, mirrored(other)).ends_kept);
+  EXPECT_FALSE(check_knot_isotopy(read, knot, knot_of_table("circle")).ends_kept);
 
   KnotIsotopy moved = made;
   moved.rings[0].points[4] = std::nextafter(moved.rings[0].points[4], 9.0);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "applications/knots/align_knots.h"
@@ -62,29 +61,23 @@ std::vector<StripTriangle> strip_at(const KnotIsotopy& isotopy, std::size_t k) {
   return straight_strip(static_cast<Index>(isotopy.rings[k].points.size() / 3));
 }
 
-/// Points on the edges of a polygon, evenly, that begin with its first one.
-Positions with_pieces(const Positions& polygon, const std::vector<int>& pieces) {
-  Positions dense(3, std::accumulate(pieces.begin(), pieces.end(), Index{0}));
-  Index at = 0;
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const Vec3 a = polygon.col(static_cast<Index>(k)), b = polygon.col(static_cast<Index>((k + 1) % pieces.size()));
-    for (int i = 0; i < pieces[k]; ++i) dense.col(at++) = a + static_cast<double>(i) / pieces[k] * (b - a);
-  }
-  return dense;
-}
-
 }  // namespace
 
 KnotIsotopyFindings check_knot_isotopy(const KnotIsotopy& isotopy, const Link& start, const Link& end) {
   check_rings(isotopy);
   if (start.components.size() != 1 || end.components.size() != 1) refuse("start and end have one component each");
   KnotIsotopyFindings findings;
-  const Positions last = points_of(end.components[0]);
-  findings.ends_kept = isotopy.rings.front().points == start.components[0] &&
-                       points_of(isotopy.rings.back().points) == reordered(last, 0, isotopy.reversed);
-  const std::size_t strips = isotopy.rings.size() - 1;
+  const Positions first = points_of(isotopy.rings.front().points), last = points_of(isotopy.rings.back().points);
+  const auto is_same = [](const Positions& a, const Positions& b) { return a.cols() == b.cols() && a == b; };
+  findings.ends_kept = is_same(first, points_of(start.components[0])) &&
+                       is_same(last, reordered(points_of(end.components[0]), 0, isotopy.reversed));
+  std::vector<Positions> rings;
+  for (const KnotRing& ring : isotopy.rings) rings.push_back(points_of(ring.points));
+  const double unit = exact_unit(rings);
+  for (Positions& ring : rings) ring /= unit;
+  const std::size_t strips = rings.size() - 1;
   for (std::size_t k = 0; k < strips; ++k) {
-    const Positions lower = points_of(isotopy.rings[k].points), upper = points_of(isotopy.rings[k + 1].points);
+    const Positions &lower = rings[k], &upper = rings[k + 1];
     findings.meeting_triangles += meeting_pairs(lower, upper, strip_at(isotopy, k), SIZE_MAX).size();
     const Positions from = k == 0 ? with_pieces(lower, isotopy.start_pieces) : lower;
     const Positions to =

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -19,7 +20,7 @@ namespace unsnarl {
 namespace {
 
 constexpr int least_points = 200;  ///< unless it is said; coarser ones let strands come nearer than edges are long
-constexpr int fewest_points = 16, most_points = 4000;
+constexpr int fewest_points = 16, most_points = 2000;
 /// Places where the shapes at rest are laid on each other, of each direction. A knot's symmetries give a few that are
 /// equally good.
 constexpr std::size_t most_alignments = 6;
@@ -119,18 +120,11 @@ class Making {
     if (context_ != nullptr && context_->on_progress) context_->on_progress({fraction_, phase, 0, 0});
   }
 
-  /// Powers of two, so that all digits stay.
   void scale() {
-    start_exact_ = points_of(start_link_.components[0]);
-    end_exact_ = points_of(end_link_.components[0]);
-    const double largest = std::max(start_exact_.cwiseAbs().maxCoeff(), end_exact_.cwiseAbs().maxCoeff());
-    unit_ = std::exp2(std::ceil(std::log2(largest)));
-    for (Positions* const x : {&start_exact_, &end_exact_}) {
-      const Positions scaled = *x / unit_;
-      if (scaled * unit_ != *x)
-        throw std::invalid_argument("coordinates differ in size by more than double precision can hold");
-      *x = scaled;
-    }
+    std::array<Positions, 2> both{points_of(start_link_.components[0]), points_of(end_link_.components[0])};
+    unit_ = exact_unit(both);
+    start_exact_ = both[0] / unit_;
+    end_exact_ = both[1] / unit_;
   }
 
   static void check_room(const char* side, const Positions& exact, const DensePolygon& dense) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <queue>
 
 #include "applications/knots/relax_knot.h"
@@ -29,6 +30,28 @@ Positions points_of(const std::vector<double>& points) {
   return Eigen::Map<const Positions>(points.data(), 3, static_cast<Index>(points.size() / 3));
 }
 
+Positions with_pieces(const Positions& polygon, std::span<const Index> pieces) {
+  const auto m = static_cast<Index>(polygon.cols());
+  Positions dense(3, std::accumulate(pieces.begin(), pieces.end(), Index{0}));
+  Index at = 0;
+  for (Index k = 0; k < m; ++k)
+    for (Index i = 0; i < pieces[k]; ++i) {
+      const double t = static_cast<double>(i) / pieces[k];
+      dense.col(at++) = polygon.col(k) + t * (polygon.col((k + 1) % m) - polygon.col(k));
+    }
+  return dense;
+}
+
+double exact_unit(std::span<const Positions> all) {
+  double largest = 0;
+  for (const Positions& x : all) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  const double unit = std::exp2(std::ceil(std::log2(largest)));
+  if (!(unit > 0) || !std::isfinite(unit)) return 1;
+  for (const Positions& x : all)
+    if (Positions(x / unit) * unit != x) return 1;
+  return unit;
+}
+
 DensePolygon densified(const Positions& polygon, Index n) {
   const auto m = static_cast<Index>(polygon.cols());
   DensePolygon made;
@@ -45,13 +68,7 @@ DensePolygon densified(const Positions& polygon, Index n) {
     queue.pop();
     queue.push({length(k) / ++made.pieces[k], k});
   }
-  made.points.resize(3, std::max(m, n));
-  Index at = 0;
-  for (Index k = 0; k < m; ++k)
-    for (Index i = 0; i < made.pieces[k]; ++i) {
-      const double t = static_cast<double>(i) / made.pieces[k];
-      made.points.col(at++) = polygon.col(k) + t * (polygon.col((k + 1) % m) - polygon.col(k));
-    }
+  made.points = with_pieces(polygon, made.pieces);
   return made;
 }
 

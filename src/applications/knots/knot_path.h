@@ -1,7 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "applications/knots/strip.h"
@@ -11,6 +11,13 @@ namespace unsnarl {
 
 /// A knot's points as columns.
 Positions points_of(const std::vector<double>& points);
+
+/// Points on the edges of a polygon: edge k begins with its point k and gets pieces[k] of them, evenly.
+Positions with_pieces(const Positions& polygon, std::span<const Index> pieces);
+
+/// The power of two that brings the largest coordinate of all into [1/2, 1]: all digits stay. 1 where some coordinate
+/// would become too small for that.
+double exact_unit(std::span<const Positions> all);
 
 /// A closed polygon with points added on its edges, always on the longest piece, until it has `n`.
 struct DensePolygon {
