@@ -162,6 +162,7 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
   const Link start = read_knot(options.start), end = read_knot(options.end);
   places.require_writable(interruption);
   if (!options.check.empty()) return check_file(options, start, end, interruption);
+  const OutputFolder folder(options.folder);  // is gone again where nothing is written into it
   prepare_picture_folder(options.folder, "-o");
 
   ProgressDisplay display(options.progress, options.quiet);

@@ -102,7 +102,7 @@ TEST(KnotIsotopy, OneStrandThroughAnotherIsOneDoublePoint) {
 }
 
 TEST(KnotIsotopy, DoublePointsOfOppositeSignsAnnihilateEachOther) {
-  const Link knot = knot_of_table("kinks_1"), circle = knot_of_table("circle");
+  const Link knot = knot_of_table("kinks_2"), circle = knot_of_table("circle");
   KnotIsotopyOptions options;
   options.method = KnotMethod::direct;
   const KnotIsotopy made = knot_isotopy(knot, circle, options);
