@@ -20,7 +20,7 @@ sys.path.insert(0, str(PROJECT / "tools"))
 import help_text  # noqa: E402
 
 LINK_OUT = re.compile(r"\]\(\.\./([^)#\s]+)\)")
-OPTIONS = re.compile(r"^<!-- options: (\w+) -->$", re.M)
+OPTIONS = re.compile(r"^<!-- options: ([\w-]+) -->$", re.M)
 CODE = re.compile(r"^<!-- code: \.\./(\S+) -->$", re.M)
 
 
