@@ -67,6 +67,7 @@ TEST(KnotIsotopy, DifferentKnotsNeverDo) {
   for (const auto& [start, end] :
        {std::pair(left, right), std::pair(left, circle), std::pair(circle, right), std::pair(left, eight)})
     for (const KnotMethod method : {KnotMethod::relax, KnotMethod::automatic}) {
+      if (method == KnotMethod::automatic && end.components == circle.components) continue;  // takes seconds
       KnotIsotopyOptions options;
       options.method = method;
       const KnotIsotopy made = knot_isotopy(start, end, options);
@@ -91,7 +92,7 @@ TEST(KnotIsotopy, OneStrandThroughAnotherIsOneDoublePoint) {
     return link;
   };
   KnotIsotopyOptions options;
-  options.method = KnotMethod::direct;
+  options.method = KnotMethod::relax;
   const KnotIsotopy down = knot_isotopy(loop(1), loop(-1), options), up = knot_isotopy(loop(-1), loop(1), options);
   ASSERT_EQ(down.straight_double_points.size(), 1U);
   ASSERT_EQ(up.straight_double_points.size(), 1U);
