@@ -31,7 +31,7 @@ struct KnotRing {
   std::vector<double> points;  ///< 3 n doubles, x y z of point 0, then of point 1, ...
 };
 
-/// Where two triangles of a cylinder in R^4 cross: at that time the knot passes through itself.
+/// A point at which two triangles of a cylinder in R^4 cross: at that time the knot passes through itself.
 struct KnotDoublePoint {
   double time = 0;
   std::array<double, 3> place{};
@@ -54,9 +54,9 @@ struct KnotIsotopy {
   /// The end is run along backwards: its point 0, then its last one, ... Some knots, from 8_17 on, cannot be turned
   /// around.
   bool reversed = false;
-  /// Of the cylinder of straight ways between both knots.
+  /// Those of the cylinder of straight ways between both knots.
   std::vector<KnotDoublePoint> straight_double_points;
-  /// Of the cylinder that `direct` ended with; empty where it was not tried.
+  /// Those of the cylinder that `direct` ended with; empty where it was not tried.
   std::vector<KnotDoublePoint> left_double_points;
   bool relaxed = false;     ///< by way of the shapes at rest
   double start_energy = 0;  ///< of the knots at rest, see docs/knot_isotopy.md; 0: none

@@ -106,7 +106,7 @@ Link knot_isotopy_slice(const KnotIsotopy& isotopy, double time) {
   }
   const std::size_t m = from.points.size() / 3, n = to.points.size() / 3;
   for (const StripTriangle& triangle : strip_at(isotopy, k)) {
-    // Where the level cuts the side of the triangle that comes first along the polygon.
+    // The point at which the level cuts the side of the triangle that comes first along the polygon.
     const std::size_t a = static_cast<std::size_t>(triangle.on_lower ? triangle.edge : triangle.apex) % m;
     const std::size_t b = static_cast<std::size_t>(triangle.on_lower ? triangle.apex : triangle.edge) % n;
     for (int axis = 0; axis < 3; ++axis)

@@ -22,8 +22,8 @@ struct Separation4 {
 /// edge of the other, of either sign.
 Separation4 separation_of(const Triangle4& a, const Triangle4& b);
 
-/// What untangles a cylinder in R^4 whose rings keep their heights, in terms of the displacement of the rings between
-/// the first and the last (paper §3.3 and §4.5, one dimension up): a sum, without unit, of
+/// An energy that untangles a cylinder in R^4 whose rings keep their heights, in terms of the displacement of the rings
+/// between the first and the last (paper §3.3 and §4.5, one dimension up): a sum, without unit, of
 /// - the Gaussian self-contact energy of vertices, arc / epsilon exp(-|p - q|^2 / epsilon^2), |p - q| in R^4;
 /// - the Minkowski penalty (margin - distance)^2 of triangles of one strip that are nearer than the margin;
 /// - the squares of what edges of the cylinder's grid have changed by.

@@ -20,7 +20,7 @@ namespace unsnarl {
 namespace {
 
 constexpr double tube_radius = 0.012;  ///< / diagonal of all rings
-/// Of the distance between strands, so that tubes rarely run into each other.
+/// Radius / distance between strands, at most, so that tubes rarely run into each other.
 constexpr double tube_of_distance = 0.45;
 constexpr int tube_sides = 10;
 constexpr double gif_frame_s = 0.06, gif_end_s = 1;  ///< a frame is shown this long, the first and the last longer

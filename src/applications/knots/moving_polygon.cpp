@@ -11,7 +11,7 @@ namespace {
 
 /// Halvings of the time until it is given up: a millionth of the way.
 constexpr int most_time_halvings = 20;
-/// Of a point between two others, of a difference of two such, and of its product with a normal, / the largest
+/// Error of a point between two others, of a difference of two such, and of its product with a normal, / the largest
 /// coordinate and the length of the normal: a dozen roundings.
 constexpr double rounding = 32 * detail::half_ulp;
 

@@ -14,7 +14,7 @@ namespace {
 using Rational = boost::multiprecision::cpp_rational;
 using ExactVec4 = std::array<Rational, 4>;
 
-/// Of a product of a difference with a number, summed over four coordinates, relative to the sum of magnitudes: each
+/// Error of a product of a difference with a number, summed over four coordinates, / the sum of magnitudes: each
 /// term rounds twice, the sum three times.
 constexpr double sum_of_products_bound = 8 * detail::half_ulp;
 

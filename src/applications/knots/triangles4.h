@@ -21,7 +21,7 @@ bool triangles_meet(const Triangle4& a, const Triangle4& b, int shared);
 /// of the triangles have a direction in common.
 int crossing_sign(const Triangle4& a, const Triangle4& b);
 
-/// Where two triangles without common corners meet that have a crossing sign other than 0; rounded.
+/// The point at which two triangles meet that have no common corners and a crossing sign other than 0; rounded.
 Vec4 crossing_point(const Triangle4& a, const Triangle4& b);
 
 /// The point of the convex hull of `count` points (1 to 9) that is nearest to the origin, by P. Wolfe, "Finding the
