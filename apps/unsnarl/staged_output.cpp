@@ -62,6 +62,7 @@ StagedOutput::StagedOutput(const fs::path& target, Interruption& interruption)
 StagedOutput::~StagedOutput() {
   interruption_.hold_off([&](fs::path& temporary_folder) {
     std::error_code ignored;
+    reserve_.reset();
     fs::remove_all(folder_, ignored);
     temporary_folder.clear();
   });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,11 @@ class StagedOutput {
  private:
   void rename_all() const;
 
+  /// Bytes that removing the folder needs: listing one takes a buffer of 32 kB, which there may be none for where the
+  /// work has ended for lack of memory.
+  static constexpr std::size_t reserve_size = std::size_t{1} << 16;
+
+  std::unique_ptr<char[]> reserve_{new char[reserve_size]};
   std::filesystem::path target_;  // links followed
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> names_;  // relative to both folders, the main file first
