@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -81,16 +82,32 @@ class PenaltyForce {
     tree_.update(x, 0.5 * margin_);
     std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
     tree_.self_pairs([&](Index task, Index a, Index b) { found[task].push_back({a, b}); });
-    penalty_.pairs.clear();
-    for (const auto& list : found) penalty_.pairs.insert(penalty_.pairs.end(), list.begin(), list.end());
-    std::sort(penalty_.pairs.begin(), penalty_.pairs.end());
+    gather_sorted(found);
     penalty_.value_and_gradient(x, force, -1);
   }
   const MinkowskiPenalty& penalty() const { return penalty_; }
 
  private:
+  /// The pairs of all lists, ascending: by their first triangles at once, then by the second ones of each.
+  void gather_sorted(const std::vector<std::vector<MinkowskiPenalty::Pair>>& lists) {
+    ends_.assign(patch_.triangles.size() + 1, 0);
+    for (const auto& list : lists)
+      for (const auto& [a, b] : list) ++ends_[a + 1];
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    penalty_.pairs.resize(static_cast<std::size_t>(ends_.back()));
+    for (const auto& list : lists)
+      for (const auto& pair : list) penalty_.pairs[ends_[pair[0]]++] = pair;
+    auto begin = penalty_.pairs.begin();
+    for (std::size_t a = 0; a + 1 < ends_.size(); ++a) {
+      const auto end = penalty_.pairs.begin() + ends_[a];
+      std::sort(begin, end);
+      begin = end;
+    }
+  }
+
   const Patch& patch_;
   double margin_;
+  std::vector<Index> ends_;  // of the pairs of each first triangle
   MinkowskiPenalty penalty_;
   FaceTree tree_;
 };
