@@ -40,7 +40,7 @@ bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairCl
   if (equal == 0) {
     kind = PairClass::disjoint;
     meeting = triangles_meet(rotated(x, a, 0), rotated(x, b, 0));
-  } else if (std::has_single_bit(equal)) {
+  } else if ((equal & (equal - 1)) == 0) {  // a single bit, without the call that counting bits is on older processors
     const int bit = std::countr_zero(equal), corner_a = bit / 3, corner_b = bit % 3;
     shared[corner_a] = corner_b;
     kind = PairClass::one_vertex;
@@ -98,6 +98,14 @@ void IntersectionFinder::move(const Positions& x, std::span<const Index> triangl
     outside_tree_.add(t);
   }
   update_tree();
+}
+
+void IntersectionFinder::start_from(const Positions& x, std::vector<IntersectingPair> pairs) {
+  note(x);
+  update_tree();
+  undecided_.clear();
+  is_all_undecided_ = false;
+  pairs_ = std::move(pairs);
 }
 
 void IntersectionFinder::note(const Positions& x) {

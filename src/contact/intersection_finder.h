@@ -28,6 +28,9 @@ class IntersectionFinder {
   /// time. Same result at any thread count.
   std::vector<IntersectingPair> find(const Positions& x);
 
+  /// Takes over that these are all intersecting pairs at x, as find() would return them.
+  void start_from(const Positions& x, std::vector<IntersectingPair> pairs);
+
   /// Takes over the positions for query().
   void move(const Positions& x);
   /// The same where only these triangles (any order, with repetitions) may have moved.

@@ -19,18 +19,17 @@ Mat3 rotation_of(const Mat3& covariance) {
 }  // namespace
 
 FrameMotion::FrameMotion(const SurfaceView& surface, const FindOptions& options)
-    : prepared_(prepare(surface, options)),
-      neighbours_(vertex_neighbours(build_edges(prepared_.triangles()).edges, prepared_.weld_map.count)) {}
+    : known_(surface, options), neighbours_(vertex_neighbours(known_.topology.edges, known_.prepared.weld_map.count)) {}
 
 Positions FrameMotion::correction(std::span<const double> input, std::span<const double> result) const {
-  const Positions from = prepared_.gather(input);
-  Positions moved = prepared_.gather(result) - from;
-  const bool is_here = from == prepared_.rest;
+  const Positions from = prepared().gather(input);
+  Positions moved = prepared().gather(result) - from;
+  const bool is_here = from == prepared().rest;
   for (Index v = 0; v < moved.cols() && !is_here; ++v) {
     if (moved.col(v).isZero(0)) continue;
     Mat3 covariance = Mat3::Zero();
     for (const Index w : neighbours_[v])
-      covariance += (prepared_.rest.col(w) - prepared_.rest.col(v)) * (from.col(w) - from.col(v)).transpose();
+      covariance += (prepared().rest.col(w) - prepared().rest.col(v)) * (from.col(w) - from.col(v)).transpose();
     moved.col(v) = (rotation_of(covariance) * moved.col(v)).eval();
   }
   return moved;

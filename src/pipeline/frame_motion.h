@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesh/adjacency.h"
-#include "scene/prepared_surface.h"
+#include "pipeline/repair_from.h"
 
 namespace unsnarl {
 
@@ -14,7 +14,8 @@ class FrameMotion {
   /// `surface`: at the positions of the frame. Throws as prepare() does.
   FrameMotion(const SurfaceView& surface, const FindOptions& options);
 
-  const PreparedSurface& prepared() const { return prepared_; }
+  const KnownSurface& known() const { return known_; }
+  const PreparedSurface& prepared() const { return known_.prepared; }
 
   /// The correction of another frame, or of this: of the welded vertices, `result` less `input` (3 n doubles each).
   /// Each is turned by the rotation that carries the edges around its vertex from that frame to this one best (polar
@@ -22,7 +23,7 @@ class FrameMotion {
   Positions correction(std::span<const double> input, std::span<const double> result) const;
 
  private:
-  PreparedSurface prepared_;
+  KnownSurface known_;
   IndexLists neighbours_;
 };
 

@@ -11,6 +11,7 @@
 #include "pipeline/job.h"
 #include "pipeline/limits.h"
 #include "pipeline/phases.h"
+#include "pipeline/repair_from.h"
 #include "pipeline/scene_repair.h"
 #include "pipeline/settle_triangulation.h"
 #include "pipeline/threads.h"
@@ -34,8 +35,12 @@ constexpr Index everything = -1;  // instead of a component
 
 class Repair {
  public:
-  Repair(const SurfaceView& surface, const RepairOptions& options, Context& context)
+  /// `known` and `finders` are null where nothing is known, as in repair_from() else.
+  Repair(const SurfaceView& surface, const KnownSurface* known, Finders* finders, const RepairOptions& options,
+         Context& context)
       : surface_(surface),
+        known_(known),
+        finders_(finders),
         options_(options),
         limits_(options, context),
         threads_(options.find.threads),
@@ -44,13 +49,12 @@ class Repair {
   RepairResult run() {
     check_options();
     phases_.start("diagnose");
-    prepared_ = prepare(surface_, options_.find);
+    prepare_surface();
     diagonal_ = diagonal_of(surface_);
     std::vector<std::uint8_t> fixed(prepared_.weld_map.count, 0);
     for (std::size_t v = 0; v < options_.fixed.size(); ++v)
       if (options_.fixed[v]) fixed[prepared_.weld_map.vertex_of[v]] = 1;
-    finders_.emplace(prepared_.triangles());
-    diagnosis_ = diagnose(surface_, prepared_, fixed, finders_->as_is);
+    diagnose_intersections(prepared_, fixed, finders_->as_is, diagnosis_);
     result_.report.topology = diagnosis_.topology;
     result_.report.triangulation = prepared_.triangulation.statistics.describe();
     result_.report.obstructions = diagnosis_.obstructions;
@@ -82,6 +86,18 @@ class Repair {
   }
 
  private:
+  void prepare_surface() {
+    if (known_) {
+      prepared_ = known_->prepared;
+      prepared_.rest = prepared_.gather(surface_.positions);
+      diagnosis_ = known_->topology;
+      return;
+    }
+    prepared_ = prepare(surface_, options_.find);
+    diagnosis_ = diagnose_topology(surface_, prepared_);
+    finders_ = &own_finders_.emplace(prepared_.triangles());
+  }
+
   void check_options() const {
     if (!options_.fixed.empty() && options_.fixed.size() != surface_.vertex_count())
       throw std::invalid_argument("RepairOptions::fixed has " + std::to_string(options_.fixed.size()) + " flags for " +
@@ -224,6 +240,9 @@ class Repair {
   }
 
   const SurfaceView surface_;
+  const KnownSurface* const known_;
+  std::optional<Finders> own_finders_;  // where there are no others
+  Finders* finders_;                    // of the prepared triangles
   const RepairOptions& options_;
   Limits limits_;
   ThreadLimit threads_;
@@ -232,7 +251,6 @@ class Repair {
   PreparedSurface prepared_;
   double diagonal_ = 0;
   Diagnosis diagnosis_;
-  std::optional<Finders> finders_;  // of the prepared triangles
   std::optional<Acceptance> acceptance_;
   std::optional<Recorder> recorder_;
   std::optional<AttemptLog> attempts_;
@@ -246,7 +264,13 @@ class Repair {
 
 RepairResult repair(const SurfaceView& surface, const RepairOptions& options, Context* context) {
   Context own;
-  return Repair(surface, options, context ? *context : own).run();
+  return Repair(surface, nullptr, nullptr, options, context ? *context : own).run();
+}
+
+RepairResult repair_from(const SurfaceView& surface, const KnownSurface& known, Finders& finders,
+                         const RepairOptions& options, Context* context) {
+  Context own;
+  return Repair(surface, &known, &finders, options, context ? *context : own).run();
 }
 
 }  // namespace unsnarl

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
+#include <condition_variable>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,16 +30,26 @@ constexpr std::array<double, sequence_reach + 1> weights = {70.0 / 256, 56.0 / 2
 /// seen. On the same frames 96.4 % of the vertices stay untouched instead of 95.6 % with 1e-6, and jitter is the same.
 constexpr double least_correction_rel = 3e-5;
 
-/// Frames that are worked on at once, by thread: enough that none waits for long. What is under way is lost where a
-/// call is cut off, and held in memory with the frames around it.
+/// Frames that are under way at once, by thread: enough that none waits for long. They are lost where a call is cut
+/// off, and held in memory with the frames around them.
 constexpr std::size_t frames_by_thread = 2;
 
 struct Frame {
   std::vector<double> input;
   RepairResult alone;
+  bool is_repaired_alone = false;
   bool is_clean = false;              // came back as it was
   std::unique_ptr<FrameMotion> seen;  // while its jitter is not known
-  std::vector<double> result;         // empty: not known
+  bool is_wanted = true;              // else an earlier call came to its result
+  bool is_finished = false;
+  FrameResult finished;        // until it is handed on
+  std::vector<double> result;  // empty: not known
+};
+
+/// The repair of a frame by itself, or all that comes after those of the frames around it.
+struct FrameJob {
+  std::size_t frame;
+  bool is_repair_alone;
 };
 
 Jitter jitter_of(const Positions& before, const Positions& here, const Positions& after, double diagonal) {
@@ -66,16 +77,31 @@ class SequenceRepair {
         threads_(options.repair.find.threads),
         first_(options.first),
         last_(std::min(options.last, source.frames)),
-        jitter_known_(options.first) {}
+        ahead_(frames_by_thread * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency())),
+        frames_(source.frames),
+        opened_(first_),
+        handed_on_(first_),
+        jitter_known_(first_),
+        forgotten_(begin_around(first_)),
+        next_alone_(forgotten_) {}
   ~SequenceRepair() { context_.on_progress = tell_; }
   SequenceRepair(const SequenceRepair&) = delete;
   SequenceRepair& operator=(const SequenceRepair&) = delete;
 
   std::vector<FrameReport> run() {
-    const std::size_t at_once =
-        frames_by_thread * static_cast<std::size_t>(std::max(1, tbb::this_task_arena::max_concurrency()));
-    for (std::size_t begin = first_; begin < last_ && !context_.is_cancelled(); begin += at_once)
-      work_on(begin, std::min(begin + at_once, last_));
+    const auto work = [&](int) {
+      std::unique_lock lock(mutex_);
+      try {
+        while (const std::optional<FrameJob> job = next_job(lock)) do_job(*job, lock);
+      } catch (...) {
+        if (!lock.owns_lock()) lock.lock();
+        has_failed_ = true;
+        changed_.notify_all();
+        throw;
+      }
+      changed_.notify_all();
+    };
+    tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), work, tbb::simple_partitioner());
     std::vector<FrameReport> reports;
     for (const auto& [t, report] : reports_) reports.push_back(report);
     return reports;
@@ -85,58 +111,102 @@ class SequenceRepair {
   SurfaceView surface(const std::vector<double>& positions) const {
     return {positions, source_.corners, source_.offsets};
   }
+  // The frames around frame t, itself among them.
+  static std::size_t begin_around(std::size_t t) { return t - std::min(t, sequence_reach); }
+  std::size_t end_around(std::size_t t) const { return std::min(t + sequence_reach + 1, source_.frames); }
 
-  void work_on(std::size_t begin, std::size_t end) {
-    std::vector<std::size_t> all, wanted;
-    for (std::size_t t = begin; t < end; ++t) {
-      Frame& frame = read(t);
-      all.push_back(t);
-      if (source_.done) frame.result = source_.done(t);
-      if (frame.result.empty()) wanted.push_back(t);
+  // Who does what when. Whoever calls these holds the lock.
+
+  /// A job of which all is there that it needs, as soon as there is one; none: nothing is left to begin.
+  std::optional<FrameJob> next_job(std::unique_lock<std::mutex>& lock) {
+    for (;; changed_.wait(lock)) {
+      if (has_failed_ || context_.is_cancelled()) return {};
+      while (opened_ < std::min(last_, handed_on_ + ahead_)) open(opened_++);
+      const auto job = std::find_if(jobs_.begin(), jobs_.end(), [&](const FrameJob& j) { return is_ready(j); });
+      if (job != jobs_.end()) {
+        const FrameJob found = *job;
+        jobs_.erase(job);
+        return found;
+      }
+      if (jobs_.empty() && opened_ >= last_) return {};
     }
-    std::vector<std::size_t> needed;
-    for (const std::size_t t : wanted)
-      for (std::size_t s = t - std::min(t, sequence_reach); s <= std::min(t + sequence_reach, source_.frames - 1); ++s)
-        if (read(s).alone.positions.empty()) needed.push_back(s);
-    std::sort(needed.begin(), needed.end());
-    needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-    for_each(needed, [&](std::size_t s) { repair_alone(s); });
-    if (context_.is_cancelled()) return;
-    in_order_.assign(wanted.begin(), wanted.end());
-    for_each(all, [&](std::size_t t) {
-      Frame& frame = frames_.at(t);
-      frame.seen = std::make_unique<FrameMotion>(surface(frame.input), find());
-      if (frame.result.empty()) hand_over(finish(t));
+  }
+
+  /// Adds the jobs for frame t.
+  void open(std::size_t t) {
+    Frame& frame = frames_[t];
+    if (source_.done) frame.result = source_.done(t);
+    frame.is_wanted = frame.result.empty();
+    if (frame.is_wanted)
+      for (next_alone_ = std::max(next_alone_, begin_around(t)); next_alone_ < end_around(t); ++next_alone_)
+        jobs_.push_back({next_alone_, true});
+    jobs_.push_back({t, false});
+  }
+
+  bool is_ready(const FrameJob& job) const {
+    if (job.is_repair_alone || !frames_[job.frame].is_wanted) return true;
+    for (std::size_t s = begin_around(job.frame); s < end_around(job.frame); ++s)
+      if (!frames_[s].is_repaired_alone) return false;
+    return true;
+  }
+
+  /// Without the lock meanwhile.
+  void do_job(const FrameJob& job, std::unique_lock<std::mutex>& lock) {
+    read(job.frame);
+    lock.unlock();
+    // A repair waits for its own tasks; it must not begin with another frame meanwhile.
+    tbb::this_task_arena::isolate([&] {
+      if (job.is_repair_alone)
+        repair_alone(job.frame);
+      else
+        finish(job.frame);
     });
-    if (context_.is_cancelled()) return;
-    for (const std::size_t t : all)
-      if (!reports_.contains(t)) report_done(t);
-    measure_jitter(end);
-    frames_.erase(frames_.begin(), frames_.lower_bound(end - std::min(end, std::max<std::size_t>(sequence_reach, 2))));
-    progress(end);
+    lock.lock();
+    if (context_.is_cancelled()) return;  // it may have been cut short
+    Frame& frame = frames_[job.frame];
+    (job.is_repair_alone ? frame.is_repaired_alone : frame.is_finished) = true;
+    hand_on();
+    changed_.notify_all();
   }
 
-  /// Frame s, with its positions.
-  Frame& read(std::size_t s) {
-    Frame& frame = frames_[s];
-    if (!frame.input.empty()) return frame;
-    frame.input = source_.positions(s);
-    if (count_ == 0) count_ = frame.input.size();
-    if (frame.input.size() != count_)
-      throw std::invalid_argument("frame " + std::to_string(s) + " has " + std::to_string(frame.input.size() / 3) +
+  void read(std::size_t t) {
+    std::vector<double>& input = frames_[t].input;
+    if (!input.empty()) return;
+    input = source_.positions(t);
+    if (count_ == 0) count_ = input.size();
+    if (input.size() != count_)
+      throw std::invalid_argument("frame " + std::to_string(t) + " has " + std::to_string(input.size() / 3) +
                                   " vertices, others have " + std::to_string(count_ / 3));
-    return frame;
   }
 
-  /// work(frame) of each, in parallel; the result does not depend on how.
-  template <class Work>
-  void for_each(const std::vector<std::size_t>& list, const Work& work) {
-    const auto job = [&](std::size_t k) {
-      // A repair waits for its own tasks; it must not begin with another frame meanwhile.
-      if (!context_.is_cancelled()) tbb::this_task_arena::isolate([&] { work(list[k]); });
-    };
-    tbb::parallel_for(std::size_t{0}, list.size(), job, tbb::simple_partitioner());
+  /// Hands on what is finished, in the order of the frames; forgets what no frame needs any more.
+  void hand_on() {
+    for (; handed_on_ < last_ && frames_[handed_on_].is_finished; progress(++handed_on_)) {
+      Frame& frame = frames_[handed_on_];
+      reports_[handed_on_] = frame.finished.report;
+      if (!frame.is_wanted) continue;
+      frame.result = frame.finished.positions;
+      take_(std::exchange(frame.finished, {}));
+    }
+    for (; jitter_known_ < handed_on_ && (jitter_known_ + 1 < handed_on_ || handed_on_ == last_); ++jitter_known_)
+      measure_jitter(jitter_known_);
+    for (; forgotten_ + sequence_reach < handed_on_; ++forgotten_) frames_[forgotten_] = {};
   }
+
+  void measure_jitter(std::size_t t) {
+    const auto is_known = [&](std::size_t s) { return s < frames_.size() && !frames_[s].result.empty(); };
+    if (t > 0 && is_known(t - 1) && is_known(t + 1))
+      reports_[t].jitter = jitter_at(t, [](const Frame& frame) { return frame.result; });
+    frames_[t].seen.reset();
+  }
+
+  void progress(std::size_t end) const {
+    if (!tell_) return;
+    const double fraction = static_cast<double>(end - first_) / static_cast<double>(last_ - first_);
+    tell_({.fraction = fraction, .phase = "frames", .pairs_left = 0, .displacement_rel = 0});
+  }
+
+  // What is done, without the lock: each changes its own frame alone, of those that it reads none is changed.
 
   FindOptions find() const { return options_.repair.find; }
   RepairOptions options_of(std::size_t t) const {
@@ -150,7 +220,7 @@ class SequenceRepair {
   }
 
   void repair_alone(std::size_t s) {
-    Frame& frame = frames_.at(s);
+    Frame& frame = frames_[s];
     frame.alone = repair(surface(frame.input), options_of(s), &context_);
     frame.is_clean = frame.alone.positions == frame.input;
   }
@@ -164,15 +234,23 @@ class SequenceRepair {
       if (k > 0) shares[std::min(t + k, source_.frames - 1)] += weights[k];
     }
     for (const auto& [s, share] : shares) {
-      const Frame& frame = frames_.at(s);
+      const Frame& frame = frames_[s];
       if (!frame.is_clean) mean += share * seen.correction(frame.input, frame.alone.positions);
     }
     return mean;
   }
 
-  FrameResult finish(std::size_t t) {
-    Frame& frame = frames_.at(t);
-    FrameResult result;
+  void finish(std::size_t t) {
+    Frame& frame = frames_[t];
+    frame.seen = std::make_unique<FrameMotion>(surface(frame.input), find());
+    FrameResult& result = frame.finished;
+    if (!frame.is_wanted) {
+      result.report.frame = t;
+      result.report.status = Status::embedded;
+      result.report.diagonal = diagonal_of(surface(frame.input));
+      measure(frame, frame.result, result.report);
+      return;
+    }
     result.positions = frame.alone.positions;
     FrameReport& report = result.report;
     const RepairReport& alone = frame.alone.report;
@@ -186,14 +264,13 @@ class SequenceRepair {
               .alone = {},
               .jitter = {}};
     if (!frame.is_clean && frame.alone.status == Status::embedded && options_.repair.recover) smooth(t, result);
-    measure(frame, result);
+    measure(frame, result.positions, report);
     if (t > 0 && t + 1 < source_.frames) report.alone = jitter_at(t, [](const Frame& f) { return f.alone.positions; });
-    return result;
   }
 
   /// Replaces the result of a repair by itself with a smooth one, where that holds.
   void smooth(std::size_t t, FrameResult& result) {
-    const Frame& frame = frames_.at(t);
+    const Frame& frame = frames_[t];
     const PreparedSurface& prepared = frame.seen->prepared();
     const double least = least_correction_rel * frame.alone.report.diagonal;
     const Positions mean = mean_correction(t, *frame.seen);
@@ -211,39 +288,39 @@ class SequenceRepair {
     else if (alone.precision == Precision::float32)
       for (std::size_t k = 0; k < target.size(); ++k)
         if (target[k] != frame.input[k]) target[k] = static_cast<double>(static_cast<float>(target[k]));
-    RepairResult smoothed = repair(surface(target), options, &context_);
+    // In the welding and triangulation of the input, not of the target; from what is known of the repair by itself.
+    Finders finders(prepared.triangles());
+    if (alone.after.total() == 0)
+      finders.start_without_pairs(prepared.gather(result.positions), alone.float32_embedded);
+    RepairResult smoothed = repair_from(surface(target), frame.seen->known(), finders, options, &context_);
     if (smoothed.status != Status::embedded) return;
     // A layer that came out on another side would pop.
     if (largest_distance(smoothed.positions, target) > largest_distance(result.positions, target)) return;
-    // Welding and triangulation are those of the input, not of the target.
-    Certifier certifier(surface(frame.input), find());
-    const Certificate certificate = certifier.certify(smoothed.positions);
+    const Certificate certificate = Certifier(surface(frame.input), find()).certify(smoothed.positions);
     const bool all = options.goal == Goal::all;
     if (!certificate.seams_closed || (all ? !certificate.embedded() : certificate.pairs[PairClass::disjoint] > 0))
       return;
-    const bool float32_embedded = certifier.pairs_in_float32(smoothed.positions).total() == 0;
-    if (alone.float32_embedded && !float32_embedded) return;
+    if (alone.float32_embedded && !smoothed.report.float32_embedded) return;
     FrameResult candidate{result.report, std::move(smoothed.positions)};
     candidate.report.after = certificate.pairs;
-    candidate.report.float32_embedded = float32_embedded;
+    candidate.report.float32_embedded = smoothed.report.float32_embedded;
     candidate.report.precision = smoothed.report.precision;
     candidate.report.is_smoothed = true;
-    measure(frame, candidate);
+    measure(frame, candidate.positions, candidate.report);
     if (most_displacement_rel > 0 && candidate.report.displacement_max_rel > most_displacement_rel) return;
     result = std::move(candidate);
   }
 
-  static void measure(const Frame& frame, FrameResult& result) {
+  static void measure(const Frame& frame, const std::vector<double>& positions, FrameReport& report) {
     const std::size_t n = frame.input.size() / 3;
     double sum = 0, largest = 0;
     std::size_t untouched = 0;
     for (std::size_t v = 0; v < n; ++v) {
-      const Vec3 d = Vec3::Map(&result.positions[3 * v]) - Vec3::Map(&frame.input[3 * v]);
-      untouched += std::equal(&frame.input[3 * v], &frame.input[3 * v] + 3, &result.positions[3 * v]);
+      const Vec3 d = Vec3::Map(&positions[3 * v]) - Vec3::Map(&frame.input[3 * v]);
+      untouched += std::equal(&frame.input[3 * v], &frame.input[3 * v] + 3, &positions[3 * v]);
       sum += d.norm();
       largest = std::max(largest, d.norm());
     }
-    FrameReport& report = result.report;
     const double unit = report.diagonal > 0 ? 1 / report.diagonal : 0;
     report.displacement_mean_rel = n > 0 ? sum / static_cast<double>(n) * unit : 0;
     report.displacement_max_rel = largest * unit;
@@ -252,59 +329,12 @@ class SequenceRepair {
 
   template <class Result>
   Jitter jitter_at(std::size_t t, const Result& result_of) const {
-    const Frame& frame = frames_.at(t);
+    const Frame& frame = frames_[t];
     const auto correction = [&](std::size_t s) {
-      const Frame& other = frames_.at(s);
+      const Frame& other = frames_[s];
       return frame.seen->correction(other.input, result_of(other));
     };
     return jitter_of(correction(t - 1), correction(t), correction(t + 1), diagonal_of(surface(frame.input)));
-  }
-
-  /// Gives on what is finished, in the order of the frames.
-  void hand_over(FrameResult&& result) {
-    if (context_.is_cancelled()) return;  // it may have been cut short
-    const std::lock_guard lock(mutex_);
-    finished_.emplace(result.report.frame, std::move(result));
-    while (!in_order_.empty() && finished_.contains(in_order_.front())) {
-      const std::size_t t = in_order_.front();
-      in_order_.pop_front();
-      auto next = finished_.extract(t);
-      frames_.at(t).result = next.mapped().positions;
-      reports_[t] = next.mapped().report;
-      take_(std::move(next.mapped()));
-      progress(t);
-    }
-  }
-
-  void report_done(std::size_t t) {
-    const Frame& frame = frames_.at(t);
-    FrameResult result;
-    result.report.frame = t;
-    result.report.status = Status::embedded;
-    result.report.diagonal = diagonal_of(surface(frame.input));
-    result.positions = frame.result;
-    measure(frame, result);
-    reports_[t] = result.report;
-  }
-
-  /// Of the frames before `end` whose neighbours are known now.
-  void measure_jitter(std::size_t end) {
-    for (std::size_t t = jitter_known_; t < end; ++t) {
-      if (t + 1 >= end && end < last_) return;
-      jitter_known_ = t + 1;
-      const auto frame = frames_.find(t);
-      if (frame == frames_.end()) continue;
-      const auto is_known = [&](std::size_t s) { return frames_.contains(s) && !frames_.at(s).result.empty(); };
-      if (is_known(t) && t > 0 && is_known(t - 1) && is_known(t + 1))
-        reports_[t].jitter = jitter_at(t, [](const Frame& f) { return f.result; });
-      frame->second.seen.reset();
-    }
-  }
-
-  void progress(std::size_t frame) {
-    if (!tell_) return;
-    fraction_ = std::max(fraction_, static_cast<double>(frame - first_) / static_cast<double>(last_ - first_));
-    tell_({.fraction = fraction_, .phase = "frames", .pairs_left = 0, .displacement_rel = 0});
   }
 
   const SequenceSource& source_;
@@ -313,12 +343,15 @@ class SequenceRepair {
   Context& context_;
   std::function<void(const Context::Progress&)> tell_;  // ours: the repairs of frames report nothing
   ThreadLimit threads_;
-  std::size_t first_, last_, jitter_known_, count_ = 0;
-  double fraction_ = 0;
-  std::map<std::size_t, Frame> frames_;
-  std::mutex mutex_;                  // guards the next three and what take_ does
-  std::deque<std::size_t> in_order_;  // frames of this round that take_ has not got
-  std::map<std::size_t, FrameResult> finished_;
+  const std::size_t first_, last_, ahead_;  // so many frames are under way at once
+  std::mutex mutex_;                        // guards all below but the frames' contents, and calls of source_ and take_
+  std::condition_variable changed_;         // a job is done, or none is to be begun any more
+  std::vector<Frame> frames_;
+  std::size_t count_ = 0;                                      // coordinates of a frame; 0: not known
+  std::size_t opened_, handed_on_, jitter_known_, forgotten_;  // up to which frame; of those wanted but the last
+  std::size_t next_alone_;                                     // no frame before it will be repaired by itself
+  std::vector<FrameJob> jobs_;                                 // not yet begun, in the order of need
+  bool has_failed_ = false;
   std::map<std::size_t, FrameReport> reports_;
 };
 

@@ -41,24 +41,29 @@ std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared,
   return std::nullopt;
 }
 
-Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
-                   IntersectionFinder& finder) {
+Diagnosis diagnose_topology(const SurfaceView& surface, const PreparedSurface& prepared) {
   Diagnosis result;
   const std::span<const Triangle> triangles = prepared.triangles();
-  const std::vector<Index>& polygon = prepared.triangulation.polygon;
   EdgeTable edges = build_edges(triangles);
   result.components = find_components(triangles, prepared.weld_map.count, edges);
   result.topology = describe_topology(surface, prepared.weld_map, prepared.triangulation, edges, result.components);
   result.edges = std::move(edges.edges);
-  result.pairs = finder.find(prepared.rest);
+  return result;
+}
 
-  result.fixed.assign(fixed.begin(), fixed.end());
+void diagnose_intersections(const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
+                            IntersectionFinder& finder, Diagnosis& diagnosis) {
+  const std::span<const Triangle> triangles = prepared.triangles();
+  const std::vector<Index>& polygon = prepared.triangulation.polygon;
+  diagnosis.pairs = finder.find(prepared.rest);
 
-  for (Index c = 0; c < result.components.count(); ++c) {
-    const Component& component = result.components.list[c];
+  diagnosis.fixed.assign(fixed.begin(), fixed.end());
+
+  for (Index c = 0; c < diagnosis.components.count(); ++c) {
+    const Component& component = diagnosis.components.list[c];
     if (!component.obstructed()) continue;
     const Index face = polygon[component.first_triangle];
-    result.obstructions.push_back(
+    diagnosis.obstructions.push_back(
         {Obstruction::Kind::closed_non_orientable,
          {face},
          "the component of face " + std::to_string(face) + " (" + std::to_string(component.triangles) +
@@ -66,28 +71,34 @@ Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, 
   }
   std::vector<std::int32_t> fixed_faces;
   std::vector<std::vector<Index>> duplicates;
-  if (result.topology.duplicate_faces > 0) duplicates = duplicate_triangles(triangles);
+  if (diagnosis.topology.duplicate_faces > 0) duplicates = duplicate_triangles(triangles);
   for (const std::vector<Index>& group : duplicates) {
     Obstruction obstruction{Obstruction::Kind::duplicate_faces, {}, {}};
     for (Index t : group) obstruction.faces.push_back(polygon[t]);
     std::string list;
     for (Index face : obstruction.faces) list += (list.empty() ? "" : ", ") + std::to_string(face);
     obstruction.message = "faces " + list + " lie on the same three vertices: moving vertices cannot separate them";
-    result.obstructions.push_back(std::move(obstruction));
+    diagnosis.obstructions.push_back(std::move(obstruction));
   }
-  for (const IntersectingPair& pair : result.pairs) {
-    const std::optional<Obstruction::Kind> kind = obstruction_of(prepared, result.components, fixed, pair);
+  for (const IntersectingPair& pair : diagnosis.pairs) {
+    const std::optional<Obstruction::Kind> kind = obstruction_of(prepared, diagnosis.components, fixed, pair);
     if (!kind) continue;
-    result.obstructed.push_back(pair);
+    diagnosis.obstructed.push_back(pair);
     if (*kind == Obstruction::Kind::fixed_faces)
       fixed_faces.insert(fixed_faces.end(), {polygon[pair.a], polygon[pair.b]});
   }
   if (!fixed_faces.empty()) {
     add_unique_sorted(fixed_faces);
     const std::string count = std::to_string(fixed_faces.size());
-    result.obstructions.push_back({Obstruction::Kind::fixed_faces, std::move(fixed_faces),
-                                   count + " faces intersect each other in what is fixed of them"});
+    diagnosis.obstructions.push_back({Obstruction::Kind::fixed_faces, std::move(fixed_faces),
+                                      count + " faces intersect each other in what is fixed of them"});
   }
+}
+
+Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
+                   IntersectionFinder& finder) {
+  Diagnosis result = diagnose_topology(surface, prepared);
+  diagnose_intersections(prepared, fixed, finder, result);
   return result;
 }
 

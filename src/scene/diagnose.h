@@ -30,7 +30,15 @@ inline bool are_of_two_components(const Components& components, const Intersecti
 std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared, const Components& components,
                                                 std::span<const std::uint8_t> fixed, const IntersectingPair& pair);
 
-/// `fixed`: one flag a welded vertex; empty: none. `finder`: of the prepared triangles.
+/// Topology, components and edges of a surface, without what intersects.
+Diagnosis diagnose_topology(const SurfaceView& surface, const PreparedSurface& prepared);
+
+/// Adds what intersects at prepared.rest to a diagnose_topology(), and what of it nothing resolves. `fixed`: one flag a
+/// welded vertex; empty: none. `finder`: of the prepared triangles.
+void diagnose_intersections(const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
+                            IntersectionFinder& finder, Diagnosis& diagnosis);
+
+/// Both. Arguments as above.
 Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
                    IntersectionFinder& finder);
 

@@ -16,6 +16,14 @@ class Finders {
   /// The span must outlive this.
   explicit Finders(std::span<const Triangle> triangles) : as_is(triangles) {}
 
+  /// Takes over that nothing intersects at x, nor once x is rounded to float32 if `rounded_too`.
+  void start_without_pairs(const Positions& x, bool rounded_too) {
+    as_is.start_from(x, {});
+    if (!rounded_too) return;
+    rounded_ = as_is;
+    rounded_->start_from(rounded_to_float32(x), {});
+  }
+
   IntersectionFinder as_is;
   /// The pairs at these positions once they are rounded to float32.
   std::vector<IntersectingPair> find_rounded(const Positions& x) {

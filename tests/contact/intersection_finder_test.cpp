@@ -93,6 +93,20 @@ TEST(IntersectionFinder, what_moved_since_the_last_time_is_decided_as_if_anew) {
   }
 }
 
+TEST(IntersectionFinder, from_known_pairs_only_what_moves_is_decided) {
+  WavySheets sheets(1.99);
+  const std::vector<IntersectingPair> known = IntersectionFinder(sheets.triangles).find(sheets.x);
+  IntersectionFinder finder(sheets.triangles), ignorant(sheets.triangles);
+  finder.start_from(sheets.x, known);
+  ignorant.start_from(sheets.x, {});
+  EXPECT_TRUE(finder.find(sheets.x) == known);
+  EXPECT_TRUE(ignorant.find(sheets.x).empty()) << "what is said to be known is not decided again";
+  for (Index v = 0; v < 40; ++v) sheets.x(2, 50 * v) += v % 2 == 0 ? 2.5 : -2.5;
+  const std::vector<IntersectingPair> now = finder.find(sheets.x);
+  EXPECT_FALSE(now == known);
+  EXPECT_TRUE(now == IntersectionFinder(sheets.triangles).find(sheets.x));
+}
+
 TEST(IntersectionFinder, few_active_faces_that_move_over_and_over_are_decided_as_if_anew) {
   WavySheets sheets(0.5);
   const Index active = 600;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "scene/diagnose.h"
+#include "scene/finders.h"
+#include "scene/prepared_surface.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+
+/// The parts of a surface's preparation that several repairs of it share.
+struct KnownSurface {
+  PreparedSurface prepared;
+  Diagnosis topology;  ///< diagnose_topology()
+
+  /// Throws as prepare() does.
+  KnownSurface(const SurfaceView& surface, const FindOptions& options)
+      : prepared(prepare(surface, options)), topology(diagnose_topology(surface, prepared)) {}
+};
+
+/// repair() of a known surface whose vertices have moved since: `surface` is what it is now. Welding and triangulation
+/// stay those of `known`. `finders`: of its triangles; what they have decided is not decided again. `options.find`: as
+/// it was made with.
+RepairResult repair_from(const SurfaceView& surface, const KnownSurface& known, Finders& finders,
+                         const RepairOptions& options, Context* context);
+
+}  // namespace unsnarl

@@ -1,0 +1,65 @@
+#include "pipeline/repair_from.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/judged.h"
+#include "unsnarl/certify.h"
+#include "unsnarl/samples.h"
+
+namespace unsnarl {
+namespace {
+
+TEST(RepairFrom, WithoutKnowledgeItIsRepair) {
+  const Surface tubes = make_sample("crossing_tubes", 16);
+  const KnownSurface known(tubes, {});
+  Finders finders(known.prepared.triangles());
+  const RepairResult expected = repair(tubes), found = repair_from(tubes, known, finders, {}, nullptr);
+  EXPECT_EQ(found.status, Status::embedded);
+  EXPECT_TRUE(found.positions == expected.positions);
+  EXPECT_EQ(found.report.before.by_class, expected.report.before.by_class);
+  EXPECT_GT(found.report.before.total(), 0u);
+}
+
+TEST(RepairFrom, WhatIsKnownOfOnePlaceSavesNothingWhereVerticesMove) {
+  const Surface tubes = make_sample("crossing_tubes", 16);
+  const RepairResult clean = repair(tubes);
+  ASSERT_EQ(clean.status, Status::embedded);
+  // Halfway back to the input they cross again.
+  Surface between = tubes;
+  for (std::size_t k = 0; k < between.positions.size(); ++k)
+    between.positions[k] = 0.5 * (tubes.positions[k] + clean.positions[k]);
+  const KnownSurface known(tubes, {});
+  Finders anew(known.prepared.triangles()), informed(known.prepared.triangles());
+  informed.start_without_pairs(known.prepared.gather(clean.positions), clean.report.float32_embedded);
+  const RepairResult expected = repair_from(between, known, anew, {}, nullptr);
+  const RepairResult found = repair_from(between, known, informed, {}, nullptr);
+  EXPECT_GT(found.report.before.total(), 0u);
+  EXPECT_EQ(found.report.before.by_class, expected.report.before.by_class);
+  EXPECT_EQ(found.status, Status::embedded);
+  EXPECT_TRUE(found.positions == expected.positions);
+  EXPECT_EQ(found.report.float32_embedded, expected.report.float32_embedded);
+  EXPECT_TRUE(judged(tubes, found.positions).empty());
+  EXPECT_TRUE(certify(tubes, found.positions).embedded());
+}
+
+// Of two squares a step apart, one is moved onto the other: that does not make them one.
+TEST(RepairFrom, WeldingStaysThatOfTheKnownSurface) {
+  Surface surface;
+  for (const double z : {0.0, 1.0})
+    for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+      surface.positions.insert(surface.positions.end(), {static_cast<double>(x), static_cast<double>(y), z});
+  surface.corners = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+  const KnownSurface known(surface, {});
+  Surface onto = surface;
+  for (std::size_t v = 4; v < 8; ++v) onto.positions[3 * v + 2] = 0;
+  Finders finders(known.prepared.triangles());
+  finders.start_without_pairs(known.prepared.rest, true);
+  const RepairResult found = repair_from(onto, known, finders, {}, nullptr);
+  EXPECT_GT(found.report.before.total(), 0u);
+  EXPECT_EQ(found.report.before[PairClass::duplicate], 0u);
+  EXPECT_EQ(found.status, Status::embedded);
+  EXPECT_TRUE(certify(surface, found.positions).embedded());
+}
+
+}  // namespace
+}  // namespace unsnarl
