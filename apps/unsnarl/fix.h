@@ -21,6 +21,7 @@ struct FixOptions : MeshOptions {
   bool fix_boundary = false;
   bool each = false, together = false;
   Parts fix, only;  ///< held still; worked on, all else held still (empty: everything is worked on)
+  Parts rigid;      ///< each moves as one body
   bool recompute_normals = false;
   bool paper = false, no_recover = false;
   PaperOptions paper_options;

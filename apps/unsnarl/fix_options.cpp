@@ -38,11 +38,49 @@ std::vector<std::uint8_t> fixed_vertices(const FixOptions& options, const SceneD
   return fixed;
 }
 
+/// Which vertices move as bodies: each name is one. `result` knows already what is fixed.
+void set_rigid_parts(const FixOptions& options, const SceneDocument& scene, RepairOptions& result) {
+  const SurfaceView surface = scene.surface();
+  if (!options.rigid.empty() && options.each)
+    throw UsageError("--each repairs every component as if it were alone, --rigid moves parts among the others; leave "
+                     "one of the two out");
+  const auto add = [&](const std::string& name, const Parts& parts) {
+    std::vector<std::uint8_t> flags;
+    try {
+      flags = vertices_of_faces(surface, faces_in_parts(surface, scene.face_labels(), parts, options.find()));
+    } catch (const UnknownPart& e) {
+      throw UsageError(fmt::format("--rigid: {}", e.what()));
+    }
+    result.rigid.resize(flags.size(), -1);
+    const auto part = static_cast<std::int32_t>(result.rigid_names.size());
+    result.rigid_names.push_back(name);
+    for (std::size_t v = 0; v < flags.size(); ++v) {
+      if (!flags[v]) continue;
+      if (result.rigid[v] >= 0)
+        throw UsageError(fmt::format("--rigid: '{}' and '{}' have vertex {} in common; name them as one part, or leave "
+                                     "one of them out",
+                                     result.rigid_names[result.rigid[v]], name, v));
+      if (!result.fixed.empty() && result.fixed[v])
+        throw UsageError(fmt::format("--rigid: '{}' is held, at vertex {} at least, by --fix-... or --only-..., and "
+                                     "cannot move as a body; leave one of the two out",
+                                     name, v));
+      result.rigid[v] = part;
+    }
+  };
+  for (const std::string& name : options.rigid.groups) add(name, {.groups = {name}});
+  for (const std::string& name : options.rigid.objects) add(name, {.objects = {name}});
+  for (const std::string& name : options.rigid.materials) add(name, {.materials = {name}});
+  for (const std::int32_t number : options.rigid.components)
+    add(fmt::format("component {}", number), {.components = {number}});
+  for (const std::string& name : options.rigid.files) add(name, {.files = {name}});
+}
+
 void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const std::string& what,
-               const std::string& group) {
+               const std::string& group, const std::string& shortcut = "") {
   const auto named = [&](const std::string& name, auto& list, const std::string& of, const char* type) {
     // One value each time: more would swallow the name of the input.
-    command.add_option(prefix + name, list, what + of)->type_name(type)->group(group)->allow_extra_args(false);
+    const bool has_shortcut = !shortcut.empty() && name == "object";
+    command.add_option((has_shortcut ? shortcut + "," : "") + prefix + name, list, what + of)->type_name(type)->group(group)->allow_extra_args(false);
   };
   named("group", parts.groups,
         "faces of this group (OBJ g, glTF mesh, Gmsh physical group, Abaqus ELSET); may be repeated", "NAME");
@@ -99,6 +137,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->group(what);
   each->group(what);
   add_parts(command, "--only-", options.only, "Leave all as it is but the ", what);
+  add_parts(command, "--rigid-", options.rigid, "Turn and shift as one body, never deform, the ", what, "--rigid");
   command
       .add_option("--max-displacement", options.max_displacement,
                   "How far any vertex may move, as a fraction of the bounding-box diagonal; 0: any distance.\n"
@@ -218,6 +257,7 @@ RepairOptions repair_options(const FixOptions& options, const SceneDocument& sce
   };
   result.fixed = fixed_vertices(options, scene);
   result.each_component = options.each;
+  set_rigid_parts(options, scene, result);
   return result;
 }
 

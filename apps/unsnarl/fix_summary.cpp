@@ -59,6 +59,7 @@ std::string_view why(LeftReason reason) {
     case LeftReason::cancelled: return "not yet resolved when interrupted";
     case LeftReason::unresolved: return "that no strategy separated";
     case LeftReason::other_diagonal: return "along the other diagonals of quads alone";
+    case LeftReason::rigid_faces: return "within a rigid part";
   }
   return "for an unknown reason";
 }
@@ -118,6 +119,12 @@ std::vector<std::string> by_file(const SceneReport& scene) {
   return lines;
 }
 
+std::string rigid_part_in_words(const RigidPartReport& part) {
+  if (part.translation_rel == 0 && part.rotation_deg == 0) return fmt::format("rigid {}: stays", part.name);
+  return fmt::format("rigid {}: shifted by {:.2g} % of the diagonal, turned by {:.2g} degrees, as one body to {:.1g}",
+                     part.name, 100 * part.translation_rel, part.rotation_deg, part.residual_rel);
+}
+
 std::string dihedral_in_words(const Clearance& clearance, double wanted_deg) {
   const std::string angle = fmt::format("  smallest dihedral angle: {:.3g} degrees", clearance.dihedral_deg);
   if (clearance.dihedral_deg >= wanted_deg) return angle;
@@ -143,6 +150,7 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   if (r.untouched_share < 1)
     line(fmt::format("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
                      100 * (1 - r.untouched_share), 100 * r.displacement_max_rel, 100 * r.displacement_mean_rel));
+  for (const RigidPartReport& part : r.rigid_parts) line("  " + rigid_part_in_words(part));
   for (const std::string& words : far_regions(r)) line("  " + words);
   if (options.min_dihedral_deg > 0 && files.clearance_after)
     line(dihedral_in_words(*files.clearance_after, options.min_dihedral_deg));

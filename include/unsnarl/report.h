@@ -40,6 +40,7 @@ struct Obstruction {
     duplicate_faces,        ///< several faces on the same three vertices
     fixed_faces,            ///< faces that intersect in what their fixed vertices span: these, edges, whole faces
     between_components,     ///< faces of different components, which RepairOptions::each_component leaves
+    rigid_faces,            ///< faces that intersect in what their vertices of one rigid part span
   };
   Kind kind;
   std::vector<std::int32_t> faces;  ///< the faces concerned (input ids); a whole component is named by its first face
@@ -77,6 +78,18 @@ struct ComponentReport {
   std::size_t pairs_before = 0, pairs_after = 0;  ///< intersecting pairs of its faces among each other
 };
 
+/// How a rigid part moved (RepairOptions::rigid): a vertex at p in the input is at R p + t in the result.
+struct RigidPartReport {
+  std::string name;
+  std::size_t vertices = 0;  ///< of the input
+  std::array<double, 9> rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< R, row after row
+  std::array<double, 3> translation = {0, 0, 0};                 ///< t, a length
+  double rotation_deg = 0;                                       ///< angle of R, in [0, 180]
+  double translation_rel = 0;                                    ///< motion of the mean of its vertices / diagonal
+  /// Largest distance of a vertex of the result from R p + t / diagonal: what rounding to the digits of the result does.
+  double residual_rel = 0;
+};
+
 /// Why two faces still intersect; the first that holds.
 enum class LeftReason : std::uint8_t {
   closed_non_orientable,  ///< of a component that has no embedding in space
@@ -92,8 +105,9 @@ enum class LeftReason : std::uint8_t {
   cancelled,
   unresolved,      ///< no strategy separated them
   other_diagonal,  ///< meet only where quads are split along their other diagonals (FindOptions::both_diagonals)
+  rigid_faces,     ///< what their vertices of one rigid part span intersects
 };
-inline constexpr std::size_t left_reason_count = static_cast<std::size_t>(LeftReason::other_diagonal) + 1;
+inline constexpr std::size_t left_reason_count = static_cast<std::size_t>(LeftReason::rigid_faces) + 1;
 std::string_view to_string(LeftReason reason);
 
 /// Two faces that intersect in the result, a <= b.
@@ -140,6 +154,7 @@ struct RepairReport {
   Precision precision = Precision::float64;  ///< the format in which the result was made to hold
   std::vector<RegionReport> regions;
   std::vector<ComponentReport> components;
+  std::vector<RigidPartReport> rigid_parts;  ///< in the order of their numbers
   std::vector<RegionHistory> history;  ///< in the order of the work; empty unless RepairOptions::record asks for it
   std::vector<StageReport> stages;
 };

@@ -76,6 +76,8 @@ typedef struct unsnarl_surface {
   size_t mesh_count;        /* 0: it is one */
   const unsnarl_document* document; /* the file that the arrays are of, set by unsnarl_document_surface: a repair then
                                        holds in the digits that the file will be written with; else NULL */
+  const int32_t* rigid; /* one number a vertex: the rigid part that it belongs to, counted from 0, which a repair turns
+                           and shifts as one body; -1: none. NULL: no part is rigid. Not of sequences */
 } unsnarl_surface;
 
 /* Polylines in the plane, or closed polygons in space (a link). */

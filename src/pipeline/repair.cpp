@@ -12,6 +12,7 @@
 #include "pipeline/limits.h"
 #include "pipeline/phases.h"
 #include "pipeline/repair_from.h"
+#include "pipeline/rigid_repair.h"
 #include "pipeline/scene_repair.h"
 #include "pipeline/settle_triangulation.h"
 #include "pipeline/threads.h"
@@ -264,6 +265,7 @@ class Repair {
 
 RepairResult repair(const SurfaceView& surface, const RepairOptions& options, Context* context) {
   Context own;
+  if (!options.rigid.empty()) return repair_with_rigid_parts(surface, options, context ? *context : own);
   return Repair(surface, nullptr, nullptr, options, context ? *context : own).run();
 }
 

@@ -52,6 +52,7 @@ class Explanation {
       case Obstruction::Kind::duplicate_faces: return LeftReason::duplicate_faces;
       case Obstruction::Kind::fixed_faces: return LeftReason::fixed_faces;
       case Obstruction::Kind::between_components: return LeftReason::between_components;
+      case Obstruction::Kind::rigid_faces: return LeftReason::rigid_faces;
     }
     return LeftReason::unresolved;
   }

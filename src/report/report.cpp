@@ -24,6 +24,7 @@ std::string_view to_string(Obstruction::Kind kind) {
     case Obstruction::Kind::duplicate_faces: return "duplicate_faces";
     case Obstruction::Kind::fixed_faces: return "fixed_faces";
     case Obstruction::Kind::between_components: return "between_components";
+    case Obstruction::Kind::rigid_faces: return "rigid_faces";
   }
   return "unknown";
 }
@@ -43,6 +44,7 @@ std::string_view to_string(LeftReason reason) {
     case LeftReason::cancelled: return "cancelled";
     case LeftReason::unresolved: return "unresolved";
     case LeftReason::other_diagonal: return "other_diagonal";
+    case LeftReason::rigid_faces: return "rigid_faces";
   }
   return "unknown";
 }

@@ -22,6 +22,7 @@ Json options_json(const RepairOptions& options) {
           {"threads", options.find.threads},
           {"precision", options.precision ? Json(to_string(*options.precision)) : Json("automatic")},
           {"fixed_vertices", std::count_if(options.fixed.begin(), options.fixed.end(), [](auto f) { return f != 0; })},
+          {"rigid_vertices", std::count_if(options.rigid.begin(), options.rigid.end(), [](auto r) { return r >= 0; })},
           {"each_component", options.each_component},
           {"both_diagonals", options.find.both_diagonals},
           {"min_gap_rel", options.min_gap_rel},
@@ -132,6 +133,15 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
                                   {"first_face", component.first_face},
                                   {"pairs_before", component.pairs_before},
                                   {"pairs_after", component.pairs_after}});
+  json["rigid_parts"] = Json::array();
+  for (const RigidPartReport& part : r.rigid_parts)
+    json["rigid_parts"].push_back({{"name", part.name},
+                                   {"vertices", part.vertices},
+                                   {"rotation_deg", part.rotation_deg},
+                                   {"translation_rel", part.translation_rel},
+                                   {"residual_rel", part.residual_rel},
+                                   {"rotation", part.rotation},
+                                   {"translation", part.translation}});
   if (options.record.any()) json["history"] = history_json(r.history);
   json["stages"] = stages_json(result, files);
   json["seconds"] = files.whole.seconds;

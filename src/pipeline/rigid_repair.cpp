@@ -1,0 +1,410 @@
+#include "pipeline/rigid_repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "pipeline/gap.h"
+#include "pipeline/limits.h"
+#include "pipeline/phases.h"
+#include "pipeline/threads.h"
+#include "report/acceptance.h"
+#include "report/measure.h"
+#include "rigid/bodies.h"
+#include "rigid/place_bodies.h"
+#include "rigid/recover_bodies.h"
+#include "scene/diagnose.h"
+#include "scene/finders.h"
+#include "scene/prepared_surface.h"
+#include "scene/rounding.h"
+#include "scene/scene.h"
+#include "unsnarl/stage_clock.h"
+
+namespace unsnarl {
+namespace {
+
+class RigidRepair {
+ public:
+  RigidRepair(const SurfaceView& surface, const RepairOptions& options, Context& context)
+      : surface_(surface), options_(options), context_(context), limits_(options, context), threads_(options.find.threads) {}
+
+  RepairResult run() {
+    check_options();
+    Phases phases(context_, stages_);
+    phases.start("place");
+    prepared_ = prepare(surface_, options_.find);
+    find_parts();
+    finders_.emplace(prepared_.triangles());
+    diagnosis_ = diagnose(surface_, prepared_, fixed_, finders_->as_is);
+    find_obstructions();
+    acceptance_.emplace(prepared_, diagnosis_, options_, *finders_);
+    Attempt best = attempt({});
+    phases.end();
+    repair_around(best);
+    const std::vector<Index> in_soft = parts_in_soft(best);
+    if (!in_soft.empty() && !limits_.reached()) {
+      phases.start("place");
+      Attempt other = attempt(in_soft);
+      phases.end();
+      repair_around(other);
+      if (other.inner.report.after.total() < best.inner.report.after.total()) best = std::move(other);
+    }
+    return finished(std::move(best));
+  }
+
+ private:
+  struct Attempt {
+    std::vector<double> positions;  // with the rigid parts in their places
+    bool is_too_far = false;        // a part had no place within the displacement that is allowed
+    RepairResult inner;             // of the soft parts around them
+  };
+
+  void check_options() const {
+    const std::size_t n = surface_.vertex_count();
+    if (options_.rigid.size() != n)
+      throw std::invalid_argument("RepairOptions::rigid has " + std::to_string(options_.rigid.size()) +
+                                  " numbers for " + std::to_string(n) + " vertices");
+    if (!options_.fixed.empty() && options_.fixed.size() != n)
+      throw std::invalid_argument("RepairOptions::fixed has " + std::to_string(options_.fixed.size()) + " flags for " +
+                                  std::to_string(n) + " vertices");
+    if (options_.each_component)
+      throw std::invalid_argument(
+          "RepairOptions: rigid parts move among all components, but each_component repairs each as if alone; leave "
+          "one of the two out");
+    const auto too_many = std::find_if(options_.rigid.begin(), options_.rigid.end(),
+                                       [&](std::int32_t part) { return part < -1 || part >= static_cast<Index>(n); });
+    if (too_many != options_.rigid.end())
+      throw std::invalid_argument("RepairOptions::rigid: vertex " + std::to_string(too_many - options_.rigid.begin()) +
+                                  " is of part " + std::to_string(*too_many) +
+                                  "; give -1 for none, or a number from 0, less than that of the vertices");
+  }
+
+  std::string name(Index part) const {
+    const auto p = static_cast<std::size_t>(part);
+    return p < options_.rigid_names.size() ? options_.rigid_names[p] : std::to_string(part);
+  }
+
+  /// Of the welded vertices: what is fixed, and the rigid part of each.
+  void find_parts() {
+    const std::vector<Index>& welded = prepared_.weld_map.vertex_of;
+    fixed_.assign(prepared_.weld_map.count, 0);
+    part_of_.assign(prepared_.weld_map.count, -1);
+    for (std::size_t v = 0; v < options_.fixed.size(); ++v)
+      if (options_.fixed[v]) fixed_[welded[v]] = 1;
+    for (std::size_t v = 0; v < options_.rigid.size(); ++v) {
+      const std::int32_t part = options_.rigid[v];
+      if (part < 0) continue;
+      part_count_ = std::max(part_count_, part + 1);
+      Index& own = part_of_[welded[v]];
+      if (own >= 0 && own != part)
+        throw std::invalid_argument("vertex " + std::to_string(v) + " is of two rigid parts, " + name(own) + " and " +
+                                    name(part) + "; name them as one, or leave one of them out");
+      if (fixed_[welded[v]])
+        throw std::invalid_argument("vertex " + std::to_string(v) + " is fixed and of the rigid part " + name(part) +
+                                    ", so that this cannot move; leave one of the two out");
+      own = part;
+    }
+    part_count_ = std::max(part_count_, static_cast<Index>(options_.rigid_names.size()));
+  }
+
+  /// Adds the pairs that no rigid motion resolves.
+  void find_obstructions() {
+    std::vector<std::int32_t> faces;
+    std::vector<std::vector<std::uint8_t>> flags(part_count_);
+    for (const IntersectingPair& pair : diagnosis_.pairs) {
+      if (std::binary_search(diagnosis_.obstructed.begin(), diagnosis_.obstructed.end(), pair)) continue;
+      const Index part = common_part(pair);
+      if (part < 0) continue;
+      if (flags[part].empty()) {
+        flags[part].assign(part_of_.size(), 0);
+        for (std::size_t v = 0; v < part_of_.size(); ++v) flags[part][v] = part_of_[v] == part;
+      }
+      if (obstruction_of(prepared_, diagnosis_.components, flags[part], pair) != Obstruction::Kind::fixed_faces)
+        continue;
+      rigid_pairs_.push_back(pair);
+      faces.insert(faces.end(),
+                   {prepared_.triangulation.polygon[pair.a], prepared_.triangulation.polygon[pair.b]});
+      in_parts_.push_back(part);
+    }
+    if (rigid_pairs_.empty()) return;
+    diagnosis_.obstructed.insert(diagnosis_.obstructed.end(), rigid_pairs_.begin(), rigid_pairs_.end());
+    std::sort(diagnosis_.obstructed.begin(), diagnosis_.obstructed.end());
+    const auto unique_sorted = [](auto& list) {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    };
+    unique_sorted(faces);
+    unique_sorted(in_parts_);
+    std::string names;
+    for (const Index part : in_parts_) names += (names.empty() ? "" : ", ") + name(part);
+    const std::string count = std::to_string(faces.size());
+    diagnosis_.obstructions.push_back({Obstruction::Kind::rigid_faces, std::move(faces),
+                                       count + " faces of rigid parts intersect others of the same part (" + names +
+                                           "), which moves as it is"});
+  }
+
+  /// The part that both triangles have vertices of; -1: there is none.
+  Index common_part(const IntersectingPair& pair) const {
+    for (const Index v : prepared_.triangles()[pair.a])
+      for (const Index w : prepared_.triangles()[pair.b])
+        if (part_of_[v] >= 0 && part_of_[v] == part_of_[w]) return part_of_[v];
+    return -1;
+  }
+
+  // The places of the parts.
+
+  Attempt attempt(std::span<const Index> parts_that_avoid_soft) {
+    Attempt result;
+    Bodies bodies(prepared_.rest, prepared_.triangles(), part_of_, part_count_, fixed_);
+    for (const Index part : parts_that_avoid_soft) bodies.avoid_soft(part);
+    const double diagonal = diagonal_of(surface_);
+    const double limit = options_.max_displacement_rel * diagonal;
+    PlaceBodiesOptions place;
+    RecoverBodiesOptions recover;
+    if (limit > 0) place.most_motion = recover.most_motion = limit;
+    place.stop = recover.stop = limits_.stopper();
+    result.is_too_far = place_bodies(bodies, place);
+    float32_ = options_.precision ? *options_.precision == Precision::float32 : float32_can_hold(scene(), diagnosis_.pairs);
+    std::vector<Index> of_bodies;
+    for (const Body& body : bodies.list())
+      of_bodies.insert(of_bodies.end(), body.vertices.begin(), body.vertices.end());
+    if (!of_bodies.empty())
+      recover.min_gap = std::max(gap_of_format(scene(), of_bodies, float32_), options_.min_gap_rel * diagonal);
+    if (options_.recover) recover_bodies(bodies, recover);
+    result.positions = as_written(bodies.x());
+    // Digits that are too few for the faces of a part would make it intersect itself.
+    if (float32_ && !options_.precision && pairs_within_parts(result.positions) > rigid_pairs_.size()) {
+      float32_ = false;
+      result.positions = as_written(bodies.x());
+    }
+    return result;
+  }
+
+  const Scene& scene() {
+    if (scene_.triangles.empty())
+      scene_ = make_scene(prepared_.rest, {prepared_.triangles().begin(), prepared_.triangles().end()}, fixed_,
+                          diagnosis_.edges);
+    return scene_;
+  }
+
+  std::size_t pairs_within_parts(std::span<const double> positions) {
+    std::size_t count = 0;
+    for (const IntersectingPair& pair : finders_->as_is.find(prepared_.gather(positions))) {
+      const auto is_whole = [&](Index t) {
+        const Triangle& v = prepared_.triangles()[t];
+        return part_of_[v[0]] >= 0 && part_of_[v[0]] == part_of_[v[1]] && part_of_[v[0]] == part_of_[v[2]];
+      };
+      const bool same = part_of_[prepared_.triangles()[pair.a][0]] == part_of_[prepared_.triangles()[pair.b][0]];
+      count += same && is_whole(pair.a) && is_whole(pair.b);
+    }
+    return count;
+  }
+
+  /// Positions of the vertices of the surface, as they will be read back.
+  std::vector<double> as_written(const Positions& x) const {
+    std::vector<double> positions = prepared_.scatter(surface_.positions, x);
+    if (options_.as_written) return options_.as_written(positions, float32_);
+    if (float32_)
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        if (positions[i] != surface_.positions[i]) positions[i] = static_cast<double>(static_cast<float>(positions[i]));
+    return positions;
+  }
+
+  // The soft parts.
+
+  void repair_around(Attempt& attempt) {
+    RepairOptions inner = options_;
+    inner.rigid.clear();
+    inner.rigid_names.clear();
+    inner.fixed.resize(surface_.vertex_count(), 0);
+    for (std::size_t v = 0; v < inner.fixed.size(); ++v)
+      if (options_.rigid[v] >= 0) inner.fixed[v] = 1;
+    if (!options_.precision && !float32_) inner.precision = Precision::float64;
+    if (options_.time_limit_s > 0)
+      inner.time_limit_s = std::max(options_.time_limit_s - clock_.stage("place").seconds, least_time_s);
+    // A second attempt starts at nothing again, but what is told to the caller never decreases.
+    const std::function<void(const Context::Progress&)> tell = context_.on_progress;
+    if (tell)
+      context_.on_progress = [&, tell](Context::Progress progress) {
+        progress.fraction = fraction_ = std::max(fraction_, progress.fraction);
+        tell(progress);
+      };
+    const SurfaceView placed = {attempt.positions, surface_.corners, surface_.offsets};
+    attempt.inner = repair(placed, inner, &context_);
+    context_.on_progress = tell;
+    stages_.insert(stages_.end(), attempt.inner.report.stages.begin(), attempt.inner.report.stages.end());
+  }
+
+  /// Parts that soft faces still intersect.
+  std::vector<Index> parts_in_soft(const Attempt& attempt) {
+    std::vector<Index> parts;
+    if (attempt.inner.report.after.total() == 0) return parts;
+    for (const IntersectingPair& pair : finders_->as_is.find(prepared_.gather(attempt.inner.positions))) {
+      const Triangle &a = prepared_.triangles()[pair.a], &b = prepared_.triangles()[pair.b];
+      const auto is_soft = [&](const Triangle& t) {
+        return std::any_of(t.begin(), t.end(), [&](Index v) { return part_of_[v] < 0 && !fixed_[v]; });
+      };
+      if (is_soft(b) && !is_soft(a) && part_of_[a[0]] >= 0) parts.push_back(part_of_[a[0]]);
+      if (is_soft(a) && !is_soft(b) && part_of_[b[0]] >= 0) parts.push_back(part_of_[b[0]]);
+    }
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    return parts;
+  }
+
+  // The end: the inner repair has compared with the parts in their places; what counts is the input.
+
+  RepairResult finished(Attempt attempt) {
+    RepairResult result = std::move(attempt.inner);
+    RepairReport& report = result.report;
+    Positions x = prepared_.gather(result.positions);
+    Acceptance::Pairs left = acceptance_->pairs_at(x);
+    const bool is_taken_back = acceptance_->is_worse(left);
+    if (is_taken_back) {
+      result.positions.assign(surface_.positions.begin(), surface_.positions.end());
+      x = prepared_.rest;
+      left = acceptance_->pairs_at(x);
+      result.frames.clear();
+    }
+    const Status inner = result.status;
+    result.status = acceptance_->status(left, x);
+    if (result.status == Status::reduced || result.status == Status::no_progress) {
+      if (inner == Status::time_limit || inner == Status::memory_limit || inner == Status::displacement_exceeded)
+        result.status = inner;
+      else if (attempt.is_too_far)
+        result.status = Status::displacement_exceeded;
+    }
+    if (inner == Status::cancelled) result.status = Status::cancelled;
+    report.before = acceptance_->pairs_at(prepared_.rest).faces;
+    report.after = left.faces;
+    report.topology = diagnosis_.topology;
+    report.obstructions = diagnosis_.obstructions;
+    report.float32_embedded = acceptance_->is_embedded_in_float32(x);
+    report.stages = std::move(stages_);
+    measure_change(surface_, prepared_, diagnosis_, result.positions, report);
+    report.components.clear();
+    measure_components(prepared_, diagnosis_, left.triangles, report);
+    explain(left, is_taken_back, attempt.is_too_far, report);
+    measure_parts(result.positions, report);
+    if (!result.frames.empty()) show_placement(attempt.positions, result.frames);
+    return result;
+  }
+
+  /// The reasons that the inner repair found, but for those of rigid parts, which it took to be fixed.
+  void explain(const Acceptance::Pairs& left, bool is_taken_back, bool is_too_far, RepairReport& report) const {
+    std::map<std::pair<Index, Index>, LeftPair> found;
+    for (const LeftPair& pair : report.left) found.emplace(std::pair{pair.a, pair.b}, pair);
+    std::map<std::pair<Index, Index>, LeftReason> obstructed;
+    const std::vector<Index>& polygon = prepared_.triangulation.polygon;
+    for (const IntersectingPair& pair : diagnosis_.obstructed) {
+      LeftReason reason = LeftReason::fixed_faces;
+      if (std::find(rigid_pairs_.begin(), rigid_pairs_.end(), pair) != rigid_pairs_.end())
+        reason = LeftReason::rigid_faces;
+      else if (pair.kind == PairClass::duplicate)
+        reason = LeftReason::duplicate_faces;
+      else if (diagnosis_.components.list[diagnosis_.components.component_of_triangle[pair.a]].obstructed())
+        reason = LeftReason::closed_non_orientable;
+      const auto [a, b] = std::minmax(polygon[pair.a], polygon[pair.b]);
+      obstructed.emplace(std::pair{a, b}, reason);
+    }
+    report.left.clear();
+    report.left_by_reason = {};
+    for (const IntersectingPair& pair : left.of_faces) {
+      LeftPair entry{pair.a, pair.b, pair.kind, LeftReason::unresolved, {}};
+      const auto known = found.find({pair.a, pair.b});
+      if (const auto own = obstructed.find({pair.a, pair.b}); own != obstructed.end())
+        entry.reason = own->second;
+      else if (is_taken_back)
+        entry.reason = LeftReason::taken_back;
+      else if (known != found.end() && known->second.reason != LeftReason::fixed_faces)
+        entry = known->second;
+      else if (is_too_far)
+        entry.reason = LeftReason::displacement;
+      ++report.left_by_reason[static_cast<std::size_t>(entry.reason)];
+      if (report.left.size() < most_left_pairs_listed) report.left.push_back(std::move(entry));
+    }
+  }
+
+  void measure_parts(std::span<const double> positions, RepairReport& report) const {
+    const double unit = report.diagonal > 0 ? 1 / report.diagonal : 1;
+    for (Index part = 0; part < part_count_; ++part) {
+      std::vector<std::size_t> vertices;
+      for (std::size_t v = 0; v < options_.rigid.size(); ++v)
+        if (options_.rigid[v] == part) vertices.push_back(v);
+      RigidPartReport& entry = report.rigid_parts.emplace_back();
+      entry.name = name(part);
+      entry.vertices = vertices.size();
+      if (vertices.empty()) continue;
+      Positions from(3, static_cast<Index>(vertices.size())), to = from;
+      for (std::size_t k = 0; k < vertices.size(); ++k) {
+        from.col(static_cast<Index>(k)) = Eigen::Map<const Vec3>(&surface_.positions[3 * vertices[k]]);
+        to.col(static_cast<Index>(k)) = Eigen::Map<const Vec3>(&positions[3 * vertices[k]]);
+      }
+      const RigidMotion motion = best_rigid_motion(from, to);
+      for (int k = 0; k < 9; ++k) entry.rotation[k] = motion.rotation(k / 3, k % 3);
+      for (int k = 0; k < 3; ++k) entry.translation[k] = motion.translation[k];
+      entry.rotation_deg = motion.degrees();
+      entry.translation_rel = (to.rowwise().mean() - from.rowwise().mean()).norm() * unit;
+      if (from == to) continue;
+      const Positions carried = (motion.rotation * from).colwise() + motion.translation;
+      entry.residual_rel = (to - carried).colwise().norm().maxCoeff() * unit;
+    }
+  }
+
+  /// Frames are of the inner repair, which begins with the parts in their places: puts the input before them.
+  void show_placement(std::span<const double> placed, std::vector<RecordedFrame>& frames) {
+    RecordedFrame placement = frames.front(), input = frames.front();
+    placement.phase = "untangle";
+    placement.strategy = "place";
+    for (std::size_t v = 0; v < surface_.vertex_count(); ++v) {
+      const Vec3 d =
+          Eigen::Map<const Vec3>(&placed[3 * v]) - Eigen::Map<const Vec3>(&surface_.positions[3 * v]);
+      if (d == Vec3::Zero()) continue;
+      placement.vertices.push_back(static_cast<std::int32_t>(v));
+      placement.displacements.insert(placement.displacements.end(), {d[0], d[1], d[2]});
+    }
+    if (placement.vertices.empty()) return;
+    const Acceptance::Pairs pairs = acceptance_->pairs_at(prepared_.rest);
+    input.pairs = pairs.of_faces.size();
+    input.intersecting.clear();
+    for (const IntersectingPair& pair : pairs.of_faces) input.intersecting.insert(input.intersecting.end(), {pair.a, pair.b});
+    std::sort(input.intersecting.begin(), input.intersecting.end());
+    input.intersecting.erase(std::unique(input.intersecting.begin(), input.intersecting.end()), input.intersecting.end());
+    frames.front() = std::move(placement);
+    frames.insert(frames.begin(), std::move(input));
+  }
+
+  static constexpr double least_time_s = 1e-3;  // that is left to what follows: 0 would be no limit
+
+  const SurfaceView surface_;
+  const RepairOptions& options_;
+  Context& context_;
+  Limits limits_;
+  ThreadLimit threads_;
+  StageClock clock_;
+  std::vector<StageReport> stages_;
+  PreparedSurface prepared_;
+  std::vector<std::uint8_t> fixed_;  // of the welded vertices
+  std::vector<Index> part_of_;       // of the welded vertices
+  Index part_count_ = 0;
+  std::optional<Finders> finders_;
+  Diagnosis diagnosis_;
+  std::vector<IntersectingPair> rigid_pairs_;  // within a part
+  std::vector<Index> in_parts_;                // these parts
+  std::optional<Acceptance> acceptance_;
+  Scene scene_;  // at rest; made when first asked for
+  bool float32_ = false;
+  double fraction_ = 0;  // of the progress that was told
+};
+
+}  // namespace
+
+RepairResult repair_with_rigid_parts(const SurfaceView& surface, const RepairOptions& options, Context& context) {
+  return RigidRepair(surface, options, context).run();
+}
+
+}  // namespace unsnarl

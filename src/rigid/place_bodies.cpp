@@ -1,0 +1,155 @@
+#include "rigid/place_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "mesh/areas.h"
+
+namespace unsnarl {
+namespace {
+
+/// Share of a body's diagonal that the first try of each motion goes; the next ones go `growth` times as far.
+constexpr double first_step = 1e-3, growth = 1.6;
+/// Between the last place of a motion that is not free and the first that is: to 1 % of the motion.
+constexpr int bisections = 6;
+/// Of the motion: it goes so much farther than the first free place, if that is free too.
+constexpr double margin = 0.01;
+/// Contacts of a body whose normals are tried as directions.
+constexpr std::size_t most_contacts = 16;
+/// A rotation turns by a right angle at most: chord / radius.
+constexpr double largest_chord = 1.4142135623730951;
+
+/// A family of motions by the root mean square of the displacement of the vertices, a length.
+struct BodyMotion {
+  Vec3 direction = Vec3::Zero();  // of a translation, or:
+  Vec3 axis = Vec3::Zero();       // of a rotation about the centre,
+  double radius = 0;              // for which this is the root mean square of the distance of the vertices from the axis
+
+  double longest(double diagonal) const { return radius > 0 ? std::min(diagonal, largest_chord * radius) : diagonal; }
+  void apply(Body& body, double distance) const {
+    body.rotation = Eigen::Matrix3d::Identity();
+    body.centre = body.rest_centre;
+    if (radius > 0)
+      body.rotation = rotation_by(2 * std::asin(0.5 * distance / radius) * axis);
+    else
+      body.centre += distance * direction;
+  }
+};
+
+std::vector<BodyMotion> motions_of(const Bodies& bodies, const Body& body, std::span<const IntersectingPair> contacts) {
+  std::vector<BodyMotion> motions;
+  const auto translate = [&](const Vec3& d) {
+    if (const double length = d.norm(); length > 0)
+      for (const double sign : {1.0, -1.0}) motions.push_back({.direction = sign / length * d});
+  };
+  const double moment = body.moments.trace(), count = static_cast<double>(body.vertices.size());
+  const auto rotate = [&](const Vec3& w) {
+    const double length = w.norm();
+    if (!(length > 0)) return;
+    const Vec3 axis = w / length;
+    const double radius = std::sqrt(std::max(0.0, moment - axis.dot(body.moments * axis)) / count);
+    if (radius > 0)
+      for (const double sign : {1.0, -1.0}) motions.push_back({.axis = sign * axis, .radius = radius});
+  };
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j)
+      for (int k = -1; k <= 1; ++k)
+        if (std::tie(i, j, k) > std::tuple(0, 0, 0)) translate(Vec3(i, j, k));
+  for (int k = 0; k < 3; ++k) rotate(Vec3::Unit(k));
+  const std::size_t stride = contacts.size() / most_contacts + 1;
+  for (std::size_t k = 0; k < contacts.size(); k += stride)
+    for (Index t : {contacts[k].a, contacts[k].b}) {
+      const Triangle& corners = bodies.triangles()[t];
+      const Vec3 normal = area_vector(bodies.x(), corners);
+      const Vec3 middle = (bodies.x().col(corners[0]) + bodies.x().col(corners[1]) + bodies.x().col(corners[2])) / 3;
+      translate(normal);
+      rotate((middle - body.rest_centre).cross(normal));
+    }
+  return motions;
+}
+
+class BodyPlacement {
+ public:
+  BodyPlacement(Bodies& bodies, const PlaceBodiesOptions& options) : bodies_(bodies), options_(options) {}
+
+  bool run() {
+    const std::span<Body> list = bodies_.list();
+    std::vector<Index> order(list.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return list[a].area > list[b].area; });
+    const auto in_conflict =
+        std::stable_partition(order.begin(), order.end(), [&](Index b) { return bodies_.is_free(list[b]); });
+    std::for_each(in_conflict, order.end(), [&](Index b) { bodies_.set_present(b, false); });
+    for (auto b = in_conflict; b != order.end(); ++b) {
+      list[*b].is_placed = place(list[*b]);
+      // One that stays where it intersects something is no obstacle: nothing could be free of it and of that.
+      if (list[*b].is_placed) bodies_.set_present(*b, true);
+    }
+    return is_too_far_;
+  }
+
+ private:
+  bool stopped() const { return options_.stop && options_.stop(); }
+
+  bool is_free_at(Body& body, const BodyMotion& motion, double distance) {
+    motion.apply(body, distance);
+    bodies_.move(body);
+    return bodies_.is_free(body);
+  }
+
+  bool place(Body& body) {
+    const std::vector<IntersectingPair> contacts = bodies_.contacts_of(body);
+    if (contacts.empty()) return true;
+    const std::vector<BodyMotion> motions = motions_of(bodies_, body, contacts);
+    // All motions go step by step side by side: the first step at which one is free is within `growth` of the best.
+    double blocked = 0, least = std::numeric_limits<double>::infinity();
+    Body best = body;
+    for (double distance = first_step * body.diagonal; blocked < body.diagonal && !std::isfinite(least);) {
+      for (const BodyMotion& motion : motions) {
+        if (stopped()) break;
+        if (distance > motion.longest(body.diagonal) || !is_free_at(body, motion, distance)) continue;
+        if (bodies_.largest_displacement(body) > options_.most_motion) {
+          is_too_far_ = true;
+          continue;
+        }
+        double free = distance, not_free = blocked;
+        for (int k = 0; k < bisections; ++k) {
+          const double middle = 0.5 * (free + not_free);
+          (is_free_at(body, motion, middle) ? free : not_free) = middle;
+        }
+        if (!(free < least)) continue;
+        least = free;
+        if (!is_free_at(body, motion, (1 + margin) * free) ||
+            bodies_.largest_displacement(body) > options_.most_motion)
+          motion.apply(body, free);
+        best = body;
+      }
+      if (stopped()) break;
+      blocked = distance;
+      distance = std::min(growth * distance, body.diagonal);
+    }
+    body = best;
+    if (!std::isfinite(least)) {
+      body.rotation = Eigen::Matrix3d::Identity();
+      body.centre = body.rest_centre;
+    }
+    bodies_.move(body);
+    bodies_.settle(body);
+    return std::isfinite(least);
+  }
+
+  Bodies& bodies_;
+  const PlaceBodiesOptions& options_;
+  bool is_too_far_ = false;
+};
+
+}  // namespace
+
+bool place_bodies(Bodies& bodies, const PlaceBodiesOptions& options) {
+  return BodyPlacement(bodies, options).run();
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+
+#include "rigid/bodies.h"
+
+namespace unsnarl {
+
+struct RecoverBodiesOptions {
+  double min_gap = 0;  ///< wanted between a body and what it must not intersect, a length
+  /// How far any vertex may go, a length.
+  double most_motion = std::numeric_limits<double>::infinity();
+  std::function<bool()> stop = {};
+};
+
+/// Moves placed bodies back toward rest, all together, as far as the contact between them and with obstacles allows:
+/// steps toward the least sum of squared displacements of their vertices (a quadratic function of six numbers a body)
+/// under the linearised distances of what is near, found by projected Gauss-Seidel on the contact forces. A step that
+/// ends with an intersection, below min_gap or farther from rest is halved. Where the gap is less than wanted,
+/// steps open it first; bodies at rest that come closer than that to each other or to obstacles stay so.
+/// \pre bodies with is_placed intersect nothing that they must not.
+void recover_bodies(Bodies& bodies, const RecoverBodiesOptions& options);
+
+}  // namespace unsnarl
