@@ -31,7 +31,8 @@ void round_off(Surface& surface, const std::set<std::array<Index, 2>>& edges, in
 
 }  // namespace
 
-Surface sample_blocks(const std::vector<Block>& blocks, int divisions, FaceKind faces, double roundness) {
+Surface sample_blocks(const std::vector<Block>& blocks, int divisions, FaceKind faces, double roundness,
+                      const std::function<bool(const Vec3& middle)>& keep) {
   const std::set<Block> filled(blocks.begin(), blocks.end());
   MeshBuilder builder;
   std::map<std::array<int, 3>, Index> known;
@@ -47,6 +48,9 @@ Surface sample_blocks(const std::vector<Block>& blocks, int divisions, FaceKind 
         Block beyond = block;
         beyond[axis] += 2 * side - 1;
         if (filled.contains(beyond)) continue;
+        Vec3 middle(block[0] + 0.5, block[1] + 0.5, block[2] + 0.5);
+        middle[axis] = block[axis] + side;
+        if (keep && !keep(middle)) continue;
         for (int i = 0; i < divisions; ++i)
           for (int j = 0; j < divisions; ++j) {
             const auto corner = [&](int a, int b) {

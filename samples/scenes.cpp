@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "samples/anchor_scene.h"
+#include "samples/dressed_figure.h"
 #include "samples/lattice_noise.h"
 #include "samples/medusa.h"
 #include "samples/parameter_grid.h"
@@ -83,6 +85,21 @@ std::vector<SampleMaker> scene_samples() {
         {"anchor", "ball"}},
        28,
        anchored_balls},
+      {{"anchor_scene",
+        "scene of fixed, rigid and soft parts: an anchor; a link, a hoop, a crate and a barrel; a buoy and a ribbon",
+        {{"depth", 0.25, 0, 0.5, "how far they stick in each other, where the shank is 1 thick"}},
+        true,
+        {"anchor", "link", "hoop", "crate", "barrel", "buoy", "ribbon"}},
+       48,
+       anchor_scene},
+      {{"dressed_figure",
+        "scene of a figure, 'body', and a tunic on it, 'tunic', whose folds go through it",
+        {{"ease", 0.1, -0.2, 0.5, "distance of the tunic from the figure, where a sleeve is 2 thick"},
+         {"folds", 0.3, 0, 0.5, "depth of the folds, where a sleeve is 2 thick"}},
+        true,
+        {"body", "tunic"}},
+       51,
+       dressed_figure},
       {{"medusa",
         "bust with snakes for hair, each a component of its own: through the scalp and through each other",
         {{"snakes", 60, 1, 400, "number of snakes", true},

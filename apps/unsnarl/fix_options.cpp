@@ -42,8 +42,9 @@ std::vector<std::uint8_t> fixed_vertices(const FixOptions& options, const SceneD
 void set_rigid_parts(const FixOptions& options, const SceneDocument& scene, RepairOptions& result) {
   const SurfaceView surface = scene.surface();
   if (!options.rigid.empty() && options.each)
-    throw UsageError("--each repairs every component as if it were alone, --rigid moves parts among the others; leave "
-                     "one of the two out");
+    throw UsageError(
+        "--each repairs every component as if it were alone, --rigid moves parts among the others; leave "
+        "one of the two out");
   const auto add = [&](const std::string& name, const Parts& parts) {
     std::vector<std::uint8_t> flags;
     try {
@@ -57,13 +58,15 @@ void set_rigid_parts(const FixOptions& options, const SceneDocument& scene, Repa
     for (std::size_t v = 0; v < flags.size(); ++v) {
       if (!flags[v]) continue;
       if (result.rigid[v] >= 0)
-        throw UsageError(fmt::format("--rigid: '{}' and '{}' have vertex {} in common; name them as one part, or leave "
-                                     "one of them out",
-                                     result.rigid_names[result.rigid[v]], name, v));
+        throw UsageError(
+            fmt::format("--rigid: '{}' and '{}' have vertex {} in common; name them as one part, or leave "
+                        "one of them out",
+                        result.rigid_names[result.rigid[v]], name, v));
       if (!result.fixed.empty() && result.fixed[v])
-        throw UsageError(fmt::format("--rigid: '{}' is held, at vertex {} at least, by --fix-... or --only-..., and "
-                                     "cannot move as a body; leave one of the two out",
-                                     name, v));
+        throw UsageError(
+            fmt::format("--rigid: '{}' is held, at vertex {} at least, by --fix-... or --only-..., and "
+                        "cannot move as a body; leave one of the two out",
+                        name, v));
       result.rigid[v] = part;
     }
   };
@@ -80,7 +83,10 @@ void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const
   const auto named = [&](const std::string& name, auto& list, const std::string& of, const char* type) {
     // One value each time: more would swallow the name of the input.
     const bool has_shortcut = !shortcut.empty() && name == "object";
-    command.add_option((has_shortcut ? shortcut + "," : "") + prefix + name, list, what + of)->type_name(type)->group(group)->allow_extra_args(false);
+    command.add_option((has_shortcut ? shortcut + "," : "") + prefix + name, list, what + of)
+        ->type_name(type)
+        ->group(group)
+        ->allow_extra_args(false);
   };
   named("group", parts.groups,
         "faces of this group (OBJ g, glTF mesh, Gmsh physical group, Abaqus ELSET); may be repeated", "NAME");

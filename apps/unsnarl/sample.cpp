@@ -173,10 +173,10 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
       "routes_star_50, routes_ring or routes_maze");
   command
       .add_option("-o,--output", options.output,
-                  "Where it goes: *.obj, *.off or *.ply (curves: *.json or *.svg; knots: *.xyz; plans: *.json);\n"
+                  "Where it goes: *.obj, *.off, *.ply or *.glb (curves: *.json or *.svg; knots: *.xyz; plans: *.json);\n"
                   "'-' for standard output")
       ->type_name("OUT");
-  command.add_option("--format", options.format, "obj, off or ply (curves: json or svg), where the name does not tell")
+  command.add_option("--format", options.format, "obj, off, ply or glb (curves: json or svg), where the name does not tell")
       ->type_name("FORMAT");
   command
       .add_option("--resolution", options.resolution, "Sampling steps along the longest direction; 0: the sample's own")
@@ -216,7 +216,7 @@ int run_sample(const SampleOptions& options, Interruption& interruption) {
   }
   std::optional<Format> format = format_from_name(options.format);
   if (!format) format = options.output == standard_stream ? Format::obj : format_from_extension(options.output);
-  if (!format) throw UsageError(options.output + ": name it *.obj, *.off or *.ply, or add --format");
+  if (!format) throw UsageError(options.output + ": name it *.obj, *.off, *.ply or *.glb, or add --format");
   std::string bytes;
   try {
     const Surface surface = make_sample(options.name, options.resolution, parsed(options.parameters));

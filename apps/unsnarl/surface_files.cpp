@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "glb_file.h"
 #include "unsnarl/parts.h"
 #include "usage_error.h"
 
@@ -57,13 +58,23 @@ std::string surface_file(const SurfaceView& surface, Format format, const std::s
   std::string text;
   const std::vector<std::int32_t> components =
       groups.empty() ? std::vector<std::int32_t>{} : component_of_faces(surface);
+  const auto name_of = [&](std::int32_t component) -> const std::string& {
+    return groups[std::min(static_cast<std::size_t>(component), groups.size() - 1)];
+  };
   switch (format) {
+    case Format::glb: {
+      std::vector<std::int32_t> part_of(components);
+      std::vector<std::string> names = groups;
+      if (groups.empty()) names = {"surface"}, part_of.assign(surface.face_count(), 0);
+      for (std::int32_t& part : part_of) part = std::min(part, static_cast<std::int32_t>(names.size()) - 1);
+      return glb_file(surface, part_of, names, comment);
+    }
     case Format::obj:
       text = "# " + comment + "\n";
       append_positions(text, surface.positions, "v ");
       for (std::size_t f = 0; f < surface.face_count(); ++f) {
         if (!groups.empty() && (f == 0 || components[f] != components[f - 1]))
-          text += "g " + groups[std::min(static_cast<std::size_t>(components[f]), groups.size() - 1)] + "\n";
+          text += fmt::format("o {0}\ng {0}\n", name_of(components[f]));
         text += 'f';
         for (std::int32_t v : surface.face(f)) fmt::format_to(std::back_inserter(text), " {}", v + 1);
         text += '\n';
@@ -82,7 +93,8 @@ std::string surface_file(const SurfaceView& surface, Format format, const std::s
       append_positions(text, surface.positions, "");
       append_faces(text, surface);
       return text;
-    default: throw UsageError(fmt::format("a new {} file cannot be made; choose obj, off or ply", to_string(format)));
+    default:
+      throw UsageError(fmt::format("a new {} file cannot be made; choose obj, off, ply or glb", to_string(format)));
   }
 }
 

@@ -10,8 +10,9 @@
 namespace unsnarl::app {
 
 /// A new file with nothing but the surface; coordinates with the fewest digits that give the double back.
-/// groups: names of the components in the order of their first faces, the last for all further ones; only OBJ keeps
-/// them. Formats: obj, off, ply (ASCII, double). Throws UsageError for others.
+/// groups: names of the components in the order of their first faces, the last for all further ones. OBJ has them as
+/// objects and as groups, GLB as nodes; others do not keep them. Formats: obj, off, ply (ASCII, double), glb
+/// (triangles, 32 bits). Throws UsageError for others.
 std::string surface_file(const SurfaceView& surface, Format format, const std::string& comment,
                          const std::vector<std::string>& groups = {});
 

@@ -55,8 +55,8 @@ struct RepairOptions {
   std::function<std::vector<double>(std::span<const double> positions, bool float32)> as_written;
   /// One flag a vertex, nonzero: must not move, nor the vertices welded to it. Empty: all may move.
   std::vector<std::uint8_t> fixed;
-  /// One number a vertex: the rigid part that it belongs to, with the vertices welded to it, counted from 0; -1: none. A
-  /// rigid part is turned and shifted as one body and never deformed. It moves where it intersects what is fixed or
+  /// One number a vertex: the rigid part that it belongs to, with the vertices welded to it, counted from 0; -1: none.
+  /// A rigid part is turned and shifted as one body and never deformed. It moves where it intersects what is fixed or
   /// another rigid part; to what is soft it gives way only where that could not be repaired around it. Empty: no part
   /// is rigid. Not together with each_component, nor with `fixed` on the same vertices.
   std::vector<std::int32_t> rigid;

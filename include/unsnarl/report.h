@@ -81,12 +81,13 @@ struct ComponentReport {
 /// How a rigid part moved (RepairOptions::rigid): a vertex at p in the input is at R p + t in the result.
 struct RigidPartReport {
   std::string name;
-  std::size_t vertices = 0;  ///< of the input
+  std::size_t vertices = 0;                                      ///< of the input
   std::array<double, 9> rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< R, row after row
   std::array<double, 3> translation = {0, 0, 0};                 ///< t, a length
   double rotation_deg = 0;                                       ///< angle of R, in [0, 180]
   double translation_rel = 0;                                    ///< motion of the mean of its vertices / diagonal
-  /// Largest distance of a vertex of the result from R p + t / diagonal: what rounding to the digits of the result does.
+  /// Largest distance of a vertex of the result from R p + t / diagonal: what rounding to the digits of the result
+  /// does.
   double residual_rel = 0;
 };
 

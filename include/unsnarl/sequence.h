@@ -55,7 +55,7 @@ struct FrameResult {
 };
 
 struct SequenceOptions {
-  /// Of each frame: limits hold for each. Nothing is recorded.
+  /// Of each frame: limits hold for each. Nothing is recorded; nothing can be rigid.
   RepairOptions repair;
   /// The frames wanted: [first, last). Frames around them are read where they are there, so that the result of a frame
   /// does not depend on what else is wanted.

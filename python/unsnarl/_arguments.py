@@ -99,6 +99,25 @@ def vertex_flags(fixed: Any, vertex_count: int) -> NDArray[np.uint8]:
     return _flags(fixed, "fixed", vertex_count, "vertices", "vertex")
 
 
+def rigid_numbers(parts: Any, vertex_count: int) -> NDArray[np.int32]:
+    """The rigid part of each vertex, -1 for none, from a list of parts: each a mask (n,) of bool or vertex ids; empty
+    where there is none."""
+    if parts is None:
+        return np.empty(0, np.int32)
+    if not isinstance(parts, (list, tuple)) or any(np.ndim(part) != 1 for part in parts):
+        raise TypeError("rigid is a list of parts, each a mask of bool or vertex ids: rigid=[mask] for one")
+    numbers = np.full(vertex_count, -1, np.int32)
+    for number, part in enumerate(parts):
+        own = _flags(part, f"rigid[{number}]", vertex_count, "vertices", "vertex").astype(bool)
+        common = np.flatnonzero(own & (numbers >= 0))
+        if common.size > 0:
+            raise ValueError(
+                f"rigid[{numbers[common[0]]}] and rigid[{number}] have vertex {common[0]} in common; join them to one"
+            )
+        numbers[own] = number
+    return numbers if len(parts) > 0 else np.empty(0, np.int32)
+
+
 def face_flags(faces: Any, face_count: int) -> NDArray[np.uint8]:
     """One flag a face, from a mask (m,) of bool or from face ids."""
     return _flags(faces, "faces", face_count, "faces", "face")

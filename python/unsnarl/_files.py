@@ -12,7 +12,7 @@ from typing import Any, Optional, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arguments import Surface, vertex_flags
+from ._arguments import Surface, rigid_numbers, vertex_flags
 from ._call import Outcome, call_and_wait
 from ._intersections import Intersections, find_intersections
 from ._library import SurfaceStruct, check as check_code, library
@@ -88,6 +88,7 @@ def fix(
     output: Optional[PathLike] = None,
     fixed: Any = None,
     *,
+    rigid: Any = None,
     in_place: bool = False,
     keep_partial: bool = False,
     format: Optional[str] = None,
@@ -104,6 +105,8 @@ def fix(
         else was repaired.
     fixed
         Vertices that must not move, as for repair.
+    rigid
+        Parts that move as bodies, as for repair.
     in_place
         Write to `path`; no output is given then.
     keep_partial
@@ -131,6 +134,10 @@ def fix(
     if flags.size > 0:
         document.struct.arrays.append(flags)
         document.struct.fixed = flags.ctypes.data
+    parts = rigid_numbers(rigid, len(surface.positions) // 3)
+    if parts.size > 0:
+        document.struct.arrays.append(parts)
+        document.struct.rigid = parts.ctypes.data
     repaired = call_and_wait("repair", document.struct, options_of(**options, **paper), progress=progress)
     log(repaired)
     V = repaired.array("positions")

@@ -40,6 +40,7 @@ class SurfaceStruct(_Struct):
         ("mesh_sizes", c_void_p),
         ("mesh_count", c_size_t),
         ("document", c_void_p),
+        ("rigid", c_void_p),
     ]
 
 

@@ -86,6 +86,7 @@ def repair(
     F: Any = None,
     fixed: Any = None,
     *,
+    rigid: Any = None,
     goal: str = "all",
     precision: str = "auto",
     min_gap: float = 0.0,
@@ -120,6 +121,10 @@ def repair(
         Vertices that must not move: a mask (n,) of bool, or their ids. None: all may move. Masks of parts come from
         vertices_of_faces and boundary_vertices. Of a list of meshes: a list of the same length, with None where all
         may move.
+    rigid
+        Parts that are turned and shifted as one body each and never deformed: a list of masks (n,) of bool or of vertex
+        ids. Of a list of meshes: the numbers of those that are rigid. They move where they intersect what is fixed or
+        each other; report["rigid_parts"] says how. What is in none of them is soft.
     goal
         "all": no intersecting pair of any kind. "disjoint": none of faces that share no vertex.
     precision
@@ -180,7 +185,10 @@ def repair(
     )
     sizes = np.array([scene.vertex_counts, scene.face_counts], dtype=np.uintp).T if scene.is_list else np.empty(0)
     surface = scene.surface.struct(
-        fixed=scene.flags_of_vertices(fixed), mesh_sizes=np.ascontiguousarray(sizes), mesh_count=len(sizes)
+        fixed=scene.flags_of_vertices(fixed),
+        mesh_sizes=np.ascontiguousarray(sizes),
+        mesh_count=len(sizes),
+        rigid=scene.rigid_numbers(rigid),
     )
     repaired = call_and_wait("repair", surface, options, progress=progress)
     log(repaired)

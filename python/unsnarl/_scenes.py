@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arguments import Surface, positions_of, surface_of, vertex_flags
+from ._arguments import Surface, positions_of, rigid_numbers, surface_of, vertex_flags
 from ._meshes import MovedTo, opened
 
 
@@ -40,6 +40,22 @@ class Scene(NamedTuple):
         return np.concatenate(
             [part if part.size > 0 else np.zeros(n, np.uint8) for part, n in zip(parts, self.vertex_counts)]
         )
+
+    def rigid_numbers(self, rigid: Any) -> NDArray[np.int32]:
+        """The rigid part of each vertex of all, from the parts of the mesh, or from those in a list that are rigid as a
+        whole; empty: none is."""
+        if not self.is_list:
+            return rigid_numbers(rigid, self.vertex_counts[0])
+        if rigid is None:
+            return np.empty(0, np.int32)
+        count = len(self.vertex_counts)
+        if isinstance(rigid, (str, bytes)) or not all(isinstance(i, (int, np.integer)) for i in rigid):
+            raise TypeError(f"rigid is {_what(rigid)}; of {count} meshes give the numbers of those that are rigid")
+        wrong = [i for i in rigid if not 0 <= i < count]
+        if wrong:
+            raise ValueError(f"rigid names mesh {wrong[0]}, but there are {count} (counted from 0)")
+        number_of = {mesh: number for number, mesh in enumerate(dict.fromkeys(rigid))}
+        return np.repeat(np.array([number_of.get(i, -1) for i in range(count)], np.int32), self.vertex_counts)
 
     def positions_of(self, moved: Any, name: str) -> NDArray[np.float64]:
         """Flat positions of all, from those of the mesh, or of each in a list."""

@@ -194,6 +194,7 @@ RepairOptions repair_options(const unsnarl_options& options, const unsnarl_surfa
   repair.recover = options.recover != 0;
   if (options.paper) repair.paper = paper_options(options);
   repair.each_component = options.each_component != 0;
+  if (surface.rigid != nullptr) repair.rigid.assign(surface.rigid, surface.rigid + surface.vertex_count);
   if (surface.document != nullptr) {
     const Document& document = surface.document->document;
     if (document.stores_float32()) {

@@ -97,6 +97,9 @@ unsnarl_result repaired_sequence(const unsnarl_surface& given, std::size_t frame
   if (options.first > options.last)
     throw std::invalid_argument("first_frame is " + std::to_string(options.first) + ", last_frame " +
                                 std::to_string(options.last) + " (excluded), of " + std::to_string(frame_count));
+  if (given.rigid != nullptr)
+    throw std::invalid_argument(
+        "surface: rigid is not of sequences; repair single frames, or hold these parts by fixed");
   options.repair = frame_options(given_options, given);
   SequenceSource source;
   const SurfaceView surface = view_of(given);

@@ -359,6 +359,10 @@ class SequenceRepair {
 
 std::vector<FrameReport> repair_sequence(const SequenceSource& source, const SequenceOptions& options,
                                          const std::function<void(FrameResult&&)>& take, Context* context) {
+  if (!options.repair.rigid.empty())
+    throw std::invalid_argument(
+        "RepairOptions::rigid: parts of sequences cannot be rigid, since corrections are averaged "
+        "over frames");
   Context own;
   return SequenceRepair(source, options, take, context ? *context : own).run();
 }

@@ -30,7 +30,11 @@ namespace {
 class RigidRepair {
  public:
   RigidRepair(const SurfaceView& surface, const RepairOptions& options, Context& context)
-      : surface_(surface), options_(options), context_(context), limits_(options, context), threads_(options.find.threads) {}
+      : surface_(surface),
+        options_(options),
+        context_(context),
+        limits_(options, context),
+        threads_(options.find.threads) {}
 
   RepairResult run() {
     check_options();
@@ -126,8 +130,7 @@ class RigidRepair {
       if (obstruction_of(prepared_, diagnosis_.components, flags[part], pair) != Obstruction::Kind::fixed_faces)
         continue;
       rigid_pairs_.push_back(pair);
-      faces.insert(faces.end(),
-                   {prepared_.triangulation.polygon[pair.a], prepared_.triangulation.polygon[pair.b]});
+      faces.insert(faces.end(), {prepared_.triangulation.polygon[pair.a], prepared_.triangulation.polygon[pair.b]});
       in_parts_.push_back(part);
     }
     if (rigid_pairs_.empty()) return;
@@ -142,9 +145,9 @@ class RigidRepair {
     std::string names;
     for (const Index part : in_parts_) names += (names.empty() ? "" : ", ") + name(part);
     const std::string count = std::to_string(faces.size());
-    diagnosis_.obstructions.push_back({Obstruction::Kind::rigid_faces, std::move(faces),
-                                       count + " faces of rigid parts intersect others of the same part (" + names +
-                                           "), which moves as it is"});
+    diagnosis_.obstructions.push_back(
+        {Obstruction::Kind::rigid_faces, std::move(faces),
+         count + " faces of rigid parts intersect others of the same part (" + names + "), which moves as it is"});
   }
 
   /// The part that both triangles have vertices of; -1: there is none.
@@ -168,7 +171,8 @@ class RigidRepair {
     if (limit > 0) place.most_motion = recover.most_motion = limit;
     place.stop = recover.stop = limits_.stopper();
     result.is_too_far = place_bodies(bodies, place);
-    float32_ = options_.precision ? *options_.precision == Precision::float32 : float32_can_hold(scene(), diagnosis_.pairs);
+    float32_ =
+        options_.precision ? *options_.precision == Precision::float32 : float32_can_hold(scene(), diagnosis_.pairs);
     std::vector<Index> of_bodies;
     for (const Body& body : bodies.list())
       of_bodies.insert(of_bodies.end(), body.vertices.begin(), body.vertices.end());
@@ -361,8 +365,7 @@ class RigidRepair {
     placement.phase = "untangle";
     placement.strategy = "place";
     for (std::size_t v = 0; v < surface_.vertex_count(); ++v) {
-      const Vec3 d =
-          Eigen::Map<const Vec3>(&placed[3 * v]) - Eigen::Map<const Vec3>(&surface_.positions[3 * v]);
+      const Vec3 d = Eigen::Map<const Vec3>(&placed[3 * v]) - Eigen::Map<const Vec3>(&surface_.positions[3 * v]);
       if (d == Vec3::Zero()) continue;
       placement.vertices.push_back(static_cast<std::int32_t>(v));
       placement.displacements.insert(placement.displacements.end(), {d[0], d[1], d[2]});
@@ -371,9 +374,11 @@ class RigidRepair {
     const Acceptance::Pairs pairs = acceptance_->pairs_at(prepared_.rest);
     input.pairs = pairs.of_faces.size();
     input.intersecting.clear();
-    for (const IntersectingPair& pair : pairs.of_faces) input.intersecting.insert(input.intersecting.end(), {pair.a, pair.b});
+    for (const IntersectingPair& pair : pairs.of_faces)
+      input.intersecting.insert(input.intersecting.end(), {pair.a, pair.b});
     std::sort(input.intersecting.begin(), input.intersecting.end());
-    input.intersecting.erase(std::unique(input.intersecting.begin(), input.intersecting.end()), input.intersecting.end());
+    input.intersecting.erase(std::unique(input.intersecting.begin(), input.intersecting.end()),
+                             input.intersecting.end());
     frames.front() = std::move(placement);
     frames.insert(frames.begin(), std::move(input));
   }

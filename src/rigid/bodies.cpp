@@ -16,7 +16,12 @@ double Body::squared_displacement() const {
 
 Bodies::Bodies(const Positions& rest, std::span<const Triangle> triangles, std::span<const Index> body_of, Index count,
                std::span<const std::uint8_t> fixed)
-    : rest_(rest), x_(rest), triangles_(triangles), bodies_(count), body_of_(body_of.begin(), body_of.end()), is_present_(count, 1) {
+    : rest_(rest),
+      x_(rest),
+      triangles_(triangles),
+      bodies_(count),
+      body_of_(body_of.begin(), body_of.end()),
+      is_present_(count, 1) {
   for (Index v = 0; v < static_cast<Index>(body_of.size()); ++v)
     if (body_of[v] >= 0) bodies_[body_of[v]].vertices.push_back(v);
   owner_.resize(triangles.size(), soft);

@@ -69,8 +69,9 @@ class Bodies {
         if (is_obstacle_to(body, u)) visit(t, u);
       });
   }
-  /// The body of a triangle or vertex; -1: it is of none.
-  Index body_of_triangle(Index t) const { return owner_[t] >= 0 ? owner_[t] : -1; }
+  /// The body of a triangle; negative: what it is instead.
+  Index owner_of_triangle(Index t) const { return owner_[t]; }
+  /// The body of a vertex; -1: it is of none.
   Index body_of_vertex(Index v) const { return body_of_[v]; }
 
  private:
@@ -81,7 +82,7 @@ class Bodies {
   std::span<const Triangle> triangles_;
   std::vector<Body> bodies_;
   std::vector<Index> body_of_;  // of each vertex
-  std::vector<Index> owner_;  // of each triangle: its body, or what it is instead
+  std::vector<Index> owner_;    // of each triangle: its body, or what it is instead
   std::vector<std::uint8_t> is_present_;
   std::vector<Box> boxes_;
   Bvh tree_;

@@ -26,7 +26,7 @@ constexpr double largest_chord = 1.4142135623730951;
 struct BodyMotion {
   Vec3 direction = Vec3::Zero();  // of a translation, or:
   Vec3 axis = Vec3::Zero();       // of a rotation about the centre,
-  double radius = 0;              // for which this is the root mean square of the distance of the vertices from the axis
+  double radius = 0;  // for which this is the root mean square of the distance of the vertices from the axis
 
   double longest(double diagonal) const { return radius > 0 ? std::min(diagonal, largest_chord * radius) : diagonal; }
   void apply(Body& body, double distance) const {
@@ -122,8 +122,7 @@ class BodyPlacement {
         }
         if (!(free < least)) continue;
         least = free;
-        if (!is_free_at(body, motion, (1 + margin) * free) ||
-            bodies_.largest_displacement(body) > options_.most_motion)
+        if (!is_free_at(body, motion, (1 + margin) * free) || bodies_.largest_displacement(body) > options_.most_motion)
           motion.apply(body, free);
         best = body;
       }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
+#include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "contact/distances.h"
@@ -15,14 +17,16 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;  // translation, then rotation vector in radians
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// A step moves no vertex farther than this share of the largest displacement, at first; growth and cuts follow what
-/// the steps are worth.
-constexpr double first_reach = 0.5;
+/// A step moves no vertex farther than this share of the largest displacement: at first, and at most. The number of
+/// contacts within reach of a step grows with its square, so that steps are longer only where that is worth it.
+constexpr double first_reach = 0.02, largest_reach = 0.1;
 constexpr double reach_growth = 1.5, reach_cut = 0.5;
-/// It is at its end where steps are shorter than this share of the largest displacement at the start.
-constexpr double least_reach = 1e-4;
-/// Contact is kept at this share of the largest displacement at the start, at least: room for what linearisation
-/// leaves out, so that steps along a contact need not be tiny. What it costs is at most this share of the motion.
+/// It is at its end where steps are shorter than this share of the largest displacement at the start, or bring less
+/// than this share of the sum of squares.
+constexpr double least_reach = 1e-4, least_gain = 1e-4;
+/// Contacts are aimed at so much more than the wanted gap, as a share of the largest displacement at the start: room
+/// for what linearisation leaves out, so that steps along a contact need not be tiny. It costs this share of the
+/// motion.
 constexpr double contact_share = 1e-3;
 /// Steps; 25 are usual.
 constexpr int most_steps = 200;
@@ -41,12 +45,27 @@ struct BodyContact {
 
 class BodyRecovery {
  public:
-  BodyRecovery(Bodies& bodies, const RecoverBodiesOptions& options) : bodies_(bodies), options_(options) {}
+  BodyRecovery(Bodies& bodies, const RecoverBodiesOptions& options) : bodies_(bodies), options_(options) {
+    // Vertices have edges from themselves to themselves here. What is met as a body and as an obstacle counts twice.
+    std::vector<std::array<Index, 5>> entries;  // edge, owner, triangle, bit
+    for (Index t = 0; t < static_cast<Index>(bodies.triangles().size()); ++t)
+      for (Index k = 0; k < 3; ++k) {
+        const Triangle& corners = bodies.triangles()[t];
+        const Edge edge = ordered(corners[k], corners[(k + 1) % 3]);
+        entries.push_back({corners[k], corners[k], bodies.owner_of_triangle(t), t, k});
+        entries.push_back({edge[0], edge[1], bodies.owner_of_triangle(t), t, 3 + k});
+      }
+    std::sort(entries.begin(), entries.end());
+    owned_.assign(bodies.triangles().size(), 0);
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      if (e == 0 || !std::equal(entries[e].begin(), entries[e].begin() + 3, entries[e - 1].begin()))
+        owned_[entries[e][3]] |= static_cast<std::uint8_t>(1 << entries[e][4]);
+  }
 
   void run() {
     const double scale = largest_displacement();
     if (!(scale > 0)) return;
-    contact_gap_ = std::max(options_.min_gap, contact_share * scale);
+    contact_gap_ = options_.min_gap + contact_share * scale;
     double reach = first_reach * scale, cost = squared_displacement();
     std::vector<BodyContact> contacts = contacts_within(reach);
     for (int step = 0; step < most_steps && reach > least_reach * scale; ++step) {
@@ -57,21 +76,23 @@ class BodyRecovery {
       const std::vector<Body> before(bodies_.list().begin(), bodies_.list().end());
       take(steps);
       const double new_cost = squared_displacement();
-      std::vector<BodyContact> new_contacts;
-      bool is_kept = largest_displacement() <= options_.most_motion && are_free();
+      bool is_kept = largest_displacement() <= options_.most_motion && are_free(), is_done = false;
       if (is_kept) {
-        new_contacts = contacts_within(reach);
+        const double new_reach = std::min(reach_growth * reach, largest_reach * scale);
+        std::vector<BodyContact> new_contacts = contacts_within(new_reach);
         const double lack = lack_of_gap(contacts), new_lack = lack_of_gap(new_contacts);
         is_kept = new_lack < lack || (new_lack <= 0 && new_cost < cost);
+        is_done = is_kept && lack <= 0 && cost - new_cost < least_gain * cost;
+        if (is_kept) {
+          cost = new_cost;
+          reach = new_reach;
+          contacts = std::move(new_contacts);
+        }
       }
-      if (is_kept) {
-        cost = new_cost;
-        reach = std::min(reach_growth * reach, first_reach * scale);
-      } else {
-        go_back(before);
-        reach = reach_cut * length;
-      }
-      contacts = contacts_within(reach);
+      if (is_done) return;
+      if (is_kept) continue;
+      go_back(before);
+      reach = reach_cut * length;
     }
   }
 
@@ -109,13 +130,9 @@ class BodyRecovery {
       if (!body.is_placed) continue;
       bodies_.near_triangles(body, radius, [&](Index t, Index u) {
         // Of two bodies the pair is met from both sides.
-        if (const Index other = bodies_.body_of_triangle(u); other < 0 || t < u) add_stencils(t, u, stencils);
+        if (bodies_.owner_of_triangle(u) < 0 || t < u) add_stencils(t, u, stencils);
       });
     }
-    const auto key = [](const Stencil& s) { return std::tie(s.kind, s.v); };
-    std::sort(stencils.begin(), stencils.end(),
-              [&](const Stencil& a, const Stencil& b) { return key(a) < key(b); });
-    stencils.erase(std::unique(stencils.begin(), stencils.end()), stencils.end());
     std::vector<BodyContact> contacts;
     for (const Stencil& stencil : stencils) {
       if (!(squared_distance(stencil, bodies_.x()) < radius * radius)) continue;
@@ -127,15 +144,17 @@ class BodyRecovery {
   void add_stencils(Index t, Index u, std::vector<Stencil>& stencils) const {
     const Triangle &a = bodies_.triangles()[t], &b = bodies_.triangles()[u];
     for (int i = 0; i < 3; ++i) {
-      stencils.push_back({StencilKind::vertex_face, {a[i], b[0], b[1], b[2]}});
-      stencils.push_back({StencilKind::vertex_face, {b[i], a[0], a[1], a[2]}});
+      if (looks_after(t, i)) stencils.push_back({StencilKind::vertex_face, {a[i], b[0], b[1], b[2]}});
+      if (looks_after(u, i)) stencils.push_back({StencilKind::vertex_face, {b[i], a[0], a[1], a[2]}});
       for (int j = 0; j < 3; ++j) {
-        Edge e = ordered(a[i], a[(i + 1) % 3]), f = ordered(b[j], b[(j + 1) % 3]);
-        if (f < e) std::swap(e, f);  // one name for a pair, whichever triangles it is met from
-        stencils.push_back({StencilKind::edge_edge, {e[0], e[1], f[0], f[1]}});
+        if (!looks_after(t, 3 + i) || !looks_after(u, 3 + j)) continue;
+        stencils.push_back({StencilKind::edge_edge, {a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]}});
       }
     }
   }
+
+  /// Of corner k, or of the edge from corner k - 3, the first triangle: so that no stencil is met twice.
+  bool looks_after(Index t, int k) const { return (owned_[t] >> k & 1) != 0; }
 
   static Edge ordered(Index a, Index b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
@@ -169,8 +188,7 @@ class BodyRecovery {
       if (!moves(static_cast<Index>(b)) || !(body.moments.trace() > 0)) continue;
       const auto count = static_cast<double>(body.vertices.size());
       const Eigen::Matrix3d moments = body.rotation * body.moments * body.rotation.transpose();
-      const Eigen::Matrix3d inertia =
-          (1 + least_moment) * body.moments.trace() * Eigen::Matrix3d::Identity() - moments;
+      const Eigen::Matrix3d inertia = (1 + least_moment) * body.moments.trace() * Eigen::Matrix3d::Identity() - moments;
       inverse[b].topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() / count;
       inverse[b].bottomRightCorner<3, 3>() = inertia.inverse();
       // The gradient of half the sum of squared displacements.
@@ -247,7 +265,8 @@ class BodyRecovery {
 
   Bodies& bodies_;
   const RecoverBodiesOptions& options_;
-  double contact_gap_ = 0;  // that contacts are kept at
+  std::vector<std::uint8_t> owned_;  // of each triangle one bit a corner, then one an edge
+  double contact_gap_ = 0;           // that contacts are aimed at
 };
 
 }  // namespace

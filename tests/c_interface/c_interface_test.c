@@ -238,6 +238,32 @@ static void tells_progress_and_cancels(void) {
   unsnarl_context_free(context);
 }
 
+static void moves_rigid_parts(void) {
+  const int32_t both[] = {0, 0, 0, 1, 1, 1}, one[] = {0, 0, 0, 0, 0, 0};
+  const uint8_t first[] = {1, 0, 0, 0, 0, 0};
+  unsnarl_surface surface = crossing();
+  unsnarl_options options = defaults();
+  unsnarl_result* result = NULL;
+
+  surface.rigid = both;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  CHECK(says(unsnarl_result_report(result), "\"rigid_vertices\": 6"));
+  CHECK(says(unsnarl_result_report(result), "\"name\": \"1\""));
+  unsnarl_result_free(result);
+  surface.rigid = one;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "obstructed") == 0);
+  CHECK(says(unsnarl_result_report(result), "\"rigid_faces\""));
+  unsnarl_result_free(result);
+  CHECK(unsnarl_repair_sequence(&surface, 1, &options, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  surface.fixed = first;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  surface.fixed = NULL;
+  options.each_component = 1;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+}
+
 static void repairs_sequences(void) {
   double frames[3 * 18];
   unsnarl_surface surface = crossing();
@@ -420,6 +446,7 @@ int main(int count, char** arguments) {
   takes_structs_of_older_callers();
   says_what_is_wrong();
   tells_progress_and_cancels();
+  moves_rigid_parts();
   repairs_sequences();
   knows_parts();
   untangles_curves();

@@ -108,6 +108,8 @@ const std::map<std::string, Shape>& shapes() {
       {"linked_rings", {3, 0, 0, orientable, 0}},
       {"jellyfish", {12, 24, 0, orientable, 0}},
       {"anchored_balls", {6, 0, 0, orientable, 12}},
+      {"anchor_scene", {7, 1, 0, orientable, 5}},
+      {"dressed_figure", {2, 4, 0, orientable, 0}},
       {"medusa", {61, 0, 0, orientable, 122}},
       {"posed_limb", {1, 0, 0, orientable, 2}},
       {"overlapping_quads", {3, 1, 0, orientable, 5}},

@@ -46,8 +46,9 @@ const std::string& checked_folder(const FixOptions& options) {
   refuse(!options.record.empty(), "--record");
   refuse(!options.highlight.empty(), "--highlight");
   if (!options.rigid.empty())
-    throw UsageError("--sequence has no --rigid: a part that moves as a body from frame to frame is not known; repair "
-                     "single frames, or hold the part with --fix-object and the like");
+    throw UsageError(
+        "--sequence has no --rigid: a part that moves as a body from frame to frame is not known; repair "
+        "single frames, or hold the part with --fix-object and the like");
   return options.output;
 }
 
