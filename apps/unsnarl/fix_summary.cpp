@@ -121,7 +121,7 @@ std::vector<std::string> by_file(const SceneReport& scene) {
 
 std::string rigid_part_in_words(const RigidPartReport& part) {
   if (part.translation_rel == 0 && part.rotation_deg == 0) return fmt::format("rigid {}: stays", part.name);
-  return fmt::format("rigid {}: shifted by {:.2g} % of the diagonal, turned by {:.2g} degrees, as one body to {:.1g}",
+  return fmt::format("rigid {}: shifted by {:.2g} % of the diagonal, turned by {:.2g} degrees, residual {:.1g}",
                      part.name, 100 * part.translation_rel, part.rotation_deg, part.residual_rel);
 }
 

@@ -92,3 +92,46 @@ def test_both_diagonals_count():
     assert len(unsnarl.find_intersections(repaired.V, F, both_diagonals=True)) == 0
     assert unsnarl.certify(V, F, repaired.V, both_diagonals=True).embedded
     assert not unsnarl.certify(V, F, V, both_diagonals=True).embedded
+
+
+def test_rigid_parts_are_those_of_the_command_line(tmp_path, scene):
+    V, F, source = scene
+    target = tmp_path / "out.obj"
+    report = fix(source, target, "--rigid-component", 0)
+    part = unsnarl.vertices_of_faces(V, F, unsnarl.component_of_faces(V, F) == 0)
+    by_mask, by_ids = unsnarl.repair(V, F, rigid=[part]), unsnarl.repair(V, F, rigid=[np.flatnonzero(part)])
+    assert by_mask.status == "embedded"
+    assert_same_as_file(by_mask, target, V)
+    assert np.array_equal(by_mask.V, by_ids.V)
+    motion = by_mask.report["rigid_parts"][0]
+    assert motion["rotation"] == report["rigid_parts"][0]["rotation"]
+    carried = V[part] @ np.array(motion["rotation"]).reshape(3, 3).T + motion["translation"]
+    assert np.abs(by_mask.V[part] - carried).max() < 1e-6 * by_mask.report["diagonal"]
+    assert np.array_equal(unsnarl.fix(source, tmp_path / "again.obj", rigid=[part]).V, by_mask.V)
+    assert (tmp_path / "again.obj").read_bytes() == target.read_bytes()
+
+
+def test_meshes_of_a_list_can_be_rigid():
+    V = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]], dtype=float)
+    F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    small = np.array([[1.2, 1.2, 1.1], [2.6, 2.5, 2], [2.5, 2.6, 2.2], [2.4, 2.4, 2.7]])
+    result = unsnarl.repair([(V, F), (small, F)], [np.arange(4), None], rigid=[1])
+    assert result.status == "embedded"
+    edges = [np.linalg.norm(x[:, None] - x, axis=2) for x in (small, result.V[1])]
+    assert np.abs(edges[0] - edges[1]).max() < 2e-6
+    assert result.report["rigid_parts"][0]["vertices"] == 4
+
+
+def test_rigid_parts_that_make_no_sense(scene):
+    V, F, _ = scene
+    for error, message, rigid in (
+        (TypeError, "rigid is a list of parts", np.ones(len(V), bool)),
+        (ValueError, r"rigid\[0\] and rigid\[1\] have vertex 1 in common", [[0, 1], [1, 2]]),
+        (ValueError, r"rigid\[0\]\[1\] is 1000000", [[0, 1000000]]),
+    ):
+        with pytest.raises(error, match=message):
+            unsnarl.repair(V, F, rigid=rigid)
+    with pytest.raises(ValueError, match="names mesh 1, but there are 1"):
+        unsnarl.repair([(V, F)], rigid=[1])
+    with pytest.raises(ValueError, match="is fixed and of the rigid part"):
+        unsnarl.repair(V, F, [0], rigid=[[0, 1, 2]])

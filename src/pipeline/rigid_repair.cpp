@@ -306,7 +306,7 @@ class RigidRepair {
     const std::vector<Index>& polygon = prepared_.triangulation.polygon;
     for (const IntersectingPair& pair : diagnosis_.obstructed) {
       LeftReason reason = LeftReason::fixed_faces;
-      if (std::find(rigid_pairs_.begin(), rigid_pairs_.end(), pair) != rigid_pairs_.end())
+      if (std::binary_search(rigid_pairs_.begin(), rigid_pairs_.end(), pair))
         reason = LeftReason::rigid_faces;
       else if (pair.kind == PairClass::duplicate)
         reason = LeftReason::duplicate_faces;
@@ -398,7 +398,7 @@ class RigidRepair {
   Index part_count_ = 0;
   std::optional<Finders> finders_;
   Diagnosis diagnosis_;
-  std::vector<IntersectingPair> rigid_pairs_;  // within a part
+  std::vector<IntersectingPair> rigid_pairs_;  // within a part, sorted
   std::vector<Index> in_parts_;                // these parts
   std::optional<Acceptance> acceptance_;
   Scene scene_;  // at rest; made when first asked for

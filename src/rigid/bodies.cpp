@@ -82,6 +82,9 @@ bool Bodies::is_obstacle_to(const Body& body, Index u) const {
 }
 
 bool Bodies::is_free(const Body& body) const {
+  // Squares of coordinates beyond 2^500 overflow.
+  for (Index v : body.vertices)
+    if (!x_.col(v).allFinite()) return false;
   const auto count = static_cast<Index>(body.triangles.size());
   // A place near one that is not free is most often not free because of the same triangle.
   const Index first = last_hit_ < count ? last_hit_ : 0;

@@ -62,7 +62,7 @@ TEST_F(Usage, UsageErrorsExitWith2) {
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--format", "doc"}, 2, "doc");
   expect_refusal({"sample"}, 2, "--list");
   expect_refusal({"sample", "no_such_thing", "-o", folder / "o.obj"}, 2, "no_such_thing");
-  expect_refusal({"sample", "book", "-o", folder / "o.glb"}, 2, "glb");
+  expect_refusal({"sample", "book", "-o", folder / "o.gltf"}, 2, "gltf");
   expect_refusal({"sample", "book", "-o", folder / "o.obj", "--set", "pages"}, 2, "NAME=NUMBER");
   EXPECT_EQ(contents(in), clean_cube);
 }
