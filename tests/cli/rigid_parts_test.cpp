@@ -58,10 +58,13 @@ TEST_F(RigidParts, MoveAsBodiesHoweverNamed) {
 }
 
 TEST_F(RigidParts, FilesOfASceneAndPartsOfAGlb) {
-  const std::string one = file("one.obj", crossing.substr(0, crossing.find("v 1.2")) + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
-  const std::string two = file("two.obj", "v 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
-                                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
-  const Outcome outcome = run({"fix", one, two, "-o", folder / "out", "--rigid-file", "two.obj", "--fix-file", "one.obj"});
+  const std::string one =
+      file("one.obj", crossing.substr(0, crossing.find("v 1.2")) + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const std::string two = file("two.obj",
+                               "v 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\n"
+                               "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const Outcome outcome =
+      run({"fix", one, two, "-o", folder / "out", "--rigid-file", "two.obj", "--fix-file", "one.obj"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("rigid two.obj: shifted"), std::string::npos) << outcome.err;
   const std::string scene = folder / "scene.glb", out = folder / "out.glb";
