@@ -31,10 +31,10 @@ Surface dressed_figure(int resolution, const SampleValues& values) {
         for (int z = -1; z < 1; ++z) blocks.push_back({x, y, z});
   };
   add(figure, 0, 5, 0, 6);                             // torso
-  add(figure, 0, 2, -6, 0), add(figure, 3, 5, -6, 0);  // legs
-  add(figure, -5, 0, 4, 6), add(figure, 5, 10, 4, 6);  // arms
+  add(figure, 0, 2, -5, 0), add(figure, 3, 5, -5, 0);  // legs
+  add(figure, -4, 0, 4, 6), add(figure, 5, 9, 4, 6);   // arms
   add(figure, 2, 3, 6, 7), add(figure, 1, 4, 7, 10);   // neck, head
-  constexpr int hem = -3, left_cuff = -2, right_cuff = 7, shoulder = 6;
+  constexpr int hem = -2, left_cuff = -2, right_cuff = 7, shoulder = 6;
   add(tunic, 0, 5, hem, shoulder);
   add(tunic, left_cuff, 0, 4, 6), add(tunic, 5, right_cuff, 4, 6);
   const auto is_cloth = [](const Vec3& p) {
