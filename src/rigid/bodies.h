@@ -11,8 +11,7 @@
 
 namespace unsnarl {
 
-/// A part that moves as one body. A vertex at p in the input is at
-/// rotation (p - rest_centre) + centre.
+/// A part that moves as one body. A vertex at p in the input is at rotation (p - rest_centre) + centre.
 struct Body {
   std::vector<Index> vertices;   ///< ascending
   std::vector<Index> triangles;  ///< those of which all vertices are its own, ascending

@@ -28,7 +28,7 @@ constexpr double least_reach = 1e-4, least_gain = 1e-4;
 /// for what linearisation leaves out, so that steps along a contact need not be tiny. It costs this share of the
 /// motion.
 constexpr double contact_share = 1e-3;
-/// Steps; 25 are usual.
+/// Steps at most, so that it ends where contacts let it creep.
 constexpr int most_steps = 200;
 /// Sweeps over the contacts of a step, and the change of a force, relative to the largest, at which they end.
 constexpr int most_sweeps = 200;
