@@ -11,40 +11,23 @@
 #include "contact/bvh.h"
 #include "contact/intersection_finder.h"
 #include "energy/arap.h"
-#include "energy/gaussian_bandwidth.h"
 #include "energy/gaussian_contact.h"
 #include "energy/minkowski_penalty.h"
 #include "geometry/box.h"
 #include "mesh/areas.h"
 #include "optimize/lbfgs.h"
 #include "scene/trajectory.h"
-#include "untangle/flow_recession.h"
+#include "untangle/finish_by_contours.h"
 #include "untangle/flow_samples.h"
 #include "untangle/local_solver.h"
 
 namespace unsnarl {
 namespace {
 
-// Regions resolved, on how many of 115 meshes and samples, with all smoothing tried before: the regional flow one, the
-// recession five, the strong flow one, the first flow of a whole component none: it is kept for closed surfaces, which
-// cannot recede.
-constexpr std::array<FlowSettings, 3> strategies{{
-    {.name = "flow", .max_iterations = 200, .locality = 30, .lambda_minkowski = 0.5},
-    {.name = "strong_flow",
-     .max_iterations = 300,
-     .locality = 1,
-     .weights = FlowWeights::adjacency,
-     .lambda_minkowski = 0.3,
-     .adaptive_bandwidth = false,
-     .max_spacing_rel = 0.25,
-     .hopeless_stalls = 6},
-    {.name = "recession", .recedes = true},
-}};
-
-double smoothstep(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
+/// The contour method that takes away what the flow leaves, tried in this order: it needs four iterations, or gets
+/// nowhere.
+constexpr std::array<LocalSettings, 3> finishing = {
+    {{LocalMethod::contour, 0.3, 8, 25}, {LocalMethod::contour, 0.3, 4, 25}, {LocalMethod::contour, 0.3, 16, 25}}};
 
 /// Candidate pairs of triangles for the penalty, gathered with some room and kept until a vertex has used it up.
 class Candidates {
@@ -82,10 +65,10 @@ class Candidates {
   Bvh bvh_;
 };
 
-/// 2 lambda (L + locality A/S) on the free vertices, the fixed ones held, factorised once.
+/// 2 (L + locality A/S) on the free vertices, the fixed ones held, factorised once.
 class LaplacianMetric {
  public:
-  LaplacianMetric(const Patch& patch, const Arap& arap, double lambda, double locality) : n_(patch.free_count) {
+  LaplacianMetric(const Patch& patch, const Arap& arap, double locality) : n_(patch.free_count) {
     std::vector<double> diagonal(n_, 0.0);
     double total = 0;
     for (Index t = 0; t < patch.active_count; ++t) {
@@ -97,10 +80,10 @@ class LaplacianMetric {
     }
     // Never nothing at all: a vertex of zero-area faces, or a patch of them, still needs a finite metric.
     const double least = 1e-9 / std::max<Index>(1, n_);
-    for (double& d : diagonal) d = 2 * lambda * locality * std::max(total > 0 ? d / total : 0, least);
+    for (double& d : diagonal) d = 2 * locality * std::max(total > 0 ? d / total : 0, least);
     std::vector<Eigen::Triplet<double>> entries;
     for (const Arap::WeightedEdge& e : arap.edges()) {
-      const double w = 2 * lambda * e.weight;
+      const double w = 2 * e.weight;
       if (e.i < n_) diagonal[e.i] += w;
       if (e.j < n_) diagonal[e.j] += w;
       if (e.i < n_ && e.j < n_) entries.emplace_back(e.j, e.i, -w);
@@ -126,45 +109,35 @@ class LaplacianMetric {
 /// The shape-level term: which clusters repel, how far, and the force on the vertices.
 class ShapeRepulsion {
  public:
-  ShapeRepulsion(const Patch& patch, const FlowSettings& strategy, const FlowOptions& options, double spacing)
-      : patch_(patch),
-        strategy_(strategy),
-        options_(options),
-        samples_(patch.triangles, patch.rest, patch.free_count, spacing) {
-    const double start = options.start_bandwidth * spacing;
-    gaussian_.squared_bandwidth.assign(samples_.size(), start * start);
+  ShapeRepulsion(const Patch& patch, const FlowOptions& options, double spacing)
+      : patch_(patch), options_(options), samples_(patch.triangles, patch.rest, patch.free_count, spacing) {
+    gaussian_.squared_bandwidth.assign(samples_.size(), bandwidth() * bandwidth());
   }
   double spacing() const { return samples_.spacing(); }
 
-  /// Chooses the interacting pairs, and their weights and bandwidths, at x. The energy changes.
+  /// Chooses the interacting pairs at x. The energy changes.
   void refresh(const Positions& x, std::span<const IntersectingPair> pairs) {
     samples_.points(x, points_);
-    const double largest = options_.largest_bandwidth * spacing();
     const std::vector<char> hot = hot_clusters(pairs);
-    double widest = 0;
-    for (const double squared : gaussian_.squared_bandwidth) widest = std::max(widest, squared);
-    widest = std::min(std::sqrt(widest), largest);
-    // Beyond this distance along the surface a pair within the largest cutoff has its full weight.
-    const double limit = strategy_.ratio * strategy_.ratio_sharpness * options_.cutoff * largest;
     gaussian_.pairs.clear();
-    for (const auto& [i, j] : pairs_within<3>(points_, options_.cutoff * widest)) {
-      if (!hot[i] || !hot[j] || (!samples_.is_free(i) && !samples_.is_free(j))) continue;
-      const double w = weight(i, j, limit);
-      if (w > 0) gaussian_.pairs.push_back({i, j, samples_.area(i) * samples_.area(j) * w});
+    for (const auto& [i, j] : pairs_within<3>(points_, options_.cutoff * bandwidth())) {
+      if (!hot[i] || !hot[j] || (!samples_.is_free(i) && !samples_.is_free(j)) || samples_.adjacent(i, j)) continue;
+      gaussian_.pairs.push_back({i, j, samples_.area(i) * samples_.area(j)});
     }
-    if (strategy_.adaptive_bandwidth) adapt();
   }
 
-  /// Adds weight * gradient, as the other energies do.
-  double value_and_gradient(const Positions& x, Positions& gradient, double weight) {
+  /// Adds the gradient.
+  double value_and_gradient(const Positions& x, Positions& gradient) {
     samples_.points(x, points_);
     point_gradient_ = Positions::Zero(3, samples_.size());
-    const double value = gaussian_.value_and_gradient(points_, point_gradient_, weight);
+    const double value = gaussian_.value_and_gradient(points_, point_gradient_, 1);
     samples_.spread(point_gradient_, gradient);
     return value;
   }
 
  private:
+  double bandwidth() const { return options_.bandwidth * spacing(); }
+
   std::vector<char> hot_clusters(std::span<const IntersectingPair> pairs) const {
     std::vector<char> marked(samples_.size(), 0);
     for (const IntersectingPair& pair : pairs) {
@@ -175,7 +148,7 @@ class ShapeRepulsion {
       }
     }
     std::vector<char> hot = marked;
-    const double range = strategy_.hot_range * options_.start_bandwidth * spacing();
+    const double range = options_.hot_range * bandwidth();
     for (const auto& [i, j] : pairs_within<3>(points_, range)) {
       if (marked[i]) hot[j] = 1;
       if (marked[j]) hot[i] = 1;
@@ -183,28 +156,7 @@ class ShapeRepulsion {
     return hot;
   }
 
-  double weight(Index i, Index j, double limit) {
-    if (strategy_.weights == FlowWeights::adjacency) return samples_.adjacent(i, j) ? 0 : 1;
-    const double distance = std::max((points_.col(i) - points_.col(j)).norm(), 0.5 * spacing());
-    const double ratio = samples_.geodesic(i, j, limit) / (strategy_.ratio * distance);
-    return smoothstep((ratio - 1) / (strategy_.ratio_sharpness - 1));
-  }
-
-  void adapt() {
-    std::vector<BandwidthPair> pairs;
-    pairs.reserve(gaussian_.pairs.size());
-    for (const auto& [i, j, w] : gaussian_.pairs) {
-      pairs.push_back({i, j, (points_.col(i) - points_.col(j)).squaredNorm(), w});
-    }
-    BandwidthOptions bandwidth;
-    bandwidth.max_iterations = 1;
-    bandwidth.smallest = options_.least_bandwidth * spacing();
-    bandwidth.largest = options_.largest_bandwidth * spacing();
-    symmetric_local_bandwidths(pairs, gaussian_.squared_bandwidth, bandwidth);
-  }
-
   const Patch& patch_;
-  const FlowSettings& strategy_;
   const FlowOptions& options_;
   FlowSamples samples_;
   GaussianContact<3> gaussian_;
@@ -213,10 +165,9 @@ class ShapeRepulsion {
 
 class Flow {
  public:
-  Flow(Patch& patch, const FlowSettings& strategy, const std::function<bool()>& stop,
-       std::span<const IntersectingPair> tolerated, const FlowOptions& options)
+  Flow(Patch& patch, const std::function<bool()>& stop, std::span<const IntersectingPair> tolerated,
+       const FlowOptions& options)
       : patch_(patch),
-        strategy_(strategy),
         stop_(stop),
         tolerated_(tolerated),
         options_(options),
@@ -225,22 +176,18 @@ class Flow {
         finder_(patch.triangles, patch.active_count),
         active_(patch.triangles.data(), static_cast<std::size_t>(patch.active_count)),
         arap_(active_, patch.rest, patch.free_count),
-        metric_(patch, arap_, strategy.lambda_arap, strategy.locality),
-        penalty_(patch.triangles, {.margin = strategy.margin * h_, .vertex_trim = options.vertex_trim}),
-        candidates_(patch, strategy.margin * h_, options.candidate_reach * h_),
-        lambda_minkowski_(strategy.lambda_minkowski),
+        metric_(patch, arap_, options.locality),
+        penalty_(patch.triangles, {.margin = options.margin * h_, .vertex_trim = options.vertex_trim}),
+        candidates_(patch, options.margin * h_, options.candidate_reach * h_),
+        lambda_minkowski_(options.lambda_minkowski),
         lbfgs_(options.memory, [this](const Eigen::VectorXd& v, Eigen::VectorXd& out) { metric_.apply(v, out); }) {
     Box box;
     for (const Triangle& t : active_) box.extend(box_of(patch.rest, t));
     diagonal_ = box.diagonal();
   }
 
-  FlowResult run() { return strategy_.recedes ? run_recession() : run_flow(); }
-
- private:
-  FlowResult run_flow() {
+  FlowResult run() {
     FlowResult result;
-    result.strategy = strategy_.name;
     patch_.x.leftCols(n_) = patch_.rest.leftCols(n_);
     full_ = patch_.x;
     std::vector<IntersectingPair> pairs = find(full_);
@@ -267,13 +214,13 @@ class Flow {
         result.clean = true;
         break;
       }
-      if (result.iterations >= strategy_.max_iterations || (stop_ && stop_())) break;
+      if (result.iterations >= options_.max_iterations || (stop_ && stop_())) break;
       const bool stall = stalled(pairs.size());
       if (worth_finishing(pairs.size(), stall) && finish(full_)) {
         result.clean = true;
         break;
       }
-      if (stall && (hopeless(result.pairs_left) || !react(pairs.size()))) break;
+      if (stall && !react(pairs.size())) break;
       if (!step()) break;
       unpack(x_);
       pairs = find(full_);
@@ -295,45 +242,10 @@ class Flow {
     return result;
   }
 
-  FlowResult run_recession() {
-    FlowResult result;
-    result.strategy = strategy_.name;
-    patch_.x.leftCols(n_) = patch_.rest.leftCols(n_);
-    result.pairs_left = find(patch_.x).size();
-    result.clean = result.pairs_left == 0;
-    if (result.clean || n_ == 0 || !(h_ > 0)) return result;
-    const Recession recession(active_, patch_.rest, n_);
-    if (!recession.possible()) return result;
-    full_ = best_ = patch_.x;
-    // Recovery does not get far from faces squeezed to slivers: they are the answer only where nothing better comes.
-    for (const auto& [step_rel, locality_rel] : options_.recession_strides) {
-      const LocalSettings contour{LocalMethod::contour, std::max(options_.finish_step, step_rel * diagonal_ / h_),
-                                  std::max(4.0, locality_rel * diagonal_ / h_), options_.recession_iterations};
-      for (const double share : options_.recession_shares) {
-        if (stop_ && stop_()) break;
-        RecordedTry recorded(patch_);
-        recession.positions(share, full_);
-        if (!solve_contours(full_, contour, options_.jitter, &result.iterations)) continue;
-        if (!result.clean) best_ = full_;
-        result.clean = true;
-        result.pairs_left = 0;
-        if (has_squeezed_face(patch_, patch_.rest, full_, options_.recession_area)) continue;
-        patch_.x = full_;
-        recorded.keep();
-        return result;
-      }
-    }
-    patch_.x = best_;
-    return result;
-  }
+ private:
+  std::vector<IntersectingPair> find(const Positions& x) { return pairs_to_resolve(finder_, x, tolerated_); }
 
-  std::vector<IntersectingPair> find(const Positions& x) {
-    std::vector<IntersectingPair> pairs = blocking_pairs(finder_.find(x), tolerated_);
-    std::erase_if(pairs, [](const IntersectingPair& pair) { return pair.kind == PairClass::duplicate; });
-    return pairs;
-  }
-
-  void make_shape(double spacing) { shape_ = std::make_unique<ShapeRepulsion>(patch_, strategy_, options_, spacing); }
+  void make_shape(double spacing) { shape_ = std::make_unique<ShapeRepulsion>(patch_, options_, spacing); }
 
   void record_iteration(std::size_t pairs) {
     IterationRecord iteration{.pairs = pairs};
@@ -352,7 +264,7 @@ class Flow {
     unpack(x);
     candidates_.update(full_, penalty_.pairs);
     arap_gradient_ = Positions::Zero(3, full_.cols());
-    arap_value_ = arap_.value_and_gradient(full_, arap_gradient_, strategy_.lambda_arap);
+    arap_value_ = arap_.value_and_gradient(full_, arap_gradient_);
     penalty_gradient_ = Positions::Zero(3, full_.cols());
     penalty_value_ = penalty_.value_and_gradient(full_, penalty_gradient_, h_);
   }
@@ -360,7 +272,7 @@ class Flow {
   double total(Eigen::VectorXd& gradient) {
     Positions sum = arap_gradient_ + lambda_minkowski_ * penalty_gradient_;
     double value = arap_value_ + lambda_minkowski_ * penalty_value_;
-    value += shape_->value_and_gradient(full_, sum, strategy_.lambda_gaussian);
+    value += shape_->value_and_gradient(full_, sum);
     gradient = Eigen::Map<const Eigen::VectorXd>(sum.data(), 3 * n_);
     return value;
   }
@@ -407,31 +319,11 @@ class Flow {
   // The contour method from x on; x is the result where it is clean, else unchanged.
   bool finish(Positions& x) {
     finish_tried_ = find(x).size();
-    for (const double locality : options_.finish_localities) {
-      const LocalSettings strategy{LocalMethod::contour, options_.finish_step, locality, options_.finish_iterations};
-      if (solve_contours(x, strategy, 0, nullptr)) return true;
-    }
+    int iterations = 0;
+    for (const LocalSettings& settings : finishing)
+      if (finish_by_contours(patch_, x, finder_, settings, tolerated_, {0, options_.area_floor}, stop_, iterations))
+        return true;
     return false;
-  }
-
-  bool solve_contours(Positions& x, const LocalSettings& strategy, double jitter, int* iterations) {
-    std::vector<IntersectingPair> ignored(tolerated_.begin(), tolerated_.end());
-    for (const IntersectingPair& pair : blocking_pairs(finder_.find(x), tolerated_)) {
-      if (pair.kind == PairClass::duplicate) ignored.push_back(pair);
-    }
-    std::sort(ignored.begin(), ignored.end());
-    LocalOptions local;
-    local.jitter = jitter;
-    local.bisections = 0;
-    local.area_floor = options_.area_floor;
-    patch_.x.leftCols(n_) = x.leftCols(n_);
-    RecordedTry recorded(patch_);
-    const LocalResult result = solve_locally(patch_, strategy, ignored, local, stop_);
-    if (iterations) *iterations += result.iterations;
-    if (!result.clean || has_squeezed_face(patch_, patch_.rest, patch_.x, options_.area_floor)) return false;
-    recorded.keep();
-    x.leftCols(n_) = patch_.x.leftCols(n_);
-    return true;
   }
 
   // No sufficient drop of the number of pairs for some iterations.
@@ -444,11 +336,6 @@ class Flow {
     return ++waited_ >= options_.stall_iterations;
   }
 
-  bool hopeless(std::size_t best) {
-    return ++stalls_ >= strategy_.hopeless_stalls &&
-           static_cast<double>(best) > options_.hopeless_share * static_cast<double>(initial_);
-  }
-
   // Grows the penalty where little is left, else the clusters. False: nothing more to try.
   bool react(std::size_t count) {
     reference_ = static_cast<double>(count);
@@ -456,19 +343,18 @@ class Flow {
     lbfgs_.clear();
     const bool few = static_cast<double>(count) < options_.few_pairs * static_cast<double>(initial_);
     const double coarser = options_.spacing_growth * shape_->spacing();
-    if (!few && coarser <= strategy_.max_spacing_rel * diagonal_) {
+    if (!few && coarser <= options_.max_spacing_rel * diagonal_) {
       make_shape(coarser);
       shape_->refresh(full_, find(full_));
     } else {
       if (lambda_minkowski_ >= options_.largest_minkowski) return false;
-      lambda_minkowski_ *= strategy_.minkowski_growth;
+      lambda_minkowski_ *= options_.minkowski_growth;
     }
     value_ = total(gradient_);
     return true;
   }
 
   Patch& patch_;
-  const FlowSettings& strategy_;
   const std::function<bool()>& stop_;
   std::span<const IntersectingPair> tolerated_;
   const FlowOptions& options_;
@@ -491,19 +377,15 @@ class Flow {
   double value_ = 0;
   std::size_t initial_ = 0;
   double reference_ = std::numeric_limits<double>::infinity();
-  int waited_ = 0, stalls_ = 0;
+  int waited_ = 0;
   std::size_t finish_tried_ = std::numeric_limits<std::size_t>::max();  // pairs there were when finishing last failed
 };
 
 }  // namespace
 
-std::span<const FlowSettings> flow_variants() {
-  return strategies;
-}
-
-FlowResult flow(Patch& patch, const FlowSettings& strategy, const std::function<bool()>& stop,
-                std::span<const IntersectingPair> tolerated, const FlowOptions& options) {
-  return Flow(patch, strategy, stop, tolerated, options).run();
+FlowResult flow(Patch& patch, const std::function<bool()>& stop, std::span<const IntersectingPair> tolerated,
+                const FlowOptions& options) {
+  return Flow(patch, stop, tolerated, options).run();
 }
 
 }  // namespace unsnarl

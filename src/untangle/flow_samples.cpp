@@ -104,9 +104,7 @@ FlowSamples::FlowSamples(std::span<const Triangle> triangles, const Positions& r
     if (cluster_of_[v] >= 0) weights_[v] = vertex_area[v] / areas_[cluster_of_[v]];
   }
 
-  // Clusters joined by an edge are neighbours, as far apart as their centres.
-  Positions centres;
-  points(rest, centres);
+  // Clusters joined by an edge are neighbours.
   std::vector<std::pair<Index, Index>> links;
   for (const Edge& e : table.edges) {
     const Index c = cluster_of_[e[0]], d = cluster_of_[e[1]];
@@ -119,11 +117,9 @@ FlowSamples::FlowSamples(std::span<const Triangle> triangles, const Positions& r
   offsets_.assign(seeds.size() + 1, 0);
   for (const auto& [c, d] : links) {
     ++offsets_[c + 1];
-    neighbours_.push_back({d, (centres.col(c) - centres.col(d)).norm()});
+    neighbours_.push_back(d);
   }
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-  rows_.resize(seeds.size());
-  scratch_.assign(seeds.size(), infinity);
 }
 
 void FlowSamples::points(const Positions& x, Positions& points) const {
@@ -139,45 +135,9 @@ void FlowSamples::spread(const Positions& gradient, Positions& vertex_gradient) 
   }
 }
 
-double FlowSamples::geodesic(Index i, Index j, double limit) {
-  Row& row = rows_[i];
-  if (row.limit < limit) {
-    row = {};
-    row.limit = limit;
-    Front front;
-    std::vector<Index> touched{i};
-    scratch_[i] = 0;
-    front.emplace(0.0, i);
-    while (!front.empty()) {
-      const auto [d, c] = front.top();
-      front.pop();
-      if (d > scratch_[c]) continue;
-      for (Index k = offsets_[c]; k < offsets_[c + 1]; ++k) {
-        const auto& [neighbour, length] = neighbours_[k];
-        const double through = d + length;
-        if (through >= std::min(scratch_[neighbour], limit)) continue;
-        if (scratch_[neighbour] == infinity) touched.push_back(neighbour);
-        scratch_[neighbour] = through;
-        front.emplace(through, neighbour);
-      }
-    }
-    std::sort(touched.begin(), touched.end());
-    row.clusters = touched;
-    row.distances.reserve(touched.size());
-    for (const Index c : touched) {
-      row.distances.push_back(scratch_[c]);
-      scratch_[c] = infinity;
-    }
-  }
-  const auto it = std::lower_bound(row.clusters.begin(), row.clusters.end(), j);
-  return it != row.clusters.end() && *it == j ? std::min(limit, row.distances[it - row.clusters.begin()]) : limit;
-}
-
 bool FlowSamples::adjacent(Index i, Index j) const {
   const auto begin = neighbours_.begin() + offsets_[i], end = neighbours_.begin() + offsets_[i + 1];
-  const auto it =
-      std::lower_bound(begin, end, j, [](const Neighbour& n, Index cluster) { return n.cluster < cluster; });
-  return it != end && it->cluster == j;
+  return std::binary_search(begin, end, j);
 }
 
 }  // namespace unsnarl

@@ -29,30 +29,17 @@ class FlowSamples {
   /// The transpose: adds `gradient` of the points, spread over the vertices, to `vertex_gradient`.
   void spread(const Positions& gradient, Positions& vertex_gradient) const;
 
-  /// Distance along the surface at rest from cluster i to j; `limit` where it is larger, or where they do not hang
-  /// together. Computed for a whole row at a time and kept: ask in any order, with one limit.
-  double geodesic(Index i, Index j, double limit);
+  /// Whether an edge joins the two clusters.
   bool adjacent(Index i, Index j) const;
 
  private:
-  struct Neighbour {
-    Index cluster;
-    double length;
-  };
   double spacing_;
   std::vector<double> areas_;
   std::vector<char> is_free_;
   std::vector<Index> cluster_of_;
   std::vector<double> weights_;  // of each vertex in its cluster's mean
   std::vector<Index> offsets_;   // of each cluster's neighbours, ascending
-  std::vector<Neighbour> neighbours_;
-  struct Row {
-    double limit = 0;
-    std::vector<Index> clusters;  // ascending: those nearer than the limit
-    std::vector<double> distances;
-  };
-  std::vector<Row> rows_;
-  std::vector<double> scratch_;
+  std::vector<Index> neighbours_;
 };
 
 }  // namespace unsnarl

@@ -8,6 +8,7 @@
 #include "untangle/flow.h"
 #include "untangle/local_solver.h"
 #include "untangle/placement.h"
+#include "untangle/recede.h"
 
 namespace unsnarl {
 namespace {
@@ -36,16 +37,27 @@ Strategy local(std::string name, int rings, LocalSettings settings, std::size_t 
   return {.name = std::move(name), .rings = rings, .hub_valence = hubs, .solve = solve};
 }
 
-Strategy flow_of(std::string name, Extent extent, int rings, const FlowSettings& settings) {
-  const auto solve = [&settings](Patch& patch, const Task& task) {
+Strategy repelling(std::string name, Extent extent, int rings = 0) {
+  const auto solve = [](Patch& patch, const Task& task) {
     Positions rest = patch.x;  // it starts from, and is elastic about, where the region is now
     rest.swap(patch.rest);
-    const int iterations = flow(patch, settings, task.stop, task.tolerated).iterations;
+    const int iterations = flow(patch, task.stop, task.tolerated).iterations;
     rest.swap(patch.rest);
     return iterations;
   };
   return {
       .name = std::move(name), .extent = extent, .rings = rings, .reach = 20, .is_last_resort = true, .solve = solve};
+}
+
+Strategy receding() {
+  const auto solve = [](Patch& patch, const Task& task) {
+    Positions rest = patch.x;
+    rest.swap(patch.rest);
+    const int iterations = recede(patch, task.stop, task.tolerated).iterations;
+    rest.swap(patch.rest);
+    return iterations;
+  };
+  return {.name = "recession", .extent = Extent::whole_components, .reach = 20, .is_last_resort = true, .solve = solve};
 }
 
 Strategy coarse_to_fine() {
@@ -94,20 +106,6 @@ Tier wide_smoothing_tier() {
           local("smoothing-16", 16, {LocalMethod::smoothing, 0.1, 24, 100})};
 }
 
-/// Whole sheets repel each other: close around the conflict ...
-Tier regional_flow_tier() {
-  return {flow_of("flow-8", Extent::rings, 8, flow_variants().front())};
-}
-
-/// ... or in all of the component; or its boundary recedes through it.
-Tier whole_component_tier(bool recedes) {
-  Tier tier;
-  for (const FlowSettings& settings : flow_variants())
-    if (settings.recedes == recedes)
-      tier.push_back(flow_of(std::string(settings.name), Extent::whole_components, 0, settings));
-  return tier;
-}
-
 }  // namespace
 
 std::span<const Tier> default_tiers() {
@@ -118,11 +116,11 @@ std::span<const Tier> default_tiers() {
                                           {placing()},
                                           {coarse_to_fine()},
                                           layers_tier(),
-                                          regional_flow_tier(),
+                                          {repelling("flow-8", Extent::rings, 8)},
                                           smoothing_tier(),
-                                          whole_component_tier(false),
+                                          {repelling("flow", Extent::whole_components)},
                                           wide_smoothing_tier(),
-                                          whole_component_tier(true)};
+                                          {receding()}};
   return tiers;
 }
 

@@ -11,16 +11,6 @@ namespace {
 
 using namespace shapes;
 
-// Tries one variant after the other; the last one's result.
-FlowResult try_all(Patch& patch) {
-  FlowResult result;
-  for (const FlowSettings& strategy : flow_variants()) {
-    result = flow(patch, strategy);
-    if (result.clean) break;
-  }
-  return result;
-}
-
 double mean_displacement(const Patch& patch) {
   const double diagonal = (patch.rest.rowwise().maxCoeff() - patch.rest.rowwise().minCoeff()).norm();
   return (patch.x - patch.rest).colwise().norm().mean() / diagonal;
@@ -28,8 +18,8 @@ double mean_displacement(const Patch& patch) {
 
 void expect_untangled(Patch& patch, double largest_mean_displacement, double largest_growth) {
   ASSERT_GT(count_pairs(patch), 0u);
-  const FlowResult result = try_all(patch);
-  EXPECT_TRUE(result.clean) << result.strategy << ": " << result.pairs_left;
+  const FlowResult result = flow(patch);
+  EXPECT_TRUE(result.clean) << result.pairs_left;
   EXPECT_EQ(count_pairs(patch), 0u);
   EXPECT_LT(mean_displacement(patch), largest_mean_displacement);
   const double growth = total_area(patch.x, patch.triangles) / total_area(patch.rest, patch.triangles);
@@ -49,29 +39,16 @@ TEST(Flow, ParsTwoSpheres) {
 
 TEST(Flow, OpensAThickTrefoil) {
   Patch patch = patch_of(thick_trefoil());
-  expect_untangled(patch, 0.2, 2);
+  expect_untangled(patch, 0.25, 2);
 }
 
 TEST(Flow, OpensAFigureEightTorus) {
   Patch patch = patch_of(figure_eight_torus());
   ASSERT_GT(count_pairs(patch), 0u);
-  FlowResult result;
-  for (const FlowSettings& strategy : flow_variants()) {
-    if (strategy.locality > 10) continue;  // too local for this
-    result = flow(patch, strategy);
-    if (result.clean) break;
-  }
+  const FlowResult result = flow(patch);
   EXPECT_TRUE(result.clean) << result.pairs_left;
   EXPECT_EQ(count_pairs(patch), 0u);
   EXPECT_LT(mean_displacement(patch), 0.25);
-}
-
-TEST(Flow, GivesUpEarlyWhereAStrategyHasNoEffect) {
-  Patch patch = patch_of(figure_eight_torus());
-  const FlowResult result = flow(patch, flow_variants()[0]);
-  EXPECT_FALSE(result.clean);
-  EXPECT_LT(result.iterations, flow_variants()[0].max_iterations);
-  EXPECT_EQ(count_pairs(patch), result.pairs_left);
 }
 
 TEST(Flow, FreesALimbPressedThroughASheet) {
@@ -128,14 +105,14 @@ TEST(Flow, OpensFoldsAndOneVertexCrossings) {
   for (Index k = 0; k < 8; ++k) fan.triangles.push_back({0, k + 1, (k + 1) % 8 + 1});
   Patch crossing = patch_of(fan);
   ASSERT_GT(count_pairs(crossing), 0u);
-  const FlowResult result = try_all(crossing);
+  const FlowResult result = flow(crossing);
   EXPECT_TRUE(result.clean) << result.pairs_left;
   EXPECT_EQ(count_pairs(crossing), 0u);
 }
 
 TEST(Flow, LeavesCleanInputAlone) {
   Patch patch = patch_of(sphere(Vec3(0, 0, 0), 1, 8));
-  const FlowResult result = flow(patch, flow_variants()[0]);
+  const FlowResult result = flow(patch);
   EXPECT_TRUE(result.clean);
   EXPECT_EQ(result.iterations, 0);
   EXPECT_EQ(patch.x, patch.rest);
@@ -146,11 +123,11 @@ TEST(Flow, DuplicateFacesAndToleratedPairsAreLetBe) {
   shape.triangles.push_back({shape.triangles[5][1], shape.triangles[5][2], shape.triangles[5][0]});
   Patch patch = patch_of(shape);
   ASSERT_EQ(count_pairs(patch), 1u);
-  EXPECT_TRUE(flow(patch, flow_variants()[0]).clean);
+  EXPECT_TRUE(flow(patch).clean);
 
   Patch tangled = patch_of(limb_and_sheet());
   const std::vector<IntersectingPair> pairs = IntersectionFinder(tangled.triangles).find(tangled.x);
-  const FlowResult result = flow(tangled, flow_variants()[0], {}, pairs);
+  const FlowResult result = flow(tangled, {}, pairs);
   EXPECT_TRUE(result.clean);
   EXPECT_EQ(tangled.x, tangled.rest);
 }
@@ -159,11 +136,11 @@ TEST(Flow, StopsWhenToldToAndKeepsTheBestState) {
   Patch patch = patch_of(figure_eight_torus());
   const std::size_t before = count_pairs(patch);
   int asked = 0;
-  const FlowResult result = flow(patch, flow_variants()[0], [&] { return ++asked > 100; });
+  const FlowResult result = flow(patch, [&] { return ++asked > 10; });
   EXPECT_FALSE(result.clean);
   EXPECT_GT(result.iterations, 0);
-  EXPECT_LE(result.iterations, 100) << "it asks once an iteration at least";
-  EXPECT_LE(asked, 110) << "told so, it goes on";
+  EXPECT_LE(result.iterations, 10) << "it asks once an iteration at least";
+  EXPECT_LE(asked, 20) << "told so, it goes on";
   EXPECT_EQ(count_pairs(patch), result.pairs_left);
   EXPECT_LE(result.pairs_left, before);
 }
@@ -173,7 +150,7 @@ TEST(Flow, GivesTheSameBytesAtAnyThreadCount) {
   for (const std::size_t threads : {1, 2, 4}) {
     const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
     Patch patch = patch_of(thick_trefoil());
-    flow(patch, flow_variants()[0]);
+    flow(patch);
     results.push_back(patch.x);
   }
   EXPECT_EQ(results[0], results[1]);

@@ -1,4 +1,4 @@
-#include "untangle/flow_recession.h"
+#include "untangle/recession.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>

@@ -1,14 +1,13 @@
-#include "untangle/flow_recession.h"
+#include "untangle/recession.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <stdexcept>
 
 #include "scene/shapes.h"
-#include "untangle/flow.h"
+#include "untangle/recede.h"
 
 namespace unsnarl {
 namespace {
@@ -58,17 +57,9 @@ Shape octahedron() {
   return shape;
 }
 
-const FlowSettings& recession_strategy() {
-  for (const FlowSettings& strategy : flow_variants()) {
-    if (strategy.recedes) return strategy;
-  }
-  throw std::logic_error("no strategy recedes");
-}
-
 void expect_resolved(Patch patch) {
   ASSERT_GT(shapes::pairs_at(patch.x, patch.triangles).size(), 0u);
-  const FlowResult result = flow(patch, recession_strategy());
-  EXPECT_TRUE(result.clean) << result.pairs_left;
+  EXPECT_TRUE(recede(patch).clean);
   EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
   for (const Triangle& t : patch.triangles) {
     EXPECT_GE(triangle_area(patch.x, t), 1e-3 * triangle_area(patch.rest, t));
@@ -147,7 +138,7 @@ TEST(Recession, GivesUpAtOnceWithoutABoundary) {
   Shape two = octahedron();
   two.add(octahedron(), Vec3(0.7, 0.1, 0.05));
   Patch patch = shapes::patch_of(two);
-  const FlowResult result = flow(patch, recession_strategy());
+  const RecedeResult result = recede(patch);
   EXPECT_FALSE(result.clean);
   EXPECT_EQ(result.iterations, 0);
   EXPECT_EQ(patch.x, patch.rest);
