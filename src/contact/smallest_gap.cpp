@@ -9,16 +9,34 @@
 #include "contact/face_tree.h"
 #include "geometry/box.h"
 #include "mesh/adjacency.h"
+#include "mesh/areas.h"
 
 namespace unsnarl {
 namespace {
 
-/// A lower bound of the distance of two triangles: how far apart their projections are onto the line of their centres.
-double gap_between_projections(const Positions& x, const Triangle& s, const Triangle& t) {
-  const Vec3 direction =
-      (x.col(t[0]) + x.col(t[1]) + x.col(t[2]) - x.col(s[0]) - x.col(s[1]) - x.col(s[2])).normalized();
+/// How far apart the projections of two triangles onto a line are; negative: they overlap.
+double gap_along(const Positions& x, const Triangle& s, const Triangle& t, const Vec3& direction) {
   const auto along = [&](Index v) { return direction.dot(x.col(v)); };
-  return std::min({along(t[0]), along(t[1]), along(t[2])}) - std::max({along(s[0]), along(s[1]), along(s[2])});
+  const auto [s_least, s_most] = std::minmax({along(s[0]), along(s[1]), along(s[2])});
+  const auto [t_least, t_most] = std::minmax({along(t[0]), along(t[1]), along(t[2])});
+  return std::max(t_least - s_most, s_least - t_most);
+}
+
+/// True: the projections onto some line are at least so far apart, and so are the triangles. The lines are that of
+/// their centres, the normals, and those in either plane across an edge: long needles side by side are far apart along
+/// one of them, while their boxes overlap.
+bool are_apart(const Positions& x, const Triangle& s, const Triangle& t, double distance) {
+  const Vec3 centres = x.col(t[0]) + x.col(t[1]) + x.col(t[2]) - x.col(s[0]) - x.col(s[1]) - x.col(s[2]);
+  if (gap_along(x, s, t, centres.normalized()) >= distance) return true;
+  for (const Triangle& face : {s, t}) {
+    const Vec3 normal = area_vector(x, face).normalized();
+    if (gap_along(x, s, t, normal) >= distance) return true;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 edge = x.col(face[(k + 1) % 3]) - x.col(face[k]);
+      if (gap_along(x, s, t, normal.cross(edge).normalized()) >= distance) return true;
+    }
+  }
+  return false;
 }
 
 /// Of triangles that do not intersect.
@@ -131,7 +149,7 @@ class Search {
     if (group(s) == group(t)) return;
     if (squared_distance(boxes_[s], boxes_[t]) >= nearest_.distance * nearest_.distance) return;
     if (share_a_vertex(triangles_[s], triangles_[t])) return;
-    if (gap_between_projections(x_, triangles_[s], triangles_[t]) >= nearest_.distance) return;
+    if (are_apart(x_, triangles_[s], triangles_[t], nearest_.distance)) return;
     const double d = distance_of(x_, triangles_[s], triangles_[t]);
     if (d < nearest_.distance) nearest_ = {d, std::min(s, t), std::max(s, t)};
   }
@@ -157,8 +175,7 @@ std::vector<std::array<Index, 2>> pairs_closer_than(std::span<const Triangle> tr
   tree.update(x, 0.5 * distance);
   std::vector<std::vector<std::array<Index, 2>>> found(static_cast<std::size_t>(tree.task_count()));
   tree.self_pairs([&](Index task, Index s, Index t) {
-    if (share_a_vertex(triangles[s], triangles[t]) ||
-        gap_between_projections(x, triangles[s], triangles[t]) >= distance ||
+    if (share_a_vertex(triangles[s], triangles[t]) || are_apart(x, triangles[s], triangles[t], distance) ||
         distance_of(x, triangles[s], triangles[t]) >= distance)
       return;
     found[static_cast<std::size_t>(task)].push_back({s, t});
