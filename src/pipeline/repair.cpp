@@ -171,7 +171,10 @@ class Repair {
         scene.work(finders);
         settle_triangulation(scene, *job_, cut, component, finders);
       }
-      if (options_.min_dihedral_deg > 0) scene.open_dihedrals(finders);
+      if (options_.min_dihedral_deg > 0) {
+        Finders finders_of_all_cuts(scene.scene().triangles);  // settling may have united several
+        scene.open_dihedrals(finders_of_all_cuts);
+      }
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
     }

@@ -81,6 +81,16 @@ TEST(Clearance, RepairedSamplesHaveTheAngleAskedFor) {
   }
 }
 
+TEST(Clearance, OpeningFoldsKeepsTheOtherDiagonalsApart) {
+  for (const char* name : {"overlapping_quads", "posed_limb"}) {
+    const Surface surface = make_sample(name, 8);
+    RepairOptions options;
+    options.min_dihedral_deg = 2;
+    options.find.both_diagonals = true;
+    EXPECT_EQ(repair(surface, options).status, Status::embedded) << name;
+  }
+}
+
 /// It is opened between two faces that leave it little more than the gap that is asked for.
 TEST(Clearance, OpeningFoldsKeepsTheGapAskedFor) {
   Surface thin = flat_tetrahedron(1e-4);
