@@ -5,13 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "command_options.h"
 #include "file_places.h"
+#include "input_bytes.h"
 #include "mesh_input.h"
 #include "progress.h"
 #include "staged_output.h"
@@ -34,9 +33,7 @@ CurveDocument read_curves(const CurvesOptions& options) {
   if (!options.format.empty()) format = curve_format_from_extension(options.format);
   if (options.input != standard_stream) return CurveDocument::read(options.input, options.flatten, format);
   if (!format) throw UsageError("standard input has no extension to tell its format by: add --format svg or json");
-  std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};
-  if (std::cin.bad()) throw FileError("standard input: cannot read");
-  return CurveDocument::parse(std::move(bytes), *format, options.flatten);
+  return CurveDocument::parse(read_bytes(standard_stream), *format, options.flatten);
 }
 
 /// The curves of the file, those fixed that --fix names.

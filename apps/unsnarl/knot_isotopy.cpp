@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <iterator>
 
 #include "command_options.h"
 #include "file_places.h"
+#include "input_bytes.h"
 #include "mesh_input.h"
 #include "pictures.h"
 #include "progress.h"
@@ -25,32 +23,6 @@ namespace fs = std::filesystem;
 
 /// Double points that are named one by one.
 constexpr std::size_t most_named = 12;
-
-std::string bytes_of(const std::string& path) {
-  std::string bytes;
-  if (path == standard_stream) {
-    bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
-    if (std::cin.bad()) throw FileError("standard input: cannot read");
-    return bytes;
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path + ": cannot open");
-  bytes.assign(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) throw FileError(path + ": cannot read");
-  return bytes;
-}
-
-Link read_knot(const std::string& path) {
-  try {
-    Link link = parse_link(bytes_of(path));
-    check_link(link);
-    return link;
-  } catch (const FileError& e) {
-    throw FileError(std::string(e.what()).starts_with(path + ":") ? e.what() : fmt::format("{}: {}", path, e.what()));
-  } catch (const std::invalid_argument& e) {
-    throw FileError(fmt::format("{}: {}", path, e.what()));
-  }
-}
 
 KnotMethod method_named(const std::string& name) {
   if (name == "direct") return KnotMethod::direct;
@@ -83,16 +55,10 @@ int check_file(const KnotIsotopyCommandOptions& options, const Link& start, cons
                Interruption& interruption) {
   KnotIsotopy isotopy;
   KnotIsotopyFindings found;
-  try {
-    isotopy = parse_knot_isotopy(bytes_of(options.check));
+  parse_file(options.check, [&](const std::string& bytes) {
+    isotopy = parse_knot_isotopy(bytes);
     found = check_knot_isotopy(isotopy, start, end);
-  } catch (const FileError& e) {
-    throw FileError(std::string(e.what()).starts_with(options.check + ":")
-                        ? e.what()
-                        : fmt::format("{}: {}", options.check, e.what()));
-  } catch (const std::invalid_argument& e) {
-    throw FileError(fmt::format("{}: {}", options.check, e.what()));
-  }
+  });
   isotopy.status = found.hold() ? Status::embedded : Status::no_progress;
   if (!options.report.empty()) {
     isotopy.found = "checked as it was given";
@@ -159,7 +125,7 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
   places.reads("END", options.end);
   places.reads("--check", options.check);
   places.writes("--report", options.report);
-  const Link start = read_knot(options.start), end = read_knot(options.end);
+  const Link start = read_link(options.start), end = read_link(options.end);
   places.require_writable(interruption);
   if (!options.check.empty()) return check_file(options, start, end, interruption);
   const OutputFolder folder(options.folder);  // is gone again where nothing is written into it
@@ -203,7 +169,7 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
     files.push_back({fmt::format("frame_{:04}.xyz", k),
                      link_text(knot_isotopy_slice(made, static_cast<double>(k) / (options.frames - 1)))});
   staged.write(files);
-  found = check_knot_isotopy(parse_knot_isotopy(bytes_of(staged.main_file().string())), start, end);
+  found = check_knot_isotopy(parse_knot_isotopy(read_bytes(staged.main_file().string())), start, end);
   if (!found.hold()) throw std::logic_error("the isotopy to be written does not hold: " + as_text(found));
   staged.commit();
   if (!options.report.empty()) {

@@ -4,10 +4,9 @@
 
 #include <charconv>
 #include <fstream>
-#include <iostream>
-#include <iterator>
 #include <sstream>
 
+#include "input_bytes.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -23,9 +22,7 @@ Document read_mesh(const std::string& path, const std::optional<Format>& format)
   if (path != standard_stream) return Document::read(path, format);
   if (!format)
     throw UsageError("standard input has no extension to tell its format by: add --format obj (or off, ...)");
-  std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};
-  if (std::cin.bad()) throw FileError("standard input: cannot read");
-  return Document::parse(std::move(bytes), *format);
+  return Document::parse(read_bytes(standard_stream), *format);
 }
 
 std::vector<std::string> scene_names(const std::vector<std::string>& paths) {

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <iterator>
 
 #include "command_options.h"
+#include "input_bytes.h"
 #include "mesh_input.h"
 #include "pictures.h"
 #include "progress.h"
@@ -25,30 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string read_bytes(const std::string& path) {
-  std::string bytes;
-  if (path == standard_stream) {
-    bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
-    if (std::cin.bad()) throw FileError("standard input: cannot read");
-    return bytes;
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path + ": cannot open");
-  bytes.assign(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) throw FileError(path + ": cannot read");
-  return bytes;
-}
-
-/// The error of a parser, with the name of the file in front.
-template <class Parse>
-auto parsed(const std::string& path, Parse&& parse) {
-  try {
-    return parse(read_bytes(path));
-  } catch (const FileError& e) {
-    throw FileError(std::string(e.what()).starts_with(path + ":") ? e.what() : fmt::format("{}: {}", path, e.what()));
-  }
-}
-
 std::string as_text(const RoutePlan& plan, const RouteFindings& f) {
   const auto measured = [](double clearance) {
     return clearance < RouteFindings::measured_up_to ? fmt::format("{:.5f}", clearance)
@@ -64,13 +38,8 @@ std::string as_text(const RoutePlan& plan, const RouteFindings& f) {
 }
 
 int check_file(const RoutesCommandOptions& options, const RoutePlan& plan) {
-  RouteFindings found;
-  try {
-    found =
-        check_routes(plan, parsed(options.check, [&](const std::string& bytes) { return parse_routes(bytes, plan); }));
-  } catch (const std::invalid_argument& e) {
-    throw FileError(fmt::format("{}: {}", options.check, e.what()));
-  }
+  const RouteFindings found = parse_file(
+      options.check, [&](const std::string& bytes) { return check_routes(plan, parse_routes(bytes, plan)); });
   if (!options.quiet)
     tell(as_text(plan, found) + route_faults(plan, found) +
          (found.hold() ? "the routes keep clear of each other\n" : ""));
@@ -219,7 +188,7 @@ void add_routes_options(CLI::App& command, RoutesCommandOptions& options) {
 int run_routes(const RoutesCommandOptions& options, Interruption& interruption) {
   if (options.folder.empty() == options.check.empty())
     throw UsageError("say where the routes go, -o DIR, or which ones to certify, --check ROUTES.json");
-  const RoutePlan plan = parsed(options.plan, [&](const std::string& bytes) {
+  const RoutePlan plan = parse_file(options.plan, [&](const std::string& bytes) {
     return parse_route_plan(bytes, options.plan == standard_stream ? fs::path() : fs::path(options.plan).parent_path());
   });
   if (!options.check.empty()) return check_file(options, plan);

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "command_options.h"
 #include "file_places.h"
+#include "input_bytes.h"
 #include "mesh_input.h"
 #include "progress.h"
 #include "staged_output.h"
@@ -22,28 +20,6 @@
 
 namespace unsnarl::app {
 namespace {
-
-Link read_link(const std::string& path) {
-  std::string bytes;
-  if (path == standard_stream) {
-    bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
-    if (std::cin.bad()) throw FileError("standard input: cannot read");
-  } else {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw FileError(path + ": cannot open");
-    bytes.assign(std::istreambuf_iterator<char>(file), {});
-    if (file.bad()) throw FileError(path + ": cannot read");
-  }
-  try {
-    Link link = parse_link(bytes);
-    check_link(link);
-    return link;
-  } catch (const FileError& e) {
-    throw FileError(fmt::format("{}: {}", path, e.what()));
-  } catch (const std::invalid_argument& e) {
-    throw FileError(fmt::format("{}: {}", path, e.what()));
-  }
-}
 
 std::string as_text(const SeifertFindings& f) {
   std::string text =

@@ -57,7 +57,7 @@ std::span<const UnknotEntry> unknot_table();
 /// None where there is none of this name.
 std::optional<Link> unknot_of_table(std::string_view name);
 
-/// Of either table. Throws std::invalid_argument for a name that is in neither.
+/// The knot or unknot that has this name in its table. Throws std::invalid_argument for a name that is in neither.
 Link knot_of_table(std::string_view name);
 
 /// The closure of a braid as polygons around the z axis: strands run counter-clockwise at distances 1, 1.5, ... from

@@ -110,7 +110,7 @@ struct RoutesResult {
   RouteFindings found;
   std::vector<std::string> messages;  ///< obstructions; agents without any way past the obstacles
   std::vector<Route> asked;           ///< where the work began: straight ways, or past obstacles, with corners
-  /// Of each agent: length of the route that it gets alone, with the obstacles but without the other agents.
+  /// Length of the route that each agent gets alone, with the obstacles but without the other agents.
   std::vector<double> alone_length;
   double seconds = 0;
 };

@@ -42,7 +42,7 @@ class SceneDocument {
   /// Document::recompute_normals of all. False: of none of them.
   bool recompute_normals();
 
-  /// Of `positions`, of the whole scene, those of a file.
+  /// The part of `positions` (of the whole scene) that belongs to a file.
   std::span<const double> positions_of(std::size_t file, std::span<const double> positions) const;
   /// The files to write for one of the files of the scene, see Document::patched. `positions`: of the whole scene.
   std::vector<OutputFile> patched(std::size_t file, std::span<const double> positions, bool float32_digits) const;

@@ -31,11 +31,11 @@ struct SeifertFindings {
   int closed_components = 0;           ///< those without a boundary
   int euler_characteristic = 0;
   int genus = 0;  ///< sum over the components
-  /// Of the diagram that the link shows to its best view: Seifert circles - crossings.
+  /// Seifert circles - crossings, in the diagram that the link shows to its best view.
   int expected_euler_characteristic = 0;
   /// The Alexander polynomial, all variables equal, as decimal coefficients from the constant up, without units ±t^k,
-  /// the last one positive; empty: zero. Of the surface: det(V - t V'), V the linking numbers of a basis of its loops
-  /// with their push-offs. Of the link: by Fox calculus on a diagram.
+  /// the last one positive; empty: zero. That of the surface is det(V - t V'), V the linking numbers of a basis of its
+  /// loops with their push-offs; that of the link is found by Fox calculus on a diagram.
   std::vector<std::string> alexander_of_surface, alexander_of_link;
 
   /// All that a Seifert surface promises.

@@ -28,8 +28,8 @@ struct SequenceSource {
 };
 
 /// A correction's second difference in time, in the frame's own motion: how far the correction of a vertex is from
-/// going on evenly between the frames before and after, both turned as the surface around the vertex turns. / diagonal
-/// of the frame. Of all vertices.
+/// going on evenly between the frames before and after, both turned as the surface around the vertex turns. Mean and
+/// largest over all vertices, / diagonal of the frame.
 struct Jitter {
   double mean_rel = 0, max_rel = 0;
 };
@@ -55,7 +55,7 @@ struct FrameResult {
 };
 
 struct SequenceOptions {
-  /// Of each frame: limits hold for each. Nothing is recorded; nothing can be rigid.
+  /// The options of each frame; limits hold for each by itself. Nothing is recorded; nothing can be rigid.
   RepairOptions repair;
   /// The frames wanted: [first, last). Frames around them are read where they are there, so that the result of a frame
   /// does not depend on what else is wanted.

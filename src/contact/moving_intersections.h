@@ -25,7 +25,7 @@ class MovingIntersections {
 
  private:
   void add_near(const Positions& x, Index begin, Index end, std::vector<IntersectingPair>& found) const;
-  /// Of the vertices [begin, end).
+  /// Adds the pairs that share one of the vertices [begin, end).
   void add_joined(const Positions& x, Index begin, Index end, std::vector<IntersectingPair>& found) const;
 
   std::span<const Triangle> triangles_;

@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <numeric>
 
+#include "geometry/sort_unique.h"
 #include "unsnarl/intersections.h"
 
 namespace unsnarl {
@@ -19,8 +19,7 @@ std::vector<std::int32_t> intersecting_faces(const std::vector<IntersectingPair>
   std::vector<std::int32_t> faces;
   faces.reserve(2 * pairs.size());
   for (const IntersectingPair& pair : pairs) faces.insert(faces.end(), {pair.a, pair.b});
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sort_unique(faces);
   return faces;
 }
 

@@ -39,7 +39,7 @@ bool are_apart(const Positions& x, const Triangle& s, const Triangle& t, double 
   return false;
 }
 
-/// Of triangles that do not intersect.
+/// The distance of two triangles that do not intersect.
 double distance_of(const Positions& x, const Triangle& s, const Triangle& t) {
   double nearest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/sort_unique.h"
 #include "mesh/id_table.h"
 
 namespace unsnarl {
@@ -11,8 +12,7 @@ CoincidentFaces::CoincidentFaces(const SurfaceView& surface, std::span<const Ind
   const auto list_classes = [&](std::size_t f, std::vector<Index>& classes) {
     classes.clear();
     for (Index v : surface.face(f)) classes.push_back(class_of[v]);
-    std::sort(classes.begin(), classes.end());
-    classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
+    sort_unique(classes);
   };
   std::vector<Index> classes, others;
   IdTable table(surface.face_count());

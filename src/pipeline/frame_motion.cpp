@@ -8,7 +8,7 @@ namespace {
 
 using Mat3 = Eigen::Matrix3d;
 
-/// Of the sum of to * from^T over pairs of edges: the rotation that carries the one best onto the other.
+/// The rotation that carries one set of edges best onto another; `covariance` is the sum of to * from^T over them.
 Mat3 rotation_of(const Mat3& covariance) {
   const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3 u = svd.matrixU();

@@ -117,7 +117,7 @@ class Opening {
     }
   }
 
-  /// Of the faces at a vertex.
+  /// The least height of a face at a vertex.
   double least_height(Index v) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Index t : scene_.triangles_of_vertex[v]) {

@@ -58,7 +58,7 @@ Jitter jitter_of(const Positions& before, const Positions& here, const Positions
   return {differences.mean() / diagonal, differences.maxCoeff() / diagonal};
 }
 
-/// Of a vertex at one position from itself at the other.
+/// The largest distance of a vertex between two positions of the same surface.
 double largest_distance(const std::vector<double>& positions, const std::vector<double>& others) {
   const auto n = static_cast<Index>(positions.size() / 3);
   using Columns = Eigen::Map<const Positions>;
@@ -115,7 +115,7 @@ class SequenceRepair {
   static std::size_t begin_around(std::size_t t) { return t - std::min(t, sequence_reach); }
   std::size_t end_around(std::size_t t) const { return std::min(t + sequence_reach + 1, source_.frames); }
 
-  // Who does what when. Whoever calls these holds the lock.
+  // Scheduling. Callers of these functions hold the lock.
 
   /// A job of which all is there that it needs, as soon as there is one; none: nothing is left to begin.
   std::optional<FrameJob> next_job(std::unique_lock<std::mutex>& lock) {
@@ -206,7 +206,7 @@ class SequenceRepair {
     tell_({.fraction = fraction, .phase = "frames", .pairs_left = 0, .displacement_rel = 0});
   }
 
-  // What is done, without the lock: each changes its own frame alone, of those that it reads none is changed.
+  // The jobs, which run without the lock: each writes its own frame and reads frames that no other job writes.
 
   FindOptions find() const { return options_.repair.find; }
   RepairOptions options_of(std::size_t t) const {

@@ -8,9 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "geometry/sort_unique.h"
 #include "pipeline/gap.h"
 #include "pipeline/limits.h"
 #include "pipeline/phases.h"
+#include "pipeline/rigid_report.h"
 #include "pipeline/threads.h"
 #include "report/acceptance.h"
 #include "report/measure.h"
@@ -87,12 +89,9 @@ class RigidRepair {
                                   "; give -1 for none, or a number from 0, less than that of the vertices");
   }
 
-  std::string name(Index part) const {
-    const auto p = static_cast<std::size_t>(part);
-    return p < options_.rigid_names.size() ? options_.rigid_names[p] : std::to_string(part);
-  }
+  std::string name(Index part) const { return name_of_rigid_part(options_, part); }
 
-  /// Of the welded vertices: what is fixed, and the rigid part of each.
+  /// Finds for each welded vertex whether it is fixed, and its rigid part.
   void find_parts() {
     const std::vector<Index>& welded = prepared_.weld_map.vertex_of;
     fixed_.assign(prepared_.weld_map.count, 0);
@@ -136,12 +135,8 @@ class RigidRepair {
     if (rigid_pairs_.empty()) return;
     diagnosis_.obstructed.insert(diagnosis_.obstructed.end(), rigid_pairs_.begin(), rigid_pairs_.end());
     std::sort(diagnosis_.obstructed.begin(), diagnosis_.obstructed.end());
-    const auto unique_sorted = [](auto& list) {
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-    };
-    unique_sorted(faces);
-    unique_sorted(in_parts_);
+    sort_unique(faces);
+    sort_unique(in_parts_);
     std::string names;
     for (const Index part : in_parts_) names += (names.empty() ? "" : ", ") + name(part);
     const std::string count = std::to_string(faces.size());
@@ -255,12 +250,11 @@ class RigidRepair {
       if (is_soft(b) && !is_soft(a) && part_of_[a[0]] >= 0) parts.push_back(part_of_[a[0]]);
       if (is_soft(a) && !is_soft(b) && part_of_[b[0]] >= 0) parts.push_back(part_of_[b[0]]);
     }
-    std::sort(parts.begin(), parts.end());
-    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    sort_unique(parts);
     return parts;
   }
 
-  // The end: the inner repair has compared with the parts in their places; what counts is the input.
+  // The inner repair has compared with the parts in their places; the report compares with the input.
 
   RepairResult finished(Attempt attempt) {
     RepairResult result = std::move(attempt.inner);
@@ -293,12 +287,13 @@ class RigidRepair {
     report.components.clear();
     measure_components(prepared_, diagnosis_, left.triangles, report);
     explain(left, is_taken_back, attempt.is_too_far, report);
-    measure_parts(result.positions, report);
-    if (!result.frames.empty()) show_placement(attempt.positions, result.frames);
+    measure_rigid_parts(surface_, options_, part_count_, result.positions, report);
+    if (!result.frames.empty())
+      begin_with_input(surface_, attempt.positions, acceptance_->pairs_at(prepared_.rest).of_faces, result.frames);
     return result;
   }
 
-  /// The reasons that the inner repair found, but for those of rigid parts, which it took to be fixed.
+  /// Lists the pairs left with the reasons that the inner repair found, except for rigid parts, which it saw as fixed.
   void explain(const Acceptance::Pairs& left, bool is_taken_back, bool is_too_far, RepairReport& report) const {
     std::map<std::pair<Index, Index>, LeftPair> found;
     for (const LeftPair& pair : report.left) found.emplace(std::pair{pair.a, pair.b}, pair);
@@ -331,56 +326,6 @@ class RigidRepair {
       ++report.left_by_reason[static_cast<std::size_t>(entry.reason)];
       if (report.left.size() < most_left_pairs_listed) report.left.push_back(std::move(entry));
     }
-  }
-
-  void measure_parts(std::span<const double> positions, RepairReport& report) const {
-    const double unit = report.diagonal > 0 ? 1 / report.diagonal : 1;
-    for (Index part = 0; part < part_count_; ++part) {
-      std::vector<std::size_t> vertices;
-      for (std::size_t v = 0; v < options_.rigid.size(); ++v)
-        if (options_.rigid[v] == part) vertices.push_back(v);
-      RigidPartReport& entry = report.rigid_parts.emplace_back();
-      entry.name = name(part);
-      entry.vertices = vertices.size();
-      if (vertices.empty()) continue;
-      Positions from(3, static_cast<Index>(vertices.size())), to = from;
-      for (std::size_t k = 0; k < vertices.size(); ++k) {
-        from.col(static_cast<Index>(k)) = Eigen::Map<const Vec3>(&surface_.positions[3 * vertices[k]]);
-        to.col(static_cast<Index>(k)) = Eigen::Map<const Vec3>(&positions[3 * vertices[k]]);
-      }
-      const RigidMotion motion = best_rigid_motion(from, to);
-      for (int k = 0; k < 9; ++k) entry.rotation[k] = motion.rotation(k / 3, k % 3);
-      for (int k = 0; k < 3; ++k) entry.translation[k] = motion.translation[k];
-      entry.rotation_deg = motion.degrees();
-      entry.translation_rel = (to.rowwise().mean() - from.rowwise().mean()).norm() * unit;
-      if (from == to) continue;
-      const Positions carried = (motion.rotation * from).colwise() + motion.translation;
-      entry.residual_rel = (to - carried).colwise().norm().maxCoeff() * unit;
-    }
-  }
-
-  /// Frames are of the inner repair, which begins with the parts in their places: puts the input before them.
-  void show_placement(std::span<const double> placed, std::vector<RecordedFrame>& frames) {
-    RecordedFrame placement = frames.front(), input = frames.front();
-    placement.phase = "untangle";
-    placement.strategy = "place";
-    for (std::size_t v = 0; v < surface_.vertex_count(); ++v) {
-      const Vec3 d = Eigen::Map<const Vec3>(&placed[3 * v]) - Eigen::Map<const Vec3>(&surface_.positions[3 * v]);
-      if (d == Vec3::Zero()) continue;
-      placement.vertices.push_back(static_cast<std::int32_t>(v));
-      placement.displacements.insert(placement.displacements.end(), {d[0], d[1], d[2]});
-    }
-    if (placement.vertices.empty()) return;
-    const Acceptance::Pairs pairs = acceptance_->pairs_at(prepared_.rest);
-    input.pairs = pairs.of_faces.size();
-    input.intersecting.clear();
-    for (const IntersectingPair& pair : pairs.of_faces)
-      input.intersecting.insert(input.intersecting.end(), {pair.a, pair.b});
-    std::sort(input.intersecting.begin(), input.intersecting.end());
-    input.intersecting.erase(std::unique(input.intersecting.begin(), input.intersecting.end()),
-                             input.intersecting.end());
-    frames.front() = std::move(placement);
-    frames.insert(frames.begin(), std::move(input));
   }
 
   static constexpr double least_time_s = 1e-3;  // that is left to what follows: 0 would be no limit

@@ -11,8 +11,8 @@ namespace unsnarl {
 ///    to the digits of the result.
 /// 2. All else is repaired around them, with their vertices fixed.
 ///
-/// Where this leaves a rigid part in something soft, both steps are done once more with this part keeping clear of all
-/// soft faces where they are in the input; of the two results the one with fewer pairs counts. The report is of the
+/// If a rigid part still intersects soft faces after this, both steps are done once more, and this part keeps clear of
+/// the soft faces of the input. The result with fewer pairs counts. The report is of the
 /// whole: it compares the result with the input.
 RepairResult repair_with_rigid_parts(const SurfaceView& surface, const RepairOptions& options, Context& context);
 

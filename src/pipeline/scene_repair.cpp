@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "pipeline/gap.h"
 #include "pipeline/open_dihedrals.h"
@@ -127,8 +128,7 @@ void SceneRepair::open_dihedrals(Finders& finders) {
     if (!float32_) return pairs;
     const std::vector<IntersectingPair> rounded = finders.find_rounded(x);
     pairs.insert(pairs.end(), rounded.begin(), rounded.end());
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    sort_unique(pairs);
     return pairs;
   };
   options.stop = job_.limits.stopper();

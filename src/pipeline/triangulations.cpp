@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/sort_unique.h"
+
 namespace unsnarl {
 namespace {
 
@@ -59,8 +61,7 @@ std::vector<Index> polygons_on_new_duplicates(const Triangulation& cut, std::siz
   for (const IntersectingPair& pair : pairs)
     if (pair.kind == PairClass::duplicate && static_cast<std::size_t>(std::max(pair.a, pair.b)) >= known)
       polygons.insert(polygons.end(), {cut.polygon[pair.a], cut.polygon[pair.b]});
-  std::sort(polygons.begin(), polygons.end());
-  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  sort_unique(polygons);
   return polygons;
 }
 

@@ -25,7 +25,7 @@ struct ContactRuleOptions {
   /// Share of the rest distance that neighbours keep at least where it is below min_gap, and of its rest altitude below
   /// which a face's own barrier sets in.
   double rest_share = 0.25;
-  /// Of the rest distance, that the barrier reaches: below 1, so that a rest shape without contact has no energy.
+  /// The barrier reaches this share of the rest distance: below 1, so that a rest shape without contact has no energy.
   double reach_share = 0.5;
   double reach_gaps = 3;         ///< and at least this many min_gap for what is no neighbour
   double altitude_floor = 0.05;  ///< of its rest altitude, that a face keeps at least

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "energy/minkowski_penalty.h"
+#include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 
 namespace unsnarl {
@@ -75,8 +76,7 @@ void measure_stretch(const PreparedSurface& prepared, std::size_t edge_count, co
       const auto [a, b] = std::minmax(t[k], t[(k + 1) % 3]);
       if (a != b && (moved(a) || moved(b))) edges.push_back({a, b});
     }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_unique(edges);
   std::vector<double> stretch;
   stretch.reserve(edges.size());
   for (const auto& [a, b] : edges) {
@@ -147,8 +147,7 @@ void name_pairs_between_components(const PreparedSurface& prepared, const Diagno
   between = pairs_of_faces(prepared.triangulation.polygon, between);
   Obstruction obstruction{Obstruction::Kind::between_components, {}, {}};
   for (const IntersectingPair& pair : between) obstruction.faces.insert(obstruction.faces.end(), {pair.a, pair.b});
-  std::sort(obstruction.faces.begin(), obstruction.faces.end());
-  obstruction.faces.erase(std::unique(obstruction.faces.begin(), obstruction.faces.end()), obstruction.faces.end());
+  sort_unique(obstruction.faces);
   obstruction.message = std::to_string(between.size()) +
                         " pairs of faces of different components intersect: each component was repaired by itself";
   report.obstructions.push_back(std::move(obstruction));

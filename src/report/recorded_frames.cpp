@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/sort_unique.h"
+
 namespace unsnarl {
 namespace {
 
@@ -77,8 +79,7 @@ class Film {
 
   /// Appends a frame of the current positions.
   void shoot(Frame frame) {
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    sort_unique(touched_);
     frame.vertices = std::exchange(touched_, {});
     for (Index v : frame.vertices) frame.displacements.push_back(now_.col(v) - input_.col(v));
     bytes_ += frame.vertices.size() * sizeof(Vec3);
@@ -174,8 +175,7 @@ std::vector<RecordedFrame> recorded_frames(const Recorder& recorder, const Surfa
     out.pairs = pairs.faces.total();
     for (const IntersectingPair& pair : pairs_of_faces(prepared.triangulation.polygon, pairs.triangles))
       out.intersecting.insert(out.intersecting.end(), {pair.a, pair.b});
-    std::sort(out.intersecting.begin(), out.intersecting.end());
-    out.intersecting.erase(std::unique(out.intersecting.begin(), out.intersecting.end()), out.intersecting.end());
+    sort_unique(out.intersecting);
   }
   return frames;
 }

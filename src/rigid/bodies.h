@@ -42,7 +42,7 @@ class Bodies {
   std::span<Body> list() { return bodies_; }
   std::span<const Body> list() const { return bodies_; }
   const Positions& rest() const { return rest_; }
-  /// Where all vertices are; those of no body are at rest.
+  /// The present positions of all vertices; those of no body are at rest.
   const Positions& x() const { return x_; }
   std::span<const Triangle> triangles() const { return triangles_; }
 

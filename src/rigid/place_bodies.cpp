@@ -15,7 +15,7 @@ namespace {
 constexpr double first_step = 1e-3, growth = 1.6;
 /// Between the last place of a motion that is not free and the first that is: to 1 % of the motion.
 constexpr int bisections = 6;
-/// Of the motion: it goes so much farther than the first free place, if that is free too.
+/// A body goes this share of its motion beyond the first free place, if it is free there too.
 constexpr double margin = 0.01;
 /// Contacts of a body whose normals are tried as directions.
 constexpr std::size_t most_contacts = 16;

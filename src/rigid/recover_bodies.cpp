@@ -129,7 +129,7 @@ class BodyRecovery {
     for (const Body& body : bodies_.list()) {
       if (!body.is_placed) continue;
       bodies_.near_triangles(body, radius, [&](Index t, Index u) {
-        // Of two bodies the pair is met from both sides.
+        // A pair of two bodies is met from both sides.
         if (bodies_.owner_of_triangle(u) < 0 || t < u) add_stencils(t, u, stencils);
       });
     }
@@ -153,7 +153,7 @@ class BodyRecovery {
     }
   }
 
-  /// Of corner k, or of the edge from corner k - 3, the first triangle: so that no stencil is met twice.
+  /// Whether t is the first triangle at its corner k, or at its edge from corner k - 3: no stencil is met twice.
   bool looks_after(Index t, int k) const { return (owned_[t] >> k & 1) != 0; }
 
   static Edge ordered(Index a, Index b) { return a < b ? Edge{a, b} : Edge{b, a}; }

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/sort_unique.h"
 #include "scene/topology.h"
 
 namespace unsnarl {
@@ -19,11 +20,6 @@ std::optional<Triangle> fixed_part(const Triangle& t, std::span<const std::uint8
     std::fill(part->begin() + count++, part->end(), v);
   }
   return part;
-}
-
-void add_unique_sorted(std::vector<std::int32_t>& faces) {
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
 }
 
 }  // namespace
@@ -88,7 +84,7 @@ void diagnose_intersections(const PreparedSurface& prepared, std::span<const std
       fixed_faces.insert(fixed_faces.end(), {polygon[pair.a], polygon[pair.b]});
   }
   if (!fixed_faces.empty()) {
-    add_unique_sorted(fixed_faces);
+    sort_unique(fixed_faces);
     const std::string count = std::to_string(fixed_faces.size());
     diagnosis.obstructions.push_back({Obstruction::Kind::fixed_faces, std::move(fixed_faces),
                                       count + " faces intersect each other in what is fixed of them"});

@@ -3,16 +3,10 @@
 #include <algorithm>
 
 #include "contact/bvh.h"
+#include "geometry/sort_unique.h"
 
 namespace unsnarl {
-namespace {
-
-void sort_unique(std::vector<Index>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach) {
   Patch patch;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact/intersection_finder.h"
+#include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "mesh/progressive_mesh.h"
 #include "recover/recover_regions.h"
@@ -351,8 +352,7 @@ class CoarseToFine {
     return sorted(std::move(result));
   }
   static std::vector<IntersectingPair> sorted(std::vector<IntersectingPair> pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    sort_unique(pairs);
     return pairs;
   }
 

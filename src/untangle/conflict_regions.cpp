@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "geometry/sort_unique.h"
 #include "mesh/union_find.h"
 
 namespace unsnarl {
@@ -29,12 +30,10 @@ std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const
   for (const IntersectingPair& pair : pairs)
     for (Index t : {pair.a, pair.b})
       std::copy_if(scene.triangles[t].begin(), scene.triangles[t].end(), std::back_inserter(core), is_inner);
-  std::sort(core.begin(), core.end());
-  core.erase(std::unique(core.begin(), core.end()), core.end());
+  sort_unique(core);
   std::vector<Index> around = core;
   for (Index v : core) around.insert(around.end(), scene.neighbours[v].begin(), scene.neighbours[v].end());
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
+  sort_unique(around);
   auto local = [&](Index v) {
     return static_cast<Index>(std::lower_bound(around.begin(), around.end(), v) - around.begin());
   };
@@ -71,8 +70,7 @@ std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, i
   for (int ring = 0; ring < rings && !front.empty(); ++ring) {
     std::vector<Index> next;
     for (Index v : front) next.insert(next.end(), scene.neighbours[v].begin(), scene.neighbours[v].end());
-    std::sort(next.begin(), next.end());
-    next.erase(std::unique(next.begin(), next.end()), next.end());
+    sort_unique(next);
     front.clear();
     std::erase_if(next, [&](Index v) { return is_hub(scene, v, hub_valence); });
     std::set_difference(next.begin(), next.end(), all.begin(), all.end(), std::back_inserter(front));
@@ -90,8 +88,7 @@ std::vector<std::vector<Index>> merge_overlapping(std::vector<std::vector<Index>
     std::vector<Index> overlapped;
     for (Index v : set)
       if (owner[v] >= 0) overlapped.push_back(owner[v]);
-    std::sort(overlapped.begin(), overlapped.end());
-    overlapped.erase(std::unique(overlapped.begin(), overlapped.end()), overlapped.end());
+    sort_unique(overlapped);
     const Index target = overlapped.empty() ? static_cast<Index>(result.size()) : overlapped.front();
     if (overlapped.empty()) result.emplace_back();
     for (std::size_t k = 1; k < overlapped.size(); ++k) {
@@ -103,8 +100,7 @@ std::vector<std::vector<Index>> merge_overlapping(std::vector<std::vector<Index>
   }
   std::erase_if(result, [](const auto& set) { return set.empty(); });
   for (auto& set : result) {
-    std::sort(set.begin(), set.end());
-    set.erase(std::unique(set.begin(), set.end()), set.end());
+    sort_unique(set);
   }
   return result;
 }

@@ -11,10 +11,11 @@ namespace unsnarl {
 /// Constants of flow(). h is the patch's edge length.
 struct FlowOptions {
   int max_iterations = 300;  ///< of L-BFGS; most that succeed take 10 to 70
-  /// Of the metric: 30 keeps forces local, 1 moves whole limbs. (With 30, ten of 186 meshes end 11 % farther.)
+  /// Weight of the metric's zeroth-order term: 30 keeps forces local, 1 moves whole limbs. (Flows with 30, ratios of
+  /// distances and adaptive bandwidths left ten of 186 meshes 11 % farther.)
   double locality = 1;
-  /// Of the penalty, at the start; it grows on stalls. Large early values lock sheets against each other: 1 solved 15
-  /// of 21 meshes, 4 only 10.
+  /// Weight of the penalty at the start; it grows on stalls. Large early values lock sheets against each other: 1
+  /// solved 15 of 21 meshes, 4 only 10.
   double lambda_minkowski = 0.3;
   double margin = 0.03;        ///< h: the penalty acts until faces are this far apart; 28 iterations against 61 without
   double spacing_edges = 2;    ///< h: least spacing of the clusters ...

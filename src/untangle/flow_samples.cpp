@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/sort_unique.h"
 #include "mesh/adjacency.h"
 #include "mesh/areas.h"
 #include "untangle/local_solver.h"
@@ -112,8 +113,7 @@ FlowSamples::FlowSamples(std::span<const Triangle> triangles, const Positions& r
     links.emplace_back(c, d);
     links.emplace_back(d, c);
   }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
+  sort_unique(links);
   offsets_.assign(seeds.size() + 1, 0);
   for (const auto& [c, d] : links) {
     ++offsets_[c + 1];

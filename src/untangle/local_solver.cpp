@@ -12,6 +12,7 @@
 
 #include "contact/intersection_finder.h"
 #include "energy/minkowski_penalty.h"
+#include "geometry/sort_unique.h"
 #include "geometry/splitmix.h"
 #include "scene/trajectory.h"
 #include "untangle/contours.h"
@@ -185,8 +186,7 @@ void smooth(const Patch& patch, const Metric& metric, double range, Positions& x
       if (u > v) std::swap(u, v);
       if (u < n && v >= n) done.push_back({u, v});
     }
-  std::sort(done.begin(), done.end());
-  done.erase(std::unique(done.begin(), done.end()), done.end());
+  sort_unique(done);
   for (const auto& [u, v] : done) pull.col(u) += laplacian_weight * x.col(v);
   x.leftCols(n) = metric.solve(pull, n).transpose();
 }

@@ -62,7 +62,7 @@ struct LocalOptions {
   int bisections = 5;  ///< of the displacement back to the start; the smallest clean one is kept
 };
 
-/// Of pairs: the solver did not get so far.
+/// A number of pairs that the solver did not get to count.
 constexpr std::size_t not_counted = std::numeric_limits<std::size_t>::max();
 
 struct LocalResult {

@@ -139,7 +139,7 @@ std::vector<char> Recession::find_spine(const std::vector<char>& reached, const 
     triangles_left[e] = static_cast<Index>(edges_.triangles_of_edge[e].size());
     for (const Index v : edges_.edges[e]) ++edges_left[v];
   }
-  // Of an edge: with its last triangle. Of a vertex: with its last edge (ids behind those of the edges).
+  // An edge may go with its last triangle, a vertex with its last edge (ids behind those of the edges).
   Queue queue;
   const auto offer_edge = [&](Index e) {
     if (has_edge[e] && triangles_left[e] == 1) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/sort_unique.h"
 #include "mesh/union_find.h"
 
 namespace unsnarl {
@@ -16,7 +17,7 @@ namespace {
 /// its girth; discs have six. Of posed bodies: fingers 11 deep with a girth of 30, a chin 12 with 160, a limb 53 with
 /// 188.
 constexpr int girth_per_edge = 2;
-/// What is deeper, as a share of the root of the number of faces, is a limb or the outside rather than a pocket: a hand
+/// A part that is deeper, as a share of the root of the number of faces, is a limb or the outside, not a pocket: a hand
 /// beyond its fingers' conflicts has 0.2 and more, the deepest pocket of a curled body 0.17.
 constexpr double largest_share = 0.2;
 
@@ -80,7 +81,7 @@ class Pieces {
   int depth_ = 0;
   std::unordered_map<Index, Index> part_of_;  // of vertices; never gone through in its order
   UnionFind parts_{0};
-  // Of every part, true of the root of its set:
+  // By part; valid at the root of its set.
   std::vector<Index> first_vertex_;
   std::vector<int> depth_of_;
   std::vector<int> girth_of_;  // vertices next to the core
@@ -98,8 +99,7 @@ ConnectedParts::ConnectedParts(const Scene& scene) {
 int tangle_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core) {
   std::vector<Index> met;
   for (const Index v : core) met.push_back(parts.of_vertex[v]);
-  std::sort(met.begin(), met.end());
-  met.erase(std::unique(met.begin(), met.end()), met.end());
+  sort_unique(met);
   double faces = 0;
   for (const Index part : met) faces += parts.face_count[part];
   const int at_most = static_cast<int>(largest_share * std::sqrt(faces));

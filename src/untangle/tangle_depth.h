@@ -7,7 +7,7 @@
 
 namespace unsnarl {
 
-/// What hangs together in a scene. (Components know more, but take the edges of all faces to find.)
+/// The connected components of a scene. (Components know more, but take the edges of all faces to find.)
 struct ConnectedParts {
   explicit ConnectedParts(const Scene& scene);
   std::vector<Index> of_vertex;

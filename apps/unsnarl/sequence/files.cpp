@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
 
 #include "content_hash.h"
+#include "input_bytes.h"
 #include "mesh_input.h"
 #include "staged_output.h"
 #include "unsnarl/point_cache.h"
@@ -22,14 +21,6 @@ namespace unsnarl::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path.string() + ": cannot open");
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) throw FileError(path.string() + ": cannot read");
-  return bytes;
-}
 
 bool is_there(const fs::path& path) {
   std::error_code ignored;
@@ -294,11 +285,9 @@ class CacheFrames : public SequenceFiles {
 
  private:
   static PointCache parsed(const fs::path& path, const std::string& named) {
-    try {
-      return PointCache::parse(bytes_of(path), *point_cache_format(named));
-    } catch (const FileError& error) {
-      throw FileError(fmt::format("{}: {}", path.string(), error.what()));
-    }
+    return parse_file(path.string(), [&](std::string bytes) {
+      return PointCache::parse(std::move(bytes), *point_cache_format(named));
+    });
   }
 
   /// A cache of as many points and frames at this place; empty: there is none.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/sort_unique.h"
 #include "geometry/splitmix.h"
 
 namespace unsnarl {
@@ -528,8 +529,7 @@ class Switcher {
         if (run->count > 0)
           for (Index k = -1; k < run->count; ++k) add(*run, k);
     }
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
+    sort_unique(result);
     return result;
   }
 

@@ -9,6 +9,7 @@
 
 #include "applications/isotopy/rings.h"
 #include "applications/isotopy/round_curves.h"
+#include "geometry/sort_unique.h"
 #include "unsnarl/isotopy.h"
 #include "unsnarl/stage_clock.h"
 
@@ -360,8 +361,7 @@ class Making {
         if (after - before > 1) halfway.push_back((before + after) / 2);
       }
     kept.insert(kept.end(), halfway.begin(), halfway.end());
-    std::sort(kept.begin(), kept.end());
-    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    sort_unique(kept);
     return !halfway.empty();
   }
 

@@ -22,7 +22,7 @@ std::vector<Rung> straight_rungs(Index n);
 std::vector<Rung> rungs_to_finer(const std::vector<IsotopyPlace>& places, Index coarse_size);
 /// The same the other way up.
 std::vector<Rung> upside_down(std::vector<Rung> rungs);
-/// Of curve c of an isotopy, from ring k to the next.
+/// The rungs of a curve of an isotopy, from a ring to the next.
 std::vector<Rung> rungs_of(const Isotopy& isotopy, std::size_t ring, std::size_t curve);
 
 /// The triangles of a strip, appended to the corners. `lower`, `upper`: the first vertices of both polygons.

@@ -16,8 +16,8 @@ struct RoundOptions {
   double roundness = 0.9;
   /// Steps after which it is given up. A spiral of eight turns and 960 points ends before.
   int most_steps = 200000;
-  /// Of curves that wait for others the size changes by this factor a step, down to a hundredth of the diagonal, so
-  /// that they are in no one's way.
+  /// Curves that wait for others shrink by this factor a step, down to a hundredth of the diagonal, so that they are in
+  /// no one's way.
   double shrinking = 0.98;
 };
 

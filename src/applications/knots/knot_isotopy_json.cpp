@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "io/parse_json.h"
 #include "unsnarl/document.h"
 #include "unsnarl/knot_isotopy.h"
 #include "unsnarl/version.h"
@@ -54,16 +54,6 @@ Json as_json(const std::vector<KnotDoublePoint>& points) {
   return json;
 }
 
-Json parsed_file(std::string_view text) {
-  try {
-    return Json::parse(text);
-  } catch (const nlohmann::json::parse_error& e) {
-    throw FileError(fmt::format("byte {}: this is not JSON", e.byte));
-  } catch (const nlohmann::json::exception&) {
-    throw FileError("a number is too large for double precision");
-  }
-}
-
 }  // namespace
 
 std::string knot_isotopy_json(const KnotIsotopy& isotopy, const KnotIsotopyFindings& findings) {
@@ -97,7 +87,7 @@ std::string knot_isotopy_json(const KnotIsotopy& isotopy, const KnotIsotopyFindi
 }
 
 KnotIsotopy parse_knot_isotopy(std::string_view text) {
-  const Json root = parsed_file(text);
+  const Json root = parse_json(text);
   KnotIsotopy isotopy;
   for (const Json& item : list(member(root, "the file", "rings"), "rings")) {
     const std::string place = fmt::format("rings[{}]", isotopy.rings.size());

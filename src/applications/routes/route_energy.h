@@ -11,8 +11,8 @@
 namespace unsnarl {
 
 struct RouteEnergySettings {
-  /// Of a route against being bent, / (tension radius^2). A free corner then turns no tighter than the radius: under
-  /// the tension T, a rod of stiffness B that is folded over has a radius of at least sqrt(B / 4 T).
+  /// Stiffness of a route against bending / (tension radius^2). A free corner then turns no tighter than the radius:
+  /// under the tension T, a rod of stiffness B that is folded over has a radius of at least sqrt(B / 4 T).
   double stiffness = 4;
   double swelling = 1;  ///< tubes have this part of their radius, (0, 1]
   /// Distance from which tubes push each other away / needed distance, beyond 1. 50 agents took 23 s of a processor

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "io/parse_json.h"
 #include "unsnarl/document.h"
 #include "unsnarl/routes.h"
 #include "unsnarl/version.h"
@@ -23,16 +23,6 @@ std::string shown(const Json& value) {
   std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (text.size() > 40) text = text.substr(0, 37) + "...";
   return text;
-}
-
-Json parsed(std::string_view text) {
-  try {
-    return Json::parse(text);
-  } catch (const nlohmann::json::parse_error& e) {
-    throw FileError(fmt::format("byte {}: this is not JSON", e.byte));
-  } catch (const nlohmann::json::exception&) {
-    throw FileError("a number is too large for double precision");
-  }
 }
 
 const Json& object(const Json& value, const std::string& place, std::initializer_list<std::string_view> keys) {
@@ -141,7 +131,7 @@ RouteObstacle obstacle(const Json& value, std::size_t number_of_obstacle, const 
 }  // namespace
 
 RoutePlan parse_route_plan(std::string_view text, const std::filesystem::path& folder) {
-  const Json root = parsed(text);
+  const Json root = parse_json(text);
   object(root, "the plan", {"agents", "obstacles"});
   RoutePlan plan;
   for (const Json& item : list(member(root, "the plan", "agents"), "agents"))
@@ -209,7 +199,7 @@ std::string routes_json(const RoutePlan& plan, const RoutesResult& result) {
 }
 
 std::vector<Route> parse_routes(std::string_view bytes, const RoutePlan& plan) {
-  const Json root = parsed(bytes);
+  const Json root = parse_json(bytes);
   if (!root.is_object()) refuse("the file", "it is not an object with \"routes\"");
   std::vector<Route> routes(plan.agents.size());
   std::size_t k = 0;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <queue>
 
+#include "geometry/sort_unique.h"
+
 namespace unsnarl {
 namespace {
 
@@ -120,8 +122,7 @@ void WayFinder::avoid(std::span<const Vec3> way, double distance) {
           if (closest_vertex_edge(position(node), way[k], way[k + 1]).distance < distance) touched.push_back(node);
         }
   }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  sort_unique(touched);
   for (const Node node : touched) {
     std::uint8_t& crowd = crowd_[static_cast<std::size_t>(node)];
     if (crowd < 255) ++crowd;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/distances.h"
+#include "geometry/sort_unique.h"
 #include "geometry/triangle_intersection.h"
 
 namespace unsnarl {
@@ -143,8 +144,7 @@ std::vector<Index> EmbeddedMesh::neighbours(Index v) const {
   for (const Index f : faces_of_[v])
     for (const Index w : faces_[f])
       if (w != v) result.push_back(w);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sort_unique(result);
   return result;
 }
 

@@ -40,7 +40,7 @@ struct LinkDiagram {
   Index circles = 0;                      ///< Seifert circles
   bool connected = false;                 ///< the surface of Seifert's algorithm is
 
-  /// Of the surface that Seifert's algorithm makes.
+  /// Euler characteristic of the surface that Seifert's algorithm makes.
   Index euler_characteristic() const { return circles - static_cast<Index>(crossings.size()); }
 };
 
@@ -49,7 +49,7 @@ struct LinkDiagram {
 /// rounding. Decided by exact arithmetic.
 std::optional<LinkDiagram> diagram_of(const Link& link, const Eigen::Matrix3d& frame);
 
-/// Of `directions` views, the one whose surface is connected and of largest Euler characteristic; the roomiest of
+/// The view, of `directions` many, whose surface is connected and of largest Euler characteristic; the roomiest of
 /// those. The coordinate axes are the first three. None where no view is generic.
 std::optional<LinkDiagram> best_diagram(const Link& link, int directions);
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Edge lengths are chosen within these / diagonal: about 10,000 and 1,000 triangles for a surface of a few sheets.
 constexpr double finest_edge_rel = 1.0 / 45, coarsest_edge_rel = 1.0 / 20;
-/// Of what may be asked for: some ten million triangles.
+/// The least edge length that may be asked for / diagonal: some ten million triangles.
 constexpr double least_edge_rel = 1e-3;
 /// Between the discs of nested circles / edge length of the coarsest level, so that fairing has room there.
 constexpr double disc_step = 1;

@@ -13,8 +13,8 @@ namespace {
 /// The rim of the strand below winds around it on either side of the band: it starts this much farther from the
 /// crossing.
 constexpr double winding_of_band = 1.6;
-/// Of the smallest gap between the strands of a crossing, and of the smallest room beside a strand within a band, the
-/// width of the collar: all of it stays apart from the other strand's.
+/// Width of the collar / the smallest gap between the strands of a crossing, and / the smallest room beside a strand
+/// within a band: all of it stays apart from the other strand's.
 constexpr double collar_of_gap = 0.25;
 /// Corners of discs are moved by up to half of this aside / the smallest room beside a strand within a band.
 constexpr double corner_shift = 1e-3;

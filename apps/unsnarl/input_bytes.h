@@ -1,0 +1,33 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "unsnarl/document.h"
+#include "unsnarl/link.h"
+
+namespace unsnarl::app {
+
+/// The bytes of the file at `path`, or of standard input for standard_stream. Throws FileError.
+std::string read_bytes(const std::string& path);
+
+/// parse(bytes) of the file at `path`. Throws FileError with the path in front of what the parser says.
+template <class Parse>
+auto parse_file(const std::string& path, Parse&& parse) {
+  std::string bytes = read_bytes(path);
+  try {
+    return parse(std::move(bytes));
+  } catch (const FileError& e) {
+    throw FileError(fmt::format("{}: {}", path, e.what()));
+  } catch (const std::invalid_argument& e) {
+    throw FileError(fmt::format("{}: {}", path, e.what()));
+  }
+}
+
+/// Reads and checks a knot or link in any of the forms of parse_link(). Throws FileError.
+Link read_link(const std::string& path);
+
+}  // namespace unsnarl::app
