@@ -1,6 +1,7 @@
 #include "pipeline/scene_repair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <utility>
@@ -148,9 +149,10 @@ EscalationOptions SceneRepair::escalation_options() {
   escalation.attempts = &job_.tried;
   if (job_.options.recover) escalation.recover = [this](Patch& patch) { recover(patch); };
   if (job_.options.max_displacement_rel > 0) escalation.accept = [this](Patch& patch) { return stays_near(patch); };
-  escalation.on_progress = [this](std::span<const IntersectingPair> left) {
+  escalation.on_progress = [this](const EscalationProgress& progress) {
     const double all = static_cast<double>(std::max<std::size_t>(1, pairs_.size()));
-    report_progress(untangled_fraction * (1 - std::min(1.0, static_cast<double>(left.size()) / all)), left);
+    report_progress(untangled_fraction * (1 - std::min(1.0, progress.work_left / all)), progress.left,
+                    progress.pairs_now);
   };
   return escalation;
 }
@@ -181,8 +183,7 @@ double SceneRepair::recover(const std::vector<std::vector<Index>>& regions, std:
   if (job_.options.paper) options.recover = RecoverOptions::paper();
   options.min_gap = [this](std::span<const Index> vertices) { return wanted_gap(vertices); };
   options.stop = job_.limits.stopper();
-  options.on_progress = [&](std::size_t done) {
-    const double share = static_cast<double>(done) / static_cast<double>(regions.size());
+  options.on_progress = [&](double share) {
     report_progress(untangled_fraction + (recovered_fraction - untangled_fraction) * share, left);
   };
   return recover_regions(scene_, index, regions, options, job_.recorder);
@@ -194,9 +195,14 @@ void SceneRepair::recover(Patch& patch) const {
   unsnarl::recover(patch, options, job_.limits.stopper());
 }
 
-void SceneRepair::report_progress(double fraction, std::span<const IntersectingPair> left) {
+void SceneRepair::report_progress(double fraction, std::span<const IntersectingPair> left,
+                                  std::optional<double> pairs_now) {
   // Reports and summaries count faces. A scene of triangles along both diagonals knows no faces.
-  const std::size_t pairs_left = scene_.face_of.empty() ? left.size() : pairs_of_faces(scene_.face_of, left).size();
+  std::size_t pairs_left = scene_.face_of.empty() ? left.size() : pairs_of_faces(scene_.face_of, left).size();
+  if (pairs_now && !left.empty()) {
+    const double share = std::max(0.0, *pairs_now) / static_cast<double>(left.size());
+    pairs_left = static_cast<std::size_t>(std::lround(static_cast<double>(pairs_left) * share));
+  }
   job_.phases.report(fraction, pairs_left, scene_.x, job_.prepared.rest, job_.diagonal);
 }
 

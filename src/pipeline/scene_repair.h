@@ -90,7 +90,8 @@ class SceneRepair {
   /// A candidate by itself.
   void recover(Patch& patch) const;
   bool stays_near(Patch& patch);
-  void report_progress(double fraction, std::span<const IntersectingPair> left);
+  /// pairs_now: how many triangles' pairs there are with what is being tried; not given: `left` is all.
+  void report_progress(double fraction, std::span<const IntersectingPair> left, std::optional<double> pairs_now = {});
 
   const Job& job_;
   Scene scene_;

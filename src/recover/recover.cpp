@@ -10,6 +10,7 @@
 #include "recover/open_gaps.h"
 #include "recover/recovery_problem.h"
 #include "recover/snap_to_rest.h"
+#include "scene/patch_progress.h"
 
 namespace unsnarl {
 namespace {
@@ -142,7 +143,12 @@ void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, i
   newton.scalar_jacobi = options_.scalar_jacobi;
   newton.decrease = stop.decrease;
   newton.window = stop.window;
-  const NewtonResult done = minimise_newton(problem_, newton, stop_);
+  int taken = result_.iterations;
+  const NewtonResult done = minimise_newton(problem_, newton, [&] {
+    if (patch_.progress) patch_.progress->done = std::min(1.0, static_cast<double>(taken) / options_.max_steps);
+    ++taken;
+    return stop_ && stop_();
+  });
   result_.iterations += done.iterations;
   result_.solver_iterations += done.solver_iterations;
   result_.stopped |= done.stopped;

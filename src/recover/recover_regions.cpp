@@ -8,6 +8,7 @@
 #include "mesh/areas.h"
 #include "scene/independent_batches.h"
 #include "scene/patch.h"
+#include "scene/patch_progress.h"
 
 namespace unsnarl {
 namespace {
@@ -33,7 +34,19 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
   std::vector<Trajectory> trajectories(regions.size(), recorder.new_trajectory());
   recorder.begin_stage("recover");
   double smallest = std::numeric_limits<double>::infinity();
-  std::size_t done = 0;
+  std::vector<PatchProgress> progress(regions.size());
+  // The work on a region is taken to be as much as it has vertices.
+  const std::function<void()> report = [&] {
+    if (!options.on_progress) return;
+    double all = 0, done = 0;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      all += static_cast<double>(regions[r].size());
+      done += static_cast<double>(regions[r].size()) * progress[r].done;
+    }
+    options.on_progress(all > 0 ? done / all : 1);
+  };
+  ProgressReporter reporter(report, options.stop);
+  const std::function<bool()> ask = [&] { return reporter.asked(); };
   run_in_batches(
       boxes,
       [&](std::size_t r) {
@@ -43,14 +56,16 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
         if (recorder.is_on()) patches[r].trajectory = &trajectories[r];
         RecoverOptions recovery = options.recover;
         recovery.min_gap = options.min_gap(regions[r]);
-        gap[r] = recover(patches[r], recovery, options.stop).min_gap;
+        patches[r].progress = &progress[r];
+        gap[r] = recover(patches[r], recovery, ask).min_gap;
       },
       [&](std::size_t r) {
         if (std::isfinite(gap[r]) && gap[r] > 0) smallest = std::min(smallest, gap[r]);
         paste_patch(patches[r], scene, index);
         recorder.add(std::move(trajectories[r]), "", r, regions[r], scene.x);
         patches[r] = {};
-        if (options.on_progress) options.on_progress(++done);
+        progress[r].done = 1;
+        report();
       });
   return smallest;
 }

@@ -10,6 +10,7 @@
 
 namespace unsnarl {
 
+struct PatchProgress;
 class Trajectory;
 
 /// A region as a small surface of its own: free triangles and the obstacles around them.
@@ -26,6 +27,7 @@ struct Patch {
   std::vector<Index> faces;          ///< patch triangle -> triangle of the whole, ascending within active and obstacles
   double edge_length = 0;            ///< h: mean edge of the intersecting faces at rest (or of all active ones)
   Trajectory* trajectory = nullptr;  ///< where solvers note their iterations; none: nowhere. Not owned
+  PatchProgress* progress = nullptr;  ///< where they say how far they are; likewise
 };
 
 /// Cuts out the patch with these free vertices (ascending, none fixed). Obstacles: all triangles within `reach` (a

@@ -14,6 +14,7 @@
 #include "mesh/areas.h"
 #include "mesh/progressive_mesh.h"
 #include "recover/recover_regions.h"
+#include "scene/patch_progress.h"
 #include "scene/trajectory.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/escalation.h"
@@ -258,8 +259,10 @@ class CoarseToFine {
     while (mesh_.round_count() > solution.round_count) mesh_.refine();
     x_ = std::move(solution.x);
     double next = options_.level_growth * static_cast<double>(active_faces());
+    const double rounds = static_cast<double>(mesh_.round_count());
     while (mesh_.round_count() > 0) {
       refine_once();
+      note_done(1 - 0.5 * static_cast<double>(mesh_.round_count()) / rounds);
       if (stopped() || static_cast<double>(active_faces()) < next || mesh_.round_count() == 0) continue;
       make_room();
       offer_better_places();
@@ -287,6 +290,11 @@ class CoarseToFine {
   }
 
   bool stopped() const { return stop_ && stop_(); }
+  /// The coarse meshes are the first half of the progress, the way back the other. Never takes anything back: several
+  /// coarse meshes are solved.
+  void note_done(double share) const {
+    if (patch_.progress) patch_.progress->done = std::max(patch_.progress->done.load(), share);
+  }
 
   std::size_t active_faces() const {
     const std::span<const Index> faces = mesh_.faces();
@@ -358,10 +366,12 @@ class CoarseToFine {
 
   /// Untangles a level by the other strategies. This is where the escalation is entered anew.
   EscalationResult untangle(Level& level, SceneIndex& index, std::span<const IntersectingPair> tolerated,
-                            std::span<const Tier> tiers) const {
+                            std::span<const Tier> tiers,
+                            const std::function<void(const EscalationProgress&)>& tell = {}) const {
     EscalationOptions escalation;
     escalation.stop = stop_;
     escalation.tiers = tiers;
+    escalation.on_progress = tell;
     return escalate(level.scene, index, tolerated, escalation);
   }
 
@@ -381,7 +391,14 @@ class CoarseToFine {
     SceneIndex index(level.scene);
     const std::vector<IntersectingPair> pairs = index.find_pairs();
     const std::vector<IntersectingPair> tolerated = tolerated_on(level, pairs);
-    const EscalationResult untangled = untangle(level, index, tolerated, coarse_mesh_tiers());
+    const double all = static_cast<double>(std::max<std::size_t>(1, pairs.size() - tolerated.size()));
+    const auto tell = [&](const EscalationProgress& now) {
+      if (!patch_.progress) return;
+      const double before = static_cast<double>(patch_.progress->pairs_before);
+      patch_.progress->pairs = static_cast<std::size_t>(before * std::clamp(now.pairs_now / all, 0.0, 1.0));
+      note_done(0.5 * (1 - std::min(1.0, now.work_left / all)));
+    };
+    const EscalationResult untangled = untangle(level, index, tolerated, coarse_mesh_tiers(), tell);
     recover(level, index, merge_overlapping(untangled.moved, level.scene.vertex_count()), options_.coarse_gap, {});
 
     Solution solution;

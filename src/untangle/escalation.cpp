@@ -10,6 +10,7 @@
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
 #include "scene/independent_batches.h"
+#include "scene/patch_progress.h"
 #include "scene/trajectory.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/local_solver.h"
@@ -108,7 +109,19 @@ class Escalation {
 
   void find_pairs() {
     pairs_ = blocking_pairs(index_.find_pairs(), ignored_);
-    if (options_.on_progress) options_.on_progress(pairs_);
+    report();
+  }
+
+  void report() const {
+    if (!options_.on_progress) return;
+    const double pairs = static_cast<double>(pairs_.size());
+    EscalationProgress progress{pairs_, pairs, pairs};
+    for (const PatchProgress& candidate : candidates_) {
+      const double before = static_cast<double>(candidate.pairs_before);
+      progress.pairs_now -= before - static_cast<double>(candidate.pairs.load());
+      progress.work_left -= before * candidate.done;
+    }
+    options_.on_progress(progress);
   }
 
   Index level_of(const ConflictRegion& region) const {
@@ -141,14 +154,21 @@ class Escalation {
     note_attempts(attempts, strategy);
     index_.update();
     std::vector<Attempt> far;
+    candidates_ = std::vector<PatchProgress>(attempts.size());
+    for (std::size_t i = 0; i < attempts.size(); ++i) candidates_[i].begin(attempts[i].region.pairs.size());
     run_in_batches(
-        boxes_of(attempts), [&](std::size_t i) { run(attempts[i], strategy); },
+        boxes_of(attempts), [&](std::size_t i) { run(attempts[i], strategy, candidates_[i]); },
         [&](std::size_t i) {
+          const std::size_t kept = result_.regions.size();
+          const std::size_t left = attempts[i].left.total;
           if (!judge(attempts[i], strategy, level)) far.push_back(std::move(attempts[i]));
+          const bool is_kept = result_.regions.size() > kept;
+          candidates_[i].set_pairs(is_kept ? left : candidates_[i].pairs_before);
         });
     run_in_batches(
         boxes_of(far), [&](std::size_t i) { look_farther(far[i]); },
         [&](std::size_t i) { judge_far(far[i], strategy, level); });
+    candidates_.clear();
   }
 
   std::vector<Box> boxes_of(const std::vector<Attempt>& attempts) const {
@@ -230,7 +250,7 @@ class Escalation {
     return std::any_of(region.core.begin(), region.core.end(), [&](Index v) { return rejected_.count(v) > 0; });
   }
 
-  void run(Attempt& attempt, const Strategy& strategy) const {
+  void run(Attempt& attempt, const Strategy& strategy, PatchProgress& progress) const {
     if (stopped()) return;
     const auto begin = std::chrono::steady_clock::now();
     Patch& patch = attempt.patch = cut_patch(scene_, index_, attempt.free, attempt.reach);
@@ -245,7 +265,8 @@ class Escalation {
     for (const IntersectingPair& pair : finder.find(patch.x))
       (is_of_region(patch, attempt.region, pair) ? own : tolerated).push_back(pair);
     attempt.before = Pairs(own);
-    Task task{.tolerated = tolerated, .depth = attempt.depth, .stop = options_.stop};
+    patch.progress = &progress;
+    Task task{.tolerated = tolerated, .depth = attempt.depth, .stop = ask_};
     if (!options_.accept && !own.empty())
       task.few_enough = static_cast<std::size_t>(strategy.gain_share * static_cast<double>(own.size() - 1));
     if (options_.min_gap) task.min_gap = options_.min_gap(attempt.free);
@@ -254,6 +275,7 @@ class Escalation {
     attempt.is_sound = !has_squeezed_face(patch, attempt.start, patch.x, strategy.area_floor);
     attempt.is_rejected = attempt.is_clean() && options_.accept && !options_.accept(patch);
     patch.trajectory = nullptr;
+    patch.progress = nullptr;
     attempt.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
@@ -446,7 +468,11 @@ class Escalation {
   const EscalationOptions& options_;
   std::vector<Level> levels_;
   std::vector<IntersectingPair> pairs_, initial_pairs_;
-  std::vector<Index> level_;             // per vertex: the strategy that its conflict is to be tried on next
+  std::vector<Index> level_;               // per vertex: the strategy that its conflict is to be tried on next
+  std::vector<PatchProgress> candidates_;  // of the regions that are tried now
+  const std::function<void()> report_ = [this] { report(); };
+  ProgressReporter reporter_{report_, options_.stop};
+  const std::function<bool()> ask_ = [this] { return reporter_.asked(); };
   std::vector<std::uint8_t> is_tried_;   // per vertex: in the core of a region that is tried now
   std::map<Index, Candidate> best_;      // by the first vertex of the region's core
   std::vector<Candidate> waiting_;       // clean ones that went far

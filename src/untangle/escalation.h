@@ -14,6 +14,12 @@
 
 namespace unsnarl {
 
+struct EscalationProgress {
+  std::span<const IntersectingPair> left;  ///< pairs of triangles that are left by what is kept
+  double pairs_now = 0;                    ///< how many there are with the candidates as they are now
+  double work_left = 0;                    ///< how many these pairs are less the share that is done of each candidate
+};
+
 struct EscalationOptions {
   /// The strategies that are tried, in this order.
   std::span<const Tier> tiers;
@@ -25,7 +31,8 @@ struct EscalationOptions {
   double rings_per_depth = 1.5;
 
   std::function<bool()> stop;
-  std::function<void(std::span<const IntersectingPair> left)> on_progress;  ///< pairs of triangles
+  /// Told what is kept, and a few times a second how far the candidates are that are made now; none: nobody is.
+  std::function<void(const EscalationProgress& progress)> on_progress;
   /// Distance that faces have to have in the end (RecoverOptions::min_gap) around these vertices; none: any.
   std::function<double(std::span<const Index> vertices)> min_gap;
   /// Asked about a candidate without pairs (from any thread); may improve it. False: the region goes on with the next

@@ -16,6 +16,7 @@
 #include "geometry/box.h"
 #include "mesh/areas.h"
 #include "optimize/lbfgs.h"
+#include "scene/patch_progress.h"
 #include "scene/trajectory.h"
 #include "untangle/finish_by_contours.h"
 #include "untangle/flow_samples.h"
@@ -253,6 +254,7 @@ class Flow {
     iteration[EnergyTerm::minkowski] = lambda_minkowski_ * penalty_value_;
     iteration[EnergyTerm::gaussian] = value_ - arap_value_ - lambda_minkowski_ * penalty_value_;
     record(patch_, full_, iteration);
+    if (patch_.progress) patch_.progress->set_pairs(pairs);
   }
 
   double cap() const { return std::max(h_, 0.5 * shape_->spacing()); }

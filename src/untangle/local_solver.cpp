@@ -14,6 +14,7 @@
 #include "energy/minkowski_penalty.h"
 #include "geometry/sort_unique.h"
 #include "geometry/splitmix.h"
+#include "scene/patch_progress.h"
 #include "scene/trajectory.h"
 #include "untangle/contours.h"
 #include "untangle/flip_guard.h"
@@ -279,6 +280,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
       if (t.waited >= patience(t)) break;
       const std::vector<IntersectingPair> pairs = blocking_pairs(finder.find(t.x), tolerated);
       record(patch, t.x, {.pairs = pairs.size()});
+      if (patch.progress) patch.progress->set_pairs(pairs.size());
       clean = pairs.empty();
       if (clean) break;
       if (t.iterations == 0) t.pairs_left = initial_pairs = pairs.size();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <thread>
 
 #include "scene/shapes.h"
 #include "untangle/strategies.h"
@@ -31,7 +32,7 @@ TEST(Escalation, clears_a_crossing_and_says_how) {
   Scene scene = shapes::scene_of(shape);
   std::vector<std::size_t> left;
   EscalationOptions options;
-  options.on_progress = [&](std::span<const IntersectingPair> pairs) { left.push_back(pairs.size()); };
+  options.on_progress = [&](const EscalationProgress& progress) { left.push_back(progress.left.size()); };
   const EscalationResult result = untangle(scene, {}, options);
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
@@ -75,7 +76,19 @@ TEST(Escalation, deep_conflicts_start_on_a_coarser_mesh) {
   Shape shape = bump(16);
   shape.add(bump(-16), {0.31, 0.17, 20});
   Scene scene = shapes::scene_of(shape);
-  const EscalationResult result = untangle(scene, {}, {});
+  const double all = static_cast<double>(shapes::pairs_of(shape).size());
+  const std::thread::id caller = std::this_thread::get_id();
+  double least_work = all;
+  EscalationOptions options;
+  options.on_progress = [&](const EscalationProgress& progress) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    EXPECT_GE(progress.pairs_now, 0);
+    EXPECT_GE(progress.work_left, 0);
+    EXPECT_LE(progress.work_left, static_cast<double>(progress.left.size()));
+    least_work = std::min(least_work, progress.work_left);
+  };
+  const EscalationResult result = untangle(scene, {}, options);
+  EXPECT_EQ(least_work, 0);
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
   ASSERT_FALSE(result.regions.empty());
