@@ -80,6 +80,7 @@ TEST(ParseLink, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(link_refusal("X[1,4,2,5] X[3,6,4,1] X[5,2,6,7]").find("has an edge 7"), std::string::npos);
   EXPECT_NE(link_refusal("X[1,1,2,2]").find("nugatory"), std::string::npos);
   EXPECT_NE(link_refusal("braid 3: 1 3").find("generator 2 of the braid is 3"), std::string::npos);
+  EXPECT_NE(link_refusal("braid 2: -2147483648").find("generator 1 of the braid is -2147483648"), std::string::npos);
   EXPECT_NE(link_refusal("braid three: 1").find("is no whole number"), std::string::npos);
 }
 

@@ -33,6 +33,12 @@ void curves_svg(Bytes bytes);
 void curves_json(Bytes bytes);
 /// A plan of routes: read or refused; what was read comes back as it was written, and is judged without failing.
 void routes_plan(Bytes bytes);
+/// A knot or link as points, code or braid: read or refused; what was read comes back as it was written.
+void link(Bytes bytes);
+/// An isotopy of a knot: the same, and it is certified or refused without failing.
+void knot_isotopy(Bytes bytes);
+/// The first bytes of any file: they are refused as every format but the one that they tell.
+void content(Bytes bytes);
 /// A small mesh on a lattice: the pairs found are those that brute force finds.
 void intersections(Bytes bytes);
 /// A small mesh on a lattice: what `repair` returns is what it promises.
@@ -42,7 +48,7 @@ struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 19> targets = {{{"obj", obj},
+inline constexpr std::array<Target, 22> targets = {{{"obj", obj},
                                                     {"off", off},
                                                     {"ply", ply},
                                                     {"stl", stl},
@@ -59,6 +65,9 @@ inline constexpr std::array<Target, 19> targets = {{{"obj", obj},
                                                     {"curves_svg", curves_svg},
                                                     {"curves_json", curves_json},
                                                     {"routes_plan", routes_plan},
+                                                    {"link", link},
+                                                    {"knot_isotopy", knot_isotopy},
+                                                    {"content", content},
                                                     {"intersections", intersections},
                                                     {"repair", repair}}};
 

@@ -37,7 +37,7 @@ Link braid_closure(int strands, std::span<const int> braid, int points) {
   if (strands < 1) throw std::invalid_argument(fmt::format("a braid of {} strands; give 1 or more", strands));
   if (points < 2 || points > 1000) throw std::invalid_argument(fmt::format("{} points; give 2 to 1000", points));
   for (std::size_t k = 0; k < braid.size(); ++k)
-    if (braid[k] == 0 || std::abs(braid[k]) >= strands)
+    if (braid[k] == 0 || braid[k] <= -strands || braid[k] >= strands)
       throw std::invalid_argument(
           fmt::format("generator {} of the braid is {}; with {} strands they are 1 to {}, or "
                       "negative",
