@@ -19,8 +19,8 @@ struct PictureOptions {
   /// Text above each half; '\n' starts a second, smaller line. Printable ASCII; what does not fit is cut off.
   std::string before_label = "before";
   std::string after_label = "after";
-  /// Adds a magnified view of the densest group of red faces (of `before`) in a corner of each half, where they are
-  /// small in the main view.
+  /// Adds magnified views of the densest groups of red faces (of `before`) in corners of each half, where they are
+  /// small in the main view: one, or up to three where groups lie far apart and corners are free.
   bool inset = true;
   /// The files that the surface is of: of several, each gets a colour of its own; empty: it is one.
   std::span<const SceneFile> files = {};

@@ -9,6 +9,7 @@
 #include "render/camera.h"
 #include "render/closeup.h"
 #include "render/drawable.h"
+#include "render/font.h"
 #include "render/layout.h"
 #include "render/shading.h"
 
@@ -17,6 +18,10 @@ namespace {
 
 /// Largest side of a magnified part, in heights of the picture: it is magnified 1.5 times at least.
 constexpr double largest_window = 0.24;
+/// Magnified parts, at most: one corner is left to the surface.
+constexpr std::size_t most_windows = 3;
+/// Share of a further inset that may hide something; the first one takes the best corner, however much that hides.
+constexpr double most_hidden = 0.03;
 
 struct Panel {
   Drawable drawable;
@@ -39,25 +44,76 @@ std::size_t covered(const Image& image, Rectangle r) {
   return count;
 }
 
-/// The corner of the panels in which an inset hides least, over all panels; bottom right where none is better.
-Rectangle inset_place(const std::vector<Image>& views, const Window& window, int width, int height) {
+struct Inset {
+  Window window;
+  Rectangle place;
+};
+
+/// The corner of the panels, not taken, in which an inset hides least, over all panels; bottom right where none is
+/// better. `least_hidden`: pixels there that are not white, over all panels, and 1e9 for each window below.
+Rectangle inset_place(const std::vector<Image>& views, std::span<const Window> windows, std::span<const Inset> taken,
+                      int width, int height, double& least_hidden) {
   const int side = static_cast<int>(0.36 * std::min(width, height)), gap = std::max(2, height / 100);
   Rectangle best;
   double least = -1;
   for (const auto& [x, y] : {std::pair(width - side - gap, height - side - gap), std::pair(gap, height - side - gap),
                              std::pair(width - side - gap, gap), std::pair(gap, gap)}) {
     const Rectangle r{x, y, side, side};
+    if (std::any_of(taken.begin(), taken.end(), [&](const Inset& t) { return t.place.x == r.x && t.place.y == r.y; }))
+      continue;
     double hidden = 0;
     for (const Image& view : views) hidden += static_cast<double>(covered(view, r));
-    const bool over_window = std::abs(window.x - (x + 0.5 * side)) < 0.5 * (side + window.side) &&
-                             std::abs(window.y - (y + 0.5 * side)) < 0.5 * (side + window.side);
-    if (over_window) hidden += 1e9;
+    for (const Window& window : windows)
+      if (std::abs(window.x - (x + 0.5 * side)) < 0.5 * (side + window.side) &&
+          std::abs(window.y - (y + 0.5 * side)) < 0.5 * (side + window.side))
+        hidden += 1e9;
     if (least < 0 || hidden < least) {
       least = hidden;
       best = r;
     }
   }
+  least_hidden = least;
   return best;
+}
+
+/// Where what is worth magnifying goes: the first in any case, others where they hide little.
+std::vector<Inset> insets_of(const Drawable& drawable, const Camera& camera, const std::vector<Image>& views, int width,
+                             int height) {
+  const std::vector<Window> windows =
+      all_worth_magnifying(drawable, camera, width, height, largest_window, most_windows);
+  std::vector<Inset> insets;
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    double hidden = 0;
+    const Rectangle place = inset_place(views, windows, insets, width, height, hidden);
+    const double pixels = static_cast<double>(views.size()) * place.width * place.height;
+    if (insets.empty() || hidden <= most_hidden * pixels) insets.push_back({windows[k], place});
+  }
+  return insets;
+}
+
+void draw_inset(Image& view, const Drawable& drawable, const Camera& camera, const Inset& inset, int width, int height,
+                int line) {
+  const auto& [window, place] = inset;
+  const auto half = static_cast<int>(window.side / 2);
+  outline(view, {static_cast<int>(window.x) - half, static_cast<int>(window.y) - half, 2 * half, 2 * half}, line, ink);
+  paste(view, shade(drawable, narrowed(camera, window, width, height), place.width, place.height), place.x, place.y);
+  outline(view, place, line, ink);
+}
+
+/// The same number in the upper left corner of a window and of its inset, on a white ground.
+void number_insets(Image& view, std::span<const Inset> insets, double size, int line) {
+  const auto ground = static_cast<int>(1.8 * size);
+  for (std::size_t k = 0; k < insets.size(); ++k) {
+    const auto& [window, place] = insets[k];
+    const auto half = static_cast<int>(window.side / 2);
+    for (const auto& [x, y] : {std::pair(place.x, place.y),
+                               std::pair(static_cast<int>(window.x) - half, static_cast<int>(window.y) - half)}) {
+      fill(view, {x + line, y + line, ground, ground}, {1, 1, 1});
+      const std::string number = std::to_string(k + 1);
+      draw_text(view, number, x + line + 0.5 * (ground - text_width(number, size)), y + line + 0.4 * size, size, ink,
+                x + line + ground);
+    }
+  }
 }
 
 Image render_panels(std::vector<Panel> panels, const PictureOptions& options) {
@@ -77,19 +133,13 @@ Image render_panels(std::vector<Panel> panels, const PictureOptions& options) {
   std::vector<Image> views;
   for (const Panel& panel : panels) views.push_back(shade(panel.drawable, camera, width, height));
 
-  const auto window =
-      options.inset ? worth_magnifying(panels.front().drawable, camera, width, height, largest_window) : std::nullopt;
-  if (window) {
-    const Rectangle place = inset_place(views, *window, width, height);
-    const Camera narrow = narrowed(camera, *window, width, height);
+  if (options.inset) {
+    const std::vector<Inset> insets = insets_of(panels.front().drawable, camera, views, width, height);
     const int line = std::max(1, options.height / 600);
-    const auto half = static_cast<int>(window->side / 2);
-    for (std::size_t k = 0; k < views.size(); ++k) {
-      outline(views[k], {static_cast<int>(window->x) - half, static_cast<int>(window->y) - half, 2 * half, 2 * half},
-              line, ink);
-      paste(views[k], shade(panels[k].drawable, narrow, place.width, place.height), place.x, place.y);
-      outline(views[k], place, line, ink);
-    }
+    for (std::size_t k = 0; k < views.size(); ++k)
+      for (const Inset& inset : insets) draw_inset(views[k], panels[k].drawable, camera, inset, width, height, line);
+    if (insets.size() > 1)
+      for (Image& view : views) number_insets(view, insets, 0.6 * letters, line);
   }
   for (int k = 0; k < count; ++k) {
     paste(image, views[k], k * width, bar);

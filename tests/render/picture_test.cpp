@@ -119,6 +119,20 @@ TEST(Picture, MagnifiesSmallGroupsOfRedFaces) {
   EXPECT_GT(count(with_inset, 0, 800).vivid, 4 * count(plain, 0, 800).vivid);
 }
 
+TEST(Picture, MagnifiesGroupsThatLieFarApart) {
+  PictureOptions options = small();
+  options.width = 1000;
+  options.height = 300;
+  const Surface surface = plate(80);
+  const auto vivid = [&](const std::vector<Index>& red) {
+    return count(render_surface(surface, red, options), 0, 1000).vivid;
+  };
+  const std::vector<Index> one = {820, 821}, both = {820, 821, 5580, 5581};
+  const std::size_t plain_one = vivid(one), plain_both = vivid(both);
+  options.inset = true;
+  EXPECT_GT(vivid(both) - plain_both, 3 * (vivid(one) - plain_one) / 2) << "the second group is magnified as well";
+}
+
 TEST(Picture, DrawsItsLabels) {
   PictureOptions options = small();
   options.before_label = options.after_label = "";
