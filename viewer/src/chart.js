@@ -3,6 +3,9 @@ import { short } from './numbers.js';
 
 const size = { width: 288, height: 104, left: 52, right: 6, top: 10, bottom: 18 };
 
+/** Decades that a logarithmic axis has at most, below its largest value: a term that is all but nothing lies on the ground. */
+const mostDecades = 8;
+
 /** Positions along an axis: logarithmic where values span more than two decades and none is negative. */
 function axis(values, from, to) {
   const finite = values.filter((v) => Number.isFinite(v));
@@ -16,12 +19,13 @@ function axis(values, from, to) {
     const span = high - bottom || 1;
     return { at: (v) => from + (to - from) * (v - bottom) / span, ticks: high > bottom ? [bottom, (high + bottom) / 2, high] : [high] };
   }
-  const decades = [Math.floor(Math.log10(least)), Math.ceil(Math.log10(high))];
+  const highest = Math.ceil(Math.log10(high));
+  const decades = [Math.max(Math.floor(Math.log10(least)), highest - mostDecades), highest];
   const span = decades[1] - decades[0] || 1;
   const step = Math.ceil(span / 3);
   const ticks = [];
   for (let d = decades[0]; d <= decades[1]; d += step) ticks.push(10 ** d);
-  return { at: (v) => (v > 0 ? from + (to - from) * (Math.log10(v) - decades[0]) / span : from), ticks };
+  return { at: (v) => from + (to - from) * (v > 0 ? Math.max(0, Math.log10(v) - decades[0]) / span : 0), ticks };
 }
 
 /**

@@ -70,6 +70,12 @@ function reportFacts(report) {
   ]);
 }
 
+/** How each rigid part moved as a body. */
+function rigidParts(parts) {
+  return facts(parts.map((part) => [part.name, part.translation_rel === 0 && part.rotation_deg === 0 ? 'at rest'
+    : `shifted ${percent(part.translation_rel)}, turned ${short(part.rotation_deg)}°`]));
+}
+
 /** The sections of the panel that stay as they are. */
 export function summary(page, before, after) {
   const { scene } = page;
@@ -81,6 +87,7 @@ export function summary(page, before, after) {
       ...(report?.obstructions ?? []).map(({ message }) => element('p', { class: 'note' }, `Cannot be resolved: ${message}`))),
     page.displacement ? section('Motion: share of the diagonal (length)', motion(page)) : null,
     report ? section('Report', reportFacts(report)) : null,
+    report?.rigid_parts?.length ? section('Rigid parts', rigidParts(report.rigid_parts)) : null,
     files ? section('Files', files) : null,
     section('Mesh', facts([
       ['vertices', count(scene.vertices)],
