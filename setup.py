@@ -29,6 +29,8 @@ class BuildWithLibrary(build_py):
         # An editable package is where its sources are.
         destination = PROJECT / "python" if getattr(self, "editable_mode", False) else Path(self.build_lib).resolve()
         cmake("--install", build, "--component", "unsnarl_python", "--prefix", destination)
+        if not (destination / "unsnarl" / "libunsnarl_c.so").exists():
+            raise SystemExit(f"error: {build} was configured without -DUNSNARL_BUILD_PYTHON=ON: it installs no library")
 
 
 def cmake(*arguments):

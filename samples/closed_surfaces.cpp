@@ -23,7 +23,7 @@ int cube_divisions(int resolution) {
 Surface flying_saucer(int resolution, const SampleValues& values) {
   const double dent = values["dent"];
   return sample_sphere(cube_divisions(resolution), FaceKind::triangles, [&](const Vec3& d) {
-    const double r = std::hypot(d[0], d[2]);
+    const double r = std::sqrt(d[0] * d[0] + d[2] * d[2]);
     // Height of the top over the radius; the bottom is its mirror image. Negative within r < dent.
     const double height = d[1] * (0.55 * r - 0.55 * dent);
     return Vec3(d[0], height + 0.02 * d[0] * d[2], d[2]);

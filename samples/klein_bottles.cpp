@@ -9,7 +9,8 @@ namespace {
 /// Leaves out a disc of parameters around (u, v), measured in fractions of the two periods.
 auto without_disc(double u, double v, double radius, const ParameterGrid& grid) {
   return [=, du = grid.u.maximum - grid.u.minimum, dv = grid.v.maximum - grid.v.minimum](double a, double b) {
-    return std::hypot((a - u) / du * 2, (b - v) / dv) > radius;
+    const double along = (a - u) / du * 2, across = (b - v) / dv;
+    return along * along + across * across > radius * radius;
   };
 }
 

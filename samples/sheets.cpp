@@ -64,7 +64,8 @@ Surface perforated_fold(int resolution, const SampleValues& values) {
   grid.keep = [&](double t, double v) {
     for (int k = 0; k < holes; ++k) {
       const double middle = half * (2.0 * (k + 0.5) / holes - 1);
-      if (std::hypot((t - middle) * holes / (1.5 * half), v / 0.6) < 0.45) return false;
+      const double along = (t - middle) * holes / (1.5 * half), across = v / 0.6;
+      if (along * along + across * across < 0.45 * 0.45) return false;
     }
     return true;
   };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <map>
@@ -33,6 +34,10 @@ constexpr double least_correction_rel = 3e-5;
 /// Frames that are under way at once, by thread: enough that none waits for long. They are lost where a call is cut
 /// off, and held in memory with the frames around them.
 constexpr std::size_t frames_by_thread = 2;
+
+/// Threads without a job are woken when there is one. A wait without end is another symbol of libstdc++ since GCC 12,
+/// which distributions with glibc 2.34 do not have.
+constexpr std::chrono::hours longest_wait{1};
 
 struct Frame {
   std::vector<double> input;
@@ -119,7 +124,7 @@ class SequenceRepair {
 
   /// A job of which all is there that it needs, as soon as there is one; none: nothing is left to begin.
   std::optional<FrameJob> next_job(std::unique_lock<std::mutex>& lock) {
-    for (;; changed_.wait(lock)) {
+    for (;; changed_.wait_for(lock, longest_wait)) {
       if (has_failed_ || context_.is_cancelled()) return {};
       while (opened_ < std::min(last_, handed_on_ + ahead_)) open(opened_++);
       const auto job = std::find_if(jobs_.begin(), jobs_.end(), [&](const FrameJob& j) { return is_ready(j); });

@@ -115,7 +115,8 @@ std::vector<Stroke> strokes_of(char letter) {
 double distance_to(const Stroke& s, double x, double y) {
   const double dx = s.x1 - s.x0, dy = s.y1 - s.y0, squared = dx * dx + dy * dy;
   const double t = squared == 0 ? 0 : std::clamp(((x - s.x0) * dx + (y - s.y0) * dy) / squared, 0.0, 1.0);
-  return std::hypot(x - s.x0 - t * dx, y - s.y0 - t * dy);
+  const double away_x = x - s.x0 - t * dx, away_y = y - s.y0 - t * dy;
+  return std::sqrt(away_x * away_x + away_y * away_y);
 }
 
 }  // namespace

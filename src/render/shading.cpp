@@ -60,7 +60,7 @@ float distance_to_edges(const std::array<ScreenPoint, 3>& c, std::uint8_t drawn,
   for (int k = 0; k < 3; ++k) {
     if ((drawn >> k & 1) == 0) continue;
     const ScreenPoint &a = c[k], &b = c[(k + 1) % 3];
-    const float dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
+    const float dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
     if (length > 0) nearest = std::min(nearest, std::abs(dx * (y - a.y) - dy * (x - a.x)) / length);
   }
   return nearest;

@@ -107,7 +107,7 @@ std::vector<Place> places_for(const Removal& removal, std::span<const Triangle> 
 
   for (Place& place : places)
     for (const Triangle& t : star) {
-      const auto at = [&](Index v) { return v == removal.vertex ? place.position : Vec3(x.col(v)); };
+      const auto at = [&, &x = x](Index v) { return v == removal.vertex ? place.position : Vec3(x.col(v)); };
       const Vec3 a = at(t[0]), b = at(t[1]), c = at(t[2]);
       place.flipped += (b - a).cross(c - a).dot(area_vector(rest, t)) < 0;
     }

@@ -13,12 +13,12 @@ namespace unsnarl::fuzz {
 namespace {
 
 /// Points up to which links and isotopies are examined too; the check of a link looks at all pairs of edges.
-constexpr std::size_t most_points = 300;
+constexpr std::size_t most_knot_points = 300;
 
-template <class Parse>
-auto parsed(Parse&& parse) -> std::optional<decltype(parse())> {
+template <class Read>
+auto read_knot(Read&& read) -> std::optional<decltype(read())> {
   try {
-    return parse();
+    return read();
   } catch (const FileError& refusal) {
     promise(refusal.what()[0] != '\0', "a refusal has a reason");
     return std::nullopt;
@@ -44,25 +44,25 @@ void check_slices(const KnotIsotopy& isotopy) {
 }  // namespace
 
 void link(Bytes bytes) {
-  const std::optional<Link> read = parsed([&] { return parse_link(std::string(bytes.begin(), bytes.end())); });
+  const std::optional<Link> read = read_knot([&] { return parse_link(std::string(bytes.begin(), bytes.end())); });
   if (!read) return;
   for (const std::vector<double>& component : read->components) {
     promise(component.size() % 3 == 0, "three coordinates a point");
     for (const double x : component) promise(std::isfinite(x), "coordinates are finite");
   }
-  if (read->point_count() > most_points || !is_accepted(*read)) return;
+  if (read->point_count() > most_knot_points || !is_accepted(*read)) return;
   promise(parse_link(link_text(*read)).components == read->components, "a link comes back as it was written");
 }
 
 void knot_isotopy(Bytes bytes) {
   const std::string text(bytes.begin(), bytes.end());
-  const std::optional<KnotIsotopy> read = parsed([&] { return parse_knot_isotopy(text); });
+  const std::optional<KnotIsotopy> read = read_knot([&] { return parse_knot_isotopy(text); });
   if (!read) return;
   const std::string written = knot_isotopy_json(*read, {});
   promise(knot_isotopy_json(parse_knot_isotopy(written), {}) == written, "an isotopy comes back as it was written");
   std::size_t points = 0;
   for (const KnotRing& ring : read->rings) points += ring.points.size() / 3;
-  if (read->rings.empty() || points > most_points) return;
+  if (read->rings.empty() || points > most_knot_points) return;
   const Link start{{read->rings.front().points}}, end{{read->rings.back().points}};
   try {
     const KnotIsotopyFindings findings = check_knot_isotopy(*read, start, end);
