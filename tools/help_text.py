@@ -5,7 +5,8 @@ import subprocess
 from dataclasses import dataclass, field
 
 HEADING = re.compile(r"^(\S.*):$")
-ENTRY = re.compile(r"^  (\S.*?)(?:  +(\S.*))?$")
+# Two blanks before the meaning; one where names and value, that may be repeated, fill their column.
+ENTRY = re.compile(r"^  (\S.*?)(?:(?:  +|(?<=\.\.\.) (?=[A-Z][a-z]))(\S.*))?$")
 NEEDS = re.compile(r" (Excludes|Needs): .*$")
 
 

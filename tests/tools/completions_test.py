@@ -9,6 +9,8 @@ import unittest
 from pathlib import Path
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
+import help_text  # noqa: E402
 PROGRAM = sys.argv.pop(1)
 
 # Types a line into an interactive shell and presses tab; what it lists comes out.
@@ -41,6 +43,13 @@ class Completions(unittest.TestCase):
         quoted = " ".join(f"'{word}'" for word in words)
         return output("bash", "--norc", "-c", f"compopt() {{ :; }}\n{script('bash')}\n"
                       f"COMP_WORDS=({quoted}); COMP_CWORD={len(words) - 1}; _unsnarl; echo \"${{COMPREPLY[@]}}\"").split()
+
+    def test_every_option_has_a_meaning(self):
+        for command, text in help_text.read(PROGRAM).items():
+            for entries in text.groups.values():
+                for entry in entries:
+                    self.assertTrue(entry.meaning, f"{command}: {entry.names}")
+                    self.assertLess(len(entry.value.split()), 4, f"{command}: {entry.names}")
 
     def test_bash(self):
         self.assertIn("seifert", self.bash("unsnarl", ""))
