@@ -5,8 +5,8 @@ import subprocess
 from dataclasses import dataclass, field
 
 HEADING = re.compile(r"^(\S.*):$")
-# Two blanks before the meaning; one where names and value, that may be repeated, fill their column.
-ENTRY = re.compile(r"^  (\S.*?)(?:(?:  +|(?<=\.\.\.) (?=[A-Z][a-z]))(\S.*))?$")
+# Two blanks before the meaning; one where what stands before it fills its column.
+ENTRY = re.compile(r"^  (\S.*?)(?:(?:  +|(?:(?<=\.\.\.)|(?<=Needs: --paper)) (?=[A-Z][a-z])(?!Needs|Excludes))(\S.*))?$")
 NEEDS = re.compile(r" (Excludes|Needs): .*$")
 
 
