@@ -65,8 +65,8 @@ bool is_closed(const ObstacleTriangles& triangles, int obstacle) {
   for (Index t = 0; t < triangles.size(); ++t) {
     if (triangles.obstacle(t) != obstacle) continue;
     for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(place(triangles.corners(t)[k]), place(triangles.corners(t)[(k + 1) % 3]));
-      bool& is_open = open[{a, b}];
+      const Place from = place(triangles.corners(t)[k]), to = place(triangles.corners(t)[(k + 1) % 3]);
+      bool& is_open = open[std::minmax(from, to)];
       is_open = !is_open;
     }
   }
