@@ -131,7 +131,8 @@ class Fix {
         display_(options.progress, options.quiet),
         memory_guard_(options.memory_limit_mb),
         scene_(read_scene(options.inputs, format_from_name(options.format))),
-        repair_options_(repair_options(options, scene_)) {
+        repair_options_(repair_options(options, scene_)),
+        nesting_(nesting_wanted(options, scene_)) {
     claim_buffers();
     if (!options.is_scene()) {
       check_format_of_output(output_, scene_.document(0));
@@ -162,7 +163,8 @@ class Fix {
       context.cancel();
       if (!options_.quiet) tell("\nstopping; once more to end at once\n");
     });
-    result_ = repair(surface(), repair_options_, &context);
+    result_ = nesting_.chains.empty() ? repair(surface(), repair_options_, &context)
+                                      : repair_nested(surface(), nesting_, repair_options_, &context);
     interruption_.set_handler(nullptr);
     display_.clear();
 
@@ -184,7 +186,7 @@ class Fix {
            {options_.report, options_.picture, options_.view, options_.record, options_.highlight})
         if (!path.empty() && !is_stream(path)) tell(fmt::format("  wrote {}\n", path));
     }
-    return exit_code_of(result_.status);
+    return exit_code_of(result_.status, files_.nested);
   }
 
  private:
@@ -264,8 +266,11 @@ class Fix {
   /// By file, as read back where it was written.
   void describe_files() {
     const std::span<const double> after = written_.empty() ? result_.positions : written_;
+    const std::vector<IntersectingPair> pairs_after = certifier().find_intersections(after);
     files_.scene = scene_report(surface(), scene_.files(), certifier().find_intersections(surface().positions), after,
-                                certifier().find_intersections(after));
+                                pairs_after);
+    if (!nesting_.chains.empty())
+      files_.nested = nested_pairs(surface(), after, pairs_after, nesting_, repair_options_.find);
     for (std::size_t i = 0; i < scene_.files().size(); ++i) {
       SceneFileReport& file = files_.scene.files[i];
       file.input = options_.inputs[i];
@@ -346,6 +351,7 @@ class Fix {
   MemoryGuard memory_guard_;
   SceneDocument scene_;
   RepairOptions repair_options_;
+  Nesting nesting_;  // no chains: it does not matter
   std::optional<Certifier> certifier_;  // of the input; made when first needed
   RepairResult result_;
   std::vector<double> written_;  // positions of several files, as read back

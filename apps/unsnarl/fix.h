@@ -2,6 +2,7 @@
 
 #include "command_options.h"
 #include "interruption.h"
+#include "unsnarl/nesting.h"
 #include "unsnarl/paper.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/scene_document.h"
@@ -19,6 +20,7 @@ struct FixOptions : MeshOptions {
   bool absolute = false;
   std::string fix_vertices;
   bool fix_boundary = false;
+  std::vector<std::string> nested;  ///< names of files from the innermost out, with commas between them
   bool each = false, together = false;
   Parts fix, only;  ///< held still; worked on, all else held still (empty: everything is worked on)
   Parts rigid;      ///< each moves as one body
@@ -35,6 +37,9 @@ void add_fix_options(CLI::App& command, FixOptions& options);
 
 /// The options for this mesh. They refer to `scene`. Throws UsageError, FileError.
 RepairOptions repair_options(const FixOptions& options, const SceneDocument& scene);
+
+/// What --nested asks for; no chains: nothing. Throws UsageError.
+Nesting nesting_wanted(const FixOptions& options, const SceneDocument& scene);
 
 /// Reads, repairs, writes to a temporary file, reads it back, certifies what was read, renames. Returns the exit code.
 /// Throws FileError, WriteError, UsageError.

@@ -1,5 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
 #include "fix.h"
 #include "mesh_input.h"
 #include "paper_options.h"
@@ -143,6 +148,14 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->group(what);
   each->group(what);
   add_parts(command, "--only-", options.only, "Leave all as it is but the ", what);
+  command
+      .add_option("--nested", options.nested,
+                  "Of several files: which lies inside which, names from the innermost out, as in\n"
+                  "inner.off,outer.off,skin.off. Where two of them cross, the inner one goes in and the outer one out,\n"
+                  "also where the other way is shorter. All but the first have to be closed; may be repeated")
+      ->type_name("NAME,NAME,...")
+      ->group(what)
+      ->allow_extra_args(false);
   add_parts(command, "--rigid-", options.rigid, "Turn and shift as one body, never deform, the ", what, "--rigid");
   command
       .add_option("--max-displacement", options.max_displacement,
@@ -226,12 +239,42 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "  unsnarl fix body.glb --in-place --max-displacement 0.01 --fix-vertices seam.txt\n"
       "  unsnarl fix scene.obj -o out.obj --fix-group anchor --fix-boundary\n"
       "  unsnarl fix brain.surf skull.gii skin.obj -o fixed --fix-file skin.obj     three files, one scene\n"
+      "  unsnarl fix inner.off outer.off skin.off -o fixed --nested inner.off,outer.off,skin.off\n"
       "  unsnarl fix --sequence 'dance/*.obj' -o fixed                              frames of a moving mesh\n\n"
       "Exit codes: 0 embedded, 1 self-intersections left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
       "6 interrupted, 7 all repaired but what no allowed motion can resolve, 70 internal error.\n"
       "With --only-... and --each, 0 still means that nothing in the whole file intersects; where only what they "
       "leave\n"
       "out does, the result is written and the exit code is 7.");
+}
+
+Nesting nesting_wanted(const FixOptions& options, const SceneDocument& scene) {
+  const std::span<const SceneFile> files = scene.files();
+  std::vector<std::vector<std::int32_t>> chains;
+  for (const std::string& value : options.nested) {
+    std::vector<std::int32_t>& chain = chains.emplace_back();
+    std::istringstream names(value);
+    for (std::string name; std::getline(names, name, ',');) {
+      const auto is_it = [&](const SceneFile& file) { return file.name == name; };
+      const auto found = std::find_if(files.begin(), files.end(), is_it);
+      if (found == files.end()) {
+        std::string known;
+        for (const SceneFile& file : files) known += fmt::format("{}'{}'", known.empty() ? "" : ", ", file.name);
+        throw UsageError(fmt::format("--nested: there is no file '{}'; there are: {}", name, known));
+      }
+      chain.push_back(static_cast<std::int32_t>(found - files.begin()));
+    }
+  }
+  if (chains.empty()) return {};
+  if (options.each || options.paper || !options.rigid.empty())
+    throw UsageError("--nested goes neither with --each nor with --rigid and its like, nor with --paper; leave one out");
+  Nesting nesting = nesting_of_files(files, std::move(chains));
+  try {
+    check_nesting(scene.surface(), nesting, options.find());
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(fmt::format("--{}", e.what()));
+  }
+  return nesting;
 }
 
 RepairOptions repair_options(const FixOptions& options, const SceneDocument& scene) {

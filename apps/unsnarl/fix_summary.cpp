@@ -119,6 +119,12 @@ std::vector<std::string> by_file(const SceneReport& scene) {
   return lines;
 }
 
+std::string nested_in_words(const NestedPair& pair) {
+  return fmt::format("{} {} {}: {} vertices on the wrong side before, {} after", pair.inner,
+                     pair.is_nested ? "lies inside" : "does not lie inside", pair.outer, pair.wrong_before,
+                     pair.wrong_after);
+}
+
 std::string rigid_part_in_words(const RigidPartReport& part) {
   if (part.translation_rel == 0 && part.rotation_deg == 0) return fmt::format("rigid {}: stays", part.name);
   return fmt::format("rigid {}: shifted by {:.2g} % of the diagonal, turned by {:.2g} degrees, residual {:.1g}",
@@ -150,6 +156,7 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   if (r.untouched_share < 1)
     line(fmt::format("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
                      100 * (1 - r.untouched_share), 100 * r.displacement_max_rel, 100 * r.displacement_mean_rel));
+  for (const NestedPair& pair : files.nested) line("  " + nested_in_words(pair));
   for (const RigidPartReport& part : r.rigid_parts) line("  " + rigid_part_in_words(part));
   for (const std::string& words : far_regions(r)) line("  " + words);
   if (options.min_dihedral_deg > 0 && files.clearance_after)
@@ -158,7 +165,9 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
     line(fmt::format("  needed at least: {:.2g} % of the diagonal, half the depth of the deepest overlap",
                      100 * r.displacement_lower_bound_rel));
   for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
-  line(fmt::format("  {}{}; {:.2f} s, {:.0f} MB", explanation(result.status, options.goal), float32_remark(result),
+  const bool is_as_asked = outcome(result.status, files.nested) == to_string(result.status);
+  line(fmt::format("  {}{}{}; {:.2f} s, {:.0f} MB", is_as_asked ? "" : "not nested as asked; ",
+                   explanation(result.status, options.goal), float32_remark(result),
                    files.whole.seconds, files.whole.peak_memory_mb));
   line("  " + fate_of_output(result.status, files.output));
   return text;

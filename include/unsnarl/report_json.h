@@ -7,6 +7,7 @@
 
 #include "unsnarl/check.h"
 #include "unsnarl/clearance.h"
+#include "unsnarl/nesting.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/report.h"
 #include "unsnarl/scene_document.h"
@@ -26,6 +27,7 @@ struct ReportFiles {
   std::size_t vertices = 0, faces = 0;  ///< as the file counts them
   std::vector<std::string> notes;       ///< Document::notes
   SceneReport scene;                    ///< empty: one file or mesh was given
+  std::vector<NestedPair> nested;       ///< what was to lie inside what; empty: nothing was
   std::vector<StageReport> before_repair, after_repair;        ///< reading, writing
   std::optional<Clearance> clearance_before, clearance_after;  ///< of the files read; none: not measured
   StageReport whole;                                           ///< all of it; its name is not used

@@ -5,6 +5,7 @@
 #include "pipeline/limits.h"
 #include "pipeline/phases.h"
 #include "scene/diagnose.h"
+#include "scene/nested_surfaces.h"
 #include "scene/prepared_surface.h"
 #include "scene/recorder.h"
 #include "unsnarl/repair.h"
@@ -24,6 +25,7 @@ struct Job {
   Phases& phases;
   AttemptLog& tried;
   std::vector<RegionReport>& regions;
+  const NestedSurfaces* nested;  ///< null: it does not matter which surface is inside which
 };
 
 }  // namespace unsnarl

@@ -10,6 +10,7 @@
 
 #include "pipeline/job.h"
 #include "pipeline/limits.h"
+#include "pipeline/nesting.h"
 #include "pipeline/phases.h"
 #include "pipeline/repair_from.h"
 #include "pipeline/rigid_repair.h"
@@ -36,12 +37,13 @@ constexpr Index everything = -1;  // instead of a component
 
 class Repair {
  public:
-  /// `known` and `finders` are null where nothing is known, as in repair_from() else.
-  Repair(const SurfaceView& surface, const KnownSurface* known, Finders* finders, const RepairOptions& options,
-         Context& context)
+  /// `known` and `finders` are null where nothing is known, as in repair_from() else. `nesting`: null for none.
+  Repair(const SurfaceView& surface, const KnownSurface* known, Finders* finders, const Nesting* nesting,
+         const RepairOptions& options, Context& context)
       : surface_(surface),
         known_(known),
         finders_(finders),
+        nesting_(nesting),
         options_(options),
         limits_(options, context),
         threads_(options.find.threads),
@@ -51,6 +53,7 @@ class Repair {
     check_options();
     phases_.start("diagnose");
     prepare_surface();
+    if (nesting_) nested_ = nested_surfaces(surface_, prepared_, *nesting_);
     diagonal_ = diagonal_of(surface_);
     std::vector<std::uint8_t> fixed(prepared_.weld_map.count, 0);
     for (std::size_t v = 0; v < options_.fixed.size(); ++v)
@@ -66,7 +69,7 @@ class Repair {
     reached_ = prepared_.rest;
     attempts_.emplace(prepared_.rest);
     job_.emplace(Job{surface_, options_, prepared_, diagnosis_, diagonal_, limits_, *recorder_, phases_, *attempts_,
-                     result_.report.regions});
+                     result_.report.regions, nested_ ? &*nested_ : nullptr});
     try {
       if (options_.each_component)
         work_on_each_component(fixed);
@@ -247,6 +250,7 @@ class Repair {
   const KnownSurface* const known_;
   std::optional<Finders> own_finders_;  // where there are no others
   Finders* finders_;                    // of the prepared triangles
+  const Nesting* const nesting_;
   const RepairOptions& options_;
   Limits limits_;
   ThreadLimit threads_;
@@ -255,6 +259,7 @@ class Repair {
   PreparedSurface prepared_;
   double diagonal_ = 0;
   Diagnosis diagnosis_;
+  std::optional<NestedSurfaces> nested_;
   std::optional<Acceptance> acceptance_;
   std::optional<Recorder> recorder_;
   std::optional<AttemptLog> attempts_;
@@ -269,13 +274,23 @@ class Repair {
 RepairResult repair(const SurfaceView& surface, const RepairOptions& options, Context* context) {
   Context own;
   if (!options.rigid.empty()) return repair_with_rigid_parts(surface, options, context ? *context : own);
-  return Repair(surface, nullptr, nullptr, options, context ? *context : own).run();
+  return Repair(surface, nullptr, nullptr, nullptr, options, context ? *context : own).run();
+}
+
+RepairResult repair_nested(const SurfaceView& surface, const Nesting& nesting, const RepairOptions& options,
+                           Context* context) {
+  if (!options.rigid.empty() || options.each_component || options.paper)
+    throw std::invalid_argument(
+        "RepairOptions: rigid, each_component and paper know nothing of surfaces inside each other; leave them or the "
+        "nesting out");
+  Context own;
+  return Repair(surface, nullptr, nullptr, &nesting, options, context ? *context : own).run();
 }
 
 RepairResult repair_from(const SurfaceView& surface, const KnownSurface& known, Finders& finders,
                          const RepairOptions& options, Context* context) {
   Context own;
-  return Repair(surface, &known, &finders, options, context ? *context : own).run();
+  return Repair(surface, &known, &finders, nullptr, options, context ? *context : own).run();
 }
 
 }  // namespace unsnarl

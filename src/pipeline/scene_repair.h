@@ -82,6 +82,8 @@ class SceneRepair {
   EscalationOptions escalation_options();
   EscalationResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored,
                             const EscalationOptions& escalation);
+  /// Pushes the surfaces that cross, of those that are to lie inside each other, into this order.
+  void push_into_nesting(SceneIndex& index, EscalationResult& untangled);
   /// Says of each region how deep it was and how far it went.
   void measure_regions(EscalationResult& untangled) const;
   /// `left`: pairs of triangles that could not be untangled.

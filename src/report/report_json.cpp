@@ -7,7 +7,7 @@
 
 #include "report/recording_json.h"
 #include "report/shared_json.h"
-#include "unsnarl/exit_code.h"
+#include "unsnarl/nesting.h"
 #include "unsnarl/version.h"
 
 namespace unsnarl {
@@ -81,14 +81,21 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   json["schema"] = "unsnarl-report";
   json["schema_version"] = report_schema_version;
   json["version"] = version;
-  json["status"] = to_string(result.status);
-  json["exit_code"] = static_cast<int>(exit_code_of(result.status));
+  json["status"] = outcome(result.status, files.nested);
+  json["exit_code"] = static_cast<int>(exit_code_of(result.status, files.nested));
   const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
   json["input"] = {{"path", text_or_null(files.input)}, {"format", text_or_null(files.format)},
                    {"vertices", files.vertices},        {"faces", files.faces},
                    {"triangulation", r.triangulation},  {"notes", files.notes}};
   json["output"] = {{"written", !files.output.empty()}, {"path", text_or_null(files.output)}};
   add_scene(files.scene, true, json);
+  if (!files.nested.empty()) json["nested"] = Json::array();
+  for (const NestedPair& pair : files.nested)
+    json["nested"].push_back({{"inner", pair.inner},
+                              {"outer", pair.outer},
+                              {"wrong_before", pair.wrong_before},
+                              {"wrong_after", pair.wrong_after},
+                              {"nested", pair.is_nested}});
   json["options"] = options_json(options);
   json["topology"] = topology_json(r.topology);
   json["before"] = pair_counts_json(r.before);

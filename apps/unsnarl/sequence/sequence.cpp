@@ -45,6 +45,8 @@ const std::string& checked_folder(const FixOptions& options) {
   refuse(!options.view.empty(), "--view");
   refuse(!options.record.empty(), "--record");
   refuse(!options.highlight.empty(), "--highlight");
+  if (!options.nested.empty())
+    throw UsageError("--sequence has no --nested: its frames are one mesh, not several files; repair single frames");
   if (!options.rigid.empty())
     throw UsageError(
         "--sequence has no --rigid: a part that moves as a body from frame to frame is not known; repair "
