@@ -50,6 +50,43 @@ def test_a_mesh_can_be_held():
     assert np.array_equal(result.V[1], outer[0]) and not np.array_equal(result.V[0], inner[0])
 
 
+def test_the_inner_mesh_goes_in_even_where_the_way_out_is_nearer():
+    small = sphere(0.9, 0.65)
+    plain, nested = unsnarl.repair([small, outer]), unsnarl.repair([small, outer], nested=[0, 1])
+    for result in (plain, nested):
+        assert result.status == "embedded"
+    # A wall between them, against the outer one around all of the inner one.
+    assert plain.V[1][:, 0].max() < plain.V[0][:, 0].max()
+    assert nested.V[1][:, 0].max() > nested.V[0][:, 0].max()
+    (pair,) = nested.report["nested"]
+    assert pair["inner"] == "0" and pair["outer"] == "1" and pair["nested"]
+    assert pair["wrong_before"] > 100 and pair["wrong_after"] == 0
+    again = unsnarl.repair([(nested.V[0], small[1]), (nested.V[1], outer[1])], nested=[[0, 1]])
+    assert again.status == "embedded" and np.array_equal(again.V[0], nested.V[0])
+
+
+def test_what_crosses_nothing_but_lies_wrong_is_reported():
+    result = unsnarl.repair([sphere(0.2, 3.0), outer], nested=[0, 1])
+    assert result.status == "not_nested" and result.report["exit_code"] == 7
+    assert not result.report["nested"][0]["nested"]
+    assert result.report["after"]["total"] == 0
+
+
+def test_nesting_that_makes_no_sense_is_refused():
+    sheet = (np.array([[0, 0, 0.0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    for meshes, nested, error, words in [
+        ([inner, outer], [0, 2], ValueError, "mesh 2"),
+        ([inner, outer], [0, 0], ValueError, "inside itself"),
+        ([inner, outer], [0], ValueError, "two surfaces"),
+        ([inner, outer], "01", TypeError, "innermost"),
+        ([outer, sheet], [0, 1], ValueError, "not closed"),
+    ]:
+        with pytest.raises(error, match=words):
+            unsnarl.repair(meshes, nested=nested)
+    with pytest.raises(ValueError, match="list of meshes"):
+        unsnarl.repair(*outer, nested=[0, 1])
+
+
 def test_polygons_triangles_and_types_mix():
     quads = np.array([[0, 1, 2, 3]])
     flat = np.array([[-2, -2, 0.0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]], dtype=np.float32)

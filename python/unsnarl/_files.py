@@ -24,7 +24,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 #: Options of repair() that fix() takes too.
 _OPTIONS = {
-    name for name, p in inspect.signature(repair).parameters.items() if p.kind is p.KEYWORD_ONLY and name != "progress"
+    name for name, p in inspect.signature(repair).parameters.items() if p.kind is p.KEYWORD_ONLY and name not in ("progress", "nested")
 }
 
 

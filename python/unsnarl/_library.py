@@ -41,6 +41,8 @@ class SurfaceStruct(_Struct):
         ("mesh_count", c_size_t),
         ("document", c_void_p),
         ("rigid", c_void_p),
+        ("nested", c_void_p),
+        ("nested_count", c_size_t),
     ]
 
 

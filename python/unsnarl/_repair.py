@@ -87,6 +87,7 @@ def repair(
     fixed: Any = None,
     *,
     rigid: Any = None,
+    nested: Any = None,
     goal: str = "all",
     precision: str = "auto",
     min_gap: float = 0.0,
@@ -125,6 +126,12 @@ def repair(
         Parts that are turned and shifted as one body each and never deformed: a list of masks (n,) of bool or of vertex
         ids. Of a list of meshes: the numbers of those that are rigid. They move where they intersect what is fixed or
         each other; report["rigid_parts"] says how. What is in none of them is soft.
+    nested
+        Of a list of meshes: which lies inside which, their numbers from the innermost out, as in [0, 1, 2], or several
+        such chains. All but the first of a chain have to be closed. Where two of them cross, the inner one goes in and
+        the outer one out, even where the other way is shorter. report["nested"] says for each and the next one out how
+        many vertices were and are on the wrong side; status is "not_nested" where nothing intersects any more, but one
+        lies wrong. Not with rigid, each_component and paper. None: it does not matter.
     goal
         "all": no intersecting pair of any kind. "disjoint": none of faces that share no vertex.
     precision
@@ -183,12 +190,15 @@ def repair(
         recover=recover,
         **paper_options(paper),
     )
+    chains = scene.nested_numbers(nested)
     sizes = np.array([scene.vertex_counts, scene.face_counts], dtype=np.uintp).T if scene.is_list else np.empty(0)
     surface = scene.surface.struct(
         fixed=scene.flags_of_vertices(fixed),
         mesh_sizes=np.ascontiguousarray(sizes),
         mesh_count=len(sizes),
         rigid=scene.rigid_numbers(rigid),
+        nested=chains,
+        nested_count=len(chains),
     )
     repaired = call_and_wait("repair", surface, options, progress=progress)
     log(repaired)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -56,6 +57,28 @@ class Scene(NamedTuple):
             raise ValueError(f"rigid names mesh {wrong[0]}, but there are {count} (counted from 0)")
         number_of = {mesh: number for number, mesh in enumerate(dict.fromkeys(rigid))}
         return np.repeat(np.array([number_of.get(i, -1) for i in range(count)], np.int32), self.vertex_counts)
+
+    def nested_numbers(self, nested: Any) -> NDArray[np.int32]:
+        """Chains of meshes from the innermost out, a -1 after each, from one chain or a list of them; empty: none."""
+        if nested is None:
+            return np.empty(0, np.int32)
+        if not self.is_list:
+            raise ValueError("nested is of a list of meshes; give them as [(V, F), ...], one a surface")
+        try:
+            chains = [[operator.index(i) for i in nested]]
+        except TypeError:
+            try:
+                chains = [[operator.index(i) for i in chain] for chain in nested]
+            except TypeError:
+                raise TypeError(
+                    f"nested is {_what(nested)}; give the numbers of meshes from the innermost out, as in [0, 1, 2], "
+                    "or a list of such"
+                ) from None
+        count = len(self.vertex_counts)
+        wrong = [i for chain in chains for i in chain if not 0 <= i < count]
+        if wrong:
+            raise ValueError(f"nested names mesh {wrong[0]}, but there are {count} (counted from 0)")
+        return np.array([i for chain in chains for i in [*chain, -1]], np.int32)
 
     def positions_of(self, moved: Any, name: str) -> NDArray[np.float64]:
         """Flat positions of all, from those of the mesh, or of each in a list."""

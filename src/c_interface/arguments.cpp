@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "errors.h"
 #include "handles.h"
@@ -230,6 +231,24 @@ std::vector<SceneFile> meshes_of(const unsnarl_surface& surface) {
                                 std::to_string(faces) + " faces; there are " + std::to_string(view.vertex_count()) +
                                 " and " + std::to_string(view.face_count()));
   return meshes;
+}
+
+Nesting nesting_of(const unsnarl_surface& surface, std::span<const SceneFile> meshes) {
+  if (surface.nested == nullptr || surface.nested_count == 0) return {};
+  std::vector<std::vector<std::int32_t>> chains(1);
+  for (std::size_t i = 0; i < surface.nested_count; ++i) {
+    const std::int32_t mesh = surface.nested[i];
+    if (mesh == -1) {
+      chains.emplace_back();
+    } else if (mesh < 0 || static_cast<std::size_t>(mesh) >= meshes.size()) {
+      throw std::invalid_argument("nested: there is no mesh " + std::to_string(mesh) + "; there are " +
+                                  std::to_string(meshes.size()) + ", counted from 0");
+    } else {
+      chains.back().push_back(mesh);
+    }
+  }
+  if (chains.back().empty()) chains.pop_back();
+  return nesting_of_files(meshes, std::move(chains));
 }
 
 void check_corners(const SurfaceView& surface) {

@@ -8,6 +8,7 @@
 #include "unsnarl/curves.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/link.h"
+#include "unsnarl/nesting.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/scene_document.h"
 #include "unsnarl/surface.h"
@@ -33,6 +34,8 @@ RepairOptions frame_options(const unsnarl_options& options, const unsnarl_surfac
 SurfaceView view_of(const unsnarl_surface& surface);
 /// The meshes that lie one after another in `surface`, called by their numbers; empty where it is one.
 std::vector<SceneFile> meshes_of(const unsnarl_surface& surface);
+/// Which of `meshes` are to lie inside which; no chains: it does not matter.
+Nesting nesting_of(const unsnarl_surface& surface, std::span<const SceneFile> meshes);
 /// Throws where a face uses a vertex that does not exist.
 void check_corners(const SurfaceView& surface);
 

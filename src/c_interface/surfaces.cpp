@@ -10,6 +10,7 @@
 #include "results.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/clearance.h"
+#include "unsnarl/nesting.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/report_json.h"
 #include "unsnarl/sequence.h"
@@ -25,19 +26,14 @@ Json by_kind(const PairCounts& counts) {
   return json;
 }
 
-SceneReport report_by_mesh(const SurfaceView& surface, const FindOptions& find, std::span<const double> positions,
-                           std::span<const SceneFile> meshes) {
-  Certifier certifier(surface, find);
-  return scene_report(surface, meshes, certifier.find_intersections(surface.positions), positions,
-                      certifier.find_intersections(positions));
-}
-
 unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& given_options, Context* context) {
   const StageClock clock;
   const SurfaceView surface = view_of(given);
   const RepairOptions options = repair_options(given_options, given);
   const std::vector<SceneFile> meshes = meshes_of(given);
-  RepairResult repaired = repair(surface, options, context);
+  const Nesting nesting = nesting_of(given, meshes);
+  RepairResult repaired = nesting.chains.empty() ? repair(surface, options, context)
+                                                 : repair_nested(surface, nesting, options, context);
 
   ReportFiles files;
   files.vertices = surface.vertex_count();
@@ -47,7 +43,14 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
     files.format = to_string(given.document->document.format());
     files.notes = given.document->document.notes();
   }
-  if (!meshes.empty()) files.scene = report_by_mesh(surface, options.find, repaired.positions, meshes);
+  if (!meshes.empty()) {
+    Certifier certifier(surface, options.find);
+    const std::vector<IntersectingPair> after = certifier.find_intersections(repaired.positions);
+    files.scene = scene_report(surface, meshes, certifier.find_intersections(surface.positions), repaired.positions,
+                               after);
+    if (!nesting.chains.empty())
+      files.nested = nested_pairs(surface, repaired.positions, after, nesting, options.find);
+  }
   files.clearance_before =
       measure_clearance(surface, surface.positions, options.find, repaired.report.before.total() == 0);
   const bool float32 = repaired.report.precision == Precision::float32;
@@ -59,7 +62,7 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
                               : measure_clearance(surface, written, options.find, repaired.report.after.total() == 0);
   files.whole = clock.stage("repair");
   unsnarl_result result;
-  result.status = to_string(repaired.status);
+  result.status = outcome(repaired.status, files.nested);
   result.report = report_json(repaired, options, files);
   result.precision = repaired.report.precision;
   result.arrays["positions"] = {std::move(repaired.positions), 3};
@@ -97,6 +100,8 @@ unsnarl_result repaired_sequence(const unsnarl_surface& given, std::size_t frame
   if (options.first > options.last)
     throw std::invalid_argument("first_frame is " + std::to_string(options.first) + ", last_frame " +
                                 std::to_string(options.last) + " (excluded), of " + std::to_string(frame_count));
+  if (given.nested != nullptr)
+    throw std::invalid_argument("surface: nested is not of sequences; repair single frames");
   if (given.rigid != nullptr)
     throw std::invalid_argument(
         "surface: rigid is not of sequences; repair single frames, or hold these parts by fixed");

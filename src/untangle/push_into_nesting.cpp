@@ -3,8 +3,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <utility>
 
 #include "contact/closed_surface.h"
 #include "mesh/areas.h"
@@ -63,33 +63,30 @@ class Push {
     std::vector<double> distance;    // that was found last, of each vertex of the surface
   };
 
-  /// False: no faces of two nested surfaces cross.
+  /// Ties the components that cross, and grows the margins where they do. False: no faces of two nested surfaces cross.
   bool note_crossings() {
+    const std::vector<IntersectingPair> pairs = index_.find_pairs();
     bool any = false;
     std::vector<std::uint8_t> has_grown(scene_.vertex_count());
-    for (const IntersectingPair& pair : index_.find_pairs()) {
-      const Triangle &a = scene_.triangles[pair.a], &b = scene_.triangles[pair.b];
-      const Index s = nested_.surface_of_vertex[a[0]], t = nested_.surface_of_vertex[b[0]];
-      for (Role& role : roles_) {
-        const bool is_a = role.of == s && role.against == t, is_b = role.of == t && role.against == s;
-        if (!is_a && !is_b) continue;
-        any = true;
-        crossing_.push_back({&role, is_a ? &a : &b});
-      }
+    for (Role& role : roles_) {
+      std::fill(has_grown.begin(), has_grown.end(), 0);
+      for (const IntersectingPair& pair : pairs)
+        for (const auto& [own, other] : {std::pair{pair.a, pair.b}, std::pair{pair.b, pair.a}}) {
+          if (surface_of(own) != role.of || surface_of(other) != role.against) continue;
+          any = true;
+          for (const Index v : scene_.triangles[own])
+            if (std::exchange(has_grown[v], 1) == 0) tie(role, v);
+        }
     }
-    // A vertex of several such faces grows its margin once.
-    std::stable_sort(crossing_.begin(), crossing_.end(), [](const auto& p, const auto& q) { return p.role < q.role; });
-    for (std::size_t i = 0; i < crossing_.size(); ++i) {
-      const auto [role, face] = crossing_[i];
-      if (i == 0 || crossing_[i - 1].role != role) std::fill(has_grown.begin(), has_grown.end(), 0);
-      role->ties[component_of_[(*face)[0]]] = 1;
-      for (const Index v : *face) {
-        if (std::exchange(has_grown[v], 1) != 0) continue;
-        role->margin[v] = role->margin[v] > 0 ? options_.growth * role->margin[v] : options_.margin * edge_at(v);
-      }
-    }
-    crossing_.clear();
     return any;
+  }
+
+  Index surface_of(Index t) const { return nested_.surface_of_vertex[scene_.triangles[t][0]]; }
+
+  void tie(Role& role, Index v) const {
+    role.ties[component_of_[v]] = 1;
+    const double edge = edge_at(v), grown = std::max(options_.growth * role.margin[v], options_.margin * edge);
+    role.margin[v] = std::min(grown, options_.most_margin * edge);
   }
 
   /// Mean length of the edges at a vertex, at rest.
@@ -135,11 +132,6 @@ class Push {
     return (gives_way ? 0.5 : 1.0) * missing * direction;
   }
 
-  struct Crossing {
-    Role* role;
-    const Triangle* face;
-  };
-
   Scene& scene_;
   SceneIndex& index_;
   std::span<const Index> component_of_;
@@ -149,7 +141,6 @@ class Push {
   std::vector<std::vector<Vec3>> normals_;  // outward, of the triangles of each, at rest
   Positions vertex_normals_;                // the same, their sums at each vertex
   std::vector<Role> roles_;
-  std::vector<Crossing> crossing_;
   Positions in_, out_;  // of each vertex the longest push of either kind
 };
 

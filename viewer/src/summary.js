@@ -8,6 +8,7 @@ const statuses = {
   reduced: ['Self-intersections left', 'bad'],
   no_progress: ['No progress', 'bad'],
   obstructed: ['Obstructed', 'fair'],
+  not_nested: ['Not nested as asked', 'fair'],
   time_limit: ['Time limit reached', 'fair'],
   memory_limit: ['Memory limit reached', 'fair'],
   displacement_exceeded: ['Displacement exceeded', 'fair'],
