@@ -69,6 +69,24 @@ Surface anchored_balls(int resolution, const SampleValues& values) {
   return builder.take();
 }
 
+/// Closed surfaces that should lie inside each other, as of a head model: most of the inner one is outside, where the
+/// shortest way apart puts it beside the others.
+Surface crossing_shells(int resolution, const SampleValues& values) {
+  const int steps = std::max(2, resolution / 4);
+  MeshBuilder builder;
+  const auto shell = [&](double radius, double turn, double waves, const Vec3& centre) {
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(turn, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    builder.append(sample_sphere(steps, FaceKind::triangles, [&](const Vec3& d) {
+      const double height = 1 + waves * std::sin(6 * d[0]) * std::sin(6 * d[1]) * std::cos(6 * d[2]);
+      return Vec3(centre + radius * height * (turned * d));
+    }));
+  };
+  shell(0.9, 0.2, 0, {values["shift"], 0.02, 0.01});
+  shell(1, 0.7, values["waves"], Vec3::Zero());
+  shell(1.05, 1.3, values["waves"], Vec3::Zero());
+  return builder.take();
+}
+
 }  // namespace
 
 std::vector<SampleMaker> scene_samples() {
@@ -85,6 +103,14 @@ std::vector<SampleMaker> scene_samples() {
         {"anchor", "ball"}},
        28,
        anchored_balls},
+      {{"crossing_shells",
+        "scene of closed surfaces that should lie inside each other: 'inner' in 'outer' in 'skin', all crossing",
+        {{"shift", 0.65, 0, 1.5, "how far the inner one is off, where the outer one has radius 1"},
+         {"waves", 0.12, 0, 0.3, "height of the waves of the others, a share of their radius"}},
+        true,
+        {"inner", "outer", "skin"}},
+       56,
+       crossing_shells},
       {{"anchor_scene",
         "scene of fixed, rigid and soft parts: an anchor; a link, a hoop, a crate and a barrel; a buoy and a ribbon",
         {{"depth", 0.25, 0, 0.5, "how far they stick in each other, where the shank is 1 thick"}},

@@ -171,6 +171,7 @@ class Fix {
     const StageClock writing;
     if (is_to_be_written(result_, surface(), options_.keep_partial)) write_output();
     if (options_.is_scene()) describe_files();
+    if (!nesting_.chains.empty()) describe_nesting();
     files_.after_repair.push_back(writing.stage("write"));
 
     write_pictures();
@@ -260,17 +261,21 @@ class Fix {
     if (!broken.empty())
       throw std::logic_error(
           fmt::format("the file written does not hold what was certified: {}. It was removed", broken));
-    if (options_.is_scene()) written_ = written.positions;
+    if (options_.is_scene() || !nesting_.chains.empty()) written_ = written.positions;
+  }
+
+  /// What lies inside what, as read back where it was written.
+  void describe_nesting() {
+    const std::span<const double> after = written_.empty() ? result_.positions : written_;
+    files_.nested =
+        nested_pairs(surface(), after, certifier().find_intersections(after), nesting_, repair_options_.find);
   }
 
   /// By file, as read back where it was written.
   void describe_files() {
     const std::span<const double> after = written_.empty() ? result_.positions : written_;
-    const std::vector<IntersectingPair> pairs_after = certifier().find_intersections(after);
     files_.scene = scene_report(surface(), scene_.files(), certifier().find_intersections(surface().positions), after,
-                                pairs_after);
-    if (!nesting_.chains.empty())
-      files_.nested = nested_pairs(surface(), after, pairs_after, nesting_, repair_options_.find);
+                                certifier().find_intersections(after));
     for (std::size_t i = 0; i < scene_.files().size(); ++i) {
       SceneFileReport& file = files_.scene.files[i];
       file.input = options_.inputs[i];
@@ -351,10 +356,10 @@ class Fix {
   MemoryGuard memory_guard_;
   SceneDocument scene_;
   RepairOptions repair_options_;
-  Nesting nesting_;  // no chains: it does not matter
+  Nesting nesting_;                     // no chains: it does not matter
   std::optional<Certifier> certifier_;  // of the input; made when first needed
   RepairResult result_;
-  std::vector<double> written_;  // positions of several files, as read back
+  std::vector<double> written_;  // positions of several files, or of nested surfaces, as read back
   ReportFiles files_;
 };
 

@@ -20,7 +20,7 @@ struct FixOptions : MeshOptions {
   bool absolute = false;
   std::string fix_vertices;
   bool fix_boundary = false;
-  std::vector<std::string> nested;  ///< names of files from the innermost out, with commas between them
+  std::vector<std::string> nested;  ///< names from the innermost out, with commas between them
   bool each = false, together = false;
   Parts fix, only;  ///< held still; worked on, all else held still (empty: everything is worked on)
   Parts rigid;      ///< each moves as one body

@@ -150,9 +150,9 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
   add_parts(command, "--only-", options.only, "Leave all as it is but the ", what);
   command
       .add_option("--nested", options.nested,
-                  "Of several files: which lies inside which, names from the innermost out, as in\n"
-                  "inner.off,outer.off,skin.off. Where two of them cross, the inner one goes in and the outer one out,\n"
-                  "also where the other way is shorter. All but the first have to be closed; may be repeated")
+                  "Which surfaces lie inside which: names of files, or of one file's objects, from the innermost out.\n"
+                  "Where two cross, the inner one goes in and the outer one out, also where the other way is shorter.\n"
+                  "All but the first have to be closed; may be repeated")
       ->type_name("NAME,NAME,...")
       ->group(what)
       ->allow_extra_args(false);
@@ -249,28 +249,39 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
 }
 
 Nesting nesting_wanted(const FixOptions& options, const SceneDocument& scene) {
-  const std::span<const SceneFile> files = scene.files();
-  std::vector<std::vector<std::int32_t>> chains;
-  for (const std::string& value : options.nested) {
-    std::vector<std::int32_t>& chain = chains.emplace_back();
-    std::istringstream names(value);
-    for (std::string name; std::getline(names, name, ',');) {
-      const auto is_it = [&](const SceneFile& file) { return file.name == name; };
-      const auto found = std::find_if(files.begin(), files.end(), is_it);
-      if (found == files.end()) {
-        std::string known;
-        for (const SceneFile& file : files) known += fmt::format("{}'{}'", known.empty() ? "" : ", ", file.name);
-        throw UsageError(fmt::format("--nested: there is no file '{}'; there are: {}", name, known));
-      }
-      chain.push_back(static_cast<std::int32_t>(found - files.begin()));
-    }
-  }
-  if (chains.empty()) return {};
+  Nesting nesting;
+  if (options.nested.empty()) return nesting;
   if (options.each || options.paper || !options.rigid.empty())
-    throw UsageError("--nested goes neither with --each nor with --rigid and its like, nor with --paper; leave one out");
-  Nesting nesting = nesting_of_files(files, std::move(chains));
+    throw UsageError(
+        "--nested goes neither with --each nor with --rigid and its like, nor with --paper; leave one out");
+  const SurfaceView surface = scene.surface();
+  nesting.surface_of_vertex.assign(surface.vertex_count(), -1);
+  const auto number_of = [&](const std::string& name) {
+    const auto known = std::find(nesting.names.begin(), nesting.names.end(), name);
+    const auto number = static_cast<std::int32_t>(known - nesting.names.begin());
+    if (known != nesting.names.end()) return number;
+    const Parts part = options.is_scene() ? Parts{.files = {name}} : Parts{.objects = {name}};
+    const std::vector<std::uint8_t> flags =
+        vertices_of_faces(surface, faces_in_parts(surface, scene.face_labels(), part, options.find()));
+    for (std::size_t v = 0; v < flags.size(); ++v) {
+      if (!flags[v]) continue;
+      if (nesting.surface_of_vertex[v] >= 0)
+        throw UsageError(fmt::format("--nested: '{}' and '{}' have vertex {} in common; name surfaces apart",
+                                     nesting.names[nesting.surface_of_vertex[v]], name, v));
+      nesting.surface_of_vertex[v] = number;
+    }
+    nesting.names.push_back(name);
+    return number;
+  };
   try {
-    check_nesting(scene.surface(), nesting, options.find());
+    for (const std::string& value : options.nested) {
+      nesting.chains.emplace_back();
+      std::istringstream names(value);
+      for (std::string name; std::getline(names, name, ',');) nesting.chains.back().push_back(number_of(name));
+    }
+    check_nesting(surface, nesting, options.find());
+  } catch (const UnknownPart& e) {
+    throw UsageError(fmt::format("--nested: {}", e.what()));
   } catch (const std::invalid_argument& e) {
     throw UsageError(fmt::format("--{}", e.what()));
   }

@@ -167,8 +167,8 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
   const bool is_as_asked = outcome(result.status, files.nested) == to_string(result.status);
   line(fmt::format("  {}{}{}; {:.2f} s, {:.0f} MB", is_as_asked ? "" : "not nested as asked; ",
-                   explanation(result.status, options.goal), float32_remark(result),
-                   files.whole.seconds, files.whole.peak_memory_mb));
+                   explanation(result.status, options.goal), float32_remark(result), files.whole.seconds,
+                   files.whole.peak_memory_mb));
   line("  " + fate_of_output(result.status, files.output));
   return text;
 }

@@ -28,8 +28,8 @@ struct Nesting {
 /// Of the files of a scene, each of which is a surface.
 Nesting nesting_of_files(std::span<const SceneFile> files, std::vector<std::vector<std::int32_t>> chains);
 
-/// Throws std::invalid_argument for a nesting that makes no sense: an outer surface is not closed, a surface is twice in
-/// a chain, or inside itself by several chains, two have a vertex in common.
+/// Throws std::invalid_argument for a nesting that makes no sense: an outer surface is not closed, a surface is twice
+/// in a chain, or inside itself by several chains, two have a vertex in common.
 void check_nesting(const SurfaceView& surface, const Nesting& nesting, const FindOptions& options = {});
 
 /// How one surface lies to the next one out in its chain.
@@ -41,9 +41,9 @@ struct NestedPair {
   bool is_nested = false;  ///< none of them after, and no face of one meets a face of the other
 };
 
-/// repair() that moves surfaces which cross apart in the sense of the nesting, the inner one in, the outer one out, even
-/// where the other way is nearer. A component that crosses nothing but lies on the wrong side as a whole stays there;
-/// nested_pairs() tells. Status::embedded says nothing of nesting.
+/// repair() that moves surfaces which cross apart in the sense of the nesting, the inner one in, the outer one out,
+/// even where the other way is nearer. A component that crosses nothing but lies on the wrong side as a whole stays
+/// there; nested_pairs() tells. Status::embedded says nothing of nesting.
 ///
 /// Throws std::invalid_argument as repair() and check_nesting() do, and for RepairOptions::rigid, each_component and
 /// paper, which know nothing of nesting.

@@ -76,8 +76,8 @@ typedef struct unsnarl_surface {
   size_t mesh_count;        /* 0: it is one */
   const unsnarl_document* document; /* the file that the arrays are of, set by unsnarl_document_surface: a repair then
                                        holds in the digits that the file will be written with; else NULL */
-  const int32_t* rigid; /* one number a vertex: the rigid part that it belongs to, counted from 0, which a repair turns
-                           and shifts as one body; -1: none. NULL: no part is rigid. Not of sequences */
+  const int32_t* rigid;  /* one number a vertex: the rigid part that it belongs to, counted from 0, which a repair turns
+                            and shifts as one body; -1: none. NULL: no part is rigid. Not of sequences */
   const int32_t* nested; /* chains of meshes (numbers in mesh_sizes, counted from 0) that are to lie inside each other,
                             from the innermost out, a -1 after each; all but the first of a chain have to be closed.
                             NULL: it does not matter. Not of sequences, nor with rigid, each_component or paper */
@@ -203,9 +203,9 @@ typedef struct unsnarl_array {
 } unsnarl_array;
 
 /* How the work ended: "embedded", "reduced", "no_progress", "obstructed", "time_limit", "memory_limit",
- * "displacement_exceeded" or "cancelled"; or "not_nested": nothing intersects, but a mesh does not lie inside another as
- * `nested` asks. Only "embedded" promises that nothing intersects and all is as asked. "" where nothing was to be moved.
- */
+ * "displacement_exceeded" or "cancelled"; or "not_nested": nothing intersects, but a mesh does not lie inside another
+ * as `nested` asks. Only "embedded" promises that nothing intersects and all is as asked. "" where nothing was to be
+ * moved. */
 UNSNARL_EXPORT const char* unsnarl_result_status(const unsnarl_result* result);
 /* What was found, as JSON: an object, or for sequences an array of them. */
 UNSNARL_EXPORT const char* unsnarl_result_report(const unsnarl_result* result);

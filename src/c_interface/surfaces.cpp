@@ -32,8 +32,8 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
   const RepairOptions options = repair_options(given_options, given);
   const std::vector<SceneFile> meshes = meshes_of(given);
   const Nesting nesting = nesting_of(given, meshes);
-  RepairResult repaired = nesting.chains.empty() ? repair(surface, options, context)
-                                                 : repair_nested(surface, nesting, options, context);
+  RepairResult repaired =
+      nesting.chains.empty() ? repair(surface, options, context) : repair_nested(surface, nesting, options, context);
 
   ReportFiles files;
   files.vertices = surface.vertex_count();
@@ -46,10 +46,9 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
   if (!meshes.empty()) {
     Certifier certifier(surface, options.find);
     const std::vector<IntersectingPair> after = certifier.find_intersections(repaired.positions);
-    files.scene = scene_report(surface, meshes, certifier.find_intersections(surface.positions), repaired.positions,
-                               after);
-    if (!nesting.chains.empty())
-      files.nested = nested_pairs(surface, repaired.positions, after, nesting, options.find);
+    files.scene =
+        scene_report(surface, meshes, certifier.find_intersections(surface.positions), repaired.positions, after);
+    if (!nesting.chains.empty()) files.nested = nested_pairs(surface, repaired.positions, after, nesting, options.find);
   }
   files.clearance_before =
       measure_clearance(surface, surface.positions, options.find, repaired.report.before.total() == 0);
@@ -100,8 +99,7 @@ unsnarl_result repaired_sequence(const unsnarl_surface& given, std::size_t frame
   if (options.first > options.last)
     throw std::invalid_argument("first_frame is " + std::to_string(options.first) + ", last_frame " +
                                 std::to_string(options.last) + " (excluded), of " + std::to_string(frame_count));
-  if (given.nested != nullptr)
-    throw std::invalid_argument("surface: nested is not of sequences; repair single frames");
+  if (given.nested != nullptr) throw std::invalid_argument("surface: nested is not of sequences; repair single frames");
   if (given.rigid != nullptr)
     throw std::invalid_argument(
         "surface: rigid is not of sequences; repair single frames, or hold these parts by fixed");

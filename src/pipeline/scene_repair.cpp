@@ -14,11 +14,11 @@
 #include "recover/recover.h"
 #include "recover/recover_regions.h"
 #include "scene/rounding.h"
+#include "unsnarl/stage_clock.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/local_solver.h"
 #include "untangle/push_into_nesting.h"
 #include "untangle/strategies.h"
-#include "unsnarl/stage_clock.h"
 #include "untangle/untangle_whole.h"
 
 namespace unsnarl {

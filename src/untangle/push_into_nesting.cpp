@@ -29,8 +29,12 @@ class Push {
     }
     for (const auto& [inner, outer] : nested.pairs) {
       const auto add = [&](Index of, Index against, Side right) {
-        roles_.push_back({of, against, right, std::vector<std::uint8_t>(scene.vertex_count(), 0),
-                          std::vector<double>(scene.vertex_count(), 0), {}});
+        roles_.push_back({of,
+                          against,
+                          right,
+                          std::vector<std::uint8_t>(scene.vertex_count(), 0),
+                          std::vector<double>(scene.vertex_count(), 0),
+                          {}});
       };
       add(inner, outer, Side::inside);
       if (nested.closed[inner]) add(outer, inner, Side::outside);

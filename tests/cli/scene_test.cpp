@@ -74,6 +74,63 @@ TEST_F(SceneFiles, FilesCanBeHeldOrAloneBeMoved) {
   expect_refusal({"fix", a, b, "-o", out, "--fix-file", "d.obj"}, 2, "there are: 'a.obj', 'b.ply'");
 }
 
+TEST_F(SceneFiles, TheInnerFileGoesIn) {
+  const std::string report = folder / "r.json";
+  // The small one has only its tip in the large one: without --nested it is pushed out.
+  const auto nested = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"fix", a, b, c, "-o", out, "--report", report};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  const Outcome outcome = nested({"--nested", "b.ply,a.obj"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("b.ply lies inside a.obj: 3 vertices on the wrong side before, 0 after"),
+            std::string::npos)
+      << outcome.err;
+  const Json json = Json::parse(contents(report));
+  EXPECT_EQ(json["status"], "embedded");
+  ASSERT_EQ(json["nested"].size(), 1u);
+  EXPECT_EQ(json["nested"][0],
+            Json({{"inner", "b.ply"}, {"outer", "a.obj"}, {"wrong_before", 3}, {"wrong_after", 0}, {"nested", true}}));
+  EXPECT_EQ(pairs_in({out + "/a.obj", out + "/b.ply"}), 0u);
+  EXPECT_EQ(contents(out + "/c.off"), apart);
+
+  // What the option does not ask for is not said; c is beside a, and stays there.
+  EXPECT_EQ(nested({}).exit_code, 0);
+  EXPECT_FALSE(Json::parse(contents(report)).contains("nested"));
+  const Outcome beside = nested({"--nested", "c.off,a.obj", "--nested", "b.ply,a.obj"});
+  EXPECT_EQ(beside.exit_code, 7);
+  EXPECT_NE(beside.err.find("c.off does not lie inside a.obj: 4 vertices on the wrong side before, 4 after"),
+            std::string::npos)
+      << beside.err;
+  EXPECT_NE(beside.err.find("not nested as asked"), std::string::npos) << beside.err;
+  const Json left = Json::parse(contents(report));
+  EXPECT_EQ(left["status"], "not_nested");
+  EXPECT_EQ(left["exit_code"], 7);
+  EXPECT_TRUE(left["nested"][1]["nested"]);
+  EXPECT_TRUE(left["output"]["written"]);
+}
+
+TEST_F(SceneFiles, NestingThatMakesNoSenseIsRefused) {
+  write(folder / "open.off", "OFF\n3 1 0\n0 0 9\n1 0 9\n0 1 9\n3 0 1 2\n");
+  expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,d.obj"}, 2, "there are: 'a.obj', 'b.ply'");
+  expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply"}, 2, "two surfaces");
+  expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,a.obj,b.ply"}, 2, "b.ply would have to lie inside itself");
+  expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,a.obj", "--nested", "a.obj,b.ply"}, 2, "inside itself");
+  expect_refusal({"fix", a, folder / "open.off", "-o", out, "--nested", "a.obj,open.off"}, 2, "open.off is not closed");
+  expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,a.obj", "--rigid-file", "a.obj"}, 2, "--nested");
+  expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,a.obj", "--each"}, 2, "--nested");
+  expect_refusal({"fix", a, "-o", out, "--nested", "b.ply,a.obj"}, 2, "no object 'b.ply'");
+}
+
+TEST_F(SceneFiles, ObjectsOfOneFileAreNested) {
+  const std::string in = sample("crossing_shells", {"--resolution", "24"});
+  const Outcome outcome = run({"fix", in, "-o", folder / "fixed.obj", "--nested", "inner,outer,skin"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("inner lies inside outer: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("outer lies inside skin: "), std::string::npos) << outcome.err;
+}
+
 TEST_F(SceneFiles, CheckCountsWithinAndBetweenFiles) {
   const Outcome text = run({"check", a, b, c});
   EXPECT_EQ(text.exit_code, 1);
