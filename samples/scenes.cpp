@@ -105,7 +105,7 @@ std::vector<SampleMaker> scene_samples() {
        anchored_balls},
       {{"crossing_shells",
         "scene of closed surfaces that should lie inside each other: 'inner' in 'outer' in 'skin', all crossing",
-        {{"shift", 0.65, 0, 1.5, "how far the inner one is off, where the outer one has radius 1"},
+        {{"shift", 0.8, 0, 1.5, "how far the inner one is off, where the outer one has radius 1"},
          {"waves", 0.12, 0, 0.3, "height of the waves of the others, a share of their radius"}},
         true,
         {"inner", "outer", "skin"}},

@@ -180,10 +180,8 @@ void SceneRepair::push_into_nesting(SceneIndex& index, EscalationResult& untangl
   const StageClock clock;
   const std::size_t pairs = index.find_pairs().size();
   const Positions start = scene_.x;
-  PushOptions options;
-  options.stop = job_.limits.stopper();
-  const PushResult push =
-      unsnarl::push_into_nesting(scene_, index, job_.diagnosis.components.component_of_vertex, *job_.nested, options);
+  const PushResult push = unsnarl::push_into_nesting(scene_, index, job_.diagnosis.components.component_of_vertex,
+                                                     *job_.nested, job_.limits.stopper());
   if (push.moved.empty()) return;
   std::vector<Index> free = dilate(scene_, push.moved, recovery_rings);
   job_.recorder.begin_stage("untangle");

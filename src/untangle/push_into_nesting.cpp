@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "contact/closed_surface.h"
 #include "mesh/areas.h"
+#include "untangle/local_solver.h"
 
 namespace unsnarl {
 namespace {
@@ -15,8 +17,8 @@ namespace {
 class Push {
  public:
   Push(Scene& scene, SceneIndex& index, std::span<const Index> component_of_vertex, const NestedSurfaces& nested,
-       const PushOptions& options)
-      : scene_(scene), index_(index), component_of_(component_of_vertex), nested_(nested), options_(options) {
+       const std::function<bool()>& stop)
+      : scene_(scene), index_(index), component_of_(component_of_vertex), nested_(nested), stop_(stop) {
     normals_.resize(nested.triangles.size());
     vertex_normals_ = Positions::Zero(3, scene.vertex_count());
     for (std::size_t s = 0; s < nested.triangles.size(); ++s) {
@@ -44,8 +46,12 @@ class Push {
   PushResult run() {
     PushResult result;
     const Positions start = scene_.x;
-    for (; result.iterations < options_.max_iterations && !(options_.stop && options_.stop()); ++result.iterations) {
-      if (!note_crossings()) break;
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (int waited = 0; waited < options_.patience && !(stop_ && stop_()); ++waited, ++result.iterations) {
+      const std::size_t crossing = note_crossings();
+      if (crossing == 0) break;
+      if (crossing < fewest) waited = 0;
+      fewest = std::min(fewest, crossing);
       for (ClosedSurface& surface : surfaces_) surface.update(scene_.x);
       in_ = out_ = Positions::Zero(3, scene_.vertex_count());
       for (Role& role : roles_) add_pushes(role);
@@ -67,30 +73,30 @@ class Push {
     std::vector<double> distance;    // that was found last, of each vertex of the surface
   };
 
-  /// Ties the components that cross, and grows the margins where they do. False: no faces of two nested surfaces cross.
-  bool note_crossings() {
+  /// Ties the components that cross, and grows the margins where they do. Returns how many faces cross.
+  std::size_t note_crossings() {
     const std::vector<IntersectingPair> pairs = index_.find_pairs();
-    bool any = false;
+    std::size_t count = 0;
     std::vector<std::uint8_t> has_grown(scene_.vertex_count());
     for (Role& role : roles_) {
       std::fill(has_grown.begin(), has_grown.end(), 0);
       for (const IntersectingPair& pair : pairs)
         for (const auto& [own, other] : {std::pair{pair.a, pair.b}, std::pair{pair.b, pair.a}}) {
           if (surface_of(own) != role.of || surface_of(other) != role.against) continue;
-          any = true;
+          ++count;
           for (const Index v : scene_.triangles[own])
             if (std::exchange(has_grown[v], 1) == 0) tie(role, v);
         }
     }
-    return any;
+    return count;
   }
 
   Index surface_of(Index t) const { return nested_.surface_of_vertex[scene_.triangles[t][0]]; }
 
   void tie(Role& role, Index v) const {
     role.ties[component_of_[v]] = 1;
-    const double edge = edge_at(v), grown = std::max(options_.growth * role.margin[v], options_.margin * edge);
-    role.margin[v] = std::min(grown, options_.most_margin * edge);
+    const double edge = edge_at(v);
+    role.margin[v] = std::min(std::max(2 * role.margin[v], options_.margin * edge), 0.5 * edge);
   }
 
   /// Mean length of the edges at a vertex, at rest.
@@ -140,7 +146,8 @@ class Push {
   SceneIndex& index_;
   std::span<const Index> component_of_;
   const NestedSurfaces& nested_;
-  const PushOptions& options_;
+  const LocalOptions options_;
+  const std::function<bool()>& stop_;
   std::vector<ClosedSurface> surfaces_;
   std::vector<std::vector<Vec3>> normals_;  // outward, of the triangles of each, at rest
   Positions vertex_normals_;                // the same, their sums at each vertex
@@ -151,8 +158,8 @@ class Push {
 }  // namespace
 
 PushResult push_into_nesting(Scene& scene, SceneIndex& index, std::span<const Index> component_of_vertex,
-                             const NestedSurfaces& nested, const PushOptions& options) {
-  return Push(scene, index, component_of_vertex, nested, options).run();
+                             const NestedSurfaces& nested, const std::function<bool()>& stop) {
+  return Push(scene, index, component_of_vertex, nested, stop).run();
 }
 
 }  // namespace unsnarl
