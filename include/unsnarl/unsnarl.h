@@ -202,10 +202,9 @@ typedef struct unsnarl_array {
   unsnarl_type type;
 } unsnarl_array;
 
-/* How the work ended: "embedded", "reduced", "no_progress", "obstructed", "time_limit", "memory_limit",
- * "displacement_exceeded" or "cancelled"; or "not_nested": nothing intersects, but a mesh does not lie inside another
- * as `nested` asks. Only "embedded" promises that nothing intersects and all is as asked. "" where nothing was to be
- * moved. */
+/* How the work ended: "embedded", "reduced", "no_progress", "obstructed", "not_nested", "time_limit", "memory_limit",
+ * "displacement_exceeded" or "cancelled"; only "embedded" promises that nothing intersects and meshes lie inside each
+ * other as `nested` asks; of "not_nested" the first holds alone. "" where nothing was to be moved. */
 UNSNARL_EXPORT const char* unsnarl_result_status(const unsnarl_result* result);
 /* What was found, as JSON: an object, or for sequences an array of them. */
 UNSNARL_EXPORT const char* unsnarl_result_report(const unsnarl_result* result);
