@@ -264,7 +264,7 @@ class Fix {
     if (options_.is_scene() || !nesting_.chains.empty()) written_ = written.positions;
   }
 
-  /// What lies inside what, as read back where it was written.
+  /// Counts what lies inside what, as read back where it was written.
   void describe_nesting() {
     const std::span<const double> after = written_.empty() ? result_.positions : written_;
     files_.nested =

@@ -38,7 +38,7 @@ void add_fix_options(CLI::App& command, FixOptions& options);
 /// The options for this mesh. They refer to `scene`. Throws UsageError, FileError.
 RepairOptions repair_options(const FixOptions& options, const SceneDocument& scene);
 
-/// What --nested asks for; no chains: nothing. Throws UsageError.
+/// The nesting that --nested asks for; no chains: none. Throws UsageError.
 Nesting nesting_wanted(const FixOptions& options, const SceneDocument& scene);
 
 /// Reads, repairs, writes to a temporary file, reads it back, certifies what was read, renames. Returns the exit code.

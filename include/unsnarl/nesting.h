@@ -25,7 +25,7 @@ struct Nesting {
   std::string name(std::int32_t surface) const;
 };
 
-/// Of the files of a scene, each of which is a surface.
+/// The nesting of the files of a scene, each of which is a surface.
 Nesting nesting_of_files(std::span<const SceneFile> files, std::vector<std::vector<std::int32_t>> chains);
 
 /// Throws std::invalid_argument for a nesting that makes no sense: an outer surface is not closed, a surface is twice

@@ -65,7 +65,7 @@ ClosedSurface::Nearest ClosedSurface::nearest(const Vec3& p, double guess,
   if (triangles_.empty()) return nearest;
   // No farther than the farthest corner of the box around all.
   const double most = (p - box_.lo).cwiseAbs().cwiseMax((p - box_.hi).cwiseAbs()).norm();
-  for (double reach = guess;; reach *= 2) {
+  for (double reach = guess > 0 ? guess : most;; reach *= 2) {
     double least = std::numeric_limits<double>::infinity();
     bvh_.query(Box{p, p}.inflated(reach), [&](Index i) {
       if (accept && !accept(i)) return;
@@ -75,7 +75,7 @@ ClosedSurface::Nearest ClosedSurface::nearest(const Vec3& p, double guess,
       least = closest.distance;
       nearest = {i, closest};
     });
-    if (least <= reach || reach > most) return nearest;
+    if (least <= reach || reach >= most) return nearest;
   }
 }
 

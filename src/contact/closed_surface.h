@@ -12,7 +12,7 @@
 
 namespace unsnarl {
 
-/// Where a point lies with respect to a closed surface.
+/// The place of a point with respect to a closed surface.
 enum class Side : std::uint8_t { inside, on, outside };
 
 /// Triangles whose vertices move, asked which side of them a point is on, and what of them is nearest to it.
@@ -34,8 +34,8 @@ class ClosedSurface {
     Index triangle = -1;  ///< of triangles(); -1: there are none that count
     Closest closest;      ///< as of closest_vertex_face(): its direction leads from the triangle to the point
   };
-  /// Of the triangles that `accept`, which may be empty for all. `guess`: a length > 0 to begin with; the nearer to the
-  /// distance, the faster.
+  /// Looks among the triangles that `accept`, which may be empty for all. `guess`: a length to begin with; the nearer
+  /// to the distance, the faster; 0: none.
   Nearest nearest(const Vec3& p, double guess, const std::function<bool(Index)>& accept = {}) const;
 
  private:

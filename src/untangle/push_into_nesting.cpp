@@ -26,7 +26,8 @@ class Push {
       const double outward = signed_volume(scene.rest, nested.triangles[s]) < 0 ? -1 : 1;
       for (const Triangle& t : nested.triangles[s]) {
         normals_[s].emplace_back(outward * area_vector(scene.rest, t));
-        for (const Index v : t) vertex_normals_.col(v) += normals_[s].back();
+        if (nested.closed[s])
+          for (const Index v : t) vertex_normals_.col(v) += normals_[s].back();
       }
     }
     for (const auto& [inner, outer] : nested.pairs) {
@@ -126,8 +127,10 @@ class Push {
     const double margin = role.margin[v] > 0 ? role.margin[v] : options_.margin * edge_at(v);
     const std::vector<Vec3>& normals = normals_[role.against];
     const auto faces_the_same_way = [&](Index t) { return normals[t].dot(vertex_normals_.col(v)) > 0; };
-    ClosedSurface::Nearest nearest = other.nearest(p, std::max(distance, margin), faces_the_same_way);
-    if (nearest.triangle < 0) nearest = other.nearest(p, std::max(distance, margin));
+    const double guess = std::max(distance, margin);
+    ClosedSurface::Nearest nearest;
+    if (vertex_normals_.col(v).squaredNorm() > 0) nearest = other.nearest(p, guess, faces_the_same_way);
+    if (nearest.triangle < 0) nearest = other.nearest(p, guess);
     const auto& [triangle, closest] = nearest;
     distance = closest.distance;
     const double missing = margin - (is_right ? distance : -distance);
@@ -150,7 +153,7 @@ class Push {
   const std::function<bool()>& stop_;
   std::vector<ClosedSurface> surfaces_;
   std::vector<std::vector<Vec3>> normals_;  // outward, of the triangles of each, at rest
-  Positions vertex_normals_;                // the same, their sums at each vertex
+  Positions vertex_normals_;                // the same of closed surfaces, their sums at each vertex
   std::vector<Role> roles_;
   Positions in_, out_;  // of each vertex the longest push of either kind
 };

@@ -95,7 +95,7 @@ TEST_F(SceneFiles, TheInnerFileGoesIn) {
   EXPECT_EQ(pairs_in({out + "/a.obj", out + "/b.ply"}), 0u);
   EXPECT_EQ(contents(out + "/c.off"), apart);
 
-  // What the option does not ask for is not said; c is beside a, and stays there.
+  // Without the option nothing is said of it; c is beside a, and stays there.
   EXPECT_EQ(nested({}).exit_code, 0);
   EXPECT_FALSE(Json::parse(contents(report)).contains("nested"));
   const Outcome beside = nested({"--nested", "c.off,a.obj", "--nested", "b.ply,a.obj"});

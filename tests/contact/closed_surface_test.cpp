@@ -98,6 +98,7 @@ TEST(ClosedSurface, the_nearest_triangle_is_that_of_brute_force) {
     }
     EXPECT_EQ(surface.nearest(p, 1e-3).closest.distance, least);
     EXPECT_EQ(surface.nearest(p, 50).closest.distance, least);
+    EXPECT_EQ(surface.nearest(p, 0).closest.distance, least);
     EXPECT_EQ(surface.nearest(p, 0.1, even).closest.distance, least_even);
     EXPECT_EQ(surface.nearest(p, 0.1, [](Index) { return false; }).triangle, -1);
   }

@@ -156,7 +156,10 @@ TEST(Nesting, what_makes_no_sense_is_refused) {
   surface.corners.resize(surface.corners.size() - 3);
   expect_refusal({{0, 1}}, "not closed");
   // An open surface may be the innermost.
-  EXPECT_EQ(repair_nested(surface, nesting_of(surface, {{1, 0}})).status, Status::embedded);
+  const Nesting open_in_closed = nesting_of(surface, {{1, 0}});
+  const RepairResult result = repair_nested(surface, open_in_closed);
+  EXPECT_EQ(result.status, Status::embedded);
+  EXPECT_TRUE(pairs_of(surface, result.positions, open_in_closed)[0].is_nested);
 }
 
 }  // namespace
