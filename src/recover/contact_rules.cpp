@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <queue>
+#include <utility>
 
 #include "geometry/parallel_lists.h"
 
@@ -17,21 +20,61 @@ Stencil altitude_of(const Triangle& f, int k) {
   return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
 }
 
+/// For each vertex the others to which edges lead within this length, ascending.
+IndexLists vertices_within(const Positions& x, const EdgeTable& edges, double length) {
+  const auto n = static_cast<Index>(x.cols());
+  const IndexLists neighbours = vertex_neighbours(edges.edges, n);
+  IndexLists result;
+  std::vector<double> distance(static_cast<std::size_t>(n), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+  for (Index start = 0; start < n; ++start) {
+    const std::size_t begin = result.items.size();
+    std::vector<Index> reached = {start};
+    distance[start] = 0;
+    front.emplace(0.0, start);
+    while (!front.empty()) {
+      const auto [d, v] = front.top();
+      front.pop();
+      if (d > distance[v]) continue;
+      if (v != start) result.items.push_back(v);
+      for (const Index w : neighbours[v]) {
+        const double through = d + (x.col(v) - x.col(w)).norm();
+        if (!(through <= length) || through >= distance[w]) continue;
+        distance[w] = through;
+        reached.push_back(w);
+        front.emplace(through, w);
+      }
+    }
+    for (const Index v : reached) distance[v] = std::numeric_limits<double>::infinity();
+    std::sort(result.items.begin() + static_cast<std::ptrdiff_t>(begin), result.items.end());
+    result.offsets.push_back(static_cast<Index>(result.items.size()));
+  }
+  return result;
+}
+
 }  // namespace
 
-ContactRules::ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options)
+ContactRules::ContactRules(const Patch& patch, std::span<const IntersectingPair> pairs,
+                           const ContactRuleOptions& options)
     : patch_(patch),
-      in_conflict_(std::move(in_conflict)),
+      in_conflict_(patch.triangles.size(), 0),
       options_(options),
       candidates_(patch.triangles, static_cast<Index>(patch.rest.cols())),
       vertex_in_conflict_(patch.rest.cols(), 0),
       edge_in_conflict_(candidates_.edges().edges.size(), 0),
+      joined_(vertices_within(patch.rest, candidates_.edges(), options.joined_gaps * options.min_gap)),
       rest_altitudes_(static_cast<std::size_t>(patch.active_count)) {
   for (Index t = 0; t < patch.active_count; ++t) {
     const Triangle& f = patch.triangles[t];
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
     for (int k = 0; k < 3; ++k) rest_altitudes_[t][k] = std::sqrt(squared_distance(altitude_of(f, k), patch.rest));
   }
+  for (const IntersectingPair& pair : pairs) {
+    pairs_.push_back({std::min(pair.a, pair.b), std::max(pair.a, pair.b)});
+    in_conflict_[pair.a] = in_conflict_[pair.b] = 1;
+  }
+  std::sort(pairs_.begin(), pairs_.end());
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
     if (!in_conflict_[t]) continue;
     for (Index v : patch.triangles[t]) vertex_in_conflict_[v] = 1;
@@ -78,6 +121,25 @@ void ContactRules::add_rules(const Positions& from, const Positions& x, double a
   rules.insert(rules.end(), added_.begin(), added_.end());
 }
 
+bool ContactRules::are_neighbours(const Stencil& s) const {
+  if (candidates_.are_neighbours(s)) return true;
+  const int first = s.kind == StencilKind::edge_edge ? 2 : 1;
+  for (int i = 0; i < first; ++i)
+    for (int j = first; j < s.size(); ++j)
+      if (std::binary_search(joined_[s.v[i]].begin(), joined_[s.v[i]].end(), s.v[j])) return true;
+  return false;
+}
+
+bool ContactRules::intersect_at_rest(const Stencil& s) const {
+  const auto [first, second] = s.primitives;
+  const bool is_edge = s.kind == StencilKind::edge_edge;
+  const IndexLists& of_edge = candidates_.edges().triangles_of_edge;
+  for (const Index t : is_edge ? of_edge[first] : candidates_.triangles_of_vertex()[first])
+    for (const Index u : is_edge ? of_edge[second] : std::span<const Index>(&second, 1))
+      if (std::binary_search(pairs_.begin(), pairs_.end(), Edge{std::min(t, u), std::max(t, u)})) return true;
+  return false;
+}
+
 bool ContactRules::rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const {
   constexpr double mollifier_sin2 = 1e-3;  // as in IPC
   const Stencil& s = near.stencil;
@@ -89,11 +151,13 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   const bool is_edge = s.kind == StencilKind::edge_edge;
   const bool first_in_conflict = (is_edge ? edge_in_conflict_[first] : vertex_in_conflict_[first]) != 0;
   const bool second_in_conflict = (is_edge ? edge_in_conflict_[second] : in_conflict_[second]) != 0;
-  const bool neighbours = candidates_.are_neighbours(s);
-  const bool conflict = neighbours ? first_in_conflict && second_in_conflict : first_in_conflict || second_in_conflict;
+  const bool neighbours = are_neighbours(s);
+  const bool conflict = neighbours ? first_in_conflict && second_in_conflict && intersect_at_rest(s)
+                                   : first_in_conflict || second_in_conflict;
+  rule.neighbours = neighbours && !conflict;
   double separation = options_.min_gap;
   rule.reach = std::max(options_.reach_share * rule.rest_distance, options_.reach_gaps * options_.min_gap);
-  if (neighbours && !conflict) {
+  if (rule.neighbours) {
     if (rule.rest_distance <= options_.roundoff) return false;
     separation = std::min(separation, options_.rest_share * rule.rest_distance);
     rule.reach = options_.reach_share * rule.rest_distance;

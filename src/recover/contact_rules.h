@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contact/ccd.h"
@@ -17,11 +18,15 @@ struct ContactRule {
   double rest_distance = 0;
   double distance = 0;        ///< where its vertices' bounds start
   bool closed = false;        ///< closer than it should be; its separation is half its distance
+  bool neighbours = false;    ///< of one sheet, of which min_gap is not asked
   bool own_altitude = false;  ///< a corner of a face against the opposite edge: keeps the face from being squeezed
 };
 
 struct ContactRuleOptions {
   double min_gap = 0;  ///< wanted distance, a length
+  /// In min_gap: primitives this far apart along the edges at rest are neighbours. Within a flat sheet, what is min_gap
+  /// apart is up to 1.5 apart along the edges; facing sides of a hairpin at least 1.57.
+  double joined_gaps = 2;
   /// Share of the rest distance that neighbours keep at least where it is below min_gap, and of its rest altitude below
   /// which a face's own barrier sets in.
   double rest_share = 0.25;
@@ -34,14 +39,15 @@ struct ContactRuleOptions {
 
 /// Gathers the close stencils of a patch with their rules.
 ///
-/// The separation is min_gap. Neighbours (primitives of triangles that share a vertex) that are closer at rest need
-/// only keep a share of their rest distance, unless their triangles intersect at rest. A stencil without distance at
+/// The separation is min_gap. Neighbours (primitives of triangles that share a vertex, or that are two min_gap apart
+/// along the edges at rest) that are closer at rest need only keep a share of their rest distance, unless their
+/// triangles intersect each other at rest. A stencil without distance at
 /// rest whose triangles do not intersect there (around zero-area faces) has no rule. One that is closer than its
 /// separation now may not come closer than half its distance.
 class ContactRules {
  public:
-  /// in_conflict: per triangle, whether it intersects another one at rest. The patch must outlive this.
-  ContactRules(const Patch& patch, std::vector<std::uint8_t> in_conflict, const ContactRuleOptions& options);
+  /// pairs: those of triangles that intersect at rest. The patch must outlive this.
+  ContactRules(const Patch& patch, std::span<const IntersectingPair> pairs, const ContactRuleOptions& options);
 
   /// Rules for all stencils with a moving vertex that are, or may come while every vertex keeps to its bounds, closer
   /// than `activation` and their reach (own altitudes: than their reach): that is their activation distance, unless it
@@ -61,6 +67,9 @@ class ContactRules {
   /// Adds the rules of stencils_ and of altitudes with a moving vertex.
   void add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
                  std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
+  bool are_neighbours(const Stencil& stencil) const;
+  /// Whether a triangle at the one primitive intersects one at the other at rest.
+  bool intersect_at_rest(const Stencil& stencil) const;
   /// Rule of a stencil that is `distance` wide now; false where there is none or it cannot come that close.
   bool rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const;
   /// The corners of triangles [begin, end) that move against their opposite edges.
@@ -69,10 +78,12 @@ class ContactRules {
                      std::vector<ContactRule>& rules) const;
 
   const Patch& patch_;
-  std::vector<std::uint8_t> in_conflict_;
+  std::vector<Edge> pairs_;                // ascending, as are the triangles of each
+  std::vector<std::uint8_t> in_conflict_;  // per triangle: of a pair
   ContactRuleOptions options_;
   ContactCandidates candidates_;
   std::vector<std::uint8_t> vertex_in_conflict_, edge_in_conflict_;  // some triangle there is
+  IndexLists joined_;  // per vertex: those within joined_gaps along the edges, ascending; empty lists where none is
   std::vector<std::array<double, 3>> rest_altitudes_;  // of the active triangles; 0 where corners are equal
   std::vector<NearStencil> stencils_;
   std::vector<ContactRule> added_;

@@ -22,8 +22,9 @@ constexpr double most_growth = 10;
 constexpr double least_squared_weights = 1e-6;
 
 /// The distance wanted for a stencil.
-double target_of(const ContactRule& rule, double target) {
-  const double least = 2 * rule.stencil.separation;
+double target_of(const ContactRule& rule, double target, double min_gap) {
+  const double least = rule.stencil.separation + std::min(rule.stencil.separation, target - min_gap);
+  if (rule.neighbours) target -= min_gap;
   return std::max(least, std::min(std::max(target, least), rule.reach));
 }
 
@@ -85,7 +86,7 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
   MotionBounds bounds;
   bounds.reset(static_cast<Index>(x.cols()));
   for (std::size_t v = 0; v < moves.size(); ++v) bounds.around[v] = moves[v] ? options.step_cap : 0;
-  std::vector<double> cap(static_cast<std::size_t>(x.cols()));
+  std::vector<double> cap(static_cast<std::size_t>(x.cols())), length(cap.size());  // of the vertices' displacements
   Positions p(3, x.cols());
   Positions safe;
   for (;; ++result.rounds) {
@@ -95,7 +96,7 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
     result.still_closed = 0;
     bool any_narrow = false;
     for (const ContactRule& rule : close) {
-      const double target = target_of(rule, options.target);
+      const double target = target_of(rule, options.target, rules.options().min_gap);
       any_narrow |= rule.distance < wide_enough * target;
       if (rule.distance < 0.5 * target) ++result.still_closed;
       const Widening gap = widening_of(rule, target - rule.distance, x, roundoff, moves);
@@ -113,8 +114,8 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
       changed = false;
       for (const Widening& gap : gaps) changed |= widen(gap, p);
       for (Index v = 0; v < x.cols(); ++v) {
-        const double length = p.col(v).norm();
-        if (length > cap[v]) p.col(v) *= cap[v] / length;
+        const double wanted = p.col(v).norm();
+        if (wanted > cap[v]) p.col(v) *= cap[v] / wanted;
       }
       changed |= oriented.project(x, moves, p);
     }
@@ -124,9 +125,12 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
     // Distances of the order of round-off tell CCD nothing; there the exact guard checks.
     bool doubtful = false;
     filter.clear();
+    for (Index v = 0; v < x.cols(); ++v) length[v] = p.col(v).norm();
     for (const ContactRule& rule : close) {
       doubtful |= rule.distance <= direction_margin * roundoff;
-      if (rule.distance > roundoff) filter.push_back({rule.stencil.stencil, rule.stencil.separation});
+      const double left = rule.distance - approach(rule.stencil.stencil, length);
+      if (rule.distance > roundoff && left <= rule.stencil.separation + roundoff)
+        filter.push_back({rule.stencil.stencil, rule.stencil.separation});
     }
     filter_step(filter, oriented, x, p, OnCollision::shorten);
     safe = x;

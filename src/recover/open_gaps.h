@@ -11,8 +11,9 @@
 namespace unsnarl {
 
 struct OpenGapsOptions {
-  double target = 0;           ///< length to which every gap is opened (less where a stencil's reach is less)
-  int max_rounds = 12;         ///< a start at 1e-17 took 1 to 6 rounds in the prototypes
+  /// Length to which every gap is opened, less where a stencil's reach is less, and min_gap less between neighbours.
+  double target = 0;
+  int max_rounds = 0;
   double step_cap = 0;         ///< length: largest motion of a vertex in one round
   std::function<bool()> stop;  ///< asked before each round; true ends it
 };

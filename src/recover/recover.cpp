@@ -29,15 +29,13 @@ double edge_length_of(const Patch& patch) {
 }
 
 ContactRules contact_rules_of(const Patch& patch, double min_gap) {
-  std::vector<std::uint8_t> in_conflict(patch.triangles.size(), 0);
   IntersectionFinder at_rest(patch.triangles, patch.active_count);
-  for (const IntersectingPair& pair : at_rest.find(patch.rest)) in_conflict[pair.a] = in_conflict[pair.b] = 1;
   const double largest = std::max(patch.x.cwiseAbs().maxCoeff(), patch.rest.cwiseAbs().maxCoeff());
   const double ulp = std::numeric_limits<double>::epsilon() * largest;
   ContactRuleOptions options;
   options.roundoff = roundoff_ulps * ulp;
   options.min_gap = std::max(min_gap, least_gap_ulps * ulp);
-  return ContactRules(patch, std::move(in_conflict), options);
+  return ContactRules(patch, at_rest.find(patch.rest), options);
 }
 
 class Recovery {
@@ -55,6 +53,11 @@ class Recovery {
   void step(const std::vector<std::uint8_t>& moves, double activation, int steps, const RecoverOptions::Stop& stop);
   /// Steps of the contact region, as many as are left.
   void stage(double activation, const RecoverOptions::Stop& stop);
+  /// The least distance at which barriers may set in, and to which gaps are opened, where they have this share of h.
+  double above_min_gap(double share_of_h) const {
+    const double min_gap = rules_.options().min_gap;
+    return std::min(options_.least_gaps * min_gap, min_gap + share_of_h * h_);
+  }
   /// Opens gaps to `target`, or to what the barrier needs where that is more.
   void open(double target);
   /// Active faces that are flipped.
@@ -162,9 +165,11 @@ void Recovery::stage(double activation, const RecoverOptions::Stop& stop) {
 
 void Recovery::open(double target) {
   OpenGapsOptions open;
-  open.target = std::max(target, options_.least_gaps * rules_.options().min_gap);
+  open.target = std::max(target, above_min_gap(options_.open_target));
   open.max_rounds = options_.open_rounds;
-  open.step_cap = open.target;  // five of them end as close, but look 11 gaps around, not 3: up to 9 GB, not 2
+  open.step_cap =
+      std::min(open.target,
+               options_.step.cap * h_);  // five of them end as close, but look 11 gaps around, not 3: up to 9 GB, not 2
   open.stop = stop_;
   open_gaps(patch_.x, rules_, orientation_of_all(), guard_, everything(), open);
 }
@@ -219,10 +224,8 @@ void Recovery::measure_gap(double radius) {
 }
 
 RecoverResult Recovery::run() {
-  const double min_gap = rules_.options().min_gap;
   const auto activation_of = [&](double share_of_h) {
-    return std::max(std::min(share_of_h * h_, options_.activation_motion * start_motion_),
-                    options_.least_gaps * min_gap);
+    return std::max(std::min(share_of_h * h_, options_.activation_motion * start_motion_), above_min_gap(share_of_h));
   };
   const double activation = activation_of(options_.activation);
   const double last_activation = options_.last_activation > 0 ? activation_of(options_.last_activation) : activation;
@@ -242,10 +245,10 @@ RecoverResult Recovery::run() {
   if (motion > options_.most_farther * (opened - patch_.rest).norm()) safe_ = patch_.x = opened;
   snap(everything());
 
-  measure_gap(std::max(2 * min_gap, last_activation));
+  measure_gap(last_activation);
   if (result_.closed > 0 && !result_.stopped) {
     open(0);  // where all has room now
-    measure_gap(std::max(2 * min_gap, last_activation));
+    measure_gap(last_activation);
   }
   for (Index v = 0; v < patch_.free_count; ++v) {
     result_.at_rest += patch_.x.col(v) == patch_.rest.col(v);

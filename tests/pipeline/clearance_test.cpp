@@ -92,6 +92,17 @@ TEST(Clearance, OpeningFoldsKeepsTheOtherDiagonalsApart) {
 }
 
 /// It is opened between two faces that leave it little more than the gap that is asked for.
+TEST(Clearance, GapsWiderThanFacesAreReached) {
+  const Surface tubes = make_sample("crossing_tubes", 30);  // edges of 0.032 of the diagonal
+  RepairOptions options;
+  options.min_gap_rel = 0.035;
+  const RepairResult result = repair(tubes, options);
+  EXPECT_EQ(result.status, Status::embedded);
+  const Clearance after = measure_clearance(tubes, result.positions);
+  EXPECT_GE(after.component_gap, 0.9 * options.min_gap_rel * result.report.diagonal);
+  EXPECT_LT(result.report.displacement_max_rel, 0.15);
+}
+
 TEST(Clearance, OpeningFoldsKeepsTheGapAskedFor) {
   Surface thin = flat_tetrahedron(1e-4);
   for (const double z : {-0.004, 0.004}) {

@@ -32,11 +32,11 @@ MotionBounds anywhere_within(std::vector<double> around) {
   return bounds;
 }
 
-ContactRule rule_of_vertex_0(const Patch& patch, std::vector<std::uint8_t> in_conflict) {
+ContactRule rule_of_vertex_0(const Patch& patch, const std::vector<IntersectingPair>& pairs) {
   ContactRuleOptions options;
   options.min_gap = 0.01;
   options.roundoff = 1e-13;
-  ContactRules rules(patch, std::move(in_conflict), options);
+  ContactRules rules(patch, pairs, options);
   const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
   std::vector<ContactRule> found;
   rules.gather(patch.x, 1, anywhere_within(std::vector<double>(6, 1)), moves, found);
@@ -48,24 +48,24 @@ ContactRule rule_of_vertex_0(const Patch& patch, std::vector<std::uint8_t> in_co
 }
 
 TEST(ContactRules, AGapOnceWideEnoughNeverMayShrinkBelowTheWantedOne) {
-  const ContactRule rule = rule_of_vertex_0(face_over_face(0.015, 0.5), {0, 0});
+  const ContactRule rule = rule_of_vertex_0(face_over_face(0.015, 0.5), {});
   EXPECT_FALSE(rule.closed);
   EXPECT_EQ(rule.stencil.separation, 0.01);
 }
 
 TEST(ContactRules, AClosedGapMayNotCloseFartherThanHalf) {
-  const ContactRule rule = rule_of_vertex_0(face_over_face(0.004, 0.5), {0, 0});
+  const ContactRule rule = rule_of_vertex_0(face_over_face(0.004, 0.5), {});
   EXPECT_TRUE(rule.closed);
   EXPECT_DOUBLE_EQ(rule.stencil.separation, 0.002);
 }
 
 TEST(ContactRules, TheBarrierLeavesARestShapeWithoutConflictAlone) {
-  const ContactRule thin = rule_of_vertex_0(face_over_face(0.2, 0.2), {0, 0});
+  const ContactRule thin = rule_of_vertex_0(face_over_face(0.2, 0.2), {});
   EXPECT_DOUBLE_EQ(thin.reach, 0.1);
   EXPECT_DOUBLE_EQ(thin.rest_distance, 0.2);
-  const ContactRule thinner = rule_of_vertex_0(face_over_face(0.2, 0.001), {0, 0});
+  const ContactRule thinner = rule_of_vertex_0(face_over_face(0.2, 0.001), {});
   EXPECT_DOUBLE_EQ(thinner.reach, 0.03);  // the wanted gap comes first
-  const ContactRule crossing = rule_of_vertex_0(face_over_face(0.2, 0.001), {1, 1});
+  const ContactRule crossing = rule_of_vertex_0(face_over_face(0.2, 0.001), {{0, 1}});
   EXPECT_TRUE(std::isinf(crossing.reach));
 }
 
@@ -85,11 +85,11 @@ Patch folded_pair(double height) {
   return patch;
 }
 
-std::vector<ContactRule> rules_of(const Patch& patch, std::vector<std::uint8_t> in_conflict) {
+std::vector<ContactRule> rules_of(const Patch& patch, const std::vector<IntersectingPair>& pairs) {
   ContactRuleOptions options;
   options.min_gap = 0.01;
   options.roundoff = 1e-13;
-  ContactRules rules(patch, std::move(in_conflict), options);
+  ContactRules rules(patch, pairs, options);
   std::vector<ContactRule> found;
   rules.gather(patch.x, 1, anywhere_within(std::vector<double>(4, 1)), std::vector<std::uint8_t>(4, 1), found);
   std::erase_if(found, [](const ContactRule& rule) { return rule.stencil.stencil.kind != StencilKind::vertex_face; });
@@ -97,7 +97,7 @@ std::vector<ContactRule> rules_of(const Patch& patch, std::vector<std::uint8_t> 
 }
 
 TEST(ContactRules, NeighboursKeepAShareOfTheirRestDistance) {
-  const std::vector<ContactRule> rules = rules_of(folded_pair(0.004), {0, 0});
+  const std::vector<ContactRule> rules = rules_of(folded_pair(0.004), {});
   ASSERT_EQ(rules.size(), 2u);
   for (const ContactRule& rule : rules) {
     EXPECT_LE(rule.stencil.separation, 0.01);
@@ -108,10 +108,41 @@ TEST(ContactRules, NeighboursKeepAShareOfTheirRestDistance) {
   }
 }
 
+TEST(ContactRules, NearAlongASheetAreNeighbours) {
+  // Two strips of a flat sheet with one between: 0.1 apart, and along the edges.
+  Patch patch;
+  patch.free_count = 8;
+  patch.active_count = 6;
+  patch.x.resize(3, 8);
+  for (Index v = 0; v < 8; ++v) patch.x.col(v) = Vec3(0.1 * (v / 2), v % 2, 0);
+  for (Index k = 0; k < 3; ++k) {
+    patch.triangles.push_back({2 * k, 2 * k + 2, 2 * k + 1});
+    patch.triangles.push_back({2 * k + 1, 2 * k + 2, 2 * k + 3});
+  }
+  patch.rest = patch.x;
+  patch.edge_length = 1;
+  const auto first_and_last = [&](double min_gap) {
+    ContactRuleOptions options;
+    options.min_gap = min_gap;
+    ContactRules rules(patch, {}, options);
+    std::vector<ContactRule> found;
+    rules.gather(patch.x, 1, anywhere_within(std::vector<double>(8, 0.5)), std::vector<std::uint8_t>(8, 1), found);
+    const Stencil wanted = {StencilKind::edge_edge, {0, 1, 6, 7}};
+    const auto rule = std::find_if(found.begin(), found.end(), [&](const ContactRule& r) {
+      return r.stencil.stencil.kind == wanted.kind && r.stencil.stencil.v == wanted.v;
+    });
+    return rule == found.end() ? ContactRule{} : *rule;
+  };
+  EXPECT_FALSE(first_and_last(0.1).neighbours);  // 0.3 along the edges
+  EXPECT_EQ(first_and_last(0.1).stencil.separation, 0.1);
+  EXPECT_TRUE(first_and_last(0.2).neighbours);
+  EXPECT_NEAR(first_and_last(0.2).stencil.separation, 0.25 * 0.3, 1e-12);
+}
+
 TEST(ContactRules, FlatFoldsWantAGapOnlyWhereTheyAreInConflict) {
-  for (const ContactRule& rule : rules_of(folded_pair(0), {1, 1})) EXPECT_GT(rule.stencil.separation, 0.009);
+  for (const ContactRule& rule : rules_of(folded_pair(0), {{0, 1}})) EXPECT_GT(rule.stencil.separation, 0.009);
   // Without an intersection at rest (zero-area faces) a distance of zero is legitimate: no rule.
-  for (const ContactRule& rule : rules_of(folded_pair(0), {0, 0})) EXPECT_NE(rule.stencil.stencil.v[0], 3);
+  for (const ContactRule& rule : rules_of(folded_pair(0), {})) EXPECT_NE(rule.stencil.stencil.v[0], 3);
 }
 
 TEST(ContactRules, ListWhatMayComeNearByMovingAsFarAsAllowed) {
@@ -121,7 +152,7 @@ TEST(ContactRules, ListWhatMayComeNearByMovingAsFarAsAllowed) {
   const auto is_listed = [&](double room) {
     ContactRuleOptions options;
     options.min_gap = 0.01;
-    ContactRules rules(patch, {0, 0}, options);
+    ContactRules rules(patch, {}, options);
     std::vector<ContactRule> found;
     rules.gather(patch.x, 1, anywhere_within({room, 0, 0, 0, 0, 0}), moves, found);
     return std::any_of(found.begin(), found.end(), [](const ContactRule& rule) {
@@ -139,7 +170,7 @@ TEST(ContactRules, AroundAVertexJudgeClosedWhereItIsNow) {
   ContactRuleOptions options;
   options.min_gap = 0.01;
   options.roundoff = 1e-13;
-  ContactRules rules(patch, {0, 0}, options);
+  ContactRules rules(patch, {}, options);
   const std::vector<std::uint8_t> moves(6, 1);
   MotionBounds bounds = anywhere_within(std::vector<double>(6, 0.2));
   std::vector<ContactRule> found;
@@ -165,7 +196,7 @@ TEST(ContactRules, AroundAVertexJudgeClosedWhereItIsNow) {
 TEST(ContactRules, FacesGuardTheirOwnAltitudes) {
   Patch patch = face_over_face(3, 3);
   patch.x.col(0) = 0.5 * (patch.x.col(1) + patch.x.col(2)) + Vec3(0, 0, 0.02);  // squeezed
-  ContactRules rules(patch, {0, 0}, {});
+  ContactRules rules(patch, {}, {});
   const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
   std::vector<ContactRule> found;
   rules.gather(patch.x, 0.01, anywhere_within(std::vector<double>(6, 0)), moves, found);
