@@ -66,7 +66,9 @@ TEST(Nesting, what_is_held_stays_and_the_other_goes_all_the_way) {
     ASSERT_EQ(result.status, Status::embedded);
     EXPECT_TRUE(pairs_of(surface, result.positions, nesting)[0].is_nested);
     for (std::size_t i = 0; i < result.positions.size(); ++i) {
-      if (options.fixed[i / 3]) ASSERT_EQ(result.positions[i], surface.positions[i]);
+      if (options.fixed[i / 3]) {
+        ASSERT_EQ(result.positions[i], surface.positions[i]);
+      }
     }
   }
 }
