@@ -221,7 +221,6 @@ TEST(RepairProperties, relabelling_changes_little) {
 
 // A second run would cut polygons anew, by where their corners lie now.
 TEST(RepairProperties, repaired_polygons_are_left_alone) {
-  constexpr unsigned knot = 128;  // no cut is found that it settles in
   std::size_t repaired = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
@@ -231,7 +230,7 @@ TEST(RepairProperties, repaired_polygons_are_left_alone) {
     Surface again = soup;
     again.positions = result.positions;
     ++repaired;
-    EXPECT_TRUE(repair(again).positions == again.positions || seed == knot);
+    EXPECT_TRUE(repair(again).positions == again.positions);
   }
   EXPECT_GT(repaired, 150u);
 }
