@@ -5,6 +5,7 @@
 
 #include "scene/patch.h"
 #include "unsnarl/intersections.h"
+#include "untangle/shared_constants.h"
 
 namespace unsnarl {
 
@@ -17,14 +18,14 @@ struct FlowOptions {
   /// Weight of the penalty at the start; it grows on stalls. Large early values lock sheets against each other: 1
   /// solved 15 of 21 meshes, 4 only 10.
   double lambda_minkowski = 0.3;
-  double margin = 0.03;        ///< h: the penalty acts until faces are this far apart; 28 iterations against 61 without
+  double margin = penalty_margin;
   double spacing_edges = 2;    ///< h: least spacing of the clusters ...
   double spacing_rel = 0.012;  ///< ... and of the diagonal: steps and clusters must not shrink with h on fine meshes
   double bandwidth = 2;        ///< spacings: of the Gaussian
   double cutoff = 2.2;         ///< bandwidths: exp(-4.8) = 0.8 % of the force at 0 is left out
   double hot_range = 4;        ///< bandwidths: only clusters this close to an intersecting face interact
   double vertex_trim = 0.1;    ///< of the shared corner of one-vertex pairs: took 52, 18, 6 of them to 0
-  double jitter = 1e-3;        ///< h: breaks the symmetry of exactly coincident sheets
+  double jitter = symmetry_jitter;
   double accept_motion = 0.02;     ///< h: the line search stops halving here and takes the step: E_M is not smooth
   int memory = 8;                  ///< of L-BFGS
   int stall_iterations = 12;       ///< without ...
@@ -38,10 +39,10 @@ struct FlowOptions {
   /// away the rest: it clears in a few steps what the flow would still chase after 100 iterations. Again when they have
   /// halved.
   double finish_share = 0.05;
-  double stalled_share = 0.5;     ///< on a stall, and at the end, already from this share on
-  std::size_t few_finish = 12;    ///< pairs
-  double area_floor = 1e-3;       ///< of its area at rest: thinner faces are no solution
-  int bisections = 5;             ///< of the displacement back to rest; the smallest clean one is kept
+  double stalled_share = 0.5;         ///< on a stall, and at the end, already from this share on
+  std::size_t few_finish = 12;        ///< pairs
+  double area_floor = squeezed_area;  ///< of its area at rest
+  int bisections = bisections_back;
   double candidate_reach = 0.25;  ///< h: motion until the candidate pairs are gathered anew
 };
 

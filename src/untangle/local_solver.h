@@ -5,6 +5,7 @@
 
 #include "scene/patch.h"
 #include "unsnarl/intersections.h"
+#include "untangle/shared_constants.h"
 
 namespace unsnarl {
 
@@ -32,14 +33,14 @@ enum class KeepSides {
 };
 
 struct LocalOptions {
-  double margin = 0.03;  ///< h: the penalty acts until the faces are this far apart; 28 iterations against 61 without
-  double jitter = 1e-3;  ///< of h or the shortest edge at a vertex: breaks symmetry (coincident sheets, exact folds)
+  double margin = penalty_margin;
+  double jitter = symmetry_jitter;  ///< of h or the shortest edge at a vertex
   /// Edges of length zero are first opened to this share of the way to the neighbours (open_zero_length_edges).
   /// Without, rings of 64 vertices in one point take minutes; what is too much comes back in recovery.
   double opening = 0.01;
-  double area_floor = 1e-3;     ///< a face thinner than this share of its area at the start is not accepted
-  double shallow_margin = 0.5;  ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
-  double shallow_step = 1;      ///< of the deepest overlap, now or at the start: its steps
+  double area_floor = squeezed_area;  ///< of its area at the start
+  double shallow_margin = 0.5;        ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
+  double shallow_step = 1;            ///< of the deepest overlap, now or at the start: its steps
   /// h: the overlap that faces are taken to have at least, also where they do no more than touch. (Where the margin
   /// counted as overlap, needles that ran into each other by 1e-5 h were thrown about by 0.02 h, and never came apart.)
   double shallow_floor = 1e-4;
@@ -59,7 +60,7 @@ struct LocalOptions {
   /// Smoothing is left where it has multiplied the pairs by this: surfaces without a border collapse. Without, two
   /// punctured ones spend 10 to 29 s each on it.
   double most_growth = 2;
-  int bisections = 5;  ///< of the displacement back to the start; the smallest clean one is kept
+  int bisections = bisections_back;
 };
 
 /// A number of pairs that the solver did not get to count.

@@ -6,6 +6,7 @@
 
 #include "scene/patch.h"
 #include "unsnarl/intersections.h"
+#include "untangle/shared_constants.h"
 
 namespace unsnarl {
 
@@ -23,9 +24,9 @@ struct RecedeOptions {
   /// Step and locality of that method, of the diagonal, at least 0.3 h and 4 h: fine meshes must go as far as coarse
   /// ones. All shares are tried with the first before the second.
   std::array<Stride, 2> strides = {{{0.009, 0.12}, {0.02, 0.28}}};
-  double jitter = 1e-3;      ///< h: breaks symmetry
-  double floor = 0.02;       ///< of its area at rest: with thinner faces than this, further shares are tried
-  double last_floor = 1e-3;  ///< the same where none is left: thinner faces are no solution
+  double jitter = symmetry_jitter;
+  double floor = 0.02;                ///< of its area at rest: with thinner faces than this, further shares are tried
+  double last_floor = squeezed_area;  ///< the same where none is left
 };
 
 struct RecedeResult {

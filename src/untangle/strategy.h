@@ -10,6 +10,7 @@
 #include "scene/patch.h"
 #include "unsnarl/intersections.h"
 #include "untangle/conflict_regions.h"
+#include "untangle/shared_constants.h"
 
 namespace unsnarl {
 
@@ -46,7 +47,7 @@ struct Strategy {
   /// long.
   double gain_share = 0.1;
   /// A candidate that squeezes a face to less than this share of its area before is worthless.
-  double area_floor = 1e-3;
+  double area_floor = squeezed_area;
   /// Moves the free vertices of patch.x, from where they are, to a state with fewer intersecting pairs, if it finds
   /// one. Returns the number of its iterations. What the candidate is worth is decided by the escalation.
   std::function<int(Patch& patch, const Task& task)> solve;
