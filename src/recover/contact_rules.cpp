@@ -165,7 +165,7 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
     rule.reach = std::numeric_limits<double>::infinity();
   }
   rule.closed = !(distance > separation);
-  rule.stencil.separation = rule.closed ? 0.5 * distance : separation;
+  rule.stencil.separation = std::min(0.5 * distance, separation);
   rule.stencil.activation = std::max(std::min(activation, rule.reach), least_activation * rule.stencil.separation);
   if (near.least_distance > rule.stencil.activation) return false;
   if (s.kind == StencilKind::edge_edge) {

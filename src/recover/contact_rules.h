@@ -17,7 +17,7 @@ struct ContactRule {
   double reach = 0;  ///< the activation distance never exceeds this
   double rest_distance = 0;
   double distance = 0;        ///< where its vertices' bounds start
-  bool closed = false;        ///< closer than it should be; its separation is half its distance
+  bool closed = false;        ///< closer than it should be
   bool neighbours = false;    ///< of one sheet, of which min_gap is not asked
   bool own_altitude = false;  ///< a corner of a face against the opposite edge: keeps the face from being squeezed
 };
@@ -41,9 +41,10 @@ struct ContactRuleOptions {
 ///
 /// The separation is min_gap. Neighbours (primitives of triangles that share a vertex, or that are two min_gap apart
 /// along the edges at rest) that are closer at rest need only keep a share of their rest distance, unless their
-/// triangles intersect each other at rest. A stencil without distance at
-/// rest whose triangles do not intersect there (around zero-area faces) has no rule. One that is closer than its
-/// separation now may not come closer than half its distance.
+/// triangles intersect each other at rest. A stencil without distance at rest whose triangles do not intersect there
+/// (around zero-area faces) has no rule. None has to keep more than half its present distance: what was shrunk grows
+/// again where its faces are smaller than min_gap, and what ends too close is opened last. (Keeping all of min_gap from
+/// where it is reached, soft parts wound around an anchor end 1.6 times as far, stretched to 15 times their length.)
 class ContactRules {
  public:
   /// pairs: those of triangles that intersect at rest. The patch must outlive this.

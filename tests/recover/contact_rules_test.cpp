@@ -47,16 +47,16 @@ ContactRule rule_of_vertex_0(const Patch& patch, const std::vector<IntersectingP
   return {};
 }
 
-TEST(ContactRules, AGapOnceWideEnoughNeverMayShrinkBelowTheWantedOne) {
-  const ContactRule rule = rule_of_vertex_0(face_over_face(0.015, 0.5), {});
-  EXPECT_FALSE(rule.closed);
-  EXPECT_EQ(rule.stencil.separation, 0.01);
-}
-
-TEST(ContactRules, AClosedGapMayNotCloseFartherThanHalf) {
-  const ContactRule rule = rule_of_vertex_0(face_over_face(0.004, 0.5), {});
-  EXPECT_TRUE(rule.closed);
-  EXPECT_DOUBLE_EQ(rule.stencil.separation, 0.002);
+TEST(ContactRules, AGapKeepsTheWantedOneAndNoMoreThanHalfOfItself) {
+  const ContactRule wide = rule_of_vertex_0(face_over_face(0.03, 0.5), {});
+  EXPECT_FALSE(wide.closed);
+  EXPECT_EQ(wide.stencil.separation, 0.01);
+  const ContactRule enough = rule_of_vertex_0(face_over_face(0.015, 0.5), {});
+  EXPECT_FALSE(enough.closed);
+  EXPECT_DOUBLE_EQ(enough.stencil.separation, 0.0075);
+  const ContactRule closed = rule_of_vertex_0(face_over_face(0.004, 0.5), {});
+  EXPECT_TRUE(closed.closed);
+  EXPECT_DOUBLE_EQ(closed.stencil.separation, 0.002);
 }
 
 TEST(ContactRules, TheBarrierLeavesARestShapeWithoutConflictAlone) {
