@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
-#include <utility>
 
 #include "geometry/parallel_lists.h"
+#include "mesh/vertices_within.h"
 
 namespace unsnarl {
 namespace {
@@ -18,39 +16,6 @@ constexpr double least_activation = 1.5;
 /// Corner k of a triangle against the opposite edge.
 Stencil altitude_of(const Triangle& f, int k) {
   return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
-}
-
-/// For each vertex the others to which edges lead within this length, ascending.
-IndexLists vertices_within(const Positions& x, const EdgeTable& edges, double length) {
-  const auto n = static_cast<Index>(x.cols());
-  const IndexLists neighbours = vertex_neighbours(edges.edges, n);
-  IndexLists result;
-  std::vector<double> distance(static_cast<std::size_t>(n), std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  for (Index start = 0; start < n; ++start) {
-    const std::size_t begin = result.items.size();
-    std::vector<Index> reached = {start};
-    distance[start] = 0;
-    front.emplace(0.0, start);
-    while (!front.empty()) {
-      const auto [d, v] = front.top();
-      front.pop();
-      if (d > distance[v]) continue;
-      if (v != start) result.items.push_back(v);
-      for (const Index w : neighbours[v]) {
-        const double through = d + (x.col(v) - x.col(w)).norm();
-        if (!(through <= length) || through >= distance[w]) continue;
-        distance[w] = through;
-        reached.push_back(w);
-        front.emplace(through, w);
-      }
-    }
-    for (const Index v : reached) distance[v] = std::numeric_limits<double>::infinity();
-    std::sort(result.items.begin() + static_cast<std::ptrdiff_t>(begin), result.items.end());
-    result.offsets.push_back(static_cast<Index>(result.items.size()));
-  }
-  return result;
 }
 
 }  // namespace
