@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/closed_surface.h"
+#include "geometry/sort_unique.h"
 #include "pipeline/threads.h"
 
 namespace unsnarl {
@@ -82,8 +83,7 @@ NestedSurfaces nested_surfaces(const SurfaceView& surface, const PreparedSurface
   nested.closed.assign(count, 0);
   for (Index s = 0; s < count; ++s) {
     std::vector<Index>& vertices = nested.vertices[s];
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     const Edge open = first_open_edge(nested.triangles[s]);
     nested.closed[s] = open[0] < 0 && !vertices.empty();
     const auto is_outer = [&](const auto& pair) { return pair[1] == s; };

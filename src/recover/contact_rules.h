@@ -24,8 +24,8 @@ struct ContactRule {
 
 struct ContactRuleOptions {
   double min_gap = 0;  ///< wanted distance, a length
-  /// In min_gap: primitives this far apart along the edges at rest are neighbours. Within a flat sheet, what is min_gap
-  /// apart is up to 1.5 apart along the edges; facing sides of a hairpin at least 1.57.
+  /// In min_gap: primitives up to this far apart along the edges at rest are neighbours. In a grid of squares cut in
+  /// two, what is min_gap apart is up to 1.41 apart along the edges. Other values were not tried.
   double joined_gaps = 2;
   /// Share of the rest distance that neighbours keep at least where it is below min_gap, and of its rest altitude below
   /// which a face's own barrier sets in.

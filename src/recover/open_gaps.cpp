@@ -76,9 +76,8 @@ bool widen(const Widening& gap, Positions& p) {
 
 }  // namespace
 
-OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented, EmbeddingGuard& guard,
-                         std::span<const std::uint8_t> moves, const OpenGapsOptions& options) {
-  OpenGapsResult result;
+void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented, EmbeddingGuard& guard,
+               std::span<const std::uint8_t> moves, const OpenGapsOptions& options) {
   const double roundoff = rules.options().roundoff;
   std::vector<ContactRule> close;
   std::vector<SeparatedStencil> filter;
@@ -89,20 +88,18 @@ OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces&
   std::vector<double> cap(static_cast<std::size_t>(x.cols())), length(cap.size());  // of the vertices' displacements
   Positions p(3, x.cols());
   Positions safe;
-  for (;; ++result.rounds) {
-    if (options.stop && options.stop()) return result;
+  for (int round = 0;; ++round) {
+    if (options.stop && options.stop()) return;
     rules.gather(x, options.target, bounds, moves, close);
     gaps.clear();
-    result.still_closed = 0;
     bool any_narrow = false;
     for (const ContactRule& rule : close) {
       const double target = target_of(rule, options.target, rules.options().min_gap);
       any_narrow |= rule.distance < wide_enough * target;
-      if (rule.distance < 0.5 * target) ++result.still_closed;
       const Widening gap = widening_of(rule, target - rule.distance, x, roundoff, moves);
       if (gap.squared_weights > least_squared_weights) gaps.push_back(gap);
     }
-    if (!any_narrow || result.rounds == options.max_rounds) return result;
+    if (!any_narrow || round == options.max_rounds) return;
     std::fill(cap.begin(), cap.end(), options.step_cap);
     for (const ContactRule& rule : close) {
       const Stencil& s = rule.stencil.stencil;

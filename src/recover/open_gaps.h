@@ -13,14 +13,9 @@ namespace unsnarl {
 struct OpenGapsOptions {
   /// Length to which every gap is opened, less where a stencil's reach is less, and min_gap less between neighbours.
   double target = 0;
-  int max_rounds = 0;
+  int max_rounds = 0;          ///< at most
   double step_cap = 0;         ///< length: largest motion of a vertex in one round
   std::function<bool()> stop;  ///< asked before each round; true ends it
-};
-
-struct OpenGapsResult {
-  int rounds = 0;
-  Index still_closed = 0;  ///< stencils that remain closer than half their target
 };
 
 /// Opens all stencils that are closer than the target, round by round. A round's displacements are projected onto what
@@ -29,7 +24,7 @@ struct OpenGapsResult {
 /// and each face keeps its share of area. Then they go through the vertex-wise filter_step and, where a gap is of the
 /// order of round-off, the exact guard. (With the mean of the pushes of all stencils at a vertex instead, what is
 /// hemmed in from several sides stayed closed at 1e-9 or 1e-14 of the diagonal.)
-OpenGapsResult open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented, EmbeddingGuard& guard,
-                         std::span<const std::uint8_t> moves, const OpenGapsOptions& options);
+void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented, EmbeddingGuard& guard,
+               std::span<const std::uint8_t> moves, const OpenGapsOptions& options);
 
 }  // namespace unsnarl

@@ -167,9 +167,8 @@ void Recovery::open(double target) {
   OpenGapsOptions open;
   open.target = std::max(target, above_min_gap(options_.open_target));
   open.max_rounds = options_.open_rounds;
-  open.step_cap =
-      std::min(open.target,
-               options_.step.cap * h_);  // five of them end as close, but look 11 gaps around, not 3: up to 9 GB, not 2
+  // Stencils are gathered as far around as two steps may go. Five targets end as close, but took up to 9 GB, not 2.
+  open.step_cap = std::min(open.target, options_.step.cap * h_);
   open.stop = stop_;
   open_gaps(patch_.x, rules_, orientation_of_all(), guard_, everything(), open);
 }

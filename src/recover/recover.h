@@ -26,8 +26,9 @@ struct RecoverResult {
 /// \pre patch.x has no intersecting pair with an active triangle, in any class. Pairs that are there are tolerated and
 /// never become more.
 /// Guarantees: no new pair; no face flips against its rest shape in a step, unless filter_step does not settle (not
-/// seen so far), and those that were flipped are pulled back; stencils keep the distance `min_gap` once they have it
-/// (neighbours that are closer at rest keep a share of their rest distance); free vertices that can reach their rest
+/// seen so far), and those that were flipped are pulled back; in a step a stencil keeps `min_gap` or half its distance,
+/// whichever is less, and those that end closer than min_gap are opened, unless they are hemmed in (neighbours that are
+/// closer at rest need a share of their rest distance only); free vertices that can reach their rest
 /// positions are bit-exactly there; what is closer than round-off to something stays where it is while others step; the
 /// same bytes at any number of threads. `stop` is asked once a step; what was reached by then is kept.
 RecoverResult recover(Patch& patch, const RecoverOptions& options = {}, const std::function<bool()>& stop = {});

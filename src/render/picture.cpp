@@ -76,7 +76,7 @@ Rectangle inset_place(const std::vector<Image>& views, std::span<const Window> w
   return best;
 }
 
-/// Where what is worth magnifying goes: the first in any case, others where they hide little.
+/// The places of the insets. The first is always drawn, the others only where they hide little.
 std::vector<Inset> insets_of(const Drawable& drawable, const Camera& camera, const std::vector<Image>& views, int width,
                              int height) {
   const std::vector<Window> windows =

@@ -21,7 +21,7 @@
 namespace unsnarl {
 namespace {
 
-/// Rings around what a large region has moved that recovery may move too.
+/// Recovery may move so many edges around what a large region has moved. Other values were not tried.
 constexpr int recovery_rings = 4;
 
 /// The counts that the progress rule compares.
