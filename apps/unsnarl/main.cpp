@@ -23,6 +23,7 @@
 #include "standard_streams.h"
 #include "unsnarl/document.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/repair.h"
 #include "unsnarl/version.h"
 #include "usage.h"
 #include "usage_error.h"
@@ -130,6 +131,8 @@ ExitCode explain_error() {
     throw;
   } catch (const UsageError& e) {
     return complain(exit_usage, e.what());
+  } catch (const GapTooWide& e) {
+    return complain(exit_usage, fmt::format("--min-gap: {} (--absolute)", e.what()));
   } catch (const FileError& e) {
     return complain(exit_invalid_input, e.what());
   } catch (const WriteError& e) {

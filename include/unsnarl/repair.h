@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,7 +63,7 @@ struct RepairOptions {
   std::vector<std::int32_t> rigid;
   std::vector<std::string> rigid_names;  ///< of these parts, for reports; missing ones are their numbers
   bool each_component = false;  ///< repair every component as if alone; what runs through others may do so still
-  double min_gap_rel = 0;       ///< wanted gap between sheets / bounding-box diagonal; 0: a few float32 units
+  double min_gap_rel = 0;  ///< wanted gap between sheets / bounding-box diagonal, GapTooWide; 0: a few float32 units
   /// Two faces at an edge that are folded together closer than this angle, in degrees, in [0, 90), are opened to it
   /// after the repair, as far as nothing is in the way; also where nothing intersects. 0: left as they are.
   double min_dihedral_deg = 0;
@@ -80,6 +81,12 @@ struct RepairOptions {
   std::vector<std::string> without_strategies;
 };
 
+/// RepairOptions::min_gap_rel is wider than 8 faces (mean side of equilateral triangles of their areas).
+class GapTooWide : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
 struct RepairResult {
   Status status = Status::no_progress;
   std::vector<double> positions;  ///< 3 n doubles, vertex order of the input
@@ -94,7 +101,7 @@ struct RepairResult {
 /// options give the same bytes at any thread count (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an
-/// option is out of range.
+/// option is out of range; GapTooWide.
 RepairResult repair(const SurfaceView& surface, const RepairOptions& options = {}, Context* context = nullptr);
 
 }  // namespace unsnarl

@@ -111,8 +111,8 @@ typedef struct unsnarl_options {
   const char* goal;        /* "all": no intersecting pair (default); "disjoint": none of faces that share no vertex */
   const char* precision;   /* numbers the result must hold in: "float32", "float64", "auto": float32 where the
                               coordinates allow it (default) */
-  double min_gap;          /* wanted gap between sheets, a fraction of the diagonal of the bounding box, >= 0; 0: just
-                              enough to be safe (default) */
+  double min_gap;          /* wanted gap between sheets, a fraction of the diagonal of the bounding box, >= 0 and no
+                              more than 8 mean widths of the faces; 0: just enough to be safe (default) */
   double max_displacement; /* how far any vertex may move, a fraction of the diagonal, >= 0; 0: any distance. Default
                               0 */
   int32_t absolute;        /* min_gap and max_displacement are lengths in the units of the positions. Default 0 */

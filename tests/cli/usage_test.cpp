@@ -99,6 +99,13 @@ TEST_F(Usage, WhatIsNoNumberInTheRangeIsRefused) {
   expect_refusal({"fix", in, "-o", folder / "out.obj", "--threads", "-3"}, 2, "-3 is no whole number from 0 to 1024");
 }
 
+TEST_F(Usage, AGapManyTimesAsWideAsTheFacesIsRefused) {
+  const std::string in = folder / "tubes.obj";
+  ASSERT_EQ(run({"sample", "crossing_tubes", "-o", in, "--resolution", "12"}).exit_code, 0);
+  expect_refusal({"fix", in, "-o", folder / "out.obj", "--min-gap", "0.6"}, 2, "--min-gap: a gap of");
+  EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj", "--min-gap", "0.002", "--absolute"}).exit_code, 0);
+}
+
 TEST_F(Usage, InputsThatMakeNoSenseExitWith3) {
   const std::string out = folder / "out.obj";
   expect_refusal({"fix", folder / "missing.obj", "-o", out}, 3, "missing.obj");
