@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "geometry/parallel_lists.h"
+#include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 
 namespace unsnarl {
 
 OrientationPenalty::OrientationPenalty(const Positions& rest, std::span<const Triangle> triangles,
                                        const Options& options)
-    : activation_(options.activation), most_(1 + options.linear / options.activation) {
+    : triangles_of_vertex_(triangles_of_vertices(triangles, static_cast<Index>(rest.cols()))),
+      activation_(options.activation),
+      most_(1 + options.linear / options.activation) {
   triangles_.reserve(triangles.size());
   for (const Triangle& t : triangles) {
     Kept kept;
@@ -92,22 +97,34 @@ bool OrientationPenalty::project(const Positions& x, std::span<const Index> whic
 bool OrientationPenalty::filter(const Positions& x, std::span<const Index> which, double share, double factor,
                                 Positions& p) const {
   constexpr int rounds = 30;
-  std::array<Vec3, 3> corners;
+  constexpr Index chunk = 4096;  // triangles a task
   const auto flips = [&](Index t) {
     const Kept& kept = triangles_[t];
     if (!(kept.weight > 0)) return false;
     const double now = kept.normal.dot(area_vector(x, kept.corners));
     if (!(now > 0)) return false;
+    std::array<Vec3, 3> corners;
     return share_of_moved(x, p, kept, corners) < share * now;
   };
-  std::vector<Index> flipping;
-  for (int round = 0;; ++round) {
-    flipping.clear();
-    std::copy_if(which.begin(), which.end(), std::back_inserter(flipping), flips);
-    if (flipping.empty()) return round > 0;
+  std::vector<Index> flipping, changed;
+  gather_in_chunks(static_cast<Index>(which.size()), chunk, flipping,
+                   [&](Index begin, Index end, std::vector<Index>& list) {
+                     std::copy_if(which.begin() + begin, which.begin() + end, std::back_inserter(list), flips);
+                   });
+  if (flipping.empty()) return false;
+  for (int round = 0; !flipping.empty(); ++round) {
+    changed.clear();
     for (Index t : flipping)
-      for (Index v : triangles_[t].corners) p.col(v) *= round < rounds ? factor : 0;
+      for (Index v : triangles_[t].corners) {
+        p.col(v) *= round < rounds ? factor : 0;
+        changed.insert(changed.end(), triangles_of_vertex_[v].begin(), triangles_of_vertex_[v].end());
+      }
+    sort_unique(changed);
+    flipping.clear();
+    std::copy_if(changed.begin(), changed.end(), std::back_inserter(flipping),
+                 [&](Index t) { return std::binary_search(which.begin(), which.end(), t) && flips(t); });
   }
+  return true;
 }
 
 }  // namespace unsnarl

@@ -8,6 +8,7 @@
 
 #include "energy/hessian.h"
 #include "geometry/types.h"
+#include "mesh/adjacency.h"
 
 namespace unsnarl {
 
@@ -44,9 +45,9 @@ class OrientationPenalty {
   /// it. Returns whether there were any.
   bool project(const Positions& x, std::span<const Index> which, double share, std::span<const std::uint8_t> moves,
                Positions& p) const;
-  /// Scales the displacements p of the corners of those triangles of `which` that are not flipped at x and would keep
-  /// less than `share` of their c by `factor`, in [0, 1), until none does; the last ones stay where they are. Returns
-  /// whether there were any.
+  /// Scales the displacements p of the corners of those triangles of `which` (ascending) that are not flipped at x and
+  /// would keep less than `share` of their c by `factor`, in [0, 1), until none does; the last ones stay where they
+  /// are. Returns whether there were any.
   bool filter(const Positions& x, std::span<const Index> which, double share, double factor, Positions& p) const;
 
  private:
@@ -59,6 +60,7 @@ class OrientationPenalty {
   static double share_of_moved(const Positions& x, const Positions& p, const Kept& kept, std::array<Vec3, 3>& corners);
 
   std::vector<Kept> triangles_;
+  IndexLists triangles_of_vertex_;
   double activation_ = 1;
   double most_ = 1;  // of 1 - c / activation, up to which the energy is quadratic
 };
