@@ -55,14 +55,9 @@ bool SceneRepair::has_work(Finders& finders) const {
 }
 
 void SceneRepair::work(Finders& finders) {
-  const Checkpoint start = checkpoint();
   const Rounds rounds = work_in_rounds(finders);
   if (rounds.resolved || !rounds.before_rounding || !may_give_up_float32()) return;
   float32_ = false;
-  if (!rounds.some_are_stuck && !job_.limits.reached()) {
-    restore(start);
-    if (work_in_rounds(finders).resolved) return;
-  }
   restore(*rounds.before_rounding);
   scene_.x = as_written(scene_.x);
 }
@@ -101,7 +96,6 @@ SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders) {
     for (Index v = 0; v < scene_.vertex_count(); ++v)
       if (!scene_.triangles_of_vertex[v].empty()) job_.tried.solved.col(v) = scene_.x.col(v);
     result.before_rounding = checkpoint();
-    result.some_are_stuck |= !untangled.left.empty();
     scene_.x = as_written(scene_.x);
     // Components on which pairs are left are let be, and the others go on without them.
     for (const IntersectingPair& pair : untangled.left)

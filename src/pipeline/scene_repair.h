@@ -65,7 +65,6 @@ class SceneRepair {
  private:
   struct Rounds {
     bool resolved = false;
-    bool some_are_stuck = false;                // no strategy resolves some component
     std::optional<Checkpoint> before_rounding;  // the last state without pairs, but of what is stuck
   };
   Rounds work_in_rounds(Finders& finders);
