@@ -105,8 +105,8 @@ struct Collapse {
 class Round {
  public:
   Round(const Positions& x, std::span<const Triangle> triangles, std::span<const Index> faces,
-        const CoarsenOptions& options)
-      : x_(x), triangles_(triangles), options_(options) {
+        std::span<const std::uint8_t> ranks, const CoarsenOptions& options)
+      : x_(x), triangles_(triangles), ranks_(ranks), options_(options) {
     std::vector<Triangle> current;
     current.reserve(faces.size());
     for (const Index t : faces) current.push_back(triangles[t]);
@@ -136,6 +136,7 @@ class Round {
     const std::size_t n = ring->size();
     for (std::size_t i = 0; i < n; ++i) {
       if (!ring->closed && i != 0 && i != n - 1) continue;
+      if (ranks_[(*ring)[i]] < ranks_[v]) continue;
       Collapse collapse = collapse_onto(v, *ring, i, normal, edge, least_quality);
       if (collapse.cost < best.cost) best = std::move(collapse);
     }
@@ -194,6 +195,7 @@ class Round {
 
   const Positions& x_;
   std::span<const Triangle> triangles_;
+  std::span<const std::uint8_t> ranks_;
   const CoarsenOptions& options_;
   IndexLists faces_of_vertex_;
   IndexLists neighbours_;
@@ -201,17 +203,17 @@ class Round {
 
 }  // namespace
 
-ProgressiveMesh::ProgressiveMesh(std::vector<Triangle> triangles, std::vector<std::uint8_t> stays)
-    : triangles_(std::move(triangles)), stays_(std::move(stays)) {
+ProgressiveMesh::ProgressiveMesh(std::vector<Triangle> triangles, std::vector<std::uint8_t> ranks)
+    : triangles_(std::move(triangles)), ranks_(std::move(ranks)) {
   faces_.resize(triangles_.size());
   for (std::size_t t = 0; t < faces_.size(); ++t) faces_[t] = static_cast<Index>(t);
 }
 
 Index ProgressiveMesh::coarsen(const Positions& x, const CoarsenOptions& options) {
-  const Round round(x, triangles_, faces_, options);
+  const Round round(x, triangles_, faces_, ranks_, options);
   std::vector<Index> candidates;
-  for (Index v = 0; v < static_cast<Index>(stays_.size()); ++v)
-    if (!stays_[v]) candidates.push_back(v);
+  for (Index v = 0; v < static_cast<Index>(ranks_.size()); ++v)
+    if (ranks_[v] < stays) candidates.push_back(v);
   std::vector<Collapse> collapses(candidates.size());
   oneapi::tbb::parallel_for(std::size_t{0}, candidates.size(),
                             [&](std::size_t k) { collapses[k] = round.best_collapse(candidates[k]); });
@@ -220,7 +222,7 @@ Index ProgressiveMesh::coarsen(const Positions& x, const CoarsenOptions& options
                    [](const Collapse& a, const Collapse& b) { return a.cost < b.cost; });
 
   std::vector<Removal> removals;
-  std::vector<std::uint8_t> is_blocked(stays_.size(), 0);  // a neighbour, or it itself, has been removed in this round
+  std::vector<std::uint8_t> is_blocked(ranks_.size(), 0);  // a neighbour, or it itself, has been removed in this round
   std::set<Edge> new_edges;
   const auto edge = [](Index v, Index w) { return Edge{std::min(v, w), std::max(v, w)}; };
   for (Collapse& collapse : collapses) {
@@ -241,7 +243,7 @@ Index ProgressiveMesh::coarsen(const Positions& x, const CoarsenOptions& options
     removals.push_back(std::move(removal));
   }
   if (removals.empty()) return 0;
-  std::vector<std::uint8_t> is_removed(stays_.size(), 0);
+  std::vector<std::uint8_t> is_removed(ranks_.size(), 0);
   for (const Removal& removal : removals) is_removed[removal.vertex] = 1;
   std::erase_if(faces_, [&](Index t) {
     return std::any_of(triangles_[t].begin(), triangles_[t].end(), [&](Index v) { return is_removed[v] != 0; });

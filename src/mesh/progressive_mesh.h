@@ -34,8 +34,10 @@ class ProgressiveMesh {
     std::vector<Index> star;          ///< ids of the faces at the vertex, ascending
   };
 
-  /// Vertices with a flag in `stays` (one a vertex) are never removed; others may be collapsed onto them.
-  ProgressiveMesh(std::vector<Triangle> triangles, std::vector<std::uint8_t> stays);
+  static constexpr std::uint8_t stays = 2;  ///< rank of a vertex that is never removed
+
+  /// `ranks`: one a vertex, at most `stays`. A vertex is collapsed only onto one of its rank or above.
+  ProgressiveMesh(std::vector<Triangle> triangles, std::vector<std::uint8_t> ranks);
 
   /// One round: removes vertices no two of which are neighbours, short edges first. The topology is kept (link
   /// condition), and vertices of the boundary are collapsed along it. Returns how many were removed; deterministic at
@@ -53,7 +55,7 @@ class ProgressiveMesh {
  private:
   std::vector<Triangle> triangles_;  // by id; of faces that are not there: as they were last
   std::vector<Index> faces_;
-  std::vector<std::uint8_t> stays_;
+  std::vector<std::uint8_t> ranks_;
   std::vector<std::vector<Removal>> rounds_;
 };
 

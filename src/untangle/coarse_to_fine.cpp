@@ -233,7 +233,7 @@ class CoarseToFine {
         tolerated_(tolerated),
         stop_(stop),
         options_(options),
-        mesh_(patch.triangles, vertices_that_stay(patch, tolerated)),
+        mesh_(patch.triangles, ranks_of(patch, tolerated)),
         x_(patch.x),
         grid_(std::exp2(std::floor(std::log2(patch.edge_length * options.grid)))) {}
 
@@ -241,16 +241,15 @@ class CoarseToFine {
   /// so many pairs are left that it is not for their depth.
   std::optional<Solution> solve_coarse(double factor) {
     std::optional<Solution> best;
-    for (int k = 0; k < options_.most_solutions && !stopped(); ++k, factor *= options_.next_factor) {
-      if (k >= options_.coarse_solutions && best->pairs_left == 0) break;
+    for (int k = 0; k < options_.coarse_solutions && !stopped(); ++k, factor *= options_.next_factor) {
       const std::size_t before = active_faces();
       coarsen_to(static_cast<double>(patch_.active_count) / (factor * factor));
       const double least_gain = k == 0 ? options_.worthwhile : options_.worthwhile_again;
       if (static_cast<double>(active_faces()) > least_gain * static_cast<double>(before)) break;
       Solution solution = solve_level_fully();
       if (!best || solution.is_better_than(*best)) best = std::move(solution);
-      if (static_cast<double>(best->pairs_left) > options_.few_left * static_cast<double>(best->pairs)) return {};
     }
+    if (best && static_cast<double>(best->pairs_left) > options_.few_left * static_cast<double>(best->pairs)) return {};
     return best;
   }
 
@@ -279,14 +278,15 @@ class CoarseToFine {
     double edge_length = 0;
   };
 
-  /// The fixed ones, and those of tolerated pairs: then their faces are the same on every level.
-  static std::vector<std::uint8_t> vertices_that_stay(const Patch& patch, std::span<const IntersectingPair> tolerated) {
-    std::vector<std::uint8_t> stays(patch.vertices.size(), 1);
-    std::fill(stays.begin(), stays.begin() + patch.free_count, std::uint8_t{0});
+  /// Fixed vertices are collapsed onto each other only, and come back to where they are. Those of tolerated pairs stay,
+  /// so that their faces are the same on every level.
+  static std::vector<std::uint8_t> ranks_of(const Patch& patch, std::span<const IntersectingPair> tolerated) {
+    std::vector<std::uint8_t> ranks(patch.vertices.size(), 1);
+    std::fill(ranks.begin(), ranks.begin() + patch.free_count, std::uint8_t{0});
     for (const IntersectingPair& pair : tolerated)
       for (const Index t : {pair.a, pair.b})
-        for (const Index v : patch.triangles[t]) stays[v] = 1;
-    return stays;
+        for (const Index v : patch.triangles[t]) ranks[v] = ProgressiveMesh::stays;
+    return ranks;
   }
 
   bool stopped() const { return stop_ && stop_(); }
@@ -453,7 +453,9 @@ class CoarseToFine {
         star_of_face[t] = static_cast<Index>(r);
         star.push_back(mesh_[t]);
       }
-      places.push_back(places_for(removals[r], star, {patch_.rest, patch_.x, x_}, grid_));
+      const Index v = removals[r].vertex;
+      places.push_back(v < patch_.free_count ? places_for(removals[r], star, {patch_.rest, patch_.x, x_}, grid_)
+                                             : std::vector<Place>{{patch_.x.col(v)}});
     }
     for (const Index t : mesh_.faces()) star_of.push_back(star_of_face[t]);
     Insertion insertion(removals, std::move(places), triangles, star_of, static_cast<Index>(active_faces()), patch_.x);
@@ -501,7 +503,7 @@ class CoarseToFine {
 
 }  // namespace
 
-CoarseResult solve_on_coarser_mesh(Patch& patch, int depth, std::span<const IntersectingPair> tolerated,
+CoarseResult solve_on_coarser_mesh(Patch& patch, double factor, std::span<const IntersectingPair> tolerated,
                                    const std::function<bool()>& stop, const CoarseToFineOptions& options) {
   CoarseResult result;
   IntersectionFinder finder(patch.triangles, patch.active_count);
@@ -513,7 +515,6 @@ CoarseResult solve_on_coarser_mesh(Patch& patch, int depth, std::span<const Inte
   count();
   if (result.clean || !(patch.edge_length > 0)) return result;
   CoarseToFine solver(patch, tolerated, stop, options);
-  const double factor = std::max(options.least_factor, options.factor_per_depth * depth);
   if (std::optional<CoarseToFine::Solution> coarse = solver.solve_coarse(factor)) {
     result.iterations = coarse->iterations;
     Positions x = solver.refine(std::move(*coarse));

@@ -180,7 +180,6 @@ class Flow {
         metric_(patch, arap_, options.locality),
         penalty_(patch.triangles, {.margin = options.margin * h_, .vertex_trim = options.vertex_trim}),
         candidates_(patch, options.margin * h_, options.candidate_reach * h_),
-        lambda_minkowski_(options.lambda_minkowski),
         lbfgs_(options.memory, [this](const Eigen::VectorXd& v, Eigen::VectorXd& out) { metric_.apply(v, out); }) {
     Box box;
     for (const Triangle& t : active_) box.extend(box_of(patch.rest, t));
@@ -215,13 +214,13 @@ class Flow {
         result.clean = true;
         break;
       }
-      if (result.iterations >= options_.max_iterations || (stop_ && stop_())) break;
+      if (stop_ && stop_()) break;
       const bool stall = stalled(pairs.size());
       if (worth_finishing(pairs.size(), stall) && finish(full_)) {
         result.clean = true;
         break;
       }
-      if (stall && !react(pairs.size())) break;
+      if (stall && !coarsen(pairs)) break;
       if (!step()) break;
       unpack(x_);
       pairs = find(full_);
@@ -251,8 +250,8 @@ class Flow {
   void record_iteration(std::size_t pairs) {
     IterationRecord iteration{.pairs = pairs};
     iteration[EnergyTerm::arap] = arap_value_;
-    iteration[EnergyTerm::minkowski] = lambda_minkowski_ * penalty_value_;
-    iteration[EnergyTerm::gaussian] = value_ - arap_value_ - lambda_minkowski_ * penalty_value_;
+    iteration[EnergyTerm::minkowski] = options_.lambda_minkowski * penalty_value_;
+    iteration[EnergyTerm::gaussian] = value_ - arap_value_ - options_.lambda_minkowski * penalty_value_;
     record(patch_, full_, iteration);
     if (patch_.progress) patch_.progress->set_pairs(pairs);
   }
@@ -272,8 +271,8 @@ class Flow {
   }
 
   double total(Eigen::VectorXd& gradient) {
-    Positions sum = arap_gradient_ + lambda_minkowski_ * penalty_gradient_;
-    double value = arap_value_ + lambda_minkowski_ * penalty_value_;
+    Positions sum = arap_gradient_ + options_.lambda_minkowski * penalty_gradient_;
+    double value = arap_value_ + options_.lambda_minkowski * penalty_value_;
     value += shape_->value_and_gradient(full_, sum);
     gradient = Eigen::Map<const Eigen::VectorXd>(sum.data(), 3 * n_);
     return value;
@@ -338,21 +337,15 @@ class Flow {
     return ++waited_ >= options_.stall_iterations;
   }
 
-  // Grows the penalty where little is left, else the clusters. False: nothing more to try.
-  bool react(std::size_t count) {
-    reference_ = static_cast<double>(count);
+  // Repels coarser clusters. False: there are none.
+  bool coarsen(std::span<const IntersectingPair> pairs) {
+    reference_ = static_cast<double>(pairs.size());
     waited_ = 0;
     lbfgs_.clear();
-    const bool few = static_cast<double>(count) < options_.few_pairs * static_cast<double>(initial_);
     const double coarser = options_.spacing_growth * shape_->spacing();
-    if (!few && coarser <= options_.max_spacing_rel * diagonal_) {
-      make_shape(coarser);
-      shape_->refresh(full_, find(full_));
-    } else {
-      if (lambda_minkowski_ >= options_.largest_minkowski) return false;
-      lambda_minkowski_ *= options_.minkowski_growth;
-    }
-    value_ = total(gradient_);
+    if (coarser > options_.max_spacing_rel * diagonal_) return false;
+    make_shape(coarser);
+    refresh(pairs);
     return true;
   }
 
@@ -369,7 +362,6 @@ class Flow {
   MinkowskiPenalty penalty_;
   Candidates candidates_;
   std::unique_ptr<ShapeRepulsion> shape_;
-  double lambda_minkowski_;
   Lbfgs lbfgs_;
 
   Positions full_, best_;

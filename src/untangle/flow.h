@@ -11,12 +11,11 @@ namespace unsnarl {
 
 /// Constants of flow(). h is the patch's edge length.
 struct FlowOptions {
-  int max_iterations = 300;  ///< of L-BFGS; most that succeed take 10 to 70
   /// Weight of the metric's zeroth-order term: 30 keeps forces local, 1 moves whole limbs. (Flows with 30, ratios of
   /// distances and adaptive bandwidths left ten of 186 meshes 11 % farther.)
   double locality = 1;
-  /// Weight of the penalty at the start; it grows on stalls. Large early values lock sheets against each other: 1
-  /// solved 15 of 21 meshes, 4 only 10.
+  /// Weight of the penalty. Large ones lock sheets against each other: 1 solved 15 of 21 meshes, 4 only 10. Where it
+  /// grew on stalls with few pairs left, 15 meshes took half as much time again, and ended no closer.
   double lambda_minkowski = 0.3;
   double margin = penalty_margin;
   double spacing_edges = 2;    ///< h: least spacing of the clusters ...
@@ -26,15 +25,12 @@ struct FlowOptions {
   double hot_range = 4;        ///< bandwidths: only clusters this close to an intersecting face interact
   double vertex_trim = 0.1;    ///< of the shared corner of one-vertex pairs: took 52, 18, 6 of them to 0
   double jitter = symmetry_jitter;
-  double accept_motion = 0.02;     ///< h: the line search stops halving here and takes the step: E_M is not smooth
-  int memory = 8;                  ///< of L-BFGS
-  int stall_iterations = 12;       ///< without ...
-  double stall_drop = 0.15;        ///< ... this relative drop of the number of pairs: something must change
-  double few_pairs = 0.1;          ///< of the initial number: then the penalty grows, else the clusters
-  double spacing_growth = 1.6;     ///< of the clusters, on a stall with many pairs left
-  double max_spacing_rel = 0.25;   ///< of the diagonal: how coarse the clusters may get
-  double minkowski_growth = 3;     ///< of the penalty, on a stall with few pairs left
-  double largest_minkowski = 100;  ///< it ends where it would have to grow further: from there on sheets only lock
+  double accept_motion = 0.02;    ///< h: the line search stops halving here and takes the step: E_M is not smooth
+  int memory = 8;                 ///< of L-BFGS
+  int stall_iterations = 12;      ///< without ...
+  double stall_drop = 0.15;       ///< ... this relative drop of the number of pairs: the clusters grow
+  double spacing_growth = 1.6;    ///< of the clusters, on a stall
+  double max_spacing_rel = 0.25;  ///< of the diagonal: how coarse the clusters may get; it ends on the stall after
   /// From this share of the initial pairs on (and from few_finish pairs on), the local contour method tries to take
   /// away the rest: it clears in a few steps what the flow would still chase after 100 iterations. Again when they have
   /// halved.
@@ -57,6 +53,7 @@ struct FlowResult {
 ///   E = E_G + lambda_minkowski h E_M + E_ARAP, every term length squared, all but adjacent clusters repel (§3.5.2),
 /// by L-BFGS in the metric 2 (L + locality A/S): L the Laplacian of ARAP's weights, A/S the vertices' shares of the
 /// area. (Trefoil tube: 226 pairs left after 299 iterations in the plain metric, none after 9 in this one.)
+/// It ends: between two stalls the pairs fall by a share, and on a stall the clusters grow, up to a bound.
 /// Fixed vertices and obstacles repel but stand still. Pairs of faces on the same three vertices and `tolerated` pairs
 /// (sorted, of patch triangles) are let be. Where it fails, patch.x is the state with the fewest pairs. `stop` is asked
 /// once an iteration; true ends the flow as a failure.

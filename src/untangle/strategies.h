@@ -16,7 +16,7 @@ std::span<const Tier> default_tiers();
 /// Those that move only what lies close to the conflict.
 std::span<const Tier> local_tiers();
 
-/// All but those that move whole components: what is left on a coarse mesh, the fine one resolves.
+/// All but those for fine meshes, and the recession, which moves much: a fine mesh has other strategies before it.
 std::span<const Tier> coarse_mesh_tiers();
 
 /// The tiers without the strategies of these names.

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -20,7 +21,7 @@ std::vector<Triangle> triangles_of(const ProgressiveMesh& mesh) {
   return triangles;
 }
 
-std::vector<std::uint8_t> nothing_stays(const shapes::Shape& shape) {
+std::vector<std::uint8_t> all_free(const shapes::Shape& shape) {
   return std::vector<std::uint8_t>(shape.points.size(), 0);
 }
 
@@ -51,7 +52,7 @@ Index coarsen_as_far_as_possible(ProgressiveMesh& mesh, const Positions& x) {
 TEST(ProgressiveMesh, undoing_all_rounds_gives_the_same_mesh) {
   const shapes::Shape sheet = shapes::bumpy_sheet(24, 2, 6);
   const Positions x = sheet.positions();
-  ProgressiveMesh mesh(sheet.triangles, nothing_stays(sheet));
+  ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
   std::vector<std::vector<Triangle>> before;
   for (int round = 0; round < 6; ++round) {
     before.push_back(triangles_of(mesh));
@@ -69,7 +70,7 @@ TEST(ProgressiveMesh, undoing_all_rounds_gives_the_same_mesh) {
 TEST(ProgressiveMesh, a_flat_sheet_keeps_its_area_and_its_boundary_its_length) {
   const shapes::Shape sheet = shapes::bumpy_sheet(20, 0);
   const Positions x = sheet.positions();
-  ProgressiveMesh mesh(sheet.triangles, nothing_stays(sheet));
+  ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
   coarsen_as_far_as_possible(mesh, x);
   const std::vector<Triangle> coarse = triangles_of(mesh);
   EXPECT_LT(coarse.size(), sheet.triangles.size() / 10);
@@ -88,7 +89,7 @@ TEST(ProgressiveMesh, keeps_the_topology) {
     for (Index& v : t) v %= 30 * 16;
   torus.points.resize(30 * 16);
   const Positions x = torus.positions();
-  ProgressiveMesh mesh(torus.triangles, nothing_stays(torus));
+  ProgressiveMesh mesh(torus.triangles, all_free(torus));
   const Index removed = coarsen_as_far_as_possible(mesh, x);
   EXPECT_GT(removed, 200);
   const std::vector<Triangle> coarse = triangles_of(mesh);
@@ -100,7 +101,7 @@ TEST(ProgressiveMesh, stops_at_what_has_no_smaller_triangulation) {
   // Every edge of a tetrahedron is in a triangle of edges that is no hole: whatever is collapsed would be flat.
   const shapes::Shape tetrahedron = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
-  ProgressiveMesh mesh(tetrahedron.triangles, nothing_stays(tetrahedron));
+  ProgressiveMesh mesh(tetrahedron.triangles, all_free(tetrahedron));
   CoarsenOptions anything;
   anything.least_cosine = -2;
   anything.least_quality = 0;
@@ -110,28 +111,44 @@ TEST(ProgressiveMesh, stops_at_what_has_no_smaller_triangulation) {
 
 TEST(ProgressiveMesh, what_stays_and_what_several_fans_share_is_kept) {
   shapes::Shape sheet = shapes::bumpy_sheet(12, 0);
-  std::vector<std::uint8_t> stays = nothing_stays(sheet);
-  for (std::size_t v = 0; v < stays.size(); ++v) stays[v] = sheet.points[v][0] < 0;
+  std::vector<std::uint8_t> ranks = all_free(sheet);
+  for (std::size_t v = 0; v < ranks.size(); ++v) ranks[v] = sheet.points[v][0] < 0 ? ProgressiveMesh::stays : 0;
   // A second sheet that hangs on the first by a vertex.
   const Index hinge = 13 * 9 + 6, first = static_cast<Index>(sheet.points.size());
   sheet.add(shapes::bumpy_sheet(4, 0), {3, 0, 1});
   for (Triangle& t : sheet.triangles) std::replace(t.begin(), t.end(), first + 12, hinge);
-  stays.resize(sheet.points.size(), 0);
-  ProgressiveMesh mesh(sheet.triangles, stays);
+  ranks.resize(sheet.points.size(), 0);
+  ProgressiveMesh mesh(sheet.triangles, ranks);
   coarsen_as_far_as_possible(mesh, sheet.positions());
   std::set<Index> left;
   for (const Triangle& t : triangles_of(mesh)) left.insert(t.begin(), t.end());
-  for (std::size_t v = 0; v < stays.size(); ++v) {
-    EXPECT_TRUE(!stays[v] || left.contains(static_cast<Index>(v)));
+  for (std::size_t v = 0; v < ranks.size(); ++v) {
+    EXPECT_TRUE(ranks[v] == 0 || left.contains(static_cast<Index>(v)));
   }
   EXPECT_TRUE(left.contains(hinge));
   EXPECT_LT(left.size(), sheet.points.size() * 3 / 4);
 }
 
+TEST(ProgressiveMesh, a_vertex_is_collapsed_only_onto_one_of_its_rank_or_above) {
+  const shapes::Shape sheet = shapes::bumpy_sheet(24, 0);
+  std::vector<std::uint8_t> ranks = all_free(sheet);
+  for (std::size_t v = 0; v < ranks.size(); ++v) ranks[v] = sheet.points[v][0] < 0;
+  ProgressiveMesh mesh(sheet.triangles, ranks);
+  coarsen_as_far_as_possible(mesh, sheet.positions());
+  std::array<int, 2> removed = {0, 0};
+  while (mesh.round_count() > 0)
+    for (const ProgressiveMesh::Removal& removal : mesh.refine()) {
+      EXPECT_GE(ranks[removal.parent], ranks[removal.vertex]);
+      ++removed[ranks[removal.vertex]];
+    }
+  EXPECT_GT(removed[0], 100);
+  EXPECT_GT(removed[1], 100);
+}
+
 TEST(ProgressiveMesh, records_where_a_vertex_lay_on_the_fan_that_replaced_its_star) {
   const shapes::Shape sheet = shapes::bumpy_sheet(16, 0);
   const Positions x = sheet.positions();
-  ProgressiveMesh mesh(sheet.triangles, nothing_stays(sheet));
+  ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
   mesh.coarsen(x);
   const std::vector<Triangle> coarse = triangles_of(mesh);
   for (const ProgressiveMesh::Removal& removal : mesh.refine()) {
@@ -158,7 +175,7 @@ TEST(ProgressiveMesh, is_the_same_with_any_number_of_threads) {
   std::vector<Triangle> expected;
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
-    ProgressiveMesh mesh(sheet.triangles, nothing_stays(sheet));
+    ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
     for (int round = 0; round < 5; ++round) mesh.coarsen(x);
     if (threads == 1) expected = triangles_of(mesh);
     EXPECT_EQ(triangles_of(mesh), expected);

@@ -29,7 +29,7 @@ TEST(CoarseToFine, resolves_nearly_all_of_a_deep_tangle) {
   Patch patch = shapes::patch_of(shape);
   const std::size_t before = pairs_in(patch);
   ASSERT_GT(before, 100u);
-  const CoarseResult result = solve_on_coarser_mesh(patch, 8, {}, {});
+  const CoarseResult result = solve_on_coarser_mesh(patch, 4, {}, {});
   EXPECT_EQ(result.pairs_left, pairs_in(patch));
   EXPECT_EQ(result.clean, result.pairs_left == 0);
   EXPECT_LE(result.pairs_left, before / 20);
@@ -49,14 +49,14 @@ TEST(CoarseToFine, resolves_tubes_that_run_through_themselves) {
     Patch patch = shapes::patch_of(tangled_tube(fine));
     const std::size_t before = pairs_in(patch);
     ASSERT_GT(before, 50u);
-    const CoarseResult result = solve_on_coarser_mesh(patch, 2 * fine, {}, {});
+    const CoarseResult result = solve_on_coarser_mesh(patch, fine, {}, {});
     EXPECT_LE(result.pairs_left, before / 10) << before << " before";
   }
 }
 
 TEST(CoarseToFine, an_embedded_patch_stays_where_it_is) {
   Patch patch = shapes::patch_of(shapes::bumpy_sheet(24, 2, 6));
-  const CoarseResult result = solve_on_coarser_mesh(patch, 8, {}, {});
+  const CoarseResult result = solve_on_coarser_mesh(patch, 4, {}, {});
   EXPECT_TRUE(result.clean);
   EXPECT_TRUE(patch.x == patch.rest);
 }
@@ -64,7 +64,7 @@ TEST(CoarseToFine, an_embedded_patch_stays_where_it_is) {
 TEST(CoarseToFine, what_cannot_be_simplified_stays_where_it_is) {
   Patch patch = shapes::patch_of(shapes::crossed_squares());
   const Positions before = patch.x;
-  const CoarseResult result = solve_on_coarser_mesh(patch, 4, {}, {});
+  const CoarseResult result = solve_on_coarser_mesh(patch, 2, {}, {});
   EXPECT_FALSE(result.clean);
   EXPECT_GT(result.pairs_left, 0u);
   EXPECT_TRUE(patch.x == before);
@@ -82,10 +82,10 @@ TEST(CoarseToFine, holds_what_is_fixed_and_lets_tolerated_pairs_be) {
   // All are tolerated: nothing is left to be done.
   IntersectionFinder finder(patch.triangles, patch.active_count);
   const std::vector<IntersectingPair> pairs = finder.find(patch.x);
-  EXPECT_TRUE(solve_on_coarser_mesh(patch, 8, pairs, {}).clean);
+  EXPECT_TRUE(solve_on_coarser_mesh(patch, 4, pairs, {}).clean);
   EXPECT_TRUE(patch.x == before);
 
-  const CoarseResult result = solve_on_coarser_mesh(patch, 8, {}, {});
+  const CoarseResult result = solve_on_coarser_mesh(patch, 4, {}, {});
   EXPECT_LT(result.pairs_left, pairs.size() / 10);
   for (Index v = patch.free_count; v < patch.x.cols(); ++v) EXPECT_TRUE(patch.x.col(v) == before.col(v));
 }
@@ -94,7 +94,7 @@ TEST(CoarseToFine, ends_when_it_is_stopped) {
   Patch patch = shapes::patch_of(shapes::crossing_wide_bumps(2, 2));
   const std::size_t before = pairs_in(patch);
   const Positions start = patch.x;
-  solve_on_coarser_mesh(patch, 8, {}, [] { return true; });
+  solve_on_coarser_mesh(patch, 4, {}, [] { return true; });
   EXPECT_LE(pairs_in(patch), before);
   EXPECT_TRUE(patch.x == start);
 }
@@ -105,7 +105,7 @@ TEST(CoarseToFine, is_the_same_with_any_number_of_threads) {
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
     Patch patch = shapes::patch_of(shape);
-    solve_on_coarser_mesh(patch, 8, {}, {});
+    solve_on_coarser_mesh(patch, 4, {}, {});
     if (threads == 1) expected = patch.x;
     EXPECT_TRUE(patch.x == expected) << threads << " threads";
   }
