@@ -28,7 +28,9 @@ constexpr double least_factor = 2;  ///< and by this at least
 /// Faces of the coarse mesh on which the parts of a larger patch repel each other: on 28 meshes where a flow resolves
 /// something, with it a fifth nearer. Two tori are resolved on the patch itself only.
 constexpr double faces_that_flow = 3000;
-constexpr Index most_faces_that_flow = 30000;  ///< of a patch itself; 432 000 took 500 s, and moved by 19 % of all
+/// Faces of a component that moves as a whole without a coarse mesh, at most: a flow of 432,000 took 500 s, and moved
+/// them by 19 % of the diagonal; a recession of 366,000 took 59 s and 3 GB, for nothing.
+constexpr Index most_faces_at_once = 30000;
 
 /// For what goes by a coarse mesh: it leaves shallow pairs, but may leave many; faces that found little space when they
 /// came back are recovered.
@@ -78,7 +80,7 @@ Strategy repelling(std::string name, Extent extent, int rings = 0) {
 
 Strategy repelling_at_full_resolution() {
   const auto solve = [](Patch& patch, const Task& task) {
-    const bool is_new = patch.active_count > faces_that_flow && patch.active_count <= most_faces_that_flow;
+    const bool is_new = patch.active_count > faces_that_flow && patch.active_count <= most_faces_at_once;
     return is_new ? flow_of(patch, task) : 0;
   };
   return {.name = "fine_flow", .extent = Extent::whole_components, .reach = 20, .is_last_resort = true, .solve = solve};
@@ -86,6 +88,7 @@ Strategy repelling_at_full_resolution() {
 
 Strategy receding() {
   const auto solve = [](Patch& patch, const Task& task) {
+    if (patch.active_count > most_faces_at_once) return 0;
     Positions rest = patch.x;
     rest.swap(patch.rest);
     const int iterations = recede(patch, task.stop, task.tolerated).iterations;
