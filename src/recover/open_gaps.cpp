@@ -88,9 +88,13 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
   std::vector<double> cap(static_cast<std::size_t>(x.cols())), length(cap.size());  // of the vertices' displacements
   Positions p(3, x.cols());
   Positions safe;
+  std::vector<Index> moved;  // in the last round
   for (int round = 0;; ++round) {
     if (options.stop && options.stop()) return;
-    rules.gather(x, options.target, bounds, moves, close);
+    if (round == 0)
+      rules.gather(x, options.target, bounds, moves, close);
+    else
+      rules.gather_around(moved, x, x, options.target, bounds, close);
     gaps.clear();
     bool any_narrow = false;
     for (const ContactRule& rule : close) {
@@ -133,6 +137,9 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
     safe = x;
     x += p;
     if (doubtful) guard.roll_back(x, safe);
+    moved.clear();
+    for (Index v = 0; v < x.cols(); ++v)
+      if (x.col(v) != safe.col(v)) moved.push_back(v);
   }
 }
 

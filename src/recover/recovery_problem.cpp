@@ -100,10 +100,14 @@ void RecoveryProblem::note_iteration() {
   record(patch_, patch_.x, iteration);
 }
 
-const Positions& RecoveryProblem::spread(const Eigen::Matrix3Xd& step) {
+Positions& RecoveryProblem::spread(const Eigen::Matrix3Xd& step) {
   displacement_.setZero(3, patch_.x.cols());
   for (Index i = 0; i < unknowns(); ++i) displacement_.col(moving().vertices[i]) = step.col(i);
   return displacement_;
+}
+
+void RecoveryProblem::collect(Eigen::Matrix3Xd& step) const {
+  for (Index i = 0; i < unknowns(); ++i) step.col(i) = displacement_.col(moving().vertices[i]);
 }
 
 std::vector<std::uint8_t> RecoveryProblem::touched_parts() {
@@ -159,10 +163,12 @@ bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
       step.col(i) = translation.col(k) + std::min(1.0, cap / deformation[k]) * step.col(i);
     }
   }
-  contacts_.follow(patch_.x, spread(step), moving());
+  const std::vector<double> longest = longest_of(step);
+  // Before the contacts are gathered: what slides may meet others there.
+  slide_along_flips(step);
+  contacts_.follow(patch_.x, displacement_, moving());
   if (!limited) return false;
   // Parts that go farther than the cap stop as a whole where one of their vertices would collide.
-  const std::vector<double> longest = longest_of(step);
   std::vector<double> time(parts, 1);
   for (const SeparatedStencil& s : contacts_.in_the_way()) {
     const Index first = part_of(s.stencil.v[0]), last = part_of(s.stencil.v[s.stencil.size() - 1]);
@@ -183,15 +189,17 @@ OrientedFaces RecoveryProblem::oriented() const {
   return {objective_.orientation(), objective_.triangles(), options_.kept_area};
 }
 
-void RecoveryProblem::filter(Eigen::Matrix3Xd& step) {
+void RecoveryProblem::slide_along_flips(Eigen::Matrix3Xd& step) {
   spread(step);
-  // What would flip slides along where it can, and may meet others there.
-  int sweeps = 0;
-  while (sweeps < projection_sweeps && oriented().project(patch_.x, moving().moves, displacement_)) ++sweeps;
-  if (sweeps > 0) contacts_.follow(patch_.x, displacement_, moving());
-  filter_step(contacts_.in_the_way(), oriented(), patch_.x, displacement_, OnCollision::shorten,
+  for (int sweep = 0; sweep < projection_sweeps; ++sweep)
+    if (!oriented().project(patch_.x, moving().moves, displacement_)) break;
+  collect(step);
+}
+
+void RecoveryProblem::filter(Eigen::Matrix3Xd& step) {
+  filter_step(contacts_.in_the_way(), oriented(), patch_.x, spread(step), OnCollision::shorten,
               {.slack = options_.kept_distance});
-  for (Index i = 0; i < unknowns(); ++i) step.col(i) = displacement_.col(moving().vertices[i]);
+  collect(step);
 }
 
 double RecoveryProblem::value(const Eigen::Matrix3Xd& step) {

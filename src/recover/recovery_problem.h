@@ -34,7 +34,8 @@ class RecoveryProblem final : public NewtonProblem {
     hessian_.inverse_blocks(diagonal_only, blocks);
   }
   /// Caps the motion of each connected part of the moving vertices by itself. Where nothing touches a part, its
-  /// translation is not capped: it goes as far as nothing is in the way of the part as a whole.
+  /// translation is not capped: it goes as far as nothing is in the way of the part as a whole. Faces that would flip
+  /// slide along where they can; the contacts that all this may meet are gathered.
   bool limit(Eigen::Matrix3Xd& step) override;
   void filter(Eigen::Matrix3Xd& step) override;
   double value(const Eigen::Matrix3Xd& step) override;
@@ -48,8 +49,12 @@ class RecoveryProblem final : public NewtonProblem {
   void hold_stationary();
   bool hold(std::span<const Stencil> stencils);
   void note_iteration();
-  /// Displacements of all vertices.
-  const Positions& spread(const Eigen::Matrix3Xd& step);
+  /// Displacements of all vertices, in displacement_.
+  Positions& spread(const Eigen::Matrix3Xd& step);
+  /// Back from displacement_.
+  void collect(Eigen::Matrix3Xd& step) const;
+  /// Changes the step where faces would flip, by the shortest ways along which they do not, as far as sweeps get.
+  void slide_along_flips(Eigen::Matrix3Xd& step);
   /// Per part: whether a contact with something else is active.
   std::vector<std::uint8_t> touched_parts();
   OrientedFaces oriented() const;
