@@ -139,6 +139,10 @@ class Insertion {
     for (const int place : {0, 2, 4}) offer(place, x);
   }
 
+  /// Has each vertex found a place without new pairs?
+  bool had_room() const {
+    return std::none_of(tries_.begin(), tries_.end(), [](const Try& t) { return t.failed; });
+  }
   /// Is this vertex elsewhere than at its best place?
   bool is_displaced(std::size_t r) const { return tries_[r].at > 0; }
 
@@ -244,8 +248,7 @@ class CoarseToFine {
     for (int k = 0; k < options_.coarse_solutions && !stopped(); ++k, factor *= options_.next_factor) {
       const std::size_t before = active_faces();
       coarsen_to(static_cast<double>(patch_.active_count) / (factor * factor));
-      const double least_gain = k == 0 ? options_.worthwhile : options_.worthwhile_again;
-      if (static_cast<double>(active_faces()) > least_gain * static_cast<double>(before)) break;
+      if (static_cast<double>(active_faces()) > options_.worthwhile * static_cast<double>(before)) break;
       Solution solution = solve_level_fully();
       if (!best || solution.is_better_than(*best)) best = std::move(solution);
     }
@@ -257,15 +260,14 @@ class CoarseToFine {
   const Positions& refine(Solution solution) {
     while (mesh_.round_count() > solution.round_count) mesh_.refine();
     x_ = std::move(solution.x);
-    double next = options_.level_growth * static_cast<double>(active_faces());
     const double rounds = static_cast<double>(mesh_.round_count());
     while (mesh_.round_count() > 0) {
-      refine_once();
+      const bool had_room = refine_once();
       note_done(1 - 0.5 * static_cast<double>(mesh_.round_count()) / rounds);
-      if (stopped() || static_cast<double>(active_faces()) < next || mesh_.round_count() == 0) continue;
+      const bool is_last = mesh_.round_count() == 0;  // then recovery follows in any case
+      if ((is_last && had_room) || stopped()) continue;
       make_room();
       offer_better_places();
-      next = options_.level_growth * static_cast<double>(active_faces());
     }
     return x_;
   }
@@ -441,8 +443,8 @@ class CoarseToFine {
     for (std::size_t k = 0; k < level.vertices.size(); ++k) x_.col(level.vertices[k]) = level.scene.x.col(k);
   }
 
-  /// Puts the vertices of the last round back.
-  void refine_once() {
+  /// Puts the vertices of the last round back. False: not all of them found a place without new pairs.
+  bool refine_once() {
     const std::vector<Removal> removals = mesh_.refine();
     const std::vector<Triangle> triangles = this->triangles();
     std::vector<Index> star_of_face(patch_.triangles.size(), -1), star_of;
@@ -462,6 +464,7 @@ class CoarseToFine {
     insertion.run(x_);
     for (std::size_t r = 0; r < removals.size(); ++r)
       if (insertion.is_displaced(r)) displaced_.push_back(removals[r]);
+    return insertion.had_room();
   }
 
   /// Vertices that were not put where their fans carry them go there, or half the way, now that there is room, where

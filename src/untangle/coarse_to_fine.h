@@ -12,20 +12,18 @@ namespace unsnarl {
 /// Constants of solve_on_coarser_mesh(). h is the mean edge length of a level; a factor is a ratio of edge lengths.
 struct CoarseToFineOptions {
   /// So many coarse meshes are solved, each coarser by `next_factor` than the one before, and the solution with the
-  /// fewest pairs left, or else the nearest, is carried to the patch. On 27 meshes that need one, the nearest of three
-  /// ends 5 % closer than of two, with 13 % fewer flipped faces, in the same time.
-  int coarse_solutions = 3;
+  /// fewest pairs left, or else the nearest, is carried to the patch. 40 deep, warped and immersed surfaces: with one
+  /// they end 4 % farther, with three as with two.
+  int coarse_solutions = 2;
   double next_factor = 1.6;
   /// Share of the pairs that the coarse mesh may leave. A creature of which one region leaves 12 of 100 ends at 0.85 %
   /// in 67 CPU s where these are carried to the fine mesh, at 0.51 % in 29 s where local strategies begin anew instead.
   double few_left = 0.05;
   double least_faces = 200;        ///< of a coarse mesh
-  double worthwhile = 0.5;         ///< share of the faces: with more left the coarse mesh is hardly cheaper
-  double worthwhile_again = 0.8;   ///< the same against the coarse mesh before
+  double worthwhile = 0.5;         ///< share of the faces of the mesh before: with more a coarse one is hardly cheaper
   double least_round = 0.97;       ///< share of the faces: a round that leaves more is the last
   double coarse_gap = 0.025;       ///< h: kept on the coarse mesh; with more: 1.6 times the time, no gain
-  double level_growth = 3;         ///< ratio of faces from one recovery on the way to the next
-  int level_steps = 12;            ///< of such a recovery; 30: no fewer flipped faces, no nearer
+  int level_steps = 12;            ///< of a recovery on the way; 30: no fewer flipped faces, no nearer
   int level_rings = 2;             ///< freed in it around what is not at rest
   double level_activation = 0.02;  ///< h: its activation distance
   double grid = 1.0 / (1 << 20);   ///< h of the patch: positions of what comes back are rounded to about this
@@ -39,7 +37,8 @@ struct CoarseResult {
 
 /// Untangles a patch from coarse to fine. It is simplified until its edges are `factor` times as long, untangled and
 /// recovered there, and then the removed vertices are put back round by round, each where the exact test finds no new
-/// pair; a few steps of recovery now and then make room. The cost follows the number of faces, however deep the tangle
+/// pair. After every round (the last only where a vertex found no such place) local strategies resolve what it brought,
+/// and a few steps of recovery make room for the next. The cost follows the number of faces, however deep the tangle
 /// is. What is fixed is simplified too (else its edge would keep the coarse mesh fine), and comes back to where it is.
 /// Pairs of active triangles count, but the `tolerated` ones (of patch triangles, sorted). What cannot be resolved on
 /// the coarse mesh, or a patch that cannot be simplified, stays where it is.

@@ -268,7 +268,7 @@ class Escalation {
     patch.progress = &progress;
     Task task{.tolerated = tolerated, .depth = attempt.depth, .stop = ask_};
     if (!options_.accept && !own.empty())
-      task.few_enough = static_cast<std::size_t>(strategy.gain_share * static_cast<double>(own.size() - 1));
+      task.few_enough = static_cast<std::size_t>(options_.gain_share * static_cast<double>(own.size() - 1));
     if (options_.min_gap) task.min_gap = options_.min_gap(attempt.free);
     attempt.iterations += strategy.solve(patch, task);
     attempt.left = Pairs(blocking_pairs(finder.find(patch.x), tolerated));
@@ -352,7 +352,7 @@ class Escalation {
 
   void keep_or_remember(Attempt& attempt, const Strategy& strategy, Index level) {
     if (!attempt.is_clean()) attempt.trajectory.end_at_fewest_pairs();
-    if (attempt.is_clean() || attempt.left.is_below(strategy.gain_share, attempt.before)) {
+    if (attempt.is_clean() || attempt.left.is_below(options_.gain_share, attempt.before)) {
       keep(attempt, strategy, 0);
     } else {
       const Index key = attempt.region.core.front();

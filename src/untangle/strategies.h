@@ -10,13 +10,14 @@
 namespace unsnarl {
 
 /// The default: local strategies, placement of small components, coarse to fine for deep tangles, then repulsion in
-/// the region, smoothing around the conflict, repulsion of whole components, smoothing of wide surroundings, recession.
+/// the region, smoothing around the conflict, repulsion of whole components (of large ones on a coarse mesh, then on
+/// themselves), smoothing of wide surroundings, recession.
 std::span<const Tier> default_tiers();
 
 /// Those that move only what lies close to the conflict.
 std::span<const Tier> local_tiers();
 
-/// All but those for fine meshes, and the recession, which moves much: a fine mesh has other strategies before it.
+/// The default without coarse_to_fine itself, and without recession: before that, the fine mesh has other strategies.
 std::span<const Tier> coarse_mesh_tiers();
 
 /// The tiers without the strategies of these names.

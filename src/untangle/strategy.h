@@ -42,10 +42,6 @@ struct Strategy {
   bool is_last_resort = false;  ///< it is tried only where nothing before it has resolved the region, however far away
   std::size_t hub_valence = no_hubs;
   int least_depth = 0;  ///< edges: tangles less deep are left to other strategies
-  /// A candidate that leaves less than this share of a region's pairs is kept at once; the rest is segmented anew and
-  /// starts with the first strategy. With a third, posed bodies end up to 12 % farther, with 0 they take 1.3 times as
-  /// long.
-  double gain_share = 0.1;
   /// A candidate that squeezes a face to less than this share of its area before is worthless.
   double area_floor = squeezed_area;
   /// Moves the free vertices of patch.x, from where they are, to a state with fewer intersecting pairs, if it finds
