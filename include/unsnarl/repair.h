@@ -63,7 +63,9 @@ struct RepairOptions {
   std::vector<std::int32_t> rigid;
   std::vector<std::string> rigid_names;  ///< of these parts, for reports; missing ones are their numbers
   bool each_component = false;  ///< repair every component as if alone; what runs through others may do so still
-  double min_gap_rel = 0;  ///< wanted gap between sheets / bounding-box diagonal, GapTooWide; 0: a few float32 units
+  /// Wanted gap between sheets / bounding-box diagonal, at most 8 mean widths of the faces (GapTooWide); 0: a few
+  /// float32 units.
+  double min_gap_rel = 0;
   /// Two faces at an edge that are folded together closer than this angle, in degrees, in [0, 90), are opened to it
   /// after the repair, as far as nothing is in the way; also where nothing intersects. 0: left as they are.
   double min_dihedral_deg = 0;
@@ -81,7 +83,8 @@ struct RepairOptions {
   std::vector<std::string> without_strategies;
 };
 
-/// RepairOptions::min_gap_rel is wider than 8 faces (mean side of equilateral triangles of their areas).
+/// RepairOptions::min_gap_rel is more than 8 times as wide as the faces, by the mean side of equilateral triangles of
+/// their areas, and the surface intersects itself.
 class GapTooWide : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -101,7 +104,7 @@ struct RepairResult {
 /// options give the same bytes at any thread count (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an
-/// option is out of range; GapTooWide.
+/// option is out of range, GapTooWide among them.
 RepairResult repair(const SurfaceView& surface, const RepairOptions& options = {}, Context* context = nullptr);
 
 }  // namespace unsnarl

@@ -138,8 +138,8 @@ def repair(
         Number format in which the result must hold: "float32", "float64", or "auto": float32 where V is, or where
         conflicts lie on coordinates coarse enough for it.
     min_gap
-        Wanted gap between sheets, as a fraction of the bounding-box diagonal; at most 8 times as wide as the faces. 0: just
-        enough to be safe.
+        Wanted gap between sheets, as a fraction of the bounding-box diagonal; at most 8 times as wide as the faces.
+        0: just enough to be safe.
     min_dihedral
         Degrees, below 90: two faces at an edge that are folded together closer are opened to this angle, as far as
         nothing is in the way. 0: left as they are.

@@ -37,9 +37,9 @@ namespace unsnarl {
 namespace {
 
 constexpr Index everything = -1;  // instead of a component
-/// The widest gap, in mean sides of the faces (mean_equilateral_side): the pairs of faces that have to keep it grow
-/// with its square. Two tubes of 5,280 faces take 1.4 GB and 39 s at 2.5 sides, 5 GB and 67 s at 5; a third of the
-/// diagonal, which is what a forgotten --absolute asks for, is 19 and took all of 24 GB.
+/// The widest gap, in mean sides of the faces (mean_equilateral_side): the pairs of faces that have to keep it grow with
+/// its square. Two tubes of 10,560 triangles take 1.4 GB and 39 s at 2.8 sides, 5 GB and 67 s at 5.6; a gap of 0.3 that
+/// was meant as a length, but is a share of the diagonal, is 21 and took all of 24 GB.
 constexpr double widest_gap_in_sides = 8;
 
 class Repair {
