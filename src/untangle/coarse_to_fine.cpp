@@ -139,10 +139,6 @@ class Insertion {
     for (const int place : {0, 2, 4}) offer(place, x);
   }
 
-  /// Has each vertex found a place without new pairs?
-  bool had_room() const {
-    return std::none_of(tries_.begin(), tries_.end(), [](const Try& t) { return t.failed; });
-  }
   /// Is this vertex elsewhere than at its best place?
   bool is_displaced(std::size_t r) const { return tries_[r].at > 0; }
 
@@ -262,10 +258,9 @@ class CoarseToFine {
     x_ = std::move(solution.x);
     const double rounds = static_cast<double>(mesh_.round_count());
     while (mesh_.round_count() > 0) {
-      const bool had_room = refine_once();
+      refine_once();
       note_done(1 - 0.5 * static_cast<double>(mesh_.round_count()) / rounds);
-      const bool is_last = mesh_.round_count() == 0;  // then recovery follows in any case
-      if ((is_last && had_room) || stopped()) continue;
+      if (mesh_.round_count() == 0 || stopped()) continue;
       make_room();
       offer_better_places();
     }
@@ -443,8 +438,8 @@ class CoarseToFine {
     for (std::size_t k = 0; k < level.vertices.size(); ++k) x_.col(level.vertices[k]) = level.scene.x.col(k);
   }
 
-  /// Puts the vertices of the last round back. False: not all of them found a place without new pairs.
-  bool refine_once() {
+  /// Puts the vertices of the last round back.
+  void refine_once() {
     const std::vector<Removal> removals = mesh_.refine();
     const std::vector<Triangle> triangles = this->triangles();
     std::vector<Index> star_of_face(patch_.triangles.size(), -1), star_of;
@@ -464,7 +459,6 @@ class CoarseToFine {
     insertion.run(x_);
     for (std::size_t r = 0; r < removals.size(); ++r)
       if (insertion.is_displaced(r)) displaced_.push_back(removals[r]);
-    return insertion.had_room();
   }
 
   /// Vertices that were not put where their fans carry them go there, or half the way, now that there is room, where

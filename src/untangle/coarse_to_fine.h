@@ -37,11 +37,11 @@ struct CoarseResult {
 
 /// Untangles a patch from coarse to fine. It is simplified until its edges are `factor` times as long, untangled and
 /// recovered there, and then the removed vertices are put back round by round, each where the exact test finds no new
-/// pair. After every round (the last only where a vertex found no such place) local strategies resolve what it brought,
-/// and a few steps of recovery make room for the next. The cost follows the number of faces, however deep the tangle
-/// is. What is fixed is simplified too (else its edge would keep the coarse mesh fine), and comes back to where it is.
-/// Pairs of active triangles count, but the `tolerated` ones (of patch triangles, sorted). What cannot be resolved on
-/// the coarse mesh, or a patch that cannot be simplified, stays where it is.
+/// pair. After every round but the last, local strategies resolve what it brought, and a few steps of recovery make
+/// room for the next. The cost follows the number of faces, however deep the tangle is. What is fixed is simplified too
+/// (else its edge would keep the coarse mesh fine), and comes back to where it is. Pairs of active triangles count, but
+/// the `tolerated` ones (of patch triangles, sorted). What cannot be resolved on the coarse mesh, or a patch that
+/// cannot be simplified, stays where it is.
 CoarseResult solve_on_coarser_mesh(Patch& patch, double factor, std::span<const IntersectingPair> tolerated,
                                    const std::function<bool()>& stop, const CoarseToFineOptions& options = {});
 
