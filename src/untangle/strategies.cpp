@@ -21,7 +21,7 @@ constexpr std::size_t hub_valence = 100;
 /// time. 6.6k faces, 2 deep: 0.53 % instead of 0.41.)
 constexpr int deep = 4;
 /// The first coarse mesh of a deep tangle has edges longer by this factor for each edge of its depth: there it is three
-/// edges deep. 27 meshes: 0.25 to 0.4 end equally close, 0.5 5 % farther.
+/// edges deep. Without unit. 27 meshes: 0.25 to 0.4 end equally close, 0.5 5 % farther.
 constexpr double factor_per_depth = 0.35;
 constexpr double least_factor = 2;  ///< and by this at least
 /// Faces of the coarse mesh on which the parts of a larger patch repel each other. Of 28 hard meshes one fewer is
@@ -31,8 +31,8 @@ constexpr double faces_that_flow = 3000;
 /// them by 19 % of the diagonal; a recession of 366,000 took 59 s and 3 GB, for nothing.
 constexpr Index most_faces_at_once = 30000;
 
-/// Strategy::area_floor of what goes by a coarse mesh: faces that found little space when they came back are recovered.
-/// With 1e-6, 40 deep, warped and immersed surfaces end 6 % farther.
+/// Share of its area before, Strategy::area_floor of what goes by a coarse mesh: faces that found little space when
+/// they came back are recovered. With 1e-6, 40 deep, warped and immersed surfaces end 6 % farther.
 constexpr double area_floor_on_coarse_mesh = 1e-12;
 
 Strategy local(std::string name, int rings, LocalSettings settings, std::size_t hubs = no_hubs) {

@@ -41,6 +41,13 @@ inline Shape sphere(const Vec3& center, double radius, Index n) {
   return shape;
 }
 
+/// Two unit spheres of 2 n x n squares, less their poles, that run through each other a little.
+inline Shape two_spheres(Index n) {
+  Shape shape = sphere(Vec3(0, 0, 0), 1, n);
+  shape.add(sphere(Vec3(1.9, 0.05, 0.02), 1, n));
+  return shape;
+}
+
 /// A tube around the closed curve c.
 inline Shape tube(Index along, Index around, double radius, const std::function<Vec3(double)>& c) {
   return unit_grid(along, around, true, true, [&](double u, double v) {

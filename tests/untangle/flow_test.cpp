@@ -31,9 +31,7 @@ void expect_untangled(Patch& patch, double largest_mean_displacement, double lar
 }
 
 TEST(Flow, ParsTwoSpheres) {
-  Shape shape = sphere(Vec3(0, 0, 0), 1, 12);
-  shape.add(sphere(Vec3(1.9, 0.05, 0.02), 1, 12));
-  Patch patch = patch_of(shape);
+  Patch patch = patch_of(two_spheres(12));
   expect_untangled(patch, 0.02, 1.1);
 }
 

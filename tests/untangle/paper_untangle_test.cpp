@@ -12,9 +12,7 @@ using namespace shapes;
 class PaperUntangleTest : public testing::TestWithParam<std::pair<PaperBandwidth, bool>> {};
 
 TEST_P(PaperUntangleTest, PartsTwoSpheres) {
-  Shape shape = sphere(Vec3(0, 0, 0), 1, 12);
-  shape.add(sphere(Vec3(1.9, 0.05, 0.02), 1, 12));
-  Patch patch = patch_of(shape);
+  Patch patch = patch_of(two_spheres(12));
   PaperOptions options;
   options.bandwidth = GetParam().first;
   options.adaptive = GetParam().second;
@@ -48,8 +46,7 @@ TEST(PaperUntangle, DoesNotDependOnTheUnit) {
 }
 
 TEST(PaperUntangle, EveryEnergyCanBeLeftOut) {
-  Shape shape = sphere(Vec3(0, 0, 0), 1, 12);
-  shape.add(sphere(Vec3(1.9, 0.05, 0.02), 1, 12));
+  const Shape shape = two_spheres(12);
   PaperOptions by_length, gaussian_alone, nothing;
   by_length.mesh_energy = PaperMeshEnergy::intersection_length;
   by_length.lambda_gaussian = 0;

@@ -24,19 +24,13 @@ std::set<std::string> names_of(std::span<const Tier> tiers) {
   return names;
 }
 
-Patch two_spheres(Index rows) {
-  shapes::Shape shape = shapes::sphere({0, 0, 0}, 1, rows);
-  shape.add(shapes::sphere({1.9, 0.05, 0.02}, 1, rows));
-  return shapes::patch_of(shape);
-}
-
 int solve(const std::string& name, Patch& patch) {
   const std::function<bool()> never;
   return strategy(name).solve(patch, Task{.tolerated = {}, .stop = never});
 }
 
 TEST(Strategies, a_small_patch_flows_once_and_not_again_at_full_resolution) {
-  Patch patch = two_spheres(12);
+  Patch patch = shapes::patch_of(shapes::two_spheres(12));
   ASSERT_LT(patch.active_count, 3000);
   const Positions start = patch.x;
   EXPECT_EQ(solve("fine_flow", patch), 0);
@@ -47,7 +41,7 @@ TEST(Strategies, a_small_patch_flows_once_and_not_again_at_full_resolution) {
 }
 
 TEST(Strategies, a_large_patch_flows_on_a_coarse_mesh_before_it_flows_itself) {
-  Patch coarse = two_spheres(26), fine = coarse;
+  Patch coarse = shapes::patch_of(shapes::two_spheres(26)), fine = coarse;
   ASSERT_GT(coarse.active_count, 3000);
   const std::size_t before = shapes::count_pairs(coarse);
   EXPECT_GT(solve("flow", coarse), 0);
@@ -58,7 +52,7 @@ TEST(Strategies, a_large_patch_flows_on_a_coarse_mesh_before_it_flows_itself) {
 }
 
 TEST(Strategies, no_patch_of_more_than_30000_faces_moves_at_once) {
-  Patch patch = two_spheres(90);
+  Patch patch = shapes::patch_of(shapes::two_spheres(90));
   ASSERT_GT(patch.active_count, 30000);
   const Positions start = patch.x;
   for (const std::string name : {"fine_flow", "recession"}) EXPECT_EQ(solve(name, patch), 0) << name;
