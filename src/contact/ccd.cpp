@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/parallel_lists.h"
 
@@ -32,6 +33,21 @@ double approach_speed(StencilKind kind, std::array<Vec3, 4>& p) {
   return std::sqrt(fastest[0]) + std::sqrt(fastest[1]);
 }
 
+/// How long the primitives, at x with velocities p, stay `level` apart along `direction`, a unit vector from the second
+/// to the first: as long as each two of their vertices do.
+double time_apart(StencilKind kind, const Vec3& direction, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& p,
+                  double level) {
+  const int first = first_primitive_size(kind), n = stencil_size(kind);
+  double time = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < first; ++i)
+    for (int j = first; j < n; ++j) {
+      const double closing = direction.dot(p[j] - p[i]);
+      if (!(closing > 0)) continue;
+      time = std::min(time, std::max(0.0, direction.dot(x[i] - x[j]) - level) / closing);
+    }
+  return time;
+}
+
 }  // namespace
 
 double time_of_impact(StencilKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& p, double separation,
@@ -39,25 +55,24 @@ double time_of_impact(StencilKind kind, const std::array<Vec3, 4>& x, const std:
   std::array<Vec3, 4> velocity = p;
   const double speed = approach_speed(kind, velocity);
   if (!(speed > 0)) return 1;
-  double free_distance = std::sqrt(squared_distance(kind, x)) - separation;
-  if (free_distance > speed) return 1;  // too slow to arrive within the step; also where both are zero
+  Closest at = closest(kind, x);
+  const double free_distance = at.distance - separation;
+  if (free_distance > speed) return 1;                                  // too slow to arrive within the step
   if (!(free_distance > 0)) return std::numeric_limits<double>::min();  // precondition broken: do not move
-  const double keep = options.slack * free_distance;
+  const double level = separation + options.slack * free_distance;
 
   const int n = stencil_size(kind);
   std::array<Vec3, 4> moved = x;
   double time = 0;
   for (int advance = 0; advance < options.max_advances; ++advance) {
-    const double next = time + (1 - options.slack) * free_distance / speed;
+    const double by_speed = (at.distance - level) / speed;
+    const double next = time + std::max(by_speed, time_apart(kind, at.direction, moved, velocity, level));
     if (next >= 1) return 1;
-    if (!(next > time)) break;
-    for (int i = 0; i < n; ++i) moved[i] = x[i] + next * velocity[i];
-    const double distance = std::sqrt(squared_distance(kind, moved)) - separation;
-    // The first advance is safe whatever round-off makes of the distance there.
-    if (!(distance > keep) && time > 0) break;
+    if (!(next > (1 + options.least_advance) * time)) break;
     time = next;
-    if (!(distance > keep)) break;
-    free_distance = distance;
+    for (int i = 0; i < n; ++i) moved[i] = x[i] + time * velocity[i];
+    at = closest(kind, moved);
+    if (!(at.distance > level)) break;
   }
   return std::max(time, std::numeric_limits<double>::min());
 }

@@ -217,7 +217,7 @@ void ContactCandidates::gather_pair(const Positions& x, double radius, const Mot
   const auto append = [&](const Stencil& stencil) {
     const Closest at = closest(stencil, x);
     const double least = least_distance(stencil, x, bounds, at.direction);
-    if (least <= radius) stencils.push_back({stencil, at.distance, least});
+    if (least <= radius) stencils.push_back({stencil, at.distance, at.direction, least});
   };
   const Shared& shared = shared_of_corners[equal_corners(corners_[a], corners_[b])];
   const auto gather_corners = [&](Index t, Index other, unsigned corners_of_other) {

@@ -14,7 +14,8 @@ namespace unsnarl {
 
 struct NearStencil {
   Stencil stencil;
-  double distance = 0;        ///< of its primitives
+  double distance = 0;            ///< of its primitives
+  Vec3 direction = Vec3::Zero();  ///< of the shortest way (Closest::direction)
   double least_distance = 0;  ///< that they keep within their bounds, at least: least_distance() along the shortest way
   friend bool operator==(const NearStencil& s, const NearStencil& t) = default;
 };

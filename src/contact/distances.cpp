@@ -166,6 +166,18 @@ Closest closest(const Stencil& stencil, const Positions& x) {
   return finish(nearest(stencil, x));
 }
 
+Closest closest(StencilKind kind, const std::array<Vec3, 4>& x) {
+  switch (kind) {
+    case StencilKind::vertex_face:
+      return closest_vertex_face(x[0], x[1], x[2], x[3]);
+    case StencilKind::edge_edge:
+      return closest_edge_edge(x[0], x[1], x[2], x[3]);
+    case StencilKind::vertex_edge:
+      break;
+  }
+  return closest_vertex_edge(x[0], x[1], x[2]);
+}
+
 double approach(const Stencil& s, std::span<const double> lengths) {
   switch (s.kind) {
     case StencilKind::vertex_face:

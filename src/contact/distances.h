@@ -44,6 +44,8 @@ Closest closest_edge_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
 Closest closest_vertex_edge(const Vec3& p, const Vec3& a, const Vec3& b);
 
 Closest closest(const Stencil& stencil, const Positions& x);
+/// The same of vertices at these positions, in the stencil's order.
+Closest closest(StencilKind kind, const std::array<Vec3, 4>& x);
 
 /// Upper bound of the change of a stencil's distance while each vertex v moves by at most lengths[v].
 double approach(const Stencil& stencil, std::span<const double> lengths);

@@ -55,13 +55,18 @@ void ContactList::follow(const Positions& x, const Positions& p, const MovingVer
     travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
     travel_[v] = p.col(v).norm();
   }
+  MotionBounds way;  // each vertex may stop anywhere on it
+  way.reset(static_cast<Index>(x.cols()));
+  way.along = p;
   gather_in_chunks(static_cast<Index>(list_.size()), chunk, in_the_way_,
                    [&](Index begin, Index end, std::vector<SeparatedStencil>& list) {
                      for (Index k = begin; k < end; ++k) {
                        const BarrierStencil& s = list_[k].stencil;
                        const double left =
                            list_[k].distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
-                       if (left <= s.separation + rules_.options().roundoff) list.push_back({s.stencil, s.separation});
+                       const double needed = s.separation + rules_.options().roundoff;
+                       if (left > needed || least_distance(s.stencil, x, way, list_[k].direction) > needed) continue;
+                       list.push_back({s.stencil, s.separation});
                      }
                    });
 }

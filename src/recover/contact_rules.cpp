@@ -111,6 +111,7 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   if (!(distance > 0)) return false;
   rule.stencil.stencil = s;
   rule.distance = near.distance;
+  rule.direction = near.direction;
   rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
   const auto [first, second] = s.primitives;
   const bool is_edge = s.kind == StencilKind::edge_edge;
@@ -155,6 +156,7 @@ void ContactRules::add_altitudes(const Positions& from, const Positions& x, cons
       rule.reach = options_.rest_share * rule.rest_distance;
       const Closest at = closest(s, from);
       rule.distance = at.distance;
+      rule.direction = at.direction;
       if (least_distance(s, from, bounds, at.direction) > rule.reach) continue;
       const double distance = std::sqrt(squared_distance(s, x));
       if (!(distance > 0)) continue;

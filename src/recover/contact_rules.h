@@ -16,10 +16,11 @@ struct ContactRule {
   BarrierStencil stencil;
   double reach = 0;  ///< the activation distance never exceeds this
   double rest_distance = 0;
-  double distance = 0;        ///< where its vertices' bounds start
-  bool closed = false;        ///< closer than it should be
-  bool neighbours = false;    ///< of one sheet, of which min_gap is not asked
-  bool own_altitude = false;  ///< a corner of a face against the opposite edge: keeps the face from being squeezed
+  double distance = 0;            ///< where its vertices' bounds start
+  Vec3 direction = Vec3::Zero();  ///< of the shortest way there (Closest::direction)
+  bool closed = false;            ///< closer than it should be
+  bool neighbours = false;        ///< of one sheet, of which min_gap is not asked
+  bool own_altitude = false;      ///< a corner of a face against the opposite edge: keeps the face from being squeezed
 };
 
 struct ContactRuleOptions {

@@ -54,6 +54,18 @@ TEST(Ccd, GrazingStopsBeforeTheContact) {
   EXPECT_GT(t, 0.3);
 }
 
+TEST(Ccd, SlidingIsNotHeldUp) {
+  for (double gap : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    const Four x = {Vec3(0.2, 0.2, gap), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    const Four slides = {Vec3(0.25, 0.25, 0), zero, zero, zero};
+    EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, slides, 0.5 * gap), 1) << gap;
+    // While it nears the face too, it goes as far as that allows.
+    const Four nears = {Vec3(0.25, 0.25, -2 * gap), zero, zero, zero};
+    const double t = time_of_impact(StencilKind::vertex_face, x, nears, 0);
+    EXPECT_NEAR(t, 0.45, 0.01) << gap;  // a slack of 0.1 keeps a tenth of the distance
+  }
+}
+
 TEST(Ccd, RoundOffGapsNeverCloseNorReturnZero) {
   for (double gap : {1e-6, 1e-9, 1e-12, 1e-15}) {
     const Four x = {Vec3(0.3, 0.3, gap), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
