@@ -151,6 +151,9 @@ class Fix {
   int run() {
     if (!options_.view.empty()) require_viewer();
     for (const std::string& note : scene_.notes()) display_.say("note: {}", note);
+    if (!nesting_.chains.empty())
+      for (const std::string& doubt : nesting_doubts(surface(), nesting_, repair_options_.find))
+        display_.say("note: --nested: {}", doubt);
     // A folder that is missing or must not be written to is found now rather than after the work.
     std::optional<OutputFolder> folder;
     if (options_.is_scene()) folder.emplace(output_);

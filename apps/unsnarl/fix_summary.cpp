@@ -120,9 +120,18 @@ std::vector<std::string> by_file(const SceneReport& scene) {
 }
 
 std::string nested_in_words(const NestedPair& pair) {
-  return fmt::format("{} {} {}: {} vertices on the wrong side before, {} after", pair.inner,
-                     pair.is_nested ? "lies inside" : "does not lie inside", pair.outer, pair.wrong_before,
-                     pair.wrong_after);
+  std::string words = fmt::format("{} {} {}: {} vertices on the wrong side before, {} after", pair.inner,
+                                  pair.is_nested ? "lies inside" : "does not lie inside", pair.outer, pair.wrong_before,
+                                  pair.wrong_after);
+  if (pair.apart.size() == 1)
+    words += fmt::format("; a component, at vertex {}, is there as a whole: it crosses nothing and is not moved",
+                         pair.apart[0]);
+  if (pair.apart.size() > 1)
+    words += fmt::format(
+        "; {} components, the first at vertex {}, are there as a whole: they cross nothing and are not "
+        "moved",
+        pair.apart.size(), pair.apart[0]);
+  return words;
 }
 
 std::string rigid_part_in_words(const RigidPartReport& part) {

@@ -29,8 +29,14 @@ struct Nesting {
 Nesting nesting_of_files(std::span<const SceneFile> files, std::vector<std::vector<std::int32_t>> chains);
 
 /// Throws std::invalid_argument for a nesting that makes no sense: an outer surface is not closed, a surface is twice
-/// in a chain, or inside itself by several chains, two have a vertex in common.
+/// in a chain, or inside itself by several chains, two have a vertex in common, or one that is to lie inside another
+/// holds all of it without crossing it, so that nothing would move.
 void check_nesting(const SurfaceView& surface, const Nesting& nesting, const FindOptions& options = {});
+
+/// What is odd about a nesting that may well be meant, a sentence each: a surface that is to lie inside one of less
+/// volume. Throws as check_nesting() does.
+std::vector<std::string> nesting_doubts(const SurfaceView& surface, const Nesting& nesting,
+                                        const FindOptions& options = {});
 
 /// How one surface lies to the next one out in its chain.
 struct NestedPair {
@@ -39,6 +45,9 @@ struct NestedPair {
   /// outer one; of the outer one, those not strictly outside the inner one (where that is closed).
   std::size_t wrong_before = 0, wrong_after = 0;
   bool is_nested = false;  ///< none of them after, and no face of one meets a face of the other
+  /// The first vertex of each component of either that lies on the wrong side as a whole after, and meets no face of
+  /// the other; ascending. Nothing moves it there: it has to be moved by hand, or left out.
+  std::vector<std::int32_t> apart;
 };
 
 /// repair() that moves surfaces which cross apart in the sense of the nesting, the inner one in, the outer one out,

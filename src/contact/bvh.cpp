@@ -1,11 +1,13 @@
 #include "contact/bvh.h"
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_sort.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstdint>
+#include <limits>
 
 #include "contact/bvh_traversal.h"
 
@@ -15,21 +17,43 @@ namespace {
 constexpr Index parallel_threshold = 20000;  // boxes; below it starting the tasks costs more than they save
 constexpr Index task_size = 1024;            // boxes below the node of a task: a patch of some thousand has several
 
-/// Spreads the low 21 bits of v to every third bit.
-std::uint64_t spread_bits(std::uint64_t v) {
-  v = (v | v << 32) & 0x001f00000000ffffULL;
-  v = (v | v << 16) & 0x001f0000ff0000ffULL;
-  v = (v | v << 8) & 0x100f00f00f00f00fULL;
-  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
-  v = (v | v << 2) & 0x1249249249249249ULL;
-  return v;
+struct BoxCenter {
+  float at[3];
+  Index box;
+};
+
+/// Of `count` boxes below a node, more than a leaf holds: how many go to the left. Full leaves, all but the last.
+Index left_count(Index count, Index leaf_size) {
+  return (count / 2 + leaf_size - 1) / leaf_size * leaf_size;
 }
 
-struct MortonBox {
-  std::uint64_t code;
-  Index box;
-  bool operator<(const MortonBox& other) const { return code != other.code ? code < other.code : box < other.box; }
-};
+/// Orders the boxes as the leaves of the tree: halved, again and again, along the axis of the largest extent of their
+/// centers. Against an order by Morton codes, a check of 25,000 faces looks at 0.17 instead of 0.46 million pairs of
+/// nodes, and the tree takes 5 ms instead of 2.5.
+void split(std::span<BoxCenter> centers, Index leaf_size) {
+  const auto count = static_cast<Index>(centers.size());
+  if (count <= leaf_size) return;
+  std::array<float, 3> lo, hi;
+  lo.fill(std::numeric_limits<float>::infinity());
+  hi.fill(-std::numeric_limits<float>::infinity());
+  for (const BoxCenter& center : centers)
+    for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], center.at[k]), hi[k] = std::max(hi[k], center.at[k]);
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+    if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
+  const Index middle = left_count(count, leaf_size);
+  std::nth_element(centers.begin(), centers.begin() + middle, centers.end(),
+                   [axis](const BoxCenter& a, const BoxCenter& b) {
+                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.box < b.box;
+                   });
+  const std::span<BoxCenter> left = centers.first(middle), right = centers.subspan(middle);
+  if (count < parallel_threshold) {
+    split(left, leaf_size);
+    split(right, leaf_size);
+  } else {
+    oneapi::tbb::parallel_invoke([&] { split(left, leaf_size); }, [&] { split(right, leaf_size); });
+  }
+}
 
 }  // namespace
 
@@ -45,34 +69,18 @@ void Bvh::build(std::span<const Box> boxes) {
   is_watching_only_ = false;
   if (n == 0) return;
   Box bounds;
-  const auto center_of = [&](Index i) {  // of an empty or an endless box any will do
-    const Vec3 center = boxes[i].center();
-    return center.allFinite() ? center : bounds.lo;
-  };
   for (const Box& box : boxes)
     if (const Vec3 center = box.center(); center.allFinite()) bounds.extend(center);
   if (!bounds.lo.allFinite()) bounds.extend(Vec3(Vec3::Zero()));
-  Vec3 scale;
-  for (int k = 0; k < 3; ++k) {
-    const double extent = bounds.hi[k] - bounds.lo[k];
-    scale[k] = extent > 0 ? double((1 << 21) - 1) / extent : 0;
+  std::vector<BoxCenter> centers(n);
+  for (Index i = 0; i < n; ++i) {
+    Vec3 center = boxes[i].center() - bounds.lo;
+    if (!center.allFinite()) center.setZero();  // of an empty or an endless box any will do
+    centers[i] = {{static_cast<float>(center[0]), static_cast<float>(center[1]), static_cast<float>(center[2])}, i};
   }
-  std::vector<MortonBox> sorted(n);
-  auto encode = [&](Index i) {
-    const Vec3 p = (center_of(i) - bounds.lo).cwiseProduct(scale);
-    sorted[i] = {spread_bits(std::uint64_t(p[0])) | spread_bits(std::uint64_t(p[1])) << 1 |
-                     spread_bits(std::uint64_t(p[2])) << 2,
-                 i};
-  };
-  if (n < parallel_threshold) {
-    for (Index i = 0; i < n; ++i) encode(i);
-    std::sort(sorted.begin(), sorted.end());
-  } else {
-    oneapi::tbb::parallel_for(Index{0}, n, encode);
-    oneapi::tbb::parallel_sort(sorted.begin(), sorted.end());
-  }
-  for (Index i = 0; i < n; ++i) order_[i] = sorted[i].box;
-  nodes_.reserve(2 * (n / leaf_size + 1) * 2);
+  split(centers, leaf_size);
+  for (Index i = 0; i < n; ++i) order_[i] = centers[i].box;
+  nodes_.reserve(2 * (static_cast<std::size_t>(n) / leaf_size + 1));
   build_node(0, n);
   refit(boxes);
 }
@@ -84,7 +92,7 @@ Index Bvh::build_node(Index begin, Index end) {
     leaves_.emplace_back();
     nodes_[id].right = -static_cast<Index>(leaves_.size());
   } else {
-    const Index middle = begin + (end - begin) / 2;
+    const Index middle = begin + left_count(end - begin, leaf_size);
     const Index left = build_node(begin, middle);
     const Index right = build_node(middle, end);
     nodes_[id].right = right;

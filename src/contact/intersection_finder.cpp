@@ -28,6 +28,14 @@ bool uses_a_vertex_twice(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
+/// Whether two triangles share a vertex of an unfolded fan: nothing is left to decide. Without branches, since most
+/// pairs of a check come here, in no order.
+bool share_an_unfolded_fan(const VertexFans& fans, const Triangle& a, const Triangle& b) {
+  bool share = false;
+  for (Index v : a) share |= ((v == b[0]) | (v == b[1]) | (v == b[2])) & fans.is_unfolded(v);
+  return share;
+}
+
 }  // namespace
 
 bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairClass& kind) {
@@ -147,15 +155,23 @@ void IntersectionFinder::query(const Box& box, std::vector<Index>& found) const 
   tree_.query(box, [&](Index t) { found.push_back(t); });
 }
 
-std::vector<IntersectingPair> IntersectionFinder::decide() const {
+template <class Skip>
+std::vector<IntersectingPair> IntersectionFinder::decide(Skip&& skip) const {
   std::vector<std::vector<IntersectingPair>> found(tree_.task_count());
   tree_.self_pairs([&](Index task, Index i, Index j) {
+    if (i >= active_count_ || skip(i, j)) return;
     PairClass kind;
-    if (i < active_count_ && intersects(x_, triangles_[i], triangles_[j], kind)) found[task].push_back({i, j, kind});
+    if (intersects(x_, triangles_[i], triangles_[j], kind)) found[task].push_back({i, j, kind});
   });
   std::vector<IntersectingPair> pairs;
   join_lists(found, pairs);
   return pairs;
+}
+
+std::vector<IntersectingPair> IntersectionFinder::decide_all() {
+  if (!fans_) fans_.emplace(triangles_, active_count_, static_cast<Index>(x_.cols()));
+  fans_->update(x_);
+  return decide([&](Index i, Index j) { return share_an_unfolded_fan(*fans_, triangles_[i], triangles_[j]); });
 }
 
 std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
@@ -163,19 +179,19 @@ std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
   const std::size_t undecided = undecided_.items().size();
   is_all_undecided_ |= undecided > 0 && !is_few(undecided, static_cast<std::size_t>(active_count_));
   if (is_all_undecided_ && decided_as_a_whole_ >= seldom && !tree_.is_turned()) {
-    if (!moving_) moving_.emplace(triangles_, active_count_, static_cast<Index>(x.cols()));
+    if (!moving_) moving_.emplace(triangles_, active_count_, std::move(*fans_));
     pairs_ = moving_->find(x_);
   } else if (is_all_undecided_) {
     ++decided_as_a_whole_;
     update_tree();
     if (watches_undecided_) tree_.watch_active();
     watches_undecided_ = false;
-    pairs_ = decide();
+    pairs_ = decide_all();
   } else if (!undecided_.items().empty()) {
     update_tree();
     tree_.watch_only(undecided_.items());
     watches_undecided_ = true;
-    std::vector<IntersectingPair> pairs = decide();
+    std::vector<IntersectingPair> pairs = decide([](Index, Index) { return false; });
     std::copy_if(pairs_.begin(), pairs_.end(), std::back_inserter(pairs),
                  [&](const IntersectingPair& pair) { return !undecided_.has(pair.a) && !undecided_.has(pair.b); });
     pairs_ = std::move(pairs);

@@ -65,7 +65,11 @@ class IntersectionFinder {
   /// Takes over the positions, but for the tree.
   void note(const Positions& x);
   void update_tree();
-  std::vector<IntersectingPair> decide() const;
+  /// Those pairs that the tree visits, but for those that skip(i, j) is true of.
+  template <class Skip>
+  std::vector<IntersectingPair> decide(Skip&& skip) const;
+  /// All pairs, those that share a vertex fan by fan where that tells.
+  std::vector<IntersectingPair> decide_all();
 
   std::span<const Triangle> triangles_;
   Index active_count_;
@@ -77,6 +81,7 @@ class IntersectionFinder {
   Some undecided_;                             // triangles that have moved since then
   bool watches_undecided_ = false;             // and not all active triangles
   int decided_as_a_whole_ = 0;                 // so many times
+  std::optional<VertexFans> fans_;             // from the first of them on, or else in moving_
   std::optional<MovingIntersections> moving_;  // for more of these
 };
 

@@ -24,6 +24,10 @@ namespace {
 
 /// Deflate makes nothing smaller than this (zlib's Technical Details, "Maximum Compression Factor").
 constexpr std::uint64_t largest_ratio = 1032;
+/// What unpacks to more than this many bytes, and more times its size, is made to fill the memory: models shrink to a
+/// third to a twentieth.
+constexpr std::uint64_t harmless_size = 64'000'000;
+constexpr std::uint64_t largest_honest_ratio = 200;
 /// Level of compression, 0 to 9: zlib's default. With libzip's own, 9, to repair a model of a million triangles takes
 /// 18 s instead of 7, for 1.5 % less room.
 constexpr zip_uint32_t level = 6;
@@ -100,6 +104,10 @@ std::optional<std::string> ZipArchive::content(const std::string& name) const {
   if (zip_stat_index(archive, static_cast<zip_uint64_t>(entry), 0, &status) < 0) fail(zip_strerror(archive));
   if (status.comp_size > bytes_.size() || status.size / largest_ratio > status.comp_size)
     fail("its size makes no sense; the file is damaged");
+  if (status.size > harmless_size && status.size / largest_honest_ratio > status.comp_size)
+    fail(
+        fmt::format("it would unpack to {} MB, {} times its size, as no model does; pack it anew without what fills it",
+                    status.size / 1'000'000, status.size / std::max<std::uint64_t>(1, status.comp_size)));
   const std::unique_ptr<zip_file_t, ZipDiscard> file(zip_fopen_index(archive, static_cast<zip_uint64_t>(entry), 0));
   if (!file) fail(zip_strerror(archive));
   std::string result(status.size, '\0');

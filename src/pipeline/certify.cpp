@@ -5,12 +5,34 @@
 #include <string>
 
 #include "mesh/areas.h"
+#include "pipeline/certify_prepared.h"
 #include "pipeline/threads.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "scene/rounding.h"
 
 namespace unsnarl {
+namespace {
+
+/// `x`: of the welded vertices at `positions`.
+Certificate certificate_of(const PreparedSurface& prepared, FacePairFinder& finder, const FindOptions& options,
+                           std::span<const double> positions, const Positions& x) {
+  Certificate certificate;
+  const std::vector<Index>& id = prepared.weld_map.vertex_of;
+  for (std::size_t v = 0; v < id.size() && options.weld_tolerance == 0; ++v)
+    for (int k = 0; k < 3; ++k) certificate.seams_closed &= positions[3 * v + k] == x(k, id[v]);
+  certificate.new_zero_area_faces = count_lost_areas(prepared.rest, x, prepared.triangles());
+  certificate.pairs = count_by_class(finder.find(x));
+  return certificate;
+}
+
+}  // namespace
+
+Certificate certify_prepared(const PreparedSurface& prepared, std::span<const double> positions,
+                             const FindOptions& options) {
+  FacePairFinder finder(prepared);
+  return certificate_of(prepared, finder, options, positions, prepared.gather(positions));
+}
 
 class Certifier::Search {
  public:
@@ -25,14 +47,7 @@ class Certifier::Search {
   }
 
   Certificate certify(std::span<const double> positions) {
-    const Positions x = gathered(positions);
-    Certificate certificate;
-    const std::vector<Index>& id = prepared_.weld_map.vertex_of;
-    for (std::size_t v = 0; v < id.size() && options_.weld_tolerance == 0; ++v)
-      for (int k = 0; k < 3; ++k) certificate.seams_closed &= positions[3 * v + k] == x(k, id[v]);
-    certificate.new_zero_area_faces = count_lost_areas(prepared_.rest, x, prepared_.triangles());
-    certificate.pairs = count_by_class(finder_.find(x));
-    return certificate;
+    return certificate_of(prepared_, finder_, options_, positions, gathered(positions));
   }
 
   PairCounts pairs_in_float32(std::span<const double> positions) {

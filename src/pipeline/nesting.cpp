@@ -1,12 +1,19 @@
 #include "pipeline/nesting.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "contact/closed_surface.h"
+#include "contact/intersection_finder.h"
 #include "geometry/sort_unique.h"
+#include "mesh/areas.h"
+#include "mesh/union_find.h"
 #include "pipeline/threads.h"
 
 namespace unsnarl {
@@ -38,6 +45,28 @@ Pairs checked_pairs(const Nesting& nesting, Index count) {
                                   " would have to lie inside itself; name it once in a chain, and in the same order "
                                   "in all chains");
   return pairs;
+}
+
+/// The vertices of the outer surface of a pair are all inside the inner one, none of the inner one's inside the outer.
+bool is_the_other_way_round(const NestedSurfaces& nested, const std::array<Index, 2>& pair, const Positions& x) {
+  const auto [inner, outer] = pair;
+  if (!nested.closed[inner]) return false;
+  const std::vector<Index> wrong = vertices_on_the_wrong_side(nested, pair, x);
+  if (wrong.size() < nested.vertices[inner].size() + nested.vertices[outer].size()) return false;
+  ClosedSurface surface(nested.triangles[inner]);
+  surface.update(x);
+  return surface.side_of(x.col(nested.vertices[outer].front())) == Side::inside;
+}
+
+/// Whether any faces of two surfaces meet.
+bool meet(const NestedSurfaces& nested, const std::array<Index, 2>& pair, const Positions& x) {
+  std::vector<Triangle> both = nested.triangles[pair[0]];
+  const auto first_of_outer = static_cast<Index>(both.size());
+  both.insert(both.end(), nested.triangles[pair[1]].begin(), nested.triangles[pair[1]].end());
+  const std::vector<IntersectingPair> pairs = IntersectionFinder(both).find(x);
+  return std::any_of(pairs.begin(), pairs.end(), [&](const IntersectingPair& found) {
+    return found.a < first_of_outer && found.b >= first_of_outer;
+  });
 }
 
 }  // namespace
@@ -97,6 +126,14 @@ NestedSurfaces nested_surfaces(const SurfaceView& surface, const PreparedSurface
   return nested;
 }
 
+void require_order_is_possible(const NestedSurfaces& nested, const Positions& x, const Nesting& nesting) {
+  for (const std::array<Index, 2>& pair : nested.pairs)
+    if (is_the_other_way_round(nested, pair, x) && !meet(nested, pair, x))
+      throw std::invalid_argument("nested: " + nesting.name(pair[0]) + " is to lie inside " + nesting.name(pair[1]) +
+                                  ", but holds all of it, and no faces of the two meet; a chain goes from the "
+                                  "innermost out: is it the wrong way round?");
+}
+
 Nesting nesting_of_files(std::span<const SceneFile> files, std::vector<std::vector<std::int32_t>> chains) {
   Nesting nesting;
   nesting.chains = std::move(chains);
@@ -109,7 +146,25 @@ Nesting nesting_of_files(std::span<const SceneFile> files, std::vector<std::vect
 }
 
 void check_nesting(const SurfaceView& surface, const Nesting& nesting, const FindOptions& options) {
-  nested_surfaces(surface, prepare(surface, options), nesting);
+  const ThreadLimit threads(options.threads);
+  const PreparedSurface prepared = prepare(surface, options);
+  require_order_is_possible(nested_surfaces(surface, prepared, nesting), prepared.rest, nesting);
+}
+
+std::vector<std::string> nesting_doubts(const SurfaceView& surface, const Nesting& nesting,
+                                        const FindOptions& options) {
+  const PreparedSurface prepared = prepare(surface, options);
+  const NestedSurfaces nested = nested_surfaces(surface, prepared, nesting);
+  const auto volume = [&](Index s) { return std::abs(signed_volume(prepared.rest, nested.triangles[s])); };
+  std::vector<std::string> doubts;
+  for (const auto& [inner, outer] : nested.pairs) {
+    if (!nested.closed[inner] || !(volume(inner) > volume(outer))) continue;
+    doubts.push_back(
+        fmt::format("{} has {:.2g} times the volume of {}, which it is to lie inside of; a chain goes from "
+                    "the innermost out: is it the wrong way round?",
+                    nesting.name(inner), volume(inner) / volume(outer), nesting.name(outer)));
+  }
+  return doubts;
 }
 
 std::vector<NestedPair> nested_pairs(const SurfaceView& before, std::span<const double> after,
@@ -119,12 +174,19 @@ std::vector<NestedPair> nested_pairs(const SurfaceView& before, std::span<const 
   const PreparedSurface prepared = prepare(before, options);
   const NestedSurfaces nested = nested_surfaces(before, prepared, nesting);
   const Positions x = prepared.gather(after);
-  const auto surface_of_face = [&](std::int32_t f) { return nesting.surface_of_vertex[before.face(f)[0]]; };
-  std::set<std::array<std::int32_t, 2>> meet;
+  const auto vertex_of_face = [&](std::int32_t f) { return prepared.weld_map.vertex_of[before.face(f)[0]]; };
+  std::set<std::array<Index, 2>> meet;             // surfaces
+  std::set<std::array<Index, 2>> component_meets;  // a surface
+  UnionFind components = vertices_joined_by(prepared.triangles(), prepared.weld_map.count);
   for (const IntersectingPair& pair : pairs_after) {
-    const std::int32_t a = surface_of_face(pair.a), b = surface_of_face(pair.b);
+    const Index u = vertex_of_face(pair.a), v = vertex_of_face(pair.b);
+    const Index a = nested.surface_of_vertex[u], b = nested.surface_of_vertex[v];
     meet.insert({std::min(a, b), std::max(a, b)});
+    component_meets.insert({components.find(u), b});
+    component_meets.insert({components.find(v), a});
   }
+  std::vector<std::size_t> sizes(components.size());  // of the components, by their first vertices
+  for (std::size_t v = 0; v < sizes.size(); ++v) ++sizes[components.find(static_cast<Index>(v))];
   std::vector<NestedPair> result;
   for (const std::vector<std::int32_t>& chain : nesting.chains)
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
@@ -133,7 +195,16 @@ std::vector<NestedPair> nested_pairs(const SurfaceView& before, std::span<const 
       entry.inner = nesting.name(pair[0]);
       entry.outer = nesting.name(pair[1]);
       entry.wrong_before = vertices_on_the_wrong_side(nested, pair, prepared.rest).size();
-      entry.wrong_after = vertices_on_the_wrong_side(nested, pair, x).size();
+      const std::vector<Index> wrong = vertices_on_the_wrong_side(nested, pair, x);
+      entry.wrong_after = wrong.size();
+      std::map<Index, std::size_t> wrong_in;  // the same by component
+      for (const Index v : wrong) ++wrong_in[components.find(v)];
+      for (const auto& [first, count] : wrong_in) {
+        const Index other = nested.surface_of_vertex[first] == pair[0] ? pair[1] : pair[0];
+        if (count == sizes[first] && !component_meets.count({first, other}))
+          entry.apart.push_back(prepared.weld_map.first[first]);
+      }
+      std::sort(entry.apart.begin(), entry.apart.end());
       entry.is_nested = entry.wrong_after == 0 && !meet.count({std::min(pair[0], pair[1]), std::max(pair[0], pair[1])});
     }
   return result;

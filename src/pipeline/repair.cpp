@@ -37,9 +37,9 @@ namespace unsnarl {
 namespace {
 
 constexpr Index everything = -1;  // instead of a component
-/// The widest gap, in mean sides of the faces (mean_equilateral_side): the pairs of faces that have to keep it grow with
-/// its square. Two tubes of 10,560 triangles take 1.4 GB and 39 s at 2.8 sides, 5 GB and 67 s at 5.6; a gap of 0.3 that
-/// was meant as a length, but is a share of the diagonal, is 21 and took all of 24 GB.
+/// The widest gap, in mean sides of the faces (mean_equilateral_side): the pairs of faces that have to keep it grow
+/// with its square. Two tubes of 10,560 triangles take 1.4 GB and 39 s at 2.8 sides, 5 GB and 67 s at 5.6; a gap of 0.3
+/// that was meant as a length, but is a share of the diagonal, is 21 and took all of 24 GB.
 constexpr double widest_gap_in_sides = 8;
 
 class Repair {
@@ -60,7 +60,10 @@ class Repair {
     check_options();
     phases_.start("diagnose");
     prepare_surface();
-    if (nesting_) nested_ = nested_surfaces(surface_, prepared_, *nesting_);
+    if (nesting_) {
+      nested_ = nested_surfaces(surface_, prepared_, *nesting_);
+      require_order_is_possible(*nested_, prepared_.rest, *nesting_);
+    }
     diagonal_ = diagonal_of(surface_);
     std::vector<std::uint8_t> fixed(prepared_.weld_map.count, 0);
     for (std::size_t v = 0; v < options_.fixed.size(); ++v)

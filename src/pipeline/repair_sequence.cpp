@@ -14,9 +14,9 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/certify_prepared.h"
 #include "pipeline/frame_motion.h"
 #include "pipeline/threads.h"
-#include "unsnarl/certify.h"
 #include "unsnarl/sequence.h"
 
 namespace unsnarl {
@@ -44,7 +44,7 @@ struct Frame {
   RepairResult alone;
   bool is_repaired_alone = false;
   bool is_clean = false;              // came back as it was
-  std::unique_ptr<FrameMotion> seen;  // while its jitter is not known
+  std::unique_ptr<FrameMotion> seen;  // from its first repair on, while its jitter is not known
   bool is_wanted = true;              // else an earlier call came to its result
   bool is_finished = false;
   FrameResult finished;        // until it is handed on
@@ -224,10 +224,17 @@ class SequenceRepair {
     return options;
   }
 
+  void see(Frame& frame) const {
+    if (!frame.seen) frame.seen = std::make_unique<FrameMotion>(surface(frame.input), find());
+  }
+
   void repair_alone(std::size_t s) {
     Frame& frame = frames_[s];
-    frame.alone = repair(surface(frame.input), options_of(s), &context_);
+    see(frame);
+    Finders finders(frame.seen->prepared().triangles());
+    frame.alone = repair_from(surface(frame.input), frame.seen->known(), finders, options_of(s), &context_);
     frame.is_clean = frame.alone.positions == frame.input;
+    if (s < first_ || s >= last_) frame.seen.reset();  // nothing is seen from a frame that is not wanted
   }
 
   /// The mean of the corrections around frame t; frames beyond the ends are as the last ones.
@@ -247,7 +254,7 @@ class SequenceRepair {
 
   void finish(std::size_t t) {
     Frame& frame = frames_[t];
-    frame.seen = std::make_unique<FrameMotion>(surface(frame.input), find());
+    see(frame);
     FrameResult& result = frame.finished;
     if (!frame.is_wanted) {
       result.report.frame = t;
@@ -301,7 +308,7 @@ class SequenceRepair {
     if (smoothed.status != Status::embedded) return;
     // A layer that came out on another side would pop.
     if (largest_distance(smoothed.positions, target) > largest_distance(result.positions, target)) return;
-    const Certificate certificate = Certifier(surface(frame.input), find()).certify(smoothed.positions);
+    const Certificate certificate = certify_prepared(prepared, smoothed.positions, find());
     const bool all = options.goal == Goal::all;
     if (!certificate.seams_closed || (all ? !certificate.embedded() : certificate.pairs[PairClass::disjoint] > 0))
       return;

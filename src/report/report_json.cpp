@@ -95,7 +95,8 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
                               {"outer", pair.outer},
                               {"wrong_before", pair.wrong_before},
                               {"wrong_after", pair.wrong_after},
-                              {"nested", pair.is_nested}});
+                              {"nested", pair.is_nested},
+                              {"apart", pair.apart}});
   json["options"] = options_json(options);
   json["topology"] = topology_json(r.topology);
   json["before"] = pair_counts_json(r.before);

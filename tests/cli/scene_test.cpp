@@ -90,8 +90,12 @@ TEST_F(SceneFiles, TheInnerFileGoesIn) {
   const Json json = Json::parse(contents(report));
   EXPECT_EQ(json["status"], "embedded");
   ASSERT_EQ(json["nested"].size(), 1u);
-  EXPECT_EQ(json["nested"][0],
-            Json({{"inner", "b.ply"}, {"outer", "a.obj"}, {"wrong_before", 3}, {"wrong_after", 0}, {"nested", true}}));
+  EXPECT_EQ(json["nested"][0], Json({{"inner", "b.ply"},
+                                     {"outer", "a.obj"},
+                                     {"wrong_before", 3},
+                                     {"wrong_after", 0},
+                                     {"nested", true},
+                                     {"apart", Json::array()}}));
   EXPECT_EQ(pairs_in({out + "/a.obj", out + "/b.ply"}), 0u);
   EXPECT_EQ(contents(out + "/c.off"), apart);
 
@@ -103,10 +107,12 @@ TEST_F(SceneFiles, TheInnerFileGoesIn) {
   EXPECT_NE(beside.err.find("c.off does not lie inside a.obj: 4 vertices on the wrong side before, 4 after"),
             std::string::npos)
       << beside.err;
+  EXPECT_NE(beside.err.find("4 after; a component, at vertex 8, is there as a whole"), std::string::npos) << beside.err;
   EXPECT_NE(beside.err.find("not nested as asked"), std::string::npos) << beside.err;
   const Json left = Json::parse(contents(report));
   EXPECT_EQ(left["status"], "not_nested");
   EXPECT_EQ(left["exit_code"], 7);
+  EXPECT_EQ(left["nested"][0]["apart"], Json({8}));
   EXPECT_TRUE(left["nested"][1]["nested"]);
   EXPECT_TRUE(left["output"]["written"]);
 }
@@ -117,6 +123,9 @@ TEST_F(SceneFiles, NestingThatMakesNoSenseIsRefused) {
   expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply"}, 2, "two surfaces");
   expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,a.obj,b.ply"}, 2, "b.ply would have to lie inside itself");
   expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,a.obj", "--nested", "a.obj,b.ply"}, 2, "inside itself");
+  write(folder / "held.off",
+        "OFF\n4 4 0\n.1 .1 .1\n.2 .1 .1\n.1 .2 .1\n.1 .1 .2\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+  expect_refusal({"fix", a, folder / "held.off", "-o", out, "--nested", "a.obj,held.off"}, 2, "the wrong way round");
   expect_refusal({"fix", a, folder / "open.off", "-o", out, "--nested", "a.obj,open.off"}, 2, "open.off is not closed");
   expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,a.obj", "--rigid-file", "a.obj"}, 2, "--nested");
   expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,a.obj", "--each"}, 2, "--nested");

@@ -112,6 +112,13 @@ TEST(Threemf, ComponentsThatDoubleEndSoon) {
   EXPECT_PARSE_ERROR(package(bomb), Format::threemf, "show more objects than can be read");
 }
 
+TEST(Threemf, WhatUnpacksToAThousandTimesItsSizeIsRefused) {
+  const std::string padded = replaced(plain, "</model>", std::string(65'000'000, ' ') + "</model>");
+  EXPECT_PARSE_ERROR(package(padded), Format::threemf, "it would unpack to 65 MB");
+  const std::string less = replaced(plain, "</model>", std::string(1'000'000, ' ') + "</model>");
+  EXPECT_EQ(Document::parse(package(less), Format::threemf).surface().positions.size(), 12u);
+}
+
 TEST(Threemf, SurvivesDamage) {
   check_damage(package(plain), Format::threemf);
   check_damage(package(placed, false), Format::threemf);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 #include "unsnarl/parts.h"
@@ -113,19 +114,47 @@ TEST(Nesting, surfaces_may_be_inside_out) {
 }
 
 TEST(Nesting, what_crosses_nothing_is_left_and_told) {
-  const Surface surface = two_spheres(0);
-  const Nesting swapped = nesting_of(surface, {{1, 0}});
-  const RepairResult result = repair_nested(surface, swapped);
+  Surface surface = two_spheres(0);
+  for (std::size_t i = 0; i < surface.positions.size() / 2; i += 3) surface.positions[i] += 3;  // beside each other
+  const Nesting nesting = nesting_of(surface, {{0, 1}});
+  const RepairResult result = repair_nested(surface, nesting);
   EXPECT_EQ(result.positions, surface.positions);
-  const std::vector<NestedPair> pairs = pairs_of(surface, result.positions, swapped);
+  const std::vector<NestedPair> pairs = pairs_of(surface, result.positions, nesting);
   EXPECT_FALSE(pairs[0].is_nested);
-  EXPECT_EQ(pairs[0].wrong_after, surface.view().vertex_count());
+  EXPECT_EQ(pairs[0].wrong_after, surface.view().vertex_count() / 2);
+  EXPECT_EQ(pairs[0].apart, std::vector<std::int32_t>{0});
   EXPECT_EQ(outcome(result.status, pairs), "not_nested");
   EXPECT_EQ(exit_code_of(result.status, pairs), exit_obstructed);
-  const std::vector<NestedPair> right = pairs_of(surface, result.positions, nesting_of(surface, {{0, 1}}));
+  const Surface concentric = two_spheres(0);
+  const std::vector<NestedPair> right = pairs_of(concentric, concentric.positions, nesting_of(concentric, {{0, 1}}));
   EXPECT_TRUE(right[0].is_nested);
+  EXPECT_TRUE(right[0].apart.empty());
   EXPECT_EQ(outcome(Status::embedded, right), "embedded");
   EXPECT_EQ(outcome(Status::reduced, pairs), "reduced");
+}
+
+TEST(Nesting, an_order_that_is_the_other_way_round_is_refused_before_any_work) {
+  const Surface surface = two_spheres(0);
+  const Nesting swapped = nesting_of(surface, {{1, 0}});
+  for (const auto& call : {std::function<void()>([&] { check_nesting(surface, swapped); }),
+                           std::function<void()>([&] { repair_nested(surface, swapped); })}) {
+    try {
+      call();
+      ADD_FAILURE();
+    } catch (const std::invalid_argument& e) {
+      EXPECT_STREQ(e.what(),
+                   "nested: 1 is to lie inside 0, but holds all of it, and no faces of the two meet; a chain goes from "
+                   "the innermost out: is it the wrong way round?");
+    }
+  }
+  // Where the two cross, it may be meant: the larger one is made to fit.
+  const Surface crossing = two_spheres(0.2);
+  const Nesting odd = nesting_of(crossing, {{1, 0}});
+  EXPECT_NO_THROW(check_nesting(crossing, odd));
+  const std::vector<std::string> doubts = nesting_doubts(crossing, odd);
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_NE(doubts[0].find("1 has 1.4 times the volume of 0"), std::string::npos) << doubts[0];
+  EXPECT_TRUE(nesting_doubts(crossing, nesting_of(crossing, {{0, 1}})).empty());
 }
 
 TEST(Nesting, faces_that_meet_are_not_nested_although_no_vertex_is_wrong) {
