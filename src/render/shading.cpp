@@ -131,12 +131,17 @@ std::vector<float> sky_of_pixels(const View& view) {
   return ambient_occlusion(points, normals, view.width, view.height, tangent, options);
 }
 
+float screen_distance(const ScreenPoint& a, const ScreenPoint& b) {
+  const float dx = b.x - a.x, dy = b.y - a.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
+
 /// Adds the edges of a triangle on the screen, as wide as `width` samples and longer by half of that at both ends.
 void add_edges(const std::array<ScreenPoint, 3>& c, float width, std::vector<ScreenPoint>& points,
                std::vector<Triangle>& triangles) {
   for (int k = 0; k < 3; ++k) {
     const ScreenPoint &a = c[k], &b = c[(k + 1) % 3];
-    const float length = std::hypot(b.x - a.x, b.y - a.y), half = 0.5F * width;
+    const float length = screen_distance(a, b), half = 0.5F * width;
     const float dx = length > 0 ? half * (b.x - a.x) / length : half, dy = length > 0 ? half * (b.y - a.y) / length : 0;
     const auto first = static_cast<Index>(points.size());
     points.push_back({a.x - dx - dy, a.y - dy + dx, a.inverse_depth});
@@ -156,8 +161,7 @@ void mark_narrow_red_faces(View& view, std::span<const Index> red) {
     const std::array<ScreenPoint, 3> c = corners_of(view, t);
     if (std::any_of(c.begin(), c.end(), [](const ScreenPoint& p) { return !(p.inverse_depth > 0); })) continue;
     float longest = 0;
-    for (int k = 0; k < 3; ++k)
-      longest = std::max(longest, std::hypot(c[(k + 1) % 3].x - c[k].x, c[(k + 1) % 3].y - c[k].y));
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, screen_distance(c[k], c[(k + 1) % 3]));
     const float twice_area = std::abs((c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x));
     if (twice_area < width * longest || longest == 0) add_edges(c, width, points, triangles);
   }
