@@ -1,5 +1,6 @@
 """Small Debian systems in folders, where a package shows that it brings what it needs (mmdebstrap, chroot; as root)."""
 
+import hashlib
 import shutil
 import subprocess
 import sys
@@ -7,11 +8,15 @@ from contextlib import contextmanager
 from pathlib import Path
 
 TRIED = "opt/tried"  # in the root: a folder for what is tried, gone afterwards
+LONGEST_NAME = 100  # characters of a root's folder; file systems take 255, some tools add to it
 
 
 def make_root(folder, suite, packages):
     """A Debian of this release with its base system and these packages alone; one that is there is taken as it is."""
-    root = Path(folder) / "-".join([suite, *sorted(packages)])
+    name = "-".join([suite, *sorted(packages)])
+    if len(name) > LONGEST_NAME:
+        name = f"{suite}-{hashlib.sha256(name.encode()).hexdigest()[:12]}"
+    root = Path(folder) / name
     if not root.is_dir():
         print(f"making {root} ...", file=sys.stderr)
         unfinished = root.with_name(root.name + ".part")

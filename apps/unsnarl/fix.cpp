@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -130,7 +131,7 @@ class Fix {
         places_(checked_places(options)),
         display_(options.progress, options.quiet),
         memory_guard_(options.memory_limit_mb),
-        scene_(read_scene(options.inputs, format_from_name(options.format))),
+        scene_(read()),
         repair_options_(repair_options(options, scene_)),
         nesting_(nesting_wanted(options, scene_)) {
     claim_buffers();
@@ -166,12 +167,13 @@ class Fix {
       context.cancel();
       if (!options_.quiet) tell("\nstopping; once more to end at once\n");
     });
+    display_.begin("diagnose");
     result_ = nesting_.chains.empty() ? repair(surface(), repair_options_, &context)
                                       : repair_nested(surface(), nesting_, repair_options_, &context);
     interruption_.set_handler(nullptr);
-    display_.clear();
 
     const StageClock writing;
+    begin_writing();
     if (is_to_be_written(result_, surface(), options_.keep_partial)) write_output();
     if (options_.is_scene()) describe_files();
     if (!nesting_.chains.empty()) describe_nesting();
@@ -194,6 +196,11 @@ class Fix {
   }
 
  private:
+  SceneDocument read() {
+    display_.begin("read");
+    return read_scene(options_.inputs, format_from_name(options_.format));
+  }
+
   const Surface& surface() const { return scene_.surface(); }
   fs::path target(std::size_t file) const { return target_of(options_, file); }
   Certifier& certifier() {
@@ -223,6 +230,16 @@ class Fix {
                           place.string()));
       }
     }
+  }
+
+  /// What goes to a terminal is not mixed with progress.
+  void begin_writing() {
+    const std::array outputs = {output_,       options_.report, options_.picture,
+                                options_.view, options_.record, options_.highlight};
+    if (std::any_of(outputs.begin(), outputs.end(), is_stream))
+      display_.clear();
+    else
+      display_.begin("write");
   }
 
   bool float32_digits() const { return result_.report.precision == Precision::float32; }

@@ -11,6 +11,8 @@
 namespace unsnarl::app {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// Progress that has not changed for so long is shown again.
 constexpr std::chrono::milliseconds show_again_after{900};
 
@@ -38,10 +40,28 @@ void ProgressDisplay::show(const Context::Progress& progress) {
   {
     const std::lock_guard lock(mutex_);
     shown_ = progress;
+    is_counted_ = true;
     ++changes_;
     draw();
   }
   ends_or_changes_.notify_all();
+  start_thread();
+}
+
+void ProgressDisplay::begin(std::string_view phase) {
+  if (style_ == ProgressStyle::none) return;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!shown_) shown_.emplace();
+    shown_->phase = phase;
+    ++changes_;
+    wipe();
+  }
+  ends_or_changes_.notify_all();
+  start_thread();
+}
+
+void ProgressDisplay::start_thread() {
   if (thread_.joinable()) return;
   try {
     thread_ = std::thread([this] { show_again(); });
@@ -75,17 +95,19 @@ void ProgressDisplay::show_again() {
 void ProgressDisplay::draw() {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   if (style_ == ProgressStyle::json) {
-    const nlohmann::ordered_json json = {{"fraction", shown_->fraction},
-                                         {"phase", shown_->phase},
-                                         {"pairs_left", shown_->pairs_left},
-                                         {"displacement_rel", shown_->displacement_rel},
-                                         {"seconds", seconds}};
+    const Json json = {{"fraction", shown_->fraction},
+                       {"phase", shown_->phase},
+                       {"pairs_left", is_counted_ ? Json(shown_->pairs_left) : Json()},
+                       {"displacement_rel", shown_->displacement_rel},
+                       {"seconds", seconds}};
     tell(json.dump() + "\n");
     return;
   }
-  tell(fmt::format(
-      "\r\x1b[K{:<9} {:3.0f} %   {} intersecting pairs left   moved up to {:.2g} % of the diagonal   {:.0f} s",
-      shown_->phase, 100 * shown_->fraction, shown_->pairs_left, 100 * shown_->displacement_rel, seconds));
+  const std::string counted = is_counted_
+                                  ? fmt::format("{} intersecting pairs left   moved up to {:.2g} % of the diagonal   ",
+                                                shown_->pairs_left, 100 * shown_->displacement_rel)
+                                  : "";
+  tell(fmt::format("\r\x1b[K{:<9} {:3.0f} %   {}{:.0f} s", shown_->phase, 100 * shown_->fraction, counted, seconds));
   line_shown_ = true;
 }
 

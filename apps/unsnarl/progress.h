@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -21,8 +22,8 @@ enum class ProgressStyle { none, line, json };
 ProgressStyle progress_style(const std::string& name, bool quiet);
 
 /// Progress and notes of a command on standard error. A line on a terminal is wiped when it goes. The last state is
-/// shown again each second with the seconds that have passed, so that a long step is not taken for the
-/// end. Safe from any thread.
+/// shown again each second with the seconds that have passed, so that a long step is not taken for the end. Safe from
+/// any thread.
 class ProgressDisplay {
  public:
   ProgressDisplay(const std::string& style, bool quiet) : style_(progress_style(style, quiet)), is_quiet_(quiet) {}
@@ -31,6 +32,9 @@ class ProgressDisplay {
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   void show(const Context::Progress& progress);
+  /// What goes on now is a step that tells nothing of itself: shown where it takes a second or more. `phase` must be a
+  /// literal.
+  void begin(std::string_view phase);
   /// Wipes the line, before other text; nothing is shown again until show().
   void clear();
   /// A line of its own, unless quiet.
@@ -42,6 +46,7 @@ class ProgressDisplay {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void start_thread();
   void say_line(const std::string& line);
   void show_again();  // the thread's work
   void draw();        // the caller holds the mutex
@@ -53,9 +58,10 @@ class ProgressDisplay {
   std::mutex mutex_;
   std::condition_variable ends_or_changes_;
   std::optional<Context::Progress> shown_;
+  bool is_counted_ = false;  // the pairs that are left: not before the first show()
   bool line_shown_ = false, is_ending_ = false;
   unsigned changes_ = 0;
-  std::thread thread_;  // started by the first show()
+  std::thread thread_;  // started by the first show() or begin()
 };
 
 }  // namespace unsnarl::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -73,6 +74,9 @@ class Document {
   /// vertex, and the faces that use them are left out (noted).
   const Surface& surface() const;
   const std::vector<FaceLabels>& face_labels() const;
+  /// The axis of the positions that points up, of length 1, where the format says so: y in glTF (of a skinned mesh the
+  /// axis that its joints turn there), z in 3MF.
+  const std::optional<std::array<double, 3>>& up() const;
   /// Things worth telling the user, one sentence each.
   const std::vector<std::string>& notes() const;
   /// The file holds 32-bit floats (STL, glTF, FreeSurfer; PLY and others with float positions), so `float32_digits`

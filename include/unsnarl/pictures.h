@@ -30,8 +30,8 @@ struct PictureOptions {
 std::string picture_label(std::string_view title, std::size_t pairs);
 
 /// Before and after side by side, as the bytes of a PNG file. The camera looks down on both at a three-quarter angle: y
-/// up (z where they reach much further along z), the longer horizontal axis to the right. Red faces show through what
-/// hides them as a tint.
+/// up, unless a file says otherwise (SceneFile::up) or they reach much further along z, then z; the longer horizontal
+/// axis to the right. Red faces show through what hides them as a tint.
 ///
 /// before, after: valid polygon meshes; polygons are drawn as fans, faces with corners that are not finite left out.
 /// red_before, red_after: face ids of `before` and `after`, in any order.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -17,6 +18,7 @@ struct SceneFile {
   std::string name;
   std::size_t first_vertex = 0, vertices = 0;
   std::size_t first_face = 0, faces = 0;
+  std::optional<std::array<double, 3>> up = {};  ///< Document::up
 };
 
 /// Mesh files in one coordinate system, seen as one surface: vertices and faces file after file, in the order given.

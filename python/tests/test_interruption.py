@@ -73,6 +73,14 @@ def test_other_threads_run_meanwhile(sheets):
     assert after - before > 3
 
 
+@pytest.fixture(autouse=True)
+def interruptible():
+    """Python ignores Ctrl-C where it was started in the background of a shell; these tests would never end."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def interrupt_soon():
     timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()

@@ -105,6 +105,9 @@ const Surface& Document::surface() const {
 const std::vector<FaceLabels>& Document::face_labels() const {
   return file_->labels;
 }
+const std::optional<std::array<double, 3>>& Document::up() const {
+  return file_->up;
+}
 const std::vector<std::string>& Document::notes() const {
   return file_->notes;
 }

@@ -37,17 +37,22 @@ class GltfParser {
     file_.buffers = GltfBuffers(root_["buffers"].elements(), file_.bytes, file_.container, folder);
     accessors_ = GltfAccessors(root_, file_.buffers);
     file_.stores_float32 = true;
-    places_ = places_of_meshes(root_, meshes_.size());
+    ScenePlaces places = places_in_scene(root_, meshes_.size());
+    places_ = std::move(places.of_meshes);
+    node_places_ = std::move(places.of_nodes);
 
     collect_primitives();
     build_blocks();
     find_other_uses();
     build_faces();
     place_vertices();
+    file_.up = up();
     notes();
   }
 
  private:
+  static constexpr std::array<double, 3> world_up = {0, 1, 0};  // glTF 2.0, section 3.4
+
   struct Primitive {
     std::size_t mesh = 0, number = 0, mode = triangles;
     std::size_t positions = 0;  ///< accessor
@@ -356,6 +361,55 @@ class GltfParser {
     }
   }
 
+  /// The axis nearest to what the scene's y is in the positions, on the mean over the meshes: joints turn a skinned one
+  /// after its positions.
+  std::array<double, 3> up() const {
+    std::array<double, 3> sum{};
+    std::set<std::size_t> shown;
+    for (const Primitive& p : primitives_) shown.insert(p.mesh);
+    for (const std::size_t m : shown) {
+      const std::array<double, 3> one = places_[m].skin ? up_before_skin(*places_[m].skin) : world_up;
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += one[k];
+    }
+    std::size_t axis = 1;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{2}})
+      if (std::abs(sum[k]) > std::abs(sum[axis])) axis = k;
+    std::array<double, 3> result{};
+    result[axis] = sum[axis] < 0 ? -1 : 1;
+    return result;
+  }
+
+  /// What the joints of a skin turn to y, on their mean; y where the skin does not say.
+  std::array<double, 3> up_before_skin(std::size_t id) const {
+    try {
+      const std::vector<Value> skins = root_["skins"].elements();
+      if (id >= skins.size()) return world_up;
+      const std::vector<Value> joints = skins[id]["joints"].elements();
+      std::optional<AccessorLayout> inverse;
+      if (skins[id]["inverseBindMatrices"])
+        inverse = accessors_.matrices(member_index(skins[id], "inverseBindMatrices", 0, "skin"), "skin");
+      std::array<double, 3> sum{};
+      for (std::size_t j = 0; j < joints.size(); ++j) {
+        const std::size_t node = joints[j].index().value_or(node_places_.size());
+        if (node >= node_places_.size() || !node_places_[node] || (inverse && j >= inverse->count)) continue;
+        Placement skinning = *node_places_[node];
+        if (inverse)
+          skinning = skinning * Placement::of_columns(load_matrix(file_.buffers.data(inverse->buffer),
+                                                                  inverse->start + j * inverse->stride));
+        if (!skinning.is_invertible()) continue;
+        const std::array<double, 3> origin = skinning.to_world({0, 0, 0});
+        const std::array<double, 3> before = skinning.to_local({origin[0], origin[1] + 1, origin[2]});
+        const double length = std::hypot(before[0], before[1], before[2]);
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += before[k] / length;
+      }
+      const double length = std::hypot(sum[0], sum[1], sum[2]);
+      if (!std::isnormal(length)) return world_up;
+      return {sum[0] / length, sum[1] / length, sum[2] / length};
+    } catch (const FileError&) {  // nothing but a view depends on it
+      return world_up;
+    }
+  }
+
   void notes() {
     std::vector<std::string>& notes = file_.notes;
     std::set<std::size_t> shown;
@@ -363,7 +417,7 @@ class GltfParser {
     std::size_t skinned = 0, hidden = 0, flat = 0, instanced = 0;
     for (const std::size_t m : shown) {
       const MeshPlace& place = places_[m];
-      skinned += place.is_skinned;
+      skinned += place.skin.has_value();
       hidden += place.instances == 0;
       flat += place.was_flat;
       instanced += place.instances > 1;
@@ -398,6 +452,7 @@ class GltfParser {
   std::vector<Value> meshes_;
   GltfAccessors accessors_;
   std::vector<MeshPlace> places_;
+  std::vector<std::optional<Placement>> node_places_;
   std::vector<Primitive> primitives_;
   std::vector<std::size_t> order_;             ///< POSITION accessors in the order of their first use
   std::vector<std::int32_t> block_placement_;  ///< for vertices that no face uses

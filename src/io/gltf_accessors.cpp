@@ -24,10 +24,23 @@ std::size_t member_index(const Value& of, const char* key, std::size_t otherwise
   return *result;
 }
 
-std::array<float, 3> load_position(std::string_view data, std::size_t offset) {
-  std::array<float, 3> result{};
-  for (std::size_t k = 0; k < 3; ++k) result[k] = load<float>(data.data() + offset + 4 * k, std::endian::little);
+namespace {
+
+template <std::size_t N>
+std::array<float, N> load_floats(std::string_view data, std::size_t offset) {
+  std::array<float, N> result{};
+  for (std::size_t k = 0; k < N; ++k) result[k] = load<float>(data.data() + offset + 4 * k, std::endian::little);
   return result;
+}
+
+}  // namespace
+
+std::array<float, 3> load_position(std::string_view data, std::size_t offset) {
+  return load_floats<3>(data, offset);
+}
+
+std::array<float, 16> load_matrix(std::string_view data, std::size_t offset) {
+  return load_floats<16>(data, offset);
 }
 
 GltfAccessors::GltfAccessors(const Value& root, const GltfBuffers& buffers)
@@ -42,6 +55,15 @@ AccessorLayout GltfAccessors::positions(std::size_t id, const std::string& user)
                     "convert the positions to 32-bit floats first");
   }
   result.element_size = position_size;
+  locate(result, id, name);
+  return result;
+}
+
+AccessorLayout GltfAccessors::matrices(std::size_t id, const std::string& user) const {
+  const std::string name = fmt::format("{}: accessor {}", user, id);
+  AccessorLayout result = layout(id, "MAT4", name);
+  if (result.component_type != single) throw FileError(name + ": matrices should be of 32-bit floats");
+  result.element_size = matrix_size;
   locate(result, id, name);
   return result;
 }

@@ -24,7 +24,7 @@ struct AccessorLayout {
 /// where an accessor is missing, of another kind, unsupported, or reaches beyond its buffer.
 class GltfAccessors {
  public:
-  static constexpr std::size_t position_size = 3 * sizeof(float);
+  static constexpr std::size_t position_size = 3 * sizeof(float), matrix_size = 16 * sizeof(float);
 
   GltfAccessors() = default;
   /// `root` and `buffers` have to outlive this.
@@ -32,6 +32,8 @@ class GltfAccessors {
 
   /// Three floats an element.
   AccessorLayout positions(std::size_t id, const std::string& user) const;
+  /// Sixteen floats an element, a column after the other.
+  AccessorLayout matrices(std::size_t id, const std::string& user) const;
   AccessorLayout indices(std::size_t id, const std::string& user) const;
   /// Element i of an accessor of indices.
   std::size_t index(const AccessorLayout& indices, std::size_t i) const;
@@ -51,5 +53,7 @@ std::size_t member_index(const JsonText::Value& of, const char* key, std::size_t
 
 /// The three floats at `offset`.
 std::array<float, 3> load_position(std::string_view data, std::size_t offset);
+/// The sixteen floats at `offset`.
+std::array<float, 16> load_matrix(std::string_view data, std::size_t offset);
 
 }  // namespace unsnarl

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "unsnarl/document.h"
 
@@ -13,6 +14,9 @@ namespace {
 /// A placement counts as flat where the volume that its axes span is smaller than this share of a box with edges of
 /// their lengths: mapping back would lose ten of the sixteen digits of a double, more than float32 can spare.
 constexpr double smallest_volume_share = 1e-10;
+
+/// Of a mesh whose node names its skin by something that is no number.
+constexpr std::size_t no_skin = std::numeric_limits<std::size_t>::max();
 
 template <std::size_t N>
 std::optional<std::array<double, N>> numbers(const JsonText::Value& array) {
@@ -39,8 +43,7 @@ std::array<double, N> member(const JsonText::Value& node, std::size_t id, const 
 
 Placement local_transform(const JsonText::Value& node, std::size_t id) {
   if (node["matrix"]) {
-    const auto m = member<16>(node, id, "matrix", {});  // column-major
-    return Placement({m[0], m[4], m[8], m[12], m[1], m[5], m[9], m[13], m[2], m[6], m[10], m[14]});
+    return Placement::of_columns(member<16>(node, id, "matrix", {}));
   }
   const auto t = member<3>(node, id, "translation", {0, 0, 0});
   const auto [x, y, z, w] = member<4>(node, id, "rotation", {0, 0, 0, 1});
@@ -138,10 +141,9 @@ Placement Placement::operator*(const Placement& inner) const {
   return Placement(rows);
 }
 
-std::vector<MeshPlace> places_of_meshes(const JsonText::Value& root, std::size_t mesh_count) {
+ScenePlaces places_in_scene(const JsonText::Value& root, std::size_t mesh_count) {
   const std::vector<JsonText::Value> nodes = root["nodes"].elements();
-  std::vector<MeshPlace> places(mesh_count);
-  std::vector<bool> visited(nodes.size());
+  ScenePlaces places{std::vector<MeshPlace>(mesh_count), std::vector<std::optional<Placement>>(nodes.size())};
   struct Visit {
     std::size_t node;
     Placement parent;
@@ -157,11 +159,11 @@ std::vector<MeshPlace> places_of_meshes(const JsonText::Value& root, std::size_t
     if (id >= nodes.size()) {
       throw FileError(fmt::format("node {} is used, but the file has {} nodes; it is damaged", id, nodes.size()));
     }
-    if (visited[id])
+    if (places.of_nodes[id])
       throw FileError(fmt::format("node {} has several parents or contains itself; the file is damaged", id));
-    visited[id] = true;
     const JsonText::Value& node = nodes[id];
     const Placement world = parent * local_transform(node, id);
+    places.of_nodes[id] = world;
     push(ids(node["children"]), world);
 
     if (!node["mesh"]) continue;
@@ -170,7 +172,7 @@ std::vector<MeshPlace> places_of_meshes(const JsonText::Value& root, std::size_t
       throw FileError(fmt::format("node {} shows mesh {}, but the file has {} meshes; it is damaged", id,
                                   node["mesh"].text().substr(0, 20), mesh_count));
     }
-    MeshPlace& place = places[*mesh];
+    MeshPlace& place = places.of_meshes[*mesh];
     ++place.instances;
     // The joints alone place a skinned mesh; the transform of its node does not count (glTF 2.0, section 3.7.3.3).
     const bool is_skinned = static_cast<bool>(node["skin"]);
@@ -178,7 +180,7 @@ std::vector<MeshPlace> places_of_meshes(const JsonText::Value& root, std::size_t
     const bool is_first_usable = place.instances == 1 || (place.was_flat && placement.is_invertible());
     if (!is_first_usable) continue;
     place.node = node["name"].is_string() ? node["name"].string() : fmt::format("node {}", id);
-    place.is_skinned = is_skinned;
+    place.skin = is_skinned ? std::optional(node["skin"].index().value_or(no_skin)) : std::nullopt;
     place.was_flat = !placement.is_invertible();
     place.placement = place.was_flat ? Placement() : placement;
   }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +31,7 @@ class MeshFile {
   Surface surface;
   std::vector<FaceLabels> labels;
   std::vector<std::string> notes;
+  std::optional<std::array<double, 3>> up;  ///< Document::up
   bool stores_float32 = false;
   bool recompute_normals = false;  ///< patched() updates stored vertex normals too
 };

@@ -76,7 +76,8 @@ SceneDocument::SceneDocument(std::vector<Document> documents, std::vector<std::s
   std::size_t vertices = 0, faces = 0, corners = 0;
   for (std::size_t i = 0; i < documents_.size(); ++i) {
     const SurfaceView part = documents_[i].surface();
-    files_.push_back({std::move(names[i]), vertices, part.vertex_count(), faces, part.face_count()});
+    files_.push_back(
+        {std::move(names[i]), vertices, part.vertex_count(), faces, part.face_count(), documents_[i].up()});
     vertices += part.vertex_count();
     faces += part.face_count();
     corners += part.corners.size();

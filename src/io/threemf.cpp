@@ -240,6 +240,7 @@ std::string name_of_model(const ZipArchive& archive) {
 std::unique_ptr<MeshFile> parse_threemf(std::string bytes, const std::filesystem::path&) {
   if (bytes.empty()) throw FileError("the file is empty; a 3MF file is a ZIP archive");
   auto file = std::make_unique<ThreemfFile>();
+  file->up = {0, 0, 1};  // 3MF core specification, section 3.2: the print goes up along z
   file->bytes = std::move(bytes);
   const ZipArchive archive(file->bytes);
   file->model_name = name_of_model(archive);

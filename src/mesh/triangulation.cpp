@@ -154,18 +154,18 @@ Triangulation triangulate_other_diagonals(const SurfaceView& surface, std::span<
 
 std::string CutStatistics::describe() const {
   std::string text;
-  const auto say = [&](std::size_t number, const std::string& what) {
+  const auto say = [&](std::size_t number, const std::string& of_one, const std::string& of_several) {
     if (number == 0) return;
     if (!text.empty()) text += ", ";
-    text += std::to_string(number) + " " + what;
+    text += std::to_string(number) + " " + (number == 1 ? of_one : of_several);
   };
-  say(triangles, "triangles as they are");
-  say(quads - quads_other_diagonal, "quads cut from their first corner");
-  say(quads_other_diagonal, "quads cut from their second corner");
-  say(clipped, "larger polygons cut ear by ear");
-  say(forced_ears, "of these ears forced");
-  say(too_small, "faces with fewer than three corners");
-  say(dropped, "triangles with a repeated vertex left out");
+  say(triangles, "triangle as it is", "triangles as they are");
+  say(quads - quads_other_diagonal, "quad cut from its first corner", "quads cut from their first corner");
+  say(quads_other_diagonal, "quad cut from its second corner", "quads cut from their second corner");
+  say(clipped, "larger polygon cut ear by ear", "larger polygons cut ear by ear");
+  say(forced_ears, "of these ears forced", "of these ears forced");
+  say(too_small, "face with fewer than three corners", "faces with fewer than three corners");
+  say(dropped, "triangle with a repeated vertex left out", "triangles with a repeated vertex left out");
   return text.empty() ? "no faces" : text;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <new>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "mesh/areas.h"
+#include "pipeline/calling_thread.h"
 #include "pipeline/job.h"
 #include "pipeline/limits.h"
 #include "pipeline/nesting.h"
@@ -292,12 +294,31 @@ class Repair {
   double smallest_gap_ = std::numeric_limits<double>::infinity();
 };
 
+/// Regions are worked on in several threads, which all tell how far they are; the caller is told in its own.
+template <class Work>
+RepairResult reporting_here(Context* context, const Work& work) {
+  Context nobody;
+  if (context == nullptr) return work(nobody);
+  if (!context->on_progress) return work(*context);
+  struct Restored {
+    Context& context;
+    const std::function<void(const Context::Progress&)> tell = std::exchange(context.on_progress, {});
+    ~Restored() { context.on_progress = tell; }
+  } callers{*context};
+  CallingThread here;
+  context->on_progress = [&](const Context::Progress& progress) { here.call([&] { callers.tell(progress); }); };
+  RepairResult result;
+  here.run([&] { result = work(*context); });
+  return result;
+}
+
 }  // namespace
 
 RepairResult repair(const SurfaceView& surface, const RepairOptions& options, Context* context) {
-  Context own;
-  if (!options.rigid.empty()) return repair_with_rigid_parts(surface, options, context ? *context : own);
-  return Repair(surface, nullptr, nullptr, nullptr, options, context ? *context : own).run();
+  return reporting_here(context, [&](Context& own) {
+    if (!options.rigid.empty()) return repair_with_rigid_parts(surface, options, own);
+    return Repair(surface, nullptr, nullptr, nullptr, options, own).run();
+  });
 }
 
 RepairResult repair_nested(const SurfaceView& surface, const Nesting& nesting, const RepairOptions& options,
@@ -306,8 +327,8 @@ RepairResult repair_nested(const SurfaceView& surface, const Nesting& nesting, c
     throw std::invalid_argument(
         "RepairOptions: rigid, each_component and paper know nothing of surfaces inside each other; leave them or the "
         "nesting out");
-  Context own;
-  return Repair(surface, nullptr, nullptr, &nesting, options, context ? *context : own).run();
+  return reporting_here(context,
+                        [&](Context& own) { return Repair(surface, nullptr, nullptr, &nesting, options, own).run(); });
 }
 
 RepairResult repair_from(const SurfaceView& surface, const KnownSurface& known, Finders& finders,

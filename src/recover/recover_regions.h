@@ -14,7 +14,7 @@ struct RecoverRegionsOptions {
   RecoverOptions recover;  ///< all but min_gap
   std::function<double(std::span<const Index> vertices)> min_gap;
   std::function<bool()> stop;
-  std::function<void(double share_done)> on_progress;  ///< a few times a second, in [0, 1]; none: nobody is told
+  std::function<void(double share_done)> on_progress;  ///< a few times a second, from any thread; none: nobody is told
 };
 
 /// Recovers every region (free vertices, ascending; no two regions share one) with all around it held, those that do

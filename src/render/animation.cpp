@@ -184,7 +184,10 @@ void render_animation(const SurfaceView& surface, std::span<const RecordedFrame>
   const int pad = static_cast<int>(letters), height = options.height - bar - strip;
 
   const std::vector<double> everything = all_positions(surface, frames);
-  const auto view_of_width = [&](int width) { return three_quarter_view(everything, double(width) / height, 0.03); };
+  const std::optional<Vec3> up = up_of(options.files);
+  const auto view_of_width = [&](int width) {
+    return three_quarter_view(everything, double(width) / height, 0.03, up);
+  };
   int width = options.width;
   Camera camera = view_of_width(width);
   const Drawable start = make_drawable(surface, frames.front().intersecting, options.files);

@@ -10,7 +10,14 @@
 
 namespace unsnarl {
 
-Camera three_quarter_view(std::span<const double> positions, double aspect, double margin) {
+std::optional<Vec3> up_of(std::span<const SceneFile> files) {
+  for (const SceneFile& file : files)
+    if (file.up) return Vec3(file.up->data());
+  return {};
+}
+
+Camera three_quarter_view(std::span<const double> positions, double aspect, double margin,
+                          const std::optional<Vec3>& up) {
   Box box;
   for (std::size_t k = 0; k + 2 < positions.size(); k += 3) {
     const Vec3 p(positions[k], positions[k + 1], positions[k + 2]);
@@ -23,13 +30,15 @@ Camera three_quarter_view(std::span<const double> positions, double aspect, doub
   // A quarter more than both others is a standing figure in a z-up file; less could be a body of y up seen from its
   // side.
   const bool z_up = extent[2] > 1.25 * std::max(extent[0], extent[1]);
-  const Vec3 vertical = z_up ? Vec3::UnitZ() : Vec3::UnitY();
-  Vec3 across = Vec3::UnitX(), beside = z_up ? Vec3::UnitY() : Vec3::UnitZ();
+  const Vec3 vertical = up ? *up : z_up ? Vec3::UnitZ() : Vec3::UnitY();
+  Eigen::Index axis = 0;
+  vertical.cwiseAbs().maxCoeff(&axis);
+  Vec3 across = axis == 0 ? Vec3::UnitY() : Vec3::UnitX(), beside = axis == 2 ? Vec3::UnitY() : Vec3::UnitZ();
   if (beside.dot(extent) > 1.02 * across.dot(extent)) std::swap(across, beside);
   const Vec3 viewer = across.cross(vertical);  // as z = x cross y
 
   // Flat things are looked at from further above.
-  const double flatness = vertical.dot(extent) / std::max({extent[0], extent[1], extent[2], 1e-300});
+  const double flatness = extent[axis] / std::max({extent[0], extent[1], extent[2], 1e-300});
   const double elevation = (flatness < 0.35 ? 38 : 22) * std::numbers::pi / 180;
   const double azimuth = -30 * std::numbers::pi / 180;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(azimuth, vertical).toRotationMatrix();

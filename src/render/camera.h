@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "geometry/types.h"
+#include "unsnarl/scene_document.h"
 
 namespace unsnarl {
 
@@ -22,9 +24,14 @@ struct Camera {
   }
 };
 
+/// The axis that points up by the first of these files that says so.
+std::optional<Vec3> up_of(std::span<const SceneFile> files);
+
 /// The view from a three-quarter angle above that shows all of `positions` (3 a point, finite ones count) as large as
-/// possible: y up, or z where the points reach much further along z; the longer horizontal axis to the right.
+/// possible; the longer horizontal axis to the right. up: an axis or its opposite; none: y, or z where the points reach
+/// much further along z.
 /// aspect: width over height of the image; margin: share of it that stays free on each side.
-Camera three_quarter_view(std::span<const double> positions, double aspect, double margin);
+Camera three_quarter_view(std::span<const double> positions, double aspect, double margin,
+                          const std::optional<Vec3>& up = {});
 
 }  // namespace unsnarl

@@ -169,7 +169,7 @@ std::string make_page(std::string_view page_template, const PageContent& content
   if (place == std::string_view::npos) throw std::invalid_argument("the template of the page has no place for data");
   const SurfaceView& surface = content.faces;
   const PageUnits units(content.before.positions);
-  const Camera camera = three_quarter_view(content.before.positions, 1, 0.1);
+  const Camera camera = three_quarter_view(content.before.positions, 1, 0.1, up_of(content.files));
 
   DataElements elements;
   const Json frames = add_frames(content.frames, units, elements);

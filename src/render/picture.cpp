@@ -127,7 +127,7 @@ Image render_panels(std::vector<Panel> panels, const PictureOptions& options) {
   std::vector<double> positions;  // both states in one frame
   for (const Panel& panel : panels)
     for (const Vec3& p : panel.drawable.positions) positions.insert(positions.end(), {p[0], p[1], p[2]});
-  const Camera camera = three_quarter_view(positions, double(width) / height, 0.04);
+  const Camera camera = three_quarter_view(positions, double(width) / height, 0.04, up_of(options.files));
 
   Image image(options.width, options.height);
   std::vector<Image> views;

@@ -26,6 +26,10 @@ const std::array<FileColours, 6> file_colours = {{
     {{0.55F, 0.42F, 0.30F}, {0.55F, 0.48F, 0.42F}},
 }};
 
+/// Pixels: red faces that are narrower on the screen are drawn so wide. Of one pixel, a row of conflicts on a mesh of
+/// half a million faces is a dotted, pale line.
+constexpr double least_red_width = 2;
+
 struct Material {
   Linear red = {0.85F, 0.035F, 0.03F};
   Linear line = {0.03F, 0.04F, 0.07F};
@@ -38,6 +42,8 @@ struct View {
   int samples, width, height;  // the latter in pixels
   std::vector<ScreenPoint> points;
   VisibilityBuffer nearest, nearest_red;
+  VisibilityBuffer marks;    // the edges of narrow red faces, as wide as they are drawn
+  float mark_slack_rel = 0;  // how much nearer than a mark may be what it hangs over, relative to one over the depth
 };
 
 std::array<ScreenPoint, 3> corners_of(const View& view, Index triangle) {
@@ -125,6 +131,46 @@ std::vector<float> sky_of_pixels(const View& view) {
   return ambient_occlusion(points, normals, view.width, view.height, tangent, options);
 }
 
+float screen_distance(const ScreenPoint& a, const ScreenPoint& b) {
+  const float dx = b.x - a.x, dy = b.y - a.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+/// Adds the edges of a triangle on the screen, as wide as `width` samples and longer by half of that at both ends.
+void add_edges(const std::array<ScreenPoint, 3>& c, float width, std::vector<ScreenPoint>& points,
+               std::vector<Triangle>& triangles) {
+  for (int k = 0; k < 3; ++k) {
+    const ScreenPoint &a = c[k], &b = c[(k + 1) % 3];
+    const float length = screen_distance(a, b), half = 0.5F * width;
+    const float dx = length > 0 ? half * (b.x - a.x) / length : half, dy = length > 0 ? half * (b.y - a.y) / length : 0;
+    const auto first = static_cast<Index>(points.size());
+    points.push_back({a.x - dx - dy, a.y - dy + dx, a.inverse_depth});
+    points.push_back({a.x - dx + dy, a.y - dy - dx, a.inverse_depth});
+    points.push_back({b.x + dx + dy, b.y + dy - dx, b.inverse_depth});
+    points.push_back({b.x + dx - dy, b.y + dy + dx, b.inverse_depth});
+    triangles.push_back({first, first + 1, first + 2});
+    triangles.push_back({first, first + 2, first + 3});
+  }
+}
+
+void mark_narrow_red_faces(View& view, std::span<const Index> red) {
+  const auto width = static_cast<float>(least_red_width * view.samples);
+  std::vector<ScreenPoint> points;
+  std::vector<Triangle> triangles;
+  for (const Index t : red) {
+    const std::array<ScreenPoint, 3> c = corners_of(view, t);
+    if (std::any_of(c.begin(), c.end(), [](const ScreenPoint& p) { return !(p.inverse_depth > 0); })) continue;
+    float longest = 0;
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, screen_distance(c[k], c[(k + 1) % 3]));
+    const float twice_area = std::abs((c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x));
+    if (twice_area < width * longest || longest == 0) add_edges(c, width, points, triangles);
+  }
+  std::vector<Index> all(triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  rasterise(points, triangles, all, view.marks);
+  view.mark_slack_rel = static_cast<float>(2 * least_red_width * 2 * view.camera.half_height / view.height);
+}
+
 View make_view(const Drawable& drawable, const Camera& camera, int width, int height, int samples) {
   View view{drawable,
             camera,
@@ -132,6 +178,7 @@ View make_view(const Drawable& drawable, const Camera& camera, int width, int he
             width,
             height,
             {},
+            {width * samples, height * samples},
             {width * samples, height * samples},
             {width * samples, height * samples}};
   view.points.reserve(drawable.positions.size());
@@ -154,6 +201,7 @@ View make_view(const Drawable& drawable, const Camera& camera, int width, int he
   rasterise(view.points, drawable.triangles, red, view.nearest_red);
   view.nearest = view.nearest_red;
   rasterise(view.points, drawable.triangles, all, view.nearest);
+  mark_narrow_red_faces(view, red);
   return view;
 }
 
@@ -203,20 +251,20 @@ Image shade(const Drawable& drawable, const Camera& camera, int width, int heigh
                             double(corners[1].y - corners[0].y) * (corners[2].x - corners[0].x);
           const bool front = area < 0;  // y runs down
           if (!front) normal = -normal;
-          const bool is_red = drawable.red[triangle] != 0;
+          const bool is_marked = view.marks.triangle[at] >= 0;
+          const bool is_red =
+              drawable.red[triangle] != 0 ||
+              (is_marked && view.marks.inverse_depth[at] >= (1 - view.mark_slack_rel) * view.nearest.inverse_depth[at]);
           const float visible_sky = sky[std::size_t(y) * width + x];
           const FileColours& own = file_colours[drawable.file[triangle] % file_colours.size()];
-          Linear colour = lit(is_red  ? material.red
-                              : front ? own.front
-                                      : own.back,
-                              normal, to_eye, visible_sky);
+          Linear colour = lit(is_red ? material.red : front ? own.front : own.back, normal, to_eye, visible_sky);
           if (line_strength > 0) {
             const float away = distance_to_edges(corners, drawable.drawn_edges[triangle], i + 0.5F, j + 0.5F) / samples;
             const float cover = line_strength * std::clamp(0.9F - away, 0.0F, 1.0F);
             colour += cover * (material.line - colour);
           }
           colour *= 1 - 0.55F * outline(view, i, j);
-          if (!is_red && view.nearest_red.triangle[at] >= 0)
+          if (!is_red && (is_marked || view.nearest_red.triangle[at] >= 0))
             colour += static_cast<float>(options.xray) * (Linear(0.92F, 0.10F, 0.08F) - colour);
           sum += colour.min(1);
         }

@@ -13,7 +13,8 @@ struct ShadingOptions {
 };
 
 /// The surface seen by the camera, on white: light from the upper left and from the right, front sides bluish and back
-/// sides sand-coloured (further files in colours of their own), red faces vivid and shining through what hides them.
+/// sides sand-coloured (further files in colours of their own), red faces vivid and shining through what hides them;
+/// those that are narrower than two pixels are drawn so wide.
 Image shade(const Drawable& drawable, const Camera& camera, int width, int height, const ShadingOptions& options = {});
 
 }  // namespace unsnarl

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <thread>
+#include <mutex>
 
 namespace unsnarl {
 
@@ -27,8 +27,8 @@ struct PatchProgress {
   }
 };
 
-/// Reports progress while solvers are at work, which all ask whether to stop: now and then, and from the thread alone
-/// that made the reporter, since callers rely on being called on their own.
+/// Reports progress while solvers are at work, which all ask whether to stop: now and then, from the thread that
+/// happens to ask, and one report at a time.
 class ProgressReporter {
  public:
   /// `report` may be empty. Both must outlive the reporter.
@@ -37,9 +37,12 @@ class ProgressReporter {
 
   /// True: stop. Safe from any thread.
   bool asked() {
-    if (report_ && std::this_thread::get_id() == thread_ && Clock::now() - reported_ >= interval) {
-      report_();
-      reported_ = Clock::now();
+    if (report_) {
+      const std::unique_lock lock(mutex_, std::try_to_lock);
+      if (lock && Clock::now() - reported_ >= interval) {
+        report_();
+        reported_ = Clock::now();
+      }
     }
     return stop_ && stop_();
   }
@@ -51,7 +54,7 @@ class ProgressReporter {
 
   const std::function<void()>& report_;
   const std::function<bool()>& stop_;
-  const std::thread::id thread_ = std::this_thread::get_id();
+  std::mutex mutex_;  // of the report and of when the last one was
   Clock::time_point reported_ = Clock::now();
 };
 

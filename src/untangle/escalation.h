@@ -35,7 +35,8 @@ struct EscalationOptions {
   double rings_per_depth = 1.5;
 
   std::function<bool()> stop;
-  /// Told what is kept, and a few times a second how far the candidates are that are made now; none: nobody is.
+  /// Told what is kept, and a few times a second, from any thread, how far the candidates are that are made now; none:
+  /// nobody is.
   std::function<void(const EscalationProgress& progress)> on_progress;
   /// Distance that faces have to have in the end (RecoverOptions::min_gap) around these vertices; none: any.
   std::function<double(std::span<const Index> vertices)> min_gap;

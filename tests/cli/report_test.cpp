@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "cli/program_test.h"
 #include "unsnarl/document.h"
@@ -78,6 +81,26 @@ TEST_F(Report, ProgressCountsFacesAsTheReportDoes) {
   std::getline(lines, line);
   EXPECT_EQ(nlohmann::json::parse(line)["pairs_left"],
             nlohmann::json::parse(contents(folder / "r.json"))["before"]["total"]);
+}
+
+TEST_F(Report, ProgressIsShownWhileTheInputIsRead) {
+  const std::string slow = folder / "slow";
+  ASSERT_EQ(::mkfifo(slow.c_str(), 0600), 0);
+  RunOptions options;
+  options.input = crossing;
+  options.in_child = [&] { ::dup2(::open(slow.c_str(), O_RDONLY), STDIN_FILENO); };
+  std::thread writer([&] {
+    std::ofstream out(slow);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    out << crossing;
+  });
+  const Outcome outcome = run({"fix", "-", "--format", "obj", "-o", folder / "out.obj", "--progress", "json"}, options);
+  writer.join();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto first = nlohmann::json::parse(outcome.err.substr(0, outcome.err.find('\n')));
+  EXPECT_EQ(first["phase"], "read");
+  EXPECT_TRUE(first["pairs_left"].is_null()) << first;
+  EXPECT_LE(first["seconds"], 1.2);
 }
 
 TEST_F(Report, ProgressAsJsonNeverGoesBack) {

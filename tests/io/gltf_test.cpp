@@ -174,6 +174,39 @@ TEST(Gltf, MatrixIsColumnMajor) {
   EXPECT_EQ(document.surface().positions[5], 7.0);
 }
 
+// An armature is turned by a quarter about x, which takes z to y. Without matrices of the bind pose the mesh is
+// modelled with z up; with one that undoes the turn it is modelled as it stands in the scene.
+TEST(Gltf, UpIsWhatTheJointsTurnToY) {
+  using Axis = std::array<double, 3>;
+  const auto up = [](const std::string& json, const std::string& more_bytes = "") {
+    const std::string bytes = glb(json, buffer_bytes() + more_bytes);
+    check_patching(bytes, Format::glb);
+    return Document::parse(bytes, Format::glb).up();
+  };
+  EXPECT_EQ(up(json_text()), (Axis{0, 1, 0}));
+  EXPECT_EQ(up(json_text(moved_node)), (Axis{0, 1, 0})) << "positions are those of the world";
+
+  const std::string nodes =
+      R"("nodes":[{"children":[1,2],"rotation":[-0.7071067811865476,0,0,0.7071067811865476]},
+                  {"mesh":0,"skin":0},{"translation":[1,2,3],"children":[3]},{"translation":[0,1,0]}],)";
+  const std::string posed = json_text(nodes + R"("skins":[{"joints":[2,3]}])");
+  EXPECT_EQ(up(posed), (Axis{0, 0, 1}));
+  EXPECT_EQ(up(replaced(posed, "-0.7071067811865476", "0.7071067811865476")), (Axis{0, 0, -1}));
+  EXPECT_EQ(up(replaced(posed, "[2,3]", "[7]")), (Axis{0, 1, 0})) << "a joint that does not exist";
+  EXPECT_EQ(up(replaced(posed, R"("skin":0)", R"("skin":5)")), (Axis{0, 1, 0}));
+  EXPECT_EQ(up(json_text(nodes + R"("skins":[{"joints":[2],"inverseBindMatrices":1}])")), (Axis{0, 1, 0}))
+      << "indices are no matrices";
+
+  std::string bound = json_text(nodes + R"("skins":[{"joints":[2],"inverseBindMatrices":2}])");
+  bound =
+      replaced(bound, R"("SCALAR"}])", R"("SCALAR"},{"bufferView":2,"componentType":5126,"count":1,"type":"MAT4"}])");
+  bound = replaced(bound, R"("byteLength":24}])", R"("byteLength":24},{"buffer":0,"byteOffset":72,"byteLength":64}])");
+  bound = replaced(bound, R"("byteLength":72})", R"("byteLength":136})");
+  std::string matrix;
+  for (const float m : {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, -1, -2, -3, 1}) put(matrix, m);
+  EXPECT_EQ(up(bound, matrix), (Axis{0, 1, 0}));
+}
+
 TEST(Gltf, NotesOnWhatIsSpecial) {
   const auto note = [](const std::string& nodes,
                        const std::string& primitive = R"("attributes":{"POSITION":0},"indices":1)") {

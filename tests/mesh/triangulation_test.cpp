@@ -271,6 +271,9 @@ TEST(Triangulation, SameAtAnyThreadCount) {
 TEST(Triangulation, DescribesOnlyWhatOccurs) {
   EXPECT_EQ(triangulate(cube()).statistics.describe(), "6 quads cut from their first corner");
   EXPECT_EQ(CutStatistics{}.describe(), "no faces");
+  CutStatistics ones;
+  ones.triangles = ones.quads = ones.clipped = 1;
+  EXPECT_EQ(ones.describe(), "1 triangle as it is, 1 quad cut from its first corner, 1 larger polygon cut ear by ear");
 }
 
 }  // namespace

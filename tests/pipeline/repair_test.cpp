@@ -10,6 +10,8 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <stdexcept>
+#include <thread>
 
 #include "mesh/triangulation.h"
 #include "oracle/intersections_oracle.h"
@@ -251,6 +253,28 @@ TEST(Repair, progress_goes_forward_through_the_phases) {
   EXPECT_EQ(seen.front().displacement_rel, 0);
   EXPECT_NEAR(seen.back().displacement_rel, result.report.displacement_max_rel, 1e-12);
   EXPECT_GT(seen.back().displacement_rel, 0);
+}
+
+// Two tangles far apart are worked on in two threads, where there are two.
+TEST(Repair, progress_is_told_in_the_thread_of_the_caller_alone) {
+  Shape shape = shapes::crossing_bumps(12, 0.4);
+  shape.add(shapes::crossing_bumps(12, 0.4), {100, 0, 0});
+  const Surface surface = shape.surface();
+  const std::thread::id here = std::this_thread::get_id();
+  Context context;
+  int reports = 0;
+  context.on_progress = [&](const Context::Progress&) {
+    ++reports;
+    EXPECT_EQ(std::this_thread::get_id(), here);
+  };
+  RepairOptions options;
+  options.find.threads = 2;
+  const RepairResult result = repair(surface, options, &context);
+  EXPECT_GE(reports, 3);
+  EXPECT_EQ(result.positions, repair(surface, options).positions) << "who watches changes nothing";
+  context.on_progress = [](const Context::Progress&) { throw std::out_of_range("caller"); };
+  EXPECT_THROW(repair(surface, options, &context), std::out_of_range);
+  EXPECT_THROW(context.on_progress({}), std::out_of_range) << "it is the caller's again";
 }
 
 TEST(Repair, the_stages_are_timed) {

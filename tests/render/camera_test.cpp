@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace unsnarl {
@@ -51,6 +52,22 @@ TEST(Camera, UpIsYExceptForFiguresThatStandAlongZ) {
   EXPECT_GT(three_quarter_view(corners_of_box(1, 2, 1), 1, 0).up[1], 0.7);
   EXPECT_GT(three_quarter_view(corners_of_box(2, 1, 1), 1, 0).up[1], 0.7);
   EXPECT_GT(three_quarter_view(corners_of_box(1, 0.5, 3), 1, 0).up[2], 0.7);
+}
+
+TEST(Camera, UpIsWhatAFileSays) {
+  const auto long_along_z = corners_of_box(1, 0.5, 3), tall = corners_of_box(1, 2, 1);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0})
+      for (const auto& box : {long_along_z, tall}) {
+        const Camera c = three_quarter_view(box, 1, 0, sign * Vec3::Unit(axis));
+        EXPECT_GT(sign * c.up[axis], 0.7);
+        EXPECT_GT(sign * c.toward[axis], 0.1) << "seen from above";
+        EXPECT_NEAR((c.right.cross(c.up) - c.toward).norm(), 0, 1e-12);
+      }
+  const std::array<SceneFile, 3> files = {
+      SceneFile{.name = "a.obj"}, {.name = "b.glb", .up = {{0, 1, 0}}}, {.name = "c.3mf", .up = {{0, 0, 1}}}};
+  EXPECT_EQ(up_of(files), Vec3::UnitY());
+  EXPECT_FALSE(up_of(std::span(files).first(1)));
 }
 
 TEST(Camera, LongerHorizontalAxisRunsToTheRight) {

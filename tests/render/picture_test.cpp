@@ -83,6 +83,20 @@ TEST(Picture, HiddenRedFacesShowThroughAsATint) {
   EXPECT_LT(counts.vivid, counts.tinted / 10);
 }
 
+// A row of faces that are a third of a pixel wide: seen as a vivid line, and as an unbroken tint through a plate above.
+TEST(Picture, NarrowRedFacesAreSeen) {
+  const int n = 500;
+  const Surface fine = plate(n);
+  std::vector<Index> row(n);
+  std::iota(row.begin(), row.end(), n / 2 * n);
+  const Counts seen = count(render_pair(fine, row, fine, {}, small()), 0, 200);
+  EXPECT_GT(seen.vivid, 100U) << "as long as the plate, and more than a pixel wide";
+  EXPECT_LT(seen.vivid + seen.tinted, 800U);
+  const Surface hidden = together(fine, plate(1, 0.3));
+  const Counts through = count(render_pair(hidden, row, hidden, {}, small()), 0, 200);
+  EXPECT_GT(through.tinted, 100U);
+}
+
 TEST(Picture, BothStatesAreSeenByOneCamera) {
   const Surface before = plate(4);
   Surface after = before;
