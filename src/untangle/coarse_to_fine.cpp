@@ -71,8 +71,9 @@ struct States {
 
 /// The places to be tried, the best first: where the triangle of the fan carries the vertex, with less and less of its
 /// offset from there; points of the fan closer and closer to the parent; and directions in which it may leave the
-/// parent where the fan is folded up. Close to the parent the new star is hardly more than the fan, which is embedded.
-/// Places that flip fewer faces of the star come before others. `grid`: positions become multiples of it.
+/// parent where the fan is folded up. Places that flip fewer faces of the star come before others. Last come points of
+/// the fan so close to the parent that the new star is hardly more than the fan, which is embedded: one of them is free
+/// wherever there is a gap. `grid`: positions become multiples of it.
 std::vector<Place> places_for(const Removal& removal, std::span<const Triangle> star, const States& states,
                               double grid) {
   const auto& [rest, start, x] = states;
@@ -105,13 +106,22 @@ std::vector<Place> places_for(const Removal& removal, std::span<const Triangle> 
   for (int corner = 0; corner < 8; ++corner)
     add(parent + near * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
 
+  const auto usual = static_cast<std::ptrdiff_t>(places.size());
+  for (const double share : {0.01, 0.003, 0.001}) {
+    add(parent + share * (on_fan - parent));
+    add(parent + share * (middle - parent));
+    for (const Vec3& m : middles) add(parent + share * (m - parent));
+  }
+
   for (Place& place : places)
     for (const Triangle& t : star) {
       const auto at = [&, &x = x](Index v) { return v == removal.vertex ? place.position : Vec3(x.col(v)); };
       const Vec3 a = at(t[0]), b = at(t[1]), c = at(t[2]);
       place.flipped += (b - a).cross(c - a).dot(area_vector(rest, t)) < 0;
     }
-  std::stable_sort(places.begin(), places.end(), [](const Place& p, const Place& q) { return p.flipped < q.flipped; });
+  const auto flips_fewer = [](const Place& p, const Place& q) { return p.flipped < q.flipped; };
+  std::stable_sort(places.begin(), places.begin() + usual, flips_fewer);
+  std::stable_sort(places.begin() + usual, places.end(), flips_fewer);
   return places;
 }
 
