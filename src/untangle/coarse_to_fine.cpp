@@ -62,6 +62,14 @@ struct Place {
   int flipped = 0;  // faces of the star that would be turned against their rest normals
 };
 
+/// The places to be tried, the best first.
+struct Places {
+  std::vector<Place> list;
+  /// So many, the first, leave the star room: where none is free, the vertex stays at one of these, since what crosses
+  /// a star that is hardly there is not resolved by local strategies.
+  std::size_t roomy = 0;
+};
+
 /// Positions of a patch: at rest, at the beginning of the strategy, and now.
 struct States {
   const Positions& rest;
@@ -69,15 +77,15 @@ struct States {
   const Positions& x;
 };
 
-/// The places to be tried, the best first: where the triangle of the fan carries the vertex, with less and less of its
+/// The places of a vertex: where the triangle of the fan carries the vertex, with less and less of its
 /// offset from there; points of the fan closer and closer to the parent; and directions in which it may leave the
 /// parent where the fan is folded up. Places that flip fewer faces of the star come before others. Last come points of
 /// the fan so close to the parent that the new star is hardly more than the fan, which is embedded: one of them is free
 /// wherever there is a gap. `grid`: positions become multiples of it.
-std::vector<Place> places_for(const Removal& removal, std::span<const Triangle> star, const States& states,
-                              double grid) {
+Places places_for(const Removal& removal, std::span<const Triangle> star, const States& states, double grid) {
   const auto& [rest, start, x] = states;
-  std::vector<Place> places;
+  Places result;
+  std::vector<Place>& places = result.list;
   const auto add = [&](const Vec3& p) { places.push_back({(p / grid).array().round().matrix() * grid}); };
   if (is_at(removal.corners, x, start))
     places.push_back({start.col(removal.vertex)});
@@ -106,7 +114,7 @@ std::vector<Place> places_for(const Removal& removal, std::span<const Triangle> 
   for (int corner = 0; corner < 8; ++corner)
     add(parent + near * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
 
-  const auto usual = static_cast<std::ptrdiff_t>(places.size());
+  result.roomy = places.size();
   for (const double share : {0.01, 0.003, 0.001}) {
     add(parent + share * (on_fan - parent));
     add(parent + share * (middle - parent));
@@ -120,9 +128,10 @@ std::vector<Place> places_for(const Removal& removal, std::span<const Triangle> 
       place.flipped += (b - a).cross(c - a).dot(area_vector(rest, t)) < 0;
     }
   const auto flips_fewer = [](const Place& p, const Place& q) { return p.flipped < q.flipped; };
-  std::stable_sort(places.begin(), places.begin() + usual, flips_fewer);
-  std::stable_sort(places.begin() + usual, places.end(), flips_fewer);
-  return places;
+  const auto close = places.begin() + static_cast<std::ptrdiff_t>(result.roomy);
+  std::stable_sort(places.begin(), close, flips_fewer);
+  std::stable_sort(close, places.end(), flips_fewer);
+  return result;
 }
 
 /// Puts vertices back, each at the first of its places where its star is in no new pair.
@@ -130,9 +139,8 @@ class Insertion {
  public:
   /// `triangles`: the mesh with these vertices, the first `active_count` of which count; star_of: of each triangle the
   /// number of the vertex in whose star it is, or -1.
-  Insertion(std::span<const Removal> removals, std::vector<std::vector<Place>> places,
-            const std::vector<Triangle>& triangles, std::span<const Index> star_of, Index active_count,
-            const Positions& start)
+  Insertion(std::span<const Removal> removals, std::vector<Places> places, const std::vector<Triangle>& triangles,
+            std::span<const Index> star_of, Index active_count, const Positions& start)
       : removals_(removals),
         places_(std::move(places)),
         triangles_(triangles),
@@ -156,10 +164,12 @@ class Insertion {
   struct Try {
     int at = 0, best = 0;
     std::size_t pairs = 0, fewest = std::numeric_limits<std::size_t>::max();
-    bool failed = false;  // no place is free: it stays at the one with the fewest pairs
+    bool failed = false;  // no place is free: it stays at the roomy one with the fewest pairs
   };
 
-  void put(std::size_t r, int place, Positions& x) const { x.col(removals_[r].vertex) = places_[r][place].position; }
+  void put(std::size_t r, int place, Positions& x) const {
+    x.col(removals_[r].vertex) = places_[r].list[place].position;
+  }
 
   /// Pairs of the stars. Those that were there at the start, where nothing has moved, do not count.
   void count_pairs(const Positions& x) {
@@ -178,13 +188,13 @@ class Insertion {
     for (std::size_t r = 0; r < tries_.size(); ++r) {
       Try& t = tries_[r];
       if (t.failed) continue;
-      if (t.pairs < t.fewest) {
+      if (static_cast<std::size_t>(t.at) < places_[r].roomy && t.pairs < t.fewest) {
         t.fewest = t.pairs;
         t.best = t.at;
       }
       if (t.pairs == 0) continue;
       any = true;
-      t.failed = ++t.at == static_cast<int>(places_[r].size());
+      t.failed = ++t.at == static_cast<int>(places_[r].list.size());
       if (t.failed) t.at = t.best;
       put(r, t.at, x);
     }
@@ -214,7 +224,7 @@ class Insertion {
   }
 
   std::span<const Removal> removals_;
-  std::vector<std::vector<Place>> places_;
+  std::vector<Places> places_;
   const std::vector<Triangle>& triangles_;
   std::span<const Index> star_of_;
   const Positions& start_;
@@ -453,7 +463,7 @@ class CoarseToFine {
     const std::vector<Removal> removals = mesh_.refine();
     const std::vector<Triangle> triangles = this->triangles();
     std::vector<Index> star_of_face(patch_.triangles.size(), -1), star_of;
-    std::vector<std::vector<Place>> places;
+    std::vector<Places> places;
     for (std::size_t r = 0; r < removals.size(); ++r) {
       std::vector<Triangle> star;
       for (const Index t : removals[r].star) {
@@ -462,7 +472,7 @@ class CoarseToFine {
       }
       const Index v = removals[r].vertex;
       places.push_back(v < patch_.free_count ? places_for(removals[r], star, {patch_.rest, patch_.x, x_}, grid_)
-                                             : std::vector<Place>{{patch_.x.col(v)}});
+                                             : Places{{{patch_.x.col(v)}}, 1});
     }
     for (const Index t : mesh_.faces()) star_of.push_back(star_of_face[t]);
     Insertion insertion(removals, std::move(places), triangles, star_of, static_cast<Index>(active_faces()), patch_.x);
