@@ -232,7 +232,7 @@ class Fix {
     }
   }
 
-  /// What goes to a terminal is not mixed with progress.
+  /// Shows that outputs are written, unless one goes to standard output, which may be the same terminal.
   void begin_writing() {
     const std::array outputs = {output_,       options_.report, options_.picture,
                                 options_.view, options_.record, options_.highlight};

@@ -32,7 +32,7 @@ class ProgressDisplay {
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   void show(const Context::Progress& progress);
-  /// What goes on now is a step that tells nothing of itself: shown where it takes a second or more. `phase` must be a
+  /// Begins a step that tells nothing of itself. It is shown where it takes a second or more. `phase` must be a
   /// literal.
   void begin(std::string_view phase);
   /// Wipes the line, before other text; nothing is shown again until show().

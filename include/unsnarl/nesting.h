@@ -33,8 +33,8 @@ Nesting nesting_of_files(std::span<const SceneFile> files, std::vector<std::vect
 /// holds all of it without crossing it, so that nothing would move.
 void check_nesting(const SurfaceView& surface, const Nesting& nesting, const FindOptions& options = {});
 
-/// What is odd about a nesting that may well be meant, a sentence each: a surface that is to lie inside one of less
-/// volume. Throws as check_nesting() does.
+/// Returns a sentence for each surface that is to lie inside one of less volume: odd, but it may well be meant. Throws
+/// as check_nesting() does.
 std::vector<std::string> nesting_doubts(const SurfaceView& surface, const Nesting& nesting,
                                         const FindOptions& options = {});
 

@@ -22,7 +22,8 @@ struct BoxCenter {
   Index box;
 };
 
-/// Of `count` boxes below a node, more than a leaf holds: how many go to the left. Full leaves, all but the last.
+/// Returns how many of the `count` boxes below a node, more than a leaf holds, go to the left. All leaves but the last
+/// are full.
 Index left_count(Index count, Index leaf_size) {
   return (count / 2 + leaf_size - 1) / leaf_size * leaf_size;
 }

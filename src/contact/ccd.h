@@ -12,10 +12,11 @@ struct CcdOptions {
   /// Share of the free distance that is kept at the time returned: the step ends no closer than separation + slack *
   /// (distance at the start - separation). Without unit; 0.1 as in additive CCD's paper.
   double slack = 0.1;
-  /// Conservative advances before the time reached so far is returned; the answer is safe whenever it stops.
+  /// Conservative advances before the time reached so far is returned; the answer is safe whenever it stops. Other
+  /// values were not tried with both bounds.
   int max_advances = 128;
-  /// Share of the time reached that an advance must bring for the next one to be tried. On a deep torus, 0 takes four
-  /// times as long; 1e-3 to 5e-2 take the same.
+  /// Share of the time reached that an advance must bring for the next one to be tried. Without unit. On a deep torus
+  /// the filter of the steps takes four times as long with 0, and no different with 1e-3 or 5e-2.
   double least_advance = 1e-2;
 };
 

@@ -56,7 +56,7 @@ Nearest nearest_vertex_face(const Vec3& p, const Vec3& a, const Vec3& b, const V
   const double w = ab.cross(ap).dot(n);  // and of c
   const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
   const bool sliver = n2 <= degenerate_sin2 * longest2 * longest2;
-  const bool beyond[3] = {w < 0, v + w > n2, v < 0};  // edge k
+  const bool beyond[3] = {w<0, v + w> n2, v < 0};  // edge k
   const bool safe = (beyond[0] || beyond[1] || beyond[2]) && n2 > safe_sin2 * longest2 * longest2;
 
   Nearest best;
@@ -107,7 +107,7 @@ Nearest nearest_edge_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
       best.squared_distance = best.difference.squaredNorm();
       if (!parallel) return best;
     }
-    beyond = {s < 0, s > 1, t < 0, t > 1};
+    beyond = {s<0, s> 1, t<0, t> 1};
     safe = (beyond[0] || beyond[1] || beyond[2] || beyond[3]) && n2 > safe_sin2 * scale2;
   }
   // The minimum lies on the boundary of the square of parameters: an end point against the other segment.
@@ -137,15 +137,21 @@ Nearest nearest_vertex_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
   return best;
 }
 
+Nearest nearest(StencilKind kind, const std::array<Vec3, 4>& x) {
+  switch (kind) {
+    case StencilKind::vertex_face: return nearest_vertex_face(x[0], x[1], x[2], x[3]);
+    case StencilKind::edge_edge: return nearest_edge_edge(x[0], x[1], x[2], x[3]);
+    case StencilKind::vertex_edge: break;
+  }
+  return nearest_vertex_edge(x[0], x[1], x[2]);
+}
+
 Nearest nearest(const Stencil& stencil, const Positions& x) {
   const auto& v = stencil.v;
   switch (stencil.kind) {
-    case StencilKind::vertex_face:
-      return nearest_vertex_face(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
-    case StencilKind::edge_edge:
-      return nearest_edge_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
-    case StencilKind::vertex_edge:
-      break;
+    case StencilKind::vertex_face: return nearest_vertex_face(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
+    case StencilKind::edge_edge: return nearest_edge_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]), x.col(v[3]));
+    case StencilKind::vertex_edge: break;
   }
   return nearest_vertex_edge(x.col(v[0]), x.col(v[1]), x.col(v[2]));
 }
@@ -167,15 +173,7 @@ Closest closest(const Stencil& stencil, const Positions& x) {
 }
 
 Closest closest(StencilKind kind, const std::array<Vec3, 4>& x) {
-  switch (kind) {
-    case StencilKind::vertex_face:
-      return closest_vertex_face(x[0], x[1], x[2], x[3]);
-    case StencilKind::edge_edge:
-      return closest_edge_edge(x[0], x[1], x[2], x[3]);
-    case StencilKind::vertex_edge:
-      break;
-  }
-  return closest_vertex_edge(x[0], x[1], x[2]);
+  return finish(nearest(kind, x));
 }
 
 double approach(const Stencil& s, std::span<const double> lengths) {
@@ -184,22 +182,13 @@ double approach(const Stencil& s, std::span<const double> lengths) {
       return lengths[s.v[0]] + std::max({lengths[s.v[1]], lengths[s.v[2]], lengths[s.v[3]]});
     case StencilKind::edge_edge:
       return std::max(lengths[s.v[0]], lengths[s.v[1]]) + std::max(lengths[s.v[2]], lengths[s.v[3]]);
-    case StencilKind::vertex_edge:
-      break;
+    case StencilKind::vertex_edge: break;
   }
   return lengths[s.v[0]] + std::max(lengths[s.v[1]], lengths[s.v[2]]);
 }
 
 double squared_distance(StencilKind kind, const std::array<Vec3, 4>& x) {
-  switch (kind) {
-    case StencilKind::vertex_face:
-      return nearest_vertex_face(x[0], x[1], x[2], x[3]).squared_distance;
-    case StencilKind::edge_edge:
-      return nearest_edge_edge(x[0], x[1], x[2], x[3]).squared_distance;
-    case StencilKind::vertex_edge:
-      break;
-  }
-  return nearest_vertex_edge(x[0], x[1], x[2]).squared_distance;
+  return nearest(kind, x).squared_distance;
 }
 
 double squared_distance(const Stencil& stencil, const Positions& x) {

@@ -379,7 +379,7 @@ class GltfParser {
     return result;
   }
 
-  /// What the joints of a skin turn to y, on their mean; y where the skin does not say.
+  /// Returns the direction that the joints of a skin turn to y, on their mean; y where the skin does not say.
   std::array<double, 3> up_before_skin(std::size_t id) const {
     try {
       const std::vector<Value> skins = root_["skins"].elements();

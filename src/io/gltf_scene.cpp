@@ -15,7 +15,7 @@ namespace {
 /// their lengths: mapping back would lose ten of the sixteen digits of a double, more than float32 can spare.
 constexpr double smallest_volume_share = 1e-10;
 
-/// Of a mesh whose node names its skin by something that is no number.
+/// The skin of a mesh whose node names it by something that is no number.
 constexpr std::size_t no_skin = std::numeric_limits<std::size_t>::max();
 
 template <std::size_t N>

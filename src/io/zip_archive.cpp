@@ -24,8 +24,8 @@ namespace {
 
 /// Deflate makes nothing smaller than this (zlib's Technical Details, "Maximum Compression Factor").
 constexpr std::uint64_t largest_ratio = 1032;
-/// What unpacks to more than this many bytes, and more times its size, is made to fill the memory: models shrink to a
-/// third to a twentieth.
+/// An entry that unpacks to more than so many bytes, and to more than so many times its size, is made to fill the
+/// memory: models shrink to a third to a twentieth.
 constexpr std::uint64_t harmless_size = 64'000'000;
 constexpr std::uint64_t largest_honest_ratio = 200;
 /// Level of compression, 0 to 9: zlib's default. With libzip's own, 9, to repair a model of a million triangles takes

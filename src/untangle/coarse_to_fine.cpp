@@ -80,8 +80,8 @@ struct States {
 /// The places of a vertex: where the triangle of the fan carries the vertex, with less and less of its
 /// offset from there; points of the fan closer and closer to the parent; and directions in which it may leave the
 /// parent where the fan is folded up. Places that flip fewer faces of the star come before others. Last come points of
-/// the fan so close to the parent that the new star is hardly more than the fan, which is embedded: one of them is free
-/// wherever there is a gap. `grid`: positions become multiples of it.
+/// the fan so close to the parent that the new star is hardly more than the fan, which is embedded: one of them is
+/// mostly free where layers are near (other shares were not tried). `grid`: positions become multiples of it.
 Places places_for(const Removal& removal, std::span<const Triangle> star, const States& states, double grid) {
   const auto& [rest, start, x] = states;
   Places result;

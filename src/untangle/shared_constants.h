@@ -10,9 +10,9 @@ constexpr double penalty_margin = 0.03;
 /// Other values were not measured.
 constexpr double symmetry_jitter = 1e-3;
 /// Share of its area before, or at rest, below which a face is squeezed: a candidate with such faces is no solution.
-/// With 1e-3, one of 40 deep, warped and immersed surfaces stays unresolved and one ends four times as far; 1e-5 and
-/// 1e-6 take up to three times as long on two others; with 1e-12 one is pulled into a point, where every step meets all
-/// faces.
+/// Without unit. With 1e-3, one of 40 deep, warped and immersed surfaces stays unresolved and one ends four times as
+/// far; 1e-5 and 1e-6 take up to three times as long on two others; with 1e-12 one is pulled into a point, where every
+/// step meets all faces.
 constexpr double squeezed_area = 1e-4;
 /// Bisections of a solution's displacement back to where it began; the smallest clean one is kept. Without them, 98
 /// meshes end 2 % farther with 8 % more flipped faces, in 7 % less time.

@@ -147,7 +147,7 @@ TEST(Nesting, an_order_that_is_the_other_way_round_is_refused_before_any_work) {
                    "the innermost out: is it the wrong way round?");
     }
   }
-  // Where the two cross, it may be meant: the larger one is made to fit.
+  // The order may be meant where the two cross: the larger one is made to fit.
   const Surface crossing = two_spheres(0.2);
   const Nesting odd = nesting_of(crossing, {{1, 0}});
   EXPECT_NO_THROW(check_nesting(crossing, odd));
