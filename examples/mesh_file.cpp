@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
 
     const std::filesystem::path target = argv[2];
     const bool float32_digits = result.report.precision == unsnarl::Precision::float32;
-    for (const unsnarl::OutputFile& file : document.patched(result.positions, float32_digits))
+    for (const unsnarl::OutputFile& file : document.patched(result.positions, float32_digits, target.filename()))
       unsnarl::write_atomically(file.name.empty() ? target : target.parent_path() / file.name, file.bytes);
   } catch (const std::exception& error) {  // FileError, WriteError: the message says what, where and what to do
     std::fprintf(stderr, "%s\n", error.what());

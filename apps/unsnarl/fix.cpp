@@ -60,7 +60,7 @@ fs::path target_of(const FixOptions& options, std::size_t i) {
   return options.is_scene() ? fs::path(options.output) / input.filename() : fs::path(options.output);
 }
 
-/// All files but the buffers of glTFs.
+/// All files but the external ones of glTF and GIFTI.
 FilePlaces checked_places(const FixOptions& options) {
   FilePlaces places;
   if (!options.in_place)
@@ -134,7 +134,7 @@ class Fix {
         scene_(read()),
         repair_options_(repair_options(options, scene_)),
         nesting_(nesting_wanted(options, scene_)) {
-    claim_buffers();
+    claim_external_files();
     if (!options.is_scene()) {
       check_format_of_output(output_, scene_.document(0));
       files_.input = options_.inputs[0];
@@ -208,25 +208,30 @@ class Fix {
     return *certifier_;
   }
 
-  /// The buffers of a glTF keep their names: beside the result lies what may belong to something else.
-  void claim_buffers() {
+  /// Where the main file of a result ends up: the files of a scene all have names, of a single one links are followed.
+  fs::path main_place(std::size_t i) const { return options_.is_scene() ? target(i) : fs::weakly_canonical(target(i)); }
+  /// The name that external files of a result are called after; in place they keep theirs.
+  fs::path name_giver(std::size_t i) const { return options_.in_place ? fs::path() : main_place(i).filename(); }
+
+  /// What lies where external files are to go may belong to something else.
+  void claim_external_files() {
     if (!options_.in_place) claim_inputs(places_, "the input", options_.inputs, scene_);
     for (std::size_t i = 0; i < scene_.files().size(); ++i) {
       const Document& document = scene_.document(i);
-      const std::vector<fs::path> names = buffer_files(document);
-      if (is_stream(output_) && !names.empty())
-        throw UsageError("this glTF keeps its geometry in other files, which cannot go to a stream; give -o FILE");
+      const bool streams = is_stream(output_);
+      const std::vector<fs::path> names = external_files(document, streams ? fs::path() : name_giver(i));
+      if (streams && !names.empty())
+        throw UsageError("this file keeps its numbers in other files, which cannot go to a stream; give -o FILE");
       if (names.empty()) continue;
-      // The files of a scene all have names; of a single one links are followed.
-      const fs::path main = options_.is_scene() ? target(i) : fs::weakly_canonical(target(i));
-      const std::vector<fs::path> replaced = buffer_files(main, document.format());
+      const fs::path main = main_place(i);
+      const std::vector<fs::path> replaced = external_files(main, document.format());
       for (const fs::path& name : names) {
         const fs::path place = main.parent_path() / name;
-        places_.writes("a buffer of " + scene_.files()[i].name, place, "write the result to another folder");
+        places_.writes("an external file of " + scene_.files()[i].name, place, "write the result to another folder");
         if (fs::exists(place) && std::find(replaced.begin(), replaced.end(), name) == replaced.end())
           throw UsageError(
-              fmt::format("{} is there already and would be overwritten by the buffer of this name; write the result "
-                          "to another folder",
+              fmt::format("{} is there already and would be overwritten by the external file of this name; write "
+                          "the result to another folder",
                           place.string()));
       }
     }
@@ -247,7 +252,8 @@ class Fix {
   void write_output() {
     std::vector<OutputFile> all;
     for (std::size_t i = 0; i < scene_.files().size(); ++i) {
-      std::vector<OutputFile> files = scene_.patched(i, result_.positions, float32_digits());
+      std::vector<OutputFile> files =
+          scene_.patched(i, result_.positions, float32_digits(), is_stream(output_) ? fs::path() : name_giver(i));
       if (options_.is_scene()) files[0].name = scene_.files()[i].name;
       std::move(files.begin(), files.end(), std::back_inserter(all));
     }

@@ -48,19 +48,28 @@ SceneDocument read_scene(const std::vector<std::string>& paths, const std::optio
   return {std::move(documents), std::move(names)};
 }
 
-std::vector<std::filesystem::path> buffer_files(const Document& document) {
+namespace {
+
+/// Formats whose files may name others that hold numbers.
+bool may_have_external_files(Format format) {
+  return format == Format::gltf || format == Format::glb || format == Format::gii;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> external_files(const Document& document, const std::filesystem::path& main_name) {
   std::vector<std::filesystem::path> names;
-  if (document.format() != Format::gltf && document.format() != Format::glb) return names;
-  const std::vector<OutputFile> files = document.patched(document.surface().positions, true);
+  if (!may_have_external_files(document.format())) return names;
+  const std::vector<OutputFile> files = document.patched(document.surface().positions, true, main_name);
   for (std::size_t i = 1; i < files.size(); ++i) names.push_back(files[i].name);
   return names;
 }
 
-std::vector<std::filesystem::path> buffer_files(const std::filesystem::path& path, Format format) {
+std::vector<std::filesystem::path> external_files(const std::filesystem::path& path, Format format) {
   std::error_code ignored;
-  if ((format != Format::gltf && format != Format::glb) || !std::filesystem::is_regular_file(path, ignored)) return {};
+  if (!may_have_external_files(format) || !std::filesystem::is_regular_file(path, ignored)) return {};
   try {
-    return buffer_files(Document::read(path, format));
+    return external_files(Document::read(path, format));
   } catch (const FileError&) {
     return {};
   }
@@ -69,8 +78,8 @@ std::vector<std::filesystem::path> buffer_files(const std::filesystem::path& pat
 void claim_input(FilePlaces& places, const std::string& what, const std::string& path, const Document& document) {
   places.reads(what, path);
   if (path == standard_stream) return;
-  for (const std::filesystem::path& name : buffer_files(document))
-    places.reads("a buffer of " + what, std::filesystem::path(path).parent_path() / name);
+  for (const std::filesystem::path& name : external_files(document))
+    places.reads("an external file of " + what, std::filesystem::path(path).parent_path() / name);
 }
 
 void claim_inputs(FilePlaces& places, const std::string& what, const std::vector<std::string>& paths,

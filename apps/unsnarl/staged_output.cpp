@@ -93,7 +93,7 @@ std::vector<fs::path> StagedOutput::targets() const {
 }
 
 void StagedOutput::commit() {
-  // Either all files of a glTF or a scene are the new ones, or none is.
+  // Either all files of a glTF, a GIFTI or a scene are the new ones, or none is.
   for (const fs::path& target : targets()) require_replaceable(target);
   interruption_.hold_off([&](fs::path&) { rename_all(); });
 }

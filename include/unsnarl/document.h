@@ -60,7 +60,7 @@ class Document {
   /// Format by extension unless given; FreeSurfer surfaces without a known one are recognised by their first bytes.
   /// Throws FileError.
   static Document read(const std::filesystem::path& path, std::optional<Format> format = {});
-  /// `folder` is where the external buffers of a glTF lie. Throws FileError.
+  /// `folder` is where the external buffers of a glTF and the external files of a GIFTI lie. Throws FileError.
   static Document parse(std::string bytes, Format format, const std::filesystem::path& folder = {});
 
   Document(Document&&) noexcept;
@@ -88,12 +88,16 @@ class Document {
   /// be updated.
   bool recompute_normals();
 
-  /// The files to write, the main file first; then the external buffers of a glTF.
+  /// The files to write, the main file first; then the external buffers of a glTF, the external files of a GIFTI.
   /// positions: as many as in surface(), finite. float32_digits: in text, moved coordinates are rounded to float32 and
   /// written with the fewest digits that give that float back; otherwise with the fewest that give the double back.
+  /// main_name: what the main file will be called, unless it replaces the one read. The external files of a GIFTI are
+  /// then called after it (lh.gii.data, lh.gii.2.data), so that those read can stay beside it; where it is empty, and
+  /// in a glTF, they keep their names.
   /// Throws FileError where the format cannot hold the change (integer positions), WriteError for coordinates beyond
   /// float32, std::invalid_argument for a wrong count or a coordinate that is not finite.
-  std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const;
+  std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits,
+                                  const std::filesystem::path& main_name = {}) const;
   /// The positions that reading patched(...) back gives, bit for bit.
   std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const;
 

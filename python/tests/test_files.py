@@ -56,6 +56,32 @@ def test_in_place_and_held_vertices(mesh):
     assert not np.array_equal(before, result.V)
 
 
+def test_numbers_in_other_files_are_neither_lost_nor_overwritten(mesh, tmp_path):
+    V, F = unsnarl.read(mesh)
+    array = (
+        '<DataArray Intent="NIFTI_INTENT_{}" DataType="NIFTI_TYPE_{}" Dimensionality="2" Dim0="8" Dim1="3" '
+        'Encoding="ExternalFileBinary" Endian="LittleEndian" ExternalFileName="{}"/>'
+    )
+    source, folder = tmp_path / "a.gii", tmp_path / "other"
+    folder.mkdir()
+    arrays = array.format("POINTSET", "FLOAT32", "p.dat") + array.format("TRIANGLE", "INT32", "f.dat")
+    source.write_text(f"<GIFTI>{arrays}</GIFTI>")
+    (tmp_path / "p.dat").write_bytes(V.astype("<f4").tobytes())
+    (tmp_path / "f.dat").write_bytes(F.astype("<i4").tobytes())
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
+    for out in (tmp_path / "b.gii", folder / "a.gii"):
+        result = unsnarl.fix(source, out)
+        assert result.status == "embedded" and np.array_equal(unsnarl.read(out)[0], result.V)
+        assert out.with_name(out.name + ".data").exists() and out.with_name(out.name + ".2.data").exists()
+        assert before == {name: (tmp_path / name).read_bytes() for name in before}
+    (folder / "c.gii.2.data").mkdir()
+    with pytest.raises(OSError, match="c.gii.2.data"):
+        unsnarl.fix(source, folder / "c.gii")
+    assert not (folder / "c.gii").exists() and not (folder / "c.gii.data").exists()
+    unsnarl.fix(source, in_place=True)
+    assert source.read_bytes() == before["a.gii"] and len(unsnarl.check(source)) == 0
+
+
 def test_what_is_unfinished_is_written_where_asked_for(mesh, tmp_path):
     out = tmp_path / "out.obj"
     assert unsnarl.fix(mesh, out, max_displacement=1e-9).output is None and not out.exists()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
 #include "arguments.h"
 #include "results.h"
@@ -31,22 +32,42 @@ std::unique_ptr<unsnarl_document> read(const fs::path& path, std::optional<Forma
   return std::unique_ptr<unsnarl_document>(new unsnarl_document{path, std::move(document), std::move(report)});
 }
 
+/// The main file comes last: before it is there, nothing names the others. Where one cannot be written, those that were
+/// not there before are removed again.
+void write_all(const std::vector<OutputFile>& files, const std::function<fs::path(const OutputFile&)>& place) {
+  std::vector<fs::path> made;
+  try {
+    for (auto file = files.rbegin(); file != files.rend(); ++file) {
+      const fs::path path = place(*file);
+      const bool is_new = !fs::exists(path);
+      write_atomically(path, file->bytes);
+      if (is_new) made.push_back(path);
+    }
+  } catch (...) {
+    std::error_code ignored;
+    for (const fs::path& path : made) fs::remove(path, ignored);
+    throw;
+  }
+}
+
 void write(const unsnarl_document& input, std::span<const double> positions, bool float32, const fs::path& target) {
   const Document& document = input.document;
   if (const auto format = format_from_extension(target.string()); format && *format != document.format())
     throw std::invalid_argument(target.string() + ": the result keeps the format of the input, " +
                                 std::string(to_string(document.format())));
   std::error_code ignored;
-  const std::vector<OutputFile> files = document.patched(positions, float32);
-  const fs::path folder = target.parent_path();
-  if (!fs::equivalent(target, input.path, ignored))
-    for (const OutputFile& file : files)
-      if (!file.name.empty() && fs::equivalent(folder / file.name, input.path.parent_path() / file.name, ignored))
-        throw std::invalid_argument((folder / file.name).string() +
-                                    " holds part of the input and would be overwritten; write to another folder");
-  // The main file comes last: before it is there, nothing names the others.
-  for (auto file = files.rbegin(); file != files.rend(); ++file)
-    write_atomically(file->name.empty() ? target : folder / file->name, file->bytes);
+  const bool in_place = fs::equivalent(target, input.path, ignored);
+  const std::vector<OutputFile> files = document.patched(positions, float32, in_place ? fs::path() : target.filename());
+  const auto place = [&](const OutputFile& file) {
+    return file.name.empty() ? target : target.parent_path() / file.name;
+  };
+  if (!in_place && files.size() > 1)
+    for (const OutputFile& read : document.patched(document.surface().positions, float32))
+      for (const OutputFile& file : files)
+        if (!read.name.empty() && fs::equivalent(place(file), input.path.parent_path() / read.name, ignored))
+          throw std::invalid_argument(place(file).string() +
+                                      " holds part of the input and would be overwritten; write to another folder");
+  write_all(files, place);
   if (Document::read(target, document.format()).surface().positions != document.as_written(positions, float32))
     throw std::logic_error(target.string() + " does not give back the positions that were written to it");
 }

@@ -120,9 +120,11 @@ bool Document::recompute_normals() {
   return file_->has_vertex_normals();
 }
 
-std::vector<OutputFile> Document::patched(std::span<const double> positions, bool float32_digits) const {
+std::vector<OutputFile> Document::patched(std::span<const double> positions, bool float32_digits,
+                                          const std::filesystem::path& main_name) const {
   check_positions(file_->surface, positions);
-  return file_->patched(positions, float32_digits);
+  if (main_name.empty()) return file_->patched(positions, float32_digits);
+  return file_->patched_as(main_name.filename().string(), positions, float32_digits);
 }
 
 std::vector<double> Document::as_written(std::span<const double> positions, bool float32_digits) const {

@@ -124,6 +124,11 @@ std::string read_file(const std::filesystem::path& path, const std::function<voi
   return bytes;
 }
 
+bool is_inside_folder(const std::filesystem::path& name) {
+  if (name.empty() || name.is_absolute() || name.string().find('\0') != std::string::npos) return false;
+  return std::none_of(name.begin(), name.end(), [](const std::filesystem::path& part) { return part == ".."; });
+}
+
 void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path target = path;
   std::error_code error;

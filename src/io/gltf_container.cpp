@@ -35,12 +35,6 @@ std::string percent_decoded(std::string_view text) {
   return result;
 }
 
-/// May this file be read and, at the output, written? Only below the folder of the glTF.
-bool is_inside_folder(const std::filesystem::path& name) {
-  if (name.empty() || name.is_absolute() || name.string().find('\0') != std::string::npos) return false;
-  return std::none_of(name.begin(), name.end(), [](const std::filesystem::path& part) { return part == ".."; });
-}
-
 std::size_t data_uri_start(std::string_view uri) {
   const std::size_t comma = uri.find(',');
   if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) return std::string_view::npos;

@@ -23,6 +23,13 @@ class MeshFile {
 
   virtual std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const = 0;
   virtual std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const = 0;
+  /// patched() for a main file that is to have this name: the files beside it are named after it where the format says
+  /// in the main file what they are called and other files may refer to the old ones.
+  virtual std::vector<OutputFile> patched_as(const std::string& main_name, std::span<const double> positions,
+                                             bool float32_digits) const {
+    static_cast<void>(main_name);
+    return patched(positions, float32_digits);
+  }
 
   /// Does the file store vertex normals that patched() can update?
   virtual bool has_vertex_normals() const { return false; }
@@ -42,5 +49,9 @@ class MeshFile {
 inline constexpr std::size_t checked_start = 4096;
 std::string read_file(const std::filesystem::path& path,
                       const std::function<void(std::string_view start)>& check_start = {});
+
+/// Is this, as a mesh file may refer to it, a name of a file in or below its own folder? Only these are read and, at
+/// the output, written.
+bool is_inside_folder(const std::filesystem::path& name);
 
 }  // namespace unsnarl

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,6 +45,12 @@ class EncodedNumbers {
   std::string bytes;  ///< decoded
 };
 
+/// A file beside the main one that holds numbers of it.
+struct ExternalFile {
+  std::filesystem::path name;  ///< relative to the folder of the main file
+  std::string bytes;
+};
+
 /// Numbers of one type behind each other, wherever and however a file keeps them.
 struct NumberArray {
   NumberType type = NumberType::float32;
@@ -55,9 +62,13 @@ struct NumberArray {
   // Binary numbers:
   std::endian order = std::endian::little;
   std::size_t start = 0;                            ///< of the first, in data()
-  std::shared_ptr<const EncodedNumbers> encoded{};  ///< null: the bytes of the file itself
+  std::shared_ptr<const EncodedNumbers> encoded{};  ///< null: not encoded
+  std::shared_ptr<const ExternalFile> external{};   ///< null: the bytes of the file itself
 
-  std::string_view data(std::string_view file) const { return encoded ? std::string_view(encoded->bytes) : file; }
+  std::string_view data(std::string_view file) const {
+    if (encoded) return encoded->bytes;
+    return external ? std::string_view(external->bytes) : file;
+  }
   /// Throws FileError unless so many numbers can be there.
   void check_size(std::string_view file) const;
 };

@@ -23,7 +23,8 @@ bool is_nan(std::string_view token) {
 /// Names the place of this vertex in the file, for messages.
 std::string place(const PointBlock& block, std::size_t vertex) {
   if (block.array.encoded) return block.array.where;
-  return fmt::format("byte {}", block.array.start + vertex * block.vertex_step);
+  const std::string in = block.array.external ? block.array.external->name.string() + ": " : "";
+  return fmt::format("{}byte {}", in, block.array.start + vertex * block.vertex_step);
 }
 
 }  // namespace
@@ -212,24 +213,32 @@ void PointFile::patch_binary(const PointBlock& block, std::span<const double> wr
 }
 
 std::vector<OutputFile> PointFile::patched(std::span<const double> positions, bool float32_digits) const {
+  return patched_with({}, positions, float32_digits);
+}
+
+std::vector<OutputFile> PointFile::patched_with(std::vector<TextEdit> edits, std::span<const double> positions,
+                                                bool float32_digits) const {
   const std::vector<double> written = as_written(positions, float32_digits);
-  std::string result = bytes;
-  std::vector<TextEdit> edits;
+  std::vector<OutputFile> files = {{{}, bytes}};
+  for (const auto& file : external_files) files.push_back({file->name, file->bytes});
   for (const PointBlock& block : blocks_) {
     if (!has_moved(block, written)) continue;
     if (block.array.is_text) {
       patch_text(block, written, positions, float32_digits, edits);
     } else if (!block.array.encoded) {
-      patch_binary(block, written, result.data());
+      const auto file = std::find(external_files.begin(), external_files.end(), block.array.external);
+      const std::size_t i = block.array.external ? 1 + static_cast<std::size_t>(file - external_files.begin()) : 0;
+      patch_binary(block, written, files[i].bytes.data());
     } else {
       std::string changed = block.array.encoded->bytes;
       patch_binary(block, written, changed.data());
       block.array.encoded->replace(bytes, changed, edits);
     }
   }
-  if (edits.empty()) return {{{}, std::move(result)}};
+  if (edits.empty()) return files;
   add_consequences(edits);
-  return {{{}, with_edits(result, std::move(edits))}};
+  files[0].bytes = with_edits(files[0].bytes, std::move(edits));
+  return files;
 }
 
 }  // namespace unsnarl

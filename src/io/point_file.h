@@ -24,8 +24,8 @@ struct PointBlock {
   std::vector<NumberToken> tokens;                   ///< of text, 3 a vertex
 };
 
-/// A file whose positions are numbers in arrays, as text, in binary or encoded. Where they are encoded, the arrays with
-/// moved vertices are encoded anew; all else stays.
+/// A file whose positions are numbers in arrays, as text, in binary, encoded or in files beside it. Where they are
+/// encoded, the arrays with moved vertices are encoded anew; all else stays.
 class PointFile : public MeshFile {
  public:
   /// Distances between numbers of an array, in numbers. {1, n} where the file has all x, then all y, then all z.
@@ -57,7 +57,13 @@ class PointFile : public MeshFile {
   std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const override;
   std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const override;
 
+  /// All files beside this one that numbers may lie in, each once.
+  std::vector<std::shared_ptr<const ExternalFile>> external_files;
+
  protected:
+  /// patched() with more changes of the main file.
+  std::vector<OutputFile> patched_with(std::vector<TextEdit> edits, std::span<const double> positions,
+                                       bool float32_digits) const;
   /// Adds what follows from other edits.
   virtual void add_consequences(std::vector<TextEdit>& edits) const { static_cast<void>(edits); }
 

@@ -139,9 +139,9 @@ std::span<const double> SceneDocument::positions_of(std::size_t file, std::span<
   return positions.subspan(3 * files_[file].first_vertex, 3 * files_[file].vertices);
 }
 
-std::vector<OutputFile> SceneDocument::patched(std::size_t file, std::span<const double> positions,
-                                               bool float32_digits) const {
-  return documents_[file].patched(positions_of(file, positions), float32_digits);
+std::vector<OutputFile> SceneDocument::patched(std::size_t file, std::span<const double> positions, bool float32_digits,
+                                               const std::filesystem::path& main_name) const {
+  return documents_[file].patched(positions_of(file, positions), float32_digits, main_name);
 }
 
 std::vector<double> SceneDocument::as_written(std::span<const double> positions, bool float32_digits) const {

@@ -61,12 +61,31 @@ std::size_t XmlText::whole_number(const pugi::xml_node& element, const char* att
   return value;
 }
 
+std::string XmlText::value(const pugi::xml_attribute& attribute) {
+  const std::string text = fmt::format("<value>{}</value>", attribute.value());
+  pugi::xml_document document;
+  document.load_buffer(text.data(), text.size(), pugi::parse_escapes | pugi::parse_ws_pcdata, pugi::encoding_utf8);
+  return document.document_element().text().get();
+}
+
 void XmlText::fail(const pugi::xml_node& at, const std::string& message) const {
   fail(begin(at), message);
 }
 
 void XmlText::fail(std::size_t offset, const std::string& message) const {
   TextScanner(text_, {}).fail(message, offset);
+}
+
+std::string in_attribute(std::string_view text) {
+  constexpr std::string_view special = "&<>\"'";
+  std::string result;
+  for (const char c : text) {
+    if (special.find(c) != std::string_view::npos || (c >= 0 && c < ' '))
+      result += fmt::format("&#{};", static_cast<int>(c));
+    else
+      result += c;
+  }
+  return result;
 }
 
 }  // namespace unsnarl

@@ -30,6 +30,9 @@ class XmlText {
   /// A whole number of at least 0, or `otherwise` where there is no such attribute. Throws FileError.
   std::size_t whole_number(const pugi::xml_node& element, const char* attribute, std::size_t otherwise) const;
 
+  /// The value of an attribute with its entities resolved (those of XML itself; others stay as they are).
+  static std::string value(const pugi::xml_attribute& attribute);
+
   [[noreturn]] void fail(const pugi::xml_node& at, const std::string& message) const;
   [[noreturn]] void fail(std::size_t offset, const std::string& message) const;
 
@@ -39,5 +42,8 @@ class XmlText {
   pugi::xml_document document_;
   pugi::xml_node root_;
 };
+
+/// A text as it stands in an attribute, whichever quotes are around it.
+std::string in_attribute(std::string_view text);
 
 }  // namespace unsnarl

@@ -243,6 +243,35 @@ TEST_F(BatchCli, BuffersOfGltfComeAlongAndCount) {
   EXPECT_EQ(calls(), 4u);
 }
 
+TEST_F(BatchCli, ExternalFilesOfGiftiComeAlongAndCount) {
+  const auto array = [](const std::string& intent, const std::string& type, int rows) {
+    return "<DataArray Intent=\"NIFTI_INTENT_" + intent + "\" DataType=\"NIFTI_TYPE_" + type +
+           "\" Dimensionality=\"2\" Dim0=\"" + std::to_string(rows) +
+           "\" Dim1=\"3\" Encoding=\"ExternalFileBinary\" Endian=\"LittleEndian\" ExternalFileName=\"" + intent +
+           ".dat\"/>";
+  };
+  mesh("a.surf.gii", "<GIFTI>" + array("POINTSET", "FLOAT32", 3) + array("TRIANGLE", "INT32", 1) + "</GIFTI>");
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::int32_t corners[] = {0, 1, 2};
+  const std::string points(reinterpret_cast<const char*>(positions), sizeof(positions));
+  const auto arguments = worker("");
+  EXPECT_EQ(batch(arguments).exit_code, 1);
+  mesh("POINTSET.dat", points);
+  mesh("TRIANGLE.dat", std::string(reinterpret_cast<const char*>(corners), sizeof(corners)));
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+  EXPECT_EQ(calls(), 2u);
+  EXPECT_EQ(contents(out + "/fixed/a.surf.gii.data"), points);
+  EXPECT_TRUE(fs::exists(out + "/fixed/a.surf.gii.2.data"));
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+  EXPECT_EQ(calls(), 2u);
+  mesh("POINTSET.dat", std::string(points).replace(3, 1, 1, '\x40'));
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+  EXPECT_EQ(calls(), 3u);
+  fs::remove(out + "/fixed/a.surf.gii.data");
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+  EXPECT_EQ(calls(), 4u);
+}
+
 TEST_F(BatchCli, NamesNeedNotBeUtf8) {
   mesh("\xe9\"<script>.obj", crossing);
   EXPECT_EQ(batch().exit_code, 0);

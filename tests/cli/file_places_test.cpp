@@ -71,12 +71,79 @@ TEST_F(FilePlaces, ABufferBesideTheResultBelongsToIt) {
   write(folder / "scene/scene.bin", "precious");
   write(folder / "far.obj", "v 90 0 0\nv 91 0 0\nv 90 1 0\nf 1 2 3\n");
   expect_refusal({"fix", two, folder / "far.obj", "-o", folder / "scene"}, "scene.bin is there already");
-  expect_refusal({"fix", two, "-o", folder / "two/two.gltf"}, "a buffer of the input");
-  expect_refusal({"fix", two, "-o", folder / "two.gltf", "--report", folder / "scene.bin"}, "--report and a buffer of");
+  expect_refusal({"fix", two, "-o", folder / "two/two.gltf"}, "an external file of the input");
+  expect_refusal({"fix", two, "-o", folder / "two.gltf", "--report", folder / "scene.bin"},
+                 "--report and an external file of");
   expect_refusal({"fix", two, "-o", folder / "two.gltf", "--report", folder / "two/scene.bin"},
-                 "a buffer of the input");
-  expect_refusal({"fix", two, "--in-place", "--report", folder / "two/scene.bin"}, "--report and a buffer of");
-  expect_refusal({"check", two, "--pairs", folder / "two/scene.bin"}, "a buffer of the input");
+                 "an external file of the input");
+  expect_refusal({"fix", two, "--in-place", "--report", folder / "two/scene.bin"}, "--report and an external file of");
+  expect_refusal({"check", two, "--pairs", folder / "two/scene.bin"}, "an external file of the input");
+}
+
+/// A GIFTI of the two tetrahedra that keeps its numbers in a file of this name, all of it or none of the points.
+std::string gifti(const std::string& data, std::size_t first_byte = 0) {
+  return fmt::format(
+      R"(<GIFTI><DataArray Intent="NIFTI_INTENT_POINTSET" DataType="NIFTI_TYPE_FLOAT32" Dimensionality="2" Dim0="24" )"
+      R"(Dim1="3" Encoding="ExternalFileBinary" Endian="LittleEndian" ExternalFileName="{0}" ExternalFileOffset="{1}"/>)"
+      R"(<DataArray Intent="NIFTI_INTENT_TRIANGLE" DataType="NIFTI_TYPE_INT32" Dimensionality="2" Dim0="8" Dim1="3" )"
+      R"(Encoding="ASCII"><Data>0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23</Data></DataArray></GIFTI>)",
+      data, first_byte);
+}
+
+TEST_F(FilePlaces, AGiftiGetsExternalFilesOfItsOwn) {
+  const std::string points = buffer(1), other = buffer(0.125F), both = points + other;
+  write(folder / "both.dat", both);
+  const std::string one = file("one.gii", gifti("both.dat")), two = file("two.gii", gifti("both.dat", 288));
+  const std::string fixed = folder / "fixed.gii", data = folder / "fixed.gii.data";
+  const auto repaired = [&] {
+    EXPECT_EQ(pairs_in(fixed), 0u);
+    EXPECT_EQ(contents(folder / "both.dat"), both);
+    EXPECT_EQ(contents(one), gifti("both.dat"));
+    EXPECT_EQ(contents(fixed), gifti("fixed.gii.data"));
+    EXPECT_NE(contents(data).substr(0, 288), points);
+    EXPECT_EQ(contents(data).substr(288), other);
+  };
+  ASSERT_EQ(run({"fix", one, "-o", fixed}).exit_code, 0);
+  repaired();
+  ASSERT_EQ(run({"fix", one, "-o", fixed}).exit_code, 0);  // its own is replaced
+  repaired();
+  write(folder / "new.gii.data", "precious");
+  expect_refusal({"fix", one, "-o", folder / "new.gii"}, "new.gii.data is there already");
+  write(folder / "x.gii", gifti("y.gii.data"));
+  write(folder / "y.gii.data", points);
+  expect_refusal({"fix", folder / "x.gii", "-o", folder / "y.gii"}, "an external file of the input");
+  expect_refusal({"fix", one, "-o", folder / "o.gii", "--report", folder / "both.dat"},
+                 "an external file of the input");
+  expect_refusal({"fix", one, "-o", folder / "o.gii", "--report", folder / "o.gii.data"},
+                 "an external file of one.gii");
+  expect_refusal({"fix", one, "-o", "-"}, "cannot go to a stream");
+
+  // Two that share a file are taken apart, and repaired as one scene.
+  ASSERT_EQ(run({"fix", one, two, "-o", folder / "scene"}).exit_code, 0);
+  EXPECT_EQ(run({"check", folder / "scene/one.gii", folder / "scene/two.gii"}).exit_code, 0);
+  EXPECT_EQ(contents(folder / "scene/one.gii"), gifti("one.gii.data"));
+  EXPECT_EQ(contents(folder / "scene/two.gii"), gifti("two.gii.data", 288));
+  EXPECT_EQ(contents(folder / "scene/one.gii.data").substr(288), other);
+
+  // Without motion all is as it was.
+  const std::string place = folder / "place.gii";
+  write(place, contents(fixed));
+  ASSERT_EQ(run({"fix", place, "-o", folder / "clean.gii"}).exit_code, 0);
+  EXPECT_EQ(contents(folder / "clean.gii.data"), contents(data));
+
+  // In place names stay.
+  ASSERT_EQ(run({"fix", two, "--in-place"}).exit_code, 0);
+  EXPECT_EQ(contents(two), gifti("both.dat", 288));
+  EXPECT_EQ(contents(folder / "both.dat").substr(0, 288), points);
+  EXPECT_EQ(pairs_in(two), 0u);
+}
+
+TEST_F(FilePlaces, NothingIsLeftWhereAnExternalFileCannotBeWritten) {
+  write(folder / "points.dat", buffer(1));
+  const std::string in = file("in.gii", gifti("points.dat"));
+  fs::create_directories(folder / "out.gii.data/x");
+  expect_refusal({"fix", in, "-o", folder / "out.gii"}, "out.gii.data");
+  EXPECT_FALSE(fs::exists(folder / "out.gii"));
 }
 
 TEST_F(FilePlaces, NoCommandOverwritesWhatItReads) {

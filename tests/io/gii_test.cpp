@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "document_checks.h"
@@ -184,7 +187,7 @@ TEST(Gii, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(gifti(data_array("POINTSET", "FLOAT32", 4, "ASCII", points_text)), Format::gii,
                      "no DataArray of NIFTI_INTENT_TRIANGLE");
   EXPECT_PARSE_ERROR(replaced(ascii, "Encoding='ASCII'", "Encoding='ExternalFileBinary'"), Format::gii,
-                     "line 4: DataArray 1 (NIFTI_INTENT_POINTSET): its numbers are in another file");
+                     "line 4: DataArray 1 (NIFTI_INTENT_POINTSET): its numbers are in another file, but");
   EXPECT_PARSE_ERROR(replaced(ascii, "Encoding='ASCII'", "Encoding='Morse'"), Format::gii, "Encoding is none of");
   EXPECT_PARSE_ERROR(replaced(ascii, "Dim0=\"4\"", "Dim0=\"5\""), Format::gii,
                      "line 13: DataArray 1 (NIFTI_INTENT_POINTSET) ends after 12 of 15 numbers");
@@ -219,6 +222,171 @@ TEST(Gii, SurvivesDamage) {
   check_damage(ascii, Format::gii);
   check_damage(binary("Base64Binary", std::endian::big), Format::gii);
   check_damage(binary("GZipBase64Binary", little), Format::gii);
+}
+
+namespace fs = std::filesystem;
+
+/// GIFTI files whose numbers lie in others.
+class GiiFolder : public ::testing::Test {
+ protected:
+  GiiFolder() {
+    std::string name = (fs::temp_directory_path() / "unsnarl-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~GiiFolder() override { fs::remove_all(folder_); }
+
+  void file(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
+  static std::string array(const std::string& intent, const std::string& type, const std::string& file,
+                           std::size_t offset, const char* endian = "LittleEndian", std::size_t rows = 4) {
+    return data_array(intent, type, rows, "ExternalFileBinary", "",
+                      fmt::format("Endian='{}' ExternalFileName='{}' ExternalFileOffset=\"{}\"", endian, file, offset));
+  }
+  /// The tetrahedron in one file, between other bytes.
+  std::string in_one_file(std::endian order = little) const {
+    file("all.dat",
+         "head" + packed_all<float>(positions, order) + "gap" + packed_all<std::int32_t>(corners, order) + "tail");
+    const char* endian = order == little ? "LittleEndian" : "BigEndian";
+    return gifti(array("POINTSET", "FLOAT32", "all.dat", 4, endian) +
+                 array("TRIANGLE", "INT32", "all.dat", 55, endian));
+  }
+  Document parse(const std::string& bytes) const { return Document::parse(bytes, Format::gii, folder_); }
+  void expect_error(const std::string& bytes, const std::string& words) const {
+    try {
+      parse(bytes);
+      ADD_FAILURE() << words;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
+  fs::path folder_;
+};
+
+TEST_F(GiiFolder, ReadsAndPatchesExternalFiles) {
+  for (const std::endian order : {little, std::endian::big}) {
+    const std::string bytes = in_one_file(order);
+    const Document document = parse(bytes);
+    EXPECT_EQ(document.surface().positions, positions);
+    EXPECT_EQ(document.surface().corners, corners);
+    EXPECT_TRUE(document.stores_float32());
+    std::vector<double> moved = positions;
+    moved[11] = 0.1;
+    const std::vector<OutputFile> files = document.patched(moved, true);
+    ASSERT_EQ(files.size(), 2u);
+    EXPECT_EQ(files[0].bytes, bytes);
+    EXPECT_EQ(files[1].name, "all.dat");
+    EXPECT_EQ(files[1].bytes,
+              "head" + packed_all<float>(moved, order) + "gap" + packed_all<std::int32_t>(corners, order) + "tail");
+    file("all.dat", files[1].bytes);
+    EXPECT_TRUE(same_bits(parse(bytes).surface().positions, document.as_written(moved, true)));
+  }
+}
+
+TEST_F(GiiFolder, AResultHasExternalFilesOfItsOwn) {
+  fs::create_directory(folder_ / "sub");
+  const std::string points = packed_all<double>(positions, little), faces = packed_all<std::int32_t>(corners, little);
+  file("sub/p & q.dat", points);
+  file("faces.dat", faces);
+  file("depth.dat", "depth");
+  const std::string shape = data_array("SHAPE", "FLOAT32", 4, "ExternalFileBinary", "", "ExternalFileName='depth.dat'");
+  const std::string bytes = gifti(array("TRIANGLE", "INT32", "./faces.dat", 0) + shape +
+                                  array("POINTSET", "FLOAT64", "sub/p &amp; q.dat", 0));
+  const Document document = parse(bytes);
+  EXPECT_EQ(document.surface().positions, positions);
+  EXPECT_TRUE(document.notes().empty());
+  std::vector<double> moved = positions;
+  moved[11] = 0.1;
+  const std::vector<OutputFile> files = document.patched(moved, false, "out/a'b.gii");
+  ASSERT_EQ(files.size(), 4u);
+  EXPECT_EQ(files[0].bytes,
+            replaced(replaced(replaced(bytes, "./faces.dat", "a&#39;b.gii.data"), "depth.dat", "a&#39;b.gii.2.data"),
+                     "sub/p &amp; q.dat", "a&#39;b.gii.3.data"));
+  EXPECT_EQ(files[1].name, "a'b.gii.data");
+  EXPECT_EQ(files[1].bytes, faces);
+  EXPECT_EQ(files[2].bytes, "depth");
+  EXPECT_EQ(files[3].bytes, packed_all<double>(moved, little));
+  for (std::size_t i = 1; i < files.size(); ++i) file(files[i].name.string(), files[i].bytes);
+  const Document again = parse(files[0].bytes);
+  EXPECT_EQ(again.surface().positions, moved);
+  EXPECT_EQ(again.patched(moved, false, "a'b.gii")[0].bytes, files[0].bytes);
+}
+
+TEST_F(GiiFolder, WhatNeedNotBeReadIsPassedOnOrNoted) {
+  const std::string one = in_one_file();
+  const auto with = [&](const std::string& name) {
+    return replaced(one, "</GIFTI>", array("SHAPE", "FLOAT32", name, 0) + "</GIFTI>");
+  };
+  ASSERT_EQ(parse(with("/no/such.dat")).notes().size(), 1u);
+  EXPECT_EQ(
+      parse(with("/no/such.dat")).notes()[0],
+      "DataArray 3 (NIFTI_INTENT_SHAPE) is not part of the surface, and its file is not copied: its numbers are in "
+      "'/no/such.dat', which is not in the folder of the GIFTI file, or a link out of it; put it there.");
+  EXPECT_EQ(parse(with("missing.dat")).notes().size(), 1u);
+  EXPECT_EQ(parse(with("missing.dat")).patched(positions, true, "b.gii").size(), 2u);
+}
+
+TEST_F(GiiFolder, ExternalFilesMayBeShared) {
+  file("two.dat", packed<float>({5, 5, 5, 6, 5, 5, 5, 6, 5}, little) + packed_all<float>(positions, little) +
+                      packed_all<std::int32_t>(corners, little));
+  const std::string corners_of_both =
+      array("TRIANGLE", "INT32", "two.dat", 84, "LittleEndian", 1) + array("TRIANGLE", "INT32", "two.dat", 84);
+  const std::string bytes = gifti(array("POINTSET", "FLOAT32", "two.dat", 0, "LittleEndian", 3) +
+                                  array("POINTSET", "FLOAT32", "two.dat", 36) + corners_of_both);
+  const Document document = parse(bytes);
+  EXPECT_EQ(document.surface().view().vertex_count(), 7u);
+  std::vector<double> moved = document.surface().positions;
+  moved[0] = 1;
+  moved[20] = 2;
+  const std::vector<OutputFile> files = document.patched(moved, true);
+  ASSERT_EQ(files.size(), 2u);
+  file("two.dat", files[1].bytes);
+  EXPECT_EQ(parse(bytes).surface().positions, moved);
+  // Points that are something else too would change it.
+  expect_error(replaced(bytes, "Offset=\"36\"", "Offset=\"35\""),
+               "DataArray 1 (NIFTI_INTENT_POINTSET) and DataArray 2 (NIFTI_INTENT_POINTSET) use the same bytes of "
+               "'two.dat'; store them apart");
+  expect_error(replaced(bytes, "Offset=\"36\"", "Offset=\"37\""),
+               "DataArray 2 (NIFTI_INTENT_POINTSET) and DataArray 3 (NIFTI_INTENT_TRIANGLE) use the same bytes");
+}
+
+TEST_F(GiiFolder, ReferencesOutOfTheFolderAndDamageAreRefused) {
+  const std::string good = in_one_file();
+  file("inside.dat", "");
+  fs::create_directory(folder_ / "sub");
+  fs::create_symlink("../all.dat", folder_ / "sub/link.dat");
+  fs::create_symlink("/etc/hostname", folder_ / "out.dat");
+  fs::create_symlink("/etc", folder_ / "etc");
+  const auto named = [&](const std::string& name) { return replaced(good, "all.dat", name); };
+  EXPECT_EQ(parse(named("sub/link.dat")).surface().positions, positions);
+  const std::string where = "line 4: DataArray 1 (NIFTI_INTENT_POINTSET): ";
+  for (const std::string name : {"/etc/hostname", "../all.dat", "sub/../all.dat", "out.dat", "etc/hostname"})
+    expect_error(named(name), where + "its numbers are in '" + name + "', which is not in the folder");
+  expect_error(named("none.dat"), "none.dat: cannot open");
+  expect_error(named("sub"), "is a folder");
+  expect_error(named(""), "ExternalFileName does not say which");
+  expect_error(named("inside.dat"), "its numbers should be bytes 4 to 52 of 'inside.dat', which has 0 bytes");
+  expect_error(replaced(good, "Offset=\"55\"", "Offset=\"60\""), "bytes 60 to 108 of 'all.dat', which has 107 bytes");
+  expect_error(replaced(good, "Offset=\"4\"", "Offset=\"18446744073709551615\""), "cut short or damaged");
+  expect_error(replaced(good, "Offset=\"4\"", "Offset=\"-4\""), "'-4' in attribute ExternalFileOffset");
+  expect_error(replaced(good, "Dim0=\"4\"", "Dim0=\"6148914691236517206\""), "cut short or damaged");
+  expect_error(replaced(good, "Dim0=\"4\"", "Dim0=\"400000000000\""), "cut short or damaged");
+}
+
+TEST_F(GiiFolder, SurvivesDamage) {
+  const std::string good = in_one_file();
+  FixedNumbers numbers;
+  const std::size_t begin = good.find("<DataArray"), end = good.find("<MetaData>");
+  for (std::size_t round = 0; round < 4000; ++round) {
+    std::string damaged = good;
+    for (std::uint32_t k = 0; k <= numbers.next(3); ++k)
+      damaged[begin + numbers.next(static_cast<std::uint32_t>(end - begin))] = "0987654321./&;'\" x"[numbers.next(19)];
+    try {
+      const Document document = parse(damaged);
+      EXPECT_EQ(document.patched(document.surface().positions, true)[0].bytes, damaged);
+    } catch (const FileError&) {
+    }
+  }
 }
 
 }  // namespace

@@ -298,7 +298,7 @@ class Batch {
     return record;
   }
 
-  /// The repaired mesh and, of a glTF, its buffers: these first.
+  /// The repaired mesh and, of a glTF or a GIFTI, its external files: these first.
   void take_over_meshes(const BatchMesh& mesh, const fs::path& from, Record& record) {
     const std::string to = BatchFolder::mesh(mesh.name);
     std::vector<fs::path> others;

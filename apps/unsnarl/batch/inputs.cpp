@@ -138,8 +138,8 @@ std::string decoded(const std::string& uri) {
   return text;
 }
 
-/// The files that hold the geometry of a glTF. One that is no glTF refers to none: reading it will say what is wrong.
-std::vector<fs::path> buffers_of(const fs::path& gltf) {
+/// The files that hold the numbers of a glTF. One that is no glTF refers to none: reading it will say what is wrong.
+std::vector<fs::path> buffers_of_gltf(const fs::path& gltf) {
   std::vector<fs::path> files;
   std::ifstream file(gltf, std::ios::binary);
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
@@ -148,6 +148,16 @@ std::vector<fs::path> buffers_of(const fs::path& gltf) {
     if (buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string())
       if (const std::string uri = buffer["uri"]; !uri.starts_with("data:"))
         files.push_back(gltf.parent_path() / decoded(uri));
+  return files;
+}
+
+/// The same of a GIFTI, which is read whole only where it has such files.
+std::vector<fs::path> external_files_of_gifti(const fs::path& gifti) {
+  std::vector<fs::path> files;
+  std::ifstream file(gifti, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (text.find("ExternalFileBinary") == std::string::npos) return files;
+  for (const fs::path& name : external_files(gifti, Format::gii)) files.push_back(gifti.parent_path() / name);
   return files;
 }
 
@@ -194,9 +204,12 @@ std::vector<BatchMesh> part_of(const std::vector<BatchMesh>& meshes, const Shard
 
 std::string content_hash(const BatchMesh& mesh) {
   std::string own = sha256_of_file(mesh.path);
-  if (format_from_extension(mesh.name) != Format::gltf) return own;
-  for (const fs::path& file : buffers_of(mesh.path)) own += '\n' + sha256_of_file(file);
-  return sha256(own);
+  const std::optional<Format> format = format_from_extension(mesh.name);
+  std::vector<fs::path> others;
+  if (format == Format::gltf) others = buffers_of_gltf(mesh.path);
+  if (format == Format::gii) others = external_files_of_gifti(mesh.path);
+  for (const fs::path& file : others) own += '\n' + sha256_of_file(file);
+  return others.empty() && format != Format::gltf ? own : sha256(own);
 }
 
 }  // namespace unsnarl::app

@@ -30,7 +30,7 @@ struct Shard {
 Shard shard_from(const std::string& text);
 std::vector<BatchMesh> part_of(const std::vector<BatchMesh>& meshes, const Shard& shard);
 
-/// SHA-256 of the content of a mesh: its file, and the files that a glTF refers to.
+/// SHA-256 of the content of a mesh: its file, and the files that a glTF or a GIFTI keeps numbers in.
 std::string content_hash(const BatchMesh& mesh);
 
 }  // namespace unsnarl::app

@@ -108,8 +108,8 @@ class NumberedFiles : public SequenceFiles {
         recompute_normals_(recompute_normals),
         interruption_(interruption),
         first_(read_scene({paths_[0]}, format)) {
-    if (!buffer_files(first_.document(0)).empty())
-      throw UsageError(paths_[0] + ": this glTF keeps its geometry in other files; give frames of one file each");
+    if (!external_files(first_.document(0)).empty())
+      throw UsageError(paths_[0] + ": this file keeps its numbers in other files; give frames of one file each");
   }
 
   std::size_t count() const override { return paths_.size(); }
@@ -148,7 +148,7 @@ class NumberedFiles : public SequenceFiles {
   std::vector<double> write(std::size_t t, std::span<const double> positions, bool float32) override {
     const std::vector<OutputFile> files = document(t).patched(positions, float32);
     if (files.size() > 1)
-      throw UsageError(names_[t] + ": this glTF keeps its geometry in other files; give frames of one file each");
+      throw UsageError(names_[t] + ": this file keeps its numbers in other files; give frames of one file each");
     StagedOutput staged(target(t), interruption_);
     staged.write(files);
     const Document written = Document::read(staged.main_file(), first_.document(0).format());
