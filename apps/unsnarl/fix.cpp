@@ -133,7 +133,8 @@ class Fix {
         memory_guard_(options.memory_limit_mb),
         scene_(read()),
         repair_options_(repair_options(options, scene_)),
-        nesting_(nesting_wanted(options, scene_)) {
+        wanted_nesting_(nesting_wanted(options, scene_)),
+        nesting_(wanted_nesting_.nesting) {
     claim_external_files();
     if (!options.is_scene()) {
       check_format_of_output(output_, scene_.document(0));
@@ -152,9 +153,7 @@ class Fix {
   int run() {
     if (!options_.view.empty()) require_viewer();
     for (const std::string& note : scene_.notes()) display_.say("note: {}", note);
-    if (!nesting_.chains.empty())
-      for (const std::string& doubt : nesting_doubts(surface(), nesting_, repair_options_.find))
-        display_.say("note: --nested: {}", doubt);
+    for (const std::string& doubt : wanted_nesting_.doubts) display_.say("note: --nested: {}", doubt);
     // A folder that is missing or must not be written to is found now rather than after the work.
     std::optional<OutputFolder> folder;
     if (options_.is_scene()) folder.emplace(output_);
@@ -382,7 +381,8 @@ class Fix {
   MemoryGuard memory_guard_;
   SceneDocument scene_;
   RepairOptions repair_options_;
-  Nesting nesting_;                     // no chains: it does not matter
+  WantedNesting wanted_nesting_;
+  const Nesting& nesting_;              // no chains: it does not matter
   std::optional<Certifier> certifier_;  // of the input; made when first needed
   RepairResult result_;
   std::vector<double> written_;  // positions of several files, or of nested surfaces, as read back

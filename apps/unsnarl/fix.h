@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "command_options.h"
 #include "interruption.h"
 #include "unsnarl/nesting.h"
@@ -38,8 +41,13 @@ void add_fix_options(CLI::App& command, FixOptions& options);
 /// The options for this mesh. They refer to `scene`. Throws UsageError, FileError.
 RepairOptions repair_options(const FixOptions& options, const SceneDocument& scene);
 
-/// The nesting that --nested asks for; no chains: none. Throws UsageError.
-Nesting nesting_wanted(const FixOptions& options, const SceneDocument& scene);
+struct WantedNesting {
+  Nesting nesting;                  ///< no chains: none
+  std::vector<std::string> doubts;  ///< see check_nesting()
+};
+
+/// The nesting that --nested asks for. Throws UsageError.
+WantedNesting nesting_wanted(const FixOptions& options, const SceneDocument& scene);
 
 /// Reads, repairs, writes to a temporary file, reads it back, certifies what was read, renames. Returns the exit code.
 /// Throws FileError, WriteError, UsageError.

@@ -248,9 +248,10 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "out does, the result is written and the exit code is 7.");
 }
 
-Nesting nesting_wanted(const FixOptions& options, const SceneDocument& scene) {
-  Nesting nesting;
-  if (options.nested.empty()) return nesting;
+WantedNesting nesting_wanted(const FixOptions& options, const SceneDocument& scene) {
+  WantedNesting wanted;
+  Nesting& nesting = wanted.nesting;
+  if (options.nested.empty()) return wanted;
   if (options.each || options.paper || !options.rigid.empty())
     throw UsageError(
         "--nested goes neither with --each nor with --rigid and its like, nor with --paper; leave one out");
@@ -279,13 +280,13 @@ Nesting nesting_wanted(const FixOptions& options, const SceneDocument& scene) {
       std::istringstream names(value);
       for (std::string name; std::getline(names, name, ',');) nesting.chains.back().push_back(number_of(name));
     }
-    check_nesting(surface, nesting, options.find());
+    wanted.doubts = check_nesting(surface, nesting, options.find());
   } catch (const UnknownPart& e) {
     throw UsageError(fmt::format("--nested: {}", e.what()));
   } catch (const std::invalid_argument& e) {
     throw UsageError(fmt::format("--{}", e.what()));
   }
-  return nesting;
+  return wanted;
 }
 
 RepairOptions repair_options(const FixOptions& options, const SceneDocument& scene) {

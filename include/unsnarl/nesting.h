@@ -31,12 +31,9 @@ Nesting nesting_of_files(std::span<const SceneFile> files, std::vector<std::vect
 /// Throws std::invalid_argument for a nesting that makes no sense: an outer surface is not closed, a surface is twice
 /// in a chain, or inside itself by several chains, two have a vertex in common, or one that is to lie inside another
 /// holds all of it without crossing it, so that nothing would move.
-void check_nesting(const SurfaceView& surface, const Nesting& nesting, const FindOptions& options = {});
-
-/// Returns a sentence for each surface that is to lie inside one of less volume: odd, but it may well be meant. Throws
-/// as check_nesting() does.
-std::vector<std::string> nesting_doubts(const SurfaceView& surface, const Nesting& nesting,
-                                        const FindOptions& options = {});
+/// Returns a sentence for each surface that is to lie inside one of less volume: odd, but it may well be meant.
+std::vector<std::string> check_nesting(const SurfaceView& surface, const Nesting& nesting,
+                                       const FindOptions& options = {});
 
 /// How one surface lies to the next one out in its chain.
 struct NestedPair {

@@ -145,16 +145,11 @@ Nesting nesting_of_files(std::span<const SceneFile> files, std::vector<std::vect
   return nesting;
 }
 
-void check_nesting(const SurfaceView& surface, const Nesting& nesting, const FindOptions& options) {
+std::vector<std::string> check_nesting(const SurfaceView& surface, const Nesting& nesting, const FindOptions& options) {
   const ThreadLimit threads(options.threads);
   const PreparedSurface prepared = prepare(surface, options);
-  require_order_is_possible(nested_surfaces(surface, prepared, nesting), prepared.rest, nesting);
-}
-
-std::vector<std::string> nesting_doubts(const SurfaceView& surface, const Nesting& nesting,
-                                        const FindOptions& options) {
-  const PreparedSurface prepared = prepare(surface, options);
   const NestedSurfaces nested = nested_surfaces(surface, prepared, nesting);
+  require_order_is_possible(nested, prepared.rest, nesting);
   const auto volume = [&](Index s) { return std::abs(signed_volume(prepared.rest, nested.triangles[s])); };
   std::vector<std::string> doubts;
   for (const auto& [inner, outer] : nested.pairs) {
