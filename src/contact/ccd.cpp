@@ -112,8 +112,7 @@ int filter_displacements(std::span<const SeparatedStencil> stencils, const Posit
   };
   std::vector<Collision> collisions;
   for (int sweep = 0;; ++sweep) {
-    constexpr Index chunk = 1024;  // stencils a task: 0.1 to 0.4 ms of work
-    gather_in_chunks(static_cast<Index>(stencils.size()), chunk, collisions,
+    gather_in_chunks(static_cast<Index>(stencils.size()), collisions,
                      [&](Index begin, Index end, std::vector<Collision>& list) {
                        for (Index k = begin; k < end; ++k) {
                          const Stencil& s = stencils[k].stencil;

@@ -8,8 +8,6 @@
 namespace unsnarl {
 namespace {
 
-constexpr Index pairs_a_task = 4096;  // or vertices
-
 bool has_corner(const Triangle& t, Index v) {
   return t[0] == v || t[1] == v || t[2] == v;
 }
@@ -47,9 +45,9 @@ std::vector<IntersectingPair> MovingIntersections::find(const Positions& x) {
   near_.update(x);
   fans_.update(x);
   std::vector<IntersectingPair> pairs, joined;
-  gather_in_chunks(static_cast<Index>(near_.pairs().size()), pairs_a_task, pairs,
+  gather_in_chunks(static_cast<Index>(near_.pairs().size()), pairs,
                    [&](Index begin, Index end, auto& list) { add_near(x, begin, end, list); });
-  gather_in_chunks(static_cast<Index>(x.cols()), pairs_a_task, joined,
+  gather_in_chunks(static_cast<Index>(x.cols()), joined,
                    [&](Index begin, Index end, auto& list) { add_joined(x, begin, end, list); });
   pairs.insert(pairs.end(), joined.begin(), joined.end());
   std::sort(pairs.begin(), pairs.end());

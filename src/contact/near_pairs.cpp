@@ -87,19 +87,17 @@ void NearPairs::look_for_all() {
 void NearPairs::look_for_those_that_left() {
   std::erase_if(pairs_, [&](const Pair& pair) { return left_[pair[0]] || left_[pair[1]]; });
   std::vector<Pair> found;
-  gather_in_chunks(static_cast<Index>(triangles_.size()), triangles_a_task, found,
-                   [&](Index begin, Index end, std::vector<Pair>& list) {
-                     for (Index t = begin; t < end; ++t) {
-                       if (!left_[t]) continue;
-                       bvh_.query(roomy_[t], [&](Index other) {
-                         // Two that left find each other twice.
-                         if (left_[other] && other <= t) return;
-                         if (t >= active_count_ && other >= active_count_) return;
-                         if (!share_a_vertex(triangles_[t], triangles_[other]))
-                           list.push_back({std::min(t, other), std::max(t, other)});
-                       });
-                     }
-                   });
+  gather_in_chunks(static_cast<Index>(triangles_.size()), found, [&](Index begin, Index end, std::vector<Pair>& list) {
+    for (Index t = begin; t < end; ++t) {
+      if (!left_[t]) continue;
+      bvh_.query(roomy_[t], [&](Index other) {
+        // Two that left find each other twice.
+        if (left_[other] && other <= t) return;
+        if (t >= active_count_ && other >= active_count_) return;
+        if (!share_a_vertex(triangles_[t], triangles_[other])) list.push_back({std::min(t, other), std::max(t, other)});
+      });
+    }
+  });
   pairs_.insert(pairs_.end(), found.begin(), found.end());
 }
 

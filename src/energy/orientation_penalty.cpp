@@ -107,10 +107,9 @@ bool OrientationPenalty::filter(const Positions& x, std::span<const Index> which
     return share_of_moved(x, p, kept, corners) < share * now;
   };
   std::vector<Index> flipping, changed;
-  gather_in_chunks(static_cast<Index>(which.size()), chunk, flipping,
-                   [&](Index begin, Index end, std::vector<Index>& list) {
-                     std::copy_if(which.begin() + begin, which.begin() + end, std::back_inserter(list), flips);
-                   });
+  gather_in_chunks(static_cast<Index>(which.size()), flipping, [&](Index begin, Index end, std::vector<Index>& list) {
+    std::copy_if(which.begin() + begin, which.begin() + end, std::back_inserter(list), flips);
+  });
   if (flipping.empty()) return false;
   for (int round = 0; !flipping.empty(); ++round) {
     changed.clear();

@@ -22,7 +22,8 @@ void join_lists(const std::vector<std::vector<Item>>& lists, std::vector<Item>& 
 /// Builds a list in parallel that does not depend on the number of threads: `append(begin, end, list)` adds what the
 /// indices [begin, end) contribute, chunk by chunk; the chunks are joined in order. `out` is replaced.
 template <class Item, class Append>
-void gather_in_chunks(Index count, Index chunk, std::vector<Item>& out, Append&& append) {
+void gather_in_chunks(Index count, std::vector<Item>& out, Append&& append) {
+  constexpr Index chunk = 1024;  // indices a task: 0.01 to 0.4 ms of work
   out.clear();
   if (count <= chunk) {
     append(Index{0}, count, out);

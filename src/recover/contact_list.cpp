@@ -6,12 +6,6 @@
 #include "geometry/parallel_lists.h"
 
 namespace unsnarl {
-namespace {
-
-constexpr Index chunk = 8192;  // rules a task: each only takes a look
-
-}  // namespace
-
 void ContactList::gather(const Positions& x, double activation, const MovingVertices& moving) {
   activation_ = activation;
   travelled_.assign(moving.moves.size(), 0);
@@ -58,22 +52,21 @@ void ContactList::follow(const Positions& x, const Positions& p, const MovingVer
   MotionBounds way;  // each vertex may stop anywhere on it
   way.reset(static_cast<Index>(x.cols()));
   way.along = p;
-  gather_in_chunks(static_cast<Index>(list_.size()), chunk, in_the_way_,
-                   [&](Index begin, Index end, std::vector<SeparatedStencil>& list) {
-                     for (Index k = begin; k < end; ++k) {
-                       const BarrierStencil& s = list_[k].stencil;
-                       const double left =
-                           list_[k].distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
-                       const double needed = s.separation + rules_.options().roundoff;
-                       if (left > needed || least_distance(s.stencil, x, way, list_[k].direction) > needed) continue;
-                       list.push_back({s.stencil, s.separation});
-                     }
-                   });
+  gather_in_chunks(
+      static_cast<Index>(list_.size()), in_the_way_, [&](Index begin, Index end, std::vector<SeparatedStencil>& list) {
+        for (Index k = begin; k < end; ++k) {
+          const BarrierStencil& s = list_[k].stencil;
+          const double left = list_[k].distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
+          const double needed = s.separation + rules_.options().roundoff;
+          if (left > needed || least_distance(s.stencil, x, way, list_[k].direction) > needed) continue;
+          list.push_back({s.stencil, s.separation});
+        }
+      });
 }
 
 void ContactList::pick_near(const Positions& x, const MovingVertices& moving, std::vector<BarrierStencil>& near) {
   for (Index v : moving.vertices) travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
-  gather_in_chunks(static_cast<Index>(list_.size()), chunk, near,
+  gather_in_chunks(static_cast<Index>(list_.size()), near,
                    [&](Index begin, Index end, std::vector<BarrierStencil>& list) {
                      for (Index k = begin; k < end; ++k) {
                        const ContactRule& rule = list_[k];
