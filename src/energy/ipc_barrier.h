@@ -36,12 +36,17 @@ inline double mollifier_derivative(double c, double threshold) {
   return c >= threshold ? 0 : 2 * (1 - c / threshold) / threshold;
 }
 
+/// The threshold for two edges that have these squared lengths at rest: a squared sine of 1e-3 (IPC).
+inline double mollifier_threshold(double squared_u, double squared_v) {
+  return 1e-3 * squared_u * squared_v;
+}
+
 /// A stencil in the barrier. The ratio is y = (distance - separation) / (activation - separation).
 struct BarrierStencil {
   Stencil stencil;
   double separation = 0;  ///< length at which the barrier is infinite, >= 0
   double activation = 0;  ///< length at which it sets in, > separation
-  /// Edge-edge: squared sine at which the mollifier sets in, times both squared edge lengths at rest. 0: no mollifier.
+  /// Edge-edge: mollifier_threshold() of its edges. 0: no mollifier.
   double mollifier_threshold = 0;
 };
 

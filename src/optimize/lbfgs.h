@@ -16,8 +16,10 @@ class Lbfgs {
   /// Applies an approximation of the inverse Hessian, symmetric positive definite: out = H0 v.
   using Metric = std::function<void(const Eigen::VectorXd& v, Eigen::VectorXd& out)>;
 
+  static constexpr int default_memory = 8;
+
   /// Without a metric, H0 is the identity scaled by s.y / y.y of the latest step.
-  explicit Lbfgs(int memory = 8, Metric metric = {}) : memory_(memory), metric_(std::move(metric)) {}
+  explicit Lbfgs(int memory = default_memory, Metric metric = {}) : memory_(memory), metric_(std::move(metric)) {}
 
   /// d = -H gradient. Falls back to d = -H0 gradient, and forgets all steps, where that is not a descent direction.
   void direction(const Eigen::VectorXd& gradient, Eigen::VectorXd& d);

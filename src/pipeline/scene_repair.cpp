@@ -27,9 +27,6 @@ namespace {
 /// Rounding, repair of what rounding brought, and again.
 constexpr int rounding_rounds = 4;
 
-/// Rings around what was pushed that recovery may move too.
-constexpr int recovery_rings = 4;
-
 /// Fractions of the progress that is reported: what has been done when recovery begins, and when it has ended. Mean
 /// over 39 samples: 58 % of the time for untangling, 37 % for recovery, 3 % for certification.
 constexpr double untangled_fraction = 0.6, recovered_fraction = 0.97;

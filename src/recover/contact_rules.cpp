@@ -69,9 +69,8 @@ void ContactRules::gather_around(std::span<const Index> vertices, const Position
 
 void ContactRules::add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
                              std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
-  constexpr Index chunk = 1024;  // stencils or triangles a task
   gather_in_chunks(
-      static_cast<Index>(stencils_.size()), chunk, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+      static_cast<Index>(stencils_.size()), added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
         for (Index k = begin; k < end; ++k) {
           const NearStencil& near = stencils_[k];
           const double distance = &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x));
@@ -80,7 +79,7 @@ void ContactRules::add_rules(const Positions& from, const Positions& x, double a
         }
       });
   rules.insert(rules.end(), added_.begin(), added_.end());
-  gather_in_chunks(patch_.active_count, chunk, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+  gather_in_chunks(patch_.active_count, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
     add_altitudes(from, x, bounds, moves, begin, end, list);
   });
   rules.insert(rules.end(), added_.begin(), added_.end());
@@ -106,7 +105,6 @@ bool ContactRules::intersect_at_rest(const Stencil& s) const {
 }
 
 bool ContactRules::rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const {
-  constexpr double mollifier_sin2 = 1e-3;  // as in IPC
   const Stencil& s = near.stencil;
   if (!(distance > 0)) return false;
   rule.stencil.stencil = s;
@@ -137,7 +135,7 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   if (s.kind == StencilKind::edge_edge) {
     const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();
     const double v2 = (patch_.rest.col(s.v[3]) - patch_.rest.col(s.v[2])).squaredNorm();
-    rule.stencil.mollifier_threshold = mollifier_sin2 * u2 * v2;
+    rule.stencil.mollifier_threshold = mollifier_threshold(u2, v2);
   }
   return true;
 }

@@ -19,10 +19,9 @@ std::vector<IntersectingPair> EmbeddingGuard::new_pairs(const Positions& x) {
 }
 
 Index EmbeddingGuard::roll_back(Positions& x, const Positions& safe) {
-  // Each round takes back the offenders' vertices; a long chain of them is not worth following.
-  constexpr int rounds = 20;
+  // Each round takes back the offenders' vertices, until none is left that could be.
   Index count = 0;
-  for (int round = 0;; ++round) {
+  for (;;) {
     const std::vector<IntersectingPair> pairs = new_pairs(x);
     if (pairs.empty()) return count;
     Index put_back = 0;
@@ -35,7 +34,7 @@ Index EmbeddingGuard::roll_back(Positions& x, const Positions& safe) {
       for (Index v : patch_.triangles[pair.a]) restore(v);
       for (Index v : patch_.triangles[pair.b]) restore(v);
     }
-    if (put_back == 0 || round == rounds) {
+    if (put_back == 0) {
       for (Index v = 0; v < patch_.free_count; ++v) restore(v);
       return count + put_back;
     }

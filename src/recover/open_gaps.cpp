@@ -18,8 +18,6 @@ constexpr double wide_enough = 0.9;
 /// meets elsewhere than to first order. With 4, 10, 100 times, 5, 2 and 2 gaps stay closed on 108k faces of a warped
 /// torus, 31 without.
 constexpr double most_growth = 10;
-/// Sum of the squared weights of a stencil's moving vertices below which it is not pushed: they would go far for it.
-constexpr double least_squared_weights = 1e-6;
 
 /// The distance wanted for a stencil.
 double target_of(const ContactRule& rule, double target, double min_gap) {
@@ -101,7 +99,7 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
       const double target = target_of(rule, options.target, rules.options().min_gap);
       any_narrow |= rule.distance < wide_enough * target;
       const Widening gap = widening_of(rule, target - rule.distance, x, roundoff, moves);
-      if (gap.squared_weights > least_squared_weights) gaps.push_back(gap);
+      if (gap.squared_weights > 0) gaps.push_back(gap);
     }
     if (!any_narrow || round == options.max_rounds) return;
     std::fill(cap.begin(), cap.end(), options.step_cap);

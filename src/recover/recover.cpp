@@ -20,9 +20,6 @@ constexpr double roundoff_ulps = 64;
 /// The same for the least gap that can be asked for.
 constexpr double least_gap_ulps = 1024;
 
-/// Newton steps in a round of unflip(), at most.
-constexpr int unflip_steps = 30;
-
 double edge_length_of(const Patch& patch) {
   const std::span<const Triangle> active(patch.triangles.data(), static_cast<std::size_t>(patch.active_count));
   return patch.edge_length > 0 ? patch.edge_length : mean_edge_length(patch.rest, active);
@@ -125,7 +122,7 @@ std::vector<std::uint8_t> Recovery::contact_region() const {
   std::vector<Index> elsewhere;
   for (Index v = 0; v < patch_.free_count; ++v)
     if (patch_.x.col(v) != patch_.rest.col(v)) elsewhere.push_back(v);
-  return rings_around(std::move(elsewhere), options_.contact_rings);
+  return rings_around(std::move(elsewhere), recovery_rings);
 }
 
 std::vector<Index> Recovery::flipped_faces() const {
@@ -181,7 +178,7 @@ void Recovery::unflip(double activation) {
     for (Index t : flipped) corners.insert(corners.end(), patch_.triangles[t].begin(), patch_.triangles[t].end());
     const Positions before = patch_.x;
     objective_.scale_flip_penalty(factor);
-    step(rings_around(std::move(corners), options_.unflip_rings), activation, unflip_steps, options_.fine);
+    step(rings_around(std::move(corners), recovery_rings), activation, options_.max_steps, options_.fine);
     objective_.scale_flip_penalty(1);
     std::vector<Index> left = flipped_faces();
     if (left.size() >= flipped.size()) {

@@ -8,6 +8,10 @@
 
 namespace unsnarl {
 
+/// Rings around what has moved, or is flipped, that are free in a recovery. Four around regions that strategies moved
+/// farther than local ones: nine deep meshes end as close in the same time.
+constexpr int recovery_rings = 2;
+
 /// Weights of the objective.
 struct ObjectiveOptions {
   double arap_length = 2;  ///< in h: deformations shorter than this are resisted by ARAP rather than pulled to rest
@@ -75,12 +79,10 @@ struct RecoverOptions {
       0.01;                 ///< in h: gaps are first opened to this, at most, and never beyond the activation distance
   int open_rounds = 12;     ///< of opening gaps, at most; a start at gaps of 1e-17 took 1 to 6
   double snap_reach = 0.1;  ///< share of the mean edge at a vertex from which it may go straight to its rest position
-  int contact_rings = 2;    ///< rings around what is not at rest that stay free after the first snap
   // Faces that are flipped at the end: rounds of steps around them with a heavier penalty. Flipped without conflict on
   // three meshes: 14 without, 6 as it is, 0.3 % farther; before the last stage instead, 9, and 1 % farther.
   int unflip_rounds = 3;     ///< 0: none
   double unflip_factor = 5;  ///< of the penalty, from round to round. 30 and 10: 8 to 10 left
-  int unflip_rings = 2;      ///< around flipped faces that move
 
   /// A patch that ends farther from rest than this many times where it began (once gaps were open), by root of the sum
   /// of squares, goes back there: around collapsed rings bending leads away. Of 248 regions all others end below 1.35.

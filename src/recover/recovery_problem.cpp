@@ -11,8 +11,6 @@ namespace {
 
 /// Newton steps after which a vertex that they hardly moved is held: after one, it may have waited for others.
 constexpr int steps_of_the_stationary = 2;
-/// Share of the moving vertices that are held together: to hold them one by one costs more than it saves.
-constexpr double held_together = 0.3;
 
 }  // namespace
 
@@ -53,7 +51,7 @@ void RecoveryProblem::hold_stationary() {
   const auto is_stationary = [&](Index v) { return small_steps_[v] >= steps_of_the_stationary; };
   const std::vector<Index>& vertices = moving().vertices;
   const auto count = std::count_if(vertices.begin(), vertices.end(), is_stationary);
-  if (count == unknowns() || static_cast<double>(count) < held_together * unknowns()) return;
+  if (count == 0 || count == unknowns()) return;
   std::vector<std::uint8_t> moves = moving().moves;
   for (Index v : vertices)
     if (is_stationary(v)) moves[v] = 0;

@@ -22,7 +22,7 @@ struct OrientedFaces {
 constexpr int projection_sweeps = 8;
 
 /// Shortens the displacements p, vertex by vertex, until no stencil collides (see filter_displacements) and none of the
-/// faces flips: either may follow from shortening for the other. Where that does not settle, faces may flip.
+/// faces flips: either may follow from shortening for the other.
 void filter_step(std::span<const SeparatedStencil> stencils, const OrientedFaces& oriented, const Positions& x,
                  Positions& p, OnCollision on_collision, const CcdOptions& options = {});
 

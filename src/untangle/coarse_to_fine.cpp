@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -150,9 +151,12 @@ class Insertion {
         tries_(removals.size()) {}
 
   void run(Positions& x) {
-    for (std::size_t r = 0; r < tries_.size(); ++r) put(r, 0, x);
-    while (advance(x)) {
-    }
+    std::vector<std::size_t> moving(tries_.size());
+    std::iota(moving.begin(), moving.end(), std::size_t{0});
+    find_places(moving, x);
+    // Those that found none try again now that all others stay where they are.
+    std::erase_if(moving, [&](std::size_t r) { return !tries_[r].failed; });
+    if (!moving.empty()) find_places(moving, x);
     // The others have found their places now: some of the better ones may be free.
     for (const int place : {0, 2, 4}) offer(place, x);
   }
@@ -181,11 +185,21 @@ class Insertion {
     }
   }
 
-  /// Those with pairs go to their next places. False where there are none.
-  bool advance(Positions& x) {
+  /// Each of these vertices goes to the first of its places where its star is in no new pair; the others stay.
+  void find_places(std::span<const std::size_t> moving, Positions& x) {
+    for (const std::size_t r : moving) {
+      tries_[r] = {};
+      put(r, 0, x);
+    }
+    while (advance(moving, x)) {
+    }
+  }
+
+  /// Those of them with pairs go to their next places. False where there are none.
+  bool advance(std::span<const std::size_t> moving, Positions& x) {
     count_pairs(x);
     bool any = false;
-    for (std::size_t r = 0; r < tries_.size(); ++r) {
+    for (const std::size_t r : moving) {
       Try& t = tries_[r];
       if (t.failed) continue;
       if (static_cast<std::size_t>(t.at) < places_[r].roomy && t.pairs < t.fewest) {
@@ -264,7 +278,7 @@ class CoarseToFine {
     for (int k = 0; k < options_.coarse_solutions && !stopped(); ++k, factor *= options_.next_factor) {
       const std::size_t before = active_faces();
       coarsen_to(static_cast<double>(patch_.active_count) / (factor * factor));
-      if (static_cast<double>(active_faces()) > options_.worthwhile * static_cast<double>(before)) break;
+      if (active_faces() == before) break;
       Solution solution = solve_level_fully();
       if (!best || solution.is_better_than(*best)) best = std::move(solution);
     }
@@ -450,11 +464,9 @@ class CoarseToFine {
       if (level.scene.x.col(v) != level.scene.rest.col(v)) moved.push_back(v);
     RecoverOptions steps;
     steps.activation = options_.level_activation;
-    steps.last_activation = steps.activation;
+    steps.last_activation = 0;
     steps.unflip_rounds = 0;
-    steps.max_steps = options_.level_steps;
-    steps.first_steps = options_.level_steps / 2;
-    recover(level, index, {dilate(level.scene, moved, options_.level_rings)}, 0, steps);
+    recover(level, index, {dilate(level.scene, moved, recovery_rings)}, 0, steps);
     for (std::size_t k = 0; k < level.vertices.size(); ++k) x_.col(level.vertices[k]) = level.scene.x.col(k);
   }
 

@@ -9,6 +9,7 @@
 
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
+#include "recover/recover_options.h"
 #include "scene/independent_batches.h"
 #include "scene/patch_progress.h"
 #include "scene/trajectory.h"
@@ -20,9 +21,6 @@
 
 namespace unsnarl {
 namespace {
-
-/// Recovery may move so many edges around what a large region has moved. Other values were not tried.
-constexpr int recovery_rings = 4;
 
 /// The counts that the progress rule compares.
 struct Pairs {

@@ -180,7 +180,8 @@ class Flow {
         metric_(patch, arap_, options.locality),
         penalty_(patch.triangles, {.margin = options.margin * h_, .vertex_trim = options.vertex_trim}),
         candidates_(patch, options.margin * h_, options.candidate_reach * h_),
-        lbfgs_(options.memory, [this](const Eigen::VectorXd& v, Eigen::VectorXd& out) { metric_.apply(v, out); }) {
+        lbfgs_(Lbfgs::default_memory,
+               [this](const Eigen::VectorXd& v, Eigen::VectorXd& out) { metric_.apply(v, out); }) {
     Box box;
     for (const Triangle& t : active_) box.extend(box_of(patch.rest, t));
     diagonal_ = box.diagonal();

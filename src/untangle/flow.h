@@ -26,7 +26,6 @@ struct FlowOptions {
   double vertex_trim = 0.1;    ///< of the shared corner of one-vertex pairs: took 52, 18, 6 of them to 0
   double jitter = symmetry_jitter;
   double accept_motion = 0.02;    ///< h: the line search stops halving here and takes the step: E_M is not smooth
-  int memory = 8;                 ///< of L-BFGS
   int stall_iterations = 12;      ///< without ...
   double stall_drop = 0.15;       ///< ... this relative drop of the number of pairs: the clusters grow
   double spacing_growth = 1.6;    ///< of the clusters, on a stall

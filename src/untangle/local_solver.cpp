@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -24,7 +25,7 @@ namespace unsnarl {
 namespace {
 
 /// Cotangent weight of an equilateral mesh; uniform weights keep slivers harmless.
-constexpr double laplacian_weight = 0.57735026918962573;
+constexpr double laplacian_weight = std::numbers::inv_sqrt3;
 
 double area(const Positions& x, const Triangle& t) {
   const Vec3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
@@ -308,7 +309,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
           at_least = deepest;
           penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
         }
-        limit = std::min(limit, options.shallow_step * deepest);
+        limit = std::min(limit, deepest);
         // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.
         if (iteration % 2 == 0)
           penalty.add(t.x, force);
@@ -331,14 +332,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
       before_keeping->x = unkept;
       if (patch.trajectory) before_keeping->mark = patch.trajectory->mark();
     }
-    // Too far: somewhat back there may be room for the faces.
-    constexpr int parts = 16;
-    const Positions whole = t.x;
-    for (int part = parts - 1; clean && has_squeezed_face(patch, start, t.x, options.area_floor); --part) {
-      t.x.leftCols(n) = start.leftCols(n) + (static_cast<double>(part) / parts) * (whole - start).leftCols(n);
-      clean = part > 0 && blocking_pairs(finder.find(t.x), tolerated).empty();
-    }
-    return clean;
+    return clean && !has_squeezed_face(patch, start, t.x, options.area_floor);
   };
 
   // patch.x stays what the metric was made of.

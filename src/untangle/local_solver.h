@@ -39,8 +39,9 @@ struct LocalOptions {
   /// Without, rings of 64 vertices in one point take minutes; what is too much comes back in recovery.
   double opening = 0.01;
   double area_floor = squeezed_area;  ///< of its area at the start
-  double shallow_margin = 0.5;        ///< of the deepest overlap: what `shallow` parts faces by; at most `margin`
-  double shallow_step = 1;            ///< of the deepest overlap, now or at the start: its steps
+  /// Share of the deepest overlap, now or at the start, that `shallow` parts faces by; at most `margin`. Its steps are
+  /// as long as that overlap.
+  double shallow_margin = 0.5;
   /// h: the overlap that faces are taken to have at least, also where they do no more than touch. (Where the margin
   /// counted as overlap, needles that ran into each other by 1e-5 h were thrown about by 0.02 h, and never came apart.)
   double shallow_floor = 1e-4;

@@ -218,8 +218,8 @@ void Recession::solve_field(const std::vector<char>& reached, const std::vector<
     }
     if (row[u] >= 0 && row[v] >= 0) entries.emplace_back(std::max(row[u], row[v]), std::min(row[u], row[v]), -w);
     if (!is_boundary[e]) continue;
-    // 0 one `skirt` outside the boundary: on it, triangles with all corners on the boundary would stand still.
-    const double share = 0.5 * (rest_.col(u) - rest_.col(v)).norm() / (options_.skirt * edge_length_);
+    // 0 a mean edge outside the boundary: on it, triangles with all corners on the boundary would stand still.
+    const double share = 0.5 * (rest_.col(u) - rest_.col(v)).norm() / edge_length_;
     for (const Index i : {u, v}) {
       if (row[i] >= 0) diagonal[row[i]] += share;
     }

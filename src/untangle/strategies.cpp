@@ -31,10 +31,6 @@ constexpr double faces_that_flow = 3000;
 /// them by 19 % of the diagonal; a recession of 366,000 took 59 s and 3 GB, for nothing.
 constexpr Index most_faces_at_once = 30000;
 
-/// Share of its area before, Strategy::area_floor of what goes by a coarse mesh: faces that found little space when
-/// they came back are recovered. With 1e-6, 40 deep, warped and immersed surfaces end 6 % farther.
-constexpr double area_floor_on_coarse_mesh = 1e-12;
-
 Strategy local(std::string name, int rings, LocalSettings settings, std::size_t hubs = no_hubs) {
   const auto solve = [settings](Patch& patch, const Task& task) {
     LocalOptions options;
@@ -77,7 +73,7 @@ Strategy repelling(std::string name, Extent extent, int rings = 0) {
           .rings = rings,
           .reach = 20,
           .is_last_resort = true,
-          .area_floor = area_floor_on_coarse_mesh,
+          .area_floor = 0,  // faces that found little space when they came back are recovered
           .solve = solve};
 }
 
@@ -107,7 +103,7 @@ Strategy coarse_to_fine() {
           .extent = Extent::depth,
           .reach = 2.5,
           .least_depth = deep,
-          .area_floor = area_floor_on_coarse_mesh,
+          .area_floor = 0,  // faces that found little space when they came back are recovered
           .solve = solve};
 }
 
