@@ -37,20 +37,17 @@ NewtonResult minimise_newton(NewtonProblem& problem, const NewtonOptions& option
   Eigen::Matrix3Xd gradient, step;
   std::vector<Eigen::Matrix3d> blocks;
   BlockJacobiPcg pcg;
-  bool limited = false;
   std::vector<double> values = {problem.linearise(gradient)};
   while (result.iterations < options.max_steps) {
     if (stop && (result.stopped = stop())) break;
     problem.inverse_blocks(options.scalar_jacobi, blocks);
-    PcgOptions solver = options.solver;
-    if (limited) solver.relative_tolerance = std::max(solver.relative_tolerance, options.limited_tolerance);
-    result.solver_iterations +=
-        pcg.solve([&](const auto& v, auto& out) { problem.apply_hessian(v, out); }, blocks, -gradient, step, solver);
+    result.solver_iterations += pcg.solve([&](const auto& v, auto& out) { problem.apply_hessian(v, out); }, blocks,
+                                          -gradient, step, options.solver);
     ++result.iterations;
     const double longest = std::sqrt(step.colwise().squaredNorm().maxCoeff());
     if (!(longest > 0) || !(gradient.cwiseProduct(step).sum() < 0)) break;
 
-    limited = problem.limit(step);
+    problem.limit(step);
     double value = values.back();
     const Search found = search_line(problem, options, gradient, step, value);
     if (found == Search::none) break;

@@ -22,9 +22,9 @@ class NewtonProblem {
   /// Inverses of the Hessian's 3 x 3 blocks on the diagonal, or of the diagonals of these.
   virtual void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const = 0;
 
-  /// Shortens a Newton step to where the model can be trusted, before the line search. Returns whether it did. May
-  /// refine the function where the step leads, so that its value at the current point grows.
-  virtual bool limit(Eigen::Matrix3Xd& step) = 0;
+  /// Shortens a Newton step to where the model can be trusted, before the line search. May refine the function where
+  /// the step leads, so that its value at the current point grows.
+  virtual void limit(Eigen::Matrix3Xd& step) = 0;
   /// Shortens a trial step, unknown by unknown, to what the constraints allow.
   virtual void filter(Eigen::Matrix3Xd& step) = 0;
   /// The value at the current point plus a step; infinite where a constraint is violated.
@@ -40,8 +40,6 @@ struct NewtonOptions {
   double sufficient_decrease = 1e-4;  ///< of Armijo's condition (paper §3.5.1)
   int max_halvings = 40;              ///< of a step in the line search: 1e-12 of it
   PcgOptions solver;
-  /// Relative tolerance of the solver, at least, after a step that limit() shortened: little of it was used.
-  double limited_tolerance = 0;
   bool scalar_jacobi = false;  ///< precondition by the diagonal of the Hessian alone, not by its blocks
   /// Stops when the value fell by less than the share `decrease` in `window` steps ...
   double decrease = 0;

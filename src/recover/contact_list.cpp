@@ -23,11 +23,6 @@ void ContactList::follow(const Positions& x, const Positions& p, const MovingVer
   if (!leaving_.empty()) {
     const double most = options_.few * static_cast<double>(moving.vertices.size());
     const bool anew = static_cast<double>(leaving_.size()) > most;
-    // A margin lasts where few go far; else the next list is made anew in any case.
-    const double far = options_.wide_margin * h_;
-    const auto goes_far = [&](Index v) { return p.col(v).norm() > far; };
-    const auto far_count = std::count_if(moving.vertices.begin(), moving.vertices.end(), goes_far);
-    const bool lasts = static_cast<double>(far_count) <= most;
     if (anew) {
       gathered_at_ = x;  // of those too that are held by now
       bounds_.reset(static_cast<Index>(x.cols()));
@@ -35,10 +30,9 @@ void ContactList::follow(const Positions& x, const Positions& p, const MovingVer
       travel_.assign(moving.moves.size(), 0);
     }
     for (Index v : anew ? moving.vertices : leaving_) {
-      const double length = p.col(v).norm();
       gathered_at_.col(v) = x.col(v);
       bounds_.along.col(v) = p.col(v);
-      bounds_.around[v] = lasts && length <= far ? std::max(length, options_.margin * h_) : 0;
+      bounds_.around[v] = options_.margin * h_;
     }
     if (anew)
       rules_.gather(x, activation_, bounds_, moving.moves, list_);

@@ -47,9 +47,9 @@ class Recovery {
   std::vector<std::uint8_t> rings_around(std::vector<Index> front, int rings) const;
   /// The free vertices that are not at rest, and some rings around them.
   std::vector<std::uint8_t> contact_region() const;
-  void step(const std::vector<std::uint8_t>& moves, double activation, int steps, const RecoverOptions::Stop& stop);
+  void step(const std::vector<std::uint8_t>& moves, double activation, int steps);
   /// Steps of the contact region, as many as are left.
-  void stage(double activation, const RecoverOptions::Stop& stop);
+  void stage(double activation);
   /// The least distance at which barriers may set in, and to which gaps are opened, where they have this share of h.
   double above_min_gap(double share_of_h) const {
     const double min_gap = rules_.options().min_gap;
@@ -132,17 +132,15 @@ std::vector<Index> Recovery::flipped_faces() const {
   return flipped;
 }
 
-void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int steps,
-                    const RecoverOptions::Stop& stop) {
+void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int steps) {
   NewtonOptions newton;
   newton.motion = std::max(options_.stop_motion * h_, options_.stop_activation * activation);
   if (!problem_.start(moves, activation, newton.motion)) return;
   newton.max_steps = steps;
   newton.solver = options_.solver;
-  newton.limited_tolerance = options_.limited_tolerance;
   newton.scalar_jacobi = options_.scalar_jacobi;
-  newton.decrease = stop.decrease;
-  newton.window = stop.window;
+  newton.decrease = options_.stop_decrease;
+  newton.window = options_.stop_window;
   int taken = result_.iterations;
   const NewtonResult done = minimise_newton(problem_, newton, [&] {
     if (patch_.progress) patch_.progress->done = std::min(1.0, static_cast<double>(taken) / options_.max_steps);
@@ -154,10 +152,10 @@ void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, i
   result_.stopped |= done.stopped;
 }
 
-void Recovery::stage(double activation, const RecoverOptions::Stop& stop) {
+void Recovery::stage(double activation) {
   const std::vector<std::uint8_t> moves = contact_region();
   if (!result_.stopped && std::find(moves.begin(), moves.end(), 1) != moves.end())
-    step(moves, activation, options_.max_steps - result_.iterations, stop);
+    step(moves, activation, options_.max_steps - result_.iterations);
 }
 
 void Recovery::open(double target) {
@@ -178,7 +176,7 @@ void Recovery::unflip(double activation) {
     for (Index t : flipped) corners.insert(corners.end(), patch_.triangles[t].begin(), patch_.triangles[t].end());
     const Positions before = patch_.x;
     objective_.scale_flip_penalty(factor);
-    step(rings_around(std::move(corners), recovery_rings), activation, options_.max_steps, options_.fine);
+    step(rings_around(std::move(corners), recovery_rings), activation, options_.max_steps);
     objective_.scale_flip_penalty(1);
     std::vector<Index> left = flipped_faces();
     if (left.size() >= flipped.size()) {
@@ -230,10 +228,10 @@ RecoverResult Recovery::run() {
   safe_ = patch_.x;
   const Positions opened = patch_.x;
 
-  step(everything(), activation, std::min(options_.first_steps, options_.max_steps), options_.coarse);
+  step(everything(), activation, options_.max_steps);
   snap(everything());
-  if (last_activation < activation) stage(activation, options_.coarse);
-  if (options_.last_activation > 0) stage(last_activation, options_.fine);
+  if (last_activation < activation) stage(activation);
+  if (options_.last_activation > 0) stage(last_activation);
   unflip(last_activation);
   guard_.roll_back(patch_.x, safe_);
   safe_ = patch_.x;
@@ -258,12 +256,11 @@ RecoverResult Recovery::run() {
 RecoverOptions RecoverOptions::paper() {
   RecoverOptions options;
   options.max_steps = 500;
-  options.first_steps = 500;
   options.last_activation = 0;
-  options.coarse = options.fine = {0, 1};
+  options.stop_decrease = 0;
+  options.stop_window = 1;
   options.stop_motion = options.stop_activation = 0;
   options.solver = {1e-6, 2000};
-  options.limited_tolerance = 0;
   options.scalar_jacobi = true;
   options.step.shorten_all = true;
   options.step.kept_distance = CcdOptions{}.slack;

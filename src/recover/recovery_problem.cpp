@@ -124,7 +124,7 @@ std::vector<std::uint8_t> RecoveryProblem::touched_parts() {
   return touched;
 }
 
-bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
+void RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
   for (Index i = 0; i < unknowns(); ++i) {
     int& small_steps = small_steps_[moving().vertices[i]];
     small_steps = step.col(i).norm() < stationary_ ? small_steps + 1 : 0;
@@ -135,7 +135,7 @@ bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
     step *= std::min(1.0, cap / longest);
     contacts_.follow(patch_.x, spread(step), moving());
     step *= largest_step(contacts_.in_the_way(), patch_.x, displacement_);
-    return longest > cap;
+    return;
   }
   const std::size_t parts = static_cast<std::size_t>(part_count_);
   const auto longest_of = [&](const Eigen::Matrix3Xd& p) {
@@ -165,7 +165,7 @@ bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
   // Before the contacts are gathered: what slides may meet others there.
   slide_along_flips(step);
   contacts_.follow(patch_.x, displacement_, moving());
-  if (!limited) return false;
+  if (!limited) return;
   // Parts that go farther than the cap stop as a whole where one of their vertices would collide.
   std::vector<double> time(parts, 1);
   for (const SeparatedStencil& s : contacts_.in_the_way()) {
@@ -180,7 +180,6 @@ bool RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
     const Index k = part_[i];
     if (longest[k] > cap) step.col(i) *= std::max(time[k], cap / longest[k]);
   }
-  return true;
 }
 
 OrientedFaces RecoveryProblem::oriented() const {

@@ -36,7 +36,7 @@ class RecoveryProblem final : public NewtonProblem {
   /// Caps the motion of each connected part of the moving vertices by itself. Where nothing touches a part, its
   /// translation is not capped: it goes as far as nothing is in the way of the part as a whole. Faces that would flip
   /// slide along where they can; the contacts that all this may meet are gathered.
-  bool limit(Eigen::Matrix3Xd& step) override;
+  void limit(Eigen::Matrix3Xd& step) override;
   void filter(Eigen::Matrix3Xd& step) override;
   double value(const Eigen::Matrix3Xd& step) override;
   void accept(const Eigen::Matrix3Xd& step) override;

@@ -306,7 +306,6 @@ class CoarseToFine {
   struct Level {
     Scene scene;
     std::vector<Index> vertices;  // of the patch
-    double edge_length = 0;
   };
 
   /// Fixed vertices are collapsed onto each other only, and come back to where they are. Those of tolerated pairs stay,
@@ -368,7 +367,6 @@ class CoarseToFine {
       x.col(k) = x_.col(v);
       fixed[k] = v >= patch_.free_count;
     }
-    level.edge_length = mean_edge_length(rest, std::span(triangles).first(active_faces()));
     level.scene = make_scene(std::move(rest), std::move(triangles), std::move(fixed));
     level.scene.x = std::move(x);
     return level;
@@ -406,11 +404,11 @@ class CoarseToFine {
     return escalate(level.scene, index, tolerated, escalation);
   }
 
-  void recover(Level& level, SceneIndex& index, const std::vector<std::vector<Index>>& regions, double min_gap,
+  void recover(Level& level, SceneIndex& index, const std::vector<std::vector<Index>>& regions,
                const RecoverOptions& options) const {
     RecoverRegionsOptions recovery;
     recovery.recover = options;
-    recovery.min_gap = [&](std::span<const Index>) { return min_gap * level.edge_length; };
+    recovery.min_gap = [](std::span<const Index>) { return 0.0; };
     recovery.stop = stop_ ? stop_ : [] { return false; };
     Recorder nobody({}, level.scene.x);
     recover_regions(level.scene, index, regions, recovery, nobody);
@@ -430,7 +428,7 @@ class CoarseToFine {
       note_done(0.5 * (1 - std::min(1.0, now.work_left / all)));
     };
     const EscalationResult untangled = untangle(level, index, tolerated, coarse_mesh_tiers(), tell);
-    recover(level, index, merge_overlapping(untangled.moved, level.scene.vertex_count()), options_.coarse_gap, {});
+    recover(level, index, merge_overlapping(untangled.moved, level.scene.vertex_count()), {});
 
     Solution solution;
     solution.round_count = mesh_.round_count();
@@ -463,10 +461,9 @@ class CoarseToFine {
     for (Index v = 0; v < level.scene.vertex_count(); ++v)
       if (level.scene.x.col(v) != level.scene.rest.col(v)) moved.push_back(v);
     RecoverOptions steps;
-    steps.activation = options_.level_activation;
     steps.last_activation = 0;
     steps.unflip_rounds = 0;
-    recover(level, index, {dilate(level.scene, moved, recovery_rings)}, 0, steps);
+    recover(level, index, {dilate(level.scene, moved, recovery_rings)}, steps);
     for (std::size_t k = 0; k < level.vertices.size(); ++k) x_.col(level.vertices[k]) = level.scene.x.col(k);
   }
 

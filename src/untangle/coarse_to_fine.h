@@ -19,11 +19,9 @@ struct CoarseToFineOptions {
   /// Share of the pairs that the coarse mesh may leave. A creature of which one region leaves 12 of 100 ends at 0.85 %
   /// in 67 CPU s where these are carried to the fine mesh, at 0.51 % in 29 s where local strategies begin anew instead.
   double few_left = 0.05;
-  double least_faces = 200;        ///< of a coarse mesh
-  double least_round = 0.97;       ///< share of the faces: a round that leaves more is the last
-  double coarse_gap = 0.025;       ///< h: kept on the coarse mesh; with more: 1.6 times the time, no gain
-  double level_activation = 0.02;  ///< h: its activation distance
-  double grid = 0x1p-20;           ///< h of the patch: positions of what comes back are rounded to about this
+  double least_faces = 200;   ///< of a coarse mesh
+  double least_round = 0.97;  ///< share of the faces: a round that leaves more is the last
+  double grid = 0x1p-20;      ///< h of the patch: positions of what comes back are rounded to about this
 };
 
 struct CoarseResult {

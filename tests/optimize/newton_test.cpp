@@ -43,11 +43,8 @@ struct Bowls final : NewtonProblem {
     blocks.resize(unknowns());
     for (Index i = 0; i < unknowns(); ++i) blocks[i] = block(i).inverse();
   }
-  bool limit(Eigen::Matrix3Xd& step) override {
-    const double longest = std::sqrt(step.colwise().squaredNorm().maxCoeff());
-    if (longest <= cap) return false;
-    step *= cap / longest;
-    return true;
+  void limit(Eigen::Matrix3Xd& step) override {
+    step *= std::min(1.0, cap / std::sqrt(step.colwise().squaredNorm().maxCoeff()));
   }
   void filter(Eigen::Matrix3Xd&) override {}
   double value(const Eigen::Matrix3Xd& step) override { return at(x + step); }
