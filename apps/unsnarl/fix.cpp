@@ -354,7 +354,10 @@ class Fix {
 
   void write_view() {
     if (options_.view.empty()) return;
+    const Appearance appearance = scene_.appearance();
+    for (const std::string& note : appearance.notes) display_.say("note: {}", note);
     PageSource source;
+    source.appearance = &appearance;
     source.input_name = scene_name(options_.inputs);
     source.output_name = files_.output.empty() ? "" : page_name(files_.output);
     source.before = surface();

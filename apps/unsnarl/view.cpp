@@ -118,6 +118,10 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
     source.output_name = meshes.repaired.size() == 1 ? page_name(meshes.repaired[0]) : page_name(options.inputs.back());
     source.after = repaired->surface().positions;
   }
+  const Appearance appearance = scene.appearance();
+  for (const std::string& note : appearance.notes)
+    if (!options.quiet) tell("note: " + note + "\n");
+  source.appearance = &appearance;
   source.find = options.find();
   source.goal = options.goal_wanted();
   source.report = read_report(options.report);

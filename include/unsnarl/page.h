@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "unsnarl/appearance.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/recording.h"
 #include "unsnarl/repair.h"
@@ -16,12 +17,13 @@ namespace unsnarl {
 struct PageSource {
   std::string input_name, output_name;  ///< for the reader; any bytes. output_name may be empty
   SurfaceView before;
-  std::span<const double> after = {};     ///< 3 a vertex of `before`; empty: there is only one surface to look at
-  std::span<const SceneFile> files = {};  ///< of `before`; of several, each has a colour of its own. May be empty
-  FindOptions find;                       ///< welding
-  Goal goal = Goal::all;                  ///< which pairs are shown
-  std::string report;                     ///< as of report_json; empty: none
-  std::span<const RecordedFrame> frames;  ///< RepairResult::frames; may be empty
+  std::span<const double> after = {};      ///< 3 a vertex of `before`; empty: there is only one surface to look at
+  std::span<const SceneFile> files = {};   ///< of `before`; of several, each has a colour of its own. May be empty
+  const Appearance* appearance = nullptr;  ///< SceneDocument::appearance, to be looked at too; null: none
+  FindOptions find;                        ///< welding
+  Goal goal = Goal::all;                   ///< which pairs are shown
+  std::string report;                      ///< as of report_json; empty: none
+  std::span<const RecordedFrame> frames;   ///< RepairResult::frames; may be empty
 };
 
 /// One HTML file that shows it all, and needs no network: the template with the mesh, its intersections and its

@@ -21,7 +21,7 @@ export function viewsOf({ layout, blend, divider }) {
 
 /** How red the conflicts of each state are in a view, and how visible its curves, which hold for that state alone. */
 export function strengthsOf({ t, frame }, { colouring, curves }) {
-  const red = colouring === 'conflicts' ? 1 : 0;
+  const red = colouring === 'displacement' ? 0 : 1;
   if (frame) return { before: 0, after: 0, frame: red, curvesBefore: 0, curvesAfter: 0 };
   const shown = curves ? 1 : 0;
   return {

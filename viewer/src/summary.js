@@ -90,6 +90,7 @@ export function summary(page, before, after) {
     report ? section('Report', reportFacts(report)) : null,
     report?.rigid_parts?.length ? section('Rigid parts', rigidParts(report.rigid_parts)) : null,
     files ? section('Files', files) : null,
+    page.appearance?.notes.length ? section('Texture', ...page.appearance.notes.map((note) => element('p', { class: 'note' }, note))) : null,
     section('Mesh', facts([
       ['vertices', count(scene.vertices)],
       ['faces', count(scene.faces)],

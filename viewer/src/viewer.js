@@ -32,7 +32,7 @@ export class Viewer {
     this.frames = page.frames.length > 1 ? new FramePlayer(page.frames, page.before.positions) : null;
     this.ranges = page.displacement && heatRanges(page.displacement);
     this.state = {
-      layout: page.after ? 'pair' : 'single', colouring: 'conflicts', range: 'all', edges: scene.faces <= facesWithEdges,
+      layout: page.after ? 'pair' : 'single', colouring: this.#hasImages() ? 'texture' : 'conflicts', range: 'all', edges: scene.faces <= facesWithEdges,
       curves: true, blend: 0, divider: 0.5, frame: 0, face: -1,
     };
     this.surface = new Surface(page, this.faces);
@@ -58,6 +58,7 @@ export class Viewer {
       for (const button of byId(id).children) button.setAttribute('aria-pressed', String(button.dataset.value === state[id]));
     for (const id of ['edges', 'curves']) byId(id).setAttribute('aria-pressed', String(state[id]));
     this.surface.setEdgesShown(state.edges);
+    this.surface.setPainted(state.colouring === 'texture');
     const { shared } = this.surface;
     shared.heated.value = state.colouring === 'displacement';
     const full = this.ranges?.[state.range] ?? 1;
@@ -80,7 +81,7 @@ export class Viewer {
   }
 
   setColouring(colouring) {
-    if (colouring === 'displacement' && !this.page.displacement) return;
+    if (!this.#colourings().includes(colouring)) return;
     this.state.colouring = colouring;
     this.update();
   }
@@ -204,6 +205,15 @@ export class Viewer {
     return this.frames ? ['pair', 'wipe', 'blend', 'replay'] : ['pair', 'wipe', 'blend'];
   }
 
+  #colourings() {
+    const { appearance, displacement } = this.page;
+    return ['conflicts', appearance?.materials.length ? 'texture' : null, displacement ? 'displacement' : null].filter(Boolean);
+  }
+
+  #hasImages() {
+    return this.page.appearance?.materials.some(({ image }) => image) ?? false;
+  }
+
   /** Between which positions the vertices are, in a view. */
   #positionsAt({ frame, t }) {
     if (frame) return { positions: this.frames.positions, other: this.frames.positions };
@@ -296,7 +306,11 @@ export class Viewer {
     byId('panel').append(sections[0], this.panelSelection, ...this.history ? [this.history.node] : [], ...sections.slice(1));
     for (const button of byId('layout').children) button.hidden = !this.#layouts().includes(button.dataset.value);
     byId('layout').hidden = !this.page.after;
-    byId('colouring').hidden = !this.page.displacement;
+    for (const button of byId('colouring').children) {
+      button.hidden = !this.#colourings().includes(button.dataset.value);
+      if (button.dataset.value === 'texture' && !this.#hasImages()) button.textContent = 'Materials';
+    }
+    byId('colouring').hidden = this.#colourings().length < 2;
   }
 
   #wire() {
