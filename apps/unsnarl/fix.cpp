@@ -367,7 +367,7 @@ class Fix {
     source.goal = repair_options_.goal;
     source.report = report_json(result_, repair_options_, files_);
     source.frames = result_.frames;
-    write_file(options_.view, view_page(viewer_template(), source), interruption_);
+    write_file(options_.view, view_page(built_in_page(), source), interruption_);
   }
 
   StageClock clock_;

@@ -125,7 +125,7 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
   source.find = options.find();
   source.goal = options.goal_wanted();
   source.report = read_report(options.report);
-  const std::string page = view_page(viewer_template(), source);
+  const std::string page = view_page(built_in_page(), source);
   write_file(options.output, page, interruption);
   if (!options.quiet && options.output != standard_stream)
     tell(fmt::format("wrote {} ({:.1f} MB); open it in a browser\n", options.output, 1e-6 * page.size()));

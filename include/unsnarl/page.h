@@ -26,10 +26,13 @@ struct PageSource {
   std::span<const RecordedFrame> frames;   ///< RepairResult::frames; may be empty
 };
 
+/// The page that viewer/ builds, without data. Empty in a build without it.
+std::string_view built_in_page();
+
 /// One HTML file that shows it all, and needs no network: the template with the mesh, its intersections and its
 /// displacements in it. Positions are drawn in 32 bits; displacements are computed in 64.
 ///
-/// page_template: HTML with a place for data, as viewer/ builds it.
+/// page_template: HTML with a place for data: built_in_page().
 /// Throws std::invalid_argument where the template has no such place, the report is no JSON, or the surface makes no
 /// sense (as find_intersections does).
 std::string view_page(std::string_view page_template, const PageSource& source);

@@ -44,6 +44,8 @@ class Result:
     output: Optional[Path] = None
     _before: Optional[Surface] = field(default=None, compare=False)
     _after: Any = field(default=None, compare=False)
+    _mesh_sizes: Any = field(default=None, compare=False)
+    _document: Any = field(default=None, compare=False)
 
     def picture(self, width: int = 1200) -> bytes:
         """Before and after, side by side, intersecting faces in red: the bytes of a PNG file.
@@ -53,6 +55,12 @@ class Result:
         if self._before is None:
             raise ValueError("this result does not know its input; take the one that repair or fix returned")
         return picture_of(self._before, self._after, width)
+
+    def view(self, **options: Any) -> Any:
+        """A page to turn it and look at it, before and after; see unsnarl.view, whose options it takes."""
+        from ._view import view  # which knows results
+
+        return view(self, **options)
 
     def _repr_html_(self) -> str:
         report = self.report
@@ -192,11 +200,8 @@ def repair(
         **paper_options(paper),
     )
     chains = scene.nested_numbers(nested)
-    sizes = np.array([scene.vertex_counts, scene.face_counts], dtype=np.uintp).T if scene.is_list else np.empty(0)
-    surface = scene.surface.struct(
+    surface = scene.struct(
         fixed=scene.flags_of_vertices(fixed),
-        mesh_sizes=np.ascontiguousarray(sizes),
-        mesh_count=len(sizes),
         rigid=scene.rigid_numbers(rigid),
         nested=chains,
         nested_count=len(chains),
@@ -210,14 +215,13 @@ def repair(
     meshes = [moved_to(own) if moved_to else None for own, moved_to in zip(moved, scene.moved_to)]
     if not scene.is_list:
         return Result(moved[0], repaired.status, repaired.report, meshes[0], None, scene.surface, positions)
-    return Result(moved, repaired.status, repaired.report, meshes, None, scene.surface, positions)
+    return Result(moved, repaired.status, repaired.report, meshes, None, scene.surface, positions, scene.mesh_sizes)
 
 
 def log(repaired: Outcome) -> None:
     """Tells the logger "unsnarl" what a repair came to: a warning where it is not embedded."""
     report = repaired.report
-    for note in report["input"]["notes"]:
-        _log.info("%s", note)
+    log_notes(report["input"]["notes"])
     level = logging.INFO if repaired.status == "embedded" else logging.WARNING
     _log.log(
         level,
@@ -228,6 +232,11 @@ def log(repaired: Outcome) -> None:
         report["displacement_max_rel"],
         report["seconds"],
     )
+
+
+def log_notes(notes: list[str]) -> None:
+    for note in notes:
+        _log.info("%s", note)
 
 
 def picture_of(before: Surface, after: Any, width: int) -> bytes:
