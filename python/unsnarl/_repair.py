@@ -68,7 +68,7 @@ class Result:
             "status": str(self.status),
             "intersecting pairs": f"{report['before']['total']} before, {report['after']['total']} after",
             "moved": f"{100 * (1 - report['untouched_share']):.3g} % of the vertices, "
-            f"by {100 * report['displacement_max_rel']:.2g} % of the diagonal at most",
+            f"by {100 * report['displacement_max_rel']:.2g} % of the diagonal ({report['displacement_max']:.2g}) at most",
             "time": f"{report['seconds']:.2f} s",
         }
         if self.output is not None:
@@ -85,7 +85,8 @@ class Result:
         before, after = self.report["before"]["total"], self.report["after"]["total"]
         return (
             f"Result({self.status}: {before} intersecting pairs before, {after} after; "
-            f"moved by {self.report['displacement_max_rel']:.2g} of the diagonal at most)"
+            f"moved by {self.report['displacement_max']:.2g} at most, {self.report['displacement_max_rel']:.2g} of the "
+            "diagonal)"
         )
 
 
@@ -225,10 +226,11 @@ def log(repaired: Outcome) -> None:
     level = logging.INFO if repaired.status == "embedded" else logging.WARNING
     _log.log(
         level,
-        "%s: %d intersecting pairs before, %d after; moved by %.2g of the diagonal at most; %.2f s",
+        "%s: %d intersecting pairs before, %d after; moved by %.2g at most, %.2g of the diagonal; %.2f s",
         repaired.status,
         report["before"]["total"],
         report["after"]["total"],
+        report["displacement_max"],
         report["displacement_max_rel"],
         report["seconds"],
     )

@@ -21,6 +21,11 @@ export function percent(share) {
   return `${short(100 * share)}${thin}%`;
 }
 
+/** A length in shares of the diagonal, in brackets in the units of the file. */
+export function percentAndLength(share, diagonal) {
+  return `${percent(share)} (${short(share * diagonal)})`;
+}
+
 export function plural(n, one, many) {
   return `${count(n)} ${n === 1 ? one : many}`;
 }

@@ -1,5 +1,5 @@
 import { element } from './element.js';
-import { count, percent, short } from './numbers.js';
+import { count, percentAndLength } from './numbers.js';
 
 /** How many partner faces are listed; the rest is counted. */
 const listed = 24;
@@ -29,7 +29,7 @@ export function selectionSection(page, faces, before, after, face, onPick) {
       element('dt', {}, 'face'), element('dd', { id: 'picked-face' }, String(face)),
       element('dt', {}, 'vertices'), element('dd', { id: 'picked-vertices' }, vertices.join(', ')),
       moved === null ? null : [element('dt', {}, 'moved'),
-        element('dd', {}, moved === 0 ? 'not at all' : `up to ${percent(moved)} (${short(moved * page.scene.diagonal)})`)],
+        element('dd', {}, moved === 0 ? 'not at all' : `up to ${percentAndLength(moved, page.scene.diagonal)}`)],
       partnersOf(face, before, after ? 'before, meets' : 'meets', onPick),
       after ? partnersOf(face, after, 'after, meets', onPick) : null));
 }

@@ -72,7 +72,7 @@ test('rigid parts are listed with how they moved', async () => {
   unsnarl('fix', at('rings.obj'), '-o', at('rings_fixed.obj'), '--rigid-component', '0', '--view', at('rings.html'), '--quiet');
   await open('rings.html');
   const parts = page.locator('section', { has: page.locator('h2', { hasText: 'Rigid parts' }) });
-  assert.match(await parts.textContent(), /component 0(at rest|shifted [\d.]+\u202f%, turned [\d.]+°)/);
+  assert.match(await parts.textContent(), /component 0(at rest|shifted [\d.]+\u202f% \([\d.]+\), turned [\d.]+°)/);
 });
 
 test('before and after are drawn side by side, intersections in red', async () => {
