@@ -12,7 +12,7 @@ export function short(x) {
   if (!Number.isFinite(x)) return '–';
   if (x === 0) return '0';
   const size = Math.abs(x);
-  if (size >= 1e5 || size < 1e-4) return x.toExponential(1).replace('e+', 'e').replace('-', '−').replace('e-', 'e−');
+  if (size >= 1e5 || size < 1e-4) return x.toExponential(1).replace('.0e', 'e').replace('e+', 'e').replace('-', '−').replace('e-', 'e−');
   return String(Number(x.toPrecision(3))).replace('-', '−');
 }
 

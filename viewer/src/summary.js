@@ -1,6 +1,7 @@
 import { element } from './element.js';
 import { fileList } from './files.js';
 import { count, duration, percent, percentAndLength, plural, short } from './numbers.js';
+import { classInWords } from './pair_classes.js';
 
 /** What each status of a report means: [words, mood]. */
 const statuses = {
@@ -23,8 +24,6 @@ export function statusOf({ report }, before, after) {
     : [plural(shown.count, 'intersecting pair', 'intersecting pairs'), 'bad'];
 }
 
-const className = (name) => name.replace('_', '-');
-
 function pairsTable(before, after) {
   const rows = before.classNames.map((name, k) => [name, before.countByClass[k], after?.countByClass[k] ?? 0]);
   const row = (head, a, b, kind) => element('tr', { class: kind },
@@ -33,7 +32,7 @@ function pairsTable(before, after) {
   return element('table', {},
     element('thead', {}, element('tr', {}, element('th', {}), element('th', { scope: 'col' }, after ? 'before' : 'pairs'),
       after ? element('th', { scope: 'col' }, 'after') : null)),
-    element('tbody', {}, rows.map(([name, a, b]) => row(className(name), a, b, a + b ? '' : 'empty')),
+    element('tbody', {}, rows.map(([name, a, b]) => row(classInWords(name), a, b, a + b ? '' : 'empty')),
       row('all', before.count, after?.count ?? 0, 'total')));
 }
 
@@ -92,6 +91,8 @@ export function summary(page, before, after) {
     files ? section('Files', files) : null,
     page.appearance?.notes.length ? section('Texture', ...page.appearance.notes.map((note) => element('p', { class: 'note' }, note))) : null,
     section('Mesh', facts([
+      files ? null : ['file', scene.input],
+      scene.output ? ['repaired', scene.output] : null,
       ['vertices', count(scene.vertices)],
       ['faces', count(scene.faces)],
       ['diagonal', short(scene.diagonal)],

@@ -77,6 +77,7 @@ export class Viewer {
     this.state.layout = layout;
     if (layout === 'replay') this.setFrame(this.state.frame);
     else this.surface.showEnds();
+    this.stage.fit();
     this.update();
   }
 
@@ -153,8 +154,7 @@ export class Viewer {
     this.state.face = face;
     const partners = face < 0 ? [] : [...this.before.partners(face), ...this.after?.partners(face) ?? []];
     this.surface.select(face, partners.map((p) => p.face));
-    this.panelSelection.replaceWith(this.panelSelection = selectionSection(
-      this.page, this.faces, this.before, this.after, face, (other) => this.pick(other)));
+    this.panelSelection.replaceWith(this.panelSelection = this.#selection(face));
     this.update();
   }
 
@@ -188,8 +188,15 @@ export class Viewer {
     link.click();
   }
 
+  #selection(face) {
+    return selectionSection(this.page, this.faces, this.before, this.after, face,
+      { onPick: (other) => this.pick(other), onNext: (by) => this.pickNext(by) });
+  }
+
   #views() {
-    return viewsOf(this.state).map((view) => ({
+    const tall = this.stage?.isTall ?? false;
+    byId('stage').classList.toggle('tall', tall);
+    return viewsOf(this.state, tall).map((view) => ({
       ...view,
       prepare: () => {
         this.surface.shared.t.value = view.t;
@@ -296,7 +303,7 @@ export class Viewer {
     byId('file-name').title = byId('file-name').textContent;
     const [words, mood] = statusOf(scene, this.before, this.after);
     Object.assign(byId('status'), { textContent: words, hidden: false }).dataset.mood = mood;
-    this.panelSelection = selectionSection(this.page, this.faces, this.before, this.after, -1);
+    this.panelSelection = this.#selection(-1);
     this.history = historySection(scene.report?.history, this.page.frames, (k) => {
       this.setLayout('replay');
       this.setFrame(k);
