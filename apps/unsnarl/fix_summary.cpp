@@ -11,19 +11,17 @@
 #include <vector>
 
 #include "mesh_input.h"
+#include "pair_class_words.h"
 
 namespace unsnarl::app {
 namespace {
 
 std::string in_words(const PairCounts& pairs) {
   if (pairs.total() == 0) return "none";
-  // "116 disjoint" alone would sound like pairs that do not intersect.
-  static constexpr std::array<std::string_view, pair_class_count> words = {
-      "sharing no vertex", "sharing a vertex", "folded along an edge", "on the same vertices",
-      "of a face without area"};
   std::string text;
   for (std::size_t i = 0; i < pair_class_count; ++i)
-    if (pairs.by_class[i] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], words[i]);
+    if (pairs.by_class[i] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], pair_class_words[i]);
   return text;
 }
 
@@ -159,10 +157,14 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   const RepairReport& r = result.report;
   std::string text;
   const auto line = [&text](const std::string& words) { text += words + "\n"; };
-  line(fmt::format("{}: {} vertices, {} faces, {} component{}",
+  const auto counted = [](std::size_t n, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
+  line(fmt::format("{}: {}, {}, {}",
                    files.scene.files.empty() ? (files.input == standard_stream ? "mesh" : files.input)
                                              : fmt::format("{} files", files.scene.files.size()),
-                   files.vertices, files.faces, r.topology.components, r.topology.components == 1 ? "" : "s"));
+                   counted(files.vertices, "vertex", "vertices"), counted(files.faces, "face", "faces"),
+                   counted(r.topology.components, "component", "components")));
   line(fmt::format("  intersecting pairs before: {}", in_words(r.before)));
   line(fmt::format("  intersecting pairs after:  {}", in_words(r.after)));
   for (const std::string& words : by_file(files.scene, r.diagonal)) line("    " + words);
