@@ -1,5 +1,5 @@
 # Makes a C++ source of a page: cmake -DPAGE=... -DSOURCE=... -DHEADER=... -DFUNCTION=... -P this. The header declares
-# the function, which returns the page. Without PAGE: an empty one.
+# the function, named with its namespace, which returns the page. Without PAGE: an empty one.
 set(text "")
 if(PAGE)
   file(READ ${PAGE} text)
@@ -12,7 +12,7 @@ file(WRITE ${SOURCE} "#include \"${HEADER}\"
 
 #include <string_view>
 
-std::string_view unsnarl::app::${FUNCTION}() {
+std::string_view ${FUNCTION}() {
   using namespace std::string_view_literals;
   return R\"unsnarl_page(${text})unsnarl_page\"sv;
 }

@@ -6,6 +6,7 @@
 
 #include "file_places.h"
 #include "mesh_input.h"
+#include "pair_class_words.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/check.h"
@@ -76,7 +77,7 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
                    found.pairs.size() - found.pairs_within_components));
   for (std::size_t i = 0; i < pair_class_count; ++i)
     if (found.counts.by_class[i] > 0)
-      line(fmt::format("  {:<10} {:>9}", pair_class_names[i], found.counts.by_class[i]));
+      line(fmt::format("  {:>10} {} ({})", found.counts.by_class[i], pair_class_words[i], pair_class_names[i]));
   for (const ScenePairs& pairs : by_file.pairs) {
     if (pairs.before.total() == 0) continue;
     const std::string &a = by_file.files[pairs.a].file.name, &b = by_file.files[pairs.b].file.name;

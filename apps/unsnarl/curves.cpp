@@ -208,11 +208,12 @@ class Curves {
     } else {
       text += fmt::format("{}: {} before, {} after\n", to_string(result_.status),
                           count_of(r.crossings_before, "crossing"), r.crossings_after);
-      text += fmt::format(
-          "points moved {:.2g} % of the diagonal on average, {:.2g} % at most; they are {:.2g} % from the input's "
-          "drawing, {:.2g} % at most\n",
-          100 * r.displacement_mean_rel, 100 * r.displacement_max_rel, 100 * r.distance_mean_rel,
-          100 * r.distance_max_rel);
+      const auto length = [&](double rel, const char* of = "") {
+        return fmt::format("{:.2g} %{} ({:.2g})", 100 * rel, of, rel * r.diagonal);
+      };
+      text += fmt::format("points moved {} on average, {} at most\nthey are {} from the input's drawing, {} at most\n",
+                          length(r.displacement_mean_rel, " of the diagonal"), length(r.displacement_max_rel),
+                          length(r.distance_mean_rel), length(r.distance_max_rel));
     }
     for (std::size_t k = 0; k < std::min(r.fixed.size(), most_places); ++k)
       text += fmt::format("obstruction: {} cross and must not move\n", place_of(result_.curves, r.fixed[k]));

@@ -359,7 +359,10 @@ class Fix {
 
   void write_view() {
     if (options_.view.empty()) return;
+    const Appearance appearance = scene_.appearance();
+    for (const std::string& note : appearance.notes) display_.say("note: {}", note);
     PageSource source;
+    source.appearance = &appearance;
     source.input_name = scene_name(options_.inputs);
     source.output_name = files_.output.empty() ? "" : page_name(files_.output);
     source.before = surface();
@@ -369,7 +372,7 @@ class Fix {
     source.goal = repair_options_.goal;
     source.report = report_json(result_, repair_options_, files_);
     source.frames = result_.frames;
-    write_file(options_.view, view_page(viewer_template(), source), interruption_);
+    write_file(options_.view, view_page(built_in_page(), source), interruption_);
   }
 
   StageClock clock_;

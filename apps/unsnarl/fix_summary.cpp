@@ -11,19 +11,17 @@
 #include <vector>
 
 #include "mesh_input.h"
+#include "pair_class_words.h"
 
 namespace unsnarl::app {
 namespace {
 
 std::string in_words(const PairCounts& pairs) {
   if (pairs.total() == 0) return "none";
-  // "116 disjoint" alone would sound like pairs that do not intersect.
-  static constexpr std::array<std::string_view, pair_class_count> words = {
-      "sharing no vertex", "sharing a vertex", "folded along an edge", "on the same vertices",
-      "of a face without area"};
   std::string text;
   for (std::size_t i = 0; i < pair_class_count; ++i)
-    if (pairs.by_class[i] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], words[i]);
+    if (pairs.by_class[i] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", pairs.by_class[i], pair_class_words[i]);
   return text;
 }
 
@@ -76,6 +74,11 @@ std::string fate_of_output(Status status, const std::string& output) {
                                       : "nothing written; --keep-partial writes what was reached";
 }
 
+/// "7.6 % of the diagonal (0.19)": a length, in brackets in the units of the file. `of` follows the sign.
+std::string length_in_words(double rel, double diagonal, std::string_view of = " of the diagonal") {
+  return fmt::format("{:.2g} %{} ({:.2g})", 100 * rel, of, rel * diagonal);
+}
+
 /// Diagonals from rest beyond which a region is named: repairs that move farther than 1 % are rejected by programs that
 /// mesh volumes.
 constexpr double far_rel = 0.01;
@@ -95,14 +98,15 @@ std::vector<std::string> far_regions(const RepairReport& report) {
     if (lines.size() == most_far_regions) break;
     if (std::find(named.begin(), named.end(), region.farthest_vertex) != named.end()) continue;
     named.push_back(region.farthest_vertex);
-    lines.push_back(fmt::format("far: {:.2g} % of the diagonal at vertex {}, out of a tangle {:.2g} % deep",
-                                100 * region.displacement_rel, region.farthest_vertex, 100 * region.depth_rel));
+    lines.push_back(fmt::format("far: {} at vertex {}, out of a tangle {} deep",
+                                length_in_words(region.displacement_rel, report.diagonal), region.farthest_vertex,
+                                length_in_words(region.depth_rel, report.diagonal, "")));
   }
   return lines;
 }
 
 /// Lines about the files of a scene: their pairs before and after, and how far they moved.
-std::vector<std::string> by_file(const SceneReport& scene) {
+std::vector<std::string> by_file(const SceneReport& scene, double diagonal) {
   std::vector<std::string> lines;
   for (const ScenePairs& pairs : scene.pairs) {
     const SceneFileReport& file = scene.files[pairs.a];
@@ -113,8 +117,8 @@ std::vector<std::string> by_file(const SceneReport& scene) {
     }
     lines.push_back(fmt::format("within {}: {}", file.file.name, counts));
     if (file.untouched_share < 1)
-      lines.back() += fmt::format("; moved {:.3g} % of its vertices, by {:.2g} % of the diagonal at most",
-                                  100 * (1 - file.untouched_share), 100 * file.displacement_max_rel);
+      lines.back() += fmt::format("; moved {:.3g} % of its vertices, by {} at most", 100 * (1 - file.untouched_share),
+                                  length_in_words(file.displacement_max_rel, diagonal));
   }
   return lines;
 }
@@ -134,10 +138,10 @@ std::string nested_in_words(const NestedPair& pair) {
   return words;
 }
 
-std::string rigid_part_in_words(const RigidPartReport& part) {
+std::string rigid_part_in_words(const RigidPartReport& part, double diagonal) {
   if (part.translation_rel == 0 && part.rotation_deg == 0) return fmt::format("rigid {}: stays", part.name);
-  return fmt::format("rigid {}: shifted by {:.2g} % of the diagonal, turned by {:.2g} degrees, residual {:.1g}",
-                     part.name, 100 * part.translation_rel, part.rotation_deg, part.residual_rel);
+  return fmt::format("rigid {}: shifted by {}, turned by {:.2g} degrees, residual {:.1g}", part.name,
+                     length_in_words(part.translation_rel, diagonal), part.rotation_deg, part.residual_rel);
 }
 
 std::string dihedral_in_words(const Clearance& clearance, double wanted_deg) {
@@ -153,26 +157,31 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   const RepairReport& r = result.report;
   std::string text;
   const auto line = [&text](const std::string& words) { text += words + "\n"; };
-  line(fmt::format("{}: {} vertices, {} faces, {} component{}",
+  const auto counted = [](std::size_t n, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
+  line(fmt::format("{}: {}, {}, {}",
                    files.scene.files.empty() ? (files.input == standard_stream ? "mesh" : files.input)
                                              : fmt::format("{} files", files.scene.files.size()),
-                   files.vertices, files.faces, r.topology.components, r.topology.components == 1 ? "" : "s"));
+                   counted(files.vertices, "vertex", "vertices"), counted(files.faces, "face", "faces"),
+                   counted(r.topology.components, "component", "components")));
   line(fmt::format("  intersecting pairs before: {}", in_words(r.before)));
   line(fmt::format("  intersecting pairs after:  {}", in_words(r.after)));
-  for (const std::string& words : by_file(files.scene)) line("    " + words);
+  for (const std::string& words : by_file(files.scene, r.diagonal)) line("    " + words);
   for (std::size_t i = 0; i < left_reason_count; ++i)
     if (r.left_by_reason[i] > 0) line(fmt::format("    {} {}", r.left_by_reason[i], why(static_cast<LeftReason>(i))));
   if (r.untouched_share < 1)
-    line(fmt::format("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
-                     100 * (1 - r.untouched_share), 100 * r.displacement_max_rel, 100 * r.displacement_mean_rel));
+    line(fmt::format("  moved {:.3g} % of the vertices, by {} at most, {} on average", 100 * (1 - r.untouched_share),
+                     length_in_words(r.displacement_max_rel, r.diagonal),
+                     length_in_words(r.displacement_mean_rel, r.diagonal, "")));
   for (const NestedPair& pair : files.nested) line("  " + nested_in_words(pair));
-  for (const RigidPartReport& part : r.rigid_parts) line("  " + rigid_part_in_words(part));
+  for (const RigidPartReport& part : r.rigid_parts) line("  " + rigid_part_in_words(part, r.diagonal));
   for (const std::string& words : far_regions(r)) line("  " + words);
   if (options.min_dihedral_deg > 0 && files.clearance_after)
     line(dihedral_in_words(*files.clearance_after, options.min_dihedral_deg));
   if (result.status == Status::displacement_exceeded && r.displacement_lower_bound_rel > options.max_displacement_rel)
-    line(fmt::format("  needed at least: {:.2g} % of the diagonal, half the depth of the deepest overlap",
-                     100 * r.displacement_lower_bound_rel));
+    line(fmt::format("  needed at least: {}, half the depth of the deepest overlap",
+                     length_in_words(r.displacement_lower_bound_rel, r.diagonal)));
   for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
   const bool is_as_asked = outcome(result.status, files.nested) == to_string(result.status);
   line(fmt::format("  {}{}{}; {:.2f} s, {:.0f} MB", is_as_asked ? "" : "not nested as asked; ",

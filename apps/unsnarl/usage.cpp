@@ -29,12 +29,14 @@ std::string explain_missing_command(const CLI::App& program, const std::vector<s
   for (const std::string& name : names)
     text += name == names.front() ? name : name == names.back() ? " or " + name : ", " + name;
   const std::string given = words.empty() ? std::string() : words.front();
+  std::vector<std::string> names_and_options = names;
+  names_and_options.insert(names_and_options.end(), {"--version", "--help"});
   std::error_code ignored;
   if (!given.empty() && given[0] != '-') {
     if (std::filesystem::exists(given, ignored))
       text += fmt::format("; with a mesh, 'unsnarl check {0}' or 'unsnarl fix {0} -o OUT'", given);
     else
-      text = fmt::format("there is no command '{}'{}; {}", given, did_you_mean(given, names), text);
+      text = fmt::format("there is no command '{}'{}; {}", given, did_you_mean(given, names_and_options), text);
   }
   return text + "; 'unsnarl --help' explains";
 }

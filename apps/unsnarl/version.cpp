@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "unsnarl/libraries.h"
+#include "unsnarl/page.h"
 #include "unsnarl/version.h"
-#include "viewer.h"
 
 namespace unsnarl::app {
 
 std::string version_json() {
-  const bool with_viewer = !viewer_template().empty();
+  const bool with_viewer = !built_in_page().empty();
   nlohmann::ordered_json libraries;
   for (const LibraryVersion& library : unsnarl::libraries()) libraries[library.name] = library.version;
   libraries["CLI11"] = CLI11_VERSION;

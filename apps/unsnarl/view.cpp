@@ -118,10 +118,14 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
     source.output_name = meshes.repaired.size() == 1 ? page_name(meshes.repaired[0]) : page_name(options.inputs.back());
     source.after = repaired->surface().positions;
   }
+  const Appearance appearance = scene.appearance();
+  for (const std::string& note : appearance.notes)
+    if (!options.quiet) tell("note: " + note + "\n");
+  source.appearance = &appearance;
   source.find = options.find();
   source.goal = options.goal_wanted();
   source.report = read_report(options.report);
-  const std::string page = view_page(viewer_template(), source);
+  const std::string page = view_page(built_in_page(), source);
   write_file(options.output, page, interruption);
   if (!options.quiet && options.output != standard_stream)
     tell(fmt::format("wrote {} ({:.1f} MB); open it in a browser\n", options.output, 1e-6 * page.size()));

@@ -1,13 +1,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace unsnarl::app {
-
-/// The page that viewer/ builds, without data. Empty in a build without the viewer.
-std::string_view viewer_template();
 
 /// Throws UsageError where this build has no viewer.
 void require_viewer();

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "unsnarl/appearance.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -77,6 +78,10 @@ class Document {
   /// The axis of the positions that points up, of length 1, where the format says so: y in glTF (of a skinned mesh the
   /// axis that its joints turn there), z in 3MF.
   const std::optional<std::array<double, 3>>& up() const;
+  /// How its faces look, with the images that it holds or that lie in its folder: glTF, and OBJ with its MTL files; of
+  /// other formats nothing. Read anew at each call; never fails: what cannot be shown is in its notes.
+  /// image_bytes: the most that all images together may have; what would be more is left out.
+  Appearance appearance(std::size_t image_bytes = most_image_bytes) const;
   /// Things worth telling the user, one sentence each.
   const std::vector<std::string>& notes() const;
   /// The file holds 32-bit floats (STL, glTF, FreeSurfer; PLY and others with float positions), so `float32_digits`

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "unsnarl/appearance.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/recording.h"
 #include "unsnarl/repair.h"
@@ -16,18 +17,22 @@ namespace unsnarl {
 struct PageSource {
   std::string input_name, output_name;  ///< for the reader; any bytes. output_name may be empty
   SurfaceView before;
-  std::span<const double> after = {};     ///< 3 a vertex of `before`; empty: there is only one surface to look at
-  std::span<const SceneFile> files = {};  ///< of `before`; of several, each has a colour of its own. May be empty
-  FindOptions find;                       ///< welding
-  Goal goal = Goal::all;                  ///< which pairs are shown
-  std::string report;                     ///< as of report_json; empty: none
-  std::span<const RecordedFrame> frames;  ///< RepairResult::frames; may be empty
+  std::span<const double> after = {};      ///< 3 a vertex of `before`; empty: there is only one surface to look at
+  std::span<const SceneFile> files = {};   ///< of `before`; of several, each has a colour of its own. May be empty
+  const Appearance* appearance = nullptr;  ///< SceneDocument::appearance, to be looked at too; null: none
+  FindOptions find;                        ///< welding
+  Goal goal = Goal::all;                   ///< which pairs are shown
+  std::string report;                      ///< as of report_json; empty: none
+  std::span<const RecordedFrame> frames;   ///< RepairResult::frames; may be empty
 };
+
+/// The page that viewer/ builds, without data. Empty in a build without it.
+std::string_view built_in_page();
 
 /// One HTML file that shows it all, and needs no network: the template with the mesh, its intersections and its
 /// displacements in it. Positions are drawn in 32 bits; displacements are computed in 64.
 ///
-/// page_template: HTML with a place for data, as viewer/ builds it.
+/// page_template: HTML with a place for data: built_in_page().
 /// Throws std::invalid_argument where the template has no such place, the report is no JSON, or the surface makes no
 /// sense (as find_intersections does).
 std::string view_page(std::string_view page_template, const PageSource& source);

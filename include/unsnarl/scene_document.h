@@ -36,6 +36,8 @@ class SceneDocument {
   const std::vector<FaceLabels>& face_labels() const {
     return documents_.size() == 1 ? documents_[0].face_labels() : labels_;
   }
+  /// Document::appearance of all files, of several with their names in front of notes; image_bytes is shared by them.
+  Appearance appearance(std::size_t image_bytes = most_image_bytes) const;
   /// Those of all files; of several with their names in front, and one where extents differ so much that their units
   /// may; and one where 32-bit numbers are too coarse for where it lies.
   const std::vector<std::string>& notes() const { return notes_; }

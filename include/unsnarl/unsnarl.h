@@ -270,6 +270,24 @@ UNSNARL_EXPORT int unsnarl_vertices_of_faces(const unsnarl_surface* surface, con
 UNSNARL_EXPORT int unsnarl_picture(const unsnarl_surface* surface, const double* moved, size_t moved_count,
                                    int32_t width, const unsnarl_options* options, unsnarl_result** result);
 
+/* What unsnarl_page shows besides the surface. */
+typedef struct unsnarl_page_content {
+  size_t size;         /* sizeof(unsnarl_page_content) */
+  const double* moved; /* x y z of each vertex after a repair, to be shown beside the surface; NULL: it is shown alone */
+  size_t moved_count;  /* vertices */
+  const char* name;    /* of the surface, for the reader; NULL: that of its file, or "mesh" */
+  const char* moved_name; /* likewise of what was moved; NULL: none */
+  const char* report;     /* what unsnarl_result_report gave for the repair, to be shown too; NULL: none */
+} unsnarl_page_content;
+
+/* The page of `unsnarl view` (docs/viewer.md), to turn and look at in a browser: one HTML file that needs no network. Of
+ * a surface of unsnarl_document_surface it has the colours and images of the file too; several meshes have a colour each.
+ * content: NULL: the surface alone. UNSNARL_INVALID_ARGUMENT too where the library was built without the page.
+ *
+ * Array: "html" (k, 1) uint8, the bytes of the file. Report: "notes" (what could not be shown, sentences). */
+UNSNARL_EXPORT int unsnarl_page(const unsnarl_surface* surface, const unsnarl_page_content* content,
+                                const unsnarl_options* options, unsnarl_result** result);
+
 /* ---- mesh files --------------------------------------------------------------------------------------------- */
 
 /* Reads a mesh file with all that it holds. format: "obj", "ply", ... (docs/formats.md); NULL: by the extension. */

@@ -53,7 +53,9 @@ def test_wheel(tmp_path):
     archive, wheel = map(Path, built.split())
     with tarfile.open(archive) as tar:
         inside = {name.partition("/")[2] for name in tar.getnames()}
-    assert {"CMakeLists.txt", "include/unsnarl/unsnarl.h", "src/c_interface/symbols.map"} <= inside
+    assert {"CMakeLists.txt", "include/unsnarl/unsnarl.h", "src/c_interface/symbols.map", "viewer/CMakeLists.txt"} <= inside
+    page = Path(os.environ["UNSNARL_BUILD_DIR"], "viewer", "page", "index.html")
+    assert ("viewer/page.html" in inside) == page.exists()
     assert not any(name.endswith(".so") for name in inside)
 
     assert wheel.name.startswith("unsnarl-") and "-py3-none-manylinux_2_" in wheel.name

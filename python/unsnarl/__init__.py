@@ -18,8 +18,8 @@ repair and certify also a list of these, ``repair([(V, F), mesh])``: meshes in o
     ``corners[offsets[f]:offsets[f + 1]]``.
 
 Files: ``fix("in.obj", "out.obj")`` repairs one as the program does, ``check("in.obj")`` looks for intersections,
-``V, F = read("in.obj")`` gives arrays. What a repair came to goes to the logger "unsnarl" too, and a Result shows
-itself in notebooks.
+``V, F = read("in.obj")`` gives arrays. ``view(...)`` of a mesh, a file or a Result is a page to turn it and look at it,
+before and after. What a repair came to goes to the logger "unsnarl" too, and a Result shows itself in notebooks.
 
 What is passed in is never changed. Arguments that make no sense raise ValueError or TypeError; a mesh that could not be
 untangled raises nothing, its ``Result.status`` says so.
@@ -46,6 +46,7 @@ from ._spaces import (
     planar_isotopy,
     seifert_surface,
 )
+from ._view import Page, view
 
 __all__ = [
     "Certificate",
@@ -55,6 +56,7 @@ __all__ = [
     "Isotopy",
     "Jitter",
     "KnotIsotopy",
+    "Page",
     "Progress",
     "Result",
     "Routes",
@@ -80,4 +82,5 @@ __all__ = [
     "seifert_surface",
     "untangle_curves",
     "vertices_of_faces",
+    "view",
 ]

@@ -28,10 +28,10 @@ _OPTIONS = {
 }
 
 
-class _Document:
+class Document:
     """A mesh file with all that it holds."""
 
-    def __init__(self, path: PathLike, format: Optional[str]):
+    def __init__(self, path: PathLike, format: Optional[str] = None):
         self.handle = ctypes.c_void_p()
         name = None if format is None else format.encode()
         check_code(library.unsnarl_document_read(os.fsencode(path), name, ctypes.byref(self.handle)))
@@ -66,7 +66,7 @@ def read(path: PathLike, format: Optional[str] = None) -> tuple[NDArray[np.float
 
     Raises OSError where the file cannot be read.
     """
-    surface = _Document(path, format).surface()
+    surface = Document(path, format).surface()
     V = surface.positions.reshape(-1, 3)
     if surface.offsets.size == 0:
         return V, surface.corners.reshape(-1, 3)
@@ -128,7 +128,7 @@ def fix(
     if output is not None and os.path.exists(output) and os.path.samefile(path, output):
         raise ValueError(f"{os.fspath(output)!r} is the input; give another name, or in_place=True to overwrite it")
     paper = paper_options(options.pop("paper", False))
-    document = _Document(path, format)
+    document = Document(path, format)
     surface = document.surface()
     flags = vertex_flags(fixed, len(surface.positions) // 3)
     if flags.size > 0:
@@ -148,4 +148,4 @@ def fix(
         document.write(repaired, written)
     report = repaired.report
     report["output"] = {"written": written is not None, "path": None if written is None else os.fspath(written)}
-    return Result(V, repaired.status, report, None, written, surface, V)
+    return Result(V, repaired.status, report, None, written, surface, V, _document=document)

@@ -99,6 +99,17 @@ class OptionsStruct(_Struct):
     ]
 
 
+class PageContentStruct(_Struct):
+    _fields_ = [
+        ("size", c_size_t),
+        ("moved", c_void_p),
+        ("moved_count", c_size_t),
+        ("name", c_char_p),
+        ("moved_name", c_char_p),
+        ("report", c_char_p),
+    ]
+
+
 class ProgressStruct(ctypes.Structure):
     _fields_ = [
         ("size", c_size_t),

@@ -18,14 +18,19 @@ _FACES = re.compile(r"triangle|quad|polygon\d*")
 _NOT_FACES = re.compile(r"vertex|line\d*")
 
 
+def is_path(value: Any) -> bool:
+    """Is this the name of a file?"""
+    return isinstance(value, (str, bytes, os.PathLike))
+
+
 def opened(V: Any, F: Any) -> tuple[Any, Any, Optional[MovedTo]]:
     """Positions and faces as given, or those of the mesh that was given in their place."""
     if F is not None:
         return V, F, None
-    if isinstance(V, (str, bytes, os.PathLike)):
+    if is_path(V):
         raise TypeError(
             f"{V!r} is the name of a file: unsnarl.fix(IN, OUT) repairs files, unsnarl.check(IN) looks for "
-            "intersections, unsnarl.read(IN) gives V and F"
+            "intersections, unsnarl.view(IN) shows it, unsnarl.read(IN) gives V and F"
         )
     if hasattr(V, "vertices") and hasattr(V, "faces"):  # trimesh
         return V.vertices, V.faces, _moved_to(V, "vertices")

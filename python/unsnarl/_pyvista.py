@@ -12,11 +12,12 @@ import pyvista
 
 from ._intersections import Intersections, find_intersections
 from ._repair import repair
+from ._view import Page, view
 
 
 @pyvista.register_dataset_accessor("unsnarl", pyvista.PolyData)
 class UnsnarlAccessor:
-    """``mesh.unsnarl.repair()``, ``mesh.unsnarl.find_intersections()``"""
+    """``mesh.unsnarl.repair()``, ``mesh.unsnarl.find_intersections()``, ``mesh.unsnarl.view()``"""
 
     def __init__(self, mesh: Any):
         self._mesh = mesh
@@ -24,6 +25,10 @@ class UnsnarlAccessor:
     def find_intersections(self, **options: Any) -> Intersections:
         """As unsnarl.find_intersections, with its options."""
         return find_intersections(self._mesh, **options)
+
+    def view(self, after: Any = None, **options: Any) -> Page:
+        """As unsnarl.view, with its options; `after`: the repaired mesh."""
+        return view(self._mesh, after=after, **options)
 
     def repair(self, fixed: Any = None, **options: Any) -> Any:
         """A repaired copy of the mesh, as unsnarl.repair makes it, with its options.

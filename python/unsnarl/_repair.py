@@ -44,6 +44,8 @@ class Result:
     output: Optional[Path] = None
     _before: Optional[Surface] = field(default=None, compare=False)
     _after: Any = field(default=None, compare=False)
+    _mesh_sizes: Any = field(default=None, compare=False)
+    _document: Any = field(default=None, compare=False)
 
     def picture(self, width: int = 1200) -> bytes:
         """Before and after, side by side, intersecting faces in red: the bytes of a PNG file.
@@ -54,13 +56,19 @@ class Result:
             raise ValueError("this result does not know its input; take the one that repair or fix returned")
         return picture_of(self._before, self._after, width)
 
+    def view(self, **options: Any) -> Any:
+        """A page to turn it and look at it, before and after; see unsnarl.view, whose options it takes."""
+        from ._view import view  # which knows results
+
+        return view(self, **options)
+
     def _repr_html_(self) -> str:
         report = self.report
         rows = {
             "status": str(self.status),
             "intersecting pairs": f"{report['before']['total']} before, {report['after']['total']} after",
             "moved": f"{100 * (1 - report['untouched_share']):.3g} % of the vertices, "
-            f"by {100 * report['displacement_max_rel']:.2g} % of the diagonal at most",
+            f"by {100 * report['displacement_max_rel']:.2g} % of the diagonal ({report['displacement_max']:.2g}) at most",
             "time": f"{report['seconds']:.2f} s",
         }
         if self.output is not None:
@@ -77,7 +85,8 @@ class Result:
         before, after = self.report["before"]["total"], self.report["after"]["total"]
         return (
             f"Result({self.status}: {before} intersecting pairs before, {after} after; "
-            f"moved by {self.report['displacement_max_rel']:.2g} of the diagonal at most)"
+            f"moved by {self.report['displacement_max']:.2g} at most, {self.report['displacement_max_rel']:.2g} of the "
+            "diagonal)"
         )
 
 
@@ -192,11 +201,8 @@ def repair(
         **paper_options(paper),
     )
     chains = scene.nested_numbers(nested)
-    sizes = np.array([scene.vertex_counts, scene.face_counts], dtype=np.uintp).T if scene.is_list else np.empty(0)
-    surface = scene.surface.struct(
+    surface = scene.struct(
         fixed=scene.flags_of_vertices(fixed),
-        mesh_sizes=np.ascontiguousarray(sizes),
-        mesh_count=len(sizes),
         rigid=scene.rigid_numbers(rigid),
         nested=chains,
         nested_count=len(chains),
@@ -210,24 +216,29 @@ def repair(
     meshes = [moved_to(own) if moved_to else None for own, moved_to in zip(moved, scene.moved_to)]
     if not scene.is_list:
         return Result(moved[0], repaired.status, repaired.report, meshes[0], None, scene.surface, positions)
-    return Result(moved, repaired.status, repaired.report, meshes, None, scene.surface, positions)
+    return Result(moved, repaired.status, repaired.report, meshes, None, scene.surface, positions, scene.mesh_sizes)
 
 
 def log(repaired: Outcome) -> None:
     """Tells the logger "unsnarl" what a repair came to: a warning where it is not embedded."""
     report = repaired.report
-    for note in report["input"]["notes"]:
-        _log.info("%s", note)
+    log_notes(report["input"]["notes"])
     level = logging.INFO if repaired.status == "embedded" else logging.WARNING
     _log.log(
         level,
-        "%s: %d intersecting pairs before, %d after; moved by %.2g of the diagonal at most; %.2f s",
+        "%s: %d intersecting pairs before, %d after; moved by %.2g at most, %.2g of the diagonal; %.2f s",
         repaired.status,
         report["before"]["total"],
         report["after"]["total"],
+        report["displacement_max"],
         report["displacement_max_rel"],
         report["seconds"],
     )
+
+
+def log_notes(notes: list[str]) -> None:
+    for note in notes:
+        _log.info("%s", note)
 
 
 def picture_of(before: Surface, after: Any, width: int) -> bytes:

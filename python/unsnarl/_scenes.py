@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arguments import Surface, positions_of, rigid_numbers, surface_of, vertex_flags
+from ._library import SurfaceStruct
 from ._meshes import MovedTo, opened
 
 
@@ -19,6 +20,17 @@ class Scene(NamedTuple):
     vertex_counts: list[int]
     face_counts: list[int]
     is_list: bool  # several meshes were given, or a list of one
+
+    @property
+    def mesh_sizes(self) -> NDArray[np.uintp]:
+        """Vertices and faces of each of several meshes; empty: there is one."""
+        sizes = [self.vertex_counts, self.face_counts] if self.is_list else [[], []]
+        return np.ascontiguousarray(np.array(sizes, dtype=np.uintp).T)
+
+    def struct(self, **fields: Any) -> SurfaceStruct:
+        """For the library, with further fields of the struct."""
+        sizes = self.mesh_sizes
+        return self.surface.struct(mesh_sizes=sizes, mesh_count=len(sizes), **fields)
 
     def split(self, positions: NDArray[Any]) -> list[NDArray[Any]]:
         """Positions (n, 3) of all -> those of each mesh."""

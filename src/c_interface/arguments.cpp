@@ -155,6 +155,10 @@ unsnarl_surface surface_of(const unsnarl_surface* given) {
   return surface;
 }
 
+unsnarl_page_content content_of(const unsnarl_page_content* given) {
+  return given == nullptr ? unsnarl_page_content{} : read(given, "page_content");
+}
+
 unsnarl_curves curves_of(const unsnarl_curves* given, const char* name) {
   const unsnarl_curves curves = read(given, name);
   if (curves.curve_count == 0) return curves;

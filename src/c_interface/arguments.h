@@ -23,6 +23,7 @@ void check_size(std::size_t given, std::size_t known, const char* name);
 unsnarl_options options_of(const unsnarl_options* given);
 /// Every field, those that the caller's struct does not have yet as zero; arrays have the lengths they say.
 unsnarl_surface surface_of(const unsnarl_surface* given);
+unsnarl_page_content content_of(const unsnarl_page_content* given);  ///< NULL: nothing but the surface
 unsnarl_curves curves_of(const unsnarl_curves* given, const char* name);
 
 FindOptions find_options(const unsnarl_options& options);

@@ -7,7 +7,7 @@
 namespace unsnarl {
 
 /// A text file in which every coordinate of a position is a token of its own (OBJ, OFF): moved ones are replaced.
-class CoordinateTextFile final : public MeshFile {
+class CoordinateTextFile : public MeshFile {
  public:
   std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const override {
     TokenEdits edits;

@@ -14,6 +14,9 @@
 namespace unsnarl {
 namespace {
 
+/// Notes on images that are listed one by one: a file may name hundreds that are all missing.
+constexpr std::size_t most_appearance_notes = 8;
+
 void check_positions(const Surface& surface, std::span<const double> positions) {
   if (positions.size() != surface.positions.size()) {
     throw std::invalid_argument(
@@ -107,6 +110,15 @@ const std::vector<FaceLabels>& Document::face_labels() const {
 }
 const std::optional<std::array<double, 3>>& Document::up() const {
   return file_->up;
+}
+Appearance Document::appearance(std::size_t image_bytes) const {
+  Appearance result = file_->appearance(image_bytes);
+  if (result.notes.size() > most_appearance_notes) {
+    const std::size_t more = result.notes.size() - most_appearance_notes;
+    result.notes.resize(most_appearance_notes);
+    result.notes.push_back(fmt::format("So it is with {} more.", more));
+  }
+  return result;
 }
 const std::vector<std::string>& Document::notes() const {
   return file_->notes;

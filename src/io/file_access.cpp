@@ -97,7 +97,9 @@ std::string read_file(const std::filesystem::path& path, const std::function<voi
   if (file.id() < 0 || ::fstat(file.id(), &status) != 0) {
     throw FileError(fmt::format("{}: cannot open: {}", path.string(), reason()));
   }
-  if (S_ISDIR(status.st_mode)) throw FileError(fmt::format("{}: is a folder; name a mesh file", path.string()));
+  if (S_ISDIR(status.st_mode))
+    throw FileError(
+        fmt::format("{}: is a folder; name a mesh file, or repair all in it with 'unsnarl batch'", path.string()));
   if (!S_ISREG(status.st_mode)) {
     throw FileError(fmt::format("{}: is not a regular file; pipe it in through standard input ('-')", path.string()));
   }

@@ -33,6 +33,7 @@ class GltfParser {
                           : fmt::format("glTF version {}, but only version 2 is supported; convert the file",
                                         version.substr(0, 20)));
     }
+    file_.folder = folder;
     meshes_ = root_["meshes"].elements();
     file_.buffers = GltfBuffers(root_["buffers"].elements(), file_.bytes, file_.container, folder);
     accessors_ = GltfAccessors(root_, file_.buffers);
@@ -56,7 +57,7 @@ class GltfParser {
   struct Primitive {
     std::size_t mesh = 0, number = 0, mode = triangles;
     std::size_t positions = 0;  ///< accessor
-    Value indices, material;
+    Value attributes, indices, material;
   };
 
   static std::string name_of(const Value& named, const char* kind, std::size_t id) {
@@ -86,6 +87,7 @@ class GltfParser {
                           "compression");
         }
         p.positions = member_index(json["attributes"], "POSITION", 0, where(p));
+        p.attributes = json["attributes"];
         p.indices = json["indices"];
         p.material = json["material"];
         if (!file_.accessors.contains(p.positions)) {
@@ -310,6 +312,8 @@ class GltfParser {
         materials.stop(faces.count());
       }
 
+      const std::size_t first_vertex = file_.blocks[positions.block].first_vertex + positions.first_in_block;
+      file_.parts.push_back({faces.count(), first_vertex, positions.layout.count, p.attributes, p.material});
       const std::vector<std::int32_t> corners = corners_of(p);
       for (std::size_t i = 0; i < corners.size(); i += 3) {
         const std::span<const std::int32_t> face(corners.data() + i, 3);

@@ -89,6 +89,34 @@ std::size_t GltfAccessors::index(const AccessorLayout& indices, std::size_t i) c
   }
 }
 
+AccessorLayout GltfAccessors::texture_coordinates(std::size_t id, const std::string& user) const {
+  const std::string name = fmt::format("{}: accessor {}", user, id);
+  AccessorLayout result = layout(id, "VEC2", name);
+  result.element_size = result.component_type == single           ? 8
+                        : result.component_type == unsigned_short ? 4
+                        : result.component_type == unsigned_byte  ? 2
+                                                                  : 0;
+  if (result.element_size == 0) throw FileError(name + ": texture coordinates of this type are not supported");
+  locate(result, id, name);
+  return result;
+}
+
+std::array<float, 2> GltfAccessors::texture_coordinate(const AccessorLayout& coordinates, std::size_t i) const {
+  const std::string_view data = buffers_->data(coordinates.buffer);
+  const std::size_t at = coordinates.start + i * coordinates.stride;
+  const auto both = [&]<class T>(T largest) -> std::array<float, 2> {
+    const auto one = [&](std::size_t k) {
+      return static_cast<float>(load<T>(data.data() + at + k * sizeof(T), std::endian::little)) / largest;
+    };
+    return {static_cast<float>(one(0)), static_cast<float>(one(1))};
+  };
+  switch (coordinates.component_type) {
+    case unsigned_byte: return both(std::uint8_t{255});
+    case unsigned_short: return both(std::uint16_t{65535});
+    default: return load_floats<2>(data, at);
+  }
+}
+
 /// The accessor's own properties.
 AccessorLayout GltfAccessors::layout(std::size_t id, std::string_view type, const std::string& name) const {
   if (id >= accessors_.size()) {

@@ -35,8 +35,12 @@ class GltfAccessors {
   /// Sixteen floats an element, a column after the other.
   AccessorLayout matrices(std::size_t id, const std::string& user) const;
   AccessorLayout indices(std::size_t id, const std::string& user) const;
+  /// Two floats an element, or whole numbers that stand for [0, 1].
+  AccessorLayout texture_coordinates(std::size_t id, const std::string& user) const;
   /// Element i of an accessor of indices.
   std::size_t index(const AccessorLayout& indices, std::size_t i) const;
+  /// Element i of an accessor of texture coordinates.
+  std::array<float, 2> texture_coordinate(const AccessorLayout& coordinates, std::size_t i) const;
 
   JsonText::Value json(std::size_t id) const { return accessors_[id]; }
 

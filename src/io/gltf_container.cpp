@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "io/base64.h"
 #include "io/byte_order.h"
 #include "io/mesh_file.h"
 #include "io/text_scanner.h"
+#include "io/uri.h"
 
 namespace unsnarl {
 namespace {
@@ -18,27 +18,6 @@ constexpr std::size_t glb_header_size = 12, chunk_header_size = 8;
 
 std::uint32_t word(std::string_view bytes, std::size_t at) {
   return load<std::uint32_t>(bytes.data() + at, std::endian::little);
-}
-
-std::string percent_decoded(std::string_view text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned code = 0;
-    const char* digits = text.data() + i + 1;
-    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
-      result += static_cast<char>(code);
-      i += 2;
-    } else {
-      result += text[i];
-    }
-  }
-  return result;
-}
-
-std::size_t data_uri_start(std::string_view uri) {
-  const std::size_t comma = uri.find(',');
-  if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) return std::string_view::npos;
-  return comma + 1;
 }
 
 /// A JSON string token for `text`, with '/' escaped where `old_token` does so.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/gltf_accessors.h"
+#include "io/gltf_appearance.h"
 #include "io/gltf_container.h"
 #include "io/gltf_scene.h"
 #include "io/mesh_file.h"
@@ -35,6 +36,9 @@ class GltfFile final : public MeshFile {
   std::vector<OutputFile> patched(std::span<const double> positions, bool) const override;
   std::vector<double> as_written(std::span<const double> positions, bool) const override;
   bool has_vertex_normals() const override;
+  Appearance appearance(std::size_t room) const override {
+    return gltf_appearance(json->root(), buffers, parts, surface, folder, room);
+  }
 
   std::optional<JsonText> json;
   GltfContainer container;
@@ -43,6 +47,8 @@ class GltfFile final : public MeshFile {
   std::map<std::size_t, GltfPositions> accessors;  ///< by accessor number
   std::vector<Placement> placements;
   std::vector<std::int32_t> placement_of_vertex;
+  std::vector<GltfPart> parts;
+  std::filesystem::path folder;  ///< that files which this one names are relative to
 
  private:
   using Local = std::array<float, 3>;

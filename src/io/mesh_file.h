@@ -34,6 +34,9 @@ class MeshFile {
   /// Does the file store vertex normals that patched() can update?
   virtual bool has_vertex_normals() const { return false; }
 
+  /// Document::appearance.
+  virtual Appearance appearance(std::size_t) const { return {}; }
+
   std::string bytes;  ///< the main file as it was read
   Surface surface;
   std::vector<FaceLabels> labels;

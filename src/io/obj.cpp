@@ -7,11 +7,19 @@
 
 #include "io/coordinate_text_file.h"
 #include "io/formats.h"
+#include "io/obj_appearance.h"
 #include "io/surface_builder.h"
 #include "io/text_scanner.h"
 
 namespace unsnarl {
 namespace {
+
+class ObjFile final : public CoordinateTextFile {
+ public:
+  Appearance appearance(std::size_t room) const override { return obj_appearance(bytes, surface, folder, room); }
+
+  std::filesystem::path folder;  ///< that files which this one names are relative to
+};
 
 class ObjParser {
  public:
@@ -150,9 +158,10 @@ class ObjParser {
 
 }  // namespace
 
-std::unique_ptr<MeshFile> parse_obj(std::string bytes, const std::filesystem::path&) {
-  auto file = std::make_unique<CoordinateTextFile>();
+std::unique_ptr<MeshFile> parse_obj(std::string bytes, const std::filesystem::path& folder) {
+  auto file = std::make_unique<ObjFile>();
   file->bytes = std::move(bytes);
+  file->folder = folder;
   ObjParser(*file).parse();
   return file;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -118,6 +119,35 @@ void SceneDocument::join() {
     labels_[0].names.push_back(files_[i].name);
     append_labels(documents_[i].face_labels(), files_[i], face_count, labels_);
   }
+}
+
+Appearance SceneDocument::appearance(std::size_t image_bytes) const {
+  if (documents_.size() == 1) return documents_[0].appearance(image_bytes);
+  Appearance whole;
+  std::vector<Appearance> parts;
+  std::size_t images = 0;
+  for (const Document& document : documents_) {
+    parts.push_back(document.appearance(image_bytes));
+    for (const Appearance::Image& image : parts.back().images) image_bytes -= image.bytes.size();
+    images += parts.back().images.size();
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Appearance& part = parts[i];
+    const auto first_material = static_cast<std::int32_t>(whole.materials.size());
+    const auto first_image = static_cast<std::int32_t>(whole.images.size());
+    for (Appearance::Material& material : part.materials) {
+      if (material.image >= 0) material.image += first_image;
+      whole.materials.push_back(material);
+    }
+    part.material_of_face.resize(files_[i].faces, -1);
+    for (const std::int32_t m : part.material_of_face)
+      whole.material_of_face.push_back(m < 0 ? -1 : first_material + m);
+    part.uv_of_corner.resize(images == 0 ? 0 : 2 * documents_[i].surface().corners.size());
+    whole.uv_of_corner.insert(whole.uv_of_corner.end(), part.uv_of_corner.begin(), part.uv_of_corner.end());
+    std::move(part.images.begin(), part.images.end(), std::back_inserter(whole.images));
+    for (const std::string& note : part.notes) whole.notes.push_back(files_[i].name + ": " + note);
+  }
+  return whole;
 }
 
 std::optional<std::size_t> SceneDocument::float32_file() const {

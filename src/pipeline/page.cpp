@@ -47,6 +47,7 @@ std::string view_page(std::string_view page_template, const PageSource& source) 
   content.faces = source.before;
   content.before = state_at(source.before.positions, pairs_before);
   if (!source.after.empty()) content.after = state_at(source.after, pairs_after);
+  content.appearance = source.appearance;
   content.report = parsed(source.report);
   content.frames = source.frames;
   return make_page(page_template, content);

@@ -35,7 +35,8 @@ std::string deflated(const std::string& bytes) {
   return result;
 }
 
-/// RFC 4648, with padding.
+}  // namespace
+
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -49,8 +50,6 @@ std::string base64(std::string_view bytes) {
   }
   return text;
 }
-
-}  // namespace
 
 std::string pack_words(std::span<const std::uint32_t> words, const Prediction& prediction) {
   if (!prediction.like.empty() && prediction.like.size() != words.size())

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace unsnarl {
 
@@ -21,5 +22,8 @@ std::string pack_words(std::span<const std::uint32_t> words, const Prediction& p
 std::string pack_words(std::span<const std::int32_t> words, const Prediction& prediction = {});
 /// The bits of the floats are the words.
 std::string pack_words(std::span<const float> words, const Prediction& prediction = {});
+
+/// RFC 4648, with padding.
+std::string base64(std::string_view bytes);
 
 }  // namespace unsnarl

@@ -1,13 +1,12 @@
 #include "render/page.h"
 
-#include <bit>
 #include <stdexcept>
-#include <type_traits>
 
 #include "geometry/box.h"
 #include "mesh/triangulation.h"
 #include "render/camera.h"
-#include "render/packed_words.h"
+#include "render/page_appearance.h"
+#include "render/page_elements.h"
 #include "unsnarl/version.h"
 
 namespace unsnarl {
@@ -52,63 +51,29 @@ class PageUnits {
   double diagonal_ = 0;
 };
 
-/// The elements of the page that hold the data, one after another.
-class DataElements {
- public:
-  void add_json(std::string_view id, const Json& json) {
-    // Names may hold any bytes, and "</script>" too.
-    std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
-    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
-    html_ += element("application/json", id, "", text);
-  }
-  template <class Word>
-  void add_words(std::string_view id, const std::vector<Word>& words, std::size_t stride) {
-    add(id, std::is_same_v<Word, float> ? "float" : "int", words.size(),
-        " data-stride=\"" + std::to_string(stride) + '"',
-        pack_words(std::span<const Word>(words), {.stride = stride, .like = {}}));
-  }
-  void add_words_like(std::string_view id, const std::vector<float>& words, std::string_view like_id,
-                      const std::vector<float>& like) {
-    std::vector<std::uint32_t> bits(like.size());
-    for (std::size_t i = 0; i < like.size(); ++i) bits[i] = std::bit_cast<std::uint32_t>(like[i]);
-    add(id, "float", words.size(), " data-like=\"" + std::string(like_id) + '"',
-        pack_words(std::span<const float>(words), {.stride = 0, .like = bits}));
-  }
-  const std::string& html() const { return html_; }
-
- private:
-  static std::string element(std::string_view type, std::string_view id, const std::string& attributes,
-                             const std::string& text) {
-    return "<script type=\"" + std::string(type) + "\" id=\"" + std::string(id) + '"' + attributes + '>' + text +
-           "</script>\n";
-  }
-  void add(std::string_view id, const std::string& kind, std::size_t count, const std::string& prediction,
-           const std::string& text) {
-    html_ += element("text/plain", id,
-                     " data-kind=\"" + kind + "\" data-count=\"" + std::to_string(count) + '"' + prediction, text);
-  }
-  std::string html_;
-};
-
 Json as_json(const Vec3& v) {
   return {v[0], v[1], v[2]};
 }
 
-void add_faces(const SurfaceView& surface, DataElements& elements) {
-  const std::vector<Index> corners(surface.corners.begin(), surface.corners.end());
-  if (surface.offsets.empty()) return elements.add_words("corners", corners, 3);
+PageTriangles add_faces(const SurfaceView& surface, PageElements& elements) {
+  std::vector<Index> corners(surface.corners.begin(), surface.corners.end());
+  if (surface.offsets.empty()) {
+    elements.add_words("corners", corners, 3);
+    return {std::move(corners), {}};
+  }
   std::vector<Index> sizes;
   for (std::size_t f = 0; f < surface.face_count(); ++f) sizes.push_back(static_cast<Index>(surface.face(f).size()));
   elements.add_words("corners", corners, sizes.empty() ? 3 : static_cast<std::size_t>(sizes[0]));
   elements.add_words("sizes", sizes, 1);
-  const Triangulation cut = triangulate(surface);
+  Triangulation cut = triangulate(surface);
   std::vector<Index> triangles;
   for (const Triangle& t : cut.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
   elements.add_words("triangles", triangles, 6);
   elements.add_words("triangle_faces", cut.polygon, 1);
+  return {std::move(triangles), std::move(cut.polygon)};
 }
 
-void add_conflicts(const std::string& suffix, const PageState& state, const PageUnits& units, DataElements& elements) {
+void add_conflicts(const std::string& suffix, const PageState& state, const PageUnits& units, PageElements& elements) {
   std::vector<Index> pairs;
   for (const IntersectingPair& pair : state.pairs)
     pairs.insert(pairs.end(), {pair.a, pair.b, static_cast<Index>(pair.kind)});
@@ -130,7 +95,7 @@ std::vector<float> displacements(std::span<const double> before, std::span<const
 }
 
 /// The lists of all frames end to end; what is said of each, and how much of the lists is its own, comes as JSON.
-Json add_frames(std::span<const RecordedFrame> frames, const PageUnits& units, DataElements& elements) {
+Json add_frames(std::span<const RecordedFrame> frames, const PageUnits& units, PageElements& elements) {
   Json described = Json::array();
   std::vector<Index> vertices, faces;
   std::vector<float> displacements;
@@ -171,8 +136,11 @@ std::string make_page(std::string_view page_template, const PageContent& content
   const PageUnits units(content.before.positions);
   const Camera camera = three_quarter_view(content.before.positions, 1, 0.1, up_of(content.files));
 
-  DataElements elements;
+  PageElements elements;
   const Json frames = add_frames(content.frames, units, elements);
+  const PageTriangles triangles = add_faces(surface, elements);
+  const Json appearance =
+      content.appearance ? add_appearance(*content.appearance, surface, triangles, elements) : Json();
   elements.add_json("scene", {{"schema", "unsnarl-page"},
                               {"schema_version", page_schema_version},
                               {"version", version},
@@ -185,11 +153,11 @@ std::string make_page(std::string_view page_template, const PageContent& content
                               {"diagonal", units.diagonal()},
                               {"camera", {{"toward", as_json(camera.toward)}, {"up", as_json(camera.up)}}},
                               {"pair_classes", pair_class_names},
+                              {"appearance", appearance},
                               {"report", content.report},
                               {"frames", frames}});
   const std::vector<float> before = units.of(content.before.positions);
   elements.add_words("positions_before", before, 3);
-  add_faces(surface, elements);
   add_conflicts("before", content.before, units, elements);
   if (content.after) {
     elements.add_words_like("positions_after", units.of(content.after->positions), "positions_before", before);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/types.h"
+#include "unsnarl/appearance.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/recording.h"
 #include "unsnarl/scene_document.h"
@@ -29,9 +30,10 @@ struct PageContent {
   std::span<const SceneFile> files;     ///< that these are of; may be empty
   SurfaceView faces;                    ///< its faces; its positions are `before`'s
   PageState before;
-  std::optional<PageState> after;         ///< of the same faces
-  nlohmann::ordered_json report;          ///< as of report_json; null: none
-  std::span<const RecordedFrame> frames;  ///< the repair on its way; may be empty
+  std::optional<PageState> after;          ///< of the same faces
+  const Appearance* appearance = nullptr;  ///< of `faces`; null: unknown
+  nlohmann::ordered_json report;           ///< as of report_json; null: none
+  std::span<const RecordedFrame> frames;   ///< the repair on its way; may be empty
 };
 
 /// One HTML file that shows it all: the template with the lists of the mesh in it. Positions are drawn in 32 bits,

@@ -20,8 +20,10 @@ namespace {
 constexpr double largest_window = 0.24;
 /// Magnified parts, at most: one corner is left to the surface.
 constexpr std::size_t most_windows = 3;
-/// Share of a further inset that may hide something; the first one takes the best corner, however much that hides.
+/// Share of an inset that may hide something; the first one may hide more where it magnifies much.
 constexpr double most_hidden = 0.03;
+/// Times that the first inset magnifies where it may hide any part: what is red is then too small to be seen well.
+constexpr double much_magnified = 2;
 
 struct Panel {
   Drawable drawable;
@@ -76,7 +78,7 @@ Rectangle inset_place(const std::vector<Image>& views, std::span<const Window> w
   return best;
 }
 
-/// The places of the insets. The first is always drawn, the others only where they hide little.
+/// The places of the insets that hide little, and of the first one where it is needed.
 std::vector<Inset> insets_of(const Drawable& drawable, const Camera& camera, const std::vector<Image>& views, int width,
                              int height) {
   const std::vector<Window> windows =
@@ -86,7 +88,8 @@ std::vector<Inset> insets_of(const Drawable& drawable, const Camera& camera, con
     double hidden = 0;
     const Rectangle place = inset_place(views, windows, insets, width, height, hidden);
     const double pixels = static_cast<double>(views.size()) * place.width * place.height;
-    if (insets.empty() || hidden <= most_hidden * pixels) insets.push_back({windows[k], place});
+    const bool is_needed = k == 0 && place.width >= much_magnified * windows[k].side;
+    if (is_needed || hidden <= most_hidden * pixels) insets.push_back({windows[k], place});
   }
   return insets;
 }

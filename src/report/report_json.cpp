@@ -147,9 +147,11 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
                                    {"vertices", part.vertices},
                                    {"rotation_deg", part.rotation_deg},
                                    {"translation_rel", part.translation_rel},
+                                   {"translation_length", part.translation_rel * r.diagonal},
                                    {"residual_rel", part.residual_rel},
                                    {"rotation", part.rotation},
                                    {"translation", part.translation}});
+  add_lengths(json, r.diagonal);
   if (options.record.any()) json["history"] = history_json(r.history);
   json["stages"] = stages_json(result, files);
   json["seconds"] = files.whole.seconds;

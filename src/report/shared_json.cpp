@@ -1,9 +1,28 @@
 #include "report/shared_json.h"
 
+#include <optional>
+#include <string_view>
+
 namespace unsnarl {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::string_view relative = "_rel";
+
+/// Changes of areas and volumes are fractions of these.
+bool is_length(std::string_view key) {
+  return key.ends_with(relative) && !key.ends_with("_change_rel");
+}
+
+/// A number, or the "value" of an object, times the unit; nothing: it is neither.
+std::optional<Json> times(const Json& relative_length, double unit) {
+  if (relative_length.is_number()) return relative_length.get<double>() * unit;
+  if (!relative_length.is_object() || !relative_length.contains("value")) return std::nullopt;
+  Json length = relative_length;
+  if (length["value"].is_number()) length["value"] = length["value"].get<double>() * unit;
+  return length;
+}
 
 }  // namespace
 
@@ -65,6 +84,21 @@ void add_scene(const SceneReport& scene, bool after, Json& json) {
     add_pairs(pairs, between);
     json["between_files"].push_back(std::move(between));
   }
+}
+
+void add_lengths(Json& json, double diagonal) {
+  if (json.is_array())
+    for (Json& entry : json) add_lengths(entry, diagonal);
+  if (!json.is_object()) return;
+  Json with_lengths = Json::object();
+  for (auto& [key, value] : json.items()) {
+    add_lengths(value, diagonal);
+    const std::string name = is_length(key) ? key.substr(0, key.size() - relative.size()) : std::string();
+    const std::optional<Json> length = name.empty() || json.contains(name) ? std::nullopt : times(value, diagonal);
+    with_lengths[key] = std::move(value);
+    if (length) with_lengths[name] = *length;
+  }
+  json = std::move(with_lengths);
 }
 
 std::string text_of(const Json& json) {

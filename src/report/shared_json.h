@@ -15,6 +15,9 @@ nlohmann::ordered_json topology_json(const Topology& topology);
 nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
 /// Adds "files" and "between_files" where there are several files. `after`: with what became of them.
 void add_scene(const SceneReport& scene, bool after, nlohmann::ordered_json& json);
+/// Beside each length relative to the diagonal ("displacement_max_rel") the same in the units of the positions, under
+/// its name without "_rel", unless that is taken. `json` is an object or a list of them, of any depth.
+void add_lengths(nlohmann::ordered_json& json, double diagonal);
 /// The document as text, indented by two; bytes that are not UTF-8 (of file names) become U+FFFD.
 std::string text_of(const nlohmann::ordered_json& json);
 

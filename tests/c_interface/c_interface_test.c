@@ -55,6 +55,54 @@ static int says(const char* text, const char* part) {
   return strstr(text, part) != NULL;
 }
 
+/* Is `part` among the bytes of an array? */
+static int holds(unsnarl_array bytes, const char* part) {
+  const size_t size = strlen(part);
+  for (size_t i = 0; i + size <= bytes.rows; ++i)
+    if (memcmp((const char*)bytes.data + i, part, size) == 0) return 1;
+  return 0;
+}
+
+static void makes_pages(void) {
+  const unsnarl_surface surface = crossing();
+  unsnarl_page_content content = {.size = sizeof content, .name = "<a>", .moved_name = "b"};
+  unsnarl_result* repaired = NULL;
+  unsnarl_result* page = NULL;
+  unsnarl_array html;
+  if (unsnarl_page(&surface, NULL, NULL, &page) != UNSNARL_OK) { /* a build without it */
+    CHECK(says(unsnarl_error_message(), "npm ci"));
+    return;
+  }
+  html = array(page, "html");
+  CHECK(html.type == UNSNARL_UINT8 && html.columns == 1 && holds(html, "<!doctype html>"));
+  CHECK(holds(html, "\"input\":\"mesh\"") && !holds(html, "id=\"positions_after\""));
+  CHECK(says(unsnarl_result_report(page), "\"notes\":[]"));
+  unsnarl_result_free(page);
+
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &repaired) == UNSNARL_OK);
+  content.moved = array(repaired, "positions").data;
+  content.moved_count = 6;
+  content.report = unsnarl_result_report(repaired);
+  CHECK(unsnarl_page(&surface, &content, NULL, &page) == UNSNARL_OK);
+  html = array(page, "html");
+  CHECK(holds(html, "\"input\":\"\\u003ca>\"") && holds(html, "\"output\":\"b\""));
+  CHECK(holds(html, "id=\"positions_after\"") && holds(html, "\"status\":\"embedded\""));
+  unsnarl_result_free(page);
+
+  content.moved_count = 5;
+  CHECK(unsnarl_page(&surface, &content, NULL, &page) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "moved has 5 vertices, the surface 6"));
+  content.moved_count = 6;
+  content.report = "no JSON";
+  CHECK(unsnarl_page(&surface, &content, NULL, &page) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "JSON"));
+  content.size = 3;
+  CHECK(unsnarl_page(&surface, &content, NULL, &page) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "page_content: its size is 3"));
+  CHECK(unsnarl_page(NULL, NULL, NULL, &page) == UNSNARL_INVALID_ARGUMENT);
+  unsnarl_result_free(repaired);
+}
+
 static void finds_and_repairs(void) {
   const unsnarl_surface surface = crossing();
   unsnarl_surface moved = surface;
@@ -240,13 +288,19 @@ static void tells_progress_and_cancels(void) {
 
 /* Two tetrahedra, the small one mostly outside of the large one. */
 static void nests_meshes(void) {
-  static const double positions[] = {0,   0,   0,   4,   0,   0,   0,   4,   0,   0,   0,   4,
-                                     1.2, 1.2, 1.1, 2.6, 2.5, 2,   2.5, 2.6, 2.2, 2.4, 2.4, 2.7};
+  static const double positions[] = {0,   0,   0,   4,   0,   0, 0,   4,   0,   0,   0,   4,
+                                     1.2, 1.2, 1.1, 2.6, 2.5, 2, 2.5, 2.6, 2.2, 2.4, 2.4, 2.7};
   static const int32_t corners[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 4, 5, 7, 4, 6, 5, 5, 6, 7, 4, 7, 6};
   static const size_t sizes[] = {4, 4, 4, 4};
   const int32_t chain[] = {1, 0}, itself[] = {1, 0, -1, 0, 1, -1}, unknown[] = {2, 0};
-  unsnarl_surface surface = {.size = sizeof surface, .positions = positions, .vertex_count = 8, .corners = corners,
-                             .corner_count = 24, .mesh_sizes = sizes, .mesh_count = 2, .nested = chain,
+  unsnarl_surface surface = {.size = sizeof surface,
+                             .positions = positions,
+                             .vertex_count = 8,
+                             .corners = corners,
+                             .corner_count = 24,
+                             .mesh_sizes = sizes,
+                             .mesh_count = 2,
+                             .nested = chain,
                              .nested_count = 2};
   unsnarl_result* result = NULL;
 
@@ -472,6 +526,7 @@ static void reads_and_writes_files(const char* folder) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   finds_and_repairs();
+  makes_pages();
   heeds_options();
   takes_structs_of_older_callers();
   says_what_is_wrong();

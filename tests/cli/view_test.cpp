@@ -54,6 +54,21 @@ TEST_F(View, TheSamePageAtAnyNumberOfThreads) {
   EXPECT_EQ(contents(page), first);
 }
 
+TEST_F(View, ImagesOfMaterialsAreInThePageOrInANote) {
+  write(in, "mtllib in.mtl\n" + crossing_triangles + "usemtl a\nf 1 2 4\nusemtl b\nf 1 3 5\n");
+  write(folder / "in.mtl", "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd gone.png\n");
+  const std::string png("\x89PNG\r\n\x1A\n\0\0\0\rIHDR\0\0\0\x04\0\0\0\x04", 24);
+  write(folder / "a.png", png);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"view", in, "-o", page},
+        std::vector<std::string>{"fix", in, "-o", folder / "out.obj", "--view", page}}) {
+    const Outcome outcome = run(command);
+    EXPECT_TRUE(contains(outcome.err, "note: Image gone.png is left out")) << outcome.err;
+    EXPECT_TRUE(contains(contents(page), "id=\"image_0\">iVBORw0KGgo"));
+    EXPECT_TRUE(contains(contents(page), "Image gone.png is left out"));
+  }
+}
+
 TEST_F(View, RefusesWhatMakesNoSense) {
   const std::string other = folder / "other.obj", text = folder / "text.json", old = folder / "old.json";
   write(other, crossing_triangles + "f 1 2 4\n");

@@ -50,6 +50,18 @@ void check_surface(const Document& document) {
   }
 }
 
+void check_appearance(const Document& document) {
+  const SurfaceView surface = document.surface();
+  const Appearance look = document.appearance();
+  promise(look.material_of_face.empty() || look.material_of_face.size() == surface.face_count(), "a material a face");
+  for (const std::int32_t m : look.material_of_face)
+    promise(m >= -1 && m < static_cast<std::int32_t>(look.materials.size()), "materials are in range");
+  for (const Appearance::Material& m : look.materials)
+    promise(m.image >= -1 && m.image < static_cast<std::int32_t>(look.images.size()), "images are in range");
+  promise(look.uv_of_corner.size() == (look.images.empty() ? 0 : 2 * surface.corners.size()), "two numbers a corner");
+  for (const float x : look.uv_of_corner) promise(std::isfinite(x), "texture coordinates are finite");
+}
+
 /// Every other coordinate or so moved, by more than a rounding error, the same way each time.
 std::vector<double> moved(const std::vector<double>& positions) {
   std::vector<double> result = positions;
@@ -95,6 +107,7 @@ void check(Bytes bytes, Format format) {
   const std::optional<Document> document = parsed(file, format);
   if (!document) return;
   check_surface(*document);
+  check_appearance(*document);
   check_patching(*document, file);
 }
 

@@ -147,6 +147,17 @@ TEST(Picture, MagnifiesGroupsThatLieFarApart) {
   EXPECT_GT(vivid(both) - plain_both, 3 * (vivid(one) - plain_one) / 2) << "the second group is magnified as well";
 }
 
+TEST(Picture, HidesNothingToMagnifyWhatIsSeenWell) {
+  PictureOptions options = small();
+  options.width = options.height = 400;
+  const Surface surface = plate(20);
+  std::vector<Index> red;
+  for (Index f = 0; f < 400; f += 3) red.push_back(f);
+  const Image plain = render_surface(surface, red, options);
+  options.inset = true;
+  EXPECT_EQ(render_surface(surface, red, options).pixels, plain.pixels);
+}
+
 TEST(Picture, DrawsItsLabels) {
   PictureOptions options = small();
   options.before_label = options.after_label = "";

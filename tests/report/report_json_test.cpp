@@ -39,6 +39,30 @@ TEST(ReportJson, holds_what_the_report_holds) {
   EXPECT_FALSE(json.contains("history"));
 }
 
+TEST(ReportJson, lengths_are_in_the_units_of_the_positions_too) {
+  RepairResult result;
+  result.report.diagonal = 8;
+  result.report.displacement_max_rel = 0.25;
+  result.report.area_change_rel = 0.5;
+  result.report.regions.push_back({});
+  result.report.regions[0].depth_rel = 0.125;
+  RigidPartReport part;
+  part.translation_rel = 0.5;
+  part.translation = {1, 2, 3};
+  result.report.rigid_parts.push_back(part);
+  ReportFiles files;
+  files.clearance_before = Clearance{};
+  const auto json = parsed(report_json(result, {}, files));
+  EXPECT_EQ(json["displacement_max"], 2);
+  EXPECT_EQ(json["regions"][0]["depth"], 1);
+  EXPECT_EQ(json["rigid_parts"][0]["translation_length"], 4);
+  EXPECT_EQ(json["rigid_parts"][0]["translation"], nlohmann::json({1.0, 2.0, 3.0}));
+  EXPECT_FALSE(json.contains("area_change")) << "a share of the area";
+  const auto& clearance = json["clearance"]["before"];
+  ASSERT_TRUE(clearance["gap_rel"].contains("value"));
+  EXPECT_EQ(clearance["gap"].size(), clearance["gap_rel"].size());
+}
+
 // File names may hold any bytes.
 TEST(ReportJson, what_is_not_utf_8_is_replaced) {
   ReportFiles files;

@@ -6,6 +6,9 @@ const size = { width: 288, height: 104, left: 52, right: 6, top: 10, bottom: 18 
 /** Decades that a logarithmic axis has at most, below its largest value: a term that is all but nothing lies on the ground. */
 const mostDecades = 8;
 
+/** Share of a logarithmic axis below its decades, where zeros lie. */
+const room = 0.14;
+
 /** Positions along an axis: logarithmic where values span more than two decades and none is negative. */
 function axis(values, from, to) {
   const finite = values.filter((v) => Number.isFinite(v));
@@ -23,9 +26,11 @@ function axis(values, from, to) {
   const decades = [Math.max(Math.floor(Math.log10(least)), highest - mostDecades), highest];
   const span = decades[1] - decades[0] || 1;
   const step = Math.ceil(span / 3);
-  const ticks = [];
-  for (let d = decades[0]; d <= decades[1]; d += step) ticks.push(10 ** d);
-  return { at: (v) => from + (to - from) * (v > 0 ? Math.max(0, Math.log10(v) - decades[0]) / span : 0), ticks };
+  const bottom = low === 0 ? room : 0;
+  const ticks = low === 0 ? [0] : [];
+  for (let d = decades[1]; d >= decades[0]; d -= step) ticks.push(10 ** d);
+  const share = (v) => (v > 0 ? bottom + (1 - bottom) * Math.max(0, Math.log10(v) - decades[0]) / span : 0);
+  return { at: (v) => from + (to - from) * share(v), ticks };
 }
 
 /**

@@ -6,7 +6,7 @@ const keys = [
   ['1  2  3  4', 'side by side, divider, blend, iterations'],
   ['← →', 'move the slider, the divider or the iteration'],
   ['space', 'play'],
-  ['C  D', 'colours: intersections, displacement'],
+  ['C  M  D', 'colours: intersections, materials and textures, displacement'],
   ['R', 'range of the displacement scale'],
   ['E  X', 'edges, intersection curves'],
   ['N  P', 'next, previous intersecting face'],

@@ -16,9 +16,9 @@ function regionCharts(region) {
     .filter(({ values }) => hasAny(values)).map((s, i) => ({ ...s, colour: i + 1 }));
   if (energies.length) charts.push(chart('Energy', energies));
   const gaps = numbers(region.min_gap);
-  if (hasAny(gaps)) charts.push(chart('Smallest gap', [{ name: 'gap', values: gaps, colour: 0 }]));
+  if (hasAny(gaps)) charts.push(chart('Smallest gap (length)', [{ name: 'gap', values: gaps, colour: 0 }]));
   const steps = numbers(region.step);
-  if (hasAny(steps)) charts.push(chart('Largest step', [{ name: 'step', values: steps, colour: 0 }]));
+  if (hasAny(steps)) charts.push(chart('Largest step (length)', [{ name: 'step', values: steps, colour: 0 }]));
   return charts.map(({ node }) => node);
 }
 

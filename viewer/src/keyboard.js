@@ -7,6 +7,7 @@ export function listenToKeys(viewer) {
     3: () => viewer.setLayout('blend'),
     4: () => viewer.setLayout('replay'),
     c: () => viewer.setColouring('conflicts'),
+    m: () => viewer.setColouring('texture'),
     d: () => viewer.setColouring('displacement'),
     r: () => viewer.changeRange(),
     e: () => viewer.toggle('edges'),

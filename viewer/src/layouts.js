@@ -2,11 +2,13 @@
 
 const whole = { x: 0, y: 0, width: 1, height: 1 };
 const part = (from, to) => ({ x: from, y: 0, width: to - from, height: 1 });
+const rows = [{ x: 0, y: 0, width: 1, height: 0.5 }, { x: 0, y: 0.5, width: 1, height: 0.5 }];
 
-/** state: { layout, blend, divider }. Each view: where (rect), what of it (clip), when (t; frame: the recorded one). */
-export function viewsOf({ layout, blend, divider }) {
+/** state: { layout, blend, divider }; tall: the canvas is, as on a phone. Each view: where (rect), what of it (clip), when (t; frame: the recorded one). */
+export function viewsOf({ layout, blend, divider }, tall = false) {
   switch (layout) {
     case 'pair':
+      if (tall) return rows.map((rect, t) => ({ rect, clip: rect, t }));
       return [{ rect: part(0, 0.5), clip: part(0, 0.5), t: 0 }, { rect: part(0.5, 1), clip: part(0.5, 1), t: 1 }];
     case 'wipe':
       return [{ rect: whole, clip: part(0, divider), t: 0 }, { rect: whole, clip: part(divider, 1), t: 1 }];
@@ -21,7 +23,7 @@ export function viewsOf({ layout, blend, divider }) {
 
 /** How red the conflicts of each state are in a view, and how visible its curves, which hold for that state alone. */
 export function strengthsOf({ t, frame }, { colouring, curves }) {
-  const red = colouring === 'conflicts' ? 1 : 0;
+  const red = colouring === 'displacement' ? 0 : 1;
   if (frame) return { before: 0, after: 0, frame: red, curvesBefore: 0, curvesAfter: 0 };
   const shown = curves ? 1 : 0;
   return {

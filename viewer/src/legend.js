@@ -33,7 +33,7 @@ export function fillLegend(node, full, range, diagonal, onChange) {
     element('div', { class: 'ticks' }, ticks.map((share) => element('span', {},
       share === 0 ? '0' : percent(share * share * full)))),
     element('div', { class: 'foot' },
-      element('span', {}, `${short(full * diagonal)} in the file's units`),
+      element('span', {}, `${percent(full)} is ${short(full * diagonal)} in the file's units`),
       element('button', { onclick: onChange, title: 'Change the range of the scale (R)' },
         range === 'all' ? 'full range' : 'up to the 99th percentile')));
 }

@@ -11,6 +11,9 @@ const surfaceVertex = /* glsl */ `
   ${vertexHead}
   attribute vec3 normalB;
   attribute float heat;
+  #ifdef PAINTED
+  varying vec2 uvHere;
+  #endif
   invariant gl_Position;
   varying vec3 viewPosition;
   varying vec3 smoothNormal;
@@ -20,6 +23,9 @@ const surfaceVertex = /* glsl */ `
     viewPosition = p.xyz;
     smoothNormal = normalMatrix * mix(normal, normalB, t);
     heatHere = heat;
+    #ifdef PAINTED
+    uvHere = uv;
+    #endif
     gl_Position = projectionMatrix * p;
   }
 `;
@@ -34,6 +40,11 @@ const surfaceFragment = /* glsl */ `
   varying vec3 viewPosition;
   varying vec3 smoothNormal;
   varying float heatHere;
+  #ifdef PAINTED
+  uniform sampler2D image;
+  uniform float alphaCutoff;
+  varying vec2 uvHere;
+  #endif
 
   vec3 toLinear(vec3 c) { return pow(c, vec3(2.2)); }
 
@@ -59,6 +70,11 @@ const surfaceFragment = /* glsl */ `
 
   void main() {
     vec3 base = toLinear(heated ? heatColour(sqrt(heatHere / heatFull)) : colour);
+    #ifdef PAINTED
+    vec4 texel = texture2D(image, uvHere);
+    if (texel.a < alphaCutoff) discard;
+    base *= toLinear(texel.rgb);
+    #endif
     vec3 result = base;
     if (lit) {
       vec3 n = shadingNormal();
@@ -117,6 +133,22 @@ function surfaceMaterial(shared, { lit = true, heats = false, opacity = 1, ...se
 /** The surface itself. */
 export function clayMaterial(shared) {
   return surfaceMaterial(shared, { heats: true });
+}
+
+const wraps = { repeat: THREE.RepeatWrapping, mirror: THREE.MirroredRepeatWrapping, clamp: THREE.ClampToEdgeWrapping };
+
+/** The surface as a material of its file paints it, see appearance.js. */
+export function paintedMaterial(shared, { image, alpha_cutoff: alphaCutoff, wrap }) {
+  if (!image) return surfaceMaterial(shared, {});
+  const texture = new THREE.Texture(image);
+  texture.flipY = false;  // v goes down from the first row
+  texture.wrapS = wraps[wrap[0]];
+  texture.wrapT = wraps[wrap[1]];
+  texture.anisotropy = 4;
+  texture.needsUpdate = true;
+  const material = surfaceMaterial(shared, { defines: { PAINTED: '' } });
+  Object.assign(material.uniforms, { image: { value: texture }, alphaCutoff: { value: alphaCutoff } });
+  return material;
 }
 
 /** Chosen faces, over the surface. */

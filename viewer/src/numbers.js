@@ -12,13 +12,18 @@ export function short(x) {
   if (!Number.isFinite(x)) return '–';
   if (x === 0) return '0';
   const size = Math.abs(x);
-  if (size >= 1e5 || size < 1e-4) return x.toExponential(1).replace('e+', 'e').replace('-', '−').replace('e-', 'e−');
+  if (size >= 1e5 || size < 1e-4) return x.toExponential(1).replace('.0e', 'e').replace('e+', 'e').replace('-', '−').replace('e-', 'e−');
   return String(Number(x.toPrecision(3))).replace('-', '−');
 }
 
 /** A share as a percentage: 0.0123 -> "1.23 %". */
 export function percent(share) {
   return `${short(100 * share)}${thin}%`;
+}
+
+/** A length in shares of the diagonal, in brackets in the units of the file. */
+export function percentAndLength(share, diagonal) {
+  return `${percent(share)} (${short(share * diagonal)})`;
 }
 
 export function plural(n, one, many) {

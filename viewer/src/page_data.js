@@ -1,3 +1,4 @@
+import { readAppearance } from './appearance.js';
 import { unpackWords } from './packed_words.js';
 
 /** The lists in a page are its elements <script id=... data-kind data-count data-stride|data-like>. */
@@ -18,6 +19,7 @@ async function readList(root, id) {
  *   before      { positions, pairs, curves }: 3 n floats; (face, face, class) triples; 6 floats a segment
  *   after       the same, or null
  *   displacement  length of each vertex's motion, or null
+ *   appearance    see readAppearance
  *   corners, sizes (null: triangles), triangles, triangleFaces (null: triangles are the faces)
  */
 export async function readPage(root) {
@@ -31,14 +33,16 @@ export async function readPage(root) {
     return { positions, pairs: await list(`pairs_${suffix}`), curves: await list(`curves_${suffix}`) };
   };
   const corners = await list('corners');
+  const triangles = await list('triangles') ?? corners;
   return {
     scene,
     before: await state('before'),
     after: await state('after'),
     displacement: await list('displacement'),
+    appearance: await readAppearance(root, scene, triangles, list),
     corners,
     sizes: await list('sizes'),
-    triangles: await list('triangles') ?? corners,
+    triangles,
     triangleFaces: await list('triangle_faces'),
     frames: readFrames(scene.frames ?? [], {
       vertices: await list('frame_vertices'),

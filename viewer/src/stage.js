@@ -56,8 +56,19 @@ export class Stage {
     this.drawSeconds = (performance.now() - began) / 1000;
   }
 
+  /** Is it so much taller than wide that two views fit better below each other? */
+  get isTall() {
+    return this.height > 1.2 * this.width;
+  }
+
+  /** As the views have another shape now: shows all of them, unless the reader has turned to something. */
+  fit() {
+    if (this.isUntouched) this.showAll();
+  }
+
   /** The direction in which pictures are taken, from as near as shows all. */
   showAll() {
+    this.isUntouched = true;
     const toward = new THREE.Vector3().fromArray(this.toward);
     this.controls.target.set(0, 0, 0);
     this.camera.position.copy(toward);
@@ -88,11 +99,13 @@ export class Stage {
     controls.minDistance = 1e-5;
     controls.maxDistance = 50;
     controls.addEventListener('change', () => this.changed());
+    controls.addEventListener('start', () => { this.isUntouched = false; });
     return controls;
   }
 
   /** Looks at a sphere from where the camera is. */
   lookAt(centre, radius) {
+    this.isUntouched = false;
     const away = this.camera.position.clone().sub(this.controls.target).normalize();
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).addScaledVector(away, Math.max(radius, 1e-4) / Math.tan(halfFieldOfView) * 2.2);
@@ -180,6 +193,7 @@ export class Stage {
     this.height = Math.max(1, clientHeight);
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(this.width, this.height, true);
+    this.fit();
     this.changed();
   }
 }

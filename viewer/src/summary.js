@@ -1,6 +1,7 @@
 import { element } from './element.js';
 import { fileList } from './files.js';
-import { count, duration, percent, plural, short } from './numbers.js';
+import { count, duration, percent, percentAndLength, plural, short } from './numbers.js';
+import { classInWords } from './pair_classes.js';
 
 /** What each status of a report means: [words, mood]. */
 const statuses = {
@@ -23,8 +24,6 @@ export function statusOf({ report }, before, after) {
     : [plural(shown.count, 'intersecting pair', 'intersecting pairs'), 'bad'];
 }
 
-const className = (name) => name.replace('_', '-');
-
 function pairsTable(before, after) {
   const rows = before.classNames.map((name, k) => [name, before.countByClass[k], after?.countByClass[k] ?? 0]);
   const row = (head, a, b, kind) => element('tr', { class: kind },
@@ -33,7 +32,7 @@ function pairsTable(before, after) {
   return element('table', {},
     element('thead', {}, element('tr', {}, element('th', {}), element('th', { scope: 'col' }, after ? 'before' : 'pairs'),
       after ? element('th', { scope: 'col' }, 'after') : null)),
-    element('tbody', {}, rows.map(([name, a, b]) => row(className(name), a, b, a + b ? '' : 'empty')),
+    element('tbody', {}, rows.map(([name, a, b]) => row(classInWords(name), a, b, a + b ? '' : 'empty')),
       row('all', before.count, after?.count ?? 0, 'total')));
 }
 
@@ -49,7 +48,7 @@ function motion(page) {
     sum += d;
     most = Math.max(most, d);
   }
-  const length = (share) => `${percent(share)} (${short(share * scene.diagonal)})`;
+  const length = (share) => percentAndLength(share, scene.diagonal);
   return facts([
     ['vertices moved', `${count(moved)} of ${count(scene.vertices)} (${percent(moved / Math.max(1, scene.vertices))})`],
     ['furthest', length(most)],
@@ -58,7 +57,7 @@ function motion(page) {
 }
 
 function reportFacts(report) {
-  const gap = report.min_gap_rel > 0 ? percent(report.min_gap_rel) : null;
+  const gap = report.min_gap_rel > 0 ? percentAndLength(report.min_gap_rel, report.diagonal) : null;
   const regions = report.regions?.length ?? 0;
   return facts([
     regions ? ['conflict regions', count(regions)] : null,
@@ -72,9 +71,9 @@ function reportFacts(report) {
 }
 
 /** How each rigid part moved as a body. */
-function rigidParts(parts) {
+function rigidParts(parts, diagonal) {
   return facts(parts.map((part) => [part.name, part.translation_rel === 0 && part.rotation_deg === 0 ? 'at rest'
-    : `shifted ${percent(part.translation_rel)}, turned ${short(part.rotation_deg)}°`]));
+    : `shifted ${percentAndLength(part.translation_rel, diagonal)}, turned ${short(part.rotation_deg)}°`]));
 }
 
 /** The sections of the panel that stay as they are. */
@@ -88,9 +87,12 @@ export function summary(page, before, after) {
       ...(report?.obstructions ?? []).map(({ message }) => element('p', { class: 'note' }, `Cannot be resolved: ${message}`))),
     page.displacement ? section('Motion: share of the diagonal (length)', motion(page)) : null,
     report ? section('Report', reportFacts(report)) : null,
-    report?.rigid_parts?.length ? section('Rigid parts', rigidParts(report.rigid_parts)) : null,
+    report?.rigid_parts?.length ? section('Rigid parts', rigidParts(report.rigid_parts, report.diagonal)) : null,
     files ? section('Files', files) : null,
+    page.appearance?.notes.length ? section('Texture', ...page.appearance.notes.map((note) => element('p', { class: 'note' }, note))) : null,
     section('Mesh', facts([
+      files ? null : ['file', scene.input],
+      scene.output ? ['repaired', scene.output] : null,
       ['vertices', count(scene.vertices)],
       ['faces', count(scene.faces)],
       ['diagonal', short(scene.diagonal)],

@@ -2,10 +2,11 @@ import * as THREE from 'three';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
+import { fillWithCopies, trianglesOfMaterials, withCopies } from './appearance.js';
 import { trianglesOfFaces } from './conflicts.js';
 import { trianglesOfFiles } from './files.js';
 import { vertexNormals } from './faces.js';
-import { clayMaterial, edgeMaterial, hiddenMaterial, overlayMaterial, sharedUniforms } from './materials.js';
+import { clayMaterial, edgeMaterial, hiddenMaterial, overlayMaterial, paintedMaterial, sharedUniforms } from './materials.js';
 
 /** Things are drawn in this order. */
 const order = { clay: 0, hiddenSelected: 1, hidden: 2, overlay: 3, selected: 4, edges: 5, hiddenCurves: 6, curves: 7 };
@@ -17,10 +18,12 @@ export class Surface {
     this.faces = faces;
     this.scene = new THREE.Scene();
     this.shared = sharedUniforms();
+    this.copies = page.appearance?.copies;
     const a = this.#stateAttributes(page.before.positions);
     const b = page.after ? this.#stateAttributes(page.after.positions) : a;
     this.ends = { a, b };
-    this.heat = new THREE.BufferAttribute(page.displacement ?? new Float32Array(page.before.positions.length / 3), 1);
+    const heat = page.displacement ?? new Float32Array(page.before.positions.length / 3);
+    this.heat = new THREE.BufferAttribute(withCopies(heat, 1, this.copies), 1);
     this.attributes = {
       position: a.position, normal: a.normal, positionB: b.position, normalB: b.normal, heat: this.heat,
     };
@@ -35,6 +38,24 @@ export class Surface {
     this.partners = this.#overlay(order.selected, order.hiddenSelected, 0.62);
     this.curves = { before: this.#curves(page.before.curves), after: this.#curves(page.after?.curves) };
     this.edges = null;  // made when first wanted
+    this.painted = null;  // likewise
+  }
+
+  /** In the colours and images of the file, or all of one colour? */
+  setPainted(painted) {
+    if (painted && !this.painted) {
+      const { appearance } = this.page;
+      const uv = appearance.uv && new THREE.BufferAttribute(appearance.uv, 2);
+      this.painted = trianglesOfMaterials(this.page).map(({ material, file, triangles }) => {
+        const mesh = this.#mesh(new THREE.BufferAttribute(triangles, 1), paintedMaterial(this.shared, material ?? {}), order.clay);
+        if (material?.image) mesh.geometry.setAttribute('uv', uv);
+        mesh.userData = { material, file };
+        return mesh;
+      });
+      this.applyColours(this.colours);
+    }
+    for (const mesh of this.clay) mesh.visible = !painted;
+    for (const mesh of this.painted ?? []) mesh.visible = painted;
   }
 
   /** Moves t between before and after again. */
@@ -46,12 +67,12 @@ export class Surface {
   showState(positions, displacement) {
     this.state ??= {
       ...this.#stateAttributes(positions.slice()),
-      heat: new THREE.BufferAttribute(displacement.slice(), 1),
+      heat: new THREE.BufferAttribute(withCopies(displacement.slice(), 1, this.copies), 1),
     };
     const { position, normal, heat } = this.state;
-    position.array.set(positions);
-    normal.array.set(vertexNormals(positions, this.page.triangles));
-    heat.array.set(displacement);
+    fillWithCopies(position.array, positions, 3, this.copies);
+    fillWithCopies(normal.array, vertexNormals(positions, this.page.triangles), 4, this.copies);
+    fillWithCopies(heat.array, displacement, 1, this.copies);
     for (const attribute of [position, normal, heat]) attribute.needsUpdate = true;
     this.#use({ a: this.state, b: this.state, heat });
   }
@@ -97,6 +118,9 @@ export class Surface {
     if (!colours) return;
     const set = (material, colour) => material.uniforms.colour.value.copy(colour);
     this.clay.forEach((mesh, i) => set(mesh.material, colours.files[i % colours.files.length]));
+    for (const { material: drawn, userData: { material, file } } of this.painted ?? [])
+      if (material) drawn.uniforms.colour.value.fromArray(material.colour);
+      else set(drawn, colours.files[file % colours.files.length]);
     for (const overlay of Object.values(this.red)) overlay.setColour(colours.red, colours.tint);
     this.selected.setColour(colours.selected);
     this.partners.setColour(colours.partner);
@@ -116,13 +140,14 @@ export class Surface {
 
   #geometries() {
     const overlays = [...Object.values(this.red), this.selected, this.partners];
-    return [...this.clay.map((m) => m.geometry), ...overlays.flatMap((o) => o.meshes.map((m) => m.geometry)), ...this.edges ? [this.edges.geometry] : []];
+    const surfaces = [...this.clay, ...this.painted ?? []];
+    return [...surfaces.map((m) => m.geometry), ...overlays.flatMap((o) => o.meshes.map((m) => m.geometry)), ...this.edges ? [this.edges.geometry] : []];
   }
 
   #stateAttributes(positions) {
     return {
-      position: new THREE.BufferAttribute(positions, 3),
-      normal: new THREE.BufferAttribute(vertexNormals(positions, this.page.triangles), 4, true),
+      position: new THREE.BufferAttribute(withCopies(positions, 3, this.copies), 3),
+      normal: new THREE.BufferAttribute(withCopies(vertexNormals(positions, this.page.triangles), 4, this.copies), 4, true),
     };
   }
 

@@ -32,7 +32,7 @@ export class Viewer {
     this.frames = page.frames.length > 1 ? new FramePlayer(page.frames, page.before.positions) : null;
     this.ranges = page.displacement && heatRanges(page.displacement);
     this.state = {
-      layout: page.after ? 'pair' : 'single', colouring: 'conflicts', range: 'all', edges: scene.faces <= facesWithEdges,
+      layout: page.after ? 'pair' : 'single', colouring: this.#hasImages() ? 'texture' : 'conflicts', range: 'all', edges: scene.faces <= facesWithEdges,
       curves: true, blend: 0, divider: 0.5, frame: 0, face: -1,
     };
     this.surface = new Surface(page, this.faces);
@@ -58,6 +58,7 @@ export class Viewer {
       for (const button of byId(id).children) button.setAttribute('aria-pressed', String(button.dataset.value === state[id]));
     for (const id of ['edges', 'curves']) byId(id).setAttribute('aria-pressed', String(state[id]));
     this.surface.setEdgesShown(state.edges);
+    this.surface.setPainted(state.colouring === 'texture');
     const { shared } = this.surface;
     shared.heated.value = state.colouring === 'displacement';
     const full = this.ranges?.[state.range] ?? 1;
@@ -76,11 +77,12 @@ export class Viewer {
     this.state.layout = layout;
     if (layout === 'replay') this.setFrame(this.state.frame);
     else this.surface.showEnds();
+    this.stage.fit();
     this.update();
   }
 
   setColouring(colouring) {
-    if (colouring === 'displacement' && !this.page.displacement) return;
+    if (!this.#colourings().includes(colouring)) return;
     this.state.colouring = colouring;
     this.update();
   }
@@ -152,8 +154,7 @@ export class Viewer {
     this.state.face = face;
     const partners = face < 0 ? [] : [...this.before.partners(face), ...this.after?.partners(face) ?? []];
     this.surface.select(face, partners.map((p) => p.face));
-    this.panelSelection.replaceWith(this.panelSelection = selectionSection(
-      this.page, this.faces, this.before, this.after, face, (other) => this.pick(other)));
+    this.panelSelection.replaceWith(this.panelSelection = this.#selection(face));
     this.update();
   }
 
@@ -187,8 +188,15 @@ export class Viewer {
     link.click();
   }
 
+  #selection(face) {
+    return selectionSection(this.page, this.faces, this.before, this.after, face,
+      { onPick: (other) => this.pick(other), onNext: (by) => this.pickNext(by) });
+  }
+
   #views() {
-    return viewsOf(this.state).map((view) => ({
+    const tall = this.stage?.isTall ?? false;
+    byId('stage').classList.toggle('tall', tall);
+    return viewsOf(this.state, tall).map((view) => ({
       ...view,
       prepare: () => {
         this.surface.shared.t.value = view.t;
@@ -202,6 +210,15 @@ export class Viewer {
   #layouts() {
     if (!this.page.after) return ['single'];
     return this.frames ? ['pair', 'wipe', 'blend', 'replay'] : ['pair', 'wipe', 'blend'];
+  }
+
+  #colourings() {
+    const { appearance, displacement } = this.page;
+    return ['conflicts', appearance?.materials.length ? 'texture' : null, displacement ? 'displacement' : null].filter(Boolean);
+  }
+
+  #hasImages() {
+    return this.page.appearance?.materials.some(({ image }) => image) ?? false;
   }
 
   /** Between which positions the vertices are, in a view. */
@@ -286,7 +303,7 @@ export class Viewer {
     byId('file-name').title = byId('file-name').textContent;
     const [words, mood] = statusOf(scene, this.before, this.after);
     Object.assign(byId('status'), { textContent: words, hidden: false }).dataset.mood = mood;
-    this.panelSelection = selectionSection(this.page, this.faces, this.before, this.after, -1);
+    this.panelSelection = this.#selection(-1);
     this.history = historySection(scene.report?.history, this.page.frames, (k) => {
       this.setLayout('replay');
       this.setFrame(k);
@@ -296,7 +313,11 @@ export class Viewer {
     byId('panel').append(sections[0], this.panelSelection, ...this.history ? [this.history.node] : [], ...sections.slice(1));
     for (const button of byId('layout').children) button.hidden = !this.#layouts().includes(button.dataset.value);
     byId('layout').hidden = !this.page.after;
-    byId('colouring').hidden = !this.page.displacement;
+    for (const button of byId('colouring').children) {
+      button.hidden = !this.#colourings().includes(button.dataset.value);
+      if (button.dataset.value === 'texture' && !this.#hasImages()) button.textContent = 'Materials';
+    }
+    byId('colouring').hidden = this.#colourings().length < 2;
   }
 
   #wire() {

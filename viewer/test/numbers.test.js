@@ -9,6 +9,7 @@ test('numbers are short and grouped', () => {
   assert.equal(short(-2), '−2');
   assert.equal(short(1.26e-7), '1.3e−7');
   assert.equal(short(2.5e9), '2.5e9');
+  assert.equal(short(1e-6), '1e−6');
   assert.equal(short(NaN), '–');
   assert.equal(duration(75), '1 min 15 s');
 });

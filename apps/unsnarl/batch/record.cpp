@@ -16,7 +16,8 @@ namespace unsnarl::app {
 namespace {
 
 /// Numbers of a report that are taken over as they are.
-const std::vector<std::string> measured = {"displacement_mean_rel",
+const std::vector<std::string> measured = {"diagonal",
+                                           "displacement_mean_rel",
                                            "displacement_rms_rel",
                                            "displacement_max_rel",
                                            "displacement_lower_bound_rel",

@@ -89,7 +89,9 @@ Json frame_json(const FrameReport& r) {
           {"after", pairs_json(r.after)},
           {"diagonal", r.diagonal},
           {"displacement_mean_rel", r.displacement_mean_rel},
+          {"displacement_mean", r.displacement_mean_rel * r.diagonal},
           {"displacement_max_rel", r.displacement_max_rel},
+          {"displacement_max", r.displacement_max_rel * r.diagonal},
           {"untouched_share", r.untouched_share},
           {"float32_embedded", r.float32_embedded},
           {"precision", to_string(r.precision)},
@@ -251,7 +253,9 @@ class SequenceRun {
 
   struct Summary {
     std::size_t frames = 0, pairs_before = 0, pairs_after = 0, with_pairs = 0, smoothed = 0, jitter_frames = 0;
-    double displacement_mean = 0, displacement_max = 0, untouched_mean = 0, untouched_min = 1;
+    double displacement_mean = 0, displacement_max = 0;  // / diagonal of each frame
+    double mean_length = 0, max_length = 0;              // the same in the units of the file
+    double untouched_mean = 0, untouched_min = 1;
     Jitter jitter, alone;  // over the frames of which both are known
   };
   Summary summary() const;
@@ -288,6 +292,8 @@ SequenceRun::Summary SequenceRun::summary() const {
     sum.smoothed += frame["is_smoothed"].get<bool>();
     sum.displacement_mean += report.displacement_mean_rel;
     sum.displacement_max = std::max(sum.displacement_max, report.displacement_max_rel);
+    sum.mean_length += report.displacement_mean_rel * report.diagonal;
+    sum.max_length = std::max(sum.max_length, report.displacement_max_rel * report.diagonal);
     sum.untouched_mean += report.untouched_share;
     sum.untouched_min = std::min(sum.untouched_min, report.untouched_share);
     const Json& alone = frame["jitter_alone"];
@@ -301,6 +307,7 @@ SequenceRun::Summary SequenceRun::summary() const {
   const double n = std::max<double>(1, static_cast<double>(sum.frames));
   const double m = std::max<double>(1, static_cast<double>(sum.jitter_frames));
   sum.displacement_mean /= n;
+  sum.mean_length /= n;
   sum.untouched_mean /= n;
   sum.jitter.mean_rel /= m;
   sum.alone.mean_rel /= m;
@@ -320,7 +327,9 @@ std::string SequenceRun::report_json() const {
                {"done_before", done_before_},
                {"smoothed", sum.smoothed},
                {"displacement_mean_rel", sum.displacement_mean},
+               {"displacement_mean", sum.mean_length},
                {"displacement_max_rel", sum.displacement_max},
+               {"displacement_max", sum.max_length},
                {"untouched_share_mean", sum.untouched_mean},
                {"untouched_share_min", sum.untouched_min},
                {"jitter", jitter_json(sum.jitter)},
@@ -350,8 +359,10 @@ void SequenceRun::summarise() {
   display_.say("  intersecting pairs before: {}, in {} frames", sum.pairs_before, sum.with_pairs);
   display_.say("  intersecting pairs after:  {}", sum.pairs_after == 0 ? "none" : std::to_string(sum.pairs_after));
   if (sum.frames > 0)
-    display_.say("  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal at most, {:.2g} % on average",
-                 100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, 100 * sum.displacement_mean);
+    display_.say(
+        "  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal ({:.2g}) at most, {:.2g} % ({:.2g}) on average",
+        100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, sum.max_length, 100 * sum.displacement_mean,
+        sum.mean_length);
   if (sum.jitter_frames > 0)
     display_.say(
         "  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; repaired one by one {:.2g} % and {:.2g} %",

@@ -97,9 +97,10 @@ std::string isotopy_animation_svg(const Isotopy& isotopy, int frames) {
   for (std::size_t c = 0; c < isotopy.points.size(); ++c) {
     const auto at = [&](std::size_t k) { return points_text(isotopy.rings[k].curves[c]); };
     std::string values = at(keys.front());
-    for (const std::size_t k : keys) values += ";" + at(k);
-    for (auto k = keys.rbegin(); k != keys.rend(); ++k) values += ";" + at(*k);
-    values += ";" + at(keys.front());
+    const auto then = [&](std::size_t k) { values.append(";").append(at(k)); };
+    for (const std::size_t k : keys) then(k);
+    for (auto k = keys.rbegin(); k != keys.rend(); ++k) then(*k);
+    then(keys.front());
     text += fmt::format(
         "<polygon points=\"{}\"><animate attributeName=\"points\" dur=\"{:.6g}s\" repeatCount=\"indefinite\" "
         "keyTimes=\"{}\" values=\"{}\"/></polygon>\n",

@@ -2,7 +2,7 @@
 // Environment: UNSNARL_PROGRAM, the program; CHROMIUM, the browser.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -72,7 +72,7 @@ test('rigid parts are listed with how they moved', async () => {
   unsnarl('fix', at('rings.obj'), '-o', at('rings_fixed.obj'), '--rigid-component', '0', '--view', at('rings.html'), '--quiet');
   await open('rings.html');
   const parts = page.locator('section', { has: page.locator('h2', { hasText: 'Rigid parts' }) });
-  assert.match(await parts.textContent(), /component 0(at rest|shifted [\d.]+\u202f%, turned [\d.]+°)/);
+  assert.match(await parts.textContent(), /component 0(at rest|shifted [\d.]+\u202f% \([\d.]+\), turned [\d.]+°)/);
 });
 
 test('before and after are drawn side by side, intersections in red', async () => {
@@ -178,6 +178,12 @@ test('a phone has the drawing above and the rest below', async () => {
   assert.ok(stage.height > 400 && panel.y >= stage.y + stage.height && panel.width === 390);
   assert.ok(header.width === 390 && await page.evaluate(() => document.documentElement.scrollWidth) <= 390);
   assert.ok((await pixels()).drawn > 0.02);
+  const [first, second] = [await box('#caption-first'), await box('#caption-second')];
+  assert.ok(second.x === first.x && second.y > first.y + 0.4 * stage.height, 'before above, after below it');
+  const side = (await pixels()).drawn;
+  await page.keyboard.press('3');
+  assert.ok((await pixels()).drawn > side, 'one view alone is shown as large as fits');
+  await page.keyboard.press('1');
   if (process.env.PHONE_PICTURE) await page.screenshot({ path: process.env.PHONE_PICTURE });
   await page.setViewportSize({ width: 1280, height: 800 });
   await page.waitForTimeout(200);
@@ -192,9 +198,14 @@ test('a picked face shows its ids and what it meets', async () => {
   }), face);
   assert.equal(await page.locator('#picked-vertices').textContent(), known.vertices);
   assert.ok(known.partners.length > 0);
-  assert.match(await page.locator('#selection').textContent(), /disjoint/);
+  assert.match(await page.locator('#selection').textContent(), /sharing no vertex/);
   assert.deepEqual(await page.locator('#selection .partners').first().locator('button').allTextContents(), known.partners);
-  await page.locator('#selection button').first().click();
+  await page.locator('#selection .partners button').first().click();
+  assert.equal(await page.locator('#picked-face').textContent(), known.partners[0]);
+  await page.getByRole('button', { name: 'next ›' }).click();
+  const next = Number(await page.locator('#picked-face').textContent());
+  assert.ok(await page.evaluate((f) => window.unsnarl.before.isRed[f] === 1, next));
+  await page.getByRole('button', { name: '‹ previous' }).click();
   assert.equal(await page.locator('#picked-face').textContent(), known.partners[0]);
   await page.keyboard.press('Escape');
   assert.equal(await page.locator('#picked-face').count(), 0);
@@ -266,6 +277,85 @@ test('one mesh alone', async () => {
   const { drawn, red } = await pixels();
   assert.ok(drawn > 0.05 && red > 0.0003, `drawn ${drawn}, red ${red}`);
   assert.equal(await page.locator('#layout').isVisible(), false);
+});
+
+/** Two by two pixels: green on the left, blue on the right, the lower of which is a hole. */
+const image = Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAFklEQVR42mNgOMHwn4Hhzn8mBghgBAAuAQOmCHWyvQAAAABJRU5ErkJggg==', 'base64');
+
+/** Four strips of a square in the material `painted`, the last of which is crossed by a triangle of the material `plain`. */
+function writePainted(name, bytes) {
+  writeFileSync(at(`${name}.png`), bytes);
+  writeFileSync(at(`${name}.mtl`), `newmtl painted\nmap_Kd ${name}.png\nnewmtl plain\nKd 0.9 0.8 0.1\n`);
+  const rows = [0, 1, 2, 3, 4].map((i) => `v 0 ${i / 4} 0\nv 1 ${i / 4} 0\nvt 0 ${i / 4}\nvt 1 ${i / 4}\n`);
+  const quads = [1, 3, 5, 7].map((i) => `f ${[i, i + 1, i + 3, i + 2].map((v) => `${v}/${v}`).join(' ')}\n`);
+  writeFileSync(at(`${name}.obj`), `mtllib ${name}.mtl\n${rows.join('')}v 0.4 0.9 -0.1\nv 0.5 0.9 0.2\nv 0.6 0.9 -0.1\n`
+    + `usemtl painted\n${quads.join('')}usemtl plain\nf 11 12 13\n`);
+  return unsnarl('view', at(`${name}.obj`), '-o', at(`${name}.html`));
+}
+
+/** Shares of the canvas that are green, and blue. */
+const greenAndBlue = () => page.evaluate(() => {
+  const copy = window.unsnarl.stage.snapshot();
+  const { data } = copy.getContext('2d').getImageData(0, 0, copy.width, copy.height);
+  const shares = [0, 0];
+  for (let i = 0; i < data.length; i += 4)
+    if (data[i + 3] > 128)
+      for (const k of [0, 1]) if (data[i + k + 1] > 60 && data[i + k + 1] > 2 * data[i] && data[i + k + 1] > 2 * data[i + 2 - k]) shares[k] += 4 / data.length;
+  return shares;
+});
+
+test('a mesh is shown with its image, red on top, and without', async () => {
+  writePainted('painted', image);
+  await open('painted.html');
+  assert.equal(await page.evaluate(() => window.unsnarl.state.colouring), 'texture');
+  const [green, blue] = await greenAndBlue();
+  assert.ok(green > 0.01 && blue > 0.01 && Math.abs(green - blue) < 0.5 * green, `green ${green}, blue ${blue}`);
+  assert.ok((await pixels()).red > 0.0001, 'red faces stay visible');
+  await page.keyboard.press('c');
+  assert.deepEqual(await greenAndBlue(), [0, 0]);
+  await page.getByRole('button', { name: 'Texture' }).click();
+  assert.deepEqual(await greenAndBlue(), [green, blue]);
+
+});
+
+test('points that glTF masks are holes', async () => {
+  const bytes = Buffer.alloc(4 * 12 + 4 * 8);
+  [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0].forEach((x, i) => bytes.writeFloatLE(x, 4 * i));
+  const write = (name, mode) => writeFileSync(at(`${name}.gltf`), JSON.stringify({
+    asset: { version: '2.0' }, nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, TEXCOORD_0: 1 }, material: 0, mode: 5 }] }],
+    materials: [{ alphaMode: mode, pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
+    textures: [{ source: 0 }], images: [{ uri: `data:image/png;base64,${image.toString('base64')}` }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: 'VEC3' }, { bufferView: 1, componentType: 5126, count: 4, type: 'VEC2' }],
+    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 32 }],
+    buffers: [{ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${bytes.toString('base64')}` }],
+  }));
+  const shares = [];
+  for (const mode of ['OPAQUE', 'MASK']) {
+    write(mode, mode);
+    unsnarl('view', at(`${mode}.gltf`), '-o', at(`${mode}.html`), '--quiet');
+    await open(`${mode}.html`);
+    shares.push(await greenAndBlue());
+  }
+  const [[, opaque], [green, masked]] = shares;
+  assert.ok(green > 0.01 && masked > 0.2 * opaque && masked < 0.8 * opaque, `blue: ${opaque}, with holes ${masked}`);
+});
+
+test('an image that cannot be decoded is left out, and said', async () => {
+  writePainted('broken', Buffer.concat([image.subarray(0, 40), Buffer.from('no pixels')]));
+  await open('broken.html');
+  assert.equal(await page.evaluate(() => window.unsnarl.state.colouring), 'conflicts');
+  assert.match(await page.locator('#panel').textContent(), /Image broken\.png is left out: this browser cannot decode it/);
+  await page.getByRole('button', { name: 'Materials' }).click();
+  assert.ok((await pixels()).drawn > 0.05);
+  assert.deepEqual(await greenAndBlue(), [0, 0]);
+});
+
+test('what is no image is left out, and said', async () => {
+  writePainted('text', 'no image');
+  await open('text.html');
+  assert.match(await page.locator('#panel').textContent(), /Image text\.png is left out: neither PNG nor JPEG/);
+  assert.ok((await pixels()).drawn > 0.05);
 });
 
 test('the browser had nothing to complain about', () => assert.deepEqual(complaints, []));
