@@ -50,8 +50,8 @@ TEST(StepFilter, ACollisionDoesNotTurnAFaceOver) {
   filter_step(base_on_floor(), {orientation, first, 0.2}, x, p, OnCollision::shorten);
   EXPECT_GE(share_kept(x, p), 0.2);
   EXPECT_EQ(largest_step(base_on_floor(), x, p), 1);
-  EXPECT_LT(p(1, 0), 0);
-  EXPECT_LT(p(1, 2), 0);
+  EXPECT_LE(p(1, 0), 0);  // its corners may stay, but go nowhere else
+  EXPECT_LE(p(1, 2), 0);
 }
 
 TEST(StepFilter, WhoeverStaysMakesTheFaceStay) {
