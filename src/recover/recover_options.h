@@ -14,7 +14,9 @@ constexpr int recovery_rings = 2;
 
 /// Weights of the objective.
 struct ObjectiveOptions {
-  double arap_length = 2;  ///< in h: deformations shorter than this are resisted by ARAP rather than pulled to rest
+  /// In h: deformations shorter than this are resisted by ARAP rather than pulled to rest. On thirteen deep meshes 1.4
+  /// ends 5 % closer on average and 8 % farther at most, 1 2 % closer and 24 % farther.
+  double arap_length = 2;
   /// In h. Of 0.5, 0.6, 0.7, 1, 2 on four posed bodies: 1 leaves 5 to 45 % more rms displacement, 0.5 as many flipped
   /// faces again in shallow regions, 2 stalls.
   double bending_length = 0.7;
