@@ -161,6 +161,9 @@ typedef struct unsnarl_options {
 
   /* unsnarl_plan_routes */
   double spacing; /* distance of the points of a route / its radius, (0, 2]. Default 0.5 */
+
+  /* unsnarl_seifert_surface, unsnarl_check_seifert_surface */
+  int32_t handles; /* added to the surface, each of which raises its genus by one, [0, 100]. Default 0 */
 } unsnarl_options;
 
 /* Sets all options to their defaults. size: sizeof(unsnarl_options). */

@@ -242,7 +242,7 @@ class Recovery {
   ArcLengths along_;
   std::vector<Index> unknown_;
   Index unknowns_ = 0;
-  std::vector<Index> owner_;  // one segment of each vertex, so that a contact is found once
+  std::vector<Index> owner_;                       // one segment of each vertex, so that a contact is found once
   Eigen::SparseMatrix<double> elastic_, hessian_;  // of the Hessian the lower half
   std::vector<Eigen::Triplet<double>> elastic_terms_, terms_;
   std::vector<Contact> contacts_;
