@@ -1,6 +1,7 @@
 #include "routes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -29,12 +30,16 @@ std::string as_text(const RoutePlan& plan, const RouteFindings& f) {
                                                      : fmt::format("{} or more", RouteFindings::measured_up_to);
   };
   std::string text = "distances / those needed, at least: ";
-  if (plan.agents.size() > 1) text += measured(f.clearance) + " between routes, ";
-  if (!plan.obstacles.empty()) text += measured(f.obstacle_clearance) + " from obstacles, ";
+  std::vector<std::string> parts;
+  if (plan.agents.size() > 1)
+    parts.push_back(measured(f.clearance) + (plan.timed ? " between agents at every time" : " between routes"));
+  if (!plan.obstacles.empty()) parts.push_back(measured(f.obstacle_clearance) + " from obstacles");
+  if (!plan.timed) parts.push_back(measured(f.self_clearance) + " within a route");
   return text + fmt::format(
-                    "{} within a route\n"
+                    "{}\n"
                     "radius * curvature: {:.3f} at most; length / straight: mean {:.3f}, largest {:.3f}\n",
-                    measured(f.self_clearance), f.turn, f.mean_ratio(), f.max_ratio());
+                    parts.empty() ? "nothing is near" : fmt::format("{}", fmt::join(parts, ", ")), f.turn,
+                    f.mean_ratio(), f.max_ratio());
 }
 
 int check_file(const RoutesCommandOptions& options, const RoutePlan& plan) {
@@ -42,17 +47,22 @@ int check_file(const RoutesCommandOptions& options, const RoutePlan& plan) {
       options.check, [&](const std::string& bytes) { return check_routes(plan, parse_routes(bytes, plan)); });
   if (!options.quiet)
     tell(as_text(plan, found) + route_faults(plan, found) +
-         (found.hold() ? "the routes keep clear of each other\n" : ""));
+         (!found.hold() ? ""
+          : plan.timed  ? "the agents keep clear of each other at every time\n"
+                        : "the routes keep clear of each other\n"));
   return found.hold() ? exit_embedded : exit_intersecting;
 }
 
-/// Pairs of faces of which at least one is of a tube: obstacles may intersect themselves and each other.
+/// Pairs of faces of which at least one is of a tube: obstacles may intersect themselves and each other. In time, tubes
+/// may cross too: their agents are there at different times.
 std::vector<IntersectingPair> pairs_of_tubes(const RoutePlan& plan, const Surface& tubes) {
   const auto faces = static_cast<std::int32_t>(tubes.view().face_count());
   FindOptions find;
   find.weld = Weld::none;
   std::vector<IntersectingPair> pairs = find_intersections(with_obstacles(plan, tubes), find);
-  std::erase_if(pairs, [&](const IntersectingPair& pair) { return pair.a >= faces; });  // a < b
+  std::erase_if(pairs, [&](const IntersectingPair& pair) {
+    return pair.a >= faces || (plan.timed && pair.b < faces);  // a < b
+  });
   return pairs;
 }
 
@@ -153,8 +163,9 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
 void add_routes_options(CLI::App& command, RoutesCommandOptions& options) {
   command
       .add_option("PLAN", options.plan,
-                  "A plan: *.json with agents (name, radius, start, goal, waypoints) and obstacles (file,\n"
-                  "hollow); '-' for standard input")
+                  "A plan: *.json with agents (name, radius, start, goal, waypoints), obstacles (file,\n"
+                  "hollow), and \"timed\": true where agents only keep clear of each other at the same time;\n"
+                  "'-' for standard input")
       ->required();
   command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")->type_name("DIR");
   command
@@ -192,6 +203,8 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
     return parse_route_plan(bytes, options.plan == standard_stream ? fs::path() : fs::path(options.plan).parent_path());
   });
   if (!options.check.empty()) return check_file(options, plan);
+  if (options.free_tubes && plan.timed)
+    throw UsageError("--free-tubes knows no time: take it or \"timed\" out of the plan");
   prepare_picture_folder(options.folder, "-o");
 
   ProgressDisplay display(options.progress, options.quiet);

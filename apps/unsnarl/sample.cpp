@@ -170,7 +170,7 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
       "curve_star, curve_noise, curve_spiral or curve_chaos. For 'unsnarl seifert', a knot: knot_3_1 to\n"
       "knot_10_165, and links. For 'unsnarl knot-isotopy', an unknot: knot_circle, knot_kinks_1 to\n"
       "knot_kinks_6, knot_goeritz, ... For 'unsnarl routes', a plan: routes_star_6, routes_star_20,\n"
-      "routes_star_50, routes_ring or routes_maze");
+      "routes_star_50, routes_ring, routes_maze or routes_door");
   command
       .add_option("-o,--output", options.output,
                   "Where it goes: *.obj, *.off, *.ply or *.glb (curves: *.json or *.svg; knots: *.xyz; plans: *.json);\n"

@@ -21,10 +21,10 @@
 namespace unsnarl::app {
 namespace {
 
-std::string as_text(const SeifertFindings& f) {
-  std::string text =
-      fmt::format("{} component{}, genus {}, Euler characteristic {} (the diagram's: {})\n", f.components,
-                  f.components == 1 ? "" : "s", f.genus, f.euler_characteristic, f.expected_euler_characteristic);
+std::string as_text(const SeifertFindings& f, int handles) {
+  std::string text = fmt::format("{} component{}, genus {}, Euler characteristic {} (the diagram's{}: {})\n",
+                                 f.components, f.components == 1 ? "" : "s", f.genus, f.euler_characteristic,
+                                 handles > 0 ? " with its handles" : "", f.expected_euler_characteristic);
   text += fmt::format("Alexander polynomial {} (the diagram's: {})\n", polynomial_text(f.alexander_of_surface),
                       polynomial_text(f.alexander_of_link));
   return text;
@@ -64,12 +64,13 @@ int check_file(const SeifertCommandOptions& options, const Link& link, FilePlace
   places.require_writable(interruption);
   SeifertFindings found;
   try {
-    found = check_seifert_surface(document.surface(), link, options.views);
+    found = check_seifert_surface(document.surface(), link, options.views, options.handles);
   } catch (const std::invalid_argument& e) {
     throw FileError(fmt::format("{}: {}", options.check, e.what()));
   }
   if (!options.report.empty()) write_file(options.report, as_json(found).dump(2) + "\n", interruption);
-  if (!options.quiet) tell(as_text(found) + faults(found) + (found.hold() ? "a Seifert surface of the link\n" : ""));
+  if (!options.quiet)
+    tell(as_text(found, options.handles) + faults(found) + (found.hold() ? "a Seifert surface of the link\n" : ""));
   return found.hold() ? exit_embedded : exit_intersecting;
 }
 
@@ -96,6 +97,11 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
       .add_option("--views", options.views,
                   "From how many sides to look for the simplest diagram, 3 to 10000 (default 60)")
       ->check(whole_number_within(3, 10000))
+      ->type_name("N");
+  command
+      .add_option("--handles", options.handles,
+                  "Add so many handles, 0 to 100, each of which raises the genus by one (default 0)")
+      ->check(whole_number_within(0, 100))
       ->type_name("N");
   command.add_flag("--no-fair", options.no_fair, "Leave the surface as Seifert's algorithm builds it");
   command.add_option("--time-limit", options.time_limit_s, "Stop fairing after this many seconds; 0: none")
@@ -143,6 +149,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   wanted.edge_rel = options.edge;
   wanted.views = options.views;
   wanted.fair = !options.no_fair;
+  wanted.handles = options.handles;
   wanted.time_limit_s = options.time_limit_s;
   SeifertResult result;
   try {
@@ -157,7 +164,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   SeifertFindings found;
   const auto certify = [&](const Document& document) {
     try {
-      found = check_seifert_surface(document.surface(), link, options.views);
+      found = check_seifert_surface(document.surface(), link, options.views, options.handles);
     } catch (const std::invalid_argument& e) {
       throw FileError(fmt::format("{}: {}; nothing was written", options.input, e.what()));
     }
@@ -192,6 +199,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
                                    {"link_components", link.components.size()},
                                    {"crossings", result.crossings},
                                    {"seifert_circles", result.circles},
+                                   {"handles", options.handles},
                                    {"vertices", result.surface.positions.size() / 3},
                                    {"faces", result.surface.view().face_count()},
                                    {"area", result.area},
@@ -206,7 +214,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
                      result.crossings, result.circles));
     tell(fmt::format("{} faces, no two intersect; its boundary is the link, point by point\n",
                      result.surface.view().face_count()));
-    tell(as_text(found));
+    tell(as_text(found, options.handles));
     if (result.status == Status::time_limit) tell("fairing was stopped by the time limit\n");
     tell(fmt::format("wrote {}, {:.1f} s\n", options.output, result.seconds));
   }

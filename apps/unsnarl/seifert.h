@@ -10,7 +10,7 @@ namespace unsnarl::app {
 struct SeifertCommandOptions {
   std::string input, output, format, check;
   double edge = 0, time_limit_s = 0;
-  int views = 60;
+  int views = 60, handles = 0;
   bool no_fair = false;
   std::string report, picture;
   std::string progress = "auto";

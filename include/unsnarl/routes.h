@@ -35,12 +35,16 @@ struct RouteObstacle {
 struct RoutePlan {
   std::vector<RouteAgent> agents;
   std::vector<RouteObstacle> obstacles;
+  /// Time is a coordinate too: all agents set out at once and arrive at once, and only have to keep clear of where the
+  /// others are at the same time. Between two points of a route they move straight and evenly, each by the same part of
+  /// all time, so that routes have equally many points. Otherwise routes keep clear of each other for all times.
+  bool timed = false;
 };
 
 /// A plan from JSON: {"agents": [{"name": "a", "radius": 1, "start": [x, y, z], "goal": [x, y, z], "waypoints":
 /// [...]}], "obstacles": [{"name": "wall", "file": "wall.obj", "hollow": false}]}; a name, way-points, obstacles and
 /// "hollow" may be missing; instead of a file, an obstacle may have "vertices" ([[x, y, z], ...]) and "faces" ([[0, 1,
-/// 2], ...]). `folder`: the one that files are named relative to.
+/// 2], ...]); with "timed": true it is a plan in time. `folder`: the one that files are named relative to.
 /// Throws FileError, naming the place as in "agents[2].radius", for anything that is not such a plan or check_plan()
 /// refuses.
 RoutePlan parse_route_plan(std::string_view text, const std::filesystem::path& folder = {});
@@ -52,8 +56,8 @@ std::string route_plan_json(const RoutePlan& plan);
 void check_plan(const RoutePlan& plan);
 
 /// Lists what no routes can mend, one sentence each: a start, goal or way-point within the reach of one of another
-/// agent, or nearer to an obstacle than the radius, or inside a solid one. Decided exactly, but for the inside. Empty:
-/// nothing.
+/// agent (in time: a start of another's start, a goal of another's goal), or nearer to an obstacle than the radius, or
+/// inside a solid one. Decided exactly, but for the inside. Empty: nothing.
 std::vector<std::string> route_obstructions(const RoutePlan& plan);
 
 /// A polyline from start to goal; way-points are among its points.
@@ -65,6 +69,7 @@ struct Route {
 struct RouteFindings {
   /// Proven lower bounds, up to `measured_up_to`: of segments of two agents / the sum of their radii; of segments and
   /// faces of obstacles / the radius; of segments of one route that are pi radii apart along it / twice the radius.
+  /// In time, the first is of two agents at the same time, and the last one is not asked for.
   double clearance = measured_up_to, obstacle_clearance = measured_up_to, self_clearance = measured_up_to;
   std::array<int, 2> agents = {-1, -1};    ///< those nearest to each other; -1: none is near another
   std::array<int, 2> obstacle = {-1, -1};  ///< agent and obstacle that are nearest
@@ -88,8 +93,8 @@ struct RouteFindings {
 };
 
 /// Certifies routes as they are: whatever is said to hold is proven by exact arithmetic. One route an agent.
-/// Throws std::invalid_argument as check_plan does, for another number of routes, and for routes of fewer than two
-/// points or with coordinates that are not finite.
+/// Throws std::invalid_argument as check_plan does, for another number of routes, for routes of fewer than two points
+/// or with coordinates that are not finite, and, in time, for other numbers of points than that of the first route.
 RouteFindings check_routes(const RoutePlan& plan, std::span<const Route> routes);
 /// What does not hold, one line each; empty: all holds.
 std::string route_faults(const RoutePlan& plan, const RouteFindings& findings);
@@ -135,12 +140,13 @@ Surface route_tubes(const RoutePlan& plan, std::span<const Route> routes, int si
 /// The surface with the obstacles behind it, a part each.
 Surface with_obstacles(const RoutePlan& plan, Surface surface, std::vector<SceneFile>* parts = nullptr);
 
-/// An SVG file in which all agents move along their routes at the same time, seen from above at an angle; frames: [2,
-/// 1000] keyframes.
+/// An SVG file in which all agents move along their routes at the same time, evenly or as time says, seen from above at
+/// an angle; frames: [2, 1000] keyframes.
 std::string routes_animation_svg(const RoutePlan& plan, std::span<const Route> routes, int frames = 60);
 
 /// Plans to try: "star_6", "star_20", "star_50" (agents change sides through one centre), "ring" (a bundle through a
-/// ring), "maze" (agents through walls with gaps). Throws std::invalid_argument, naming them, for another one.
+/// ring), "maze" (agents through walls with gaps), "door" (in time: agents change sides through one gap for one).
+/// Throws std::invalid_argument, naming them, for another one.
 RoutePlan sample_route_plan(std::string_view name);
 struct RoutePlanSample {
   std::string_view name, description;

@@ -17,6 +17,8 @@ struct SeifertOptions {
   double edge_rel = 0;
   /// Views to look for the simplest diagram among, [3, 10000]: the coordinate axes, then a half sphere evenly.
   int views = 60;
+  /// Added to the surface, each of which raises its genus by one, [0, 100].
+  int handles = 0;
   bool fair = true;  ///< false: the surface as Seifert's algorithm builds it, walls and flat discs
   double time_limit_s =
       0;  ///< wall-clock seconds after which fairing stops; the surface is embedded all the same; 0: none
@@ -31,7 +33,7 @@ struct SeifertFindings {
   int closed_components = 0;           ///< those without a boundary
   int euler_characteristic = 0;
   int genus = 0;  ///< sum over the components
-  /// Seifert circles - crossings, in the diagram that the link shows to its best view.
+  /// Seifert circles - crossings, in the diagram that the link shows to its best view, - 2 for each handle.
   int expected_euler_characteristic = 0;
   /// The Alexander polynomial, all variables equal, as decimal coefficients from the constant up, without units ±t^k,
   /// the last one positive; empty: zero. That of the surface is det(V - t V'), V the linking numbers of a basis of its
@@ -45,10 +47,10 @@ struct SeifertFindings {
   }
 };
 
-/// Everything by exact arithmetic and integers. The surface must consist of triangles. views: as in SeifertOptions.
-/// Throws std::invalid_argument for a surface that is no triangle mesh, or whose sides 64-bit numbers cannot tell
-/// apart, or as check_link does.
-SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views = 60);
+/// Everything by exact arithmetic and integers. The surface must consist of triangles. views, handles: as in
+/// SeifertOptions. Throws std::invalid_argument for a surface that is no triangle mesh, or whose sides 64-bit numbers
+/// cannot tell apart, or as check_link does.
+SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views = 60, int handles = 0);
 
 struct SeifertResult {
   /// embedded; cancelled or time_limit where fairing was stopped: the surface is embedded then too.

@@ -161,6 +161,9 @@ typedef struct unsnarl_options {
 
   /* unsnarl_plan_routes */
   double spacing; /* distance of the points of a route / its radius, (0, 2]. Default 0.5 */
+
+  /* unsnarl_seifert_surface, unsnarl_check_seifert_surface */
+  int32_t handles; /* added to the surface, each of which raises its genus by one, [0, 100]. Default 0 */
 } unsnarl_options;
 
 /* Sets all options to their defaults. size: sizeof(unsnarl_options). */
@@ -333,7 +336,7 @@ UNSNARL_EXPORT int unsnarl_planar_isotopy(const unsnarl_curves* start, const uns
 
 /* Routes for agents with radii, past each other and past obstacles, whose tubes keep clear of each other
  * (docs/routes.md). plan: JSON as of `unsnarl routes`, with obstacles as "vertices" and "faces", or as files relative
- * to the working directory.
+ * to the working directory; with "timed": true, agents keep clear of where the others are at the same time.
  *
  * Arrays: "points" (p, 3) float64 and "offsets" (agents + 1, 1) int32. Report: what is certified of them, "messages",
  * "seconds". */

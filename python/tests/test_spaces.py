@@ -14,6 +14,10 @@ def test_a_trefoil_is_spanned():
     np.testing.assert_array_equal(surface.positions[: len(knot[0])], knot[0])
     assert len(unsnarl.find_intersections(surface.positions, surface.faces)) == 0
     assert unsnarl.check_seifert_surface(surface.positions, surface.faces, knot)["hold"]
+    handled = unsnarl.seifert_surface(knot, fair=False, handles=2)
+    assert handled.report["hold"] and handled.report["genus"] == surface.report["genus"] + 2
+    assert not unsnarl.check_seifert_surface(handled.positions, handled.faces, knot)["hold"]
+    assert unsnarl.check_seifert_surface(handled.positions, handled.faces, knot, handles=2)["hold"]
     assert not unsnarl.check_seifert_surface(surface.positions, surface.faces[1:], knot)["hold"]
 
 

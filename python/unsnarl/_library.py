@@ -96,6 +96,7 @@ class OptionsStruct(_Struct):
         ("paper_memory", c_int32),
         ("paper_iterations", c_int32),
         ("spacing", c_double),
+        ("handles", c_int32),
     ]
 
 

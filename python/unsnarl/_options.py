@@ -12,7 +12,7 @@ import numpy as np
 from ._library import OptionsStruct, check, library
 
 _LARGEST_COUNT = np.iinfo(np.int32).max
-_COUNTS = {"threads", "views", "points", "paper_memory", "paper_iterations"}
+_COUNTS = {"threads", "views", "handles", "points", "paper_memory", "paper_iterations"}
 
 
 def options_of(**given: Any) -> OptionsStruct:

@@ -40,6 +40,7 @@ def plan_routes(
     plan
         A dict as the JSON of ``unsnarl routes``, arrays allowed: {"agents": [{"name": "a", "radius": 1, "start": [x, y,
         z], "goal": [x, y, z], "waypoints": [...]}], "obstacles": [{"vertices": V, "faces": F}, {"file": "wall.obj"}]}.
+        With "timed": True, agents keep clear of where the others are at the same time; routes have equally many points.
     spacing
         Distance of the points of a route, as a multiple of its radius, in (0, 2].
     time_limit

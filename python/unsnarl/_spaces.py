@@ -34,6 +34,7 @@ def seifert_surface(
     edge: float = 0,
     views: int = 60,
     fair: bool = True,
+    handles: int = 0,
     time_limit: float = 0,
     progress: OnProgress = None,
 ) -> SeifertSurface:
@@ -50,6 +51,8 @@ def seifert_surface(
         From how many sides to look for the simplest diagram, 3 to 10000.
     fair
         False: the surface as Seifert's algorithm builds it.
+    handles
+        Added to the surface, each of which raises its genus by one, 0 to 100.
     time_limit
         Seconds after which fairing stops. 0: none.
     progress
@@ -60,24 +63,24 @@ def seifert_surface(
     ValueError, TypeError
         For what is no link, naming the component and the point.
     """
-    options = options_of(edge=edge, views=views, fair=fair, time_limit=time_limit)
+    options = options_of(edge=edge, views=views, fair=fair, handles=handles, time_limit=time_limit)
     polygons = polylines_of(link, 3, "component")
     made = call_and_wait("seifert_surface", polygons.struct(), options, progress=progress)
     return SeifertSurface(made.array("positions"), made.array("corners"), made.status, _findings(made))
 
 
-def check_seifert_surface(positions: Any, faces: Any, link: Any, *, views: int = 60) -> dict[str, Any]:
+def check_seifert_surface(positions: Any, faces: Any, link: Any, *, views: int = 60, handles: int = 0) -> dict[str, Any]:
     """Checks a Seifert surface of a link by exact arithmetic, from the mesh and the link alone.
 
-    Takes the surface as positions (n, 3) and faces (m, 3), the link as seifert_surface does, and the number of views
-    that are tried for a regular projection. Returns a dictionary: "hold" is True where all does: "intersecting_pairs"
+    Takes the surface as positions (n, 3) and faces (m, 3), the link as seifert_surface does, the number of views that
+    are tried for a regular projection, and the number of handles that were added. Returns a dictionary: "hold" is True where all does: "intersecting_pairs"
     is 0, it is "oriented", its boundary "spans_link" bit for bit, "euler_characteristic" is
     "expected_euler_characteristic", and "alexander_of_surface" is "alexander_of_link", both lists of coefficients from
     the constant up.
     """
     polygons = polylines_of(link, 3, "component")
     surface = surface_of(positions, faces)
-    return _findings(call("check_seifert_surface", surface.struct(), polygons.struct(), options_of(views=views)))
+    return _findings(call("check_seifert_surface", surface.struct(), polygons.struct(), options_of(views=views, handles=handles)))
 
 
 def _findings(outcome: Outcome) -> dict[str, Any]:

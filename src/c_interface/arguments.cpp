@@ -115,6 +115,7 @@ unsnarl_options default_options() {
   options.paper_memory = paper.memory;
   options.paper_iterations = paper.max_iterations;
   options.spacing = RouteOptions().spacing;
+  options.handles = seifert.handles;
   return options;
 }
 

@@ -27,10 +27,11 @@ unsnarl_result spanned(const Link& link, const unsnarl_options& given, Context* 
   options.edge_rel = given.edge;
   options.views = given.views;
   options.fair = given.fair != 0;
+  options.handles = given.handles;
   options.time_limit_s = given.time_limit;
   SeifertResult made = seifert_surface(link, options, context);
 
-  Json json = json_of(check_seifert_surface(made.surface, link, options.views));
+  Json json = json_of(check_seifert_surface(made.surface, link, options.views, options.handles));
   json["crossings"] = made.crossings;
   json["circles"] = made.circles;
   json["area"] = made.area;
@@ -59,9 +60,10 @@ int unsnarl_check_seifert_surface(const unsnarl_surface* surface, const unsnarl_
   return hand_out(result, [&] {
     const SurfaceView view = view_of(surface_of(surface));
     check_corners(view);
+    const Link of = link_of(curves_of(link, "link"));
+    const unsnarl_options given = options_of(options);
     unsnarl_result found;
-    found.report =
-        json_of(check_seifert_surface(view, link_of(curves_of(link, "link")), options_of(options).views)).dump();
+    found.report = json_of(check_seifert_surface(view, of, given.views, given.handles)).dump();
     return found;
   });
 }

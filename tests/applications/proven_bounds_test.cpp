@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "applications/routes/segments.h"
 #include "contact/distances.h"
 #include "energy/finite_differences.h"
 
@@ -32,6 +33,26 @@ TEST(ProvenBounds, IsTheDistanceOfSegmentsAndNeverMore) {
     EXPECT_LE(bound, closest.distance / 0.75 * (1 + 1e-14));
     EXPECT_GE(bound, closest.distance / 0.75 - 1e-12);
     EXPECT_LE(proven_clearance(a, b, x.col(0), 0.25, 0.5), closest.distance / 0.75 * (1 + 1e-14));
+  }
+}
+
+TEST(ProvenBounds, InTimeOnlyWhatMovesTogetherCounts) {
+  // Two that follow each other on one line, 0.75 apart: the segments lie on each other.
+  const std::array<Vec3, 2> a = {Vec3(0.75, 0, 0), Vec3(1.75, 0, 0)}, b = {Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  EXPECT_EQ(proven_clearance(a, b, Vec3(1, 0, 0), 0.5, 0.25), 0);
+  EXPECT_EQ(proven_clearance_in_time(a, b, Vec3(1, 0, 0), 0.5, 0.25), 1);
+  EXPECT_LT(proven_clearance_in_time(a, b, Vec3(1, 0, 0), 0.5, std::nextafter(0.25, 1)), 1);
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Positions x = random_positions(seed, 4);
+    const Closest closest = closest_in_time(x.col(0), x.col(1), x.col(2), x.col(3));
+    const std::array<Vec3, 2> p = {x.col(0), x.col(1)}, q = {x.col(2), x.col(3)};
+    const double bound = proven_clearance_in_time(p, q, closest.direction, 0.25, 0.5);
+    EXPECT_NEAR(bound, closest.distance / 0.75, 1e-12);
+    Vec3 between = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) between += closest.weights[k] * x.col(k);
+    EXPECT_NEAR(between.norm(), closest.distance, 1e-14);
+    for (const double t : {0.0, 0.3, 0.6, 1.0})
+      EXPECT_LE(bound * 0.75, ((1 - t) * (p[0] - q[0]) + t * (p[1] - q[1])).norm() * (1 + 1e-14));
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "energy/finite_differences.h"
 
 namespace unsnarl {
@@ -13,7 +15,8 @@ struct Scene {
   RouteChains chains;
   Positions x;
 
-  explicit Scene(double height) {
+  explicit Scene(double height, bool timed = false) {
+    plan.timed = timed;
     plan.agents = {{"a", 0.5, {-2, 0, 0}, {2, 0, 0}, {}}, {"b", 0.4, {0, -2, height}, {0, 2, height}, {}}};
     plan.obstacles = {{"floor", {{-5, -5, -0.53, 5, -5, -0.55, 0, 7, -0.51}, {0, 1, 2}, {}}, false}};
     std::vector<Legs> legs;
@@ -43,18 +46,38 @@ void expect_gradient_of(RouteEnergy& energy, const Scene& scene, double toleranc
 }
 
 TEST(RouteEnergy, GradientsAreDifferencesOfTheValue) {
-  for (const bool strict : {false, true})
-    for (const double turn_from : {0.0, 0.85}) {
-      const Scene scene(0.95);
-      const ObstacleTriangles triangles(scene.plan);
-      RouteEnergy energy(scene.chains, triangles);
-      energy.settings.contact = 1;
-      energy.settings.strict = strict;
-      energy.settings.turn_from = turn_from;
-      energy.settings.cushion = 0.3;
-      energy.forget_neighbours();
-      expect_gradient_of(energy, scene, 2e-4);
-    }
+  for (const bool timed : {false, true})
+    for (const bool strict : {false, true})
+      for (const double turn_from : {0.0, 0.85}) {
+        const Scene scene(0.95, timed);
+        const ObstacleTriangles triangles(scene.plan);
+        RouteEnergy energy(scene.chains, triangles);
+        energy.settings.contact = 1;
+        energy.settings.strict = strict;
+        energy.settings.turn_from = turn_from;
+        energy.settings.cushion = 0.3;
+        energy.forget_neighbours();
+        expect_gradient_of(energy, scene, 2e-4);
+      }
+}
+
+TEST(RouteChains, InTimeAllHaveEquallyManyVertices) {
+  RoutePlan plan;
+  plan.agents = {{"a", 1, {0, 0, 0}, {9, 0, 0}, {{3, 3, 0}}}, {"b", 0.5, {0, 0, 5}, {30, 0, 5}, {}}};
+  const std::vector<Legs> ways = {{{Vec3(0, 0, 0), Vec3(3, 3, 0)}, {Vec3(3, 3, 0), Vec3(5, 3, 0), Vec3(9, 0, 0)}},
+                                  {{Vec3(0, 0, 5), Vec3(30, 0, 5)}}};
+  for (const bool keep_corners : {true, false}) {
+    EXPECT_LT(sample_chains(plan, ways, 0.5, keep_corners).chains[0].count, 40);
+    RoutePlan timed = plan;
+    timed.timed = true;
+    const RouteChains chains = sample_chains(timed, ways, 0.5, keep_corners);
+    EXPECT_EQ(chains.chains[0].count, 121);
+    EXPECT_EQ(chains.chains[1].count, 121);
+    EXPECT_EQ(std::count(chains.pinned.begin(), chains.pinned.end(), 1), 5);
+    // Evenly over both legs, by their lengths.
+    for (Index v = 1; v < 121; ++v)
+      EXPECT_NEAR((chains.x.col(v) - chains.x.col(v - 1)).norm(), chains.chains[0].edge, 0.02);
+  }
 }
 
 TEST(RouteChains, CornersOfAWayAreVertices) {

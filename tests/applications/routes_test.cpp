@@ -180,6 +180,57 @@ TEST(PlanRoutes, AgentsThatAreShutInAreNamed) {
   EXPECT_NE(made.messages[0].find("no way was found for 'a'"), std::string::npos);
 }
 
+/// The smallest distance of two agents / that needed, at many times between two points of their routes.
+double clearance_at_times(const RoutePlan& plan, const std::vector<Route>& routes) {
+  double least = 10;
+  for (std::size_t i = 0; i < routes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k + 1 < routes[i].points.size(); ++k)
+        for (int part = 0; part <= 16; ++part) {
+          double sum = 0;
+          for (int d = 0; d < 3; ++d) {
+            const auto at = [&](const Route& r) {
+              return (1 - part / 16.0) * r.points[k][d] + part / 16.0 * r.points[k + 1][d];
+            };
+            sum += (at(routes[i]) - at(routes[j])) * (at(routes[i]) - at(routes[j]));
+          }
+          least = std::min(least, std::sqrt(sum) / (plan.agents[i].radius + plan.agents[j].radius));
+        }
+  return least;
+}
+
+TEST(PlanRoutes, InTimeAgentsChangePlaces) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.5, {-5, 0, 0}, {5, 0, 0}), agent("b", 0.4, {5, 0, 0}, {-5, 0, 0}),
+                 agent("c", 0.3, {0, 0, 2}, {0, 0, 1})};
+  EXPECT_EQ(plan_routes(plan).status, Status::obstructed);  // where one starts another one is to end
+  plan.timed = true;
+  const RoutesResult made = plan_routes(plan);
+  ASSERT_EQ(made.status, Status::embedded) << route_faults(plan, made.found);
+  EXPECT_GE(clearance_at_times(plan, made.routes), 1);
+  EXPECT_LT(made.found.max_ratio(), 1.2);
+  for (const Route& route : made.routes) EXPECT_EQ(route.points.size(), made.routes[0].points.size());
+  plan.agents[2].start = {-5, 0.5, 0};
+  EXPECT_EQ(route_obstructions(plan).size(), 1U);
+}
+
+TEST(PlanRoutes, InTimeOneAfterTheOtherGoesThroughADoor) {
+  const RoutePlan plan = sample_route_plan("door");
+  const RoutesResult made = plan_routes(plan);
+  ASSERT_EQ(made.status, Status::embedded) << route_faults(plan, made.found);
+  EXPECT_GE(clearance_at_times(plan, made.routes), 1);
+  RoutePlan for_all_times = plan;
+  for_all_times.timed = false;
+  EXPECT_LT(check_routes(for_all_times, made.routes).clearance, 1);
+  // All go through the door, in whose plane they are no farther from its middle than it lets them.
+  for (const Route& route : made.routes)
+    for (std::size_t k = 0; k + 1 < route.points.size(); ++k)
+      if (route.points[k][0] * route.points[k + 1][0] <= 0) {
+        EXPECT_LT(std::max(std::abs(route.points[k][1]), std::abs(route.points[k][2])), 0.5);
+      }
+  EXPECT_EQ(parse_route_plan(route_plan_json(plan)).timed, true);
+}
+
 TEST(PlanRoutes, StopsWhenItIsCancelled) {
   Context context;
   context.on_progress = [&](const Context::Progress& progress) {
@@ -193,6 +244,20 @@ TEST(PlanRoutes, OptionsOutOfRangeAreRefused) {
   EXPECT_THROW(plan_routes(three_crossing(), {.spacing = 0}), std::invalid_argument);
   EXPECT_THROW(plan_routes(three_crossing(), {.time_limit_s = -1}), std::invalid_argument);
   EXPECT_THROW(sample_route_plan("stars"), std::invalid_argument);
+}
+
+TEST(CheckRoutes, InTimeOnlyMeetingAtOneTimeCounts) {
+  RoutePlan plan;
+  plan.timed = true;
+  plan.agents = {agent("a", 0.5, {-2, 0, 0}, {4, 0, 0}), agent("b", 0.5, {0, -4, 0}, {0, 2, 0})};
+  std::vector<Route> routes{straight(plan.agents[0]), straight(plan.agents[1])};
+  // One is at the crossing after a third of the time, the other after two; they are 2 sqrt(1/2) apart between.
+  EXPECT_NEAR(check_routes(plan, routes).clearance, std::sqrt(2), 1e-9);
+  plan.timed = false;
+  EXPECT_EQ(check_routes(plan, routes).clearance, 0);
+  plan.timed = true;
+  routes[1] = straight(plan.agents[1], 21);
+  EXPECT_THROW(check_routes(plan, routes), std::invalid_argument);
 }
 
 TEST(CheckRoutes, FindsWhatIsWrong) {

@@ -140,6 +140,26 @@ TEST(SeifertSurface, FlatAndSteepKnotsAndPlanarDiagramsAreSpanned) {
   EXPECT_THROW(spanned(flat, {.fair = false}), std::invalid_argument);
 }
 
+TEST(SeifertSurface, HandlesRaiseTheGenusAndKeepThePolynomial) {
+  // Of the last one, two lowest discs lie side by side.
+  for (const char* text : {"braid 2: 1 1 1", "braid 3: 1 -2 1 -2 1 -2", "0 0 0\n1 0 0\n0 1 0\n\n5 0 0\n6 0 0\n5 1 0\n"})
+    for (const bool fair : {false, true})
+      for (const int handles : {1, 4}) {
+        SCOPED_TRACE(text);
+        const Link link = parse_link(text);
+        const int genus = spanned(link, {.fair = false}).genus;
+        const Surface surface = seifert_surface(link, {.handles = handles, .fair = fair}).surface;
+        const SeifertFindings found = check_seifert_surface(surface, link, 60, handles);
+        EXPECT_TRUE(found.hold());
+        EXPECT_EQ(found.genus, genus + handles);
+        EXPECT_FALSE(check_seifert_surface(surface, link).hold());
+      }
+  const Link trefoil = knot_of_table("3_1");
+  const Surface most = seifert_surface(trefoil, {.handles = 20, .fair = false}).surface;
+  EXPECT_TRUE(check_seifert_surface(most, trefoil, 60, 20).hold());
+  EXPECT_THROW(seifert_surface(trefoil, {.handles = 101}), std::invalid_argument);
+}
+
 TEST(SeifertSurface, TheTimeLimitHoldsWhileTrianglesAreSplit) {
   const Link link = knot_of_table("3_1");
   const SeifertResult made = seifert_surface(link, {.edge_rel = 0.002, .time_limit_s = 0.05});

@@ -20,6 +20,11 @@ TEST(SeifertCommand, AKnotIsSpannedAndCertified) {
   EXPECT_EQ(report["hold"], true);
   EXPECT_EQ(report["genus"], 1);
   EXPECT_EQ(run({"seifert", knot, "--check", surface}).exit_code, 0);
+  const Outcome handles = run({"seifert", knot, "-o", folder / "h.obj", "--handles", "2", "--no-fair"});
+  ASSERT_EQ(handles.exit_code, 0) << handles.err;
+  EXPECT_TRUE(contains(handles.err, "genus 3, Euler characteristic -5 (the diagram's with its handles: -5)"));
+  EXPECT_EQ(run({"seifert", knot, "--check", folder / "h.obj", "--handles", "2"}).exit_code, 0);
+  EXPECT_EQ(run({"seifert", knot, "--check", folder / "h.obj"}).exit_code, 1);
   ASSERT_EQ(run({"sample", "knot_4_1", "-o", knot}).exit_code, 0);
   EXPECT_EQ(run({"seifert", knot, "--check", surface, "-q"}).exit_code, 1);
 }

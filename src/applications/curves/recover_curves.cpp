@@ -16,6 +16,7 @@ struct Contact {
   Index vertex = 0, a = 0, b = 0;
   double activation = 0;  ///< length at which the barrier sets in
   bool tight = false;     ///< closer than the barrier can bear: it sets in later, and grows with the gap
+  double distance = 0;    ///< of both, when it was found
 };
 
 struct Nearest {
@@ -57,6 +58,7 @@ class Recovery {
       if (unknowns_ == 0 || stop()) return step;
       tree_.refit(state_.x);
       contacts_ = contacts_within(gap_);
+      set_activations(contacts_);
       Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2 * unknowns_);
       linearise(gradient);
       solver.compute(hessian_);
@@ -111,7 +113,7 @@ class Recovery {
     for (Index c = 0; c < net_.vertex_count(); ++c)
       for (Eigen::SparseMatrix<double>::InnerIterator it(elastic_, c); it; ++it)
         for (int d = 0; d < 2; ++d)
-          if (unknown_[it.row()] >= 0 && unknown_[c] >= 0)
+          if (unknown_[it.row()] >= unknown_[c] && unknown_[c] >= 0)
             elastic_terms_.emplace_back(2 * unknown_[it.row()] + d, 2 * unknown_[c] + d, it.value());
   }
 
@@ -125,15 +127,9 @@ class Recovery {
       if (p.x() < low.x() - distance || p.y() < low.y() - distance || p.x() > high.x() + distance ||
           p.y() > high.y() + distance)
         return;
-      Contact contact{v, a, b, gap_};
-      const double now = nearest(state_.x, contact).distance;
-      if (now >= distance) return;
-      contact.activation = activation(contact);
-      const double bearable = std::max(now / options_.tight_part, options_.least_activation_rel * net_.diagonal);
-      if (bearable < contact.activation) {
-        contact.activation = bearable;
-        contact.tight = true;
-      }
+      Contact contact{v, a, b};
+      contact.distance = nearest(state_.x, contact).distance;
+      if (contact.distance >= distance) return;
       result.push_back(contact);
     };
     tree_.pairs_within(distance, [&](Index i, Index j) {
@@ -142,6 +138,16 @@ class Recovery {
           if (owner_[v] == s) add(v, net_.segments[t]);
     });
     return result;
+  }
+
+  void set_activations(std::vector<Contact>& contacts) const {
+    for (Contact& contact : contacts) {
+      contact.activation = activation(contact);
+      const double bearable =
+          std::max(contact.distance / options_.tight_part, options_.least_activation_rel * net_.diagonal);
+      contact.tight = bearable < contact.activation;
+      if (contact.tight) contact.activation = bearable;
+    }
   }
 
   /// Beside each other along the curve, vertices are closer than the gap by nature.
@@ -188,9 +194,9 @@ class Recovery {
         if (unknown_[v[i]] < 0) continue;
         gradient.segment<2>(2 * unknown_[v[i]]) += slope * share[i] * n.direction;
         for (int j = 0; j < 3; ++j) {
-          if (unknown_[v[j]] < 0) continue;
+          if (unknown_[v[j]] < 0 || unknown_[v[i]] < unknown_[v[j]]) continue;
           for (int r = 0; r < 2; ++r)
-            for (int c = 0; c < 2; ++c)
+            for (int c = 0; c <= (i == j ? r : 1); ++c)
               terms_.emplace_back(2 * unknown_[v[i]] + r, 2 * unknown_[v[j]] + c, share[i] * share[j] * block(r, c));
         }
       }
@@ -203,15 +209,21 @@ class Recovery {
   double take(const Points2& wanted_move, double wanted) {
     const double largest = std::min(wanted, options_.largest_step * net_.diagonal);
     const double radius = gap_ + largest / options_.safe_part;
-    const std::vector<Contact> near = contacts_within(radius);
+    std::vector<Contact> near = contacts_within(radius);
     std::vector<double> bound(net_.vertex_count(), largest);
     for (const Contact& contact : near) {
-      const double safe = options_.safe_part * nearest(state_.x, contact).distance;
+      const double safe = options_.safe_part * contact.distance;
       for (const Index v : {contact.vertex, contact.a, contact.b}) bound[v] = std::min(bound[v], safe);
     }
     Points2 move = wanted_move;
     for (Index v = 0; v < net_.vertex_count(); ++v)
       if (const double length = move.col(v).norm(); length > bound[v]) move.col(v) *= bound[v] / length;
+    // Most are for the bounds alone: the barrier does not set in for them wherever this step ends.
+    std::erase_if(near, [&](const Contact& contact) {
+      const double of_segment = std::max(move.col(contact.a).norm(), move.col(contact.b).norm());
+      return contact.distance > gap_ + move.col(contact.vertex).norm() + of_segment;
+    });
+    set_activations(near);
     const double before = value(state_.x, near);
     for (double part = 1; part > options_.least_part; part *= 0.5) {
       const Points2 x = state_.x + part * move;
@@ -230,8 +242,8 @@ class Recovery {
   ArcLengths along_;
   std::vector<Index> unknown_;
   Index unknowns_ = 0;
-  std::vector<Index> owner_;  // one segment of each vertex, so that a contact is found once
-  Eigen::SparseMatrix<double> elastic_, hessian_;
+  std::vector<Index> owner_;                       // one segment of each vertex, so that a contact is found once
+  Eigen::SparseMatrix<double> elastic_, hessian_;  // of the Hessian the lower half
   std::vector<Eigen::Triplet<double>> elastic_terms_, terms_;
   std::vector<Contact> contacts_;
   int small_ = 0;  // steps in a row that moved next to nothing

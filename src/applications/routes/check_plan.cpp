@@ -111,11 +111,16 @@ void add_obstructions_of_agents(const RoutePlan& plan, std::vector<std::string>&
       places.push_back(std::move(place));
       agent.push_back(static_cast<int>(i));
     }
+  const auto is_start = [&](Index p) { return p == 0 || agent[p - 1] != agent[p]; };
+  const auto is_goal = [&](Index p) { return p + 1 == static_cast<Index>(agent.size()) || agent[p + 1] != agent[p]; };
   Bvh bvh;
   bvh.build(boxes);
   std::vector<std::array<Index, 2>> near;
   bvh.self_pairs([&](Index a, Index b) {
-    if (agent[a] != agent[b]) near.push_back({std::min(a, b), std::max(a, b)});
+    if (agent[a] == agent[b]) return;
+    // In time, of two agents only both starts count, and both goals: where the others are then.
+    if (plan.timed && !(is_start(a) && is_start(b)) && !(is_goal(a) && is_goal(b))) return;
+    near.push_back({std::min(a, b), std::max(a, b)});
   });
   std::sort(near.begin(), near.end());
   for (const auto& [a, b] : near) {

@@ -69,6 +69,23 @@ void check_distances(const RoutePlan& plan, const Segments& segments, RouteFindi
   });
 }
 
+/// In time only the segments that two agents move along at the same time count.
+void check_distances_in_time(const RoutePlan& plan, const Segments& segments, RouteFindings& found) {
+  const Index a_route = segments.size() / static_cast<Index>(plan.agents.size());
+  for (Index a = 0; a < segments.size(); ++a)
+    for (Index b = a + a_route; b < segments.size(); b += a_route) {
+      const auto &p = segments.ends[a], &q = segments.ends[b];
+      const int i = segments.agent[a], j = segments.agent[b];
+      const double r = plan.agents[i].radius, s = plan.agents[j].radius;
+      const Closest closest = closest_in_time(p[0], p[1], q[0], q[1]);
+      if (closest.distance > RouteFindings::measured_up_to * (1 + rounding_room) * (r + s)) continue;
+      if (const double bound = proven_clearance_in_time(p, q, closest.direction, r, s); bound < found.clearance) {
+        found.clearance = bound;
+        found.agents = {i, j};
+      }
+    }
+}
+
 void check_obstacles(const RoutePlan& plan, const Segments& segments, RouteFindings& found) {
   const ObstacleTriangles triangles(plan);
   for (Index s = 0; s < segments.size(); ++s) {
@@ -122,6 +139,11 @@ RouteFindings check_routes(const RoutePlan& plan, std::span<const Route> routes)
     const std::vector<RoutePoint>& points = routes[i].points;
     if (points.size() < 2)
       throw std::invalid_argument(fmt::format("the route of '{}' has fewer than two points", agent.name));
+    if (plan.timed && points.size() != routes[0].points.size())
+      throw std::invalid_argument(
+          fmt::format("the route of '{}' has {} points, that of '{}' {}; in time, both are due "
+                      "to have equally many",
+                      agent.name, points.size(), plan.agents[0].name, routes[0].points.size()));
     for (std::size_t k = 0; k < points.size(); ++k)
       for (const double c : points[k])
         if (!(std::abs(c) <= 1e90))
@@ -142,7 +164,7 @@ RouteFindings check_routes(const RoutePlan& plan, std::span<const Route> routes)
     found.straight.push_back(straight);
   }
   const Segments segments(routes);
-  check_distances(plan, segments, found);
+  plan.timed ? check_distances_in_time(plan, segments, found) : check_distances(plan, segments, found);
   check_obstacles(plan, segments, found);
   return found;
 }
@@ -152,8 +174,9 @@ std::string route_faults(const RoutePlan& plan, const RouteFindings& f) {
   std::string text;
   if (!f.places_kept) text += "a route does not go through the places of its agent\n";
   if (f.clearance < 1)
-    text += fmt::format("the routes of '{}' and '{}' have {:.6g} of the distance that they need\n", name(f.agents[0]),
-                        name(f.agents[1]), f.clearance);
+    text +=
+        fmt::format("{} '{}' and '{}' have {:.6g} of the distance that they need\n",
+                    plan.timed ? "at some time" : "the routes of", name(f.agents[0]), name(f.agents[1]), f.clearance);
   if (f.obstacle_clearance < 1)
     text += fmt::format("the route of '{}' has {:.6g} of the distance from the obstacle '{}' that it needs\n",
                         name(f.obstacle[0]), f.obstacle_clearance, plan.obstacles[f.obstacle[1]].name);

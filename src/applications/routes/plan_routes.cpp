@@ -102,7 +102,7 @@ class Planning {
                           places[k + 1][2], agent.radius));
           continue;
         }
-        if (finder) finder->avoid(*way, agent.radius + widest);
+        if (finder && !plan_.timed) finder->avoid(*way, agent.radius + widest);
         legs.push_back(std::move(*way));
       }
     }
@@ -196,12 +196,13 @@ class Planning {
         minimise(energy, x, longer * swelling_steps, chains.least_radius);
       }
     }
-    // Routes have become longer: their vertices are spread evenly once more. Obstacles may forbid the new corners.
+    // Routes have become longer: their vertices are spread evenly once more. Obstacles may forbid the new corners, and
+    // in time it would change who is where when.
     const std::vector<Legs> legs = chains.legs(columns(x));
     RouteChains even = sample_chains(plan_, legs, options_.spacing, false);
     RouteEnergy probe(even, triangles_);
     Eigen::VectorXd even_x = flat(even.x), gradient;
-    if (probe(even_x, gradient) < std::numeric_limits<double>::infinity()) {
+    if (!plan_.timed && probe(even_x, gradient) < std::numeric_limits<double>::infinity()) {
       chains = std::move(even);
       x = even_x;
     } else {

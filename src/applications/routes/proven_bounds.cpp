@@ -5,6 +5,8 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "geometry/predicates.h"
 
@@ -27,35 +29,47 @@ Rational dot(const ExactVec& a, const ExactVec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Whether the gap across n is at least as wide as r + s.
-bool is_gap(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& n, double r, double s) {
+using Pairs = std::vector<std::pair<const Vec3*, const Vec3*>>;
+
+/// Whether the gap across n is at least as wide as r + s: first - second of every pair goes beyond.
+bool is_gap(const Pairs& pairs, const Vec3& n, double r, double s) {
   const ExactVec direction = exact(n);
   Rational gap;
   bool first = true;
-  for (const Vec3& p : a)
-    for (const Vec3& q : b) {
-      const Rational along = dot(direction, difference(p, q));
-      if (first || along < gap) gap = along;
-      first = false;
-    }
+  for (const auto& [p, q] : pairs) {
+    const Rational along = dot(direction, difference(*p, *q));
+    if (first || along < gap) gap = along;
+    first = false;
+  }
   const Rational reach = Rational(r) + Rational(s);
   return gap > 0 && gap * gap >= reach * reach * dot(direction, direction);
+}
+
+double proven_gap(const Pairs& pairs, const Vec3& direction, double r, double s) {
+  const double norm = direction.norm();
+  if (!(norm > 0)) return 0;
+  double gap = std::numeric_limits<double>::infinity();
+  for (const auto& [p, q] : pairs) {
+    const double along = direction.dot(*p - *q);
+    const double magnitude = direction.cwiseAbs().dot(p->cwiseAbs() + q->cwiseAbs());
+    gap = std::min(gap, along - few_roundings * magnitude);
+  }
+  const double bound = std::max(gap / (norm * (r + s)) * (1 - few_roundings), 0.0);
+  return bound < 1 && is_gap(pairs, direction, r, s) ? 1 : bound;
 }
 
 }  // namespace
 
 double proven_clearance(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& direction, double r, double s) {
-  const double norm = direction.norm();
-  if (!(norm > 0)) return 0;
-  double gap = std::numeric_limits<double>::infinity();
+  Pairs pairs;
   for (const Vec3& p : a)
-    for (const Vec3& q : b) {
-      const double along = direction.dot(p - q);
-      const double magnitude = direction.cwiseAbs().dot(p.cwiseAbs() + q.cwiseAbs());
-      gap = std::min(gap, along - few_roundings * magnitude);
-    }
-  const double bound = std::max(gap / (norm * (r + s)) * (1 - few_roundings), 0.0);
-  return bound < 1 && is_gap(a, b, direction, r, s) ? 1 : bound;
+    for (const Vec3& q : b) pairs.emplace_back(&p, &q);
+  return proven_gap(pairs, direction, r, s);
+}
+
+double proven_clearance_in_time(std::span<const Vec3, 2> a, std::span<const Vec3, 2> b, const Vec3& direction, double r,
+                                double s) {
+  return proven_gap({{&a[0], &b[0]}, {&a[1], &b[1]}}, direction, r, s);
 }
 
 bool is_as_far(const Vec3& a, const Vec3& b, double r, double s) {

@@ -13,6 +13,11 @@ namespace unsnarl {
 /// arithmetic. Precondition: r + s > 0, all finite and below 1e100.
 double proven_clearance(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& direction, double r, double s);
 
+/// The same for two points that move straight and evenly, at the same time, from the first to the second of a and of b:
+/// at every moment.
+double proven_clearance_in_time(std::span<const Vec3, 2> a, std::span<const Vec3, 2> b, const Vec3& direction, double r,
+                                double s);
+
 /// Whether |a - b| >= r + s, exactly.
 bool is_as_far(const Vec3& a, const Vec3& b, double r, double s);
 

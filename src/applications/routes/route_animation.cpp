@@ -74,9 +74,9 @@ std::string routes_animation_svg(const RoutePlan& plan, std::span<const Route> r
   }
   text += "</g>\n<g fill-opacity=\"0.85\">\n";
   for (std::size_t i = 0; i < routes.size(); ++i) {
-    std::vector<double> arc{0};
+    std::vector<double> arc{0};  // or time, which runs evenly from point to point
     for (std::size_t k = 0; k + 1 < routes[i].points.size(); ++k)
-      arc.push_back(arc.back() + (vec(routes[i].points[k + 1]) - vec(routes[i].points[k])).norm());
+      arc.push_back(arc.back() + (plan.timed ? 1 : (vec(routes[i].points[k + 1]) - vec(routes[i].points[k])).norm()));
     std::string x, y, r;
     for (int f = 0; f < frames; ++f) {
       const Vec3 p = at(routes[i], arc, static_cast<double>(f) / (frames - 1));

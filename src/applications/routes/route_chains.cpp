@@ -36,17 +36,42 @@ std::vector<Vec3> evenly(std::span<const Vec3> polyline, Index segments) {
   return points;
 }
 
-/// Points of the polyline and others evenly between them, no farther apart than this.
-std::vector<Vec3> with_corners(std::span<const Vec3> polyline, double most) {
-  const double least = std::ceil(least_segments_a_leg / static_cast<double>(polyline.size() - 1));
-  std::vector<Vec3> points{polyline.front()};
-  for (std::size_t k = 0; k + 1 < polyline.size(); ++k) {
-    const std::span<const Vec3> piece = polyline.subspan(k, 2);
-    const std::vector<Vec3> even =
-        evenly(piece, static_cast<Index>(std::max(least, std::ceil(length_of(piece) / most))));
-    points.insert(points.end(), even.begin() + 1, even.end());
+/// What is cut into equal segments: a leg, or where its corners are kept each edge of it.
+struct Piece {
+  std::vector<Vec3> points;
+  double length = 0;
+  Index segments = 0;
+  bool ends_leg = false;
+};
+
+std::vector<Piece> pieces_of(const Legs& legs, double most, bool keep_corners) {
+  std::vector<Piece> pieces;
+  for (const std::vector<Vec3>& leg : legs) {
+    const std::size_t edges = keep_corners ? leg.size() - 1 : 1;
+    for (std::size_t k = 0; k < edges; ++k) {
+      Piece& piece = pieces.emplace_back();
+      piece.points = keep_corners ? std::vector<Vec3>{leg[k], leg[k + 1]} : leg;
+      piece.length = length_of(piece.points);
+      piece.segments = static_cast<Index>(
+          std::max(std::ceil(least_segments_a_leg / static_cast<double>(edges)), std::ceil(piece.length / most)));
+    }
+    pieces.back().ends_leg = true;
   }
-  return points;
+  return pieces;
+}
+
+Index segments_of(const std::vector<Piece>& pieces) {
+  Index sum = 0;
+  for (const Piece& piece : pieces) sum += piece.segments;
+  return sum;
+}
+
+/// More segments, always where they are longest.
+void refine(std::vector<Piece>& pieces, Index segments) {
+  for (Index k = segments_of(pieces); k < segments; ++k)
+    ++std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+        return a.length * b.segments < b.length * a.segments;
+      })->segments;
 }
 
 }  // namespace
@@ -82,24 +107,29 @@ RouteChains sample_chains(const RoutePlan& plan, std::span<const Legs> routes, d
     total += length / edges.back();
   }
   const double wider = std::max(1.0, total / most_segments_of_all);
+  std::vector<std::vector<Piece>> pieces;
+  Index most = 0;
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    pieces.push_back(pieces_of(routes[i], wider * edges[i], keep_corners));
+    most = std::max(most, segments_of(pieces.back()));
+  }
   RouteChains made;
+  made.timed = plan.timed;
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < routes.size(); ++i) {
+    if (plan.timed) refine(pieces[i], most);
     RouteChains::Chain& chain = made.chains.emplace_back();
     chain.first = static_cast<Index>(points.size());
     chain.radius = plan.agents[i].radius;
     double length = 0;
-    for (const std::vector<Vec3>& leg : routes[i]) {
-      const double along = length_of(leg);
-      const double most = wider * edges[i];
-      const std::vector<Vec3> even =
-          keep_corners ? with_corners(leg, most)
-                       : evenly(leg, static_cast<Index>(std::max(least_segments_a_leg, std::ceil(along / most))));
-      const bool joins = static_cast<Index>(points.size()) > chain.first;
-      points.insert(points.end(), even.begin() + (joins ? 1 : 0), even.end());
+    points.push_back(pieces[i].front().points.front());
+    made.pinned.push_back(1);
+    for (const Piece& piece : pieces[i]) {
+      const std::vector<Vec3> even = evenly(piece.points, piece.segments);
+      points.insert(points.end(), even.begin() + 1, even.end());
       made.pinned.resize(points.size(), 0);
-      made.pinned[points.size() - even.size()] = made.pinned.back() = 1;
-      length += along;
+      made.pinned.back() = piece.ends_leg;
+      length += piece.length;
     }
     chain.count = static_cast<Index>(points.size()) - chain.first;
     chain.edge = length / (chain.count - 1);

@@ -25,6 +25,7 @@ struct RouteChains {
   std::vector<Index> segment_chain;
   Positions x;
   double least_radius = 0;
+  bool timed = false;  ///< equally many vertices a chain: vertices of one number are of one time
 
   Index segments() const { return static_cast<Index>(segment_vertex.size()); }
   std::vector<Route> routes(const Positions& at) const;
@@ -33,7 +34,8 @@ struct RouteChains {
 };
 
 /// One route an agent, through its legs. spacing: of vertices / radius; wider where a route would have too many.
-/// keep_corners: the points of the legs are vertices, so that nothing is cut off; else all are evenly spaced.
+/// keep_corners: the points of the legs are vertices, so that nothing is cut off; else all are evenly spaced. In time
+/// all routes have as many vertices as the one that needs most.
 RouteChains sample_chains(const RoutePlan& plan, std::span<const Legs> routes, double spacing, bool keep_corners);
 
 /// Other routes through the same places, with as many points on each leg.

@@ -75,9 +75,16 @@ double RouteEnergy::needed(const Pair& pair) const {
          (chains_.chains[chains_.segment_chain[pair.a]].radius + chains_.chains[chains_.segment_chain[pair.b]].radius);
 }
 
+double RouteEnergy::weight_of(const Pair& pair) const {
+  const double h = chains_.chains[chains_.segment_chain[pair.a]].edge,
+               k = chains_.chains[chains_.segment_chain[pair.b]].edge;
+  return chains_.timed ? settings.contact * 0.5 * (h + k) : settings.contact * h * k / needed(pair);
+}
+
 Closest RouteEnergy::closest_pair(const Points& x, const Pair& pair) const {
   const Index a = chains_.segment_vertex[pair.a], b = chains_.segment_vertex[pair.b];
-  Closest closest = closest_edge_edge(x.col(a), x.col(a + 1), x.col(b), x.col(b + 1));
+  Closest closest =
+      (chains_.timed ? closest_in_time : closest_edge_edge)(x.col(a), x.col(a + 1), x.col(b), x.col(b + 1));
   if (closest.direction == Vec3::Zero()) {
     // Segments that cross are pushed apart across both.
     const Vec3 e = x.col(a + 1) - x.col(a), f = x.col(b + 1) - x.col(b);
@@ -110,7 +117,14 @@ void RouteEnergy::find_neighbours(const Points& x) {
     boxes[s] = boxes[s].inflated(reach(s) + slack(chain));
     arc[s] = s > 0 && chains_.segment_chain[s - 1] == chain ? arc[s - 1] + (x.col(v) - x.col(v - 1)).norm() : 0;
   }
-  if (settings.contact > 0) {
+  if (settings.contact > 0 && chains_.timed) {
+    const Index a_chain = chains_.segments() / static_cast<Index>(chains_.chains.size());
+    for (Index a = 0; a < chains_.segments(); ++a)
+      for (Index b = a + a_chain; b < chains_.segments(); b += a_chain) {
+        const double most = reach(a) + slack(chains_.segment_chain[a]) + reach(b) + slack(chains_.segment_chain[b]);
+        if (closest_pair(x, {a, b}).distance < most) pairs_.push_back({a, b});
+      }
+  } else if (settings.contact > 0) {
     Bvh bvh;
     bvh.build(boxes);
     bvh.self_pairs([&](Index a, Index b) {
@@ -194,8 +208,7 @@ double RouteEnergy::contacts(const Points& x, Positions& gradient) {
            if (is_constant(pair, closest)) continue;
            const Push push = push_of((need + width - closest.distance) / width, settings.strict);
            if (push.value == 0) continue;
-           const double weight = settings.contact * chains_.chains[chains_.segment_chain[pair.a]].edge *
-                                 chains_.chains[chains_.segment_chain[pair.b]].edge / need;
+           const double weight = weight_of(pair);
            sums[part] += weight * push.value;
            const Vec3 force = -weight * push.slope / width * closest.direction;
            const Index a = chains_.segment_vertex[pair.a], b = chains_.segment_vertex[pair.b];
@@ -295,8 +308,7 @@ void RouteEnergy::factorise(const Eigen::VectorXd& flat) {
     const Closest closest = closest_pair(x, pair);
     const Push push = push_of((need + gap - closest.distance) / gap, settings.strict);
     if (!(push.curvature > 0 && push.curvature < infinity)) continue;
-    const double stiff = settings.contact * chains_.chains[chains_.segment_chain[pair.a]].edge *
-                         chains_.chains[chains_.segment_chain[pair.b]].edge / need * push.curvature / (gap * gap);
+    const double stiff = weight_of(pair) * push.curvature / (gap * gap);
     const Index a = chains_.segment_vertex[pair.a], b = chains_.segment_vertex[pair.b];
     const std::array<Index, 4> vertices = {a, a + 1, b, b + 1};
     // Both sides may move together. Without contacts in the matrix, 20 agents took four times as long.

@@ -132,8 +132,12 @@ RouteObstacle obstacle(const Json& value, std::size_t number_of_obstacle, const 
 
 RoutePlan parse_route_plan(std::string_view text, const std::filesystem::path& folder) {
   const Json root = parse_json(text);
-  object(root, "the plan", {"agents", "obstacles"});
+  object(root, "the plan", {"agents", "obstacles", "timed"});
   RoutePlan plan;
+  if (root.contains("timed")) {
+    if (!root["timed"].is_boolean()) refuse("timed", "give true or false");
+    plan.timed = root["timed"].get<bool>();
+  }
   for (const Json& item : list(member(root, "the plan", "agents"), "agents"))
     plan.agents.push_back(agent(item, plan.agents.size()));
   if (root.contains("obstacles"))
@@ -154,6 +158,7 @@ std::string route_plan_json(const RoutePlan& plan) {
     if (!a.waypoints.empty()) item["waypoints"] = a.waypoints;
     json["agents"].push_back(std::move(item));
   }
+  if (plan.timed) json["timed"] = true;
   if (!plan.obstacles.empty()) json["obstacles"] = Json::array();
   for (const RouteObstacle& o : plan.obstacles) {
     Json item = {{"name", o.name}, {"vertices", Json::array()}, {"faces", Json::array()}};
@@ -175,6 +180,7 @@ std::string routes_json(const RoutePlan& plan, const RoutesResult& result) {
   Json json = {{"schema", "unsnarl-routes"},
                {"schema_version", 1},
                {"program", std::string("unsnarl ") + version},
+               {"timed", plan.timed},
                {"hold", f.hold()},
                {"clearance", f.clearance},
                {"obstacle_clearance", f.obstacle_clearance},

@@ -11,12 +11,13 @@
 namespace unsnarl {
 namespace {
 
-constexpr std::array<RoutePlanSample, 5> samples = {{
+constexpr std::array<RoutePlanSample, 6> samples = {{
     {"star_6", "six agents that change sides through one centre, in a plane"},
     {"star_20", "twenty agents that change sides through one centre"},
     {"star_50", "fifty agents that change sides through one centre"},
     {"ring", "nineteen agents that go through a ring and come out mirrored"},
     {"maze", "eight agents in a closed room, past three walls with a gap each"},
+    {"door", "six agents that change sides at different times through one gap, in which there is room for one"},
 }};
 
 RouteAgent agent(std::size_t number, double radius, const Vec3& start, const Vec3& goal) {
@@ -118,6 +119,25 @@ RoutePlan maze() {
   return plan;
 }
 
+RoutePlan door() {
+  RoutePlan plan;
+  plan.timed = true;
+  // Four blocks around a hole of 1.5 in a wall across x; agents are 0.8 wide.
+  constexpr double hole = 0.75, half_width = 5, thickness = 0.2;
+  plan.obstacles.push_back(block("left", {-thickness, -half_width, -half_width}, {thickness, half_width, -hole}));
+  plan.obstacles.push_back(block("right", {-thickness, -half_width, hole}, {thickness, half_width, half_width}));
+  plan.obstacles.push_back(block("below", {-thickness, -half_width, -hole}, {thickness, -hole, hole}));
+  plan.obstacles.push_back(block("above", {-thickness, hole, -hole}, {thickness, half_width, hole}));
+  for (int k = 0; k < 6; ++k) {
+    // Who sets out nearer to the door is there earlier; every second one comes from the other side.
+    const double angle = 2 * std::numbers::pi * std::numbers::phi * k, side = k % 2 == 0 ? 1 : -1;
+    const Vec3 across(0, 2 * std::sin(angle), 2 * std::cos(angle));
+    const double near = 1.5 + 1.6 * k, far = 1.5 + 1.6 * (5 - k);
+    plan.agents.push_back(agent(k, 0.4, Vec3(-side * near, 0, 0) + across, Vec3(side * far, 0, 0) - across));
+  }
+  return plan;
+}
+
 }  // namespace
 
 std::span<const RoutePlanSample> route_plan_samples() {
@@ -130,6 +150,7 @@ RoutePlan sample_route_plan(std::string_view name) {
   if (name == "star_50") return star(50, 0.3);
   if (name == "ring") return ring();
   if (name == "maze") return maze();
+  if (name == "door") return door();
   std::string names;
   for (const RoutePlanSample& sample : samples) names += fmt::format("{}{}", names.empty() ? "" : ", ", sample.name);
   throw std::invalid_argument(fmt::format("there is no plan '{}'; there are {}", name, names));

@@ -22,6 +22,18 @@ std::vector<Vec3> places_of(const RouteAgent& agent) {
   return places;
 }
 
+Closest closest_in_time(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 from = a - c, change = (b - d) - from;
+  const double squared = change.squaredNorm();
+  const double t = squared > 0 ? std::clamp(-from.dot(change) / squared, 0.0, 1.0) : 0.0;
+  const Vec3 between = from + t * change;
+  Closest closest;
+  closest.distance = between.norm();
+  if (closest.distance > 0) closest.direction = between / closest.distance;
+  closest.weights = {1 - t, t, t - 1, -t};
+  return closest;
+}
+
 ClosestToTriangle closest_segment_triangle(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
   ClosestToTriangle best;
   if (pierces(p, q, t)) return best;

@@ -114,7 +114,7 @@ std::vector<std::string> as_text(const Polynomial& polynomial) {
 
 }  // namespace
 
-SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views) {
+SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views, int handles) {
   check_link(link);
   const Mesh mesh = mesh_of(surface);
   SeifertFindings found;
@@ -123,7 +123,7 @@ SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& li
   found.intersecting_pairs = find_intersections(surface, every_vertex_by_itself).size();
   const std::optional<LinkDiagram> diagram = best_diagram(link, views);
   if (!diagram) throw std::invalid_argument("no view of the link tells its strands apart");
-  found.expected_euler_characteristic = diagram->euler_characteristic();
+  found.expected_euler_characteristic = diagram->euler_characteristic() - 2 * handles;
   found.alexander_of_link = as_text(alexander_polynomial(*diagram));
   Sides sides;
   found.oriented = collect_sides(mesh, sides) && has_single_fans(mesh, sides);

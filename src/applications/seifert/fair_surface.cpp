@@ -60,11 +60,33 @@ double cotangent(const Vec3& corner, const Vec3& a, const Vec3& b) {
   return u.dot(v) / std::max(u.cross(v).norm(), 1e-12 * u.norm() * v.norm());
 }
 
-/// Where a vertex wants to go: along the normal to where the area is least, along the surface to the middle.
-Vec3 wanted(const EmbeddedMesh& mesh, Index v, double over_relaxation) {
+/// From a vertex to the middle of its neighbours: where edges are equally long, half a squared edge times the mean
+/// curvature, along the normal.
+struct Umbrella {
+  Vec3 arrow = Vec3::Zero();
+  double share = 0;  ///< one by the number of neighbours
+};
+
+Umbrella umbrella(const EmbeddedMesh& mesh, Index v) {
+  Umbrella u;
+  // Inside the surface, every neighbour is in two faces.
+  for (const Index f : mesh.faces_of(v))
+    for (const Index w : mesh.face(f))
+      if (w != v) u.arrow += 0.5 * (mesh.position(w) - mesh.position(v));
+  u.share = 1.0 / static_cast<double>(mesh.faces_of(v).size());
+  u.arrow *= u.share;
+  return u;
+}
+
+/// Where a vertex wants to go: along the normal to where area and curvature around it are least, along the surface to
+/// the middle.
+Vec3 wanted(const EmbeddedMesh& mesh, Index v, const FairOptions& options) {
   const Vec3 p = mesh.position(v);
   Vec3 normal = Vec3::Zero(), pull = Vec3::Zero(), middle = Vec3::Zero();
   double weights = 0, areas = 0;
+  const Umbrella own = umbrella(mesh, v);
+  Vec3 others = Vec3::Zero();
+  double squared_shares = 1;
   for (const Index f : mesh.faces_of(v)) {
     const Triangle& t = mesh.face(f);
     const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
@@ -79,12 +101,20 @@ Vec3 wanted(const EmbeddedMesh& mesh, Index v, double over_relaxation) {
       pull += w * (end - p);
       weights += w;
     }
+    // The neighbours in their order: each is the next corner of one face.
+    if (const Index w = t[(k + 1) % 3]; w >= mesh.boundary_count()) {
+      const Umbrella u = umbrella(mesh, w);
+      others += u.share * u.arrow;
+      squared_shares += u.share * u.share;
+    }
   }
   if (!(areas > 0) || !(weights > 0)) return p;
   const double norm = normal.norm();
   const Vec3 n = norm > 0 ? Vec3(normal / norm) : Vec3(Vec3::Zero());
   const Vec3 along = middle / areas - p;
-  return p + over_relaxation * (pull / weights).dot(n) * n + (along - along.dot(n) * n);
+  const double curvature = 2 * options.curvature;
+  const Vec3 across = (pull / weights + curvature * (own.arrow - others)) / (1 + curvature * squared_shares);
+  return p + options.over_relaxation * across.dot(n) * n + (along - along.dot(n) * n);
 }
 
 }  // namespace
@@ -105,7 +135,7 @@ SpanningMesh fair(SpanningMesh start, Index boundary_count, double edge, const F
       for (Index k = boundary_count; k < n && pace(); ++k) {
         const Index v = sweep % 2 == 0 ? k : n - 1 - (k - boundary_count);  // to and fro
         if (!mesh.is_alive(v)) continue;
-        const Vec3 from = mesh.position(v), to = wanted(mesh, v, options.over_relaxation);
+        const Vec3 from = mesh.position(v), to = wanted(mesh, v, options);
         if ((to - from).norm() < settled * wished) continue;
         if (!mesh.move(v, to)) mesh.move(v, from + shorter_step * (to - from));
       }

@@ -16,6 +16,9 @@ namespace {
 constexpr double finest_edge_rel = 1.0 / 45, coarsest_edge_rel = 1.0 / 20;
 /// The least edge length that may be asked for / diagonal: some ten million triangles.
 constexpr double least_edge_rel = 1e-3;
+/// Each is hung from what the ones before have left of the lowest disc; the last of so many are still far above
+/// rounding.
+constexpr int most_handles = 100;
 /// Between the discs of nested circles / edge length of the coarsest level, so that fairing has room there.
 constexpr double disc_step = 1;
 
@@ -24,6 +27,8 @@ void check(const SeifertOptions& options) {
     throw std::invalid_argument(fmt::format("edge_rel is {}; give {} to 0.5, or 0", options.edge_rel, least_edge_rel));
   if (options.views < 3 || options.views > 10000)
     throw std::invalid_argument(fmt::format("views is {}; give 3 to 10000", options.views));
+  if (options.handles < 0 || options.handles > most_handles)
+    throw std::invalid_argument(fmt::format("handles is {}; give 0 to {}", options.handles, most_handles));
   if (!(options.time_limit_s >= 0)) throw std::invalid_argument("time_limit_s is below 0");
 }
 
@@ -57,7 +62,7 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
   result.crossings = diagram->crossings.size();
   result.circles = static_cast<std::size_t>(diagram->circles);
   const double edge = edge_length(link, options);
-  SpanningMesh mesh = spanning_start(link, *diagram, disc_step * edge);
+  SpanningMesh mesh = spanning_start(link, *diagram, disc_step * edge, options.handles);
   if (options.fair) {
     const auto progress = [&](double fraction) {
       if (context && context->on_progress) context->on_progress({.fraction = fraction, .phase = "fair"});

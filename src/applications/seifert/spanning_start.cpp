@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "applications/seifert/handles.h"
 #include "geometry/splitmix.h"
 #include "mesh/ear_clipper.h"
 
@@ -37,11 +38,12 @@ class Construction {
         mesh_.x.emplace_back(component[k], component[k + 1], component[k + 2]);
   }
 
-  SpanningMesh build() {
+  SpanningMesh build(int handles) {
     make_rim();
     hang_collar();
     place_bands();
     hang_walls();
+    fill_discs(handles);
     return std::move(mesh_);
   }
 
@@ -183,7 +185,8 @@ class Construction {
       for (std::size_t j = 0; j < circles.size(); ++j)
         if (i != j) depth[i] += contains(circles[j], rim_[circles[i][0]].x);
     const int deepest = *std::max_element(depth.begin(), depth.end());
-    for (std::size_t i = 0; i < circles.size(); ++i) hang_wall(circles[i], lowest - step_ * (1 + deepest - depth[i]));
+    lowest_ = lowest - step_ * (1 + deepest);
+    for (std::size_t i = 0; i < circles.size(); ++i) hang_wall(circles[i], lowest_ + step_ * depth[i], depth[i] == 0);
   }
 
   /// Another one for each number, far below the room between walls.
@@ -191,28 +194,50 @@ class Construction {
     return corner_shift * beside_ * (splitmix_number(static_cast<std::uint64_t>(k) * splitmix_step) - 0.5);
   }
 
-  void hang_wall(const std::vector<Index>& circle, double height) {
+  void hang_wall(const std::vector<Index>& circle, double height, bool is_lowest) {
     const std::size_t n = circle.size();
-    std::vector<Vec3> flat;
-    std::vector<Index> corners;
-    double area = 0;
+    FlatDisc& disc = (is_lowest ? lowest_discs_ : discs_).emplace_back();
     for (std::size_t k = 0; k < n; ++k) {
-      const Vec3 &p = rim_[circle[k]].x, &q = rim_[circle[(k + 1) % n]].x;
+      const Vec3& p = rim_[circle[k]].x;
       // Corners in line would make triangles without area.
-      flat.emplace_back(p.x() + shift(2 * circle[k]), p.y() + shift(2 * circle[k] + 1), 0);
-      corners.push_back(add(flat.back() + height * Vec3::UnitZ()));
-      area += p.x() * q.y() - p.y() * q.x();
+      disc.outline.emplace_back(p.x() + shift(2 * circle[k]), p.y() + shift(2 * circle[k] + 1));
+      disc.corners.push_back(add({disc.outline.back().x(), disc.outline.back().y(), height}));
     }
     for (std::size_t k = 0; k < n; ++k) {
       const Index a = rim_vertex_[circle[k]], b = rim_vertex_[circle[(k + 1) % n]];
-      const Index below_a = corners[k], below_b = corners[(k + 1) % n];
+      const Index below_a = disc.corners[k], below_b = disc.corners[(k + 1) % n];
       mesh_.faces.push_back({a, b, below_b});
       mesh_.faces.push_back({a, below_b, below_a});
     }
+  }
+
+  /// Handles hang from the lowest discs, below which there is nothing.
+  void fill_discs(int handles) {
+    std::vector<std::vector<FlatDisc>> holes(lowest_discs_.size());
+    for (const HandlePlace& place : handle_places(lowest_discs_, handles)) {
+      FlatDisc& hole = holes[place.disc].emplace_back();
+      std::array<Vec2, 6> corners = hexagon_of(place);
+      if (is_clockwise(lowest_discs_[place.disc])) std::reverse(corners.begin() + 1, corners.end());
+      std::array<Index, 6> hexagon;
+      for (int k = 0; k < 6; ++k) hexagon[k] = add({corners[k].x(), corners[k].y(), lowest_});
+      add_handle(mesh_, hexagon, -diagram_.frame.transpose() * Vec3::UnitZ());
+      hole.corners.assign(hexagon.rbegin(), hexagon.rend());
+      hole.outline.assign(corners.rbegin(), corners.rend());
+    }
+    for (std::size_t d = 0; d < lowest_discs_.size(); ++d) {
+      cut_to_holes(lowest_discs_[d], std::move(holes[d]));
+      fill(lowest_discs_[d]);
+    }
+    for (const FlatDisc& disc : discs_) fill(disc);
+  }
+
+  void fill(const FlatDisc& disc) {
+    std::vector<Vec3> flat;
+    for (const Vec2& p : disc.outline) flat.emplace_back(p.x(), p.y(), 0);
     std::vector<Triangle> cut;
-    if (clipper_.clip(corners, flat, area > 0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ()), cut) > 0)
+    if (clipper_.clip(disc.corners, flat, is_clockwise(disc) ? Vec3(-Vec3::UnitZ()) : Vec3::UnitZ(), cut) > 0)
       throw std::logic_error("a Seifert circle crosses itself");
-    for (const Triangle& t : cut) mesh_.faces.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+    for (const Triangle& t : cut) mesh_.faces.push_back({disc.corners[t[0]], disc.corners[t[1]], disc.corners[t[2]]});
   }
 
   const LinkDiagram& diagram_;
@@ -220,6 +245,8 @@ class Construction {
   double collar_ = 0;  // its width
   double beside_ = 0;  // the smallest room beside a strand within a band, in the picture
   SpanningMesh mesh_;
+  std::vector<FlatDisc> lowest_discs_, discs_;  // several side by side are the lowest, at the same height
+  double lowest_ = 0;
   std::vector<RimPoint> rim_;
   std::vector<Index> rim_vertex_;
   std::vector<std::array<std::array<Index, 2>, 2>> ends_;  // rim points of a crossing: [over, under][arrives, leaves]
@@ -228,8 +255,8 @@ class Construction {
 
 }  // namespace
 
-SpanningMesh spanning_start(const Link& link, const LinkDiagram& diagram, double step) {
-  return Construction(link, diagram, step).build();
+SpanningMesh spanning_start(const Link& link, const LinkDiagram& diagram, double step, int handles) {
+  return Construction(link, diagram, step).build(handles);
 }
 
 }  // namespace unsnarl

@@ -22,7 +22,7 @@ struct SpanningMesh {
 ///   link, at a height of its own: the deeper a circle lies within others, the higher. Walls stand over the circles,
 ///   which do not meet in the picture, and the discs of the circles around one pass below its own.
 ///
-/// step: between the heights of discs, > 0.
-SpanningMesh spanning_start(const Link& link, const LinkDiagram& diagram, double step);
+/// step: between the heights of discs, > 0. handles: hung from the lowest disc.
+SpanningMesh spanning_start(const Link& link, const LinkDiagram& diagram, double step, int handles = 0);
 
 }  // namespace unsnarl
