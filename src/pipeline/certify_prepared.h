@@ -9,7 +9,7 @@ namespace unsnarl {
 
 /// certify() of a surface that has been prepared already, with these options, but for `pairs_float32`. `positions`: 3 n
 /// doubles, finite.
-Certificate certify_prepared(const PreparedSurface& prepared, std::span<const double> positions,
-                             const FindOptions& options);
+Certificate certify_prepared(const SurfaceView& surface, const PreparedSurface& prepared,
+                             std::span<const double> positions, const FindOptions& options);
 
 }  // namespace unsnarl

@@ -308,7 +308,7 @@ class SequenceRepair {
     if (smoothed.status != Status::embedded) return;
     // A layer that came out on another side would pop.
     if (largest_distance(smoothed.positions, target) > largest_distance(result.positions, target)) return;
-    const Certificate certificate = certify_prepared(prepared, smoothed.positions, find());
+    const Certificate certificate = certify_prepared(surface(frame.input), prepared, smoothed.positions, find());
     const bool all = options.goal == Goal::all;
     if (!certificate.seams_closed || (all ? !certificate.embedded() : certificate.pairs[PairClass::disjoint] > 0))
       return;
