@@ -4,45 +4,15 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "mesh/areas.h"
-#include "pipeline/certify_prepared.h"
 #include "pipeline/threads.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "scene/rounding.h"
 
 namespace unsnarl {
-namespace {
-
-/// As the input's polygons are cut, and as a program cuts them that reads these positions.
-std::vector<IntersectingPair> pairs_by_both_cuts(const SurfaceView& input, const PreparedSurface& prepared,
-                                                 FacePairFinder& finder, const FindOptions& options,
-                                                 std::span<const double> positions) {
-  std::vector<IntersectingPair> pairs = finder.find(prepared.gather(positions));
-  const std::optional<PreparedSurface> read = cut_anew(input, prepared, options, positions);
-  return read ? unite_face_pairs(std::move(pairs), FacePairFinder(*read).find(read->gather(positions))) : pairs;
-}
-
-Certificate certificate_of(const SurfaceView& input, const PreparedSurface& prepared, FacePairFinder& finder,
-                           const FindOptions& options, std::span<const double> positions) {
-  Certificate certificate;
-  const Positions x = prepared.gather(positions);
-  const std::vector<Index>& id = prepared.weld_map.vertex_of;
-  for (std::size_t v = 0; v < id.size() && options.weld_tolerance == 0; ++v)
-    for (int k = 0; k < 3; ++k) certificate.seams_closed &= positions[3 * v + k] == x(k, id[v]);
-  certificate.new_zero_area_faces = count_lost_areas(prepared.rest, x, prepared.triangles());
-  certificate.pairs = count_by_class(pairs_by_both_cuts(input, prepared, finder, options, positions));
-  return certificate;
-}
-
-}  // namespace
-
-Certificate certify_prepared(const SurfaceView& surface, const PreparedSurface& prepared,
-                             std::span<const double> positions, const FindOptions& options) {
-  FacePairFinder finder(prepared);
-  return certificate_of(surface, prepared, finder, options, positions);
-}
 
 class Certifier::Search {
  public:
@@ -52,22 +22,28 @@ class Certifier::Search {
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
+  /// As the input's polygons are cut, and as a program cuts them that reads these positions.
   std::vector<IntersectingPair> pairs_at(std::span<const double> positions) {
     check(positions);
-    return pairs_by_both_cuts(input_, prepared_, finder_, options_, positions);
+    std::vector<IntersectingPair> pairs = finder_.find(prepared_.gather(positions));
+    const std::optional<PreparedSurface> read = cut_anew(input_, prepared_, options_, positions);
+    return read ? unite_face_pairs(std::move(pairs), FacePairFinder(*read).find(read->gather(positions))) : pairs;
   }
 
   Certificate certify(std::span<const double> positions) {
-    check(positions);
-    return certificate_of(input_, prepared_, finder_, options_, positions);
+    Certificate certificate;
+    certificate.pairs = count_by_class(pairs_at(positions));
+    certificate.seams_closed = options_.weld_tolerance > 0 || prepared_.seams_are_closed(positions);
+    certificate.new_zero_area_faces =
+        count_lost_areas(prepared_.rest, prepared_.gather(positions), prepared_.triangles());
+    return certificate;
   }
 
   PairCounts pairs_in_float32(std::span<const double> positions) {
-    check(positions);
     const Positions as_is = Eigen::Map<const Positions>(positions.data(), 3, static_cast<Index>(positions.size() / 3));
     const Positions rounded = rounded_to_float32(as_is);
     const std::span<const double> values(rounded.data(), positions.size());
-    PairCounts pairs = count_by_class(pairs_by_both_cuts(input_, prepared_, finder_, options_, values));
+    PairCounts pairs = count_by_class(pairs_at(values));
     if (!fits_float32(as_is)) ++pairs[PairClass::degenerate];
     return pairs;
   }

@@ -34,6 +34,14 @@ std::vector<double> PreparedSurface::scatter(std::span<const double> input, cons
   return positions;
 }
 
+bool PreparedSurface::seams_are_closed(std::span<const double> positions) const {
+  for (std::size_t v = 0; v < weld_map.vertex_of.size(); ++v) {
+    const double* const first = &positions[3 * static_cast<std::size_t>(weld_map.first[weld_map.vertex_of[v]])];
+    if (!std::equal(first, first + 3, &positions[3 * v])) return false;
+  }
+  return true;
+}
+
 PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options) {
   require_valid(surface);
   PreparedSurface prepared;

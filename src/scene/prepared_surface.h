@@ -26,6 +26,8 @@ struct PreparedSurface {
   Positions gather(std::span<const double> positions) const;
   /// The input's positions, with those of the welded vertices that differ from rest put in their place.
   std::vector<double> scatter(std::span<const double> input, const Positions& x) const;
+  /// All vertices of the file that are one lie at one position.
+  bool seams_are_closed(std::span<const double> positions) const;
 };
 
 /// Throws std::invalid_argument where the surface makes no sense (see require_valid).
