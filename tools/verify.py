@@ -13,13 +13,14 @@ What is checked, and said line by line:
   areas       no face has lost its area
   float32     both also hold with all positions rounded to float32 (with --float32)
 
-Which vertices count as one and how polygons are cut into triangles is decided by IN, by the rules that the headers
-src/mesh/weld_map.h and src/mesh/triangulation.h state. All geometry is decided in integers: coordinates are
+Which vertices count as one is decided by IN, by the rules that src/mesh/weld_map.h states. Polygons are cut into
+triangles by IN and once more by OUT, by those of src/mesh/triangulation.h; faces must not meet either way. All geometry is decided in integers: coordinates are
 scaled by one power of two. Only the standard library is needed.
 
 Exit codes: 0 all holds, 1 something does not, 2 the command line makes no sense, 3 a file cannot be read.
 """
 import argparse
+import copy
 import math
 import sys
 
@@ -118,7 +119,15 @@ class Verification:
 
     def pairs(self, positions):
         detector = Detector(scaled_to_integers(positions), [t for t, _ in self.triangles])
-        return detector, pairs_of_faces(detector.find(), self.triangles)
+        pairs = pairs_of_faces(detector.find(), self.triangles)
+        read = copy.copy(self.before)
+        read.positions = positions
+        triangles = triangulate(read, self.vertex_of)
+        if triangles != self.triangles:
+            found = Detector(scaled_to_integers(positions), [t for t, _ in triangles]).find()
+            for faces, kind in pairs_of_faces(found, triangles).items():
+                pairs[faces] = min(kind, pairs.get(faces, kind), key=CLASSES.index)
+        return detector, pairs
 
     def check_geometry(self, positions, name, areas_name):
         detector, pairs = self.pairs(positions)

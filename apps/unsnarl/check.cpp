@@ -62,8 +62,9 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
   if (found.components.size() > 1)
     for (std::size_t i = 0; i < std::min(found.components.size(), components_in_text); ++i) {
       const ComponentFindings& c = found.components[i];
-      line(fmt::format("  component {:<3} {:>6} {:<5} {:>5} pairs within {:>5} with others; {}", i, c.faces,
-                       c.faces == 1 ? "face" : "faces", c.pairs_within, c.pairs_with_others, extent(c.bounds)));
+      line(fmt::format("  component {:<3} {:>6} {:<5} {:>5} {:<5} within {:>5} with others; {}", i, c.faces,
+                       c.faces == 1 ? "face" : "faces", c.pairs_within, c.pairs_within == 1 ? "pair" : "pairs",
+                       c.pairs_with_others, extent(c.bounds)));
     }
   if (found.components.size() > components_in_text)
     line(fmt::format("  and {} more (--json lists all)", found.components.size() - components_in_text));
@@ -71,8 +72,9 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
     line("no self-intersections");
     return text;
   }
-  line(fmt::format("{} of faces intersect: {} in {}; {} within a component, {} between two",
-                   counted(found.pairs.size(), "pair", "pairs"), counted(found.faces.size(), "face", "faces"),
+  line(fmt::format("{}: {} in {}; {} within a component, {} between two",
+                   counted(found.pairs.size(), "pair of faces intersects", "pairs of faces intersect"),
+                   counted(found.faces.size(), "face", "faces"),
                    counted(found.intersecting_components, "component", "components"), found.pairs_within_components,
                    found.pairs.size() - found.pairs_within_components));
   for (std::size_t i = 0; i < pair_class_count; ++i)

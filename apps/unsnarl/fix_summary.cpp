@@ -56,7 +56,7 @@ std::string_view why(LeftReason reason) {
     case LeftReason::memory_limit: return "not yet resolved at the memory limit";
     case LeftReason::cancelled: return "not yet resolved when interrupted";
     case LeftReason::unresolved: return "that no strategy separated";
-    case LeftReason::other_diagonal: return "along the other diagonals of quads alone";
+    case LeftReason::other_diagonal: return "where polygons are split along other diagonals than in the input";
     case LeftReason::rigid_faces: return "within a rigid part";
   }
   return "for an unknown reason";

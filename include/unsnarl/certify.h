@@ -10,8 +10,8 @@
 
 namespace unsnarl {
 
-/// Findings of an exact check of given positions. Welding and triangulation are those of the *input*, so vertices
-/// that have come to coincide since intersect.
+/// Findings of an exact check of given positions. Welding is that of the *input*, so vertices that have come to coincide
+/// since intersect. Polygons count as the input is cut, and as a program cuts them that reads these positions.
 struct Certificate {
   PairCounts pairs;                     ///< intersecting pairs of faces
   PairCounts pairs_float32;             ///< the same after rounding all positions to float32; what is beyond its range

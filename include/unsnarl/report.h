@@ -105,7 +105,9 @@ enum class LeftReason : std::uint8_t {
   memory_limit,
   cancelled,
   unresolved,      ///< no strategy separated them
-  other_diagonal,  ///< meet only where quads are split along their other diagonals (FindOptions::both_diagonals)
+  /// Meet only where polygons are split along other diagonals than in the input: as a program splits them that reads
+  /// the result, or quads along either (FindOptions::both_diagonals).
+  other_diagonal,
   rigid_faces,     ///< what their vertices of one rigid part span intersects
 };
 inline constexpr std::size_t left_reason_count = static_cast<std::size_t>(LeftReason::rigid_faces) + 1;

@@ -230,7 +230,8 @@ UNSNARL_EXPORT int unsnarl_find_intersections(const unsnarl_surface* surface, co
 UNSNARL_EXPORT const char* unsnarl_pair_kind(int kind);
 
 /* Decides exactly whether the faces are embedded with their vertices at `moved` (x y z of each, moved_count vertices).
- * Vertices are welded and polygons split as on the positions of `surface`.
+ * Vertices are welded as on the positions of `surface`; polygons are split as there, and as a program splits them that
+ * reads `moved`.
  *
  * Report: "embedded", "float32_embedded" (after rounding to float32), "pairs" and "pairs_float32" by kind,
  * "new_zero_area_faces", "seams_closed". */

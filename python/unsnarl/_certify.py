@@ -33,8 +33,8 @@ def certify(
 ) -> Certificate:
     """Decides exactly whether the positions `moved` (n, 3) embed the faces of the mesh (V, F).
 
-    Vertices are welded and polygons split on V, so vertices that have come to coincide since intersect;
-    find_intersections(moved, F) might weld them.
+    Vertices are welded as in V, so those that have come to coincide since intersect; find_intersections(moved, F) might
+    weld them. Polygons are split into triangles as in V, and as a program splits them that reads `moved`.
 
     V and F (None where V is a mesh or a list of meshes; then `moved` is a list too), weld, weld_tolerance,
     both_diagonals, threads and errors: as for find_intersections.

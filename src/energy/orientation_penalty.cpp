@@ -97,7 +97,6 @@ bool OrientationPenalty::project(const Positions& x, std::span<const Index> whic
 bool OrientationPenalty::filter(const Positions& x, std::span<const Index> which, double share, double factor,
                                 Positions& p) const {
   constexpr int rounds = 30;
-  constexpr Index chunk = 4096;  // triangles a task
   const auto flips = [&](Index t) {
     const Kept& kept = triangles_[t];
     if (!(kept.weight > 0)) return false;

@@ -1,38 +1,18 @@
 #include "unsnarl/certify.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "mesh/areas.h"
-#include "pipeline/certify_prepared.h"
 #include "pipeline/threads.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "scene/rounding.h"
 
 namespace unsnarl {
-namespace {
-
-/// `x`: of the welded vertices at `positions`.
-Certificate certificate_of(const PreparedSurface& prepared, FacePairFinder& finder, const FindOptions& options,
-                           std::span<const double> positions, const Positions& x) {
-  Certificate certificate;
-  const std::vector<Index>& id = prepared.weld_map.vertex_of;
-  for (std::size_t v = 0; v < id.size() && options.weld_tolerance == 0; ++v)
-    for (int k = 0; k < 3; ++k) certificate.seams_closed &= positions[3 * v + k] == x(k, id[v]);
-  certificate.new_zero_area_faces = count_lost_areas(prepared.rest, x, prepared.triangles());
-  certificate.pairs = count_by_class(finder.find(x));
-  return certificate;
-}
-
-}  // namespace
-
-Certificate certify_prepared(const PreparedSurface& prepared, std::span<const double> positions,
-                             const FindOptions& options) {
-  FacePairFinder finder(prepared);
-  return certificate_of(prepared, finder, options, positions, prepared.gather(positions));
-}
 
 class Certifier::Search {
  public:
@@ -42,33 +22,42 @@ class Certifier::Search {
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
+  /// As the input's polygons are cut, and as a program cuts them that reads these positions.
   std::vector<IntersectingPair> pairs_at(std::span<const double> positions) {
-    return finder_.find(gathered(positions));
+    check(positions);
+    std::vector<IntersectingPair> pairs = finder_.find(prepared_.gather(positions));
+    const std::optional<PreparedSurface> read = cut_anew(input_, prepared_, options_, positions);
+    return read ? unite_face_pairs(std::move(pairs), FacePairFinder(*read).find(read->gather(positions))) : pairs;
   }
 
   Certificate certify(std::span<const double> positions) {
-    return certificate_of(prepared_, finder_, options_, positions, gathered(positions));
+    Certificate certificate;
+    certificate.pairs = count_by_class(pairs_at(positions));
+    certificate.seams_closed = options_.weld_tolerance > 0 || prepared_.seams_are_closed(positions);
+    certificate.new_zero_area_faces =
+        count_lost_areas(prepared_.rest, prepared_.gather(positions), prepared_.triangles());
+    return certificate;
   }
 
   PairCounts pairs_in_float32(std::span<const double> positions) {
-    const Positions x = gathered(positions);
-    PairCounts pairs = count_by_class(finder_.find(rounded_to_float32(x)));
-    if (!fits_float32(x)) ++pairs[PairClass::degenerate];
+    const Positions as_is = Eigen::Map<const Positions>(positions.data(), 3, static_cast<Index>(positions.size() / 3));
+    const Positions rounded = rounded_to_float32(as_is);
+    const std::span<const double> values(rounded.data(), positions.size());
+    PairCounts pairs = count_by_class(pairs_at(values));
+    if (!fits_float32(as_is)) ++pairs[PairClass::degenerate];
     return pairs;
   }
 
   int threads() const { return options_.threads; }
 
  private:
-  /// The positions of the welded vertices.
-  Positions gathered(std::span<const double> positions) const {
+  void check(std::span<const double> positions) const {
     if (positions.size() != input_.positions.size())
       throw std::invalid_argument("there are " + std::to_string(positions.size() / 3) + " positions for a surface of " +
                                   std::to_string(input_.vertex_count()) + " vertices");
     for (std::size_t k = 0; k < positions.size(); ++k)
       if (!std::isfinite(positions[k]))
         throw std::invalid_argument("vertex " + std::to_string(k / 3) + " has a coordinate that is not finite");
-    return prepared_.gather(positions);
   }
 
   SurfaceView input_;

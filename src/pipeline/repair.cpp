@@ -75,7 +75,7 @@ class Repair {
     result_.report.topology = diagnosis_.topology;
     result_.report.triangulation = prepared_.triangulation.statistics.describe();
     result_.report.obstructions = diagnosis_.obstructions;
-    acceptance_.emplace(prepared_, diagnosis_, options_, *finders_);
+    acceptance_.emplace(surface_, prepared_, diagnosis_, options_, *finders_);
     recorder_.emplace(options_.record, prepared_.rest);
     result_.report.before = result_.report.after = acceptance_->pairs_at(prepared_.rest).faces;
     result_.positions.assign(surface_.positions.begin(), surface_.positions.end());
@@ -256,8 +256,9 @@ class Repair {
     if (options_.max_displacement_rel > 0 && report.displacement_max_rel > options_.max_displacement_rel)
       result_.status = Status::displacement_exceeded;
     measure_components(prepared_, diagnosis_, left.triangles, report);
-    explain_left_pairs(prepared_, diagnosis_, options_, limits_.status_or(Status::reduced), *attempts_, left, reached_,
-                       report);
+    explain_left_pairs(prepared_, diagnosis_, options_, limits_.status_or(Status::reduced), *attempts_, *acceptance_,
+                       left, reached_, report);
+    name_duplicates_by_other_cuts(left.by_other_cuts, report);
     if (options_.each_component) name_pairs_between_components(prepared_, diagnosis_, left.triangles, report);
     report.history = recorder_->history();
     for (RegionHistory& region : report.history) {

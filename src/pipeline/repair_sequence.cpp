@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/certify_prepared.h"
+#include "mesh/areas.h"
 #include "pipeline/frame_motion.h"
 #include "pipeline/threads.h"
 #include "unsnarl/sequence.h"
@@ -308,13 +308,12 @@ class SequenceRepair {
     if (smoothed.status != Status::embedded) return;
     // A layer that came out on another side would pop.
     if (largest_distance(smoothed.positions, target) > largest_distance(result.positions, target)) return;
-    const Certificate certificate = certify_prepared(prepared, smoothed.positions, find());
-    const bool all = options.goal == Goal::all;
-    if (!certificate.seams_closed || (all ? !certificate.embedded() : certificate.pairs[PairClass::disjoint] > 0))
-      return;
+    // No pairs are left, decided exactly. Seams and areas were compared with the target instead of the frame.
+    if (options.find.weld_tolerance == 0 && !prepared.seams_are_closed(smoothed.positions)) return;
+    if (count_lost_areas(prepared.rest, prepared.gather(smoothed.positions), prepared.triangles()) > 0) return;
     if (alone.float32_embedded && !smoothed.report.float32_embedded) return;
     FrameResult candidate{result.report, std::move(smoothed.positions)};
-    candidate.report.after = certificate.pairs;
+    candidate.report.after = smoothed.report.after;
     candidate.report.float32_embedded = smoothed.report.float32_embedded;
     candidate.report.precision = smoothed.report.precision;
     candidate.report.is_smoothed = true;

@@ -47,7 +47,7 @@ class RigidRepair {
     finders_.emplace(prepared_.triangles());
     diagnosis_ = diagnose(surface_, prepared_, fixed_, finders_->as_is);
     find_obstructions();
-    acceptance_.emplace(prepared_, diagnosis_, options_, *finders_);
+    acceptance_.emplace(surface_, prepared_, diagnosis_, options_, *finders_);
     Attempt best = attempt({});
     phases.end();
     repair_around(best);
@@ -287,6 +287,7 @@ class RigidRepair {
     report.components.clear();
     measure_components(prepared_, diagnosis_, left.triangles, report);
     explain(left, is_taken_back, attempt.is_too_far, report);
+    name_duplicates_by_other_cuts(left.by_other_cuts, report);
     measure_rigid_parts(surface_, options_, part_count_, result.positions, report);
     if (!result.frames.empty())
       begin_with_input(surface_, attempt.positions, acceptance_->pairs_at(prepared_.rest).of_faces, result.frames);
@@ -310,6 +311,9 @@ class RigidRepair {
       const auto [a, b] = std::minmax(polygon[pair.a], polygon[pair.b]);
       obstructed.emplace(std::pair{a, b}, reason);
     }
+    for (const IntersectingPair& pair : left.by_other_cuts)
+      if (const auto tolerated = acceptance_->tolerance_by_other_cuts(pair))
+        obstructed.emplace(std::pair{pair.a, pair.b}, *tolerated);
     report.left.clear();
     report.left_by_reason = {};
     for (const IntersectingPair& pair : left.of_faces) {

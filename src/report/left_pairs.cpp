@@ -99,8 +99,8 @@ class Explanation {
 }  // namespace
 
 void explain_left_pairs(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options,
-                        Status limit, const AttemptLog& tried, const Acceptance::Pairs& left, const Positions& x,
-                        RepairReport& report) {
+                        Status limit, const AttemptLog& tried, const Acceptance& acceptance,
+                        const Acceptance::Pairs& left, const Positions& x, RepairReport& report) {
   struct Why {
     LeftReason reason;
     int strategy;
@@ -116,7 +116,9 @@ void explain_left_pairs(const PreparedSurface& prepared, const Diagnosis& diagno
   }
   for (const IntersectingPair& pair : left.of_faces) {
     const auto found = why.find({pair.a, pair.b});
-    const Why reason = found != why.end() ? found->second : Why{LeftReason::other_diagonal, -1};
+    const Why reason = found != why.end()
+                           ? found->second
+                           : Why{acceptance.tolerance_by_other_cuts(pair).value_or(LeftReason::other_diagonal), -1};
     ++report.left_by_reason[static_cast<std::size_t>(reason.reason)];
     if (report.left.size() == most_left_pairs_listed) continue;
     const bool names_strategy = reason.reason == LeftReason::unresolved && reason.strategy >= 0;

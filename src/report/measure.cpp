@@ -153,4 +153,15 @@ void name_pairs_between_components(const PreparedSurface& prepared, const Diagno
   report.obstructions.push_back(std::move(obstruction));
 }
 
+void name_duplicates_by_other_cuts(std::span<const IntersectingPair> by_other_cuts, RepairReport& report) {
+  Obstruction obstruction{Obstruction::Kind::duplicate_faces, {}, {}};
+  for (const IntersectingPair& pair : by_other_cuts)
+    if (pair.kind == PairClass::duplicate) obstruction.faces.insert(obstruction.faces.end(), {pair.a, pair.b});
+  if (obstruction.faces.empty()) return;
+  sort_unique(obstruction.faces);
+  obstruction.message = "pieces of " + std::to_string(obstruction.faces.size()) +
+                        " polygons lie on the same three vertices where they are split along other diagonals";
+  report.obstructions.push_back(std::move(obstruction));
+}
+
 }  // namespace unsnarl

@@ -20,4 +20,7 @@ void measure_components(const PreparedSurface& prepared, const Diagnosis& diagno
 void name_pairs_between_components(const PreparedSurface& prepared, const Diagnosis& diagnosis,
                                    const std::vector<IntersectingPair>& left, RepairReport& report);
 
+/// Adds the obstruction of pieces of polygons that are left on the same three vertices by another cut than the input's.
+void name_duplicates_by_other_cuts(std::span<const IntersectingPair> by_other_cuts, RepairReport& report);
+
 }  // namespace unsnarl

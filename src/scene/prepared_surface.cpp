@@ -1,11 +1,21 @@
 #include "scene/prepared_surface.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 #include "mesh/validity.h"
 
 namespace unsnarl {
+namespace {
+
+/// Sorts, and leaves each pair once, in the class that comes first.
+void sort_unique_faces(std::vector<IntersectingPair>& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  const auto same_faces = [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b; };
+  pairs.erase(std::unique(pairs.begin(), pairs.end(), same_faces), pairs.end());
+}
+
+}  // namespace
 
 Positions PreparedSurface::gather(std::span<const double> positions) const {
   Positions x(3, weld_map.count);
@@ -24,6 +34,14 @@ std::vector<double> PreparedSurface::scatter(std::span<const double> input, cons
   return positions;
 }
 
+bool PreparedSurface::seams_are_closed(std::span<const double> positions) const {
+  for (std::size_t v = 0; v < weld_map.vertex_of.size(); ++v) {
+    const double* const first = &positions[3 * static_cast<std::size_t>(weld_map.first[weld_map.vertex_of[v]])];
+    if (!std::equal(first, first + 3, &positions[3 * v])) return false;
+  }
+  return true;
+}
+
 PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options) {
   require_valid(surface);
   PreparedSurface prepared;
@@ -35,6 +53,18 @@ PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options) 
   return prepared;
 }
 
+std::optional<PreparedSurface> cut_anew(const SurfaceView& surface, const PreparedSurface& prepared,
+                                        const FindOptions& options, std::span<const double> positions) {
+  if (surface.offsets.empty()) return std::nullopt;
+  const SurfaceView read = {positions, surface.corners, surface.offsets};
+  Triangulation cut = triangulate(read, prepared.weld_map.vertex_of), other_diagonals;
+  if (options.both_diagonals) other_diagonals = triangulate_other_diagonals(read, prepared.weld_map.vertex_of);
+  if (cut.triangles == prepared.triangulation.triangles &&
+      other_diagonals.triangles == prepared.other_diagonals.triangles)
+    return std::nullopt;
+  return PreparedSurface{prepared.weld_map, std::move(cut), std::move(other_diagonals), prepared.rest};
+}
+
 std::vector<IntersectingPair> pairs_of_faces(std::span<const Index> polygon, std::span<const IntersectingPair> pairs) {
   std::vector<IntersectingPair> faces;
   faces.reserve(pairs.size());
@@ -42,10 +72,15 @@ std::vector<IntersectingPair> pairs_of_faces(std::span<const Index> polygon, std
     const auto [a, b] = std::minmax(polygon[pair.a], polygon[pair.b]);
     faces.push_back({a, b, pair.kind});
   }
-  std::sort(faces.begin(), faces.end());
-  const auto same_faces = [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b; };
-  faces.erase(std::unique(faces.begin(), faces.end(), same_faces), faces.end());
+  sort_unique_faces(faces);
   return faces;
+}
+
+std::vector<IntersectingPair> unite_face_pairs(std::vector<IntersectingPair> pairs,
+                                               std::span<const IntersectingPair> others) {
+  pairs.insert(pairs.end(), others.begin(), others.end());
+  sort_unique_faces(pairs);
+  return pairs;
 }
 
 }  // namespace unsnarl

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,13 +26,24 @@ struct PreparedSurface {
   Positions gather(std::span<const double> positions) const;
   /// The input's positions, with those of the welded vertices that differ from rest put in their place.
   std::vector<double> scatter(std::span<const double> input, const Positions& x) const;
+  /// All vertices of the file that are one lie at one position.
+  bool seams_are_closed(std::span<const double> positions) const;
 };
 
 /// Throws std::invalid_argument where the surface makes no sense (see require_valid).
 PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options);
 
+/// The surface as a program that reads it at other positions (3 n doubles) sees it: welded as it was, but its polygons
+/// cut by where their corners lie now. Nothing where that is the same cut. `options`: as it was prepared with.
+std::optional<PreparedSurface> cut_anew(const SurfaceView& surface, const PreparedSurface& prepared,
+                                        const FindOptions& options, std::span<const double> positions);
+
 /// Pairs of triangles -> pairs of the faces that they are pieces of (`polygon`, of each triangle), sorted, each once,
 /// in the class of its first occurrence.
 std::vector<IntersectingPair> pairs_of_faces(std::span<const Index> polygon, std::span<const IntersectingPair> pairs);
+
+/// Pairs of faces of both, sorted, each once, in the class that comes first.
+std::vector<IntersectingPair> unite_face_pairs(std::vector<IntersectingPair> pairs,
+                                               std::span<const IntersectingPair> others);
 
 }  // namespace unsnarl

@@ -44,6 +44,16 @@ TEST_F(Check, CheckCountsAndLocates) {
   EXPECT_NE(clean.out.find("no self-intersections"), std::string::npos);
 }
 
+TEST_F(Check, OnePairIsNoPairs) {
+  // A folded pair of faces with a common edge, and a face far away.
+  const std::string in = file("in.obj",
+                              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.9 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\n"
+                              "f 1 2 3\nf 2 1 4\nf 5 6 7\n");
+  const std::string text = run({"check", in}).out;
+  EXPECT_NE(text.find("1 pair  within"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 pair of faces intersects: 2 faces in 1 component;"), std::string::npos) << text;
+}
+
 TEST_F(Check, CheckForTheGoalDisjointSeesNoOthers) {
   // Two faces of one fan pass through each other at their common vertex only.
   const std::string in = file("in.obj", "v 0 0 0\nv 2 -1 0\nv 2 1 0\nv 2 0 -1\nv 2 0 1\nf 1 2 3\nf 1 4 5\n");

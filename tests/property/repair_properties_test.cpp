@@ -10,6 +10,7 @@
 
 #include "oracle/intersections_oracle.h"
 #include "property/meshes.h"
+#include "unsnarl/certify.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/repair.h"
 
@@ -216,6 +217,31 @@ TEST(RepairProperties, relabelling_changes_little) {
       for (std::size_t k = 0; k < 3; ++k)
         other.corners[3 * (m - 1 - f) + (k + f) % 3] = renamed(surface.corners[3 * f + k]);
     expect_alike(repair(other), repair(surface));
+  }
+}
+
+// A program that reads the result cuts polygons by where their corners lie now. In the soups named, no way was found to
+// a state in which that cut and the input's both hold.
+TEST(RepairProperties, what_a_reader_of_polygons_finds_is_counted) {
+  std::vector<unsigned> seeds = {303, 322, 328, 353, 376, 398, 553, 607, 869, 1015, 1075, 1448, 1484, 1651};
+  for (unsigned seed = 0; seed < 300; ++seed) seeds.push_back(seed);
+  for (const unsigned seed : seeds) {
+    SCOPED_TRACE(seed);
+    const Surface soup = meshes::polygon_soup(seed);
+    const RepairResult result = repair(soup);
+    Surface read = soup;
+    read.positions = result.positions;
+    const std::vector<IntersectingPair> found = find_intersections(read);
+    EXPECT_LE(found.size(), result.report.before.total());
+    EXPECT_EQ(certify(soup, result.positions).pairs.by_class, result.report.after.by_class);
+    EXPECT_EQ(result.report.left.size(), result.report.after.total());
+    for (const IntersectingPair& pair : found)
+      EXPECT_TRUE(std::any_of(result.report.left.begin(), result.report.left.end(),
+                              [&](const LeftPair& left) { return left.a == pair.a && left.b == pair.b; }))
+          << pair.a << " and " << pair.b;
+    if (result.status == Status::obstructed) {
+      EXPECT_FALSE(result.report.obstructions.empty());
+    }
   }
 }
 
