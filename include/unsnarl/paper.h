@@ -31,7 +31,7 @@ struct PaperOptions {
   bool whole_polygons = true;  ///< E_M between convex polygons as they are (§3.2); false: between their triangles
   double lambda_gaussian = 1;  ///< >= 0; 0: without
   /// >= 0; 0: without. Times the mean edge at unit scale: E_M is a length, the other energies are areas, so that one
-  /// weight suits meshes coarse and fine: of 12 characters 9 come clean in 8 s each with 0.03 for all, 12 with 0.4 edges.
+  /// weight suits meshes coarse and fine: of 12 characters 9 come clean in 8 s with 0.03 for all, 12 with 0.4 edges.
   double lambda_mesh = 0.4;
   /// >= 0. Of 30 samples, 25 came clean with 1 (all edges of one weight, areas every 50 iterations), 30 with 0.5.
   double lambda_arap = 0.5;
