@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
+#include <initializer_list>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -205,20 +206,29 @@ Json recover_knot(const Options& options, bool from_torus) {
   return row;
 }
 
+/// A choice among values of an enum, by their names.
+template <class Value>
+void add_choice(CLI::App& command, const std::string& name, Value& value, std::initializer_list<Value> values,
+                const std::string& description) {
+  std::map<std::string, Value> choices;
+  for (const Value choice : values) choices.emplace(to_string(choice), choice);
+  command
+      .add_option_function<std::string>(
+          name, [&value, choices](const std::string& given) { value = choices.at(given); }, description)
+      ->check(CLI::IsMember(choices));
+}
+
 void add_untangle_options(CLI::App& command, Options& options) {
   PaperOptions& paper = options.paper;
-  const std::map<std::string, PaperBandwidth> bandwidths = {{"global", PaperBandwidth::global},
-                                                            {"independent", PaperBandwidth::independent},
-                                                            {"symmetric", PaperBandwidth::symmetric}};
-  const std::map<std::string, PaperMeshEnergy> energies = {{"depth", PaperMeshEnergy::penetration_depth},
-                                                           {"length", PaperMeshEnergy::intersection_length}};
-  command.add_option("--bandwidth", paper.bandwidth, "model")->transform(CLI::CheckedTransformer(bandwidths));
+  add_choice(command, "--bandwidth", paper.bandwidth,
+             {PaperBandwidth::global, PaperBandwidth::independent, PaperBandwidth::symmetric}, "model");
   command.add_flag("--frozen", options.frozen, "bandwidths stay as they are at the start");
   command.add_option("--bandwidth-scale", paper.bandwidth_scale, "times the bandwidths found");
   command.add_option("--neighbourhood", paper.neighbourhood, "in bandwidths");
   command.add_option("--gaussian", paper.lambda_gaussian, "weight of the Gaussian energy");
   command.add_option("--mesh", paper.lambda_mesh, "weight of the mesh energy");
-  command.add_option("--mesh-energy", paper.mesh_energy, "what it is")->transform(CLI::CheckedTransformer(energies));
+  add_choice(command, "--mesh-energy", paper.mesh_energy,
+             {PaperMeshEnergy::penetration_depth, PaperMeshEnergy::intersection_length}, "what it is");
   command.add_option("--arap", paper.lambda_arap, "weight of ARAP");
   command.add_option("--iterations", paper.max_iterations, "at most");
   command.add_flag("--recover", options.recover, "go back towards the input afterwards");

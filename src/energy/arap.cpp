@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace unsnarl {
 namespace {
@@ -82,33 +83,20 @@ Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& s) {
   return u * svd.matrixV().transpose();
 }
 
-Arap::Arap(std::span<const Triangle> triangles, const Positions& rest, Index free_count, const ArapOptions& options)
-    : free_count_(free_count) {
+Arap::Arap(std::span<const Triangle> triangles, const Positions& rest, Index free_count) : free_count_(free_count) {
   const Index n = static_cast<Index>(rest.cols());
-  std::vector<WeightedEdge> halves;
-  halves.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles) {
+  edges_.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) {
-      const Index i = t[k], j = t[(k + 1) % 3], apex = t[(k + 2) % 3];
-      if (i == j) continue;
-      double weight = options.uniform_weight;
-      if (options.weights == ArapWeights::cotangent) {
-        const Vec3 p = rest.col(i) - rest.col(apex), q = rest.col(j) - rest.col(apex);
-        const double sine = p.cross(q).norm();
-        weight = sine > 0 ? std::max(0.0, 0.5 * p.dot(q) / sine) : 0;
-      }
-      halves.push_back({std::min(i, j), std::max(i, j), weight});
+      const Index i = t[k], j = t[(k + 1) % 3];
+      if (i != j) edges_.push_back({std::min(i, j), std::max(i, j), edge_weight});
     }
-  }
-  std::stable_sort(halves.begin(), halves.end(),
-                   [](const WeightedEdge& a, const WeightedEdge& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
-  for (const WeightedEdge& half : halves) {
-    if (edges_.empty() || edges_.back().i != half.i || edges_.back().j != half.j) {
-      edges_.push_back(half);
-    } else if (options.weights == ArapWeights::cotangent) {
-      edges_.back().weight += half.weight;
-    }
-  }
+  const auto ends = [](const WeightedEdge& e) { return std::pair(e.i, e.j); };
+  std::sort(edges_.begin(), edges_.end(),
+            [&](const WeightedEdge& a, const WeightedEdge& b) { return ends(a) < ends(b); });
+  edges_.erase(std::unique(edges_.begin(), edges_.end(),
+                           [&](const WeightedEdge& a, const WeightedEdge& b) { return ends(a) == ends(b); }),
+               edges_.end());
   offsets_.assign(n + 1, 0);
   for (const WeightedEdge& e : edges_) ++offsets_[e.i + 1], ++offsets_[e.j + 1];
   for (Index i = 0; i < n; ++i) offsets_[i + 1] += offsets_[i];

@@ -8,24 +8,17 @@
 
 namespace unsnarl {
 
-enum class ArapWeights {
-  uniform,    ///< every edge the same: thin triangles do no harm
-  cotangent,  ///< (cot a + cot b) / 2 at rest, negative ones cut to 0
-};
-
-struct ArapOptions {
-  ArapWeights weights = ArapWeights::uniform;
-  double uniform_weight = 0.57735026918962573;  ///< the cotangent of the equilateral triangle: both weights agree there
-};
-
 /// As-rigid-as-possible energy (paper §3.3, E_reg), with one rotation R_i a vertex, chosen best for its star:
-///   E = 1/2 sum_i sum_{j in N(i)} w_ij |(x_i - x_j) - R_i (rest_i - rest_j)|^2.
-/// Its Hessian with the rotations held is 2 L, L the Laplacian with weights w. Scales as length squared.
+///   E = w/2 sum_i sum_{j in N(i)} |(x_i - x_j) - R_i (rest_i - rest_j)|^2.
+/// Every edge weighs the same, so that thin triangles do no harm. Its Hessian with the rotations held is 2 L, L the
+/// Laplacian with these weights. Scales as length squared.
 class Arap {
  public:
+  static constexpr double edge_weight = 0.57735026918962573;  ///< w: the cotangent of the equilateral triangle
+
   /// Edges are those of `triangles`. Vertices from `free_count` on stand still in unseen surroundings: their rotation
   /// is the identity, whatever their few neighbours here do.
-  Arap(std::span<const Triangle> triangles, const Positions& rest, Index free_count, const ArapOptions& options = {});
+  Arap(std::span<const Triangle> triangles, const Positions& rest, Index free_count);
 
   /// Returns weight * E and adds weight * its gradient (all vertices; the caller drops what is fixed).
   double value_and_gradient(const Positions& x, Positions& gradient, double weight = 1);

@@ -45,7 +45,7 @@ class PaperUntangle {
         rest_(full_),
         edge_(mean_edge_length(rest_, triangles_)),
         neighbours_(vertex_neighbours(build_edges(triangles_).edges, static_cast<Index>(rest_.cols()))),
-        arap_(active(), rest_, n_, {.weights = ArapWeights::cotangent}),
+        arap_(active(), rest_, n_),
         penalty_(triangles_, {.one_vertex = false, .folded = false}),
         polygon_penalty_(faces_of(patch, face_of)),
         whole_polygons_(options.whole_polygons && options.mesh_energy == PaperMeshEnergy::penetration_depth &&
@@ -80,7 +80,10 @@ class PaperUntangle {
       if (patch_.trajectory) record_iteration(result.disjoint_left);
       if (result.disjoint_left == 0 || (stop && stop())) return true;
       if (state.iteration == 0) return false;
-      if (state.iteration % options_.area_refresh == 0) refresh_areas();
+      if (state.iteration % options_.area_refresh == 0) {
+        refresh_areas();
+        faces_tree_ = {};
+      }
       gather_neighbours();
       if (options_.adaptive) {
         adapt(1);
@@ -250,15 +253,16 @@ class PaperUntangle {
   }
 
   double mesh_energy(Positions& gradient) {
-    if (options_.lambda_mesh == 0) return 0;
+    const double weight = options_.lambda_mesh * edge_;
+    if (weight == 0) return 0;
     if (whole_polygons_) {
       find_overlapping(polygon_penalty_.polygons(), polygon_penalty_.pairs);
-      return polygon_penalty_.value_and_gradient(full_, gradient, options_.lambda_mesh);
+      return polygon_penalty_.value_and_gradient(full_, gradient, weight);
     }
     find_overlapping(triangles_, penalty_.pairs);
     if (options_.mesh_energy == PaperMeshEnergy::intersection_length)
-      return intersection_length(full_, triangles_, penalty_.pairs, gradient, options_.lambda_mesh);
-    return penalty_.value_and_gradient(full_, gradient, options_.lambda_mesh);
+      return intersection_length(full_, triangles_, penalty_.pairs, gradient, weight);
+    return penalty_.value_and_gradient(full_, gradient, weight);
   }
 
   /// Pairs of faces whose boxes overlap and of which one can move.
@@ -267,12 +271,15 @@ class PaperUntangle {
     boxes_.assign(faces.size(), {});
     for (std::size_t f = 0; f < faces.size(); ++f)
       for (const Index v : faces[f]) boxes_[f].extend(Vec3(full_.col(v)));
-    bvh_.build(boxes_);
+    if (faces_tree_.size() == static_cast<Index>(boxes_.size()))
+      faces_tree_.refit(boxes_);
+    else
+      faces_tree_.build(boxes_);
     const auto can_move = [&](Index f) {
       return std::any_of(faces[f].begin(), faces[f].end(), [this](Index v) { return v < n_; });
     };
     pairs.clear();
-    bvh_.self_pairs([&](Index a, Index b) {
+    faces_tree_.self_pairs([&](Index a, Index b) {
       if (can_move(a) || can_move(b)) pairs.push_back({std::min(a, b), std::max(a, b)});
     });
   }
@@ -294,7 +301,7 @@ class PaperUntangle {
   std::vector<double> squared_bandwidth_;  // eps_i^2 as found, before they are scaled
   std::vector<double> areas_;
   std::vector<Box> boxes_;
-  Bvh bvh_;
+  Bvh faces_tree_;  // of all boxes of faces; built anew with the areas, fitted to the faces in between
   Eigen::VectorXd x_;
   IterationRecord terms_;  // of the energy, where it was last evaluated
 };

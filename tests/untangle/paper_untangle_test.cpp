@@ -80,7 +80,7 @@ TEST(PaperUntangle, GoesOnWhereNoDirectionDescends) {
   Patch patch = patch_of(figure_eight_torus());
   PaperOptions options;
   options.lambda_gaussian = 0;
-  options.lambda_mesh = 1;
+  options.lambda_mesh = 10;
   options.max_iterations = 60;
   EXPECT_EQ(paper_untangle(patch, options).iterations, 60);
 }
