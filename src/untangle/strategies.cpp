@@ -133,18 +133,12 @@ Tier smoothing_tier() {
   return {local("smoothing-4", 4, {LocalMethod::smoothing, 0.1, 3, 60})};
 }
 
-/// Limbs may shrink to threads in it, and do not all grow back.
-Tier wide_smoothing_tier() {
-  return {local("smoothing-8", 8, {LocalMethod::smoothing, 0.1, 5, 100}),
-          local("smoothing-16", 16, {LocalMethod::smoothing, 0.1, 24, 100})};
-}
-
 }  // namespace
 
 std::span<const Tier> default_tiers() {
-  // Repelling keeps shapes, smoothing and recession wear them down, the more the wider. With all smoothing before the
+  // Repelling keeps shapes, smoothing and recession wear them down, the more the wider. With smoothing before the
   // flows, four of six hard meshes end 1.5 to 8 times as far and one 0.8 times; with the recession before smoothing-4,
-  // a mannequin ends at 12.6 % instead of 0.015 (docs/performance.md).
+  // a mannequin ends at 12.6 % instead of 0.015 (docs/performance.md, as what is lost without each of the last ones).
   static const std::vector<Tier> tiers = {shallow_tier(),
                                           {placing()},
                                           {coarse_to_fine()},
@@ -153,7 +147,6 @@ std::span<const Tier> default_tiers() {
                                           smoothing_tier(),
                                           {repelling("flow", Extent::whole_components)},
                                           {repelling_at_full_resolution()},
-                                          wide_smoothing_tier(),
                                           {receding()}};
   return tiers;
 }
