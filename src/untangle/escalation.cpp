@@ -224,7 +224,7 @@ class Escalation {
     switch (strategy.extent) {
       case Extent::rings: return dilate(scene_, region.core, strategy.rings, strategy.hub_valence);
       case Extent::depth:
-        return dilate(scene_, region.core, static_cast<int>(options_.rings_per_depth * depth), strategy.hub_valence);
+        return dilate(scene_, region.core, static_cast<int>(strategy.rings_per_depth * depth), strategy.hub_valence);
       case Extent::tied_components: return vertices_of_tied_components(scene_, parts(), region, initial_pairs_);
       case Extent::whole_components:
         return dilate(scene_, region.core, std::numeric_limits<int>::max(), strategy.hub_valence);

@@ -30,9 +30,6 @@ struct EscalationOptions {
   /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share. With 1,
   /// a soup of crossings takes a tier for every pair.
   double worthwhile_share = 0.7;
-  /// Edges freed around a tangle for each edge of its depth (Extent::depth). Of 0.7, 1 and 1.5 the closest on three
-  /// bodies.
-  double rings_per_depth = 1.5;
 
   std::function<bool()> stop;
   /// Told what is kept, and a few times a second, from any thread, how far the candidates are that are made now; none:

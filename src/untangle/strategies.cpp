@@ -107,6 +107,15 @@ Strategy coarse_to_fine() {
           .solve = solve};
 }
 
+/// For what has too little room so close to it: 2275 pairs of 432,000 faces go by 114,000 of them, not by the flow of
+/// all, and the whole run takes 117 CPU s, not 190, and half the memory. Seventeen smaller meshes do not need it.
+Strategy coarse_to_fine_wide() {
+  Strategy wide = coarse_to_fine();
+  wide.name = "coarse_to_fine_wide";
+  wide.rings_per_depth = 3;
+  return wide;
+}
+
 Strategy placing() {
   const auto solve = [](Patch& patch, const Task& task) { return place(patch, task.tolerated, {}, task.stop); };
   return {.name = "placement", .extent = Extent::tied_components, .reach = 20, .solve = solve};
@@ -142,6 +151,7 @@ std::span<const Tier> default_tiers() {
   static const std::vector<Tier> tiers = {shallow_tier(),
                                           {placing()},
                                           {coarse_to_fine()},
+                                          {coarse_to_fine_wide()},
                                           layers_tier(),
                                           {repelling("flow-8", Extent::rings, 8)},
                                           smoothing_tier(),
@@ -158,7 +168,7 @@ std::span<const Tier> local_tiers() {
 
 std::span<const Tier> coarse_mesh_tiers() {
   static const std::vector<Tier> tiers =
-      without(default_tiers(), std::vector<std::string>{"coarse_to_fine", "recession"});
+      without(default_tiers(), std::vector<std::string>{"coarse_to_fine", "coarse_to_fine_wide", "recession"});
   return tiers;
 }
 

@@ -61,7 +61,7 @@ TEST(Strategies, no_patch_of_more_than_30000_faces_moves_at_once) {
 
 TEST(Strategies, coarse_meshes_have_all_but_coarse_to_fine_and_recession) {
   std::set<std::string> expected = names_of(default_tiers());
-  EXPECT_EQ(expected.erase("coarse_to_fine") + expected.erase("recession"), 2u);
+  EXPECT_EQ(expected.erase("coarse_to_fine") + expected.erase("coarse_to_fine_wide") + expected.erase("recession"), 3u);
   EXPECT_EQ(names_of(coarse_mesh_tiers()), expected);
 }
 
