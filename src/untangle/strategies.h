@@ -17,7 +17,7 @@ std::span<const Tier> default_tiers();
 /// Those that move only what lies close to the conflict.
 std::span<const Tier> local_tiers();
 
-/// The default without coarse_to_fine and its wide kin, and without recession: before that, the fine mesh has other strategies.
+/// The default without coarse to fine itself, and without recession: before that, the fine mesh has other strategies.
 std::span<const Tier> coarse_mesh_tiers();
 
 /// The tiers without the strategies of these names.
