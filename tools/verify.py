@@ -14,8 +14,8 @@ What is checked, and said line by line:
   float32     both also hold with all positions rounded to float32 (with --float32)
 
 Which vertices count as one is decided by IN, by the rules that src/mesh/weld_map.h states. Polygons are cut into
-triangles by IN and once more by OUT, by those of src/mesh/triangulation.h; faces must not meet either way. All geometry is decided in integers: coordinates are
-scaled by one power of two. Only the standard library is needed.
+triangles by IN and once more by OUT, by those of src/mesh/triangulation.h; faces must not meet either way. All geometry
+is decided in integers: coordinates are scaled by one power of two. Only the standard library is needed.
 
 Exit codes: 0 all holds, 1 something does not, 2 the command line makes no sense, 3 a file cannot be read.
 """

@@ -7,8 +7,8 @@
 
 namespace unsnarl::app {
 
-/// What the faces of a pair of each class are, for people: "116 disjoint" alone would sound like pairs that do not
-/// intersect.
+/// Words of the summaries for the faces of a pair of each class. ("116 disjoint" alone would sound like pairs that do
+/// not intersect.)
 inline constexpr std::array<std::string_view, pair_class_count> pair_class_words = {
     "sharing no vertex", "sharing a vertex", "folded along an edge", "on the same vertices", "of a face without area"};
 

@@ -37,7 +37,8 @@ float to_srgb(double linear) {
   return static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
 }
 
-/// What a texture info does to the coordinates (KHR_texture_transform): uv -> offset + rotation(scale uv).
+/// The transform of texture coordinates that a texture info asks for (KHR_texture_transform): uv -> offset +
+/// rotation(scale uv).
 struct TextureTransform {
   std::array<double, 2> offset = {0, 0}, scale = {1, 1};
   double rotation = 0;

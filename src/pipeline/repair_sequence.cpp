@@ -17,6 +17,7 @@
 #include "mesh/areas.h"
 #include "pipeline/frame_motion.h"
 #include "pipeline/threads.h"
+#include "scene/face_pairs.h"
 #include "unsnarl/sequence.h"
 
 namespace unsnarl {
@@ -46,6 +47,7 @@ struct Frame {
   bool is_clean = false;              // came back as it was
   std::unique_ptr<FrameMotion> seen;  // from its first repair on, while its jitter is not known
   bool is_wanted = true;              // else an earlier call came to its result
+  bool is_busy = false;               // a job of it runs
   bool is_finished = false;
   FrameResult finished;        // until it is handed on
   std::vector<double> result;  // empty: not known
@@ -149,6 +151,7 @@ class SequenceRepair {
   }
 
   bool is_ready(const FrameJob& job) const {
+    if (frames_[job.frame].is_busy) return false;  // the result of an earlier call is looked at while it is repaired
     if (job.is_repair_alone || !frames_[job.frame].is_wanted) return true;
     for (std::size_t s = begin_around(job.frame); s < end_around(job.frame); ++s)
       if (!frames_[s].is_repaired_alone) return false;
@@ -158,6 +161,7 @@ class SequenceRepair {
   /// Without the lock meanwhile.
   void do_job(const FrameJob& job, std::unique_lock<std::mutex>& lock) {
     read(job.frame);
+    frames_[job.frame].is_busy = true;
     lock.unlock();
     // A repair waits for its own tasks; it must not begin with another frame meanwhile.
     tbb::this_task_arena::isolate([&] {
@@ -167,8 +171,9 @@ class SequenceRepair {
         finish(job.frame);
     });
     lock.lock();
-    if (context_.is_cancelled()) return;  // it may have been cut short
     Frame& frame = frames_[job.frame];
+    frame.is_busy = false;
+    if (context_.is_cancelled()) return;  // it may have been cut short
     (job.is_repair_alone ? frame.is_repaired_alone : frame.is_finished) = true;
     hand_on();
     changed_.notify_all();
@@ -202,7 +207,7 @@ class SequenceRepair {
     const auto is_known = [&](std::size_t s) { return s < frames_.size() && !frames_[s].result.empty(); };
     if (t > 0 && is_known(t - 1) && is_known(t + 1))
       reports_[t].jitter = jitter_at(t, [](const Frame& frame) { return frame.result; });
-    frames_[t].seen.reset();
+    if (!frames_[t].is_busy) frames_[t].seen.reset();
   }
 
   void progress(std::size_t end) const {
@@ -308,7 +313,9 @@ class SequenceRepair {
     if (smoothed.status != Status::embedded) return;
     // A layer that came out on another side would pop.
     if (largest_distance(smoothed.positions, target) > largest_distance(result.positions, target)) return;
-    // No pairs are left, decided exactly. Seams and areas were compared with the target instead of the frame.
+    // The repair followed pairs from frame to target: what it calls embedded is decided once more from nothing.
+    const PairCounts left = count_by_class(FacePairFinder(prepared).find(prepared.gather(smoothed.positions)));
+    if (options.goal == Goal::all ? left.total() > 0 : left[PairClass::disjoint] > 0) return;
     if (options.find.weld_tolerance == 0 && !prepared.seams_are_closed(smoothed.positions)) return;
     if (count_lost_areas(prepared.rest, prepared.gather(smoothed.positions), prepared.triangles()) > 0) return;
     if (alone.float32_embedded && !smoothed.report.float32_embedded) return;

@@ -20,6 +20,11 @@ constexpr std::size_t hub_valence = 100;
 /// Edges: tangles at least so deep go from coarse to fine. (27k faces of a warped torus, 4 deep: nearer, in half the
 /// time. 6.6k faces, 2 deep: 0.53 % instead of 0.41.)
 constexpr int deep = 4;
+/// Edges freed around a tangle for each edge of its depth, at first. Of 0.7, 1 and 1.5 the closest on three bodies;
+/// with 3 seventeen deep meshes end as close in a tenth more time. What it leaves is tried with twice as many: 2275
+/// pairs of 432,000 faces go by 114,000 of them, not by the flow of all (117 CPU s in all, not 190, and half the
+/// memory).
+constexpr double rings_per_depth = 1.5;
 /// The first coarse mesh of a deep tangle has edges longer by this factor for each edge of its depth: there it is three
 /// edges deep. Without unit. 27 meshes: 0.25 to 0.4 end equally close, 0.5 5 % farther.
 constexpr double factor_per_depth = 0.35;
@@ -94,26 +99,18 @@ Strategy receding() {
   return {.name = "recession", .extent = Extent::whole_components, .reach = 20, .is_last_resort = true, .solve = solve};
 }
 
-Strategy coarse_to_fine() {
+Strategy coarse_to_fine(std::string name, double rings) {
   const auto solve = [](Patch& patch, const Task& task) {
     const double factor = std::max(least_factor, factor_per_depth * task.depth);
     return solve_on_coarser_mesh(patch, factor, task.tolerated, task.stop).iterations;
   };
-  return {.name = "coarse_to_fine",
+  return {.name = std::move(name),
           .extent = Extent::depth,
+          .rings_per_depth = rings,
           .reach = 2.5,
           .least_depth = deep,
           .area_floor = 0,  // faces that found little space when they came back are recovered
           .solve = solve};
-}
-
-/// For what has too little room so close to it: 2275 pairs of 432,000 faces go by 114,000 of them, not by the flow of
-/// all, and the whole run takes 117 CPU s, not 190, and half the memory. Seventeen smaller meshes do not need it.
-Strategy coarse_to_fine_wide() {
-  Strategy wide = coarse_to_fine();
-  wide.name = "coarse_to_fine_wide";
-  wide.rings_per_depth = 3;
-  return wide;
 }
 
 Strategy placing() {
@@ -150,8 +147,8 @@ std::span<const Tier> default_tiers() {
   // a mannequin ends at 12.6 % instead of 0.015 (docs/performance.md, as what is lost without each of the last ones).
   static const std::vector<Tier> tiers = {shallow_tier(),
                                           {placing()},
-                                          {coarse_to_fine()},
-                                          {coarse_to_fine_wide()},
+                                          {coarse_to_fine("coarse_to_fine", rings_per_depth)},
+                                          {coarse_to_fine("coarse_to_fine_wide", 2 * rings_per_depth)},
                                           layers_tier(),
                                           {repelling("flow-8", Extent::rings, 8)},
                                           smoothing_tier(),

@@ -36,9 +36,7 @@ struct Strategy {
   std::string name;
   Extent extent = Extent::rings;
   int rings = 0;  ///< edges, for Extent::rings
-  /// Edges freed around a tangle for each edge of its depth, for Extent::depth. Of 0.7, 1 and 1.5 the closest on three
-  /// bodies; with 3 seventeen deep meshes end as close in a tenth more time.
-  double rings_per_depth = 1.5;
+  double rings_per_depth = 0;  ///< edges for each edge of the tangle's depth, for Extent::depth
   /// Bound of the motion, in h (times the depth of the tangle, for Extent::depth): obstacles are taken in this far
   /// around, and a candidate that moves a vertex farther, even after recovery, waits for a nearer one.
   double reach = 4;

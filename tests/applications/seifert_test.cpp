@@ -141,7 +141,7 @@ TEST(SeifertSurface, FlatAndSteepKnotsAndPlanarDiagramsAreSpanned) {
 }
 
 TEST(SeifertSurface, HandlesRaiseTheGenusAndKeepThePolynomial) {
-  // Of the last one, two lowest discs lie side by side.
+  // The last link has two lowest discs, side by side.
   for (const char* text : {"braid 2: 1 1 1", "braid 3: 1 -2 1 -2 1 -2", "0 0 0\n1 0 0\n0 1 0\n\n5 0 0\n6 0 0\n5 1 0\n"})
     for (const bool fair : {false, true})
       for (const int handles : {1, 4}) {

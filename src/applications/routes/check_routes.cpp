@@ -164,7 +164,10 @@ RouteFindings check_routes(const RoutePlan& plan, std::span<const Route> routes)
     found.straight.push_back(straight);
   }
   const Segments segments(routes);
-  plan.timed ? check_distances_in_time(plan, segments, found) : check_distances(plan, segments, found);
+  if (plan.timed)
+    check_distances_in_time(plan, segments, found);
+  else
+    check_distances(plan, segments, found);
   check_obstacles(plan, segments, found);
   return found;
 }

@@ -36,7 +36,7 @@ std::vector<Vec3> evenly(std::span<const Vec3> polyline, Index segments) {
   return points;
 }
 
-/// What is cut into equal segments: a leg, or where its corners are kept each edge of it.
+/// A piece of a route that is cut into equal segments: a leg, or one edge of a leg whose corners are kept.
 struct Piece {
   std::vector<Vec3> points;
   double length = 0;

@@ -35,10 +35,10 @@ struct RouteMargins {
 
 /// Elastic curves under tension with tubes that push: sums of, in lengths,
 /// - edges e of rest length h: |e|^2 / (2 h); bends: stiffness r^2 |second difference|^2 / (2 h^3);
-/// - pairs of segments with needed distance R, (h_i h_j / R) contact p(d / R), in time those of one time, the mean of
-/// h_i
-///   and h_j in place of h_i h_j / R; of segments and faces of obstacles, h
-///   obstacle p(d / r), p being quadratic or the barrier of Incremental Potential Contact, 0 from 1 + cushion on;
+/// - pairs of segments with needed distance R: (h_i h_j / R) contact p(d / R); in time only pairs of the same time, and
+///   the mean of h_i and h_j in place of h_i h_j / R;
+/// - pairs of segments and faces of obstacles: h obstacle p(d / r); p is quadratic or the barrier of Incremental
+///   Potential Contact, 0 from 1 + cushion on;
 /// - turns t (see RouteFindings::turn), h turn p, from `turn_from` on.
 /// The gradient is zero at pinned vertices.
 class RouteEnergy {
@@ -74,7 +74,7 @@ class RouteEnergy {
   /// The same of a segment from vertex v and a triangle.
   bool is_constant(Index v, const ClosestToTriangle& closest) const;
   double needed(const Pair& pair) const;
-  /// Of a pair in the sum over all: in space a segment is near many of another route, in time near one.
+  /// Factor of a pair's energy. In space a segment is near many segments of another route, in time near one.
   double weight_of(const Pair& pair) const;
   double elastic(const Points& x, Positions& gradient) const;
   double turns(const Points& x, Positions& gradient) const;

@@ -129,7 +129,7 @@ RoutePlan door() {
   plan.obstacles.push_back(block("below", {-thickness, -half_width, -hole}, {thickness, -hole, hole}));
   plan.obstacles.push_back(block("above", {-thickness, hole, -hole}, {thickness, half_width, hole}));
   for (int k = 0; k < 6; ++k) {
-    // Who sets out nearer to the door is there earlier; every second one comes from the other side.
+    // Agents that start nearer to the door reach it earlier; every second agent comes from the other side.
     const double angle = 2 * std::numbers::pi * std::numbers::phi * k, side = k % 2 == 0 ? 1 : -1;
     const Vec3 across(0, 2 * std::sin(angle), 2 * std::cos(angle));
     const double near = 1.5 + 1.6 * k, far = 1.5 + 1.6 * (5 - k);

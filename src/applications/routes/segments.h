@@ -16,8 +16,8 @@ inline Vec3 vec(const RoutePoint& p) {
 /// Start, way-points, goal.
 std::vector<Vec3> places_of(const RouteAgent& agent);
 
-/// Where two points that move straight and evenly, from a to b and from c to d, are closest to each other at one time;
-/// as of the segments (a, b) and (c, d).
+/// The closest approach of two points that move straight and evenly at the same time, from a to b and from c to d; as a
+/// pair of places on the segments (a, b) and (c, d).
 Closest closest_in_time(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Where a segment is closest to a triangle: the vector from there is weights[0] p + weights[1] q - a point of the

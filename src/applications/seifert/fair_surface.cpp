@@ -78,8 +78,8 @@ Umbrella umbrella(const EmbeddedMesh& mesh, Index v) {
   return u;
 }
 
-/// Where a vertex wants to go: along the normal to where area and curvature around it are least, along the surface to
-/// the middle.
+/// The target of a vertex: along the normal the place where area and curvature around it are least, along the surface
+/// the middle of its neighbours.
 Vec3 wanted(const EmbeddedMesh& mesh, Index v, const FairOptions& options) {
   const Vec3 p = mesh.position(v);
   Vec3 normal = Vec3::Zero(), pull = Vec3::Zero(), middle = Vec3::Zero();

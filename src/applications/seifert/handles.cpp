@@ -12,11 +12,11 @@ namespace {
 
 /// Places in a disc that are looked at, along either axis.
 constexpr int places_along = 64;
-/// Of a hexagon / of the room that it has: neighbours stay apart.
+/// Radius of a hexagon / radius of the largest circle that fits there, so that neighbours stay apart.
 constexpr double radius_of_room = 0.6;
-/// The ends of a handle / the halves of its hexagon.
+/// Size of the end of a handle / size of the half of the hexagon that it stands in.
 constexpr double end_of_half = 0.5;
-/// Of half a ring: as coarse as its hexagon, since fairing draws it anew.
+/// Segments along a handle: it is as coarse as its hexagon, since fairing draws it anew.
 constexpr int segments_of_handle = 6;
 
 double distance(const Vec2& p, const Vec2& a, const Vec2& b) {
