@@ -7,6 +7,7 @@
 #include "contact/ccd.h"
 #include "contact/contact_candidates.h"
 #include "energy/ipc_barrier.h"
+#include "recover/recover_options.h"
 #include "scene/patch.h"
 
 namespace unsnarl {
@@ -33,9 +34,9 @@ struct ContactRuleOptions {
   double rest_share = 0.25;
   /// The barrier reaches this share of the rest distance: below 1, so that a rest shape without contact has no energy.
   double reach_share = 0.5;
-  double reach_gaps = 3;         ///< and at least this many min_gap for what is no neighbour
-  double altitude_floor = 0.05;  ///< of its rest altitude, that a face keeps at least
-  double roundoff = 0;           ///< length below which computed distances mean nothing
+  double reach_gaps = barrier_gaps;  ///< and at least this many min_gap for what is no neighbour
+  double altitude_floor = 0.05;      ///< of its rest altitude, that a face keeps at least
+  double roundoff = 0;               ///< length below which computed distances mean nothing
 };
 
 /// Gathers the close stencils of a patch with their rules.

@@ -15,23 +15,23 @@
 namespace unsnarl {
 namespace {
 
-/// Units in the last place of the largest coordinate below which a computed distance means nothing.
-constexpr double roundoff_ulps = 64;
-/// The same for the least gap that can be asked for.
-constexpr double least_gap_ulps = 1024;
+/// Units in the last place of the largest coordinate below which a computed distance means nothing, and no gap can be
+/// asked for.
+constexpr double roundoff_ulps = 1024;
 
 double edge_length_of(const Patch& patch) {
   const std::span<const Triangle> active(patch.triangles.data(), static_cast<std::size_t>(patch.active_count));
   return patch.edge_length > 0 ? patch.edge_length : mean_edge_length(patch.rest, active);
 }
 
-ContactRules contact_rules_of(const Patch& patch, double min_gap) {
+ContactRules contact_rules_of(const Patch& patch, const RecoverOptions& recovery) {
   IntersectionFinder at_rest(patch.triangles, patch.active_count);
   const double largest = std::max(patch.x.cwiseAbs().maxCoeff(), patch.rest.cwiseAbs().maxCoeff());
   const double ulp = std::numeric_limits<double>::epsilon() * largest;
   ContactRuleOptions options;
   options.roundoff = roundoff_ulps * ulp;
-  options.min_gap = std::max(min_gap, least_gap_ulps * ulp);
+  options.min_gap = std::max(recovery.min_gap, options.roundoff);
+  options.reach_gaps = recovery.least_gaps;
   return ContactRules(patch, at_rest.find(patch.rest), options);
 }
 
@@ -91,7 +91,7 @@ Recovery::Recovery(Patch& patch, const RecoverOptions& options, const std::funct
       start_(patch.x),
       start_motion_((patch.x - patch.rest).colwise().norm().maxCoeff()),
       guard_(patch),
-      rules_(contact_rules_of(patch, options.min_gap)),
+      rules_(contact_rules_of(patch, options)),
       neighbours_(vertex_neighbours(rules_.candidates().edges().edges, static_cast<Index>(patch.x.cols()))),
       objective_(patch, rules_.candidates().edges(), options.objective, h_),
       problem_(patch, rules_, neighbours_, objective_, options.step, h_, guard_.pairs_at_start()),
@@ -134,7 +134,7 @@ std::vector<Index> Recovery::flipped_faces() const {
 
 void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int steps) {
   NewtonOptions newton;
-  newton.motion = std::max(options_.stop_motion * h_, options_.stop_activation * activation);
+  newton.motion = options_.stop_activation * activation;
   if (!problem_.start(moves, activation, newton.motion)) return;
   newton.max_steps = steps;
   newton.solver = options_.solver;
@@ -259,7 +259,7 @@ RecoverOptions RecoverOptions::paper() {
   options.last_activation = 0;
   options.stop_decrease = 0;
   options.stop_window = 1;
-  options.stop_motion = options.stop_activation = 0;
+  options.stop_activation = 0;
   options.solver = {1e-6, 2000};
   options.scalar_jacobi = true;
   options.step.shorten_all = true;

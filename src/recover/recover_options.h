@@ -11,6 +11,8 @@ namespace unsnarl {
 /// Rings around what has moved, or is flipped, that are free in a recovery. Four around regions that strategies moved
 /// farther than local ones: nine deep meshes end as close in the same time.
 constexpr int recovery_rings = 2;
+/// So many min_gap barriers reach at least: at 1.5 contacts end between one and two gaps apart.
+constexpr double barrier_gaps = 3;
 
 /// Weights of the objective.
 struct ObjectiveOptions {
@@ -73,9 +75,9 @@ struct RecoverOptions {
   /// is needed, and a wide barrier would push everything farther away. Fans of needles end 300 times closer.
   double activation_motion = 0.5;
   /// Neither the activation distance nor the distance to which gaps are opened falls below this many min_gap, or
-  /// min_gap and what they would be without it, where that is less: at 1.5 contacts end between one and two gaps apart,
-  /// but with three a gap of 0.3 h took 17 times as long, and half as much motion again.
-  double least_gaps = 3;
+  /// min_gap and what they would be without it, where that is less: with three alone, a gap of 0.3 h took 17 times as
+  /// long, and half as much motion again.
+  double least_gaps = barrier_gaps;
 
   double open_target =
       0.01;                 ///< in h: gaps are first opened to this, at most, and never beyond the activation distance
@@ -92,15 +94,14 @@ struct RecoverOptions {
 
   int max_steps = 120;  ///< Newton steps in all, but for those against flipped faces
   // A stage ends when the energy fell by less than the share `stop_decrease` in `stop_window` steps, or when all is
-  // stationary. On 61 meshes, windows of 6, 3, 2 steps in the last stage: with 2 they end 0.9 % closer on average, and
-  // sooner: the last steps push away from contacts more than they bring back. Without this, until all is stationary,
-  // eight posed and deep meshes end 5 % farther after 2.7 times the steps. With at most 12 steps of the first stage,
-  // and an end of all but the last at {1e-2, 4}: nine deep meshes end 3 % farther in a tenth less time.
-  double stop_decrease = 3e-3;
+  // stationary: the last steps push away from contacts more than they bring back. Against 3e-3, thirteen deep and
+  // warped meshes end as close (0.99) in 0.84 of the time, and 19 posed ones 4 % closer; 4e-2: 4 % farther. On 61
+  // meshes, windows of 6, 3, 2 steps: with 2 they end 0.9 % closer on average, and sooner; with 1, at 1e-2, 5 %
+  // farther. Without this, until all is stationary, eight meshes end 5 % farther after 2.7 times the steps.
+  double stop_decrease = 2e-2;
   int stop_window = 2;
-  // A vertex is stationary, and is held for the rest of the stage, where two Newton steps move it no farther than this:
-  double stop_motion = 1e-3;  ///< in h, or ...
-  /// ... a share of the activation distance. 0.05: as close in a quarter more steps; without holding, 2 % farther.
+  /// A vertex is stationary, and is held for the rest of the stage, where two Newton steps move it no farther than this
+  /// share of the activation distance. 0.05: as close in a quarter more steps; without holding, 2 % farther.
   double stop_activation = 0.1;
   /// Solver of the Newton steps. With a tolerance of 3e-2, 31 deep and warped meshes end 5 % closer in a tenth more
   /// time, but a helicoid and a lemniscate 84 and 19 % farther.

@@ -20,6 +20,7 @@
 #include "untangle/conflict_regions.h"
 #include "untangle/escalation.h"
 #include "untangle/local_solver.h"
+#include "untangle/shared_constants.h"
 #include "untangle/strategies.h"
 
 namespace unsnarl {
@@ -282,7 +283,7 @@ class CoarseToFine {
       Solution solution = solve_level_fully();
       if (!best || solution.is_better_than(*best)) best = std::move(solution);
     }
-    if (best && static_cast<double>(best->pairs_left) > options_.few_left * static_cast<double>(best->pairs)) return {};
+    if (best && static_cast<double>(best->pairs_left) > few_left * static_cast<double>(best->pairs)) return {};
     return best;
   }
 
@@ -338,11 +339,8 @@ class CoarseToFine {
 
   void coarsen_to(double faces) {
     faces = std::max(faces, options_.least_faces);
-    while (static_cast<double>(active_faces()) > faces && !stopped()) {
-      const double before = static_cast<double>(active_faces());
+    while (static_cast<double>(active_faces()) > faces && !stopped())
       if (mesh_.coarsen(patch_.rest) == 0) return;
-      if (static_cast<double>(active_faces()) > options_.least_round * before) return;
-    }
   }
 
   Level make_level() const {

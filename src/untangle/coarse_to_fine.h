@@ -16,12 +16,8 @@ struct CoarseToFineOptions {
   /// they end 4 % farther, with three as with two.
   int coarse_solutions = 2;
   double next_factor = 1.6;
-  /// Share of the pairs that the coarse mesh may leave. A creature of which one region leaves 12 of 100 ends at 0.85 %
-  /// in 67 CPU s where these are carried to the fine mesh, at 0.51 % in 29 s where local strategies begin anew instead.
-  double few_left = 0.05;
-  double least_faces = 200;   ///< of a coarse mesh
-  double least_round = 0.97;  ///< share of the faces: a round that leaves more is the last
-  double grid = 0x1p-20;      ///< h of the patch: positions of what comes back are rounded to about this
+  double least_faces = 200;  ///< of a coarse mesh
+  double grid = 0x1p-20;     ///< h of the patch: positions of what comes back are rounded to about this
 };
 
 struct CoarseResult {

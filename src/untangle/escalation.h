@@ -24,9 +24,8 @@ struct EscalationOptions {
   /// The strategies that are tried, in this order.
   std::span<const Tier> tiers;
   /// A candidate that leaves less than this share of a region's pairs is kept at once; the rest is segmented anew and
-  /// starts with the first strategy. With a third, posed bodies end up to 12 % farther, with 0 they take 1.3 times as
-  /// long.
-  double gain_share = 0.1;
+  /// starts with the first strategy.
+  double gain_share = few_left;
   /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share. With 1,
   /// a soup of crossings takes a tier for every pair.
   double worthwhile_share = 0.7;

@@ -117,12 +117,11 @@ class ShapeRepulsion {
   double spacing() const { return samples_.spacing(); }
 
   /// Chooses the interacting pairs at x. The energy changes.
-  void refresh(const Positions& x, std::span<const IntersectingPair> pairs) {
+  void refresh(const Positions& x) {
     samples_.points(x, points_);
-    const std::vector<char> hot = hot_clusters(pairs);
     gaussian_.pairs.clear();
     for (const auto& [i, j] : pairs_within<3>(points_, options_.cutoff * bandwidth())) {
-      if (!hot[i] || !hot[j] || (!samples_.is_free(i) && !samples_.is_free(j)) || samples_.adjacent(i, j)) continue;
+      if ((!samples_.is_free(i) && !samples_.is_free(j)) || samples_.adjacent(i, j)) continue;
       gaussian_.pairs.push_back({i, j, samples_.area(i) * samples_.area(j)});
     }
   }
@@ -138,24 +137,6 @@ class ShapeRepulsion {
 
  private:
   double bandwidth() const { return options_.bandwidth * spacing(); }
-
-  std::vector<char> hot_clusters(std::span<const IntersectingPair> pairs) const {
-    std::vector<char> marked(samples_.size(), 0);
-    for (const IntersectingPair& pair : pairs) {
-      for (const Index f : {pair.a, pair.b}) {
-        for (const Index v : patch_.triangles[f]) {
-          if (samples_.cluster_of(v) >= 0) marked[samples_.cluster_of(v)] = 1;
-        }
-      }
-    }
-    std::vector<char> hot = marked;
-    const double range = options_.hot_range * bandwidth();
-    for (const auto& [i, j] : pairs_within<3>(points_, range)) {
-      if (marked[i]) hot[j] = 1;
-      if (marked[j]) hot[i] = 1;
-    }
-    return hot;
-  }
 
   const Patch& patch_;
   const FlowOptions& options_;
@@ -200,11 +181,11 @@ class Flow {
     }
     best_ = patch_.x;
     make_shape(std::max(options_.spacing_edges * h_, options_.spacing_rel * diagonal_));
-    initial_ = pairs.size();
+    finish_tried_ = pairs.size();
     pairs = find(full_);
     x_ = Eigen::Map<const Eigen::VectorXd>(full_.data(), 3 * n_);
     evaluate_mesh(x_);
-    refresh(pairs);
+    refresh();
     for (;; ++result.iterations) {
       record_iteration(pairs.size());
       if (pairs.size() < result.pairs_left) {
@@ -217,19 +198,18 @@ class Flow {
       }
       if (stop_ && stop_()) break;
       const bool stall = stalled(pairs.size());
-      if (worth_finishing(pairs.size(), stall) && finish(full_)) {
+      if (2 * pairs.size() <= finish_tried_ && !pairs.empty() && finish(full_)) {
         result.clean = true;
         break;
       }
-      if (stall && !coarsen(pairs)) break;
+      if (stall && !coarsen(pairs.size())) break;
       if (!step()) break;
       unpack(x_);
       pairs = find(full_);
-      refresh(pairs);
+      refresh();
     }
     // One last try from the best state.
-    if (!result.clean && !(stop_ && stop_()) && result.pairs_left < finish_tried_ &&
-        static_cast<double>(result.pairs_left) < options_.stalled_share * static_cast<double>(initial_)) {
+    if (!result.clean && !(stop_ && stop_()) && 2 * result.pairs_left <= finish_tried_) {
       full_ = best_;
       result.clean = finish(full_);
     }
@@ -285,8 +265,8 @@ class Flow {
   }
 
   // A new objective at the point reached: only the shape-level term has to be evaluated again.
-  void refresh(std::span<const IntersectingPair> pairs) {
-    shape_->refresh(full_, pairs);
+  void refresh() {
+    shape_->refresh(full_);
     value_ = total(gradient_);
   }
 
@@ -312,12 +292,6 @@ class Flow {
     return true;
   }
 
-  bool worth_finishing(std::size_t count, bool stall) const {
-    if (count == 0 || 2 * count > finish_tried_) return false;
-    const double share = static_cast<double>(count) / static_cast<double>(initial_);
-    return count <= options_.few_finish || share <= options_.finish_share || (stall && share < options_.stalled_share);
-  }
-
   // The contour method from x on; x is the result where it is clean, else unchanged.
   bool finish(Positions& x) {
     finish_tried_ = find(x).size();
@@ -338,15 +312,15 @@ class Flow {
     return ++waited_ >= options_.stall_iterations;
   }
 
-  // Repels coarser clusters. False: there are none.
-  bool coarsen(std::span<const IntersectingPair> pairs) {
-    reference_ = static_cast<double>(pairs.size());
+  // Repels coarser clusters, from a state with so many pairs. False: there are none.
+  bool coarsen(std::size_t count) {
+    reference_ = static_cast<double>(count);
     waited_ = 0;
     lbfgs_.clear();
     const double coarser = options_.spacing_growth * shape_->spacing();
     if (coarser > options_.max_spacing_rel * diagonal_) return false;
     make_shape(coarser);
-    refresh(pairs);
+    refresh();
     return true;
   }
 
@@ -370,10 +344,9 @@ class Flow {
   double arap_value_ = 0, penalty_value_ = 0;
   Eigen::VectorXd x_, gradient_;
   double value_ = 0;
-  std::size_t initial_ = 0;
   double reference_ = std::numeric_limits<double>::infinity();
   int waited_ = 0;
-  std::size_t finish_tried_ = std::numeric_limits<std::size_t>::max();  // pairs there were when finishing last failed
+  std::size_t finish_tried_ = 0;  // pairs there were at the start, or when finishing last failed
 };
 
 }  // namespace

@@ -22,20 +22,13 @@ struct FlowOptions {
   double spacing_rel = 0.012;  ///< ... and of the diagonal: steps and clusters must not shrink with h on fine meshes
   double bandwidth = 2;        ///< spacings: of the Gaussian
   double cutoff = 2.2;         ///< bandwidths: exp(-4.8) = 0.8 % of the force at 0 is left out
-  double hot_range = 4;        ///< bandwidths: only clusters this close to an intersecting face interact
   double vertex_trim = 0.1;    ///< of the shared corner of one-vertex pairs: took 52, 18, 6 of them to 0
   double jitter = symmetry_jitter;
-  double accept_motion = 0.02;    ///< h: the line search stops halving here and takes the step: E_M is not smooth
-  int stall_iterations = 12;      ///< without ...
-  double stall_drop = 0.15;       ///< ... this relative drop of the number of pairs: the clusters grow
-  double spacing_growth = 1.6;    ///< of the clusters, on a stall
-  double max_spacing_rel = 0.25;  ///< of the diagonal: how coarse the clusters may get; it ends on the stall after
-  /// From this share of the initial pairs on (and from few_finish pairs on), the local contour method tries to take
-  /// away the rest: it clears in a few steps what the flow would still chase after 100 iterations. Again when they have
-  /// halved.
-  double finish_share = 0.05;
-  double stalled_share = 0.5;         ///< on a stall, and at the end, already from this share on
-  std::size_t few_finish = 12;        ///< pairs
+  double accept_motion = 0.02;        ///< h: the line search stops halving here and takes the step: E_M is not smooth
+  int stall_iterations = 12;          ///< without ...
+  double stall_drop = 0.15;           ///< ... this relative drop of the number of pairs: the clusters grow
+  double spacing_growth = 1.6;        ///< of the clusters, on a stall
+  double max_spacing_rel = 0.25;      ///< of the diagonal: how coarse the clusters may get; it ends on the stall after
   double area_floor = squeezed_area;  ///< of its area at rest
   int bisections = bisections_back;
   double candidate_reach = 0.25;  ///< h: motion until the candidate pairs are gathered anew
@@ -52,6 +45,8 @@ struct FlowResult {
 ///   E = E_G + lambda_minkowski h E_M + E_ARAP, every term length squared, all but adjacent clusters repel (§3.5.2),
 /// by L-BFGS in the metric 2 (L + locality A/S): L the Laplacian of ARAP's weights, A/S the vertices' shares of the
 /// area. (Trefoil tube: 226 pairs left after 299 iterations in the plain metric, none after 9 in this one.)
+/// Whenever the pairs have halved, the local contour method tries to take away the rest: it clears in a few steps what
+/// the flow would still chase after 100 iterations.
 /// It ends: between two stalls the pairs fall by a share, and on a stall the clusters grow, up to a bound.
 /// Fixed vertices and obstacles repel but stand still. Pairs of faces on the same three vertices and `tolerated` pairs
 /// (sorted, of patch triangles) are let be. Where it fails, patch.x is the state with the fewest pairs. `stop` is asked

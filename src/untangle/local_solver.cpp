@@ -297,7 +297,6 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
       ++t.waited;
       if (t.method == LocalMethod::smoothing) {
         smooth(patch, metric, strategy.locality * h, t.x);
-        if (static_cast<double>(pairs.size()) > options.most_growth * static_cast<double>(initial_pairs)) break;
         if (pairs.size() * 5 <= initial_pairs) t.method = LocalMethod::contour;
         continue;
       }

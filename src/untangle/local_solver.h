@@ -58,9 +58,6 @@ struct LocalOptions {
   /// In place of both for `shorten`. With 30 a tangle of layered cloth keeps pairs; with 100 some sheets move a third
   /// farther.
   int shorten_patience = 60;
-  /// Smoothing is left where it has multiplied the pairs by this: surfaces without a border collapse. Without, two
-  /// punctured ones spend 10 to 29 s each on it.
-  double most_growth = 2;
   int bisections = bisections_back;
 };
 

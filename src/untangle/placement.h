@@ -16,7 +16,8 @@ struct PlacementOptions {
   /// Share of a component's diagonal by which the first try of a motion goes; the next ones go `growth` times as far.
   double first_step = 1e-3;
   double growth = 1.6;
-  int bisections = 6;              ///< between the last motion that is not free and the first that is
+  /// Between the last motion that is not free and the first that is. With 5, two wigs end a fourth farther.
+  int bisections = 6;
   double margin = 0.05;            ///< of the motion: so much farther than the first free place
   std::size_t most_faces = 4000;   ///< of a component that is moved: every place tried takes an exact test of them all
   double most_shrink = 0.95;       ///< share of its distance from the point that a vertex goes, at most

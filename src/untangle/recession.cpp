@@ -210,7 +210,7 @@ void Recession::solve_field(const std::vector<char>& reached, const std::vector<
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t e = 0; e < edges_.edges.size(); ++e) {
     const auto [u, v] = edges_.edges[e];
-    const double w = std::clamp(edge_weight[e], options_.least_cotangent, options_.largest_cotangent);
+    const double w = std::clamp(edge_weight[e], 1 / options_.largest_cotangent, options_.largest_cotangent);
     for (const auto& [i, j] : {std::pair{u, v}, std::pair{v, u}}) {
       if (row[i] < 0) continue;
       diagonal[row[i]] += w;

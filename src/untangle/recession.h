@@ -14,8 +14,7 @@ struct RecessionOptions {
   double step = 0.3;              ///< mean edges: how far a vertex goes between two looks at the field
   int most_steps = 400;           ///< of a vertex
   double arrived = 0.03;          ///< of a step: a vertex that makes less has come to the spine
-  double least_cotangent = 0.05;  ///< weights of edges, at least and at most: psi needs them positive, also at slivers
-  double largest_cotangent = 10;  ///< see least_cotangent
+  double largest_cotangent = 10;  ///< weights of edges, at most, and its inverse at least: psi needs them positive
 };
 
 /// Lets the boundary of a surface recede along the surface itself, as it is at rest: f becomes f o phi, with phi an

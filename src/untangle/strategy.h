@@ -35,7 +35,7 @@ enum class Extent : std::uint8_t {
 struct Strategy {
   std::string name;
   Extent extent = Extent::rings;
-  int rings = 0;  ///< edges, for Extent::rings
+  int rings = 0;               ///< edges, for Extent::rings
   double rings_per_depth = 0;  ///< edges for each edge of the tangle's depth, for Extent::depth
   /// Bound of the motion, in h (times the depth of the tangle, for Extent::depth): obstacles are taken in this far
   /// around, and a candidate that moves a vertex farther, even after recovery, waits for a nearer one.
