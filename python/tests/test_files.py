@@ -78,6 +78,12 @@ def test_numbers_in_other_files_are_neither_lost_nor_overwritten(mesh, tmp_path)
     with pytest.raises(OSError, match="c.gii.2.data"):
         unsnarl.fix(source, folder / "c.gii")
     assert not (folder / "c.gii").exists() and not (folder / "c.gii.data").exists()
+    (folder / "d.gii.data").mkdir()
+    (folder / "d.gii.2.data").write_text("the old one")
+    with pytest.raises(OSError, match="d.gii.data"):
+        unsnarl.fix(source, folder / "d.gii")
+    assert (folder / "d.gii.2.data").read_text() == "the old one" and not (folder / "d.gii").exists()
+    assert not [path for path in folder.iterdir() if path.name.startswith(".")]
     unsnarl.fix(source, in_place=True)
     assert source.read_bytes() == before["a.gii"] and len(unsnarl.check(source)) == 0
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <functional>
 
 #include "arguments.h"
 #include "results.h"
-#include "unsnarl/document.h"
+#include "unsnarl/staged_files.h"
 
 namespace unsnarl::c_interface {
 namespace {
@@ -32,24 +31,6 @@ std::unique_ptr<unsnarl_document> read(const fs::path& path, std::optional<Forma
   return std::unique_ptr<unsnarl_document>(new unsnarl_document{path, std::move(document), std::move(report)});
 }
 
-/// The main file comes last: before it is there, nothing names the others. Where one cannot be written, those that were
-/// not there before are removed again.
-void write_all(const std::vector<OutputFile>& files, const std::function<fs::path(const OutputFile&)>& place) {
-  std::vector<fs::path> made;
-  try {
-    for (auto file = files.rbegin(); file != files.rend(); ++file) {
-      const fs::path path = place(*file);
-      const bool is_new = !fs::exists(path);
-      write_atomically(path, file->bytes);
-      if (is_new) made.push_back(path);
-    }
-  } catch (...) {
-    std::error_code ignored;
-    for (const fs::path& path : made) fs::remove(path, ignored);
-    throw;
-  }
-}
-
 void write(const unsnarl_document& input, std::span<const double> positions, bool float32, const fs::path& target) {
   const Document& document = input.document;
   if (const auto format = format_from_extension(target.string()); format && *format != document.format())
@@ -67,9 +48,12 @@ void write(const unsnarl_document& input, std::span<const double> positions, boo
         if (!read.name.empty() && fs::equivalent(place(file), input.path.parent_path() / read.name, ignored))
           throw std::invalid_argument(place(file).string() +
                                       " holds part of the input and would be overwritten; write to another folder");
-  write_all(files, place);
-  if (Document::read(target, document.format()).surface().positions != document.as_written(positions, float32))
-    throw std::logic_error(target.string() + " does not give back the positions that were written to it");
+  StagedFiles staged(target);
+  staged.write(files);
+  if (Document::read(staged.main_file(), document.format()).surface().positions !=
+      document.as_written(positions, float32))
+    throw std::logic_error(target.string() + " would not give back the positions that were to be written to it");
+  staged.commit();
 }
 
 }  // namespace
