@@ -88,6 +88,14 @@ def test_numbers_in_other_files_are_neither_lost_nor_overwritten(mesh, tmp_path)
     assert source.read_bytes() == before["a.gii"] and len(unsnarl.check(source)) == 0
 
 
+@pytest.mark.parametrize("name, error", [("out.ply", ValueError), ("missing/out.obj", OSError), ("", OSError)])
+def test_a_place_that_cannot_be_written_to_is_found_before_the_repair(mesh, tmp_path, name, error):
+    asked = []
+    with pytest.raises(error):
+        unsnarl.fix(mesh, tmp_path / name, progress=lambda *state: asked.append(state))
+    assert not asked and [path.name for path in tmp_path.iterdir()] == ["in.obj"]
+
+
 def test_what_is_unfinished_is_written_where_asked_for(mesh, tmp_path):
     out = tmp_path / "out.obj"
     assert unsnarl.fix(mesh, out, max_displacement=1e-9).output is None and not out.exists()
