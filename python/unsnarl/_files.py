@@ -121,7 +121,7 @@ def fix(
 
     Returns a Result; its `output` is the file that was written, or None.
 
-    Raises OSError where a file cannot be read or written, ValueError and TypeError as repair does.
+    Raises OSError where a file cannot be read or written, before the repair; ValueError and TypeError as repair does.
     """
     if in_place == (output is not None):
         raise ValueError("give the file to write as output, or in_place=True")
