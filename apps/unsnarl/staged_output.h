@@ -1,47 +1,33 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "interruption.h"
-#include "unsnarl/document.h"
+#include "unsnarl/staged_files.h"
 
 namespace unsnarl::app {
 
-/// Output files on their way: written to a temporary folder beside the target, from where they can be read back, and
-/// renamed into place by commit(). Whatever happens before that, nothing is left behind.
+/// StagedFiles that an interruption removes, or lets be renamed to the last.
 class StagedOutput {
  public:
-  /// Throws WriteError where the folder of `target` is missing or, like an existing target, must not be written to.
+  /// Throws WriteError as StagedFiles does.
   StagedOutput(const std::filesystem::path& target, Interruption& interruption);
   ~StagedOutput();
   StagedOutput(const StagedOutput&) = delete;
   StagedOutput& operator=(const StagedOutput&) = delete;
 
-  /// Replaces what was written before. Throws WriteError.
-  void write(const std::vector<OutputFile>& files);
-  /// The place of the main file until commit().
-  std::filesystem::path main_file() const { return folder_ / target_.filename(); }
-  /// The same of a file of this name, relative to the folder of the target.
-  std::filesystem::path staged(const std::filesystem::path& name) const { return folder_ / name; }
-  /// Final places of the files written.
-  std::vector<std::filesystem::path> targets() const;
-  /// Renames all into place, the main file last. Throws WriteError.
+  void write(const std::vector<OutputFile>& files) { files_->write(files); }
+  std::filesystem::path main_file() const { return files_->main_file(); }
+  /// The place of a file of this name, relative to the folder of the target, until commit().
+  std::filesystem::path staged(const std::filesystem::path& name) const { return files_->folder() / name; }
+  std::vector<std::filesystem::path> targets() const { return files_->targets(); }
   void commit();
 
  private:
-  void rename_all() const;
-
-  /// Bytes that removing the folder needs: listing one takes a buffer of 32 kB, which there may be none for where the
-  /// work has ended for lack of memory.
-  static constexpr std::size_t reserve_size = std::size_t{1} << 16;
-
-  std::unique_ptr<char[]> reserve_{new char[reserve_size]};
-  std::filesystem::path target_;  // links followed
-  std::filesystem::path folder_;
-  std::vector<std::filesystem::path> names_;  // relative to both folders, the main file first
+  std::optional<StagedFiles> files_;
   Interruption& interruption_;
 };
 

@@ -300,9 +300,12 @@ UNSNARL_EXPORT int unsnarl_document_read(const char* path, const char* format, u
 UNSNARL_EXPORT int unsnarl_document_surface(const unsnarl_document* document, unsnarl_surface* surface);
 /* JSON: "format", "vertices", "faces", "notes" (sentences worth telling the user). */
 UNSNARL_EXPORT const char* unsnarl_document_report(const unsnarl_document* document);
-/* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was, and reads them
- * back bit for bit. path may be that of the file that was read. The old file or the whole new one is there, never a
- * part. */
+/* Whether unsnarl_document_write may write there, to be asked before a repair: the format is that of the file, the
+ * folder exists, nothing is write-protected, and no other part of the input would be overwritten. */
+UNSNARL_EXPORT int unsnarl_document_check_output(const unsnarl_document* document, const char* path);
+/* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was. They are read
+ * back bit for bit before anything is in place. path may be that of the file that was read. The old files or the whole
+ * new ones are there, never a part. */
 UNSNARL_EXPORT int unsnarl_document_write(const unsnarl_document* document, const unsnarl_result* repaired,
                                           const char* path);
 UNSNARL_EXPORT void unsnarl_document_free(unsnarl_document* document);

@@ -78,8 +78,22 @@ def test_numbers_in_other_files_are_neither_lost_nor_overwritten(mesh, tmp_path)
     with pytest.raises(OSError, match="c.gii.2.data"):
         unsnarl.fix(source, folder / "c.gii")
     assert not (folder / "c.gii").exists() and not (folder / "c.gii.data").exists()
+    (folder / "d.gii.data").mkdir()
+    (folder / "d.gii.2.data").write_text("the old one")
+    with pytest.raises(OSError, match="d.gii.data"):
+        unsnarl.fix(source, folder / "d.gii")
+    assert (folder / "d.gii.2.data").read_text() == "the old one" and not (folder / "d.gii").exists()
+    assert not [path for path in folder.iterdir() if path.name.startswith(".")]
     unsnarl.fix(source, in_place=True)
     assert source.read_bytes() == before["a.gii"] and len(unsnarl.check(source)) == 0
+
+
+@pytest.mark.parametrize("name, error", [("out.ply", ValueError), ("missing/out.obj", OSError), ("", OSError)])
+def test_a_place_that_cannot_be_written_to_is_found_before_the_repair(mesh, tmp_path, name, error):
+    asked = []
+    with pytest.raises(error):
+        unsnarl.fix(mesh, tmp_path / name, progress=lambda *state: asked.append(state))
+    assert not asked and [path.name for path in tmp_path.iterdir()] == ["in.obj"]
 
 
 def test_what_is_unfinished_is_written_where_asked_for(mesh, tmp_path):

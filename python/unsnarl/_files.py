@@ -48,6 +48,9 @@ class Document:
             _copied(s.offsets, s.offset_count, np.int32),
         )
 
+    def check_output(self, path: PathLike) -> None:
+        check_code(library.unsnarl_document_check_output(self.handle, os.fsencode(path)))
+
     def write(self, repaired: Outcome, path: PathLike) -> None:
         check_code(library.unsnarl_document_write(self.handle, repaired._handle, os.fsencode(path)))
 
@@ -118,7 +121,7 @@ def fix(
 
     Returns a Result; its `output` is the file that was written, or None.
 
-    Raises OSError where a file cannot be read or written, ValueError and TypeError as repair does.
+    Raises OSError where a file cannot be read or written, before the repair; ValueError and TypeError as repair does.
     """
     if in_place == (output is not None):
         raise ValueError("give the file to write as output, or in_place=True")
@@ -129,6 +132,8 @@ def fix(
         raise ValueError(f"{os.fspath(output)!r} is the input; give another name, or in_place=True to overwrite it")
     paper = paper_options(options.pop("paper", False))
     document = Document(path, format)
+    target = Path(path if output is None else output)
+    document.check_output(target)
     surface = document.surface()
     flags = vertex_flags(fixed, len(surface.positions) // 3)
     if flags.size > 0:
@@ -144,7 +149,7 @@ def fix(
     is_changed = not np.array_equal(V.ravel(), surface.positions)
     written: Optional[Path] = None
     if repaired.status == "embedded" or (repaired.status == "obstructed" and is_changed) or keep_partial:
-        written = Path(path if output is None else output)
+        written = target
         document.write(repaired, written)
     report = repaired.report
     report["output"] = {"written": written is not None, "path": None if written is None else os.fspath(written)}

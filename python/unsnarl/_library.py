@@ -142,6 +142,7 @@ _SIGNATURES = {
     "document_read": ([c_char_p, c_char_p, POINTER(c_void_p)], c_int),
     "document_surface": ([c_void_p, c_void_p], c_int),
     "document_report": ([c_void_p], c_char_p),
+    "document_check_output": ([c_void_p, c_char_p], c_int),
     "document_write": ([c_void_p, c_void_p, c_char_p], c_int),
     "document_free": ([c_void_p], None),
 }

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <functional>
 
 #include "arguments.h"
 #include "results.h"
-#include "unsnarl/document.h"
+#include "unsnarl/staged_files.h"
 
 namespace unsnarl::c_interface {
 namespace {
@@ -32,44 +31,42 @@ std::unique_ptr<unsnarl_document> read(const fs::path& path, std::optional<Forma
   return std::unique_ptr<unsnarl_document>(new unsnarl_document{path, std::move(document), std::move(report)});
 }
 
-/// The main file comes last: before it is there, nothing names the others. Where one cannot be written, those that were
-/// not there before are removed again.
-void write_all(const std::vector<OutputFile>& files, const std::function<fs::path(const OutputFile&)>& place) {
-  std::vector<fs::path> made;
-  try {
-    for (auto file = files.rbegin(); file != files.rend(); ++file) {
-      const fs::path path = place(*file);
-      const bool is_new = !fs::exists(path);
-      write_atomically(path, file->bytes);
-      if (is_new) made.push_back(path);
-    }
-  } catch (...) {
-    std::error_code ignored;
-    for (const fs::path& path : made) fs::remove(path, ignored);
-    throw;
-  }
+/// What Document::patched() is to call the files beside the main one after.
+fs::path main_name(const unsnarl_document& input, const fs::path& target) {
+  std::error_code ignored;
+  return fs::equivalent(target, input.path, ignored) ? fs::path() : target.filename();
 }
 
-void write(const unsnarl_document& input, std::span<const double> positions, bool float32, const fs::path& target) {
+void require_target(const unsnarl_document& input, const fs::path& target) {
   const Document& document = input.document;
   if (const auto format = format_from_extension(target.string()); format && *format != document.format())
     throw std::invalid_argument(target.string() + ": the result keeps the format of the input, " +
                                 std::string(to_string(document.format())));
-  std::error_code ignored;
-  const bool in_place = fs::equivalent(target, input.path, ignored);
-  const std::vector<OutputFile> files = document.patched(positions, float32, in_place ? fs::path() : target.filename());
-  const auto place = [&](const OutputFile& file) {
-    return file.name.empty() ? target : target.parent_path() / file.name;
-  };
-  if (!in_place && files.size() > 1)
-    for (const OutputFile& read : document.patched(document.surface().positions, float32))
-      for (const OutputFile& file : files)
-        if (!read.name.empty() && fs::equivalent(place(file), input.path.parent_path() / read.name, ignored))
-          throw std::invalid_argument(place(file).string() +
-                                      " holds part of the input and would be overwritten; write to another folder");
-  write_all(files, place);
-  if (Document::read(target, document.format()).surface().positions != document.as_written(positions, float32))
-    throw std::logic_error(target.string() + " does not give back the positions that were written to it");
+  const StagedFiles can_be_replaced(target);
+  const fs::path name = main_name(input, target);
+  if (name.empty()) return;
+  const std::span<const double> positions = document.surface().positions;
+  const std::vector<OutputFile> files = document.patched(positions, true, name);
+  if (files.size() == 1) return;
+  for (const OutputFile& read : document.patched(positions, true))
+    for (const OutputFile& file : files) {
+      const fs::path place = file.name.empty() ? target : target.parent_path() / file.name;
+      std::error_code ignored;
+      if (!read.name.empty() && fs::equivalent(place, input.path.parent_path() / read.name, ignored))
+        throw std::invalid_argument(place.string() +
+                                    " holds part of the input and would be overwritten; write to another folder");
+    }
+}
+
+void write(const unsnarl_document& input, std::span<const double> positions, bool float32, const fs::path& target) {
+  require_target(input, target);
+  const Document& document = input.document;
+  StagedFiles staged(target);
+  staged.write(document.patched(positions, float32, main_name(input, target)));
+  if (Document::read(staged.main_file(), document.format()).surface().positions !=
+      document.as_written(positions, float32))
+    throw std::logic_error(target.string() + " would not give back the positions that were to be written to it");
+  staged.commit();
 }
 
 }  // namespace
@@ -109,6 +106,14 @@ int unsnarl_document_surface(const unsnarl_document* document, unsnarl_surface* 
 
 const char* unsnarl_document_report(const unsnarl_document* document) {
   return document->report.c_str();
+}
+
+int unsnarl_document_check_output(const unsnarl_document* document, const char* path) {
+  return guarded([&] {
+    require(document, "document");
+    require(path, "path");
+    require_target(*document, path);
+  });
 }
 
 int unsnarl_document_write(const unsnarl_document* document, const unsnarl_result* repaired, const char* path) {

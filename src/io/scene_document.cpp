@@ -15,8 +15,9 @@
 namespace unsnarl {
 namespace {
 
-/// Extents this many times apart are those of metres against millimetres rather than of parts of one thing.
-constexpr double suspicious_extent_ratio = 1000;
+/// Extents this many times apart are those of metres beside millimetres rather than of parts of one thing: the surface
+/// in millimetres may be three times smaller than the other one.
+constexpr double suspicious_extent_ratio = 300;
 
 double extent_of(std::span<const double> positions) {
   Box box;

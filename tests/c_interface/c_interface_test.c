@@ -498,6 +498,9 @@ static void reads_and_writes_files(const char* folder) {
   CHECK(surface.vertex_count == 6 && surface.document == document);
   CHECK(pairs_of(&surface) == 1);
 
+  CHECK(unsnarl_document_check_output(document, other) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_document_check_output(document, "/no/such/folder/a.obj") == UNSNARL_CANNOT_WRITE);
+  CHECK(unsnarl_document_check_output(document, out) == UNSNARL_OK);
   CHECK(unsnarl_find_intersections(&surface, NULL, &result) == UNSNARL_OK);
   CHECK(unsnarl_document_write(document, result, out) == UNSNARL_INVALID_ARGUMENT);
   unsnarl_result_free(result);

@@ -189,6 +189,9 @@ TEST_F(SceneFiles, OtherUnitsArePointedOut) {
   const Outcome outcome = run({"check", a, folder / "mm.off"});
   EXPECT_NE(outcome.err.find("mm.off is 16457 times"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("same units"), std::string::npos) << outcome.err;
+  write(folder / "m.off",
+        "OFF\n3 1 0\n0 0 0\n0.009 0 0\n0 0.007 0\n3 0 1 2\n");  // a is somewhat smaller, in millimetres
+  EXPECT_NE(run({"check", a, folder / "m.off"}).err.find("a.obj is 608 times"), std::string::npos);
   EXPECT_EQ(run({"check", a, c}).err, "");
 }
 

@@ -56,7 +56,8 @@ def faults(value, schema, root, at="$"):
 class Schemas(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.report, cls.check = (json.loads((SCHEMAS / f"{name}.schema.json").read_text()) for name in ("report", "check"))
+        cls.report, cls.check, cls.sequence = (json.loads((SCHEMAS / f"{name}.schema.json").read_text())
+                                               for name in ("report", "check", "sequence"))
 
     def run_program(self, folder, *words):
         return subprocess.run([pages.PROGRAM, *words], cwd=folder, capture_output=True, text=True)
@@ -81,10 +82,21 @@ class Schemas(unittest.TestCase):
             self.run_program(folder, "fix", "in.obj", "-o", "out.obj", "--report", "r.json")
             self.assertEqual(faults(json.loads((Path(folder) / "r.json").read_text()), self.report, self.report), [])
 
+    def test_what_it_writes_of_a_sequence(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for elbow in ("80", "90", "100", "110"):
+                self.run_program(folder, "sample", "posed_limb", "--resolution", "8", "--set", f"elbow={elbow}", "-o", f"{elbow}.obj")
+            for frames, limit, count in (("0:3", "60", 3), ("0:4", "0.000001", 4)):
+                self.run_program(folder, "fix", "--sequence", "*.obj", "-o", "out", "--frames", frames, "--report", "r.json",
+                                 "--time-limit", limit)
+                report = json.loads((Path(folder) / "r.json").read_text())
+                self.assertEqual((faults(report, self.sequence, self.sequence), len(report["list"])), ([], count))
+
     def test_they_refuse(self):
         for broken in ({}, {"schema": "unsnarl-report", "schema_version": 2}, []):
             self.assertNotEqual(faults(broken, self.report, self.report), [])
             self.assertNotEqual(faults(broken, self.check, self.check), [])
+            self.assertNotEqual(faults(broken, self.sequence, self.sequence), [])
 
     def test_every_key_of_the_page_is_there(self):
         keys = set(self.report["anyOf"][0]["properties"])
