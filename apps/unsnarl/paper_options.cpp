@@ -62,7 +62,7 @@ void add_paper_options(CLI::App& command, PaperOptions& options) {
              "Vertices farther apart, in bandwidths, do not repel each other (§3.5.4); default 1.5");
   add_number(command, "--paper-gaussian", options.lambda_gaussian, 0.0, "W",
              "Weight of the Gaussian energy; default 1");
-  add_number(command, "--paper-mesh", options.lambda_mesh, 0.0, "W", "Weight of the mesh energy, in mean edges; default 0.4");
+  add_number(command, "--paper-mesh", options.lambda_mesh, 0.0, "W", "Weight of the mesh energy, in mean edges; default 0.3");
   add_choice(command, "--paper-mesh-energy", options.mesh_energy,
              {PaperMeshEnergy::penetration_depth, PaperMeshEnergy::intersection_length},
              "Penetration depth (default), or the length of the intersection curves (§3.2)");

@@ -240,8 +240,12 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
   write_file(path("picture.png"), picture(plan, route_tubes(plan, made.asked, options.sides), tubes, std::move(parts)),
              interruption);
   if (!options.quiet)
-    tell(fmt::format("{} route{}, certified as written:\n{}wrote {}, {:.1f} s\n", made.routes.size(),
-                     made.routes.size() == 1 ? "" : "s", as_text(plan, made.found), options.folder, made.seconds));
+    tell(fmt::format("{} route{}, certified as written:\n{}{}wrote {}, {:.1f} s\n", made.routes.size(),
+                     made.routes.size() == 1 ? "" : "s", as_text(plan, made.found),
+                     plan.obstacles.empty() ? ""
+                                            : fmt::format("length / that of the agent's route alone: mean {:.3f}\n",
+                                                          made.mean_alone_ratio()),
+                     options.folder, made.seconds));
   return exit_embedded;
 }
 

@@ -115,9 +115,12 @@ struct RoutesResult {
   RouteFindings found;
   std::vector<std::string> messages;  ///< obstructions; agents without any way past the obstacles
   std::vector<Route> asked;           ///< where the work began: straight ways, or past obstacles, with corners
-  /// Length of the route that each agent gets alone, with the obstacles but without the other agents.
+  /// Length of the route that each agent gets alone, with the obstacles but without the other agents: its shortest way
+  /// on the grid, pulled tight. Good, but not proven to be the shortest.
   std::vector<double> alone_length;
   double seconds = 0;
+
+  double mean_alone_ratio() const;  ///< of length / alone_length; 1 where nothing was measured
 };
 
 /// Routes whose tubes keep clear of each other and of obstacles (paper §4.3), short and smooth: straight ways, or the

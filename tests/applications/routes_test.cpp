@@ -115,6 +115,21 @@ TEST(PlanRoutes, AWallIsGoneAroundAndARoundTurnMade) {
   EXPECT_LT(made.found.obstacle_clearance, 1.2);
   ASSERT_EQ(made.alone_length.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(made.found.length[i], 1.1 * made.alone_length[i]);
+  EXPECT_LT(made.mean_alone_ratio(), 1.1);
+}
+
+TEST(PlanRoutes, AloneAnAgentGoesThroughTheNearestHole) {
+  // A hole for one in the middle of a wall, and another one beside it.
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.3, {-4, 0, 0.5}, {4, 0, 0.5}), agent("b", 0.3, {-4, 0, -0.5}, {4, 0, -0.5})};
+  plan.obstacles = {box("below", {-0.2, -9, -9}, {0.2, 9, -0.4}), box("above", {-0.2, -9, 0.4}, {0.2, 9, 9}),
+                    box("left", {-0.2, -9, -0.4}, {0.2, -0.4, 0.4}), box("between", {-0.2, 0.4, -0.4}, {0.2, 1.1, 0.4}),
+                    box("right", {-0.2, 1.9, -0.4}, {0.2, 9, 0.4})};
+  const RoutesResult made = plan_routes(plan);
+  expect_routes(plan, made);
+  ASSERT_EQ(made.alone_length.size(), 2U);
+  for (const double length : made.alone_length) EXPECT_LT(length, 8.2);
+  EXPECT_GT(std::max(made.found.length[0], made.found.length[1]), 8.4);
 }
 
 TEST(PlanRoutes, AWayThereAndBackTurnsNoTighterThanTheRadius) {

@@ -62,6 +62,18 @@ TEST(PaperUntangle, EveryEnergyCanBeLeftOut) {
   EXPECT_LT((patch.x - patch.rest).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(PaperUntangle, TheGlobalBandwidthIsStationaryWhereVerticesLieAtOnePlace) {
+  PaperOptions options;
+  options.bandwidth = PaperBandwidth::global;
+  options.adaptive = false;
+  options.max_iterations = 1;
+  Patch patch = patch_of(two_spheres(12));
+  // Two vertices that are not neighbours: the energy has no bound as the bandwidth goes to zero.
+  patch.rest.col(patch.free_count - 1) = patch.rest.col(0);
+  patch.x = patch.rest;
+  EXPECT_GT(paper_untangle(patch, options).mean_bandwidth, 0.1 * patch.edge_length);
+}
+
 TEST(PaperUntangle, BandwidthsAreScaledAfterTheyAreFound) {
   PaperOptions options;
   options.bandwidth = PaperBandwidth::global;

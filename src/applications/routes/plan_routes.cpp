@@ -78,17 +78,15 @@ class Planning {
     if (context_ && context_->on_progress) context_->on_progress({.fraction = done_, .phase = phase});
   }
 
-  bool find_ways() {
-    report(0, "find ways");
-    std::optional<WayFinder> finder;
-    if (!triangles_.empty()) finder.emplace(plan_, triangles_);
+  /// Straight, or past the obstacles; spread: later agents rather keep away from the ways of earlier ones.
+  std::vector<Legs> ways(std::optional<WayFinder>& finder, bool spread) {
     double widest = 0;
     for (const RouteAgent& agent : plan_.agents) widest = std::max(widest, agent.radius);
+    std::vector<Legs> found;
     for (const RouteAgent& agent : plan_.agents) {
-      Legs& legs = ways_.emplace_back();
+      Legs& legs = found.emplace_back();
       const std::vector<Vec3> places = places_of(agent);
-      for (std::size_t k = 0; k + 1 < places.size(); ++k) {
-        if (is_stopped()) return false;
+      for (std::size_t k = 0; k + 1 < places.size() && !is_stopped(); ++k) {
         std::optional<std::vector<Vec3>> way;
         if (!finder) way = {places[k], places[k + 1]};
         for (std::size_t d = 0; d < way_distances.size() && !way; ++d)
@@ -102,12 +100,21 @@ class Planning {
                           places[k + 1][2], agent.radius));
           continue;
         }
-        if (finder && !plan_.timed) finder->avoid(*way, agent.radius + widest);
+        if (spread) finder->avoid(*way, agent.radius + widest);
         legs.push_back(std::move(*way));
       }
     }
+    return found;
+  }
+
+  bool find_ways() {
+    report(0, "find ways");
+    std::optional<WayFinder> finder;
+    if (!triangles_.empty()) finder.emplace(plan_, triangles_);
+    shortest_ways_ = ways(finder, false);
     if (!made_.messages.empty()) return false;
-    return true;
+    ways_ = finder && !plan_.timed ? ways(finder, true) : shortest_ways_;
+    return !is_stopped();
   }
 
   /// The middles of legs aside, each its own way: directions by the golden angle.
@@ -165,8 +172,9 @@ class Planning {
   Eigen::VectorXd flat(const Positions& x) const { return Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()); }
   Positions columns(const Eigen::VectorXd& x) const { return Eigen::Map<const Positions>(x.data(), 3, x.size() / 3); }
 
-  /// Lengths of the routes that agents get alone.
-  void measure_alone(const RouteChains& chains) {
+  /// Lengths of the routes that agents get alone, pulled tight from their shortest ways.
+  void measure_alone() {
+    const RouteChains chains = sample_chains(plan_, shortest_ways_, options_.spacing, true);
     RouteEnergy energy(chains, triangles_);
     Eigen::VectorXd x = flat(chains.x);
     minimise(energy, x, alone_steps, chains.least_radius);
@@ -184,7 +192,7 @@ class Planning {
       report(before + fraction / pushed_aside.size(), phase);
     };
     RouteChains chains = sample_chains(plan_, ways_, options_.spacing, true);
-    if (made_.alone_length.empty()) measure_alone(chains);
+    if (made_.alone_length.empty()) measure_alone();
     Eigen::VectorXd x = flat(aside(chains, by));
     {
       RouteEnergy energy(chains, triangles_);
@@ -246,11 +254,17 @@ class Planning {
   Status stopped_ = Status::no_progress;
   double done_ = 0;
   ObstacleTriangles triangles_;
-  std::vector<Legs> ways_;
+  std::vector<Legs> shortest_ways_, ways_;
   RoutesResult made_;
 };
 
 }  // namespace
+
+double RoutesResult::mean_alone_ratio() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < alone_length.size(); ++i) sum += found.length[i] / alone_length[i];
+  return alone_length.empty() ? 1 : sum / static_cast<double>(alone_length.size());
+}
 
 RoutesResult plan_routes(const RoutePlan& plan, const RouteOptions& options, Context* context) {
   check_plan(plan);

@@ -189,6 +189,7 @@ std::string routes_json(const RoutePlan& plan, const RoutesResult& result) {
                {"turn", f.turn},
                {"mean_ratio", f.mean_ratio()},
                {"max_ratio", f.max_ratio()},
+               {"mean_alone_ratio", result.mean_alone_ratio()},
                {"seconds", result.seconds},
                {"routes", Json::array()}};
   for (std::size_t i = 0; i < result.routes.size(); ++i) {
