@@ -31,7 +31,8 @@ std::unique_ptr<unsnarl_document> read(const fs::path& path, std::optional<Forma
   return std::unique_ptr<unsnarl_document>(new unsnarl_document{path, std::move(document), std::move(report)});
 }
 
-/// What Document::patched() is to call the files beside the main one after.
+/// The name that Document::patched() derives those of the files beside the main one from; empty where the input is
+/// overwritten.
 fs::path main_name(const unsnarl_document& input, const fs::path& target) {
   std::error_code ignored;
   return fs::equivalent(target, input.path, ignored) ? fs::path() : target.filename();

@@ -11,7 +11,7 @@ namespace {
 /// Times that polygons are cut anew from where their vertices came to lie, at most. Of 2000 soups of twisted polygons
 /// four do not settle with 24 cuts, 6 of them at once; two with 64 and 6; one with 64 and 12.
 constexpr int most_cuts = 64;
-/// Of these cuts the first ones, so many, are worked on together with the cut before.
+/// Number of cuts, from the first on, that are worked on together with the cut before each.
 constexpr int most_cuts_at_once = 12;
 
 /// The polygons as whoever reads the present state cuts them: as usual, and along the other diagonals.

@@ -11,7 +11,7 @@ namespace unsnarl {
 /// Rings around what has moved, or is flipped, that are free in a recovery. Four around regions that strategies moved
 /// farther than local ones: nine deep meshes end as close in the same time.
 constexpr int recovery_rings = 2;
-/// So many min_gap barriers reach at least: at 1.5 contacts end between one and two gaps apart.
+/// Barriers reach this many min_gap at least. Without unit; at 1.5 contacts end between one and two gaps apart.
 constexpr double barrier_gaps = 3;
 
 /// Weights of the objective.

@@ -203,7 +203,7 @@ class PaperUntangle {
     if (options_.bandwidth == PaperBandwidth::global) {
       const std::vector<GlobalBandwidth> maxima =
           global_bandwidths(bandwidth_pairs(), bandwidth_options(options_.start_iterations));
-      // Where vertices lie at one place, the energy is highest at the least bandwidth, which is not stationary.
+      // A clamped maximum is not stationary: the energy of vertices at one place grows down to the least bandwidth.
       const auto found =
           std::find_if(maxima.begin(), maxima.end(), [](const GlobalBandwidth& m) { return !m.clamped; });
       if (!maxima.empty()) set_global((found != maxima.end() ? *found : maxima.front()).epsilon);

@@ -17,8 +17,8 @@ constexpr double squeezed_area = 1e-4;
 /// Bisections of a solution's displacement back to where it began; the smallest clean one is kept. Without them, 98
 /// meshes end 2 % farther with 8 % more flipped faces, in 7 % less time; with 6, a wig ends a third farther.
 constexpr int bisections_back = 5;
-/// Share of a region's pairs that may be left for a candidate to be kept, or a coarse mesh to be carried to the fine
-/// one. With a third, posed bodies end up to 12 % farther; with none, they take 1.3 times as long.
+/// Share of a region's pairs, without unit, that may be left for a candidate to be kept, or a coarse mesh to be carried
+/// to the fine one. With a third, posed bodies end up to 12 % farther; with none, they take 1.3 times as long.
 /// A creature of which one region leaves 12 of 100 on the coarse mesh ends at 0.85 % in 67 CPU s where these are
 /// carried to the fine mesh, at 0.51 % in 29 s where local strategies begin anew instead.
 constexpr double few_left = 0.1;
