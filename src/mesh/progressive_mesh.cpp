@@ -60,7 +60,7 @@ struct Ring {
   Index operator[](std::size_t i) const { return vertices[i % size()]; }
 };
 
-/// None where the faces are no single fan of consistent orientation.
+/// None where the faces are no single fan. Faces of either orientation may follow each other.
 std::optional<Ring> ring_of(Index v, std::span<const Index> star, std::span<const Triangle> triangles) {
   std::vector<std::pair<Index, Index>> sides;  // of the faces, opposite of v
   for (const Index t : star) {
@@ -68,26 +68,31 @@ std::optional<Ring> ring_of(Index v, std::span<const Index> star, std::span<cons
     const int k = f[0] == v ? 0 : f[1] == v ? 1 : 2;
     sides.push_back({f[(k + 1) % 3], f[(k + 2) % 3]});
   }
-  std::size_t first = 0;
+  const auto sides_at = [&](Index w) {
+    return std::count_if(sides.begin(), sides.end(), [&](const auto& s) { return s.first == w || s.second == w; });
+  };
+  std::vector<Index> ends;  // corners of one side alone: where the boundary leaves the star
+  for (const auto& [a, b] : sides) {
+    if (sides_at(a) > 2 || sides_at(b) > 2) return {};
+    if (sides_at(a) == 1) ends.insert(ends.begin(), a);  // where its face begins, if all are oriented alike
+    if (sides_at(b) == 1) ends.push_back(b);
+  }
+  if (ends.size() != 0 && ends.size() != 2) return {};
   Ring ring;
-  ring.closed = true;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const auto begins_at = [&](const auto& side) { return side.second == sides[i].first; };
-    if (std::any_of(sides.begin(), sides.end(), begins_at)) continue;
-    if (!ring.closed) return {};  // several fans
-    ring.closed = false;
-    first = i;
+  ring.closed = ends.empty();
+  ring.vertices.push_back(ring.closed ? sides.front().first : ends.front());
+  for (std::size_t k = 0; k < star.size(); ++k) {
+    const Index at = ring.vertices.back();
+    const auto next =
+        std::find_if(sides.begin(), sides.end(), [&](const auto& s) { return s.first == at || s.second == at; });
+    if (next == sides.end()) return {};  // several fans
+    ring.vertices.push_back(next->first == at ? next->second : next->first);
+    sides.erase(next);
   }
-  ring.vertices.push_back(sides[first].first);
-  for (Index at = sides[first].second;;) {
-    if (at == ring.vertices.front()) break;
-    ring.vertices.push_back(at);
-    if (ring.size() > sides.size() + 1) return {};
-    const auto next = std::find_if(sides.begin(), sides.end(), [&](const auto& side) { return side.first == at; });
-    if (next == sides.end()) break;
-    at = next->second;
+  if (ring.closed) {
+    if (ring.vertices.back() != ring.vertices.front()) return {};
+    ring.vertices.pop_back();
   }
-  if (ring.size() != sides.size() + (ring.closed ? 0 : 1)) return {};
   std::vector<Index> sorted = ring.vertices;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return {};
@@ -127,13 +132,14 @@ class Round {
     edge /= static_cast<double>(ring->size());
     Vec3 normal = Vec3::Zero();
     double worst = 1;
-    for (const Index t : star) {
-      normal += area_vector(x_, triangles_[t]);
-      worst = std::min(worst, quality(x_, triangles_[t]));
+    const std::size_t n = ring->size();
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      const Triangle t = {v, (*ring)[i], (*ring)[i + 1]};
+      normal += area_vector(x_, t);
+      worst = std::min(worst, quality(x_, t));
     }
     normal.normalize();
     const double least_quality = std::min(options_.least_quality, worst);
-    const std::size_t n = ring->size();
     for (std::size_t i = 0; i < n; ++i) {
       if (!ring->closed && i != 0 && i != n - 1) continue;
       if (ranks_[(*ring)[i]] < ranks_[v]) continue;

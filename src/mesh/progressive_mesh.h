@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct CoarsenOptions {
   /// Largest distance of the vertex from the triangles that replace its star, in mean edges there.
   double largest_offset = 0.35;
   std::size_t largest_valence = 16;  ///< vertices with more neighbours stay
+
+  /// For a handful of faces in the end: whatever keeps the topology, but for triangles that have next to no area.
+  static CoarsenOptions any_shape() { return {0.02, -1, std::numeric_limits<double>::infinity(), 40}; }
 };
 
 /// A triangle mesh that loses vertices round by round, each by collapsing it onto a neighbour (half-edge collapse), and

@@ -28,6 +28,11 @@ namespace {
 
 using Removal = ProgressiveMesh::Removal;
 
+/// h of the patch: positions of what comes back are rounded to about this.
+constexpr double grid_share = 0x1p-20;
+/// Starts of the coarsest mesh besides where it is.
+constexpr int most_starts = 30;
+
 bool is_at(const Triangle& t, const Positions& x, const Positions& other) {
   return std::all_of(t.begin(), t.end(), [&](Index v) { return x.col(v) == other.col(v); });
 }
@@ -249,58 +254,72 @@ class Insertion {
 
 class CoarseToFine {
  public:
-  /// The state that a coarse mesh was solved to.
-  struct Solution {
-    std::size_t round_count = 0;  // of the progressive mesh
-    Positions x;
-    int iterations = 0;
-    std::size_t pairs = 0, pairs_left = 0;
-    double motion = 0;  // mean over the area
-
-    bool is_better_than(const Solution& other) const {
-      return pairs_left != other.pairs_left ? pairs_left < other.pairs_left : motion < other.motion;
-    }
-  };
-
-  CoarseToFine(const Patch& patch, std::span<const IntersectingPair> tolerated, const std::function<bool()>& stop,
-               const CoarseToFineOptions& options)
+  /// Gives up on the way back where a mesh keeps more than `most_left` pairs.
+  CoarseToFine(const Patch& patch, std::span<const IntersectingPair> tolerated, double most_left,
+               const std::function<bool()>& stop)
       : patch_(patch),
         tolerated_(tolerated),
         stop_(stop),
-        options_(options),
+        most_left_(most_left),
         mesh_(patch.triangles, ranks_of(patch, tolerated)),
         x_(patch.x),
-        grid_(std::exp2(std::floor(std::log2(patch.edge_length * options.grid)))) {}
+        grid_(std::exp2(std::floor(std::log2(patch.edge_length * grid_share)))) {}
 
-  /// The best solution on meshes this many times coarser and more. None where the patch cannot be simplified, or where
-  /// so many pairs are left that it is not for their depth.
-  std::optional<Solution> solve_coarse(double factor) {
-    std::optional<Solution> best;
-    for (int k = 0; k < options_.coarse_solutions && !stopped(); ++k, factor *= options_.next_factor) {
-      const std::size_t before = active_faces();
-      coarsen_to(static_cast<double>(patch_.active_count) / (factor * factor));
-      if (active_faces() == before) break;
-      Solution solution = solve_level_fully();
-      if (!best || solution.is_better_than(*best)) best = std::move(solution);
-    }
-    if (best && static_cast<double>(best->pairs_left) > few_left * static_cast<double>(best->pairs)) return {};
-    return best;
+  /// Simplifies the patch until it has so many active faces, or as few as it can have. Returns how many it has.
+  std::size_t coarsen(double faces) {
+    while (static_cast<double>(active_faces()) > faces && !stopped())
+      if (mesh_.coarsen(patch_.rest) == 0 && mesh_.coarsen(patch_.rest, CoarsenOptions::any_shape()) == 0) break;
+    return active_faces();
   }
 
-  /// Carries the solution to the patch. Returns the positions of its vertices.
-  const Positions& refine(Solution solution) {
-    while (mesh_.round_count() > solution.round_count) mesh_.refine();
-    x_ = std::move(solution.x);
+  /// Untangles and recovers the mesh as it is now. False: too many pairs are left. Adds to `iterations`.
+  bool solve(int& iterations) {
+    Level level = make_level();
+    SceneIndex index(level.scene);
+    const std::vector<IntersectingPair> pairs = index.find_pairs();
+    const std::vector<IntersectingPair> tolerated = tolerated_on(level, pairs);
+    const double all = static_cast<double>(blocking_pairs(pairs, tolerated).size());
+    const auto tell = [&](const EscalationProgress& now) {
+      if (!patch_.progress || !(all > 0)) return;
+      const double before = static_cast<double>(patch_.progress->pairs_before);
+      patch_.progress->pairs = static_cast<std::size_t>(before * std::clamp(now.pairs_now / all, 0.0, 1.0));
+      note_done(0.5 * (1 - std::min(1.0, now.work_left / all)));
+    };
+    const EscalationResult untangled = untangle(level, index, tolerated, coarse_mesh_tiers(), tell);
+    for (const RegionReport& region : untangled.regions) iterations += region.iterations;
+    if (static_cast<double>(untangled.left.size()) > few_left * all) return false;
+    recover(level, index, {});
+    return true;
+  }
+
+  /// The same from other starts, farther and farther from where the mesh is.
+  bool solve_from_elsewhere(int& iterations) {
+    const double size = (patch_.rest.rowwise().maxCoeff() - patch_.rest.rowwise().minCoeff()).norm();
+    for (int start = 1; start <= most_starts && !stopped(); ++start) {
+      x_ = patch_.x;
+      for (Index v = 0; v < patch_.free_count; ++v)
+        for (int k = 0; k < 3; ++k)
+          x_(k, v) += size * start / most_starts * jitter_of(start * patch_.free_count + v, k);
+      if (solve(iterations)) return true;
+    }
+    return false;
+  }
+
+  /// Puts all vertices back. False: what they bring cannot be resolved.
+  bool refine() {
     const double rounds = static_cast<double>(mesh_.round_count());
     while (mesh_.round_count() > 0) {
       refine_once();
       note_done(1 - 0.5 * static_cast<double>(mesh_.round_count()) / rounds);
       if (mesh_.round_count() == 0 || stopped()) continue;
-      make_room();
+      if (!make_room()) return false;
       offer_better_places();
     }
-    return x_;
+    return true;
   }
+
+  /// Of the patch's vertices, as far as these are there now.
+  const Positions& positions() const { return x_; }
 
  private:
   /// The mesh as it is now, as a scene of its own.
@@ -321,8 +340,7 @@ class CoarseToFine {
   }
 
   bool stopped() const { return stop_ && stop_(); }
-  /// The coarse meshes are the first half of the progress, the way back the other. Never takes anything back: several
-  /// coarse meshes are solved.
+  /// The coarse mesh is the first half of the progress, the way back the other.
   void note_done(double share) const {
     if (patch_.progress) patch_.progress->done = std::max(patch_.progress->done.load(), share);
   }
@@ -335,12 +353,6 @@ class CoarseToFine {
     std::vector<Triangle> result;
     for (const Index t : mesh_.faces()) result.push_back(mesh_[t]);
     return result;
-  }
-
-  void coarsen_to(double faces) {
-    faces = std::max(faces, options_.least_faces);
-    while (static_cast<double>(active_faces()) > faces && !stopped())
-      if (mesh_.coarsen(patch_.rest) == 0) return;
   }
 
   Level make_level() const {
@@ -402,48 +414,23 @@ class CoarseToFine {
     return escalate(level.scene, index, tolerated, escalation);
   }
 
-  void recover(Level& level, SceneIndex& index, const std::vector<std::vector<Index>>& regions,
-               const RecoverOptions& options) const {
+  /// Recovers all that is not at rest, and some rings around it, and takes the positions over.
+  void recover(Level& level, SceneIndex& index, const RecoverOptions& options) {
+    std::vector<Index> moved;
+    for (Index v = 0; v < level.scene.vertex_count(); ++v)
+      if (level.scene.x.col(v) != level.scene.rest.col(v)) moved.push_back(v);
     RecoverRegionsOptions recovery;
     recovery.recover = options;
     recovery.min_gap = [](std::span<const Index>) { return 0.0; };
     recovery.stop = stop_ ? stop_ : [] { return false; };
     Recorder nobody({}, level.scene.x);
-    recover_regions(level.scene, index, regions, recovery, nobody);
-  }
-
-  /// Does not change x_.
-  Solution solve_level_fully() const {
-    Level level = make_level();
-    SceneIndex index(level.scene);
-    const std::vector<IntersectingPair> pairs = index.find_pairs();
-    const std::vector<IntersectingPair> tolerated = tolerated_on(level, pairs);
-    const double all = static_cast<double>(std::max<std::size_t>(1, pairs.size() - tolerated.size()));
-    const auto tell = [&](const EscalationProgress& now) {
-      if (!patch_.progress) return;
-      const double before = static_cast<double>(patch_.progress->pairs_before);
-      patch_.progress->pairs = static_cast<std::size_t>(before * std::clamp(now.pairs_now / all, 0.0, 1.0));
-      note_done(0.5 * (1 - std::min(1.0, now.work_left / all)));
-    };
-    const EscalationResult untangled = untangle(level, index, tolerated, coarse_mesh_tiers(), tell);
-    recover(level, index, merge_overlapping(untangled.moved, level.scene.vertex_count()), {});
-
-    Solution solution;
-    solution.round_count = mesh_.round_count();
-    solution.x = x_;
-    for (std::size_t k = 0; k < level.vertices.size(); ++k) solution.x.col(level.vertices[k]) = level.scene.x.col(k);
-    for (const RegionReport& region : untangled.regions) solution.iterations += region.iterations;
-    solution.pairs = pairs.size() - tolerated.size();
-    solution.pairs_left = untangled.left.size();
-    for (const Triangle& t : level.scene.triangles)
-      for (const Index v : t)
-        solution.motion += triangle_area(level.scene.rest, t) * (level.scene.x.col(v) - level.scene.rest.col(v)).norm();
-    solution.motion /= total_area(level.scene.rest, level.scene.triangles);
-    return solution;
+    recover_regions(level.scene, index, {dilate(level.scene, moved, recovery_rings)}, recovery, nobody);
+    for (std::size_t k = 0; k < level.vertices.size(); ++k) x_.col(level.vertices[k]) = level.scene.x.col(k);
   }
 
   /// Resolves what the vertices that came back have brought, and recovers by a few steps, so that the next have room.
-  void make_room() {
+  /// False: more pairs are left than the patch may keep.
+  bool make_room() {
     Level level = make_level();
     SceneIndex index(level.scene);
     const std::vector<IntersectingPair> pairs = index.find_pairs();
@@ -453,16 +440,15 @@ class CoarseToFine {
     for (const IntersectingPair& pair : pairs)
       if (is_unmoved(pair.a) && is_unmoved(pair.b)) tolerated.push_back(pair);
     tolerated = sorted(std::move(tolerated));
-    if (pairs.size() > tolerated.size()) untangle(level, index, tolerated, local_tiers());
-
-    std::vector<Index> moved;
-    for (Index v = 0; v < level.scene.vertex_count(); ++v)
-      if (level.scene.x.col(v) != level.scene.rest.col(v)) moved.push_back(v);
+    if (pairs.size() > tolerated.size()) {
+      const std::size_t left = untangle(level, index, tolerated, local_tiers()).left.size();
+      if (static_cast<double>(left) > most_left_) return false;
+    }
     RecoverOptions steps;
     steps.last_activation = 0;
     steps.unflip_rounds = 0;
-    recover(level, index, {dilate(level.scene, moved, recovery_rings)}, steps);
-    for (std::size_t k = 0; k < level.vertices.size(); ++k) x_.col(level.vertices[k]) = level.scene.x.col(k);
+    recover(level, index, steps);
+    return true;
   }
 
   /// Puts the vertices of the last round back.
@@ -518,7 +504,7 @@ class CoarseToFine {
   const Patch& patch_;
   std::span<const IntersectingPair> tolerated_;
   const std::function<bool()>& stop_;
-  const CoarseToFineOptions& options_;
+  double most_left_;
   ProgressiveMesh mesh_;
   Positions x_;                     // of the patch's vertices; only those of the mesh as it is now mean anything
   std::vector<Removal> displaced_;  // since the last level: those that are not at their best places
@@ -528,23 +514,37 @@ class CoarseToFine {
 }  // namespace
 
 CoarseResult solve_on_coarser_mesh(Patch& patch, double factor, std::span<const IntersectingPair> tolerated,
-                                   const std::function<bool()>& stop, const CoarseToFineOptions& options) {
+                                   const std::function<bool()>& stop, CoarseMeshes meshes) {
   CoarseResult result;
   IntersectionFinder finder(patch.triangles, patch.active_count);
-  const auto count = [&] {
-    result.pairs_left = blocking_pairs(finder.find(patch.x), tolerated).size();
-    record(patch, patch.x, {.pairs = result.pairs_left});
-    result.clean = result.pairs_left == 0;
+  const auto count_pairs = [&](const Positions& x) {
+    const std::size_t count = blocking_pairs(finder.find(x), tolerated).size();
+    record(patch, x, {.pairs = count});
+    return count;
   };
-  count();
-  if (result.clean || !(patch.edge_length > 0)) return result;
-  CoarseToFine solver(patch, tolerated, stop, options);
-  if (std::optional<CoarseToFine::Solution> coarse = solver.solve_coarse(factor)) {
-    result.iterations = coarse->iterations;
-    Positions x = solver.refine(std::move(*coarse));
-    patch.x = std::move(x);
-    count();
+  Positions best;
+  const std::size_t before = result.pairs_left = count_pairs(patch.x);
+  if (before == 0 || !(patch.edge_length > 0)) return result;
+  const double most_left = few_left * static_cast<double>(before);
+  auto faces = static_cast<std::size_t>(patch.active_count);
+  for (double wanted = static_cast<double>(faces); !(stop && stop());) {
+    wanted /= factor * factor;
+    CoarseToFine solver(patch, tolerated, most_left, stop);
+    const std::size_t finer = std::exchange(faces, solver.coarsen(wanted));
+    const bool is_coarsest = faces == finer;
+    if (is_coarsest && (meshes == CoarseMeshes::one || faces == static_cast<std::size_t>(patch.active_count))) break;
+    const bool is_solved =
+        is_coarsest ? solver.solve_from_elsewhere(result.iterations) : solver.solve(result.iterations);
+    if (is_solved && solver.refine()) {
+      const std::size_t left = count_pairs(solver.positions());
+      if (left < result.pairs_left) {
+        result.pairs_left = left;
+        best = solver.positions();
+      }
+    }
+    if (static_cast<double>(result.pairs_left) <= most_left || is_coarsest || meshes == CoarseMeshes::one) break;
   }
+  if (result.pairs_left < before) patch.x = std::move(best);
   return result;
 }
 

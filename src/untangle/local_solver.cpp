@@ -13,7 +13,6 @@
 
 #include "contact/intersection_finder.h"
 #include "energy/minkowski_penalty.h"
-#include "geometry/sort_unique.h"
 #include "geometry/splitmix.h"
 #include "scene/patch_progress.h"
 #include "scene/trajectory.h"
@@ -157,7 +156,6 @@ void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& 
 /// How far a strategy has got.
 struct Try {
   Positions x, best;
-  LocalMethod method;
   std::size_t pairs_left = not_counted;  // in best
   int iterations = 0;
   double reference = std::numeric_limits<double>::infinity();  // pairs at the last progress
@@ -169,28 +167,6 @@ std::vector<std::uint8_t> in_conflict(const Patch& patch, std::span<const Inters
   std::vector<std::uint8_t> result(patch.triangles.size(), 0);
   for (const IntersectingPair& pair : pairs) result[pair.a] = result[pair.b] = 1;
   return result;
-}
-
-/// x <- (M + range^2 L)^-1 M x with the border held: rounds off everything smaller than the range.
-void smooth(const Patch& patch, const Metric& metric, double range, Positions& x) {
-  const Index n = patch.free_count;
-  Positions pull = Positions::Zero(3, x.cols());
-  for (Index t = 0; t < patch.active_count; ++t) {
-    const double share = area(patch.x, patch.triangles[t]) / 3 / (range * range);
-    for (Index v : patch.triangles[t])
-      if (v < n) pull.col(v) += share * x.col(v);
-  }
-  // The held neighbours' share of the Laplacian.
-  std::vector<Edge> done;
-  for (Index t = 0; t < patch.active_count; ++t)
-    for (int k = 0; k < 3; ++k) {
-      Index u = patch.triangles[t][k], v = patch.triangles[t][(k + 1) % 3];
-      if (u > v) std::swap(u, v);
-      if (u < n && v >= n) done.push_back({u, v});
-    }
-  sort_unique(done);
-  for (const auto& [u, v] : done) pull.col(u) += laplacian_weight * x.col(v);
-  x.leftCols(n) = metric.solve(pull, n).transpose();
 }
 
 }  // namespace
@@ -266,12 +242,11 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   auto is_clean = [&](const Positions& y) {
     return blocking_pairs(finder.find(y), tolerated).empty() && !has_squeezed_face(patch, start, y, options.area_floor);
   };
-  std::size_t initial_pairs = 0;
   double at_least = options.shallow_floor * h;  // overlap that steps are for: as little as there is would never end
   std::optional<Try> before_keeping;            // where the guard was first needed
   // Iterations without progress after which a try is left.
   const auto patience = [&](const Try& t) {
-    if (t.method == LocalMethod::shorten) return options.shorten_patience;
+    if (strategy.method == LocalMethod::shorten) return options.shorten_patience;
     return t.iterations > strategy.max_iterations ? options.patience : options.despair;
   };
   // Goes on with a try until it is clean (true) or left.
@@ -284,7 +259,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
       if (patch.progress) patch.progress->set_pairs(pairs.size());
       clean = pairs.empty();
       if (clean) break;
-      if (t.iterations == 0) t.pairs_left = initial_pairs = pairs.size();
+      if (t.iterations == 0) t.pairs_left = pairs.size();
       if (static_cast<double>(pairs.size()) <= (1 - options.progress) * t.reference) {
         t.reference = static_cast<double>(pairs.size());
         t.waited = 0;
@@ -295,14 +270,9 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
       }
       const int iteration = t.iterations++;
       ++t.waited;
-      if (t.method == LocalMethod::smoothing) {
-        smooth(patch, metric, strategy.locality * h, t.x);
-        if (pairs.size() * 5 <= initial_pairs) t.method = LocalMethod::contour;
-        continue;
-      }
       Positions force = Positions::Zero(3, t.x.cols());
       double limit = strategy.step * h;
-      if (t.method == LocalMethod::shallow) {
+      if (strategy.method == LocalMethod::shallow) {
         const double deepest = std::max({deepest_overlap(patch, t.x, pairs), at_least, options.min_gap});
         if (iteration == 0) {
           at_least = deepest;
@@ -315,7 +285,8 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
         else
           add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), CurveForce::per_curve, force);
       } else {
-        const CurveForce kind = t.method == LocalMethod::shorten ? CurveForce::per_crossing : CurveForce::per_curve;
+        const CurveForce kind =
+            strategy.method == LocalMethod::shorten ? CurveForce::per_crossing : CurveForce::per_curve;
         add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), kind, force);
       }
       Eigen::MatrixX3d direction = metric.solve(force, n);
@@ -335,7 +306,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   };
 
   // patch.x stays what the metric was made of.
-  Try current{.x = start, .best = start, .method = strategy.method, .mark = {}};
+  Try current{.x = start, .best = start, .mark = {}};
   open_zero_length_edges(patch, edges.edges, options.opening, current.x);
   if (strategy.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.jitter, current.x);
   result.clean = go_on(current);

@@ -11,10 +11,9 @@ namespace unsnarl {
 
 /// How a local strategy finds its direction.
 enum class LocalMethod {
-  shallow,    ///< the Minkowski penalty (paper §3.2) and `contour` in turn, steps and margin as small as the overlaps
-  contour,    ///< one direction for each intersection curve, its two sheets pushed apart along it
-  shorten,    ///< one for each crossing, that shortens the curve: slow, but it gets through what hems the sheets in
-  smoothing,  ///< implicit smoothing until few crossings are left, then `contour`
+  shallow,  ///< the Minkowski penalty (paper §3.2) and `contour` in turn, steps and margin as small as the overlaps
+  contour,  ///< one direction for each intersection curve, its two sheets pushed apart along it
+  shorten,  ///< one for each crossing, that shortens the curve: slow, but it gets through what hems the sheets in
 };
 
 /// One way to untangle a small patch. Lengths in units of the patch's h.

@@ -9,16 +9,15 @@
 
 namespace unsnarl {
 
-/// The default: local strategies, placement of small components, coarse to fine for deep tangles, then repulsion in
-/// the region, smoothing around the conflict, repulsion of whole components (of large ones on a coarse mesh, then on
-/// themselves), smoothing of wide surroundings, recession.
+/// The default: what moves faces hardly more than they overlap, placement of small components, coarse to fine for deep
+/// tangles, layers crossing by crossing, coarse to fine for whole components.
 std::span<const Tier> default_tiers();
+
+/// The same for coarse meshes: each goes by one that is coarser still, not by all of these.
+std::span<const Tier> coarse_mesh_tiers();
 
 /// Those that move only what lies close to the conflict.
 std::span<const Tier> local_tiers();
-
-/// The default without coarse to fine itself, and without recession: before that, the fine mesh has other strategies.
-std::span<const Tier> coarse_mesh_tiers();
 
 /// The tiers without the strategies of these names.
 std::vector<Tier> without(std::span<const Tier> tiers, std::span<const std::string> names);

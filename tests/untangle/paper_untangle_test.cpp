@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "untangle/flow_shapes.h"
+#include "untangle/tangled_shapes.h"
 
 namespace unsnarl {
 namespace {

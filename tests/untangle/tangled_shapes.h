@@ -83,6 +83,41 @@ inline Shape limb_and_sheet() {
   return shape;
 }
 
+/// A hemisphere without a cap around its pole, opposite points of the equator identified: a Moebius band, one boundary,
+/// no orientation. `f` takes opposite points of the sphere to one.
+inline Shape punctured_projective_plane(Index rows, Index columns, double hole,
+                                        const std::function<Vec3(const Vec3&)>& f) {
+  const Vec3 pole = Vec3(0.5, 0.62, 0.6).normalized();
+  const Vec3 east = pole.cross(Vec3::UnitX()).normalized(), north = pole.cross(east);
+  Shape shape;
+  for (Index i = 0; i <= rows; ++i) {
+    const double polar = hole + (0.25 * tau - hole) * i / rows;
+    for (Index j = 0; j < (i < rows ? columns : columns / 2); ++j) {
+      const double angle = tau * j / columns;
+      shape.points.push_back(
+          f(std::cos(polar) * pole + std::sin(polar) * (std::cos(angle) * east + std::sin(angle) * north)));
+    }
+  }
+  const auto id = [&](Index i, Index j) { return i * columns + j % (i < rows ? columns : columns / 2); };
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < columns; ++j) {
+      shape.triangles.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
+      shape.triangles.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
+    }
+  }
+  return shape;
+}
+
+inline Shape punctured_cross_cap() {
+  return punctured_projective_plane(
+      14, 40, 0.4, [](const Vec3& p) { return Vec3(p[0] * p[2], p[1] * p[2], 0.5 * (p[2] * p[2] - p[0] * p[0])); });
+}
+
+inline Shape punctured_roman_surface() {
+  return punctured_projective_plane(14, 40, 0.4,
+                                    [](const Vec3& p) { return Vec3(p[1] * p[2], p[2] * p[0], p[0] * p[1]); });
+}
+
 /// Reorders vertices and triangles so that those for which `fixed` says so come last.
 inline Patch patch_with_fixed(const Shape& shape, const std::function<bool(const Vec3&)>& fixed) {
   Shape sorted;
