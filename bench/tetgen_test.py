@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""bench/tetgen with stand-ins for TetGen: what it says of results that are taken as they are, turned, or never."""
+"""bench/tetgen with stand-ins for TetGen: what it says of results that are taken as they are, turned, or never.
+And with TetGen itself, where it is installed."""
 
 import importlib.machinery
 import importlib.util
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -44,14 +46,17 @@ class TetgenTest(unittest.TestCase):
                         self.folder / "meshes" / "part.obj"], check=True, capture_output=True)
 
     def ask(self, code):
-        """Exit code and lines of bench/tetgen, and what the stand-in noted."""
+        """Exit code and lines of bench/tetgen with a stand-in that ends with this code, and what that noted."""
         stand_in, notes = self.folder / "tetgen", self.folder / "notes"
         stand_in.write_text(textwrap.dedent(TETGEN).format(python=sys.executable, notes=str(notes), code=code))
         stand_in.chmod(0o755)
-        run = subprocess.run([sys.executable, BENCH, "-o", self.folder / "out", "--program", PROGRAM, "--turns", "3",
-                              self.folder / "meshes"], capture_output=True, text=True,
-                             env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"})
+        run = self.run_bench(f"{self.folder}:{os.environ['PATH']}")
         return run.returncode, run.stdout.splitlines(), notes.read_text().splitlines()
+
+    def run_bench(self, path):
+        return subprocess.run([sys.executable, BENCH, "-o", self.folder / "out", "--program", PROGRAM, "--turns", "3",
+                               self.folder / "meshes"], capture_output=True, text=True,
+                              env={**os.environ, "PATH": path})
 
     def test_what_is_taken_as_it_is_is_asked_about_once(self):
         code, lines, notes = self.ask("0")
@@ -72,6 +77,17 @@ class TetgenTest(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("turned: taken 0 of 3 times", lines[-2])
         self.assertEqual(lines[-1], "of 1 closed results, tetgen -p takes 0 as they are, 0 more turned")
+
+    @unittest.skipUnless(shutil.which("tetgen"), "TetGen is not installed")
+    def test_tetgen_takes_the_result_and_not_the_input(self):
+        part = self.folder / "meshes" / "part.obj"
+        bench = load()
+        bench.write_off(self.folder / "part.off", *bench.read_obj(part))
+        before = subprocess.run(["tetgen", "-pNEFQ", self.folder / "part.off"], capture_output=True)
+        self.assertNotEqual(before.returncode, 0)
+        run = self.run_bench(os.environ["PATH"])
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("tetgen -p takes 1 as they are", run.stdout)
 
     def test_a_turn_keeps_lengths_and_handedness(self):
         bench = load()
