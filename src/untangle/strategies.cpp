@@ -22,13 +22,13 @@ constexpr int deep = 4;
 /// seventeen deep meshes end as close in a tenth more time.
 constexpr double rings_per_depth = 1.5;
 /// The coarse mesh of a deep tangle has edges longer by this factor for each edge of its depth. Without unit. On 58
-/// deep, warped and immersed surfaces 0.25, 0.35, 0.5, 1 end 7, 4, 4, 7 % farther, with up to a fifth more flipped
-/// faces, and as many times deep for all leaves two tangled.
+/// deep, warped and immersed surfaces 0.25, 0.35, 0.5, 1 end 2 to 9 % farther, with up to a quarter more flipped faces;
+/// 3 for all, however deep, leaves two tangled (docs/performance.md).
 constexpr double factor_per_depth = 0.7;
 constexpr double least_factor = 3;  ///< and by this at least
-/// The same for whole components, which get finer meshes, since these are solved on coarser ones again where need be.
+/// The same for whole components. With 3, two of these surfaces stay tangled, and the others end 4 % farther.
 constexpr double factor_of_whole = 1.6;
-/// Faces of the first coarse mesh of whole components, at most.
+/// Faces of the first coarse mesh of whole components, at most. Other numbers were not tried.
 constexpr double most_coarse_faces = 3000;
 
 Strategy local(std::string name, int rings, LocalSettings settings, std::size_t hubs = no_hubs) {
