@@ -438,12 +438,10 @@ double MinkowskiPenalty::value_and_gradient(const Positions& x, Positions& gradi
     oneapi::tbb::parallel_for(std::size_t{0}, chunks, evaluate_chunk);
   }
   double value = 0;
-  overlaps_ = 0;
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
     for (const Contact& contact : contacts_[chunk]) {
       const Penetration& penetration = contact.penetration;
       value += penetration.depth;
-      if (penetration.depth > options_.margin) ++overlaps_;
       const Vec3 force = weight * penetration.normal;
       for (int i = 0; i < 3; ++i) {
         gradient.col(triangles_[contact.a][i]) -= penetration.weight_a[i] * force;

@@ -80,8 +80,6 @@ class MinkowskiPenalty {
 
   /// Returns weight * E_M and adds weight * its gradient. Same bits at any thread count.
   double value_and_gradient(const Positions& x, Positions& gradient, double weight = 1);
-  /// Pairs that were deeper than the margin at the last evaluation: actual overlaps (of the trimmed faces).
-  std::size_t overlaps() const { return overlaps_; }
 
   /// The penalty of one pair; weights in the order of the triangles' corners.
   Penetration evaluate(const Positions& x, Index a, Index b, std::uint8_t* hint = nullptr) const;
@@ -93,7 +91,6 @@ class MinkowskiPenalty {
   };
   std::vector<std::uint8_t> hints_;
   std::vector<std::vector<Contact>> contacts_;
-  std::size_t overlaps_ = 0;
   std::span<const Triangle> triangles_;
   MinkowskiOptions options_;
 };

@@ -7,7 +7,7 @@ namespace unsnarl {
 
 LineSearchResult backtrack(const Objective& objective, const Eigen::VectorXd& direction,
                            const LineSearchOptions& options, Eigen::VectorXd& x, double& value,
-                           Eigen::VectorXd& gradient, const std::function<bool(const Eigen::VectorXd&)>& accept) {
+                           Eigen::VectorXd& gradient) {
   LineSearchResult result;
   const double slope = gradient.dot(direction);
   Eigen::VectorXd trial(x.size()), trial_gradient(x.size());
@@ -17,7 +17,7 @@ LineSearchResult backtrack(const Objective& objective, const Eigen::VectorXd& di
     const double trial_value = objective(trial, trial_gradient);
     ++result.evaluations;
     if (!std::isfinite(trial_value)) continue;
-    result.sufficient = trial_value <= value + options.sufficient_decrease * step * slope || (accept && accept(trial));
+    result.sufficient = trial_value <= value + options.sufficient_decrease * step * slope;
     if (result.sufficient || step * options.shrink < options.accept_step) {
       result.step = step;
       x.swap(trial);

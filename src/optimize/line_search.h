@@ -21,15 +21,14 @@ struct LineSearchOptions {
 
 struct LineSearchResult {
   double step = 0;          ///< alpha taken; 0: none, x is unchanged
-  bool sufficient = false;  ///< Armijo's condition holds (or `accept` said yes)
+  bool sufficient = false;  ///< Armijo's condition holds
   int evaluations = 0;
 };
 
 /// Backtracking from x along `direction`. On success x, value and gradient are those of the new point; else unchanged.
-/// `accept(x)`: optional; a trial point to which it says yes is taken at once, whatever the value.
 LineSearchResult backtrack(const Objective& objective, const Eigen::VectorXd& direction,
                            const LineSearchOptions& options, Eigen::VectorXd& x, double& value,
-                           Eigen::VectorXd& gradient, const std::function<bool(const Eigen::VectorXd&)>& accept = {});
+                           Eigen::VectorXd& gradient);
 
 /// The largest Euclidean norm among consecutive blocks of `block` entries: how far the fastest vertex moves.
 double largest_block_norm(const Eigen::VectorXd& v, int block);

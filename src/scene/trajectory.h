@@ -61,21 +61,4 @@ inline void record_energy(const Patch& patch, EnergyTerm term, double value) {
   if (patch.trajectory && !patch.trajectory->iterations.empty()) patch.trajectory->iterations.back()[term] = value;
 }
 
-/// A try that may be given up: unless kept, its iterations are forgotten when it goes out of scope.
-class RecordedTry {
- public:
-  explicit RecordedTry(const Patch& patch)
-      : trajectory_(patch.trajectory), begin_(trajectory_ ? trajectory_->mark() : Trajectory::Mark{}) {}
-  ~RecordedTry() {
-    if (trajectory_) trajectory_->rewind(std::move(begin_));
-  }
-  RecordedTry(const RecordedTry&) = delete;
-  RecordedTry& operator=(const RecordedTry&) = delete;
-  void keep() { trajectory_ = nullptr; }
-
- private:
-  Trajectory* trajectory_;
-  Trajectory::Mark begin_;
-};
-
 }  // namespace unsnarl

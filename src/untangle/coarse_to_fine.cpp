@@ -28,10 +28,10 @@ namespace {
 
 using Removal = ProgressiveMesh::Removal;
 
-/// h of the patch: positions of what comes back are rounded to about this.
+/// Length in h of the patch: positions of what comes back are rounded to about this. Other numbers were not tried.
 constexpr double grid_share = 0x1p-20;
-/// Starts of the coarsest mesh, besides where it is: a handful of faces, which take milliseconds. With 10, as many of
-/// twenty punctured surfaces are resolved.
+/// Number of starts of the coarsest mesh, besides where it is: a handful of faces, which take milliseconds. With 10, as
+/// many of twenty punctured surfaces are resolved.
 constexpr int most_starts = 30;
 
 bool is_at(const Triangle& t, const Positions& x, const Positions& other) {
@@ -255,13 +255,13 @@ class Insertion {
 
 class CoarseToFine {
  public:
-  /// Gives up on the way back where a mesh keeps more than `most_left` pairs.
-  CoarseToFine(const Patch& patch, std::span<const IntersectingPair> tolerated, double most_left,
+  /// Gives up on the way back where a mesh keeps more than `most_pairs`.
+  CoarseToFine(const Patch& patch, std::span<const IntersectingPair> tolerated, double most_pairs,
                const std::function<bool()>& stop)
       : patch_(patch),
         tolerated_(tolerated),
         stop_(stop),
-        most_left_(most_left),
+        most_pairs_(most_pairs),
         mesh_(patch.triangles, ranks_of(patch, tolerated)),
         x_(patch.x),
         grid_(std::exp2(std::floor(std::log2(patch.edge_length * grid_share)))) {}
@@ -319,7 +319,7 @@ class CoarseToFine {
     return true;
   }
 
-  /// Of the patch's vertices, as far as these are there now.
+  /// The positions of the patch's vertices; those of vertices that are removed now mean nothing.
   const Positions& positions() const { return x_; }
 
  private:
@@ -430,7 +430,7 @@ class CoarseToFine {
   }
 
   /// Resolves what the vertices that came back have brought, and recovers by a few steps, so that the next have room.
-  /// False: more pairs are left than the patch may keep.
+  /// False: more pairs are left than are worth going on with.
   bool make_room() {
     Level level = make_level();
     SceneIndex index(level.scene);
@@ -442,8 +442,8 @@ class CoarseToFine {
       if (is_unmoved(pair.a) && is_unmoved(pair.b)) tolerated.push_back(pair);
     tolerated = sorted(std::move(tolerated));
     if (pairs.size() > tolerated.size()) {
-      const std::size_t left = untangle(level, index, tolerated, local_tiers()).left.size();
-      if (static_cast<double>(left) > most_left_) return false;
+      const EscalationResult untangled = untangle(level, index, tolerated, local_tiers());
+      if (static_cast<double>(untangled.left.size()) > most_pairs_) return false;
     }
     RecoverOptions steps;
     steps.last_activation = 0;
@@ -505,7 +505,7 @@ class CoarseToFine {
   const Patch& patch_;
   std::span<const IntersectingPair> tolerated_;
   const std::function<bool()>& stop_;
-  double most_left_;
+  double most_pairs_;
   ProgressiveMesh mesh_;
   Positions x_;                     // of the patch's vertices; only those of the mesh as it is now mean anything
   std::vector<Removal> displaced_;  // since the last level: those that are not at their best places
@@ -530,7 +530,7 @@ CoarseResult solve_on_coarser_mesh(Patch& patch, double factor, std::span<const 
   auto faces = static_cast<std::size_t>(patch.active_count);
   for (double wanted = static_cast<double>(faces); !(stop && stop());) {
     wanted /= factor * factor;
-    CoarseToFine solver(patch, tolerated, most_left, stop);
+    CoarseToFine solver(patch, tolerated, few_enough_to_keep * static_cast<double>(before), stop);
     const std::size_t finer = std::exchange(faces, solver.coarsen(wanted));
     const bool is_coarsest = faces == finer;
     if (is_coarsest && (meshes == CoarseMeshes::one || faces == static_cast<std::size_t>(patch.active_count))) break;

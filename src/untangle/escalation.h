@@ -26,9 +26,8 @@ struct EscalationOptions {
   /// A candidate that leaves less than this share of a region's pairs is kept at once; the rest is segmented anew and
   /// starts with the first strategy.
   double gain_share = few_left;
-  /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share. With 1,
-  /// a soup of crossings takes a tier for every pair.
-  double worthwhile_share = 0.7;
+  /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share.
+  double worthwhile_share = few_enough_to_keep;
 
   std::function<bool()> stop;
   /// Told what is kept, and a few times a second, from any thread, how far the candidates are that are made now; none:

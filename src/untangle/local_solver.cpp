@@ -169,13 +169,8 @@ std::vector<std::uint8_t> in_conflict(const Patch& patch, std::span<const Inters
   return result;
 }
 
-}  // namespace
-
-double jitter_of(Index v, int k) {
-  return 2 * splitmix_number((static_cast<std::uint64_t>(v) * 3 + static_cast<std::uint64_t>(k) + 1) * splitmix_step) -
-         1;
-}
-
+/// Moves the free vertices of x at random by up to `share` of the shortest edge (at patch.x) at each, or of h if
+/// shorter.
 void add_jitter(const Patch& patch, std::span<const Edge> edges, double share, Positions& x) {
   std::vector<double> reach(patch.free_count, patch.edge_length);
   for (const auto& [u, v] : edges) {
@@ -186,6 +181,13 @@ void add_jitter(const Patch& patch, std::span<const Edge> edges, double share, P
   }
   for (Index v = 0; v < patch.free_count; ++v)
     for (int k = 0; k < 3; ++k) x(k, v) += share * reach[v] * jitter_of(v, k);
+}
+
+}  // namespace
+
+double jitter_of(Index v, int k) {
+  return 2 * splitmix_number((static_cast<std::uint64_t>(v) * 3 + static_cast<std::uint64_t>(k) + 1) * splitmix_step) -
+         1;
 }
 
 std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs,

@@ -68,15 +68,6 @@ TEST(LineSearch, TakesTheLastStepWhereToldTo) {
   EXPECT_EQ(s.x[0], 1.125);
 }
 
-TEST(LineSearch, TakesWhatTheCallerAccepts) {
-  State s(parabola, 1);
-  const auto accept = [](const Eigen::VectorXd& x) { return x[0] > 1.2 && x[0] < 1.6; };
-  const LineSearchResult result =
-      backtrack(parabola, Eigen::VectorXd::Constant(1, 1), {}, s.x, s.value, s.gradient, accept);
-  EXPECT_EQ(result.step, 0.5);
-  EXPECT_TRUE(result.sufficient);
-}
-
 TEST(LineSearch, BacksOutOfNonFiniteValues) {
   const auto log_like = [](const Eigen::VectorXd& x, Eigen::VectorXd& g) {
     g = Eigen::VectorXd::Constant(1, 1 - 1 / x[0]);

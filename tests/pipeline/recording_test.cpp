@@ -254,17 +254,12 @@ TEST(Trajectory, forgets_tries_that_were_given_up) {
   Trajectory trajectory(1000);
   patch.trajectory = &trajectory;
   record(patch, patch.x, {.pairs = 3});
-  {
-    const RecordedTry given_up(patch);
-    patch.x(0, 0) = 5;
-    record(patch, patch.x, {.pairs = 7});
-  }
-  {
-    RecordedTry kept(patch);
-    patch.x(0, 0) = 2;
-    record(patch, patch.x, {.pairs = 2});
-    kept.keep();
-  }
+  const Trajectory::Mark before = trajectory.mark();
+  patch.x(0, 0) = 5;
+  record(patch, patch.x, {.pairs = 7});
+  trajectory.rewind(before);
+  patch.x(0, 0) = 2;
+  record(patch, patch.x, {.pairs = 2});
   ASSERT_EQ(trajectory.iterations.size(), 2u);
   EXPECT_EQ(trajectory.states.size(), 2u);
   EXPECT_EQ(trajectory.iterations[1].pairs, 2u);
