@@ -191,6 +191,8 @@ class Escalation {
       ConflictRegion& region = attempt.region = regions[r];
       if (strategy.extent == Extent::whole_components && was_rejected(region)) continue;
       if (strategy.least_depth > 0) attempt.depth = depth_of(region, strategy.least_depth);
+      if (strategy.depth_factor > 1)
+        attempt.depth = strategy.depth_factor * std::max(attempt.depth, strategy.least_depth);
       if (attempt.depth < strategy.least_depth) continue;
       is_taken[r] = 1;
       for (bool has_grown = true; has_grown;) {

@@ -61,6 +61,17 @@ Strategy coarse_to_fine(CoarseMeshes meshes) {
           .solve = solve};
 }
 
+/// What nothing nearer has resolved, in wider surroundings and on a coarser mesh: the tangle is taken to be twice as
+/// deep. Straight to whole components, one of twenty punctured surfaces stays tangled and the others end 10 % farther,
+/// 42 samples 1 %, ten meshes that strategies leave 10 %. With four times as well, after that, they end no nearer.
+Strategy wide_coarse_to_fine() {
+  Strategy wide = coarse_to_fine(CoarseMeshes::one);
+  wide.name = "coarse_to_fine_wide";
+  wide.is_last_resort = true;
+  wide.depth_factor = 2;
+  return wide;
+}
+
 Strategy coarse_to_fine_of_whole_components(CoarseMeshes meshes) {
   const auto solve = [meshes](Patch& patch, const Task& task) {
     const double factor = std::max(factor_of_whole, std::sqrt(patch.active_count / most_coarse_faces));
@@ -96,11 +107,11 @@ Tier layers_tier() {
 }
 
 std::vector<Tier> all_tiers(CoarseMeshes meshes) {
-  return {shallow_tier(),
-          {placing()},
-          {coarse_to_fine(meshes)},
-          layers_tier(),
-          {coarse_to_fine_of_whole_components(meshes)}};
+  std::vector<Tier> tiers = {shallow_tier(), {placing()}, {coarse_to_fine(meshes)}, layers_tier()};
+  // On a coarse mesh, wider surroundings are soon the whole.
+  if (meshes == CoarseMeshes::until_solved) tiers.push_back({wide_coarse_to_fine()});
+  tiers.push_back({coarse_to_fine_of_whole_components(meshes)});
+  return tiers;
 }
 
 }  // namespace

@@ -299,6 +299,33 @@ TEST(Escalation, what_goes_far_is_judged_by_all_that_it_meets) {
   EXPECT_TRUE(scene.x == scene.rest);
 }
 
+/// What a strategy that leaves tangles of less than 4 edges to others, if it takes them as they are, is told.
+std::vector<int> depths_told(Scene scene, int depth_factor) {
+  std::vector<int> told;
+  const auto note = [&](Patch&, const Task& task) {
+    told.push_back(task.depth);
+    return 0;
+  };
+  const std::vector<Tier> tiers = {{{.name = "note",
+                                     .extent = Extent::depth,
+                                     .rings_per_depth = 1,
+                                     .least_depth = 4,
+                                     .depth_factor = depth_factor,
+                                     .solve = note}}};
+  untangle(scene, {}, options_with(tiers));
+  return told;
+}
+
+TEST(Escalation, a_strategy_may_take_a_tangle_for_deeper_than_it_is) {
+  const Scene shallow = two_sheets(0.5), deep = shapes::scene_of(shapes::crossing_wide_bumps(2, 2));
+  EXPECT_TRUE(depths_told(shallow, 1).empty());
+  EXPECT_EQ(depths_told(shallow, 2), std::vector<int>{8});
+  const std::vector<int> as_it_is = depths_told(deep, 1);
+  ASSERT_EQ(as_it_is.size(), 1u);
+  EXPECT_GE(as_it_is[0], 4);
+  EXPECT_EQ(depths_told(deep, 3), std::vector<int>{3 * as_it_is[0]});
+}
+
 TEST(Escalation, squeezed_faces_make_a_candidate_worthless) {
   Scene scene = two_sheets(0.5);
   const auto to_a_point = [](Patch& patch, const Task&) {
