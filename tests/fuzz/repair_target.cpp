@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "fuzz/lattice_mesh.h"
@@ -19,6 +21,15 @@ std::vector<IntersectingPair> by_oracle(const PreparedSurface& prepared, std::sp
   return pairs_of_faces(
       prepared.triangulation.polygon,
       oracle::intersections_by_cgal({x.data(), static_cast<std::size_t>(x.size())}, prepared.triangles()));
+}
+
+/// As the polygons of the input are cut, and as a program cuts them that reads these positions.
+std::vector<IntersectingPair> by_oracle_in_both_cuts(const Surface& surface, const FindOptions& options,
+                                                     std::span<const double> positions) {
+  const PreparedSurface prepared = prepare(surface, options);
+  std::vector<IntersectingPair> pairs = by_oracle(prepared, positions);
+  const std::optional<PreparedSurface> read = cut_anew(surface, prepared, options, positions);
+  return read ? unite_face_pairs(std::move(pairs), by_oracle(*read, positions)) : pairs;
 }
 
 bool is_named(const std::vector<Obstruction>& obstructions, const IntersectingPair& pair) {
@@ -52,8 +63,8 @@ void repair(Bytes bytes) {
   for (std::size_t i = 0; i < result.positions.size() && some_fixed; ++i)
     promise(!options.fixed[i / 3] || result.positions[i] == surface.positions[i], "fixed vertices are kept");
 
-  const PreparedSurface prepared = prepare(surface, options.find);
-  const auto before = by_oracle(prepared, surface.positions), after = by_oracle(prepared, result.positions);
+  const auto before = by_oracle_in_both_cuts(surface, options.find, surface.positions);
+  const auto after = by_oracle_in_both_cuts(surface, options.find, result.positions);
   const PairCounts count_before = count_by_class(before), count_after = count_by_class(after);
   promise(result.report.before.by_class == count_before.by_class, "the pairs before are those the oracle finds");
   promise(result.report.after.by_class == count_after.by_class, "the pairs after are those the oracle finds");
