@@ -6,6 +6,7 @@
 #include "mesh/components.h"
 #include "mesh/union_find.h"
 #include "pipeline/threads.h"
+#include "scene/diagnose.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "scene/topology.h"
@@ -52,9 +53,7 @@ std::vector<ConflictPlace> find_places(const SurfaceView& surface, const WeldMap
 
 void describe_components(const SurfaceView& surface, const WeldMap& weld_map, const Components& components,
                          CheckReport& found) {
-  const auto component_of = [&](Index f) {
-    return components.component_of_vertex[weld_map.vertex_of[surface.face(f)[0]]];
-  };
+  const auto component_of = [&](Index f) { return component_of_face(surface, weld_map, components, f); };
   found.components.resize(components.list.size());
   for (Index f = static_cast<Index>(surface.face_count()); f-- > 0;) {
     if (component_of(f) < 0) continue;

@@ -46,11 +46,12 @@ bool Acceptance::is_tolerated(const IntersectingPair& pair) const {
 
 std::optional<LeftReason> Acceptance::tolerance_by_other_cuts(const IntersectingPair& pair) const {
   const auto component_of = [&](Index f) {
-    return diagnosis_.components.component_of_vertex[prepared_.weld_map.vertex_of[surface_.face(f)[0]]];
+    return component_of_face(surface_, prepared_.weld_map, diagnosis_.components, f);
   };
   const Index component = component_of(pair.a);
   const bool is_of_one = component == component_of(pair.b);
-  if (is_of_one && diagnosis_.components.list[component].obstructed()) return LeftReason::closed_non_orientable;
+  if (is_of_one && component >= 0 && diagnosis_.components.list[component].obstructed())
+    return LeftReason::closed_non_orientable;
   if (pair.kind == PairClass::duplicate) return LeftReason::duplicate_faces;
   if (!is_of_one && options_.each_component) return LeftReason::between_components;
   if (options_.goal == Goal::disjoint && pair.kind != PairClass::disjoint) return LeftReason::goal;
