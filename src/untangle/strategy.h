@@ -43,8 +43,8 @@ struct Strategy {
   bool is_last_resort = false;  ///< it is tried only where nothing before it has resolved the region, however far away
   std::size_t hub_valence = no_hubs;
   int least_depth = 0;  ///< edges: tangles less deep are left to other strategies
-  /// Tangles are taken to be so many times as deep as they are. Where more than once, none is left to others: those less
-  /// deep than `least_depth` count as that deep.
+  /// Tangles are taken to be so many times as deep as they are. Where more than once, none is left to others: those
+  /// less deep than `least_depth` count as that deep.
   int depth_factor = 1;
   /// A candidate that squeezes a face to less than this share of its area before is worthless.
   double area_floor = squeezed_area;
