@@ -75,6 +75,12 @@ Components find_components(std::span<const Triangle> triangles, Index vertex_cou
   return result;
 }
 
+Index component_of_face(const SurfaceView& surface, const WeldMap& weld_map, const Components& components, Index face) {
+  for (const Index v : surface.face(static_cast<std::size_t>(face)))
+    if (const Index component = components.component_of_vertex[weld_map.vertex_of[v]]; component >= 0) return component;
+  return -1;
+}
+
 std::size_t count_non_manifold_vertices(std::span<const Triangle> triangles, Index vertex_count,
                                         const EdgeTable& edges) {
   // Fans are sets of corners, corner k of triangle i being 3 i + k.

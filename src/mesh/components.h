@@ -6,6 +6,8 @@
 
 #include "geometry/types.h"
 #include "mesh/adjacency.h"
+#include "mesh/weld_map.h"
+#include "unsnarl/surface.h"
 
 namespace unsnarl {
 
@@ -35,6 +37,10 @@ struct Components {
 
 /// Components of triangles over vertices 0 .. vertex_count - 1; `edges` is build_edges(triangles).
 Components find_components(std::span<const Triangle> triangles, Index vertex_count, const EdgeTable& edges);
+
+/// The component of a face of the surface: that of its first corner that is in a triangle, since some corners of a
+/// polygon that uses a vertex twice may be in none. -1 where no corner is.
+Index component_of_face(const SurfaceView& surface, const WeldMap& weld_map, const Components& components, Index face);
 
 /// Number of vertices at which the triangles around the vertex do not hang together through edges at it (bow ties).
 std::size_t count_non_manifold_vertices(std::span<const Triangle> triangles, Index vertex_count,

@@ -6,7 +6,6 @@
 #include "mesh/components.h"
 #include "mesh/union_find.h"
 #include "pipeline/threads.h"
-#include "scene/diagnose.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "scene/topology.h"

@@ -24,12 +24,6 @@ std::optional<Triangle> fixed_part(const Triangle& t, std::span<const std::uint8
 
 }  // namespace
 
-Index component_of_face(const SurfaceView& surface, const WeldMap& weld_map, const Components& components, Index face) {
-  for (const Index v : surface.face(static_cast<std::size_t>(face)))
-    if (const Index component = components.component_of_vertex[weld_map.vertex_of[v]]; component >= 0) return component;
-  return -1;
-}
-
 std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared, const Components& components,
                                                 std::span<const std::uint8_t> fixed, const IntersectingPair& pair) {
   if (!are_of_two_components(components, pair) &&

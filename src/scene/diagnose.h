@@ -22,10 +22,6 @@ struct Diagnosis {
   std::vector<std::uint8_t> fixed;           ///< one flag a welded vertex; empty: none
 };
 
-/// The component of a face, by its first corner that is in one: a polygon that uses a vertex twice may have corners
-/// that are in no triangle. -1: none is.
-Index component_of_face(const SurfaceView& surface, const WeldMap& weld_map, const Components& components, Index face);
-
 inline bool are_of_two_components(const Components& components, const IntersectingPair& pair) {
   return components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b];
 }

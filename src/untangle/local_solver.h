@@ -33,8 +33,8 @@ enum class KeepSides {
 
 struct LocalOptions {
   double margin = 0.03;  ///< h: the penalty acts until faces are this far apart. 28 iterations against 61 without
-  /// Of h or the shortest edge at a vertex: shifts vertices at the start, to break the symmetry of coincident sheets
-  /// and exact folds. Other values were not measured.
+  /// Share of h, or of the shortest edge at a vertex, by which vertices are shifted at the start. It breaks the
+  /// symmetry of coincident sheets and exact folds. Other values were not measured.
   double jitter = 1e-3;
   /// Edges of length zero are first opened to this share of the way to the neighbours (open_zero_length_edges).
   /// Without, rings of 64 vertices in one point take minutes; what is too much comes back in recovery.

@@ -10,10 +10,11 @@
 namespace unsnarl {
 
 /// The default: what moves faces hardly more than they overlap, placement of small components, coarse to fine for deep
-/// tangles, layers crossing by crossing, coarse to fine for whole components.
+/// tangles, layers crossing by crossing, coarse to fine in wider surroundings, then for whole components.
 std::span<const Tier> default_tiers();
 
-/// The same for coarse meshes: each goes by one that is coarser still, not by all of these.
+/// The same for coarse meshes, but for the wider surroundings: each goes by one mesh that is coarser still, not by all
+/// of these.
 std::span<const Tier> coarse_mesh_tiers();
 
 /// Those that move only what lies close to the conflict.

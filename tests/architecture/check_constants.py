@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Counts the tuning constants of src/untangle and src/recover: numbers that name a default of an option or a constexpr.
-There may be no more than MOST, which rises only for what a measurement defends, and each has words beside it that say what it is. usage: check_constants.py PROJECT_DIR
+There may be no more than MOST, which rises only for what a measurement defends, and each has words beside it that say
+what it is. usage: check_constants.py PROJECT_DIR
 
 A field `double step = 0.1;` is one; `bool` flags, the numbers 0 and 1 without meaning of their own (counters, sums),
 infinities and values that only say "none" (-1) are not. A table of numbers (a list in braces) counts each number.

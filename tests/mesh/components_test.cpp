@@ -81,5 +81,17 @@ TEST(Components, DuplicatesAreFoundInAnyOrderOfCorners) {
   EXPECT_EQ(duplicate_triangles(triangles), (std::vector<std::vector<Index>>{{0, 2, 4}, {1, 3}}));
 }
 
+TEST(Components, a_face_is_of_the_component_of_its_first_corner_in_a_triangle) {
+  const std::vector<double> positions(9, 0.0);
+  const std::vector<std::int32_t> corners = {0, 1, 2};
+  const SurfaceView surface{positions, corners};
+  const WeldMap as_it_is{.vertex_of = {0, 1, 2}, .first = {0, 1, 2}, .count = 3};
+  Components components;
+  components.component_of_vertex = {-1, 4, 4};
+  EXPECT_EQ(component_of_face(surface, as_it_is, components, 0), 4);
+  components.component_of_vertex = {-1, -1, -1};
+  EXPECT_EQ(component_of_face(surface, as_it_is, components, 0), -1);
+}
+
 }  // namespace
 }  // namespace unsnarl

@@ -140,18 +140,6 @@ TEST(Diagnose, shared_fixed_vertices_are_no_obstruction) {
   EXPECT_EQ(diagnosis_of(fold.surface(), {1, 1, 1, 1}).obstructions.size(), 1u);
 }
 
-TEST(Diagnose, a_face_is_of_the_component_of_its_first_corner_in_a_triangle) {
-  const std::vector<double> positions(9, 0.0);
-  const std::vector<std::int32_t> corners = {0, 1, 2};
-  const SurfaceView surface{positions, corners};
-  const WeldMap as_it_is{.vertex_of = {0, 1, 2}, .first = {0, 1, 2}, .count = 3};
-  Components components;
-  components.component_of_vertex = {-1, 4, 4};
-  EXPECT_EQ(component_of_face(surface, as_it_is, components, 0), 4);
-  components.component_of_vertex = {-1, -1, -1};
-  EXPECT_EQ(component_of_face(surface, as_it_is, components, 0), -1);
-}
-
 TEST(Diagnose, counts_what_is_odd_about_a_mesh) {
   const Topology book = diagnosis_of(make_sample("book", 24)).topology;
   EXPECT_GT(book.non_manifold_edges, 0u);

@@ -299,7 +299,7 @@ TEST(Escalation, what_goes_far_is_judged_by_all_that_it_meets) {
   EXPECT_TRUE(scene.x == scene.rest);
 }
 
-/// What a strategy that leaves tangles of less than 4 edges to others, if it takes them as they are, is told.
+/// Runs a strategy that takes tangles of 4 edges and more, and returns the depths that it is told.
 std::vector<int> depths_told(Scene scene, int depth_factor) {
   std::vector<int> told;
   const auto note = [&](Patch&, const Task& task) {
