@@ -65,8 +65,8 @@ int unsnarl_result_array(const unsnarl_result* result, const char* name, unsnarl
     }
     const auto& [values, columns] = found->second;
     std::visit(
-        [&](const auto& vector) {
-          *array = {vector.data(), vector.size() / columns, columns, static_cast<unsnarl_type>(values.index())};
+        [&, columns = columns, type = values.index()](const auto& vector) {
+          *array = {vector.data(), vector.size() / columns, columns, static_cast<unsnarl_type>(type)};
         },
         values);
   });
