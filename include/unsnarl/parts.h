@@ -32,7 +32,7 @@ class UnknownPart : public std::invalid_argument {
 };
 
 /// Component of each face (faces joined by a shared vertex, after welding), numbered from 0 in the order of
-/// their first faces, as `unsnarl check` lists them; -1 for a face without any triangle. Throws as
+/// their first faces, as `unsnarl check` lists them; -1 for a face without corners. Throws as
 /// find_intersections does.
 std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const FindOptions& options = {});
 

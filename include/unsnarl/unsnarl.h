@@ -256,7 +256,7 @@ UNSNARL_EXPORT int unsnarl_repair_sequence(const unsnarl_surface* surface, size_
                                            unsnarl_result** result);
 
 /* Array "components" (m, 1) int32: the component of each face (faces joined by a vertex that they share, welded),
- * counted from 0 in the order of their first faces; -1 for a face without any triangle. */
+ * counted from 0 in the order of their first faces; -1 for a face without corners. */
 UNSNARL_EXPORT int unsnarl_component_of_faces(const unsnarl_surface* surface, const unsnarl_options* options,
                                               unsnarl_result** result);
 /* Array "vertices" (n, 1) uint8, flags: on an edge of one face only, after welding. */

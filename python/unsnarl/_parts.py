@@ -19,8 +19,8 @@ def component_of_faces(
 ) -> NDArray[np.int32]:
     """Component of each face, (m,): faces joined by a vertex that they share, seams closed.
 
-    Components are counted from 0 in the order of their first faces, as ``unsnarl check`` lists them; a face without any
-    triangle has -1. V, F, weld, weld_tolerance and errors: as for find_intersections.
+    Components are counted from 0 in the order of their first faces, as ``unsnarl check`` lists them; a face without
+    corners has -1. V, F, weld, weld_tolerance and errors: as for find_intersections.
     """
     V, F, _ = opened(V, F)
     options = options_of(weld=weld, weld_tolerance=weld_tolerance)

@@ -1,6 +1,7 @@
 #include "mesh/components.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "geometry/predicates.h"
 #include "mesh/union_find.h"
@@ -43,26 +44,35 @@ void find_orientability(std::span<const Triangle> triangles, const EdgeTable& ed
   }
 }
 
-}  // namespace
-
-Components find_components(std::span<const Triangle> triangles, Index vertex_count, const EdgeTable& edges) {
-  UnionFind sets = vertices_joined_by(triangles, vertex_count);
+/// Components of vertices 0 .. vertex_count - 1 joined by faces; visit_faces(visit) calls visit(vertices) with each face.
+Components join_vertices(Index vertex_count, const auto& visit_faces) {
+  UnionFind sets(static_cast<std::size_t>(vertex_count));
+  visit_faces([&](const auto& face) {
+    for (const Index v : face) sets.unite(face[0], v);
+  });
   Components result;
-  result.component_of_triangle.resize(triangles.size());
   result.component_of_vertex.assign(static_cast<std::size_t>(vertex_count), -1);
-  std::vector<Index> component_of_root(static_cast<std::size_t>(vertex_count), -1);
+  visit_faces([&](const auto& face) {
+    for (const Index v : face) {
+      Index& of_set = result.component_of_vertex[sets.find(v)];
+      if (of_set < 0) {
+        of_set = result.count();
+        result.list.emplace_back();
+      }
+      result.component_of_vertex[v] = of_set;
+    }
+  });
+  return result;
+}
+
+void describe_triangles(std::span<const Triangle> triangles, const EdgeTable& edges, Components& result) {
+  std::vector<std::uint8_t> is_counted(result.component_of_vertex.size(), 0);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    Index& component = component_of_root[sets.find(triangles[i][0])];
-    if (component < 0) {
-      component = result.count();
-      result.list.emplace_back().first_triangle = static_cast<Index>(i);
-    }
-    result.component_of_triangle[i] = component;
-    ++result.list[component].triangles;
-    for (Index v : triangles[i]) {
-      if (result.component_of_vertex[v] < 0) ++result.list[component].vertices;
-      result.component_of_vertex[v] = component;
-    }
+    const Index number = result.component_of_vertex[triangles[i][0]];
+    Component& component = result.list[number];
+    if (component.triangles++ == 0) component.first_triangle = static_cast<Index>(i);
+    result.component_of_triangle.push_back(number);
+    for (const Index v : triangles[i]) component.vertices += std::exchange(is_counted[v], 1) == 0;
   }
   for (std::size_t e = 0; e < edges.edges.size(); ++e) {
     Component& component = result.list[result.component_of_vertex[edges.edges[e][0]]];
@@ -72,13 +82,35 @@ Components find_components(std::span<const Triangle> triangles, Index vertex_cou
     component.non_manifold_edges += uses > 2;
   }
   find_orientability(triangles, edges, result);
+}
+
+}  // namespace
+
+Components find_components(std::span<const Triangle> triangles, Index vertex_count, const EdgeTable& edges) {
+  Components result = join_vertices(vertex_count, [&](const auto& visit) {
+    for (const Triangle& t : triangles) visit(t);
+  });
+  describe_triangles(triangles, edges, result);
+  return result;
+}
+
+Components find_components(const SurfaceView& surface, const WeldMap& weld_map, std::span<const Triangle> triangles,
+                           const EdgeTable& edges) {
+  std::vector<Index> corners;
+  Components result = join_vertices(weld_map.count, [&](const auto& visit) {
+    for (std::size_t f = 0; f < surface.face_count(); ++f) {
+      corners.clear();
+      for (const Index v : surface.face(f)) corners.push_back(weld_map.vertex_of[v]);
+      visit(corners);
+    }
+  });
+  describe_triangles(triangles, edges, result);
   return result;
 }
 
 Index component_of_face(const SurfaceView& surface, const WeldMap& weld_map, const Components& components, Index face) {
-  for (const Index v : surface.face(static_cast<std::size_t>(face)))
-    if (const Index component = components.component_of_vertex[weld_map.vertex_of[v]]; component >= 0) return component;
-  return -1;
+  const auto corners = surface.face(static_cast<std::size_t>(face));
+  return corners.empty() ? -1 : components.component_of_vertex[weld_map.vertex_of[corners[0]]];
 }
 
 std::size_t count_non_manifold_vertices(std::span<const Triangle> triangles, Index vertex_count,

@@ -11,11 +11,11 @@
 
 namespace unsnarl {
 
-/// A set of triangles connected through shared vertices.
+/// A set of faces connected through shared vertices.
 struct Component {
-  Index first_triangle = 0;
+  Index first_triangle = -1;  ///< -1: all its faces are without triangles
   Index triangles = 0;
-  Index vertices = 0;
+  Index vertices = 0;  ///< of these triangles
   Index edges = 0;
   Index boundary_edges = 0;      ///< edges of one triangle
   Index non_manifold_edges = 0;  ///< edges of three or more
@@ -23,13 +23,13 @@ struct Component {
 
   Index euler_characteristic() const { return vertices - edges + triangles; }
   /// Every edge has exactly two triangles.
-  bool closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
+  bool closed() const { return edges > 0 && boundary_edges == 0 && non_manifold_edges == 0; }
   /// Such a surface has no embedding in space: no motion of its vertices can resolve it.
   bool obstructed() const { return closed() && !orientable; }
 };
 
 struct Components {
-  std::vector<Component> list;  ///< in the order of their first triangles
+  std::vector<Component> list;  ///< in the order of their first faces
   std::vector<Index> component_of_triangle;
   std::vector<Index> component_of_vertex;  ///< -1: unused vertex
   Index count() const { return static_cast<Index>(list.size()); }
@@ -38,8 +38,12 @@ struct Components {
 /// Components of triangles over vertices 0 .. vertex_count - 1; `edges` is build_edges(triangles).
 Components find_components(std::span<const Triangle> triangles, Index vertex_count, const EdgeTable& edges);
 
-/// The component of a face of the surface: that of its first corner that is in a triangle, since some corners of a
-/// polygon that uses a vertex twice may be in none. -1 where no corner is.
+/// Components of the surface that these triangles are cut from. Every corner of a face has one, though it may be in no
+/// triangle, where a polygon uses a vertex twice: cut otherwise, it may be in some.
+Components find_components(const SurfaceView& surface, const WeldMap& weld_map, std::span<const Triangle> triangles,
+                           const EdgeTable& edges);
+
+/// The component of a face of the surface; -1 for one without corners.
 Index component_of_face(const SurfaceView& surface, const WeldMap& weld_map, const Components& components, Index face);
 
 /// Number of vertices at which the triangles around the vertex do not hang together through edges at it (bow ties).

@@ -84,7 +84,7 @@ CheckReport check(const SurfaceView& surface, const FindOptions& options) {
   found.faces = intersecting_faces(found.pairs);
   found.triangulation = prepared.triangulation.statistics.describe();
   const EdgeTable edges = build_edges(prepared.triangles());
-  const Components components = find_components(prepared.triangles(), prepared.weld_map.count, edges);
+  const Components components = find_components(surface, prepared.weld_map, prepared.triangles(), edges);
   found.topology = describe_topology(surface, prepared.weld_map, prepared.triangulation, edges, components);
   describe_components(surface, prepared.weld_map, components, found);
   found.places = find_places(surface, prepared.weld_map, found.pairs, found.faces);

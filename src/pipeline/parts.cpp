@@ -62,10 +62,10 @@ void flag_named(std::span<const FaceLabels> labels, const std::vector<std::strin
 std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const FindOptions& options) {
   const PreparedSurface prepared = prepare(surface, options);
   const std::span<const Triangle> triangles = prepared.triangles();
-  const Components components = find_components(triangles, prepared.weld_map.count, build_edges(triangles));
-  std::vector<std::int32_t> component_of(surface.face_count(), -1);
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    component_of[prepared.triangulation.polygon[t]] = components.component_of_triangle[t];
+  const Components components = find_components(surface, prepared.weld_map, triangles, build_edges(triangles));
+  std::vector<std::int32_t> component_of(surface.face_count());
+  for (std::size_t f = 0; f < component_of.size(); ++f)
+    component_of[f] = component_of_face(surface, prepared.weld_map, components, static_cast<Index>(f));
   return component_of;
 }
 

@@ -41,7 +41,7 @@ Diagnosis diagnose_topology(const SurfaceView& surface, const PreparedSurface& p
   Diagnosis result;
   const std::span<const Triangle> triangles = prepared.triangles();
   EdgeTable edges = build_edges(triangles);
-  result.components = find_components(triangles, prepared.weld_map.count, edges);
+  result.components = find_components(surface, prepared.weld_map, triangles, edges);
   result.topology = describe_topology(surface, prepared.weld_map, prepared.triangulation, edges, result.components);
   result.edges = std::move(edges.edges);
   return result;

@@ -81,16 +81,24 @@ TEST(Components, DuplicatesAreFoundInAnyOrderOfCorners) {
   EXPECT_EQ(duplicate_triangles(triangles), (std::vector<std::vector<Index>>{{0, 2, 4}, {1, 3}}));
 }
 
-TEST(Components, a_face_is_of_the_component_of_its_first_corner_in_a_triangle) {
-  const std::vector<double> positions(9, 0.0);
-  const std::vector<std::int32_t> corners = {0, 1, 2};
-  const SurfaceView surface{positions, corners};
-  const WeldMap as_it_is{.vertex_of = {0, 1, 2}, .first = {0, 1, 2}, .count = 3};
-  Components components;
-  components.component_of_vertex = {-1, 4, 4};
-  EXPECT_EQ(component_of_face(surface, as_it_is, components, 0), 4);
-  components.component_of_vertex = {-1, -1, -1};
-  EXPECT_EQ(component_of_face(surface, as_it_is, components, 0), -1);
+TEST(Components, every_corner_of_a_face_has_one) {
+  const std::vector<double> positions(27, 0.0);
+  // A polygon of which one corner is in no triangle, one without corners, and one without triangles.
+  const std::vector<std::int32_t> corners = {3, 0, 1, 2, 6, 7}, offsets = {0, 4, 4, 6};
+  const SurfaceView surface{positions, corners, offsets};
+  const WeldMap as_it_is{.vertex_of = {0, 1, 2, 3, 4, 5, 6, 7, 8}, .first = {0, 1, 2, 3, 4, 5, 6, 7, 8}, .count = 9};
+  const std::vector<Triangle> triangles = {{0, 1, 2}};
+  const Components found = find_components(surface, as_it_is, triangles, build_edges(triangles));
+  EXPECT_EQ(found.component_of_vertex, (std::vector<Index>{0, 0, 0, 0, -1, -1, 1, 1, -1}));
+  EXPECT_EQ(found.component_of_triangle, (std::vector<Index>{0}));
+  ASSERT_EQ(found.count(), 2);
+  EXPECT_EQ(found.list[0].vertices, 3);
+  EXPECT_EQ(found.list[0].euler_characteristic(), 1);
+  EXPECT_EQ(found.list[1].first_triangle, -1);
+  EXPECT_FALSE(found.list[1].closed());
+  EXPECT_EQ(component_of_face(surface, as_it_is, found, 0), 0);
+  EXPECT_EQ(component_of_face(surface, as_it_is, found, 1), -1);
+  EXPECT_EQ(component_of_face(surface, as_it_is, found, 2), 1);
 }
 
 }  // namespace
