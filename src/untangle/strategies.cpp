@@ -48,10 +48,12 @@ Strategy local(std::string name, int rings, LocalSettings settings, std::size_t 
   return {.name = std::move(name), .rings = rings, .hub_valence = hubs, .solve = solve};
 }
 
-Strategy coarse_to_fine(CoarseMeshes meshes) {
-  const auto solve = [meshes](Patch& patch, const Task& task) {
+/// On one coarse mesh: what is not resolved there hangs together beyond its surroundings, as a tube does that is inside
+/// out between two curves, and coarser meshes of these take long and hardly resolve it (layered cloth: 3 minutes).
+Strategy coarse_to_fine() {
+  const auto solve = [](Patch& patch, const Task& task) {
     const double factor = std::max(least_factor, factor_per_depth * task.depth);
-    return solve_on_coarser_mesh(patch, factor, task.tolerated, task.stop, meshes).iterations;
+    return solve_on_coarser_mesh(patch, factor, task.tolerated, task.stop, CoarseMeshes::one).iterations;
   };
   return {.name = "coarse_to_fine",
           .extent = Extent::depth,
@@ -66,7 +68,7 @@ Strategy coarse_to_fine(CoarseMeshes meshes) {
 /// coarser mesh. Without it one of twenty punctured surfaces stays tangled, and the others end 10 % farther, 42 samples
 /// 1 %, the ten warped and real meshes that get here 10 %. A second one, for four times as deep, brings nothing.
 Strategy wide_coarse_to_fine() {
-  Strategy wide = coarse_to_fine(CoarseMeshes::one);
+  Strategy wide = coarse_to_fine();
   wide.name = "coarse_to_fine_wide";
   wide.is_last_resort = true;
   wide.depth_factor = 2;
@@ -108,7 +110,7 @@ Tier layers_tier() {
 }
 
 std::vector<Tier> all_tiers(CoarseMeshes meshes) {
-  std::vector<Tier> tiers = {shallow_tier(), {placing()}, {coarse_to_fine(meshes)}, layers_tier()};
+  std::vector<Tier> tiers = {shallow_tier(), {placing()}, {coarse_to_fine()}, layers_tier()};
   // On a coarse mesh, wider surroundings are soon the whole.
   if (meshes == CoarseMeshes::until_solved) tiers.push_back({wide_coarse_to_fine()});
   tiers.push_back({coarse_to_fine_of_whole_components(meshes)});
