@@ -44,24 +44,23 @@ void find_orientability(std::span<const Triangle> triangles, const EdgeTable& ed
   }
 }
 
-/// Components of vertices 0 .. vertex_count - 1 joined by faces; visit_faces(visit) calls visit(vertices) with each face.
-Components join_vertices(Index vertex_count, const auto& visit_faces) {
-  UnionFind sets(static_cast<std::size_t>(vertex_count));
-  visit_faces([&](const auto& face) {
-    for (const Index v : face) sets.unite(face[0], v);
-  });
+/// Numbers the sets of vertices that faces join, in the order of the first faces.
+Components join_corners(const SurfaceView& surface, const WeldMap& weld_map) {
+  UnionFind sets(static_cast<std::size_t>(weld_map.count));
+  for (std::size_t f = 0; f < surface.face_count(); ++f)
+    for (const Index corner : surface.face(f))
+      sets.unite(weld_map.vertex_of[surface.face(f)[0]], weld_map.vertex_of[corner]);
   Components result;
-  result.component_of_vertex.assign(static_cast<std::size_t>(vertex_count), -1);
-  visit_faces([&](const auto& face) {
-    for (const Index v : face) {
-      Index& of_set = result.component_of_vertex[sets.find(v)];
-      if (of_set < 0) {
-        of_set = result.count();
-        result.list.emplace_back();
-      }
-      result.component_of_vertex[v] = of_set;
+  result.component_of_vertex.assign(sets.size(), -1);
+  for (const Index corner : surface.corners) {
+    const Index v = weld_map.vertex_of[corner];
+    Index& of_set = result.component_of_vertex[sets.find(v)];
+    if (of_set < 0) {
+      of_set = result.count();
+      result.list.emplace_back();
     }
-  });
+    result.component_of_vertex[v] = of_set;
+  }
   return result;
 }
 
@@ -86,24 +85,9 @@ void describe_triangles(std::span<const Triangle> triangles, const EdgeTable& ed
 
 }  // namespace
 
-Components find_components(std::span<const Triangle> triangles, Index vertex_count, const EdgeTable& edges) {
-  Components result = join_vertices(vertex_count, [&](const auto& visit) {
-    for (const Triangle& t : triangles) visit(t);
-  });
-  describe_triangles(triangles, edges, result);
-  return result;
-}
-
 Components find_components(const SurfaceView& surface, const WeldMap& weld_map, std::span<const Triangle> triangles,
                            const EdgeTable& edges) {
-  std::vector<Index> corners;
-  Components result = join_vertices(weld_map.count, [&](const auto& visit) {
-    for (std::size_t f = 0; f < surface.face_count(); ++f) {
-      corners.clear();
-      for (const Index v : surface.face(f)) corners.push_back(weld_map.vertex_of[v]);
-      visit(corners);
-    }
-  });
+  Components result = join_corners(surface, weld_map);
   describe_triangles(triangles, edges, result);
   return result;
 }

@@ -35,10 +35,7 @@ struct Components {
   Index count() const { return static_cast<Index>(list.size()); }
 };
 
-/// Components of triangles over vertices 0 .. vertex_count - 1; `edges` is build_edges(triangles).
-Components find_components(std::span<const Triangle> triangles, Index vertex_count, const EdgeTable& edges);
-
-/// Components of the surface that these triangles are cut from. Every corner of a face has one, though it may be in no
+/// Components of the surface that these triangles are cut from; `edges` is build_edges(triangles). Every corner of a face has one, though it may be in no
 /// triangle, where a polygon uses a vertex twice: cut otherwise, it may be in some.
 Components find_components(const SurfaceView& surface, const WeldMap& weld_map, std::span<const Triangle> triangles,
                            const EdgeTable& edges);

@@ -41,7 +41,7 @@ Clearance measure_clearance(const SurfaceView& input, std::span<const double> po
     result.dihedral_deg = angle.radians * 180 / std::numbers::pi;
     result.dihedral_faces = {polygon[hinges[angle.hinge].first], polygon[hinges[angle.hinge].second]};
   }
-  const Components components = find_components(triangles, static_cast<Index>(x.cols()), build_edges(triangles));
+  const Components components = find_components(input, prepared.weld_map, triangles, build_edges(triangles));
   std::vector<IntersectingPair> pairs;
   if (!is_embedded) pairs = IntersectionFinder(triangles).find(x);
   for (const IntersectingPair& pair : pairs) {

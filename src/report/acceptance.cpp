@@ -50,8 +50,7 @@ std::optional<LeftReason> Acceptance::tolerance_by_other_cuts(const Intersecting
   };
   const Index component = component_of(pair.a);
   const bool is_of_one = component == component_of(pair.b);
-  if (is_of_one && diagnosis_.components.list[component].obstructed())
-    return LeftReason::closed_non_orientable;
+  if (is_of_one && diagnosis_.components.list[component].obstructed()) return LeftReason::closed_non_orientable;
   if (pair.kind == PairClass::duplicate) return LeftReason::duplicate_faces;
   if (!is_of_one && options_.each_component) return LeftReason::between_components;
   if (options_.goal == Goal::disjoint && pair.kind != PairClass::disjoint) return LeftReason::goal;

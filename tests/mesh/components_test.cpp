@@ -17,8 +17,16 @@ Index vertex_count(const std::vector<Triangle>& triangles) {
   return n;
 }
 
+/// Of a surface of nothing but these triangles.
+Components components_of(const std::vector<Triangle>& triangles) {
+  Surface surface;
+  surface.positions.assign(3 * static_cast<std::size_t>(vertex_count(triangles)), 0);
+  for (const Triangle& t : triangles) surface.corners.insert(surface.corners.end(), t.begin(), t.end());
+  return find_components(surface, weld(surface, Weld::none), triangles, build_edges(triangles));
+}
+
 Component only_component(const std::vector<Triangle>& triangles) {
-  const Components found = find_components(triangles, vertex_count(triangles), build_edges(triangles));
+  const Components found = components_of(triangles);
   EXPECT_EQ(found.count(), 1);
   return found.list.at(0);
 }
@@ -55,12 +63,12 @@ TEST(Components, MoebiusStripHasABoundaryAndMayBeEmbedded) {
   EXPECT_EQ(strip.euler_characteristic(), 0);
 }
 
-TEST(Components, AreNumberedByTheirFirstTriangles) {
+TEST(Components, AreNumberedByTheirFirstFaces) {
   std::vector<Triangle> triangles = {{7, 8, 9}, {0, 1, 2}, {8, 9, 10}, {2, 3, 4}};
-  const Components found = find_components(triangles, 12, build_edges(triangles));
+  const Components found = components_of(triangles);
   ASSERT_EQ(found.count(), 2);
   EXPECT_EQ(found.component_of_triangle, (std::vector<Index>{0, 1, 0, 1}));
-  EXPECT_EQ(found.component_of_vertex[11], -1);
+  EXPECT_EQ(found.component_of_vertex[5], -1);
   EXPECT_EQ(found.component_of_vertex[10], 0);
   EXPECT_EQ(found.list[1].first_triangle, 1);
   EXPECT_EQ(found.list[1].vertices, 5);

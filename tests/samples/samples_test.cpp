@@ -59,7 +59,7 @@ std::size_t count_loops(const EdgeTable& table) {
 Shape shape_of(const Surface& surface) {
   const auto triangles = triangulate(surface).triangles;
   const EdgeTable edges = build_edges(triangles);
-  const Components components = find_components(triangles, static_cast<Index>(surface.view().vertex_count()), edges);
+  const Components components = find_components(surface, weld(surface, Weld::none), triangles, edges);
   Shape shape;
   shape.components = components.list.size();
   shape.boundary_loops = count_loops(edges);
@@ -246,10 +246,9 @@ TEST_P(EverySample, TakesItsParametersToTheirBounds) {
 TEST_P(EverySample, SaysTruthfullyWhetherItCanBeEmbedded) {
   const auto sample =
       std::find_if(all_samples().begin(), all_samples().end(), [](const Sample& s) { return s.name == GetParam(); });
-  const auto triangles = triangulate(make_sample(GetParam())).triangles;
-  Index vertices = 0;
-  for (const Triangle& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
-  const Components components = find_components(triangles, vertices, build_edges(triangles));
+  const Surface surface = make_sample(GetParam());
+  const auto triangles = triangulate(surface).triangles;
+  const Components components = find_components(surface, weld(surface, Weld::none), triangles, build_edges(triangles));
   const bool obstructed =
       std::any_of(components.list.begin(), components.list.end(), [](const Component& c) { return c.obstructed(); });
   EXPECT_EQ(sample->embeddable, !obstructed);

@@ -18,7 +18,7 @@ TEST(Topology, OfASoupWithDefects) {
   const WeldMap id = weld(s);
   const Triangulation cut = triangulate(s, id.vertex_of);
   const EdgeTable edges = build_edges(cut.triangles);
-  const Topology topology = describe_topology(s, id, cut, edges, find_components(cut.triangles, id.count, edges));
+  const Topology topology = describe_topology(s, id, cut, edges, find_components(s, id, cut.triangles, edges));
   EXPECT_EQ(topology.vertices, 12u);
   EXPECT_EQ(topology.faces, 8u);
   EXPECT_EQ(topology.triangles, 14u);
