@@ -35,8 +35,8 @@ struct Components {
   Index count() const { return static_cast<Index>(list.size()); }
 };
 
-/// Components of the surface that these triangles are cut from; `edges` is build_edges(triangles). Every corner of a face has one, though it may be in no
-/// triangle, where a polygon uses a vertex twice: cut otherwise, it may be in some.
+/// Finds the components of the surface that these triangles are cut from; `edges` is build_edges(triangles). Every
+/// corner of a face has one, also a corner that is in no triangle, as a polygon's may be that uses a vertex twice.
 Components find_components(const SurfaceView& surface, const WeldMap& weld_map, std::span<const Triangle> triangles,
                            const EdgeTable& edges);
 

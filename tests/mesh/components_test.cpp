@@ -17,7 +17,7 @@ Index vertex_count(const std::vector<Triangle>& triangles) {
   return n;
 }
 
-/// Of a surface of nothing but these triangles.
+/// Finds the components of a surface whose faces are these triangles.
 Components components_of(const std::vector<Triangle>& triangles) {
   Surface surface;
   surface.positions.assign(3 * static_cast<std::size_t>(vertex_count(triangles)), 0);
