@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-MOST = 78
+MOST = 80
 NUMBER = re.compile(r"(?<![\w.])-?(?:\d+\.\d*(?:[eE][-+]?\d+)?|\d+(?:[eE][-+]?\d+)?)(?![\w.])")
 FIELD = re.compile(r"^\s*(?:static\s+|inline\s+)*(?:constexpr\s+)?(?:double|int|Index|std::size_t|PcgOptions|Stop|"
                    r"std::array<[^;=]*>)\s+(\w+)\s*(?:=\s*|\{)([^;]*)\}?;(.*)$")
