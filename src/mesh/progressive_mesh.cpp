@@ -277,4 +277,14 @@ std::vector<ProgressiveMesh::Removal> ProgressiveMesh::refine() {
   return removals;
 }
 
+std::size_t ProgressiveMesh::count_below(Index id) const {
+  return static_cast<std::size_t>(std::lower_bound(faces_.begin(), faces_.end(), id) - faces_.begin());
+}
+
+std::vector<Triangle> ProgressiveMesh::triangles() const {
+  std::vector<Triangle> result;
+  for (const Index t : faces_) result.push_back(triangles_[t]);
+  return result;
+}
+
 }  // namespace unsnarl

@@ -53,6 +53,10 @@ class ProgressiveMesh {
 
   /// Ids of the faces that there are now, ascending.
   std::span<const Index> faces() const { return faces_; }
+  /// How many of these are below `id`.
+  std::size_t count_below(Index id) const;
+  /// The corners of all of them, in that order.
+  std::vector<Triangle> triangles() const;
   /// The corners of one of these faces now.
   const Triangle& operator[](Index face) const { return triangles_[face]; }
 

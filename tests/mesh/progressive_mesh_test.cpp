@@ -16,12 +16,6 @@
 namespace unsnarl {
 namespace {
 
-std::vector<Triangle> triangles_of(const ProgressiveMesh& mesh) {
-  std::vector<Triangle> triangles;
-  for (const Index t : mesh.faces()) triangles.push_back(mesh[t]);
-  return triangles;
-}
-
 std::vector<std::uint8_t> all_free(const shapes::Shape& shape) {
   return std::vector<std::uint8_t>(shape.points.size(), 0);
 }
@@ -50,19 +44,30 @@ Index coarsen_as_far_as_possible(ProgressiveMesh& mesh, const Positions& x) {
   return removed;
 }
 
+TEST(ProgressiveMesh, counts_the_faces_that_are_there) {
+  const shapes::Shape sheet = shapes::bumpy_sheet(24, 2, 6);
+  ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
+  ASSERT_GT(mesh.coarsen(sheet.positions()), 0);
+  const auto ids = static_cast<Index>(sheet.triangles.size());
+  EXPECT_EQ(mesh.count_below(ids), mesh.faces().size());
+  const auto below = std::count_if(mesh.faces().begin(), mesh.faces().end(), [&](Index t) { return t < ids / 2; });
+  EXPECT_EQ(mesh.count_below(ids / 2), static_cast<std::size_t>(below));
+  EXPECT_EQ(mesh.count_below(0), 0u);
+}
+
 TEST(ProgressiveMesh, undoing_all_rounds_gives_the_same_mesh) {
   const shapes::Shape sheet = shapes::bumpy_sheet(24, 2, 6);
   const Positions x = sheet.positions();
   ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
   std::vector<std::vector<Triangle>> before;
   for (int round = 0; round < 6; ++round) {
-    before.push_back(triangles_of(mesh));
+    before.push_back(mesh.triangles());
     ASSERT_GT(mesh.coarsen(x), 0);
   }
   EXPECT_LT(mesh.faces().size(), sheet.triangles.size() / 3);
   while (mesh.round_count() > 0) {
     mesh.refine();
-    EXPECT_EQ(triangles_of(mesh), before.back());
+    EXPECT_EQ(mesh.triangles(), before.back());
     before.pop_back();
   }
   EXPECT_TRUE(mesh.refine().empty());
@@ -73,7 +78,7 @@ TEST(ProgressiveMesh, a_flat_sheet_keeps_its_area_and_its_boundary_its_length) {
   const Positions x = sheet.positions();
   ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
   coarsen_as_far_as_possible(mesh, x);
-  const std::vector<Triangle> coarse = triangles_of(mesh);
+  const std::vector<Triangle> coarse = mesh.triangles();
   EXPECT_LT(coarse.size(), sheet.triangles.size() / 10);
   EXPECT_NEAR(total_area(x, coarse), 400, 1e-9);
   EXPECT_LT(boundary_edges(coarse), 40u) << "vertices of the boundary go too";
@@ -93,7 +98,7 @@ TEST(ProgressiveMesh, keeps_the_topology) {
   ProgressiveMesh mesh(torus.triangles, all_free(torus));
   const Index removed = coarsen_as_far_as_possible(mesh, x);
   EXPECT_GT(removed, 200);
-  const std::vector<Triangle> coarse = triangles_of(mesh);
+  const std::vector<Triangle> coarse = mesh.triangles();
   EXPECT_EQ(euler_characteristic(coarse), 0);
   EXPECT_EQ(boundary_edges(coarse), 0u);
 }
@@ -105,15 +110,15 @@ TEST(ProgressiveMesh, goes_down_to_a_handful_of_faces_of_any_shape_with_or_witho
     ProgressiveMesh mesh(shape.triangles, all_free(shape));
     const std::size_t boundary = boundary_edges(shape.triangles);
     EXPECT_EQ(boundary > 0, shape.points.size() == band.points.size());
-    EXPECT_EQ(euler_characteristic(triangles_of(mesh)), 0);
+    EXPECT_EQ(euler_characteristic(mesh.triangles()), 0);
     while (mesh.coarsen(x) > 0 || mesh.coarsen(x, CoarsenOptions::any_shape()) > 0) {
     }
     EXPECT_LE(mesh.faces().size(), 60u);
-    EXPECT_EQ(euler_characteristic(triangles_of(mesh)), 0);
-    EXPECT_EQ(boundary_edges(triangles_of(mesh)) > 0, boundary > 0);
+    EXPECT_EQ(euler_characteristic(mesh.triangles()), 0);
+    EXPECT_EQ(boundary_edges(mesh.triangles()) > 0, boundary > 0);
     while (!mesh.refine().empty()) {
     }
-    EXPECT_EQ(triangles_of(mesh), shape.triangles);
+    EXPECT_EQ(mesh.triangles(), shape.triangles);
   }
 }
 
@@ -141,7 +146,7 @@ TEST(ProgressiveMesh, what_stays_and_what_several_fans_share_is_kept) {
   ProgressiveMesh mesh(sheet.triangles, ranks);
   coarsen_as_far_as_possible(mesh, sheet.positions());
   std::set<Index> left;
-  for (const Triangle& t : triangles_of(mesh)) left.insert(t.begin(), t.end());
+  for (const Triangle& t : mesh.triangles()) left.insert(t.begin(), t.end());
   for (std::size_t v = 0; v < ranks.size(); ++v) {
     EXPECT_TRUE(ranks[v] == 0 || left.contains(static_cast<Index>(v)));
   }
@@ -170,7 +175,7 @@ TEST(ProgressiveMesh, records_where_a_vertex_lay_on_the_fan_that_replaced_its_st
   const Positions x = sheet.positions();
   ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
   mesh.coarsen(x);
-  const std::vector<Triangle> coarse = triangles_of(mesh);
+  const std::vector<Triangle> coarse = mesh.triangles();
   for (const ProgressiveMesh::Removal& removal : mesh.refine()) {
     Vec3 p = Vec3::Zero();
     for (int k = 0; k < 3; ++k) p += removal.weights[k] * x.col(removal.corners[k]);
@@ -197,8 +202,8 @@ TEST(ProgressiveMesh, is_the_same_with_any_number_of_threads) {
     const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
     ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
     for (int round = 0; round < 5; ++round) mesh.coarsen(x);
-    if (threads == 1) expected = triangles_of(mesh);
-    EXPECT_EQ(triangles_of(mesh), expected);
+    if (threads == 1) expected = mesh.triangles();
+    EXPECT_EQ(mesh.triangles(), expected);
   }
 }
 

@@ -1,0 +1,289 @@
+#include "untangle/vertex_insertion.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "contact/intersection_finder.h"
+#include "mesh/areas.h"
+
+namespace unsnarl {
+namespace {
+
+using Removal = ProgressiveMesh::Removal;
+
+bool is_at(const Triangle& t, const Positions& x, const Positions& other) {
+  return std::all_of(t.begin(), t.end(), [&](Index v) { return x.col(v) == other.col(v); });
+}
+
+/// Axes of a triangle: along its first side, across it, and its normal. Zero where it has no area.
+Eigen::Matrix3d frame_of(const Positions& x, const Triangle& t) {
+  const Vec3 side = x.col(t[1]) - x.col(t[0]), normal = area_vector(x, t);
+  const double length = side.norm(), area = normal.norm();
+  if (!(length > 0) || !(area > 0)) return Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d frame;
+  frame.col(0) = side / length;
+  frame.col(2) = normal / area;
+  frame.col(1) = frame.col(2).cross(frame.col(0));
+  return frame;
+}
+
+/// The point of the fan where the removed vertex lay.
+Vec3 point_on_fan(const Positions& x, const Removal& removal) {
+  Vec3 p = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) p += removal.weights[k] * x.col(removal.corners[k]);
+  return p;
+}
+
+/// The place to which the triangle of the fan carries the vertex: its offset from the triangle turns with that.
+Vec3 carried(const Removal& removal, double offset_share, const Positions& rest, const Positions& x) {
+  const Vec3 offset = rest.col(removal.vertex) - point_on_fan(rest, removal);
+  const Vec3 turned = frame_of(x, removal.corners) * (frame_of(rest, removal.corners).transpose() * offset);
+  return point_on_fan(x, removal) + offset_share * turned;
+}
+
+/// A place to which a vertex that comes back may go.
+struct Place {
+  Vec3 position;
+  int flipped = 0;  // faces of the star that would be turned against their rest normals
+};
+
+/// The places to be tried, the best first.
+struct Places {
+  std::vector<Place> list;
+  /// So many, the first, leave the star room: where none is free, the vertex stays at one of these, since what crosses
+  /// a star that is hardly there is not resolved by local strategies.
+  std::size_t roomy = 0;
+};
+
+/// Positions of a patch: at rest, at the beginning of the strategy, and now.
+struct States {
+  const Positions& rest;
+  const Positions& start;
+  const Positions& x;
+};
+
+/// The places of a vertex: where the triangle of the fan carries the vertex, with less and less of its
+/// offset from there; points of the fan closer and closer to the parent; and directions in which it may leave the
+/// parent where the fan is folded up. Places that flip fewer faces of the star come before others. Last come points of
+/// the fan so close to the parent that the new star is hardly more than the fan, which is embedded: one of them is
+/// mostly free where layers are near (other shares were not tried). `grid`: positions become multiples of it.
+Places places_for(const Removal& removal, std::span<const Triangle> star, const States& states, double grid) {
+  const auto& [rest, start, x] = states;
+  Places result;
+  std::vector<Place>& places = result.list;
+  const auto add = [&](const Vec3& p) { places.push_back({(p / grid).array().round().matrix() * grid}); };
+  if (is_at(removal.corners, x, start))
+    places.push_back({start.col(removal.vertex)});
+  else if (is_at(removal.corners, x, rest))
+    places.push_back({rest.col(removal.vertex)});
+  else
+    add(carried(removal, 1, rest, x));
+  for (const double share : {0.5, 0.25, 0.0}) add(carried(removal, share, rest, x));
+
+  const Vec3 on_fan = point_on_fan(x, removal), parent = x.col(removal.parent);
+  std::vector<Vec3> middles;  // of the sides of the fan
+  Vec3 middle = Vec3::Zero();
+  for (const Triangle& t : star) {
+    Vec3 m = Vec3::Zero();
+    for (const Index v : t)
+      if (v != removal.vertex) m += 0.5 * x.col(v);
+    middle += m / static_cast<double>(star.size());
+    if (std::find(t.begin(), t.end(), removal.parent) == t.end()) middles.push_back(m);
+  }
+  for (const double share : {0.5, 0.25, 0.125, 0.03}) {
+    add(parent + share * (on_fan - parent));
+    add(parent + share * (middle - parent));
+  }
+  for (const Vec3& m : middles) add(parent + 0.1 * (m - parent));
+  const double near = 0.02 * (on_fan - parent).norm();
+  for (int corner = 0; corner < 8; ++corner)
+    add(parent + near * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+
+  result.roomy = places.size();
+  for (const double share : {0.01, 0.003, 0.001}) {
+    add(parent + share * (on_fan - parent));
+    add(parent + share * (middle - parent));
+    for (const Vec3& m : middles) add(parent + share * (m - parent));
+  }
+
+  for (Place& place : places)
+    for (const Triangle& t : star) {
+      const auto at = [&, &x = x](Index v) { return v == removal.vertex ? place.position : Vec3(x.col(v)); };
+      const Vec3 a = at(t[0]), b = at(t[1]), c = at(t[2]);
+      place.flipped += (b - a).cross(c - a).dot(area_vector(rest, t)) < 0;
+    }
+  const auto flips_fewer = [](const Place& p, const Place& q) { return p.flipped < q.flipped; };
+  const auto close = places.begin() + static_cast<std::ptrdiff_t>(result.roomy);
+  std::stable_sort(places.begin(), close, flips_fewer);
+  std::stable_sort(close, places.end(), flips_fewer);
+  return result;
+}
+
+/// Puts vertices back, each at the first of its places where its star is in no new pair.
+class Insertion {
+ public:
+  /// `triangles`: the mesh with these vertices, the first `active_count` of which count; star_of: of each triangle the
+  /// number of the vertex in whose star it is, or -1.
+  Insertion(std::span<const Removal> removals, std::vector<Places> places, const std::vector<Triangle>& triangles,
+            std::span<const Index> star_of, Index active_count, const Positions& start)
+      : removals_(removals),
+        places_(std::move(places)),
+        triangles_(triangles),
+        star_of_(star_of),
+        start_(start),
+        finder_(triangles, active_count),
+        tries_(removals.size()) {}
+
+  void run(Positions& x) {
+    std::vector<std::size_t> moving(tries_.size());
+    std::iota(moving.begin(), moving.end(), std::size_t{0});
+    find_places(moving, x);
+    // Those that found none try again now that all others stay where they are.
+    std::erase_if(moving, [&](std::size_t r) { return !tries_[r].failed; });
+    if (!moving.empty()) find_places(moving, x);
+    // The others have found their places now: some of the better ones may be free.
+    for (const int place : {0, 2, 4}) offer(place, x);
+  }
+
+  /// Is this vertex elsewhere than at its best place?
+  bool is_displaced(std::size_t r) const { return tries_[r].at > 0; }
+
+ private:
+  struct Try {
+    int at = 0, best = 0;
+    std::size_t pairs = 0, fewest = std::numeric_limits<std::size_t>::max();
+    bool failed = false;  // no place is free: it stays at the roomy one with the fewest pairs
+  };
+
+  void put(std::size_t r, int place, Positions& x) const {
+    x.col(removals_[r].vertex) = places_[r].list[place].position;
+  }
+
+  /// Pairs of the stars. Those that were there at the start, where nothing has moved, do not count.
+  void count_pairs(const Positions& x) {
+    for (Try& t : tries_) t.pairs = 0;
+    for (const IntersectingPair& pair : finder_.find(x)) {
+      if (is_at(triangles_[pair.a], x, start_) && is_at(triangles_[pair.b], x, start_)) continue;
+      for (const Index face : {pair.a, pair.b})
+        if (star_of_[face] >= 0) ++tries_[star_of_[face]].pairs;
+    }
+  }
+
+  /// Each of these vertices goes to the first of its places where its star is in no new pair; the others stay.
+  void find_places(std::span<const std::size_t> moving, Positions& x) {
+    for (const std::size_t r : moving) {
+      tries_[r] = {};
+      put(r, 0, x);
+    }
+    while (advance(moving, x)) {
+    }
+  }
+
+  /// Those of them with pairs go to their next places. False where there are none.
+  bool advance(std::span<const std::size_t> moving, Positions& x) {
+    count_pairs(x);
+    bool any = false;
+    for (const std::size_t r : moving) {
+      Try& t = tries_[r];
+      if (t.failed) continue;
+      if (static_cast<std::size_t>(t.at) < places_[r].roomy && t.pairs < t.fewest) {
+        t.fewest = t.pairs;
+        t.best = t.at;
+      }
+      if (t.pairs == 0) continue;
+      any = true;
+      t.failed = ++t.at == static_cast<int>(places_[r].list.size());
+      if (t.failed) t.at = t.best;
+      put(r, t.at, x);
+    }
+    return any;
+  }
+
+  /// Puts those that are at worse places at this one, and back where that brings pairs.
+  void offer(int place, Positions& x) {
+    std::vector<std::uint8_t> is_trying(tries_.size(), 0);
+    for (std::size_t r = 0; r < tries_.size(); ++r) {
+      if (tries_[r].at <= place) continue;
+      is_trying[r] = 1;
+      put(r, place, x);
+    }
+    for (bool any = true; any;) {
+      any = false;
+      count_pairs(x);
+      for (std::size_t r = 0; r < tries_.size(); ++r) {
+        if (!is_trying[r] || tries_[r].pairs == 0) continue;
+        any = true;
+        is_trying[r] = 0;
+        put(r, tries_[r].at, x);
+      }
+    }
+    for (std::size_t r = 0; r < tries_.size(); ++r)
+      if (is_trying[r]) tries_[r].at = place, tries_[r].failed = false;
+  }
+
+  std::span<const Removal> removals_;
+  std::vector<Places> places_;
+  const std::vector<Triangle>& triangles_;
+  std::span<const Index> star_of_;
+  const Positions& start_;
+  IntersectionFinder finder_;
+  std::vector<Try> tries_;
+};
+
+}  // namespace
+
+std::vector<Removal> insert_vertices(const Patch& patch, const ProgressiveMesh& mesh,
+                                     const std::vector<Removal>& removals, double grid, Positions& x) {
+  std::vector<Index> star_of_face(patch.triangles.size(), -1), star_of;
+  std::vector<Places> places;
+  for (std::size_t r = 0; r < removals.size(); ++r) {
+    std::vector<Triangle> star;
+    for (const Index t : removals[r].star) {
+      star_of_face[t] = static_cast<Index>(r);
+      star.push_back(mesh[t]);
+    }
+    const Index v = removals[r].vertex;
+    places.push_back(v < patch.free_count ? places_for(removals[r], star, {patch.rest, patch.x, x}, grid)
+                                          : Places{{{patch.x.col(v)}}, 1});
+  }
+  for (const Index t : mesh.faces()) star_of.push_back(star_of_face[t]);
+  const std::vector<Triangle> triangles = mesh.triangles();
+  const auto active_count = static_cast<Index>(mesh.count_below(patch.active_count));
+  Insertion insertion(removals, std::move(places), triangles, star_of, active_count, patch.x);
+  insertion.run(x);
+  std::vector<Removal> displaced;
+  for (std::size_t r = 0; r < removals.size(); ++r)
+    if (insertion.is_displaced(r)) displaced.push_back(removals[r]);
+  return displaced;
+}
+
+void offer_better_places(const Patch& patch, const ProgressiveMesh& mesh, const std::vector<Removal>& displaced,
+                         Positions& x) {
+  const std::vector<Triangle> triangles = mesh.triangles();
+  std::vector<Index> number(patch.vertices.size(), -1);
+  for (std::size_t r = 0; r < displaced.size(); ++r) number[displaced[r].vertex] = static_cast<Index>(r);
+  IntersectionFinder finder(triangles, static_cast<Index>(mesh.count_below(patch.active_count)));
+  for (const double share : {1.0, 0.5}) {
+    const Positions before = x;
+    std::vector<std::uint8_t> is_trying(displaced.size(), 1);
+    for (const Removal& removal : displaced)
+      x.col(removal.vertex) += share * (carried(removal, 1, patch.rest, before) - before.col(removal.vertex));
+    for (bool any = true; any;) {
+      any = false;
+      for (const IntersectingPair& pair : finder.find(x))
+        for (const Index face : {pair.a, pair.b})
+          for (const Index v : triangles[face]) {
+            if (number[v] < 0 || !is_trying[number[v]]) continue;
+            any = true;
+            is_trying[number[v]] = 0;
+            x.col(v) = before.col(v);
+          }
+    }
+  }
+}
+
+}  // namespace unsnarl
