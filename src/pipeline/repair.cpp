@@ -174,9 +174,9 @@ class Repair {
     }
     bool float32 = true;
     for (Index c = 0; c < count; ++c) {
-      // One without conflict is as it should be, unless rounding is asked to be looked at too.
-      const bool is_of_interest =
-          !pairs[c].empty() || options_.precision == Precision::float32 || options_.min_dihedral_deg > 0;
+      // One without conflict is as it should be, unless more is asked for.
+      const bool is_of_interest = !pairs[c].empty() || options_.precision == Precision::float32 ||
+                                  options_.min_dihedral_deg > 0 || options_.find.both_diagonals;
       if (!is_of_interest || diagnosis_.components.list[c].obstructed() || limits_.reached()) continue;
       const Triangulation cut = of_component(prepared_.triangulation, diagnosis_.components, c);
       Scene surface = make_scene(prepared_.rest, cut.triangles, fixed);

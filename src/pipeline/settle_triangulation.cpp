@@ -45,7 +45,8 @@ std::vector<Index> vertices_of(const Job& job, const std::vector<Index>& polygon
 void settle_triangulation(SceneRepair& repair, const Job& job, const Triangulation& cut, Index component,
                           Finders& finders) {
   if (job.surface.offsets.empty() || !repair.is_resolved(finders)) return;
-  const std::vector<Triangulation> input = {cut, job.prepared.other_diagonals};
+  const std::vector<Triangulation> input = {
+      cut, of_component(job.prepared.other_diagonals, job.diagnosis.components, component)};
   const std::size_t input_size = unite(input).all.triangles.size();
   SceneRepair::Checkpoint best = repair.checkpoint();
   bool best_holds = false;

@@ -124,6 +124,51 @@ TEST(EachComponent, is_repaired_as_if_alone) {
   }
 }
 
+TEST(EachComponent, quads_hold_along_both_diagonals) {
+  RepairOptions options;
+  options.find.both_diagonals = true;
+  const Surface limb = make_sample("posed_limb", 16);
+  ASSERT_FALSE(limb.offsets.empty());
+  const RepairResult alone = repair(limb, options);
+  ASSERT_EQ(alone.status, Status::embedded);
+  Surface two = limb;
+  const auto count = static_cast<std::int32_t>(limb.view().vertex_count());
+  two.positions.insert(two.positions.end(), limb.positions.begin(), limb.positions.end());
+  for (std::size_t v = 0; v < limb.view().vertex_count(); ++v) two.positions[3 * (count + v)] += 128;
+  for (std::size_t f = 0; f < limb.view().face_count(); ++f) {
+    for (const std::int32_t v : limb.view().face(f)) two.corners.push_back(v + count);
+    two.offsets.push_back(static_cast<std::int32_t>(two.corners.size()));
+  }
+  options.each_component = true;
+  const RepairResult result = repair(two, options);
+  EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
+  Surface moved = two;
+  moved.positions = result.positions;
+  EXPECT_TRUE(find_intersections(moved, options.find).empty());
+  EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), result.positions.begin()));
+}
+
+TEST(EachComponent, one_that_intersects_along_the_other_diagonals_alone_is_repaired) {
+  for (const double up : {1, -1}) {
+    // A saddle, and a band from one side of it around to its middle, where it stops between the two diagonals.
+    Surface surface;
+    surface.positions = {0,    0,  0.5, 1,  0,  -0.5, 1,  1,   0.5, 0,  1,   -0.5, -1, 0,   0.5, -1, 1,
+                         -0.5, -1, 0,   -2, -1, 1,    -2, 0.5, 0.4, -2, 0.5, 0.6,  -2, 0.5, 0.5, 0};
+    for (std::size_t i = 2; i < surface.positions.size(); i += 3) surface.positions[i] *= up;
+    surface.corners = {0, 1, 2, 3, 0, 3, 5, 4, 4, 5, 7, 6, 6, 7, 9, 8, 8, 9, 10};
+    surface.offsets = {0, 4, 8, 12, 16, 19};
+    RepairOptions options;
+    options.each_component = true;
+    options.find.both_diagonals = true;
+    ASSERT_FALSE(find_intersections(surface, options.find).empty());
+    ASSERT_TRUE(find_intersections(surface).empty());
+    const RepairResult result = repair(surface, options);
+    EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
+    surface.positions = result.positions;
+    EXPECT_TRUE(find_intersections(surface, options.find).empty());
+  }
+}
+
 TEST(EachComponent, leaves_what_only_runs_through_others) {
   const Surface surface = shapes::crossing_bumps(8, 0.3).surface();
   RepairOptions options;
