@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "geometry/triangle_intersection.h"
+#include "mesh/adjacency.h"
 
 namespace unsnarl {
 namespace {
-
-bool has(const Triangle& t, Index v) {
-  return std::find(t.begin(), t.end(), v) != t.end();
-}
 
 /// Where the edges of one triangle pierce the other.
 void add_piercings(const Positions& x, const Triangle& piercing, const Triangle& pierced, std::vector<Vec3>& points) {
@@ -17,7 +14,7 @@ void add_piercings(const Positions& x, const Triangle& piercing, const Triangle&
   const Vec3 normal = (face[1] - face[0]).cross(face[2] - face[0]);
   for (int k = 0; k < 3; ++k) {
     const Index u = piercing[k], v = piercing[(k + 1) % 3];
-    if (has(pierced, u) || has(pierced, v)) continue;
+    if (has_corner(pierced, u) || has_corner(pierced, v)) continue;
     const Vec3 p = x.col(u), q = x.col(v);
     const double height_p = normal.dot(p - face[0]), height_q = normal.dot(q - face[0]);
     if (height_p == height_q || !segment_meets_triangle(p, q, face)) continue;
@@ -38,7 +35,7 @@ std::vector<std::array<Vec3, 2>> intersection_segments(const Positions& x, std::
     add_piercings(x, a, b, points);
     add_piercings(x, b, a, points);
     for (Index v : a)
-      if (has(b, v)) points.push_back(x.col(v));
+      if (has_corner(b, v)) points.push_back(x.col(v));
     // An edge through a corner or through an edge counts more than once: the two points furthest apart are the ends.
     std::array<Vec3, 2> ends;
     double longest = 0;

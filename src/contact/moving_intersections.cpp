@@ -4,16 +4,9 @@
 
 #include "contact/intersection_finder.h"
 #include "geometry/parallel_lists.h"
+#include "mesh/adjacency.h"
 
 namespace unsnarl {
-namespace {
-
-bool has_corner(const Triangle& t, Index v) {
-  return t[0] == v || t[1] == v || t[2] == v;
-}
-
-}  // namespace
-
 void MovingIntersections::add_near(const Positions& x, Index begin, Index end,
                                    std::vector<IntersectingPair>& found) const {
   PairClass kind;

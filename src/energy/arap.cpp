@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/sort_unique.h"
+
 namespace unsnarl {
 namespace {
 
@@ -85,29 +87,22 @@ Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& s) {
 
 Arap::Arap(std::span<const Triangle> triangles, const Positions& rest, Index free_count) : free_count_(free_count) {
   const Index n = static_cast<Index>(rest.cols());
-  edges_.reserve(3 * triangles.size());
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles.size());
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) {
       const Index i = t[k], j = t[(k + 1) % 3];
-      if (i != j) edges_.push_back({std::min(i, j), std::max(i, j), edge_weight});
+      if (i != j) edges.push_back({std::min(i, j), std::max(i, j)});
     }
-  const auto ends = [](const WeightedEdge& e) { return std::pair(e.i, e.j); };
-  std::sort(edges_.begin(), edges_.end(),
-            [&](const WeightedEdge& a, const WeightedEdge& b) { return ends(a) < ends(b); });
-  edges_.erase(std::unique(edges_.begin(), edges_.end(),
-                           [&](const WeightedEdge& a, const WeightedEdge& b) { return ends(a) == ends(b); }),
-               edges_.end());
+  sort_unique(edges);
   offsets_.assign(n + 1, 0);
-  for (const WeightedEdge& e : edges_) ++offsets_[e.i + 1], ++offsets_[e.j + 1];
+  for (const auto& [i, j] : edges) ++offsets_[i + 1], ++offsets_[j + 1];
   for (Index i = 0; i < n; ++i) offsets_[i + 1] += offsets_[i];
   neighbours_.resize(offsets_.back());
-  weights_.resize(offsets_.back());
   std::vector<Index> next(offsets_.begin(), offsets_.end() - 1);
-  for (const WeightedEdge& e : edges_) {
-    neighbours_[next[e.i]] = e.j;
-    weights_[next[e.i]++] = e.weight;
-    neighbours_[next[e.j]] = e.i;
-    weights_[next[e.j]++] = e.weight;
+  for (const auto& [i, j] : edges) {
+    neighbours_[next[i]++] = j;
+    neighbours_[next[j]++] = i;
   }
   rest_edges_.resize(3, offsets_.back());
   for (Index i = 0; i < n; ++i) {
@@ -121,7 +116,7 @@ double Arap::value_and_gradient(const Positions& x, Positions& gradient, double 
   const auto rotate = [&](Index i) {
     Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
     for (Index h = offsets_[i]; h < offsets_[i + 1]; ++h) {
-      const Vec3 moved = weights_[h] * (x.col(i) - x.col(neighbours_[h]));
+      const Vec3 moved = edge_weight * (x.col(i) - x.col(neighbours_[h]));
       s.noalias() += moved * rest_edges_.col(h).transpose();
     }
     rotations_[i] = closest_rotation(s);
@@ -140,8 +135,8 @@ double Arap::value_and_gradient(const Positions& x, Positions& gradient, double 
       const Vec3 edge = x.col(i) - x.col(j);
       const Vec3 here = edge - rotations_[i] * rest_edges_.col(h);
       const Vec3 there = edge - rotations_[j] * rest_edges_.col(h);
-      value += 0.5 * weights_[h] * here.squaredNorm();
-      force += weights_[h] * (here + there);
+      value += 0.5 * edge_weight * here.squaredNorm();
+      force += edge_weight * (here + there);
     }
     gradient.col(i) += weight * force;
   }

@@ -26,19 +26,10 @@ class Arap {
   /// The best rotation of vertex i at the last evaluation.
   const Eigen::Matrix3d& rotation(Index i) const { return rotations_[i]; }
 
-  /// Weights of the edges, as triplets (i, j, w) with i < j: the Laplacian to match.
-  struct WeightedEdge {
-    Index i, j;
-    double weight;
-  };
-  std::span<const WeightedEdge> edges() const { return edges_; }
-
  private:
   Index free_count_ = 0;
-  std::vector<WeightedEdge> edges_;
   std::vector<Index> offsets_;  // of each vertex's half-edges
   std::vector<Index> neighbours_;
-  std::vector<double> weights_;
   Positions rest_edges_;  // rest_i - rest_j, one column a half-edge
   std::vector<Eigen::Matrix3d> rotations_;
 };

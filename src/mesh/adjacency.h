@@ -8,8 +8,11 @@
 
 namespace unsnarl {
 
+inline bool has_corner(const Triangle& t, Index v) {
+  return t[0] == v || t[1] == v || t[2] == v;
+}
 inline bool share_a_vertex(const Triangle& a, const Triangle& b) {
-  return std::any_of(a.begin(), a.end(), [&](Index v) { return v == b[0] || v == b[1] || v == b[2]; });
+  return std::any_of(a.begin(), a.end(), [&](Index v) { return has_corner(b, v); });
 }
 
 /// Lists of indices, one list an element, stored end to end.

@@ -17,10 +17,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool has_corner(const Triangle& t, Index v) {
-  return t[0] == v || t[1] == v || t[2] == v;
-}
-
 /// 4 sqrt(3) area / sum of squared sides.
 double quality(const Positions& x, const Triangle& t) {
   double squares = 0;

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "contact/intersection_finder.h"
 #include "contact/smallest_gap.h"
 #include "mesh/adjacency.h"
 #include "mesh/components.h"
 #include "mesh/dihedral_angles.h"
 #include "pipeline/threads.h"
-#include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 
 namespace unsnarl {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -48,16 +49,22 @@ class RigidRepair {
     diagnosis_ = diagnose(surface_, prepared_, fixed_, finders_->as_is);
     find_obstructions();
     acceptance_.emplace(surface_, prepared_, diagnosis_, options_, *finders_);
-    Attempt best = attempt({});
-    phases.end();
-    repair_around(best);
-    const std::vector<Index> in_soft = parts_in_soft(best);
-    if (!in_soft.empty() && !limits_.reached()) {
-      phases.start("place");
-      Attempt other = attempt(in_soft);
-      phases.end();
-      repair_around(other);
-      if (other.inner.report.after.total() < best.inner.report.after.total()) best = std::move(other);
+    // What is there when memory runs out.
+    Attempt best;
+    best.positions.assign(surface_.positions.begin(), surface_.positions.end());
+    best.inner.status = Status::memory_limit;
+    best.inner.positions = best.positions;
+    try {
+      best = repaired_attempt({}, phases);
+      const std::vector<Index> in_soft = parts_in_soft(best);
+      if (!in_soft.empty() && !limits_.reached()) {
+        phases.start("place");
+        Attempt other = repaired_attempt(in_soft, phases);
+        if (other.inner.report.after.total() < best.inner.report.after.total()) best = std::move(other);
+      }
+    } catch (const std::bad_alloc&) {
+      limits_.run_out_of_memory();
+      finders_->start_anew();
     }
     return finished(std::move(best));
   }
@@ -215,6 +222,14 @@ class RigidRepair {
 
   // The soft parts.
 
+  /// In the phase "place", which it ends.
+  Attempt repaired_attempt(const std::vector<Index>& in_soft, Phases& phases) {
+    Attempt result = attempt(in_soft);
+    phases.end();
+    repair_around(result);
+    return result;
+  }
+
   void repair_around(Attempt& attempt) {
     RepairOptions inner = options_;
     inner.rigid.clear();
@@ -233,7 +248,12 @@ class RigidRepair {
         tell(progress);
       };
     const SurfaceView placed = {attempt.positions, surface_.corners, surface_.offsets};
-    attempt.inner = repair(placed, inner, &context_);
+    try {
+      attempt.inner = repair(placed, inner, &context_);
+    } catch (...) {
+      context_.on_progress = tell;
+      throw;
+    }
     context_.on_progress = tell;
     stages_.insert(stages_.end(), attempt.inner.report.stages.begin(), attempt.inner.report.stages.end());
   }
@@ -284,6 +304,8 @@ class RigidRepair {
     report.float32_embedded = acceptance_->is_embedded_in_float32(x);
     report.stages = std::move(stages_);
     measure_change(surface_, prepared_, diagnosis_, result.positions, report);
+    if (options_.max_displacement_rel > 0 && report.displacement_max_rel > options_.max_displacement_rel)
+      result.status = Status::displacement_exceeded;
     report.components.clear();
     measure_components(prepared_, diagnosis_, left.triangles, report);
     explain(left, is_taken_back, attempt.is_too_far, report);

@@ -23,7 +23,7 @@ class SceneRepair {
   /// `scene` is at rest; `pairs` are those of its triangles, of which `ignored` (sorted) are let be.
   SceneRepair(const Job& job, Scene scene, std::vector<IntersectingPair> pairs, std::vector<IntersectingPair> ignored);
 
-  // Finders are always of the triangles of the scene at that time.
+  // Finders are of the triangles of the scene at that time; keep_within_displacement() takes those of the input's cut.
 
   const Scene& scene() const { return scene_; }
   /// Nothing but what is let be intersects, and no face has lost its area.

@@ -65,8 +65,9 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
         recorder.add(std::move(trajectories[r]), "", r, regions[r], scene.x);
         patches[r] = {};
         progress[r].done = 1;
-        report();
+        reporter.asked();
       });
+  report();
   return smallest;
 }
 

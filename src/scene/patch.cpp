@@ -6,7 +6,6 @@
 #include "geometry/sort_unique.h"
 
 namespace unsnarl {
-namespace {}  // namespace
 
 Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach) {
   Patch patch;

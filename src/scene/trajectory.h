@@ -33,7 +33,6 @@ class Trajectory {
   Mark mark() const { return {iterations.size(), last_}; }
   /// Forgets what came after the mark.
   void rewind(Mark mark);
-  void clear() { rewind({}); }
   /// Forgets what came after the iteration with the fewest pairs (the first of these), and states where there are many:
   /// for tries that failed, of which something may still be taken.
   void end_at_fewest_pairs();
@@ -55,10 +54,6 @@ class Trajectory {
 /// The state reached by an iteration, x of the patch's vertices.
 inline void record(const Patch& patch, const Positions& x, const IterationRecord& iteration) {
   if (patch.trajectory) patch.trajectory->add(patch, x, iteration);
-}
-/// Adds to what was recorded last.
-inline void record_energy(const Patch& patch, EnergyTerm term, double value) {
-  if (patch.trajectory && !patch.trajectory->iterations.empty()) patch.trajectory->iterations.back()[term] = value;
 }
 
 }  // namespace unsnarl

@@ -221,7 +221,7 @@ class CoarseToFine {
       if (is_unmoved(pair.a) && is_unmoved(pair.b)) tolerated.push_back(pair);
     tolerated = sorted(std::move(tolerated));
     bool is_clean = true;
-    if (pairs.size() > tolerated.size()) {
+    if (!blocking_pairs(pairs, tolerated).empty()) {
       const EscalationResult untangled = untangle(level, index, tolerated, local_tiers());
       if (static_cast<double>(untangled.left.size()) > most_pairs_) return false;
       is_clean = untangled.left.empty();

@@ -96,7 +96,7 @@ std::vector<std::vector<Index>> merge_overlapping(std::vector<std::vector<Index>
       result[overlapped[k]].clear();
     }
     result[target].insert(result[target].end(), set.begin(), set.end());
-    for (Index v : result[target]) owner[v] = target;
+    for (Index v : set) owner[v] = target;
   }
   std::erase_if(result, [](const auto& set) { return set.empty(); });
   for (auto& set : result) {

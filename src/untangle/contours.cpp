@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "geometry/triangle_intersection.h"
+#include "mesh/adjacency.h"
 
 namespace unsnarl {
 namespace {
@@ -54,10 +55,6 @@ struct Incidence {
   bool operator<(const Incidence& o) const { return key() != o.key() ? key() < o.key() : other < o.other; }
 };
 
-bool has(const Triangle& t, Index v) {
-  return t[0] == v || t[1] == v || t[2] == v;
-}
-
 /// Unit direction of the curve in face `other` from the crossing inwards, within the plane of the pierced face.
 Vec3 curve_direction(const Positions& x, const Triangle& other, const Edge& edge, const Vec3& pierced_normal) {
   const TrianglePoints p = points_of(x, other);
@@ -89,7 +86,7 @@ Contours trace_contours(const Positions& x, std::span<const Triangle> triangles,
       for (Index e : edges.edges_of_triangle[piercing]) {
         if (e < 0) continue;
         const auto [u, v] = edges.edges[e];
-        if (has(triangles[pierced], u) || has(triangles[pierced], v)) continue;
+        if (has_corner(triangles[pierced], u) || has_corner(triangles[pierced], v)) continue;
         if (segment_meets_triangle(x.col(u), x.col(v), face))
           incidences.push_back({e, pierced, piercing, static_cast<Index>(k)});
       }

@@ -228,10 +228,20 @@ class Escalation {
       case Extent::depth:
         return dilate(scene_, region.core, static_cast<int>(strategy.rings_per_depth * depth), strategy.hub_valence);
       case Extent::tied_components: return vertices_of_tied_components(scene_, parts(), region, initial_pairs_);
-      case Extent::whole_components:
-        return dilate(scene_, region.core, std::numeric_limits<int>::max(), strategy.hub_valence);
+      case Extent::whole_components: return free_vertices_of_parts(region.core);
     }
     return {};
+  }
+
+  /// Of the components that these are of.
+  std::vector<Index> free_vertices_of_parts(std::span<const Index> vertices) {
+    const std::vector<Index>& part_of = parts().of_vertex;
+    std::vector<std::uint8_t> is_wanted(parts().face_count.size(), 0);
+    for (Index v : vertices) is_wanted[part_of[v]] = 1;
+    std::vector<Index> free;
+    for (Index v = 0; v < scene_.vertex_count(); ++v)
+      if (!scene_.fixed[v] && part_of[v] >= 0 && is_wanted[part_of[v]]) free.push_back(v);
+    return free;
   }
 
   const ConnectedParts& parts() {

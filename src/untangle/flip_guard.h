@@ -12,7 +12,7 @@ namespace unsnarl {
 /// below that share already are left alone.
 class FlipGuard {
  public:
-  /// may_turn: per active triangle. The patch must outlive this.
+  /// may_turn: per active triangle.
   FlipGuard(const Patch& patch, std::span<const std::uint8_t> may_turn);
 
   /// Pushes the free corners of the faces that are below the share until they are not, one face after the other

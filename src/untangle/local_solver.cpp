@@ -10,10 +10,12 @@
 #include <numeric>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "contact/intersection_finder.h"
 #include "energy/minkowski_penalty.h"
 #include "geometry/splitmix.h"
+#include "mesh/areas.h"
 #include "scene/patch_progress.h"
 #include "scene/trajectory.h"
 #include "untangle/contours.h"
@@ -26,11 +28,6 @@ namespace {
 /// Cotangent weight of an equilateral mesh; uniform weights keep slivers harmless.
 constexpr double laplacian_weight = std::numbers::inv_sqrt3;
 
-double area(const Positions& x, const Triangle& t) {
-  const Vec3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
-  return 0.5 * (b - a).cross(c - a).norm();
-}
-
 /// The metric in which directions are taken: Laplacian + area / range^2 on the free vertices, the others held.
 class Metric {
  public:
@@ -38,7 +35,7 @@ class Metric {
     const Index n = patch.free_count;
     std::vector<double> diagonal(n, 0);
     for (Index t = 0; t < patch.active_count; ++t) {
-      const double share = area(patch.x, patch.triangles[t]) / 3;
+      const double share = triangle_area(patch.x, patch.triangles[t]) / 3;
       for (Index v : patch.triangles[t])
         if (v < n) diagonal[v] += share / (range * range);
     }
@@ -203,7 +200,7 @@ std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs
 
 bool has_squeezed_face(const Patch& patch, const Positions& start, const Positions& x, double floor) {
   for (Index t = 0; t < patch.active_count; ++t)
-    if (area(x, patch.triangles[t]) < floor * area(start, patch.triangles[t])) return true;
+    if (triangle_area(x, patch.triangles[t]) < floor * triangle_area(start, patch.triangles[t])) return true;
   return false;
 }
 
@@ -238,8 +235,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   IntersectionFinder finder(patch.triangles, patch.active_count);
   PenaltyForce penalty(patch, options.margin * h);
 
-  std::optional<FlipGuard> guard;
-  if (options.sides != KeepSides::no) guard.emplace(patch, in_conflict(patch, finder.find(start)));
+  std::optional<FlipGuard> guard(std::in_place, patch, in_conflict(patch, finder.find(start)));
 
   auto is_clean = [&](const Positions& y) {
     return blocking_pairs(finder.find(y), tolerated).empty() && !has_squeezed_face(patch, start, y, options.area_floor);

@@ -26,7 +26,6 @@ struct LocalSettings {
 
 /// Whether faces that intersect nothing at the start are kept from turning over (FlipGuard).
 enum class KeepSides {
-  no,
   yes,
   at_first,  ///< where that fails, no longer, from where the first of them had to be kept on
 };
@@ -47,7 +46,7 @@ struct LocalOptions {
   /// counted as overlap, needles that ran into each other by 1e-5 h were thrown about by 0.02 h, and never came apart.)
   double shallow_floor = 1e-4;
   double min_gap = 0;  ///< length: the same, since they will have to be that far apart
-  KeepSides sides = KeepSides::no;
+  KeepSides sides = KeepSides::at_first;
   std::size_t few_enough = 0;  ///< pairs; with KeepSides::at_first, a try that leaves no more is left at that
   /// Progress is when the number of pairs falls by this share ...
   double progress = 0.1;

@@ -6,8 +6,7 @@
 namespace unsnarl {
 
 /// Untangles the whole scene as one patch, as the paper does it (paper_untangle), until no disjoint pair is left; in
-/// the place of escalate(). `pairs`: how many there are. Of `options` only the
-/// callbacks and logs count.
+/// the place of escalate(). `pairs`: how many there are. Of `options` only `stop`, `recorder` and `first_region` count.
 EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
                                 std::span<const IntersectingPair> ignored, const PaperOptions& paper,
                                 const EscalationOptions& options);

@@ -92,7 +92,6 @@ TEST(MovingIntersections, the_same_at_any_thread_count) {
     Positions x = sheets.x;
     MovingIntersections moving(sheets.triangles, static_cast<Index>(sheets.triangles.size()),
                                static_cast<Index>(x.cols()));
-    NearPairs near(sheets.triangles, static_cast<Index>(sheets.triangles.size()));
     std::mt19937 random(5);
     for (std::size_t round = 0; round < 4; ++round) {
       const auto found = moving.find(x);

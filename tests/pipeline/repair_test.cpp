@@ -75,8 +75,6 @@ INSTANTIATE_TEST_SUITE_P(Repair, Samples,
                                          Expected{"helicoid_overlapping", 40}, Expected{"perforated_fold", 30}),
                          [](const auto& info) { return std::string(info.param.sample); });
 
-// The contours of its windings can be driven off over its border, which takes 28 % of the diagonal.
-
 TEST(Repair, strategies_to_do_without_must_exist) {
   RepairOptions options;
   options.without_strategies = {"contour-2", "contour-3"};

@@ -140,7 +140,9 @@ TEST(ContactRules, NearAlongASheetAreNeighbours) {
 }
 
 TEST(ContactRules, FlatFoldsWantAGapOnlyWhereTheyAreInConflict) {
-  for (const ContactRule& rule : rules_of(folded_pair(0), {{0, 1}})) EXPECT_GT(rule.stencil.separation, 0.009);
+  const std::vector<ContactRule> in_conflict = rules_of(folded_pair(0), {{0, 1}});
+  EXPECT_FALSE(in_conflict.empty());
+  for (const ContactRule& rule : in_conflict) EXPECT_GT(rule.stencil.separation, 0.009);
   // Without an intersection at rest (zero-area faces) a distance of zero is legitimate: no rule.
   for (const ContactRule& rule : rules_of(folded_pair(0), {})) EXPECT_NE(rule.stencil.stencil.v[0], 3);
 }
