@@ -277,11 +277,11 @@ CoarseResult solve_on_coarser_mesh(Patch& patch, double factor, std::span<const 
   Positions best;
   const std::size_t before = result.pairs_left = count_pairs(patch.x);
   if (before == 0 || !(patch.edge_length > 0)) return result;
-  const double most_left = few_left * static_cast<double>(before);
+  const double most_left = few_enough_to_keep * static_cast<double>(before);
   auto faces = static_cast<std::size_t>(patch.active_count);
   for (double wanted = static_cast<double>(faces); !(stop && stop());) {
     wanted /= factor * factor;
-    CoarseToFine solver(patch, tolerated, few_enough_to_keep * static_cast<double>(before), stop);
+    CoarseToFine solver(patch, tolerated, most_left, stop);
     const std::size_t finer = std::exchange(faces, solver.coarsen(wanted));
     const bool is_coarsest = faces == finer;
     if (is_coarsest && (meshes == CoarseMeshes::one || faces == static_cast<std::size_t>(patch.active_count))) break;

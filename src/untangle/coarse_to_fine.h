@@ -17,7 +17,7 @@ struct CoarseResult {
 /// How many coarse meshes are tried.
 enum class CoarseMeshes {
   one,
-  until_solved,  ///< coarser and coarser ones, the coarsest from several starts, until few pairs are left on the patch
+  until_solved,  ///< coarser and coarser ones, the coarsest from several starts, until fewer pairs are left on the patch
 };
 
 /// Untangles a patch from coarse to fine. It is simplified until its edges are `factor` times as long, untangled there

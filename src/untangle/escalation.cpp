@@ -66,10 +66,9 @@ class Escalation {
              const EscalationOptions& options)
       : scene_(scene), index_(index), ignored_(ignored), options_(options), level_(scene.vertex_count(), 0) {
     for (const Tier& tier : options.tiers) {
-      const Index begin = static_cast<Index>(levels_.size());
       for (const Strategy& strategy : tier) {
         if (!strategy.is_last_resort && longest_wait_ == last() - 1) ++longest_wait_;
-        levels_.push_back({&strategy, begin, &strategy == &tier.back()});
+        levels_.push_back({&strategy, &strategy == &tier.back()});
       }
     }
   }
@@ -99,7 +98,6 @@ class Escalation {
   };
   struct Level {
     const Strategy* strategy;
-    Index tier_begin;  // the first level of its tier
     bool ends_tier;
   };
   Index last() const { return static_cast<Index>(levels_.size()); }
@@ -363,7 +361,7 @@ class Escalation {
   void keep_or_remember(Attempt& attempt, const Strategy& strategy, Index level) {
     if (!attempt.is_clean()) attempt.trajectory.end_at_fewest_pairs();
     if (attempt.is_clean() || attempt.left.is_below(options_.gain_share, attempt.before)) {
-      keep(attempt, strategy, 0);
+      keep(attempt, strategy);
     } else {
       const Index key = attempt.region.core.front();
       const auto known = best_.find(key);
@@ -389,7 +387,7 @@ class Escalation {
     std::stable_sort(due, waiting_.end(),
                      [](const Candidate& a, const Candidate& b) { return a.attempt.distance < b.attempt.distance; });
     for (auto waiting = due; waiting != waiting_.end(); ++waiting)
-      if (still_holds(waiting->attempt)) keep(waiting->attempt, *levels_[waiting->level].strategy, 0);
+      if (still_holds(waiting->attempt)) keep(waiting->attempt, *levels_[waiting->level].strategy);
     waiting_.erase(due, waiting_.end());
   }
 
@@ -414,7 +412,7 @@ class Escalation {
       Candidate& best = it->second;
       const bool is_due = level_of(best.attempt.region) > level;
       if (is_due && best.attempt.left.is_below(share, best.attempt.before) && still_holds(best.attempt))
-        keep(best.attempt, *levels_[best.level].strategy, levels_[best.level].tier_begin);
+        keep(best.attempt, *levels_[best.level].strategy);
       else if (!is_due || is_current(best.attempt)) {
         ++it;
         continue;
@@ -423,12 +421,12 @@ class Escalation {
     }
   }
 
-  /// The rest of the region is tried next on the strategy of this level.
-  void keep(Attempt& attempt, const Strategy& strategy, Index next_level) {
+  /// The rest of the region begins with the first strategy.
+  void keep(Attempt& attempt, const Strategy& strategy) {
     result_.depths.push_back(attempt.motion());
     paste_patch(attempt.patch, scene_, index_);
-    for (Index v : attempt.free) level_[v] = next_level;
-    for (Index v : attempt.region.core) level_[v] = next_level;  // some are fixed
+    for (Index v : attempt.free) level_[v] = 0;
+    for (Index v : attempt.region.core) level_[v] = 0;  // some are fixed
     RegionReport report;
     report.strategy = strategy.name;
     report.faces = static_cast<std::size_t>(attempt.patch.active_count);

@@ -23,8 +23,7 @@ struct EscalationProgress {
 struct EscalationOptions {
   /// The strategies that are tried, in this order.
   std::span<const Tier> tiers;
-  /// A candidate that leaves less than this share of a region's pairs is kept at once; the rest is segmented anew and
-  /// starts with the first strategy.
+  /// A candidate that leaves less than this share of a region's pairs is kept at once.
   double gain_share = few_left;
   /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share.
   double worthwhile_share = few_enough_to_keep;
@@ -54,11 +53,11 @@ struct EscalationResult {
 };
 
 /// Untangles the scene region by region, everything outside the region held. A region goes from strategy to strategy
-/// until a candidate has so few pairs that it is kept; what is left of it is segmented anew and starts from the first
-/// strategy. At the end of a tier its best candidate is kept where it is worth while, and the tier starts anew. A
-/// candidate that resolves its region but goes far waits until all have been tried but the last resorts; then the
-/// nearest is kept. Only candidates with fewer pairs, and no more disjoint ones, are ever kept, so this ends. Regions
-/// that lie apart do not influence each other. Pairs in `ignored` (sorted, of triangles) are tolerated.
+/// until a candidate has so few pairs that it is kept, or to the end of a tier, whose best candidate is kept where it
+/// is worth while; what is left of it is segmented anew and starts from the first strategy. A candidate that resolves
+/// its region but goes far waits until all have been tried but the last resorts; then the nearest is kept. Only
+/// candidates with fewer pairs, and no more disjoint ones, are ever kept, so this ends. Regions that lie apart do not
+/// influence each other. Pairs in `ignored` (sorted, of triangles) are tolerated.
 EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
                           const EscalationOptions& options);
 
