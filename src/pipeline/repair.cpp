@@ -169,18 +169,21 @@ class Repair {
     std::vector<Index> size(count, 0), number(component_of.size());  // of each triangle in its component
     for (std::size_t t = 0; t < component_of.size(); ++t) number[t] = size[component_of[t]]++;
     std::vector<std::vector<IntersectingPair>> pairs(count), ignored(count);
+    // One without conflict is as it should be, unless more is asked for.
+    std::vector<std::uint8_t> is_of_interest(count, options_.min_dihedral_deg > 0 || options_.find.both_diagonals);
     for (const IntersectingPair& pair : diagnosis_.pairs) {
       const Index c = component_of[pair.a];
       if (c != component_of[pair.b]) continue;
+      is_of_interest[c] = 1;
       pairs[c].push_back({number[pair.a], number[pair.b], pair.kind});
       if (acceptance_->is_tolerated(pair)) ignored[c].push_back(pairs[c].back());
     }
+    if (options_.precision == Precision::float32)
+      for (const IntersectingPair& pair : finders_->find_rounded(prepared_.rest))
+        if (component_of[pair.a] == component_of[pair.b]) is_of_interest[component_of[pair.a]] = 1;
     bool float32 = true;
     for (Index c = 0; c < count; ++c) {
-      // One without conflict is as it should be, unless more is asked for.
-      const bool is_of_interest = !pairs[c].empty() || options_.precision == Precision::float32 ||
-                                  options_.min_dihedral_deg > 0 || options_.find.both_diagonals;
-      if (!is_of_interest || diagnosis_.components.list[c].obstructed() || limits_.reached()) continue;
+      if (!is_of_interest[c] || diagnosis_.components.list[c].obstructed() || limits_.reached()) continue;
       const Triangulation cut = of_component(prepared_.triangulation, diagnosis_.components, c);
       Scene surface = make_scene(prepared_.rest, cut.triangles, fixed);
       surface.face_of = cut.polygon;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "pipeline/judged.h"
 #include "scene/shapes.h"
@@ -167,6 +168,27 @@ TEST(EachComponent, one_that_intersects_along_the_other_diagonals_alone_is_repai
     surface.positions = result.positions;
     EXPECT_TRUE(find_intersections(surface, options.find).empty());
   }
+}
+
+TEST(EachComponent, one_that_intersects_once_rounded_alone_is_repaired) {
+  // A sheet folded to 1e-9 of itself, and one far away that needs nothing.
+  Surface surface;
+  for (const double x : {0.0, 64.0})
+    for (const auto& [u, v, z] :
+         {std::array{1.0, 0.0, 0.5}, std::array{2.0, 0.0, 0.5}, std::array{1.0, 1.0, 0.5}, std::array{2.0, 1.0, 0.5},
+          std::array{2.0, 0.0, x > 0 ? 1.5 : 0.5 + 1e-9}, std::array{2.0, 1.0, x > 0 ? 1.5 : 0.5 + 1e-9}})
+      surface.positions.insert(surface.positions.end(), {u + x, v, z});
+  for (const std::int32_t first : {0, 6})
+    for (const std::int32_t v : {0, 1, 2, 1, 3, 2, 0, 2, 4, 2, 5, 4}) surface.corners.push_back(first + v);
+  RepairOptions options;
+  options.each_component = true;
+  ASSERT_EQ(repair(surface, options).positions, surface.positions);
+  options.precision = Precision::float32;
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
+  EXPECT_TRUE(result.report.float32_embedded);
+  EXPECT_NE(result.positions, surface.positions);
+  EXPECT_TRUE(std::equal(surface.positions.begin() + 18, surface.positions.end(), result.positions.begin() + 18));
 }
 
 TEST(EachComponent, leaves_what_only_runs_through_others) {
