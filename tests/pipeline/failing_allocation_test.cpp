@@ -1,4 +1,5 @@
-// Memory that runs out anywhere: the status stays true. Replaces operator new of this test program.
+// Memory that runs out anywhere: the status stays true. Replaces operator new of this test program, never inlined, so
+// that compilers see a new with each delete.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,22 +29,22 @@ void* allocate(std::size_t size, std::size_t alignment) {
 }  // namespace
 }  // namespace unsnarl
 
-void* operator new(std::size_t size) {
+[[gnu::noinline]] void* operator new(std::size_t size) {
   return unsnarl::allocate(size, alignof(std::max_align_t));
 }
-void* operator new(std::size_t size, std::align_val_t alignment) {
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   return unsnarl::allocate(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::size_t) noexcept {
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::align_val_t) noexcept {
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
   std::free(memory);
 }
 
