@@ -93,27 +93,38 @@ IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles)
 IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Index active_count)
     : triangles_(triangles), active_count_(active_count), tree_(triangles, active_count) {}
 
+void IntersectionFinder::begin_change() {
+  if (is_changing_) *this = IntersectionFinder(triangles_, active_count_);
+  is_changing_ = true;
+}
+
 void IntersectionFinder::move(const Positions& x) {
+  begin_change();
   note(x);
   update_tree();
+  end_change();
 }
 
 void IntersectionFinder::move(const Positions& x, std::span<const Index> triangles) {
-  if (x_.cols() != x.cols()) return move(x);
+  if (is_changing_ || x_.cols() != x.cols()) return move(x);
+  begin_change();
   for (Index t : triangles) {
     for (Index v : triangles_[t]) x_.col(v) = x.col(v);
     undecided_.add(t);
     outside_tree_.add(t);
   }
   update_tree();
+  end_change();
 }
 
 void IntersectionFinder::start_from(const Positions& x, std::vector<IntersectingPair> pairs) {
+  begin_change();
   note(x);
   update_tree();
   undecided_.clear();
   is_all_undecided_ = false;
   pairs_ = std::move(pairs);
+  end_change();
 }
 
 void IntersectionFinder::note(const Positions& x) {
@@ -175,6 +186,7 @@ std::vector<IntersectingPair> IntersectionFinder::decide_all() {
 }
 
 std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
+  begin_change();
   note(x);
   const std::size_t undecided = undecided_.items().size();
   is_all_undecided_ |= undecided > 0 && !is_few(undecided, static_cast<std::size_t>(active_count_));
@@ -199,6 +211,7 @@ std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
   std::sort(pairs_.begin(), pairs_.end());
   undecided_.clear();
   is_all_undecided_ = false;
+  end_change();
   return pairs_;
 }
 

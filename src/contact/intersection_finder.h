@@ -62,6 +62,10 @@ class IntersectionFinder {
     std::vector<std::uint8_t> is_in_;
   };
 
+  /// Every call that changes something begins and ends with these. Where an exception came between them, nothing of
+  /// what is here can be trusted: the next call begins anew.
+  void begin_change();
+  void end_change() { is_changing_ = false; }
   /// Takes over the positions, but for the tree.
   void note(const Positions& x);
   void update_tree();
@@ -73,6 +77,7 @@ class IntersectionFinder {
 
   std::span<const Triangle> triangles_;
   Index active_count_;
+  bool is_changing_ = false;
   FaceTree tree_;
   Some outside_tree_;                          // triangles that have moved since it was updated
   Positions x_;                                // now

@@ -83,7 +83,6 @@ class Repair {
     attempts_.emplace(prepared_.rest);
     job_.emplace(Job{surface_, options_, prepared_, diagnosis_, diagonal_, limits_, *recorder_, phases_, *attempts_,
                      result_.report.regions, nested_ ? &*nested_ : nullptr});
-    bool is_interrupted = false;
     try {
       if (options_.each_component)
         work_on_each_component(fixed);
@@ -91,10 +90,8 @@ class Repair {
         work_on_everything(std::move(fixed));
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
-      is_interrupted = true;
     }
     try {
-      if (is_interrupted) finders_->start_anew();
       finish();
     } catch (const std::bad_alloc&) {  // the result cannot be examined, so it is none
       limits_.run_out_of_memory();
@@ -211,7 +208,6 @@ class Repair {
       }
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
-      finders.start_anew();
     }
     scene.keep_within_displacement(finders.as_is);
     displacement_is_exceeded_ |= scene.displacement_is_exceeded();
@@ -231,7 +227,7 @@ class Repair {
     for (Index v = 0; v < wanted.cols(); ++v)
       if (component_of[v] >= 0 && wanted.col(v) != prepared_.rest.col(v)) vertices[component_of[v]].push_back(v);
     for (const std::vector<Index>& component : vertices) {
-      if (component.empty() || limits_.reached()) continue;
+      if (component.empty()) continue;
       for (Index v : component) reached_.col(v) = wanted.col(v);
       if (!acceptance_->is_worse(acceptance_->pairs_at(reached_))) continue;
       for (Index v : component) reached_.col(v) = prepared_.rest.col(v);

@@ -49,7 +49,7 @@ class RigidRepair {
     diagnosis_ = diagnose(surface_, prepared_, fixed_, finders_->as_is);
     find_obstructions();
     acceptance_.emplace(surface_, prepared_, diagnosis_, options_, *finders_);
-    // What is there when memory runs out.
+    // This attempt, the input itself, is the result if memory runs out before the first one is complete.
     Attempt best;
     best.positions.assign(surface_.positions.begin(), surface_.positions.end());
     best.inner.status = Status::memory_limit;
@@ -64,7 +64,6 @@ class RigidRepair {
       }
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
-      finders_->start_anew();
     }
     return finished(std::move(best));
   }

@@ -16,9 +16,6 @@ class Finders {
   /// The span must outlive this.
   explicit Finders(std::span<const Triangle> triangles) : as_is(triangles) {}
 
-  /// Forgets all that was decided: after an exception out of a finder it may be half of what it seems.
-  void start_anew() { *this = Finders(as_is.triangles()); }
-
   /// Takes over that nothing intersects at x, nor once x is rounded to float32 if `rounded_too`.
   void start_without_pairs(const Positions& x, bool rounded_too) {
     as_is.start_from(x, {});

@@ -231,7 +231,7 @@ class Escalation {
     return {};
   }
 
-  /// Of the components that these are of.
+  /// Returns the free vertices of all components that have one of `vertices`, ascending.
   std::vector<Index> free_vertices_of_parts(std::span<const Index> vertices) {
     const std::vector<Index>& part_of = parts().of_vertex;
     std::vector<std::uint8_t> is_wanted(parts().face_count.size(), 0);

@@ -102,7 +102,7 @@ Tier shallow_tier() {
 }
 
 /// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth is not
-/// resolved. With two rings before, or in place of four, nothing is nearer (docs/performance.md).
+/// resolved. Two rings tried before four bring nothing nearer (docs/performance.md).
 Tier layers_tier() {
   return {local("contour-8", 8, {LocalMethod::contour, 0.3, 4, 60}),
           local("shorten-4", 4, {LocalMethod::shorten, 0.3, 4, 60})};

@@ -15,10 +15,6 @@ namespace {
 
 using Removal = ProgressiveMesh::Removal;
 
-bool is_at(const Triangle& t, const Positions& x, const Positions& other) {
-  return std::all_of(t.begin(), t.end(), [&](Index v) { return x.col(v) == other.col(v); });
-}
-
 /// Axes of a triangle: along its first side, across it, and its normal. Zero where it has no area.
 Eigen::Matrix3d frame_of(const Positions& x, const Triangle& t) {
   const Vec3 side = x.col(t[1]) - x.col(t[0]), normal = area_vector(x, t);
@@ -235,6 +231,10 @@ class Insertion {
 };
 
 }  // namespace
+
+bool is_at(const Triangle& t, const Positions& x, const Positions& other) {
+  return std::all_of(t.begin(), t.end(), [&](Index v) { return x.col(v) == other.col(v); });
+}
 
 std::vector<Removal> insert_vertices(const Patch& patch, const ProgressiveMesh& mesh,
                                      const std::vector<Removal>& removals, double grid, Positions& x) {

@@ -7,6 +7,9 @@
 
 namespace unsnarl {
 
+/// Whether the corners of a triangle are at the same places in both.
+bool is_at(const Triangle& t, const Positions& x, const Positions& other);
+
 /// Places the vertices of a round that come back to a mesh simplified from a patch, each at the first of its places
 /// where its star is in no new pair by the exact test: where the fan carries the vertex from rest, with less and less
 /// of its offset from there; points of the fan closer and closer to the parent; and directions in which it may leave
