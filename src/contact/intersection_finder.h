@@ -20,9 +20,10 @@ bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairCl
 /// vertex and triangle.
 class IntersectionFinder {
  public:
-  /// Pairs of two triangles >= active_count are skipped (obstacles among themselves). The span must outlive the finder.
-  explicit IntersectionFinder(std::span<const Triangle> triangles);
-  IntersectionFinder(std::span<const Triangle> triangles, Index active_count);
+  /// Pairs of two triangles >= active_count are skipped (obstacles among themselves), and those of two groups. The
+  /// triangles and groups must outlive the finder.
+  explicit IntersectionFinder(std::span<const Triangle> triangles, VertexGroups groups = {});
+  IntersectionFinder(std::span<const Triangle> triangles, Index active_count, VertexGroups groups = {});
 
   /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates, anew for what has moved since the last
   /// time. Same result at any thread count.
@@ -77,6 +78,7 @@ class IntersectionFinder {
 
   std::span<const Triangle> triangles_;
   Index active_count_;
+  VertexGroups groups_;
   bool is_changing_ = false;
   FaceTree tree_;
   Some outside_tree_;                          // triangles that have moved since it was updated

@@ -16,10 +16,13 @@ class MovingIntersections {
  public:
   /// Pairs of two triangles >= active_count are skipped. The span must outlive this.
   MovingIntersections(std::span<const Triangle> triangles, Index active_count, Index vertex_count)
-      : MovingIntersections(triangles, active_count, VertexFans(triangles, active_count, vertex_count)) {}
-  /// `fans`: of the same triangles.
-  MovingIntersections(std::span<const Triangle> triangles, Index active_count, VertexFans fans)
-      : triangles_(triangles), active_count_(active_count), near_(triangles, active_count), fans_(std::move(fans)) {}
+      : MovingIntersections(triangles, active_count, VertexFans(triangles, active_count, vertex_count), {}) {}
+  /// `fans`: of the same triangles. Pairs of two groups are skipped too; these must outlive this.
+  MovingIntersections(std::span<const Triangle> triangles, Index active_count, VertexFans fans, VertexGroups groups)
+      : triangles_(triangles),
+        active_count_(active_count),
+        near_(triangles, active_count, groups),
+        fans_(std::move(fans)) {}
 
   /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates. Same result at any thread count.
   std::vector<IntersectingPair> find(const Positions& x);

@@ -76,10 +76,14 @@ void NearPairs::update(const Positions& x, double margin) {
     look_for_those_that_left();
 }
 
+bool NearPairs::is_wanted(Index a, Index b) const {
+  return !share_a_vertex(triangles_[a], triangles_[b]) && groups_.meet(triangles_[a], triangles_[b]);
+}
+
 void NearPairs::look_for_all() {
   std::vector<std::vector<Pair>> found(bvh_.task_count());
   bvh_.self_pairs_parallel([&](Index task, Index i, Index j) {
-    if (!share_a_vertex(triangles_[i], triangles_[j])) found[task].push_back({std::min(i, j), std::max(i, j)});
+    if (is_wanted(i, j)) found[task].push_back({std::min(i, j), std::max(i, j)});
   });
   join_lists(found, pairs_);
 }
@@ -94,7 +98,7 @@ void NearPairs::look_for_those_that_left() {
         // Two that left find each other twice.
         if (left_[other] && other <= t) return;
         if (t >= active_count_ && other >= active_count_) return;
-        if (!share_a_vertex(triangles_[t], triangles_[other])) list.push_back({std::min(t, other), std::max(t, other)});
+        if (is_wanted(t, other)) list.push_back({std::min(t, other), std::max(t, other)});
       });
     }
   });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/bvh.h"
+#include "contact/vertex_groups.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -17,9 +18,10 @@ class NearPairs {
  public:
   using Pair = std::array<Index, 2>;  // ascending
 
-  /// Pairs of two triangles >= active_count are left out. The span must outlive this.
-  NearPairs(std::span<const Triangle> triangles, Index active_count)
-      : triangles_(triangles), active_count_(active_count) {}
+  /// Pairs of two triangles >= active_count are left out, and those of two groups (VertexGroups). The spans must
+  /// outlive this.
+  NearPairs(std::span<const Triangle> triangles, Index active_count, VertexGroups groups = {})
+      : triangles_(triangles), active_count_(active_count), groups_(groups) {}
 
   /// Takes over the positions: from now on all pairs are listed whose boxes, inflated by `margin`, overlap, each once,
   /// and others a little farther apart. The order is a function of all positions up to now.
@@ -29,11 +31,13 @@ class NearPairs {
   bool overlap(Index a, Index b) const { return rounded_[a].overlaps(rounded_[b]); }
 
  private:
+  bool is_wanted(Index a, Index b) const;
   void look_for_all();
   void look_for_those_that_left();
 
   std::span<const Triangle> triangles_;
   Index active_count_;
+  VertexGroups groups_;
   double length_ = 0;                // mean diagonal of the boxes
   std::vector<Box> boxes_, roomy_;   // now; with margin and room, when their triangle last left it
   std::vector<RoundedBox> rounded_;  // as they are now

@@ -38,7 +38,6 @@
 namespace unsnarl {
 namespace {
 
-constexpr Index everything = -1;  // instead of a component
 /// The widest gap, in mean sides of the faces (mean_equilateral_side): the pairs of faces that have to keep it grow
 /// with its square. Two tubes of 10,560 triangles take 1.4 GB and 39 s at 2.8 sides, 5 GB and 67 s at 5.6; a gap of 0.3
 /// that was meant as a length, but is a share of the diagonal, is 21 and took all of 24 GB.
@@ -84,10 +83,7 @@ class Repair {
     job_.emplace(Job{surface_, options_, prepared_, diagnosis_, diagonal_, limits_, *recorder_, phases_, *attempts_,
                      result_.report.regions, nested_ ? &*nested_ : nullptr});
     try {
-      if (options_.each_component)
-        work_on_each_component(fixed);
-      else
-        work_on_everything(std::move(fixed));
+      work_on(std::move(fixed));
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
     }
@@ -146,74 +142,42 @@ class Repair {
                       gap, 100 * options_.min_gap_rel, gap / side, widest_gap_in_sides * side));
   }
 
-  // What is worked on: everything at once, or one component after the other.
-
-  void work_on_everything(std::vector<std::uint8_t> fixed) {
+  void work_on(std::vector<std::uint8_t> fixed) {
     const Triangulation& cut = prepared_.triangulation;
-    std::vector<IntersectingPair> ignored;
-    for (const IntersectingPair& pair : diagnosis_.pairs)
+    std::vector<IntersectingPair> pairs = diagnosis_.pairs, ignored;
+    std::optional<Finders> of_each;
+    if (options_.each_component) {
+      std::erase_if(pairs, [&](const auto& pair) { return are_of_two_components(diagnosis_.components, pair); });
+      of_each.emplace(cut.triangles, VertexGroups(diagnosis_.components.component_of_vertex));
+    }
+    Finders& finders = of_each ? *of_each : *finders_;
+    for (const IntersectingPair& pair : pairs)
       if (acceptance_->is_tolerated(pair)) ignored.push_back(pair);
     Scene surface = make_scene(prepared_.rest, cut.triangles, std::move(fixed), diagnosis_.edges);
     surface.face_of = cut.polygon;
-    SceneRepair scene(*job_, std::move(surface), diagnosis_.pairs, std::move(ignored));
-    work_on_scene(scene, cut, everything, *finders_);
+    if (options_.each_component) surface.group_of = diagnosis_.components.component_of_vertex;
+    SceneRepair scene(*job_, std::move(surface), std::move(pairs), std::move(ignored));
     float32_ = scene.float32();
-  }
-
-  void work_on_each_component(const std::vector<std::uint8_t>& fixed) {
-    const std::vector<Index>& component_of = diagnosis_.components.component_of_triangle;
-    const Index count = diagnosis_.components.count();
-    std::vector<Index> size(count, 0), number(component_of.size());  // of each triangle in its component
-    for (std::size_t t = 0; t < component_of.size(); ++t) number[t] = size[component_of[t]]++;
-    std::vector<std::vector<IntersectingPair>> pairs(count), ignored(count);
-    // One without conflict is as it should be, unless more is asked for.
-    std::vector<std::uint8_t> is_of_interest(count, options_.min_dihedral_deg > 0 || options_.find.both_diagonals);
-    for (const IntersectingPair& pair : diagnosis_.pairs) {
-      const Index c = component_of[pair.a];
-      if (c != component_of[pair.b]) continue;
-      is_of_interest[c] = 1;
-      pairs[c].push_back({number[pair.a], number[pair.b], pair.kind});
-      if (acceptance_->is_tolerated(pair)) ignored[c].push_back(pairs[c].back());
-    }
-    if (options_.precision == Precision::float32)
-      for (const IntersectingPair& pair : finders_->find_rounded(prepared_.rest))
-        if (component_of[pair.a] == component_of[pair.b]) is_of_interest[component_of[pair.a]] = 1;
-    bool float32 = true;
-    for (Index c = 0; c < count; ++c) {
-      if (!is_of_interest[c] || diagnosis_.components.list[c].obstructed() || limits_.reached()) continue;
-      const Triangulation cut = of_component(prepared_.triangulation, diagnosis_.components, c);
-      Scene surface = make_scene(prepared_.rest, cut.triangles, fixed);
-      surface.face_of = cut.polygon;
-      SceneRepair scene(*job_, std::move(surface), std::move(pairs[c]), std::move(ignored[c]));
-      Finders finders(cut.triangles);
-      work_on_scene(scene, cut, c, finders);
-      float32 &= scene.float32();
-    }
-    float32_ = float32 && options_.precision != Precision::float64;
-  }
-
-  /// `cut`: of the polygons of the component, or of all, into its triangles, which `finders` are of.
-  void work_on_scene(SceneRepair& scene, const Triangulation& cut, Index component, Finders& finders) {
-    const bool other_diagonals_matter = !prepared_.other_diagonals.triangles.empty();
-    const bool is_at_work = scene.has_work(finders) || other_diagonals_matter;
+    const bool is_at_work = scene.has_work(finders) || !prepared_.other_diagonals.triangles.empty();
     if (!is_at_work && options_.min_dihedral_deg <= 0) return;
     try {
       if (is_at_work) {
         scene.work(finders);
-        settle_triangulation(scene, *job_, cut, component, finders);
+        settle_triangulation(scene, *job_, finders);
       }
       if (options_.min_dihedral_deg > 0) {
-        Finders finders_of_all_cuts(scene.scene().triangles);  // settling may have united several
+        // Settling may have united several cuts.
+        Finders finders_of_all_cuts(scene.scene().triangles, scene.scene().groups());
         scene.open_dihedrals(finders_of_all_cuts);
       }
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
     }
     scene.keep_within_displacement(finders.as_is);
-    displacement_is_exceeded_ |= scene.displacement_is_exceeded();
-    smallest_gap_ = std::min(smallest_gap_, scene.smallest_gap());
-    for (Index v = 0; v < scene.scene().vertex_count(); ++v)
-      if (!scene.scene().triangles_of_vertex[v].empty()) reached_.col(v) = scene.scene().x.col(v);
+    displacement_is_exceeded_ = scene.displacement_is_exceeded();
+    smallest_gap_ = scene.smallest_gap();
+    float32_ = scene.float32();
+    reached_ = scene.scene().x;
   }
 
   // The end.

@@ -163,7 +163,7 @@ EscalationOptions SceneRepair::escalation_options() {
 
 EscalationResult SceneRepair::untangle(SceneIndex& index, std::span<const IntersectingPair> ignored,
                                        const EscalationOptions& escalation) {
-  return job_.options.paper ? untangle_whole(scene_, index, pairs_.size(), ignored, *job_.options.paper, escalation)
+  return job_.options.paper ? untangle_whole(scene_, index, ignored, *job_.options.paper, escalation)
                             : escalate(scene_, index, ignored, escalation);
 }
 
@@ -320,6 +320,7 @@ void SceneRepair::take(const UnitedTriangulations& cuts) {
   Scene scene = make_scene(job_.prepared.rest, cuts.all.triangles, scene_.fixed);
   ignored_ = cuts.strangers;
   scene.x = std::move(scene_.x);
+  scene.group_of = std::move(scene_.group_of);
   scene_ = std::move(scene);
 }
 

@@ -15,20 +15,17 @@ constexpr int most_cuts = 64;
 constexpr int most_cuts_at_once = 12;
 
 /// The polygons as whoever reads the present state cuts them: as usual, and along the other diagonals.
-std::vector<Triangulation> cuts_by_positions(const SceneRepair& repair, const Job& job, Index component) {
+std::vector<Triangulation> cuts_by_positions(const SceneRepair& repair, const Job& job) {
   const std::vector<double> positions = job.prepared.scatter(job.surface.positions, repair.scene().x);
   const SurfaceView result = {positions, job.surface.corners, job.surface.offsets};
   const std::vector<Index>& vertex_of = job.prepared.weld_map.vertex_of;
-  const Components& components = job.diagnosis.components;
-  return {of_component(triangulate(result, vertex_of), components, component),
-          job.options.find.both_diagonals
-              ? of_component(triangulate_other_diagonals(result, vertex_of), components, component)
-              : Triangulation()};
+  return {triangulate(result, vertex_of),
+          job.options.find.both_diagonals ? triangulate_other_diagonals(result, vertex_of) : Triangulation()};
 }
 
 void work_on(SceneRepair& repair, const std::vector<Triangulation>& cuts) {
   repair.take(unite(cuts));
-  Finders finders(repair.scene().triangles);
+  Finders finders(repair.scene().triangles, repair.scene().groups());
   repair.set_aside_what_cannot_be_parted(finders);
   repair.work(finders);
 }
@@ -42,21 +39,19 @@ std::vector<Index> vertices_of(const Job& job, const std::vector<Index>& polygon
 
 }  // namespace
 
-void settle_triangulation(SceneRepair& repair, const Job& job, const Triangulation& cut, Index component,
-                          Finders& finders) {
+void settle_triangulation(SceneRepair& repair, const Job& job, Finders& finders) {
   if (job.surface.offsets.empty() || !repair.is_resolved(finders)) return;
-  const std::vector<Triangulation> input = {
-      cut, of_component(job.prepared.other_diagonals, job.diagnosis.components, component)};
+  const std::vector<Triangulation> input = {job.prepared.triangulation, job.prepared.other_diagonals};
   const std::size_t input_size = unite(input).all.triangles.size();
   SceneRepair::Checkpoint best = repair.checkpoint();
   bool best_holds = false;
   for (int round = 0; round < most_cuts && !job.limits.reached(); ++round) {
-    const std::vector<Triangulation> now = cuts_by_positions(repair, job, component);
+    const std::vector<Triangulation> now = cuts_by_positions(repair, job);
     const UnitedTriangulations both = unite({input[0], input[1], now[0], now[1]});
-    if (round == 0 && both.all.triangles.size() == cut.triangles.size()) return;
+    if (round == 0 && both.all.triangles.size() == input[0].triangles.size()) return;
     repair.take(both);
     const SceneRepair::Checkpoint here = repair.checkpoint();
-    Finders finders_of_both(repair.scene().triangles);
+    Finders finders_of_both(repair.scene().triangles, repair.scene().groups());
     const std::vector<IntersectingPair> pairs = repair.set_aside_what_cannot_be_parted(finders_of_both);
     if (repair.is_resolved(finders_of_both)) {
       const std::vector<Index> heaped = polygons_on_new_duplicates(both.all, input_size, pairs);

@@ -9,10 +9,7 @@ namespace unsnarl {
 /// Whoever reads the result, a second run among them, cuts its polygons by its own positions. Where that cut
 /// intersects, work goes on until it and the input's both hold: on both at once or, as long as no way is found to that,
 /// on the one and the other in turn. Quads along either diagonal, if both count.
-///
-/// `cut`: of the polygons, as the input has them, into the triangles of the scene; `finders` are of those. All of that
-/// belongs to one component, or to any of them where that is -1.
-void settle_triangulation(SceneRepair& repair, const Job& job, const Triangulation& cut, Index component,
-                          Finders& finders);
+/// `finders`: of the triangles of the scene, which are those of the input's cut.
+void settle_triangulation(SceneRepair& repair, const Job& job, Finders& finders);
 
 }  // namespace unsnarl

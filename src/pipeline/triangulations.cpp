@@ -65,15 +65,4 @@ std::vector<Index> polygons_on_new_duplicates(const Triangulation& cut, std::siz
   return polygons;
 }
 
-Triangulation of_component(const Triangulation& cut, const Components& components, Index component) {
-  if (component < 0) return cut;
-  Triangulation part;
-  for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
-    if (components.component_of_vertex[cut.triangles[t][0]] != component) continue;
-    part.triangles.push_back(cut.triangles[t]);
-    part.polygon.push_back(cut.polygon[t]);
-  }
-  return part;
-}
-
 }  // namespace unsnarl

@@ -3,7 +3,6 @@
 #include <span>
 #include <vector>
 
-#include "mesh/components.h"
 #include "mesh/triangulation.h"
 #include "unsnarl/intersections.h"
 
@@ -21,8 +20,5 @@ UnitedTriangulations unite(const std::vector<Triangulation>& cuts);
 /// be cut otherwise than in the first `known` triangles; each once, sorted.
 std::vector<Index> polygons_on_new_duplicates(const Triangulation& cut, std::size_t known,
                                               std::span<const IntersectingPair> pairs);
-
-/// What a cut of all polygons has of a component; everything where that is -1.
-Triangulation of_component(const Triangulation& cut, const Components& components, Index component);
 
 }  // namespace unsnarl

@@ -13,8 +13,8 @@ namespace unsnarl {
 /// two would decide everything anew every time.
 class Finders {
  public:
-  /// The span must outlive this.
-  explicit Finders(std::span<const Triangle> triangles) : as_is(triangles) {}
+  /// The triangles, and the groups whose triangles pass through each other, must outlive this.
+  explicit Finders(std::span<const Triangle> triangles, VertexGroups groups = {}) : as_is(triangles, groups) {}
 
   /// Takes over that nothing intersects at x, nor once x is rounded to float32 if `rounded_too`.
   void start_without_pairs(const Positions& x, bool rounded_too) {

@@ -1,6 +1,7 @@
 #include "scene/patch.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "contact/bvh.h"
 #include "geometry/sort_unique.h"
@@ -27,7 +28,11 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
   const Bvh active(boxes);
   std::vector<Index> near, obstacles;
   index.query(all, near);
-  std::erase_if(near, [&](Index t) { return !active.overlaps_any(box_of(scene.x, scene.triangles[t])); });
+  const auto is_obstacle = [&](Index t) {
+    return scene.groups().meet(scene.triangles[t], scene.triangles[patch.faces.front()]) &&
+           active.overlaps_any(box_of(scene.x, scene.triangles[t]));
+  };
+  std::erase_if(near, std::not_fn(is_obstacle));
   std::sort(near.begin(), near.end());
   std::set_difference(near.begin(), near.end(), patch.faces.begin(), patch.faces.end(), std::back_inserter(obstacles));
   patch.faces.insert(patch.faces.end(), obstacles.begin(), obstacles.end());

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "contact/vertex_groups.h"
 #include "geometry/types.h"
 #include "mesh/adjacency.h"
 
@@ -15,9 +16,11 @@ struct Scene {
   std::vector<Triangle> triangles;
   std::vector<Index> face_of;  ///< of each triangle the face of the input that it is a piece of; empty: each is one
   std::vector<std::uint8_t> fixed;  ///< one flag a vertex
+  std::vector<Index> group_of;  ///< of each vertex: triangles of two groups pass through each other; empty: all meet
   IndexLists triangles_of_vertex;
   IndexLists neighbours;  ///< of vertices, by edges
 
+  VertexGroups groups() const { return VertexGroups(group_of); }
   Index vertex_count() const { return static_cast<Index>(rest.cols()); }
   Index triangle_count() const { return static_cast<Index>(triangles.size()); }
 };

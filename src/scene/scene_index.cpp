@@ -2,7 +2,8 @@
 
 namespace unsnarl {
 
-SceneIndex::SceneIndex(const Scene& scene) : scene_(scene), own_(std::in_place, scene.triangles), finder_(*own_) {
+SceneIndex::SceneIndex(const Scene& scene)
+    : scene_(scene), own_(std::in_place, scene.triangles, scene.groups()), finder_(*own_) {
   update();
 }
 

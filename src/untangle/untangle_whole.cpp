@@ -1,6 +1,7 @@
 #include "untangle/untangle_whole.h"
 
 #include <chrono>
+#include <map>
 #include <utility>
 
 #include "mesh/areas.h"
@@ -9,17 +10,36 @@
 #include "untangle/paper_untangle.h"
 
 namespace unsnarl {
+namespace {
 
-EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
-                                std::span<const IntersectingPair> ignored, const PaperOptions& paper,
-                                const EscalationOptions& options) {
+/// What meets itself: all of a scene, or a group of it.
+struct Whole {
+  std::vector<Index> free;  // vertices
+  std::vector<Triangle> triangles;
+  std::size_t pairs = 0;
+};
+
+/// Those with pairs.
+std::vector<Whole> wholes_of(const Scene& scene, std::span<const IntersectingPair> pairs) {
+  const auto group_of = [&](Index v) { return scene.group_of.empty() ? 0 : scene.group_of[v]; };
+  std::map<Index, Whole> wholes;
+  for (const IntersectingPair& pair : pairs) ++wholes[group_of(scene.triangles[pair.a][0])].pairs;
+  for (const Triangle& t : scene.triangles)
+    if (const auto whole = wholes.find(group_of(t[0])); whole != wholes.end()) whole->second.triangles.push_back(t);
+  for (Index v = 0; v < scene.vertex_count(); ++v) {
+    if (scene.fixed[v] || scene.triangles_of_vertex[v].empty()) continue;
+    if (const auto whole = wholes.find(group_of(v)); whole != wholes.end()) whole->second.free.push_back(v);
+  }
+  std::vector<Whole> result;
+  for (auto& [group, whole] : wholes) result.push_back(std::move(whole));
+  return result;
+}
+
+void untangle(Whole& whole, Scene& scene, SceneIndex& index, const PaperOptions& paper,
+              const EscalationOptions& options, EscalationResult& result) {
   const auto begin = std::chrono::steady_clock::now();
-  index.update();
-  std::vector<Index> free;
-  for (Index v = 0; v < scene.vertex_count(); ++v)
-    if (!scene.fixed[v] && !scene.triangles_of_vertex[v].empty()) free.push_back(v);
-  Patch patch = cut_patch(scene, index, free, 0);
-  patch.edge_length = mean_edge_length(scene.rest, scene.triangles);
+  Patch patch = cut_patch(scene, index, whole.free, 0);
+  patch.edge_length = mean_edge_length(scene.rest, whole.triangles);
   Trajectory trajectory;
   if (options.recorder && options.recorder->is_on()) {
     trajectory = options.recorder->new_trajectory();
@@ -29,20 +49,28 @@ EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pai
   const PaperResult untangled = paper_untangle(patch, paper, scene.face_of, options.stop);
   const double motion = (patch.x - start).colwise().norm().maxCoeff();
   paste_patch(patch, scene, index);
-  EscalationResult result;
   RegionReport report;
   report.strategy = "paper";
   report.faces = static_cast<std::size_t>(patch.active_count);
-  report.pairs = pairs;
+  report.pairs = whole.pairs;
   report.iterations = untangled.iterations;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (options.recorder) {
-    options.recorder->begin_stage("untangle");
-    options.recorder->add(std::move(trajectory), report.strategy, options.first_region, free, scene.x);
-  }
+  if (options.recorder)
+    options.recorder->add(std::move(trajectory), report.strategy, options.first_region + result.regions.size(),
+                          whole.free, scene.x);
   result.regions.push_back(report);
   result.depths.push_back(motion);
-  result.moved.push_back(std::move(free));
+  result.moved.push_back(std::move(whole.free));
+}
+
+}  // namespace
+
+EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
+                                const PaperOptions& paper, const EscalationOptions& options) {
+  EscalationResult result;
+  const std::vector<IntersectingPair> pairs = blocking_pairs(index.find_pairs(), ignored);
+  if (options.recorder) options.recorder->begin_stage("untangle");
+  for (Whole& whole : wholes_of(scene, pairs)) untangle(whole, scene, index, paper, options, result);
   result.left = blocking_pairs(index.find_pairs(), ignored);
   return result;
 }

@@ -6,9 +6,9 @@
 namespace unsnarl {
 
 /// Untangles the whole scene as one patch, as the paper does it (paper_untangle), until no disjoint pair is left; in
-/// the place of escalate(). `pairs`: how many there are. Of `options` only `stop`, `recorder` and `first_region` count.
-EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::size_t pairs,
-                                std::span<const IntersectingPair> ignored, const PaperOptions& paper,
-                                const EscalationOptions& options);
+/// the place of escalate(). Of several groups each that has pairs is a patch. Of `options` only `stop`, `recorder` and
+/// `first_region` count.
+EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
+                                const PaperOptions& paper, const EscalationOptions& options);
 
 }  // namespace unsnarl

@@ -93,6 +93,32 @@ TEST(IntersectionFinder, what_moved_since_the_last_time_is_decided_as_if_anew) {
   }
 }
 
+TEST(IntersectionFinder, pairs_of_two_groups_are_left_out) {
+  WavySheets sheets(1.99);
+  std::vector<Index> group_of(static_cast<std::size_t>(sheets.x.cols()), 0);
+  std::fill(group_of.begin() + sheets.x.cols() / 2, group_of.end(), 1);
+  const VertexGroups groups(group_of);
+  const auto are_of_two = [&](const IntersectingPair& pair) {
+    return !groups.meet(sheets.triangles[pair.a], sheets.triangles[pair.b]);
+  };
+  IntersectionFinder all(sheets.triangles), apart(sheets.triangles, groups);
+  std::size_t left_out = 0, found = 0;
+  std::uint64_t state = 3;
+  const auto random = [&] { return state = state * 6364136223846793005ULL + 1442695040888963407ULL, state >> 33; };
+  for (const int moved : {0, 3000, 10, 20000, 20000, 20000, 20, 20000}) {
+    for (int k = 0; k < moved; ++k)
+      sheets.x(static_cast<Index>(random() % 3),
+               static_cast<Index>(random() % static_cast<std::uint64_t>(sheets.x.cols()))) +=
+          0.3 * (static_cast<double>(random() % 1000) / 500 - 1);
+    std::vector<IntersectingPair> expected = all.find(sheets.x);
+    left_out += std::erase_if(expected, are_of_two);
+    found += expected.size();
+    EXPECT_TRUE(apart.find(sheets.x) == expected) << moved << " moved";
+  }
+  EXPECT_GT(left_out, 1000u);
+  EXPECT_GT(found, 500u);
+}
+
 TEST(IntersectionFinder, from_known_pairs_only_what_moves_is_decided) {
   WavySheets sheets(1.99);
   const std::vector<IntersectingPair> known = IntersectionFinder(sheets.triangles).find(sheets.x);

@@ -125,6 +125,30 @@ TEST(EachComponent, is_repaired_as_if_alone) {
   }
 }
 
+TEST(EachComponent, is_repaired_as_if_alone_by_the_method_of_the_paper_too) {
+  const Surface sheet = make_sample("folded_sheet", 12);
+  Surface two = sheet;
+  const auto count = static_cast<std::int32_t>(sheet.view().vertex_count());
+  for (std::size_t i = 0; i < sheet.positions.size(); ++i)
+    two.positions.push_back(sheet.positions[i] + (i % 3 == 2 ? 0.0625 : 0.0));
+  for (std::size_t f = 0; f < sheet.view().face_count(); ++f) {
+    for (const std::int32_t v : sheet.view().face(f)) two.corners.push_back(v + count);
+    two.offsets.push_back(static_cast<std::int32_t>(two.corners.size()));
+  }
+  RepairOptions options;
+  options.paper.emplace();
+  const RepairResult alone = repair(sheet, options);
+  ASSERT_NE(alone.positions, sheet.positions);
+  options.each_component = true;
+  const RepairResult result = repair(two, options);
+  EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), result.positions.begin()));
+  ASSERT_EQ(result.report.components.size(), 2u);
+  for (const ComponentReport& component : result.report.components) {
+    EXPECT_GT(component.pairs_before, 0u);
+    EXPECT_EQ(component.pairs_after, 0u);
+  }
+}
+
 TEST(EachComponent, quads_hold_along_both_diagonals) {
   RepairOptions options;
   options.find.both_diagonals = true;
