@@ -154,12 +154,4 @@ LocalBandwidthReport independent_local_bandwidths(std::span<const BandwidthPair>
                  });
 }
 
-double pairwise_optimal_energy(std::span<const BandwidthPair> pairs, double exponent) {
-  double sum = 0;
-  for (const BandwidthPair& pair : pairs) {
-    sum += pair.weight * std::pow(2 * pair.squared_distance / exponent, -0.5 * exponent) * std::exp(-0.5 * exponent);
-  }
-  return sum;
-}
-
 }  // namespace unsnarl

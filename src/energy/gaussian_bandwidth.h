@@ -53,8 +53,4 @@ LocalBandwidthReport symmetric_local_bandwidths(std::span<const BandwidthPair> p
 LocalBandwidthReport independent_local_bandwidths(std::span<const BandwidthPair> pairs, std::vector<double>& squared,
                                                   const BandwidthOptions& options = {});
 
-/// E_G where every pair has its own best bandwidth, eps_ij^2 = 2 r_ij^2 / p (model (III)): sum of a_ij (2 e / p)^(-p/2)
-/// r_ij^-p, infinite for coincident points. Here to show why it is not used.
-double pairwise_optimal_energy(std::span<const BandwidthPair> pairs, double exponent = 2);
-
 }  // namespace unsnarl

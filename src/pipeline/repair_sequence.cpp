@@ -18,6 +18,7 @@
 #include "pipeline/frame_motion.h"
 #include "pipeline/threads.h"
 #include "scene/face_pairs.h"
+#include "scene/rounding.h"
 #include "unsnarl/sequence.h"
 
 namespace unsnarl {
@@ -303,8 +304,7 @@ class SequenceRepair {
     if (options.as_written)
       target = options.as_written(target, alone.precision == Precision::float32);
     else if (alone.precision == Precision::float32)
-      for (std::size_t k = 0; k < target.size(); ++k)
-        if (target[k] != frame.input[k]) target[k] = static_cast<double>(static_cast<float>(target[k]));
+      round_changed_to_float32(frame.input, target);
     // In the welding and triangulation of the input, not of the target; from what is known of the repair by itself.
     Finders finders(prepared.triangles());
     if (alone.after.total() == 0)

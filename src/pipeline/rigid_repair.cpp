@@ -49,6 +49,7 @@ class RigidRepair {
     diagnosis_ = diagnose(surface_, prepared_, fixed_, finders_->as_is);
     find_obstructions();
     acceptance_.emplace(surface_, prepared_, diagnosis_, options_, *finders_);
+    const PairCounts before = acceptance_->pairs_at(prepared_.rest).faces;
     // This attempt, the input itself, is the result if memory runs out before the first one is complete.
     Attempt best;
     best.positions.assign(surface_.positions.begin(), surface_.positions.end());
@@ -65,7 +66,11 @@ class RigidRepair {
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
     }
-    return finished(std::move(best));
+    try {
+      return finished(std::move(best));
+    } catch (const std::bad_alloc&) {  // the result cannot be examined, so it is none
+      return unchanged(before);
+    }
   }
 
  private:
@@ -213,9 +218,7 @@ class RigidRepair {
   std::vector<double> as_written(const Positions& x) const {
     std::vector<double> positions = prepared_.scatter(surface_.positions, x);
     if (options_.as_written) return options_.as_written(positions, float32_);
-    if (float32_)
-      for (std::size_t i = 0; i < positions.size(); ++i)
-        if (positions[i] != surface_.positions[i]) positions[i] = static_cast<double>(static_cast<float>(positions[i]));
+    if (float32_) round_changed_to_float32(surface_.positions, positions);
     return positions;
   }
 
@@ -271,6 +274,17 @@ class RigidRepair {
     }
     sort_unique(parts);
     return parts;
+  }
+
+  RepairResult unchanged(const PairCounts& before) {
+    RepairResult result;
+    result.positions.assign(surface_.positions.begin(), surface_.positions.end());
+    result.status = Status::memory_limit;
+    result.report.before = result.report.after = before;
+    result.report.topology = diagnosis_.topology;
+    result.report.obstructions = diagnosis_.obstructions;
+    result.report.stages = std::move(stages_);
+    return result;
   }
 
   // The inner repair has compared with the parts in their places; the report compares with the input.

@@ -253,9 +253,8 @@ Positions SceneRepair::as_written(const Positions& x) const {
   }
   if (!float32_) return x;
   Positions rounded = x;
-  for (Index v = 0; v < x.cols(); ++v)
-    for (int k = 0; k < 3; ++k)
-      if (x(k, v) != scene_.rest(k, v)) rounded(k, v) = static_cast<double>(static_cast<float>(x(k, v)));
+  const auto size = static_cast<std::size_t>(x.size());
+  round_changed_to_float32({scene_.rest.data(), size}, {rounded.data(), size});
   return rounded;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <span>
 
 #include "geometry/types.h"
 
@@ -15,6 +17,11 @@ inline bool fits_float32(const Positions& x) {
 inline Positions rounded_to_float32(const Positions& x) {
   constexpr double largest = std::numeric_limits<float>::max();
   return x.cwiseMax(-largest).cwiseMin(largest).cast<float>().cast<double>();
+}
+/// Rounds those of these numbers that are not what they are in the input (as many).
+inline void round_changed_to_float32(std::span<const double> input, std::span<double> numbers) {
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    if (numbers[k] != input[k]) numbers[k] = static_cast<double>(static_cast<float>(numbers[k]));
 }
 
 /// Distance between neighbouring float32 numbers at the largest coordinate; infinite beyond float32.

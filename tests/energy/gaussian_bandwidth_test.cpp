@@ -146,7 +146,14 @@ TEST(IndependentLocalBandwidth, MaximisesEveryPointsOwnEnergy) {
   }
 }
 
-// Model (III): the kernel drops out and what is left is singular (App. B.3).
+// E_G where every pair has its own best bandwidth, eps_ij = r_ij for p = 2: sum of a_ij / (e r_ij^2).
+double pairwise_optimal_energy(std::span<const BandwidthPair> pairs) {
+  double sum = 0;
+  for (const BandwidthPair& pair : pairs) sum += pair.weight * std::exp(-1.0) / pair.squared_distance;
+  return sum;
+}
+
+// Model (III): the kernel drops out and what is left is singular (App. B.3), which is why it is not used.
 TEST(PairwiseOptimalBandwidth, DivergesAsPointsMeet) {
   double previous = 0;
   for (const double r : {1.0, 1e-2, 1e-4, 1e-8}) {
