@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -39,11 +40,23 @@ SceneRepair::SceneRepair(const Job& job, Scene scene, std::vector<IntersectingPa
       scene_(std::move(scene)),
       pairs_(std::move(pairs)),
       ignored_(std::move(ignored)),
+      let_be_(job.diagnosis.components.count(), 0),
       float32_(chooses_float32()) {}
 
 bool SceneRepair::is_resolved(Finders& finders) const {
-  return blocking_pairs(finders.as_is.find(scene_.x), ignored_).empty() &&
-         count_lost_areas(job_.prepared.rest, scene_.x, job_.prepared.triangulation.triangles) == 0;
+  const auto components = components_with_rest(finders);
+  return std::all_of(components.begin(), components.end(), [&](Index c) { return let_be_[c] != 0; });
+}
+
+std::vector<Index> SceneRepair::components_with_rest(Finders& finders) const {
+  std::vector<Index> components;
+  for (const IntersectingPair& pair : blocking_pairs(finders.as_is.find(scene_.x), ignored_))
+    components.insert(components.end(), {component_of(pair.a), component_of(pair.b)});
+  for (const Triangle& t : job_.prepared.triangulation.triangles)
+    if (count_lost_areas(job_.prepared.rest, scene_.x, {&t, 1}) > 0)
+      components.push_back(job_.diagnosis.components.component_of_vertex[t[0]]);
+  sort_unique(components);
+  return components;
 }
 
 bool SceneRepair::has_work(Finders& finders) const {
@@ -90,8 +103,7 @@ SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders) {
     moved_.insert(moved_.end(), untangled.moved.begin(), untangled.moved.end());
     job_.phases.start("certify");
     report_progress(recovered_fraction, untangled.left);
-    for (Index v = 0; v < scene_.vertex_count(); ++v)
-      if (!scene_.triangles_of_vertex[v].empty()) job_.tried.solved.col(v) = scene_.x.col(v);
+    job_.tried.solved = scene_.x;
     result.before_rounding = checkpoint();
     scene_.x = as_written(scene_.x);
     // Components on which pairs are left are let be, and the others go on without them.
@@ -237,7 +249,11 @@ void SceneRepair::report_progress(double fraction, std::span<const IntersectingP
 bool SceneRepair::chooses_float32() const {
   const std::optional<Precision> wanted = job_.options.precision;
   if (wanted) return *wanted == Precision::float32 && fits_float32(scene_.rest);
-  return pairs_.empty() || float32_can_hold(scene_, pairs_);
+  std::map<Index, std::vector<IntersectingPair>> of_group;
+  for (const IntersectingPair& pair : pairs_)
+    of_group[scene_.group_of.empty() ? 0 : component_of(pair.a)].push_back(pair);
+  return std::all_of(of_group.begin(), of_group.end(),
+                     [&](const auto& group) { return float32_can_hold(scene_, group.second); });
 }
 
 /// Absolute gap wanted between sheets around these vertices. Local, so that distant parts change nothing.
@@ -281,7 +297,8 @@ bool SceneRepair::can_be_parted(const IntersectingPair& pair) const {
     return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(),
                        [&](Index v) { return !scene_.fixed[v]; });
   };
-  return can_move(pair.a) || can_move(pair.b);
+  if (!can_move(pair.a) && !can_move(pair.b)) return false;
+  return !fixed_parts_meet(scene_.rest, scene_.fixed, scene_.triangles[pair.a], scene_.triangles[pair.b]);
 }
 
 // The limit of displacement.
@@ -326,11 +343,17 @@ void SceneRepair::take(const UnitedTriangulations& cuts) {
 std::vector<IntersectingPair> SceneRepair::set_aside_what_cannot_be_parted(Finders& finders) {
   std::vector<IntersectingPair> pairs = finders.as_is.find(scene_.x);
   for (const IntersectingPair& pair : blocking_pairs(pairs, ignored_))
-    if (pair.kind == PairClass::duplicate || !can_be_parted(pair) ||
-        (job_.options.goal == Goal::disjoint && pair.kind != PairClass::disjoint))
+    if (let_be_[component_of(pair.a)] || let_be_[component_of(pair.b)] || pair.kind == PairClass::duplicate ||
+        !can_be_parted(pair) || (job_.options.goal == Goal::disjoint && pair.kind != PairClass::disjoint))
       ignored_.push_back(pair);
   std::sort(ignored_.begin(), ignored_.end());
   return pairs;
+}
+
+bool SceneRepair::let_be_what_is_left(Finders& finders) {
+  bool any = false;
+  for (const Index c : components_with_rest(finders)) any |= std::exchange(let_be_[c], std::uint8_t{1}) == 0;
+  return any;
 }
 
 void SceneRepair::restore_to_rest(std::span<const Index> vertices) {

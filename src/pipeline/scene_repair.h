@@ -16,7 +16,7 @@
 
 namespace unsnarl {
 
-/// Work on one scene, all of a surface or a component of it: untangle, recover, round, and again where that brought
+/// Work on a surface as a scene: untangle, recover, round, and again where that brought
 /// something. The job must outlive it.
 class SceneRepair {
  public:
@@ -50,6 +50,8 @@ class SceneRepair {
   void take(const UnitedTriangulations& cuts);
   /// From now on lets be what no motion parts, or need not. Returns all pairs there are.
   std::vector<IntersectingPair> set_aside_what_cannot_be_parted(Finders& finders);
+  /// From now on lets the components be on which something is left. Returns whether there are any besides those before.
+  bool let_be_what_is_left(Finders& finders);
   void restore_to_rest(std::span<const Index> vertices);
 
   /// A state to go back to, with the same triangles or others.
@@ -77,6 +79,8 @@ class SceneRepair {
   bool has_moved(Index t, const Positions& x) const;
   bool can_be_parted(const IntersectingPair& pair) const;
   Index component_of(Index t) const { return job_.diagnosis.components.component_of_vertex[scene_.triangles[t][0]]; }
+  /// Components on which something but what is let be intersects or a face has lost its area; ascending.
+  std::vector<Index> components_with_rest(Finders& finders) const;
 
   EscalationOptions escalation_options();
   EscalationResult untangle(SceneIndex& index, std::span<const IntersectingPair> ignored,
@@ -97,6 +101,7 @@ class SceneRepair {
   const Job& job_;
   Scene scene_;
   std::vector<IntersectingPair> pairs_, ignored_;
+  std::vector<std::uint8_t> let_be_;  // per component
   bool float32_;
   std::vector<Tier> tiers_;                // where not the default ones
   std::vector<std::vector<Index>> moved_;  // what regions freed

@@ -37,10 +37,8 @@ std::vector<Index> vertices_of(const Job& job, const std::vector<Index>& polygon
   return vertices;
 }
 
-}  // namespace
-
-void settle_triangulation(SceneRepair& repair, const Job& job, Finders& finders) {
-  if (job.surface.offsets.empty() || !repair.is_resolved(finders)) return;
+/// False: some components did not settle. All is as it was before then, and they are let be from now on.
+bool settles(SceneRepair& repair, const Job& job) {
   const std::vector<Triangulation> input = {job.prepared.triangulation, job.prepared.other_diagonals};
   const std::size_t input_size = unite(input).all.triangles.size();
   SceneRepair::Checkpoint best = repair.checkpoint();
@@ -48,14 +46,14 @@ void settle_triangulation(SceneRepair& repair, const Job& job, Finders& finders)
   for (int round = 0; round < most_cuts && !job.limits.reached(); ++round) {
     const std::vector<Triangulation> now = cuts_by_positions(repair, job);
     const UnitedTriangulations both = unite({input[0], input[1], now[0], now[1]});
-    if (round == 0 && both.all.triangles.size() == input[0].triangles.size()) return;
+    if (round == 0 && both.all.triangles.size() == input[0].triangles.size()) return true;
     repair.take(both);
     const SceneRepair::Checkpoint here = repair.checkpoint();
     Finders finders_of_both(repair.scene().triangles, repair.scene().groups());
     const std::vector<IntersectingPair> pairs = repair.set_aside_what_cannot_be_parted(finders_of_both);
     if (repair.is_resolved(finders_of_both)) {
       const std::vector<Index> heaped = polygons_on_new_duplicates(both.all, input_size, pairs);
-      if (heaped.empty()) return;
+      if (heaped.empty()) return true;
       if (!std::exchange(best_holds, true)) best = here;
       repair.restore_to_rest(vertices_of(job, heaped));
       work_on(repair, input);
@@ -68,8 +66,23 @@ void settle_triangulation(SceneRepair& repair, const Job& job, Finders& finders)
       work_on(repair, round % 2 == 0 ? now : input);
     }
   }
+  const std::vector<Triangulation> now = cuts_by_positions(repair, job);
+  repair.take(unite({input[0], input[1], now[0], now[1]}));
+  Finders last(repair.scene().triangles, repair.scene().groups());
+  repair.set_aside_what_cannot_be_parted(last);
+  const bool is_done = !repair.let_be_what_is_left(last);
   repair.take(unite(input));
   repair.restore(best);
+  return is_done;
+}
+
+}  // namespace
+
+void settle_triangulation(SceneRepair& repair, const Job& job, Finders& finders) {
+  if (job.surface.offsets.empty()) return;
+  repair.let_be_what_is_left(finders);
+  while (!settles(repair, job)) {
+  }
 }
 
 }  // namespace unsnarl

@@ -30,7 +30,7 @@ class Acceptance {
   bool is_embedded_in_float32(const Positions& x);
 
   /// A pair of the input that need not be resolved: an obstruction, of a class that the goal leaves out, or between
-  /// components that are repaired one by one.
+  /// components that are repaired each as if alone.
   bool is_tolerated(const IntersectingPair& pair) const;
   /// Why a pair of faces that meets by another cut alone need not be resolved, if that is so. No motion parts two
   /// triangles on the same three vertices.

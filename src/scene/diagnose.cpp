@@ -24,16 +24,21 @@ std::optional<Triangle> fixed_part(const Triangle& t, std::span<const std::uint8
 
 }  // namespace
 
+bool fixed_parts_meet(const Positions& rest, std::span<const std::uint8_t> fixed, const Triangle& first,
+                      const Triangle& second) {
+  const std::optional<Triangle> a = fixed_part(first, fixed), b = fixed_part(second, fixed);
+  PairClass kind;
+  return a && b && intersects(rest, *a, *b, kind);
+}
+
 std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared, const Components& components,
                                                 std::span<const std::uint8_t> fixed, const IntersectingPair& pair) {
   if (!are_of_two_components(components, pair) &&
       components.list[components.component_of_triangle[pair.a]].obstructed())
     return Obstruction::Kind::closed_non_orientable;
   if (pair.kind == PairClass::duplicate) return Obstruction::Kind::duplicate_faces;
-  const std::optional<Triangle> a = fixed_part(prepared.triangles()[pair.a], fixed);
-  const std::optional<Triangle> b = fixed_part(prepared.triangles()[pair.b], fixed);
-  PairClass kind;
-  if (a && b && intersects(prepared.rest, *a, *b, kind)) return Obstruction::Kind::fixed_faces;
+  if (fixed_parts_meet(prepared.rest, fixed, prepared.triangles()[pair.a], prepared.triangles()[pair.b]))
+    return Obstruction::Kind::fixed_faces;
   return std::nullopt;
 }
 

@@ -26,6 +26,10 @@ inline bool are_of_two_components(const Components& components, const Intersecti
   return components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b];
 }
 
+/// Whether what is fixed of two triangles (edges, vertices) meets, so that no motion of the others parts them.
+bool fixed_parts_meet(const Positions& rest, std::span<const std::uint8_t> fixed, const Triangle& first,
+                      const Triangle& second);
+
 /// The obstruction because of which no motion separates two intersecting triangles, if there is one.
 std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared, const Components& components,
                                                 std::span<const std::uint8_t> fixed, const IntersectingPair& pair);

@@ -52,6 +52,20 @@ TEST(Clearance, FoldedFacesAreOpenedToTheAngleAskedFor) {
   }
 }
 
+TEST(Clearance, WhereEachComponentIsAloneOthersAreInTheWayOfNoAngle) {
+  // Two triangles folded together, and one above and one below them, nearer than the gap once they are open.
+  const Surface surface = {{0, 0,  0,    1,   0, 0,    0.5, 1,  0,     0.5, 1,  0.05,  -1,  -1, 0.65,
+                            2, -1, 0.65, 0.5, 2, 0.65, -1,  -1, -0.65, 2,   -1, -0.65, 0.5, 2,  -0.65},
+                           {0, 1, 2, 0, 3, 1, 4, 5, 6, 7, 8, 9},
+                           {}};
+  RepairOptions options;
+  options.min_dihedral_deg = 60;
+  options.min_gap_rel = 0.05;
+  EXPECT_LT(measure_clearance(surface, repair(surface, options).positions).dihedral_deg, 60);
+  options.each_component = true;
+  EXPECT_GE(measure_clearance(surface, repair(surface, options).positions).dihedral_deg, 60);
+}
+
 TEST(Clearance, NothingMovesWhereNothingIsFoldedOrAllIsHeld) {
   RepairOptions options;
   options.min_dihedral_deg = 0.5;

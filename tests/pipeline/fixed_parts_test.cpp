@@ -1,4 +1,4 @@
-// Scenes around parts that must not move (paper §4.2), and components repaired one by one, judged by CGAL.
+// Scenes around parts that must not move (paper §4.2), and components repaired each as if alone, judged by CGAL.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -149,6 +149,16 @@ TEST(EachComponent, is_repaired_as_if_alone_by_the_method_of_the_paper_too) {
   }
 }
 
+/// Adds vertices and triangles (their corners counted from the first of those) to a surface of polygons.
+void add_triangles(const std::vector<double>& positions, const std::vector<std::int32_t>& corners, Surface& surface) {
+  const auto count = static_cast<std::int32_t>(surface.view().vertex_count());
+  surface.positions.insert(surface.positions.end(), positions.begin(), positions.end());
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    surface.corners.push_back(count + corners[c]);
+    if (c % 3 == 2) surface.offsets.push_back(static_cast<std::int32_t>(surface.corners.size()));
+  }
+}
+
 TEST(EachComponent, quads_hold_along_both_diagonals) {
   RepairOptions options;
   options.find.both_diagonals = true;
@@ -156,21 +166,83 @@ TEST(EachComponent, quads_hold_along_both_diagonals) {
   ASSERT_FALSE(limb.offsets.empty());
   const RepairResult alone = repair(limb, options);
   ASSERT_EQ(alone.status, Status::embedded);
-  Surface two = limb;
-  const auto count = static_cast<std::int32_t>(limb.view().vertex_count());
-  two.positions.insert(two.positions.end(), limb.positions.begin(), limb.positions.end());
-  for (std::size_t v = 0; v < limb.view().vertex_count(); ++v) two.positions[3 * (count + v)] += 128;
-  for (std::size_t f = 0; f < limb.view().face_count(); ++f) {
-    for (const std::int32_t v : limb.view().face(f)) two.corners.push_back(v + count);
-    two.offsets.push_back(static_cast<std::int32_t>(two.corners.size()));
+  for (const double apart : {128.0, 0.05}) {
+    Surface two = limb;
+    const auto count = static_cast<std::int32_t>(limb.view().vertex_count());
+    for (std::size_t i = 0; i < limb.positions.size(); ++i)
+      two.positions.push_back(limb.positions[i] + (i % 3 == 0 ? apart : 0));
+    for (std::size_t f = 0; f < limb.view().face_count(); ++f) {
+      for (const std::int32_t v : limb.view().face(f)) two.corners.push_back(v + count);
+      two.offsets.push_back(static_cast<std::int32_t>(two.corners.size()));
+    }
+    options.each_component = true;
+    const RepairResult result = repair(two, options);
+    EXPECT_EQ(result.status, apart > 1 ? Status::embedded : Status::obstructed) << to_string(result.status);
+    Surface moved = two;
+    moved.positions = result.positions;
+    EXPECT_EQ(find_intersections(moved, options.find).empty(), apart > 1);
+    EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), result.positions.begin()));
   }
+}
+
+TEST(FixedParts, what_cannot_be_parted_keeps_no_polygon_of_others_from_settling) {
+  const Surface limb = make_sample("posed_limb", 16);
+  // Triangles of which a fixed edge runs through a fixed one; and a fixed tetrahedron around the fixed end of a chain.
+  Surface crossed = limb, locked = limb;
+  add_triangles({100, 0, 0, 101, 0, 0, 100.5, 0, 1, 100.5, -1, -1, 100.5, 1, -1, 100.5, 0, 0.5},
+                {0, 1, 2, 3, 4, 5, 0, 4, 3}, crossed);
+  add_triangles({100, 0,     0,   101, 0,     0,   100, 1,     0, 100, 0,   1, 100.2, 0.2,
+                 0.2, 100.2, 0.9, 0.9, 100.3, 0.9, 0.9, 100.2, 2, 2,   100, 2, 2},
+                {0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3, 4, 5, 6, 5, 6, 7, 3, 7, 8}, locked);
+  // A quad that runs through a fixed triangle along one diagonal or the other, whatever its free vertices do.
+  Surface torn = limb;
+  torn.positions.insert(torn.positions.end(), {98, 0,     0,    103,  0,     0,   100.5, -1,    1, 100.5, 1,
+                                               1,  100.5, -0.1, -0.1, 100.5, 0.1, -0.1,  100.5, 0, 0.2});
+  const auto count = static_cast<std::int32_t>(limb.view().vertex_count());
+  for (const std::int32_t corner : {2, 0, 3, 1}) torn.corners.push_back(count + corner);
+  torn.offsets.push_back(static_cast<std::int32_t>(torn.corners.size()));
+  for (const std::int32_t corner : {4, 5, 6, 4, 5, 0}) torn.corners.push_back(count + corner);
+  for (const std::int32_t corners : {3, 0})
+    torn.offsets.push_back(static_cast<std::int32_t>(torn.corners.size()) - corners);
+  const std::size_t first = limb.view().vertex_count();
+  for (const bool each : {false, true}) {
+    RepairOptions options;
+    options.find.both_diagonals = true;
+    options.each_component = each;
+    options.fixed.assign(first + 6, 0);
+    for (const std::size_t v : {0, 1, 3, 4, 5}) options.fixed[first + v] = 1;
+    const RepairResult result = repair(crossed, options);
+    EXPECT_EQ(result.status, Status::obstructed) << to_string(result.status);
+    EXPECT_EQ(result.report.after.total(), 1u) << each;
+    options.fixed.assign(first + 9, 0);
+    for (const std::size_t v : {0, 1, 2, 3, 4, 7, 8}) options.fixed[first + v] = 1;
+    EXPECT_EQ(repair(locked, options).report.after.total(), 1u) << each;
+    options.fixed.assign(first + 7, 0);
+    for (const std::size_t v : {0, 3, 4, 5, 6}) options.fixed[first + v] = 1;
+    options.max_displacement_rel = 0.002;
+    EXPECT_EQ(repair(torn, options).report.after.total(), 1u) << each;
+  }
+}
+
+TEST(EachComponent, chooses_its_numbers_by_itself) {
+  // A folded sheet with coordinates of 1000, and smaller ones near the origin: alone, 32-bit numbers can hold each.
+  const Surface sheet = make_sample("folded_sheet", 12);
+  Surface all = sheet;
+  for (std::size_t i = 0; i < all.positions.size(); i += 3) all.positions[i] += 1000;
+  const Surface far = all;
+  const auto count = static_cast<std::int32_t>(sheet.view().vertex_count());
+  for (std::int32_t k = 0; k < 12; ++k) {
+    for (std::size_t i = 0; i < sheet.positions.size(); ++i)
+      all.positions.push_back(0.01 * sheet.positions[i] + (i % 3 == 1 ? k : 0));
+    for (std::size_t f = 0; f < sheet.view().face_count(); ++f) {
+      for (const std::int32_t v : sheet.view().face(f)) all.corners.push_back(v + (k + 1) * count);
+      all.offsets.push_back(static_cast<std::int32_t>(all.corners.size()));
+    }
+  }
+  RepairOptions options;
+  ASSERT_EQ(repair(far, options).report.precision, Precision::float32);
   options.each_component = true;
-  const RepairResult result = repair(two, options);
-  EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
-  Surface moved = two;
-  moved.positions = result.positions;
-  EXPECT_TRUE(find_intersections(moved, options.find).empty());
-  EXPECT_TRUE(std::equal(alone.positions.begin(), alone.positions.end(), result.positions.begin()));
+  EXPECT_EQ(repair(all, options).report.precision, Precision::float32);
 }
 
 TEST(EachComponent, one_that_intersects_along_the_other_diagonals_alone_is_repaired) {
