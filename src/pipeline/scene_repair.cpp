@@ -342,11 +342,15 @@ void SceneRepair::take(const UnitedTriangulations& cuts) {
 
 std::vector<IntersectingPair> SceneRepair::set_aside_what_cannot_be_parted(Finders& finders) {
   std::vector<IntersectingPair> pairs = finders.as_is.find(scene_.x);
+  const auto is_let_be = [&](const IntersectingPair& pair) {
+    return let_be_[component_of(pair.a)] || let_be_[component_of(pair.b)];
+  };
   for (const IntersectingPair& pair : blocking_pairs(pairs, ignored_))
-    if (let_be_[component_of(pair.a)] || let_be_[component_of(pair.b)] || pair.kind == PairClass::duplicate ||
-        !can_be_parted(pair) || (job_.options.goal == Goal::disjoint && pair.kind != PairClass::disjoint))
+    if (is_let_be(pair) || pair.kind == PairClass::duplicate || !can_be_parted(pair) ||
+        (job_.options.goal == Goal::disjoint && pair.kind != PairClass::disjoint))
       ignored_.push_back(pair);
   std::sort(ignored_.begin(), ignored_.end());
+  std::erase_if(pairs, is_let_be);
   return pairs;
 }
 

@@ -48,7 +48,7 @@ class SceneRepair {
 
   /// Makes the scene one of these triangles, where it is now.
   void take(const UnitedTriangulations& cuts);
-  /// From now on lets be what no motion parts, or need not. Returns all pairs there are.
+  /// From now on lets be what no motion parts, or need not. Returns all pairs of components that are not let be.
   std::vector<IntersectingPair> set_aside_what_cannot_be_parted(Finders& finders);
   /// From now on lets the components be on which something is left. Returns whether there are any besides those before.
   bool let_be_what_is_left(Finders& finders);
