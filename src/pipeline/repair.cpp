@@ -167,7 +167,7 @@ class Repair {
       }
       if (options_.min_dihedral_deg > 0) {
         // Settling may have united several cuts.
-        Finders finders_of_all_cuts(scene.scene().triangles, scene.scene().groups());
+        Finders finders_of_all_cuts = scene.make_finders();
         scene.open_dihedrals(finders_of_all_cuts);
       }
     } catch (const std::bad_alloc&) {

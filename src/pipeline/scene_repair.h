@@ -16,8 +16,8 @@
 
 namespace unsnarl {
 
-/// Work on a surface as a scene: untangle, recover, round, and again where that brought
-/// something. The job must outlive it.
+/// Repairs the scene of a surface: untangles it, recovers it and rounds it, again where rounding brought intersections.
+/// The job must outlive it.
 class SceneRepair {
  public:
   /// `scene` is at rest; `pairs` are those of its triangles, of which `ignored` (sorted) are let be.
@@ -26,6 +26,8 @@ class SceneRepair {
   // Finders are of the triangles of the scene at that time; keep_within_displacement() takes those of the input's cut.
 
   const Scene& scene() const { return scene_; }
+  /// Finders of the triangles of the scene as it is now; of no use once take() has changed them.
+  Finders make_finders() const { return Finders(scene_.triangles, scene_.groups()); }
   /// Nothing but what is let be intersects, and no face has lost its area.
   bool is_resolved(Finders& finders) const;
   /// At rest, is there anything to do?
@@ -101,7 +103,7 @@ class SceneRepair {
   const Job& job_;
   Scene scene_;
   std::vector<IntersectingPair> pairs_, ignored_;
-  std::vector<std::uint8_t> let_be_;  // per component
+  std::vector<std::uint8_t> let_be_;  // per component: what is left of it stays as it is
   bool float32_;
   std::vector<Tier> tiers_;                // where not the default ones
   std::vector<std::vector<Index>> moved_;  // what regions freed

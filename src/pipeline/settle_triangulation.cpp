@@ -25,7 +25,7 @@ std::vector<Triangulation> cuts_by_positions(const SceneRepair& repair, const Jo
 
 void work_on(SceneRepair& repair, const std::vector<Triangulation>& cuts) {
   repair.take(unite(cuts));
-  Finders finders(repair.scene().triangles, repair.scene().groups());
+  Finders finders = repair.make_finders();
   repair.set_aside_what_cannot_be_parted(finders);
   repair.work(finders);
 }
@@ -37,7 +37,8 @@ std::vector<Index> vertices_of(const Job& job, const std::vector<Index>& polygon
   return vertices;
 }
 
-/// False: some components did not settle. All is as it was before then, and they are let be from now on.
+/// Tries to settle all components that are not let be. Where some do not settle, it goes back to the best state, lets
+/// these be from now on, and returns false.
 bool settles(SceneRepair& repair, const Job& job) {
   const std::vector<Triangulation> input = {job.prepared.triangulation, job.prepared.other_diagonals};
   const std::size_t input_size = unite(input).all.triangles.size();
@@ -49,7 +50,7 @@ bool settles(SceneRepair& repair, const Job& job) {
     if (round == 0 && both.all.triangles.size() == input[0].triangles.size()) return true;
     repair.take(both);
     const SceneRepair::Checkpoint here = repair.checkpoint();
-    Finders finders_of_both(repair.scene().triangles, repair.scene().groups());
+    Finders finders_of_both = repair.make_finders();
     const std::vector<IntersectingPair> pairs = repair.set_aside_what_cannot_be_parted(finders_of_both);
     if (repair.is_resolved(finders_of_both)) {
       const std::vector<Index> heaped = polygons_on_new_duplicates(both.all, input_size, pairs);
@@ -68,9 +69,9 @@ bool settles(SceneRepair& repair, const Job& job) {
   }
   const std::vector<Triangulation> now = cuts_by_positions(repair, job);
   repair.take(unite({input[0], input[1], now[0], now[1]}));
-  Finders last(repair.scene().triangles, repair.scene().groups());
-  repair.set_aside_what_cannot_be_parted(last);
-  const bool is_done = !repair.let_be_what_is_left(last);
+  Finders finders_at_end = repair.make_finders();
+  repair.set_aside_what_cannot_be_parted(finders_at_end);
+  const bool is_done = !repair.let_be_what_is_left(finders_at_end);
   repair.take(unite(input));
   repair.restore(best);
   return is_done;

@@ -12,14 +12,14 @@
 namespace unsnarl {
 namespace {
 
-/// What meets itself: all of a scene, or a group of it.
+/// The vertices and triangles that are untangled as one patch: those of one group, or of the whole scene.
 struct Whole {
   std::vector<Index> free;  // vertices
   std::vector<Triangle> triangles;
   std::size_t pairs = 0;
 };
 
-/// Those with pairs.
+/// Returns the wholes that contain intersecting pairs, by their groups.
 std::vector<Whole> wholes_of(const Scene& scene, std::span<const IntersectingPair> pairs) {
   const auto group_of = [&](Index v) { return scene.group_of.empty() ? 0 : scene.group_of[v]; };
   std::map<Index, Whole> wholes;

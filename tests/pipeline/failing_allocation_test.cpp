@@ -79,25 +79,31 @@ bool ends_without(long allocation, Work&& work) {
 TEST(FailingAllocation, a_finder_finds_all_when_it_is_asked_again) {
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   const shapes::Shape shape = shapes::crossing_bumps(8, 0.3);
-  const std::vector<IntersectingPair> pairs = shapes::pairs_of(shape);
-  ASSERT_FALSE(pairs.empty());
-  // The whole comes from afar, a step at a time: from the third on the finder follows what moves.
-  for (int step = 0; step < 5; ++step) {
-    const auto at = [&](int k) { return Positions(shape.positions().array() + 0.37 * (step - k)); };
-    const auto arrived = [&] {
-      IntersectionFinder finder(shape.triangles);
-      for (int k = 0; k < step; ++k) finder.find(at(k));
-      return finder;
-    };
-    IntersectionFinder finder = arrived();
-    const long count = allocations_of([&] { finder.find(shape.positions()); });
-    int failed = 0;
-    for (long k = 0; k < count; ++k) {
-      finder = arrived();
-      failed += !ends_without(k, [&] { finder.find(shape.positions()); });
-      EXPECT_EQ(finder.find(shape.positions()), pairs) << "allocation " << k << " of step " << step;
+  ASSERT_FALSE(shapes::pairs_of(shape).empty());
+  std::vector<Index> sheet_of(shape.points.size(), 0);
+  std::fill(sheet_of.begin() + static_cast<std::ptrdiff_t>(sheet_of.size() / 2), sheet_of.end(), 1);
+  for (const bool passes_through : {false, true}) {  // one sheet through the other
+    const VertexGroups groups = passes_through ? VertexGroups(sheet_of) : VertexGroups();
+    const std::vector<IntersectingPair> pairs =
+        passes_through ? std::vector<IntersectingPair>() : shapes::pairs_of(shape);
+    // The whole comes from afar, a step at a time: from the third on the finder follows what moves.
+    for (int step = 0; step < 5; ++step) {
+      const auto at = [&](int k) { return Positions(shape.positions().array() + 0.37 * (step - k)); };
+      const auto arrived = [&] {
+        IntersectionFinder finder(shape.triangles, groups);
+        for (int k = 0; k < step; ++k) finder.find(at(k));
+        return finder;
+      };
+      IntersectionFinder finder = arrived();
+      const long count = allocations_of([&] { finder.find(shape.positions()); });
+      int failed = 0;
+      for (long k = 0; k < count; ++k) {
+        finder = arrived();
+        failed += !ends_without(k, [&] { finder.find(shape.positions()); });
+        EXPECT_EQ(finder.find(shape.positions()), pairs) << "allocation " << k << " of step " << step;
+      }
+      EXPECT_EQ(failed, count);
     }
-    EXPECT_EQ(failed, count);
   }
 }
 
