@@ -47,9 +47,10 @@ class Recovery {
   std::vector<std::uint8_t> rings_around(std::vector<Index> front, int rings) const;
   /// The free vertices that are not at rest, and some rings around them.
   std::vector<std::uint8_t> contact_region() const;
-  void step(const std::vector<std::uint8_t>& moves, double activation, int steps);
-  /// Steps of the contact region, as many as are left.
-  void stage(double activation);
+  /// Newton steps until the energy falls by less than the share `decrease`, `most` at most. Returns how many.
+  int step(const std::vector<std::uint8_t>& moves, double activation, int most, double decrease);
+  /// Steps of these vertices, as many as are left.
+  void stage(const std::vector<std::uint8_t>& moves, double activation);
   /// The least distance at which barriers may set in, and to which gaps are opened, where they have this share of h.
   double above_min_gap(double share_of_h) const {
     const double min_gap = rules_.options().min_gap;
@@ -59,7 +60,7 @@ class Recovery {
   void open(double target);
   /// Active faces that are flipped.
   std::vector<Index> flipped_faces() const;
-  /// Steps around flipped faces with an ever heavier penalty of these; kept where fewer are left.
+  /// Rounds of steps around flipped faces with an ever heavier penalty of these, each kept where it leaves fewer.
   void unflip(double activation);
   void snap(std::span<const std::uint8_t> moves);
   void measure_gap(double radius);
@@ -81,6 +82,7 @@ class Recovery {
   Objective objective_;
   RecoveryProblem problem_;
   Positions safe_;  // the last state that the exact guard has seen
+  int steps_left_;  // of all stages
 };
 
 Recovery::Recovery(Patch& patch, const RecoverOptions& options, const std::function<bool()>& stop)
@@ -95,7 +97,8 @@ Recovery::Recovery(Patch& patch, const RecoverOptions& options, const std::funct
       neighbours_(vertex_neighbours(rules_.candidates().edges().edges, static_cast<Index>(patch.x.cols()))),
       objective_(patch, rules_.candidates().edges(), options.objective, h_),
       problem_(patch, rules_, neighbours_, objective_, options.step, h_, guard_.pairs_at_start()),
-      safe_(patch.x) {}
+      safe_(patch.x),
+      steps_left_(options.max_steps) {}
 
 std::vector<std::uint8_t> Recovery::everything() const {
   std::vector<std::uint8_t> moves(static_cast<std::size_t>(patch_.x.cols()), 0);
@@ -132,14 +135,14 @@ std::vector<Index> Recovery::flipped_faces() const {
   return flipped;
 }
 
-void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int steps) {
+int Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int most, double decrease) {
   NewtonOptions newton;
   newton.motion = options_.stop_activation * activation;
-  if (!problem_.start(moves, activation, newton.motion)) return;
-  newton.max_steps = steps;
+  if (!problem_.start(moves, activation, newton.motion)) return 0;
+  newton.max_steps = most;
   newton.solver = options_.solver;
   newton.scalar_jacobi = options_.scalar_jacobi;
-  newton.decrease = options_.stop_decrease;
+  newton.decrease = decrease;
   newton.window = options_.stop_window;
   int taken = result_.iterations;
   const NewtonResult done = minimise_newton(problem_, newton, [&] {
@@ -150,12 +153,12 @@ void Recovery::step(const std::vector<std::uint8_t>& moves, double activation, i
   result_.iterations += done.iterations;
   result_.solver_iterations += done.solver_iterations;
   result_.stopped |= done.stopped;
+  return done.iterations;
 }
 
-void Recovery::stage(double activation) {
-  const std::vector<std::uint8_t> moves = contact_region();
+void Recovery::stage(const std::vector<std::uint8_t>& moves, double activation) {
   if (!result_.stopped && std::find(moves.begin(), moves.end(), 1) != moves.end())
-    step(moves, activation, options_.max_steps - result_.iterations);
+    steps_left_ -= step(moves, activation, steps_left_, options_.stop_decrease);
 }
 
 void Recovery::open(double target) {
@@ -176,14 +179,15 @@ void Recovery::unflip(double activation) {
     for (Index t : flipped) corners.insert(corners.end(), patch_.triangles[t].begin(), patch_.triangles[t].end());
     const Positions before = patch_.x;
     objective_.scale_flip_penalty(factor);
-    step(rings_around(std::move(corners), recovery_rings), activation, options_.max_steps);
+    // A few faces are a small part of the energy.
+    const double decrease = options_.stop_decrease / options_.unflip_factor;
+    step(rings_around(std::move(corners), recovery_rings), activation, options_.max_steps, decrease);
     objective_.scale_flip_penalty(1);
     std::vector<Index> left = flipped_faces();
-    if (left.size() >= flipped.size()) {
+    if (left.size() < flipped.size())
+      flipped = std::move(left);
+    else
       patch_.x = before;
-      return;
-    }
-    flipped = std::move(left);
     factor *= options_.unflip_factor;
   }
 }
@@ -228,11 +232,11 @@ RecoverResult Recovery::run() {
   safe_ = patch_.x;
   const Positions opened = patch_.x;
 
-  step(everything(), activation, options_.max_steps);
+  stage(everything(), activation);
   snap(everything());
-  if (last_activation < activation) stage(activation);
-  if (options_.last_activation > 0) stage(last_activation);
-  unflip(last_activation);
+  if (last_activation < activation) stage(contact_region(), activation);
+  unflip(activation);
+  if (options_.last_activation > 0) stage(contact_region(), last_activation);
   guard_.roll_back(patch_.x, safe_);
   safe_ = patch_.x;
   const double motion = (patch_.x - patch_.rest).norm();

@@ -88,6 +88,19 @@ TEST(Repair, a_nearer_way_is_taken_where_the_first_goes_far) {
   EXPECT_LT(result.report.displacement_max_rel, 0.05);
 }
 
+TEST(Repair, few_faces_end_turned_over) {
+  std::size_t flipped = 0;
+  for (const Expected& sample : {Expected{"cross_cap_punctured", 22},
+                                 {"cross_cap_punctured", 30},
+                                 {"roman_punctured", 18},
+                                 {"roman_punctured", 30}}) {
+    const RepairResult result = repair(make_sample(sample.sample, sample.resolution));
+    EXPECT_EQ(result.status, Status::embedded);
+    flipped += result.report.flipped_triangles;
+  }
+  EXPECT_LT(flipped, 45u);  // 24; turned back after the last stage of the recovery 73
+}
+
 TEST(Repair, what_has_no_conflict_does_not_move) {
   // A crossing in the middle of large sheets: far from it nothing may move.
   const Surface surface = shapes::crossing_bumps(30, 0.3).surface();

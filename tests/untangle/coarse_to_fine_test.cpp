@@ -66,13 +66,12 @@ TEST(CoarseToFine, vertices_that_come_back_between_narrow_layers_find_places) {
 
 TEST(CoarseToFine, tries_parts_that_went_far_again) {
   double motion = 0;
-  for (const Index fine : {2, 3})
-    for (const double factor : {2.0, 3.0, 4.0}) {
-      Patch patch = shapes::patch_of(tangled_tube(fine));
-      EXPECT_EQ(solve_on_coarser_mesh(patch, factor, {}, {}, CoarseMeshes::one).pairs_left, 0u);
-      motion += (patch.x - patch.rest).colwise().norm().mean();
-    }
-  EXPECT_LT(motion, 1.9);  // 1.70; where none is tried again 2.16
+  for (const double factor : {3.0, 3.5, 5.0}) {
+    Patch patch = shapes::patch_of(tangled_tube(2));
+    EXPECT_EQ(solve_on_coarser_mesh(patch, factor, {}, {}, CoarseMeshes::one).pairs_left, 0u);
+    motion += (patch.x - patch.rest).colwise().norm().mean();
+  }
+  EXPECT_LT(motion, 1.12);  // 1.00; where none is tried again 1.24
 }
 
 TEST(CoarseToFine, resolves_what_no_short_step_can) {
