@@ -234,8 +234,8 @@ RecoverResult Recovery::run() {
 
   stage(everything(), activation);
   snap(everything());
-  if (last_activation < activation) stage(contact_region(), activation);
   unflip(activation);
+  if (last_activation < activation) stage(contact_region(), activation);
   if (options_.last_activation > 0) stage(contact_region(), last_activation);
   guard_.roll_back(patch_.x, safe_);
   safe_ = patch_.x;

@@ -83,10 +83,10 @@ struct RecoverOptions {
       0.01;                 ///< in h: gaps are first opened to this, at most, and never beyond the activation distance
   int open_rounds = 12;     ///< of opening gaps, at most; a start at gaps of 1e-17 took 1 to 6
   double snap_reach = 0.1;  ///< share of the mean edge at a vertex from which it may go straight to its rest position
-  // Faces that are flipped while the barrier is wide: rounds of steps around them with a heavier penalty; the last
-  // stage turns none over again. Flipped on 41 deep and warped meshes: 3263 without, 1330 as it is, as near, in 1.08 of
-  // the time; after the last stage instead, where creases are shut: 2222. Two and five rounds, on 21: 692 and 503, not
-  // 541.
+  // Faces that are flipped while the barrier is wide: rounds of steps around them with a heavier penalty; the stages
+  // after them turn none over again. Flipped on 41 deep and warped meshes: 1372, as near as with 2222 where the rounds
+  // come last and creases are shut. Before the last stage alone: 1330, but edges stay stretched, and on 21 of them 130
+  // faces, not 72, keep less than a tenth of their area. There 692 and 503 are flipped, not 541, after two and five.
   int unflip_rounds = 3;     ///< 0: none
   double unflip_factor = 5;  ///< of the penalty, from round to round; their steps end at this part of `stop_decrease`
 

@@ -195,6 +195,7 @@ class CoarseToFine {
       if (level.scene.x.col(v) != level.scene.rest.col(v)) moved.push_back(v);
     RecoverRegionsOptions recovery;
     recovery.recover = options;
+    recovery.recover.unflip_rounds = 0;  // faces of a coarse mesh are not those of the surface
     recovery.min_gap = [](std::span<const Index>) { return 0.0; };
     recovery.stop = stop_ ? stop_ : [] { return false; };
     Recorder nobody({}, level.scene.x);
@@ -225,7 +226,6 @@ class CoarseToFine {
     }
     RecoverOptions steps;
     steps.last_activation = 0;
-    steps.unflip_rounds = 0;
     recover(level, index, steps);
     const auto faces = static_cast<double>(level.scene.triangles.size());
     if (is_clean && faces <= most_faces_to_retry && faces / 2 >= retried_at_) {

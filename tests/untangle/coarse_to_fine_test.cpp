@@ -71,7 +71,7 @@ TEST(CoarseToFine, tries_parts_that_went_far_again) {
     EXPECT_EQ(solve_on_coarser_mesh(patch, factor, {}, {}, CoarseMeshes::one).pairs_left, 0u);
     motion += (patch.x - patch.rest).colwise().norm().mean();
   }
-  EXPECT_LT(motion, 1.12);  // 1.00; where none is tried again 1.24
+  EXPECT_LT(motion, 1.12);  // 1.01; where none is tried again 1.22
 }
 
 TEST(CoarseToFine, resolves_what_no_short_step_can) {
