@@ -138,7 +138,7 @@ std::vector<Index> Recovery::flipped_faces() const {
 int Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int most, double decrease) {
   NewtonOptions newton;
   newton.motion = options_.stop_activation * activation;
-  if (!problem_.start(moves, activation, newton.motion)) return 0;
+  if (!problem_.start(moves, activation, newton.motion, options_.stop_window)) return 0;
   newton.max_steps = most;
   newton.solver = options_.solver;
   newton.scalar_jacobi = options_.scalar_jacobi;

@@ -9,7 +9,7 @@
 namespace unsnarl {
 
 /// Rings around what has moved, or is flipped, that are free in a recovery. Four around regions that strategies moved
-/// farther than local ones: nine deep meshes end as close in the same time.
+/// farther than local ones: nine deep meshes end as close in the same time. Obstacles are taken in as many h around.
 constexpr int recovery_rings = 2;
 /// Barriers reach this many min_gap at least. Without unit; at 1.5 contacts end between one and two gaps apart.
 constexpr double barrier_gaps = 3;
@@ -102,8 +102,9 @@ struct RecoverOptions {
   // farther. Without this, until all is stationary, eight meshes end 5 % farther after 2.7 times the steps.
   double stop_decrease = 2e-2;
   int stop_window = 2;
-  /// A vertex is stationary, and is held for the rest of the stage, where two Newton steps move it no farther than this
-  /// share of the activation distance. 0.05: as close in a quarter more steps; without holding, 2 % farther.
+  /// A vertex is stationary, and is held for the rest of the stage, where `stop_window` Newton steps move it no
+  /// farther than this share of the activation distance: after one, it may have waited for others. 0.05: as close in a
+  /// quarter more steps; without holding, 2 % farther.
   double stop_activation = 0.1;
   /// Solver of the Newton steps. With a tolerance of 3e-2, 31 deep and warped meshes end 5 % closer in a tenth more
   /// time, but a helicoid and a lemniscate 84 and 19 % farther.

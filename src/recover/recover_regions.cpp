@@ -11,13 +11,6 @@
 #include "scene/patch_progress.h"
 
 namespace unsnarl {
-namespace {
-
-/// Obstacles are taken in this many h around a region: it hardly leaves the space between start and input.
-constexpr double recovery_reach = 2;
-
-}  // namespace
-
 double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::vector<Index>>& regions,
                        const RecoverRegionsOptions& options, Recorder& recorder) {
   index.update();
@@ -28,7 +21,7 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
     for (Index v : regions[r])
       for (Index t : scene.triangles_of_vertex[v]) faces.push_back(scene.triangles[t]);
     edge_length[r] = mean_edge_length(scene.rest, faces);
-    boxes[r] = patch_box(scene, regions[r], recovery_reach * edge_length[r]);
+    boxes[r] = patch_box(scene, regions[r], recovery_rings * edge_length[r]);
   }
   std::vector<Patch> patches(regions.size());
   std::vector<Trajectory> trajectories(regions.size(), recorder.new_trajectory());
@@ -51,7 +44,7 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
       boxes,
       [&](std::size_t r) {
         if (options.stop()) return;
-        patches[r] = cut_patch(scene, index, regions[r], recovery_reach * edge_length[r]);
+        patches[r] = cut_patch(scene, index, regions[r], recovery_rings * edge_length[r]);
         patches[r].edge_length = edge_length[r];
         if (recorder.is_on()) patches[r].trajectory = &trajectories[r];
         RecoverOptions recovery = options.recover;

@@ -7,12 +7,6 @@
 #include "scene/trajectory.h"
 
 namespace unsnarl {
-namespace {
-
-/// Newton steps after which a vertex that they hardly moved is held: after one, it may have waited for others.
-constexpr int steps_of_the_stationary = 2;
-
-}  // namespace
 
 RecoveryProblem::RecoveryProblem(Patch& patch, ContactRules& rules, const IndexLists& neighbours, Objective& objective,
                                  const StepOptions& options, double h, std::size_t tolerated_pairs)
@@ -24,9 +18,11 @@ RecoveryProblem::RecoveryProblem(Patch& patch, ContactRules& rules, const IndexL
       tolerated_pairs_(tolerated_pairs),
       contacts_(rules, h) {}
 
-bool RecoveryProblem::start(std::vector<std::uint8_t> moves, double activation, double stationary) {
+bool RecoveryProblem::start(std::vector<std::uint8_t> moves, double activation, double stationary,
+                            int stationary_steps) {
   activation_ = activation;
   stationary_ = stationary;
+  stationary_steps_ = stationary_steps;
   small_steps_.assign(moves.size(), 0);
   set_moving(std::move(moves));
   if (unknowns() == 0) return false;
@@ -48,7 +44,7 @@ void RecoveryProblem::set_moving(std::vector<std::uint8_t> moves) {
 }
 
 void RecoveryProblem::hold_stationary() {
-  const auto is_stationary = [&](Index v) { return small_steps_[v] >= steps_of_the_stationary; };
+  const auto is_stationary = [&](Index v) { return small_steps_[v] >= stationary_steps_; };
   const std::vector<Index>& vertices = moving().vertices;
   const auto count = std::count_if(vertices.begin(), vertices.end(), is_stationary);
   if (count == 0 || count == unknowns()) return;

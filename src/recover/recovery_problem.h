@@ -22,9 +22,9 @@ class RecoveryProblem final : public NewtonProblem {
                   const StepOptions& options, double h, std::size_t tolerated_pairs);
 
   /// From now on these vertices move, but those that are so close to something that round-off hides it, against
-  /// barriers that set in at `activation`. Vertices that two Newton steps move by less than the length `stationary` are
-  /// held. False: none is left.
-  bool start(std::vector<std::uint8_t> moves, double activation, double stationary);
+  /// barriers that set in at `activation`. Vertices that so many Newton steps in a row move by less than the length
+  /// `stationary` are held. False: none is left.
+  bool start(std::vector<std::uint8_t> moves, double activation, double stationary, int stationary_steps);
   const MovingVertices& moving() const { return objective_.moving(); }
 
   Index unknowns() const override { return moving().count(); }
@@ -68,6 +68,7 @@ class RecoveryProblem final : public NewtonProblem {
   std::size_t tolerated_pairs_;
   ContactList contacts_;
   double activation_ = 0, stationary_ = 0;
+  int stationary_steps_ = 0;
   std::vector<int> small_steps_;  // per vertex: so many Newton steps in a row were shorter than stationary_
   Index part_count_ = 0;
   std::vector<Index> part_;  // of each unknown

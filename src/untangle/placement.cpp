@@ -131,7 +131,7 @@ class Placement {
       motions.push_back({.direction = d / length});
       motions.push_back({.direction = -d / length});
     };
-    const std::size_t stride = contacts.size() / options_.most_contacts + 1;
+    const std::size_t stride = contacts.size() / options_.most_tries + 1;
     for (std::size_t k = 0; k < contacts.size(); k += stride) {
       add_both_ways(area_vector(x_, patch_.triangles[contacts[k].a]));
       add_both_ways(area_vector(x_, patch_.triangles[contacts[k].b]));
@@ -143,7 +143,7 @@ class Placement {
     Vec3 middle = Vec3::Zero();
     for (Index v : component.vertices) middle += x_.col(v);
     motions.push_back({.centre = middle / static_cast<double>(component.vertices.size())});
-    const std::size_t step = component.vertices.size() / options_.most_centres + 1;
+    const std::size_t step = component.vertices.size() / options_.most_tries + 1;
     for (std::size_t k = 0; k < component.vertices.size(); k += step)
       motions.push_back({.centre = x_.col(component.vertices[k])});
     return motions;

@@ -18,11 +18,12 @@ struct PlacementOptions {
   double growth = 1.6;
   /// Between the last motion that is not free and the first that is. With 5, two wigs end a fourth farther.
   int bisections = 6;
-  double margin = 0.05;            ///< of the motion: so much farther than the first free place
-  std::size_t most_faces = 4000;   ///< of a component that is moved: every place tried takes an exact test of them all
-  double most_shrink = 0.95;       ///< share of its distance from the point that a vertex goes, at most
-  std::size_t most_contacts = 16;  ///< intersecting pairs of which normals are tried as directions
-  std::size_t most_centres = 24;   ///< own vertices toward which it is tried to shrink a component
+  double margin = 0.05;           ///< of the motion: so much farther than the first free place
+  std::size_t most_faces = 4000;  ///< of a component that is moved: every place tried takes an exact test of them all
+  double most_shrink = 0.95;      ///< share of its distance from the point that a vertex goes, at most
+  /// Intersecting pairs of which normals are tried as directions, and own vertices toward which it is tried to shrink a
+  /// component. With 24 vertices a wig ends 6 % farther, all others of 66 meshes as close.
+  std::size_t most_tries = 16;
 };
 
 /// Components are put at the cheapest free place instead of being repelled. Every component of the patch that is free
