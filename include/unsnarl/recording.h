@@ -25,7 +25,8 @@ inline constexpr std::size_t energy_term_count = 7;
 inline constexpr std::array<std::string_view, energy_term_count> energy_term_names = {
     "gaussian", "minkowski", "arap", "bending", "pull", "orientation", "barrier"};
 
-/// One iteration: the state reached, and the step that led to it.
+/// One iteration: the state reached, and the step that led to it. Of a long try of a strategy those alone at which all
+/// pairs were looked for.
 struct IterationRecord {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 

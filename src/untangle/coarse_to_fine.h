@@ -17,7 +17,9 @@ struct CoarseResult {
 /// How many coarse meshes are tried.
 enum class CoarseMeshes {
   one,
-  until_solved,  ///< coarser and coarser ones, the coarsest from several starts, until fewer pairs are left on the patch
+  /// Coarser and coarser ones, each from several starts, of which the nearest solution is carried on, the coarsest from
+  /// many, until fewer pairs are left on the patch.
+  until_solved,
 };
 
 /// Untangles a patch from coarse to fine. It is simplified until its edges are `factor` times as long, untangled there

@@ -350,8 +350,10 @@ class Escalation {
     if (!attempt.left.fell_from(attempt.before)) return;
     Candidate* const waiting = waiting_for(attempt.region);
     if (waiting && (!attempt.is_clean() || attempt.distance >= waiting->attempt.distance)) return;
-    if (!attempt.is_clean() || distances_to_rest(attempt.patch).maxCoeff() <= attempt.bound)
+    if (distances_to_rest(attempt.patch).maxCoeff() <= attempt.bound)
       keep_or_remember(attempt, strategy, level);
+    else if (!attempt.is_clean())
+      return;  // what it leaves would have to be resolved from far away
     else if (waiting)
       *waiting = {std::move(attempt), level};
     else

@@ -244,27 +244,42 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   std::optional<Try> before_keeping;            // where the guard was first needed
   // Iterations without progress after which a try is left.
   const auto patience = [&](const Try& t) {
-    if (strategy.method == LocalMethod::shorten) return options.shorten_patience;
+    if (strategy.method == LocalMethod::shorten) return strategy.max_iterations;
     return t.iterations > strategy.max_iterations ? options.patience : options.despair;
+  };
+  const auto note_pairs = [&](Try& t, std::size_t count) {
+    record(patch, t.x, {.pairs = count});
+    if (patch.progress) patch.progress->set_pairs(count);
+    if (count == 0) return;
+    if (t.iterations == 0) t.pairs_left = count;
+    if (static_cast<double>(count) <= (1 - options.progress) * t.reference) {
+      t.reference = static_cast<double>(count);
+      t.waited = 0;
+    }
+    if (count < t.pairs_left && !has_squeezed_face(patch, start, t.x, options.area_floor)) {
+      t.pairs_left = count;
+      t.best = t.x;
+    }
   };
   // Goes on with a try until it is clean (true) or left.
   const auto go_on = [&](Try& t) {
     bool clean = false;
+    std::vector<IntersectingPair> pairs;  // those known at t.x
+    int looked_at = 0;                    // the iteration at which they were all
     while (!(stop && stop())) {
       if (t.waited >= patience(t)) break;
-      const std::vector<IntersectingPair> pairs = blocking_pairs(finder.find(t.x), tolerated);
-      record(patch, t.x, {.pairs = pairs.size()});
-      if (patch.progress) patch.progress->set_pairs(pairs.size());
-      clean = pairs.empty();
-      if (clean) break;
-      if (t.iterations == 0) t.pairs_left = pairs.size();
-      if (static_cast<double>(pairs.size()) <= (1 - options.progress) * t.reference) {
-        t.reference = static_cast<double>(pairs.size());
-        t.waited = 0;
-      }
-      if (pairs.size() < t.pairs_left && !has_squeezed_face(patch, start, t.x, options.area_floor)) {
-        t.pairs_left = pairs.size();
-        t.best = t.x;
+      const bool follows = strategy.method != LocalMethod::shallow && t.iterations >= options.despair &&
+                           (t.iterations - looked_at) * strategy.step < options.look_distance;
+      if (follows)
+        std::erase_if(pairs, [&](IntersectingPair& pair) {
+          return !intersects(t.x, patch.triangles[pair.a], patch.triangles[pair.b], pair.kind);
+        });
+      if (!follows || pairs.empty()) {
+        pairs = blocking_pairs(finder.find(t.x), tolerated);
+        looked_at = t.iterations;
+        note_pairs(t, pairs.size());
+        clean = pairs.empty();
+        if (clean) break;
       }
       const int iteration = t.iterations++;
       ++t.waited;

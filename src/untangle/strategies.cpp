@@ -32,6 +32,10 @@ constexpr double factor_of_whole = 1.6;
 /// Faces of the first coarse mesh of whole components, at most. Other numbers were not tried.
 constexpr double most_coarse_faces = 3000;
 
+/// Strategy::reach of what comes after local strategies. With 4 for layers, which sometimes part only far from where
+/// they were, a layered cloth of 92,000 faces takes four times as long.
+constexpr double far_reach = 20;
+
 Strategy local(std::string name, int rings, LocalSettings settings, std::size_t hubs = no_hubs) {
   const auto solve = [settings](Patch& patch, const Task& task) {
     LocalOptions options;
@@ -82,7 +86,7 @@ Strategy coarse_to_fine_of_whole_components(CoarseMeshes meshes) {
   };
   return {.name = "coarse_to_fine_whole",
           .extent = Extent::whole_components,
-          .reach = 20,
+          .reach = far_reach,
           .is_last_resort = true,
           .area_floor = 0,
           .solve = solve};
@@ -90,7 +94,7 @@ Strategy coarse_to_fine_of_whole_components(CoarseMeshes meshes) {
 
 Strategy placing() {
   const auto solve = [](Patch& patch, const Task& task) { return place(patch, task.tolerated, {}, task.stop); };
-  return {.name = "placement", .extent = Extent::tied_components, .reach = 20, .solve = solve};
+  return {.name = "placement", .extent = Extent::tied_components, .reach = far_reach, .solve = solve};
 }
 
 const LocalSettings contour = {LocalMethod::contour, 0.1, 2, 60};
@@ -104,8 +108,10 @@ Tier shallow_tier() {
 /// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth is not
 /// resolved. Two rings tried before four bring nothing nearer (docs/performance.md).
 Tier layers_tier() {
-  return {local("contour-8", 8, {LocalMethod::contour, 0.3, 4, 60}),
-          local("shorten-4", 4, {LocalMethod::shorten, 0.3, 4, 60})};
+  Tier tier = {local("contour-8", 8, {LocalMethod::contour, 0.3, 4, 60}),
+               local("shorten-4", 4, {LocalMethod::shorten, 0.3, 4, 60})};
+  for (Strategy& strategy : tier) strategy.reach = far_reach;
+  return tier;
 }
 
 std::vector<Tier> all_tiers(CoarseMeshes meshes) {

@@ -38,7 +38,8 @@ struct Strategy {
   int rings = 0;               ///< edges, for Extent::rings
   double rings_per_depth = 0;  ///< edges for each edge of the tangle's depth, for Extent::depth
   /// Bound of the motion, in h (times the depth of the tangle, for Extent::depth): obstacles are taken in this far
-  /// around, and a candidate that moves a vertex farther, even after recovery, waits for a nearer one.
+  /// around, and a candidate that moves a vertex farther, even after recovery, waits for a nearer one
+  /// where it leaves no pair, and is dropped where it does.
   double reach = 4;
   bool is_last_resort = false;  ///< it is tried only where nothing before it has resolved the region, however far away
   std::size_t hub_valence = no_hubs;

@@ -38,9 +38,9 @@ Surface two_spheres(double shift, int resolution = 28) {
   return two;
 }
 
-/// 40, 50, 60 % of the area of the inner one are outside; without nesting the last two end outside altogether.
+/// 40, 53, 60 % of the area of the inner one are outside; without nesting the last two end outside altogether.
 TEST(Nesting, the_inner_surface_goes_in_even_where_most_of_it_is_outside) {
-  for (const double shift : {0.29, 0.44, 0.65}) {
+  for (const double shift : {0.29, 0.5, 0.65}) {
     const Surface surface = two_spheres(shift);
     const Nesting nesting = nesting_of(surface, {{0, 1}});
     const RepairResult plain = repair(surface), nested = repair_nested(surface, nesting);

@@ -74,6 +74,19 @@ TEST(CoarseToFine, tries_parts_that_went_far_again) {
   EXPECT_LT(motion, 1.12);  // 1.01; where none is tried again 1.22
 }
 
+TEST(CoarseToFine, carries_the_nearest_of_several_solutions) {
+  const auto motion_with = [](CoarseMeshes meshes) {
+    double motion = 0;
+    for (const double factor : {1.6, 2.5}) {
+      Patch patch = shapes::patch_of(shapes::limb_and_sheet());
+      EXPECT_EQ(solve_on_coarser_mesh(patch, factor, {}, {}, meshes).pairs_left, 0u);
+      motion += (patch.x - patch.rest).colwise().norm().mean();
+    }
+    return motion;
+  };
+  EXPECT_LT(motion_with(CoarseMeshes::until_solved), 0.8 * motion_with(CoarseMeshes::one));  // 0.042, 0.062
+}
+
 TEST(CoarseToFine, resolves_what_no_short_step_can) {
   for (const shapes::Shape& shape : {shapes::thick_trefoil(), shapes::figure_eight_torus(), shapes::limb_and_sheet(),
                                      shapes::punctured_cross_cap(), shapes::punctured_roman_surface()}) {

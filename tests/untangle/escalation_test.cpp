@@ -279,6 +279,19 @@ TEST(Escalation, what_goes_far_waits_for_a_nearer_candidate) {
   EXPECT_EQ(kept({{far}, {nearer}}), "lifting");
 }
 
+TEST(Escalation, what_goes_far_and_leaves_pairs_is_not_kept) {
+  const Strategy strategy = lifting(2.4);  // not all the way
+  const Scene before = two_sheets(3);
+  const std::size_t pairs = shapes::pairs_at(before.x, before.triangles).size();
+  Scene scene = before;
+  std::vector<Tier> tiers = {{strategy}};
+  EXPECT_LT(untangle(scene, {}, options_with(tiers)).left.size(), pairs);
+  tiers[0][0].reach = 0.1;
+  scene = before;
+  EXPECT_EQ(untangle(scene, {}, options_with(tiers)).left.size(), pairs);
+  EXPECT_TRUE(scene.x == scene.rest);
+}
+
 // Higher up, beyond the obstacles that it was tried with, the sheet runs into another one just as deep.
 TEST(Escalation, what_goes_far_is_judged_by_all_that_it_meets) {
   const Shape sheets = shapes::crossing_bumps(12, 1.5);

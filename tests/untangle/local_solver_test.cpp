@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scene/shapes.h"
+#include "scene/trajectory.h"
 
 namespace unsnarl {
 namespace {
@@ -63,6 +64,25 @@ TEST(LocalSolver, each_method_clears_a_shallow_crossing) {
   }
 }
 
+// Long tries look for pairs now and then only, and are clean at the end all the same.
+TEST(LocalSolver, long_tries_follow_the_pairs_that_they_know) {
+  std::size_t looks[2] = {};
+  for (const bool follow : {false, true}) {
+    Patch patch = with_held_border(shapes::crossing_bumps(12, 0.3), 12);
+    Trajectory trajectory;
+    patch.trajectory = &trajectory;
+    LocalOptions options;
+    options.patience = 1000;
+    if (!follow) options.look_distance = 0;
+    const LocalResult result = solve_locally(patch, {LocalMethod::contour, 0.0005, 2, 10}, {}, options);
+    ASSERT_TRUE(result.clean);
+    EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
+    EXPECT_GT(result.iterations, 2 * options.despair);
+    looks[follow] = trajectory.iterations.size();
+  }
+  EXPECT_LT(1.5 * static_cast<double>(looks[1]), static_cast<double>(looks[0]));
+}
+
 TEST(LocalSolver, exactly_coincident_sheets_are_parted) {
   const Shape sheet = shapes::bumpy_sheet(6, 0.5);
   Patch patch = with_held_border(Shape(sheet).add(sheet, {0, 0, 0}), 6);
@@ -82,7 +102,7 @@ TEST(LocalSolver, exactly_coincident_sheets_are_parted) {
 TEST(LocalSolver, failure_keeps_the_state_with_the_fewest_pairs) {
   const Patch original = with_held_border(shapes::crossing_bumps(12, 2.5), 12);
   LocalOptions options;
-  options.patience = options.shorten_patience = 2;
+  options.patience = 2;
   for (const LocalMethod method : {LocalMethod::shallow, LocalMethod::contour, LocalMethod::shorten}) {
     Patch patch = original;
     const LocalResult result = solve_locally(patch, {method, 0.01, 0.3, 2}, {}, options);  // two small steps do not do
