@@ -28,7 +28,7 @@ double motion(const Box& from, const Box& to) {
 
 }  // namespace
 
-void NearPairs::update(const Positions& x, double margin) {
+void NearPairs::update(const Positions& x) {
   const Index n = static_cast<Index>(triangles_.size());
   const bool is_new = boxes_.empty();
   boxes_.resize(n);
@@ -45,13 +45,11 @@ void NearPairs::update(const Positions& x, double margin) {
     double count = 0;
     for (Index t = begin; t < end; ++t) {
       const Box box = box_of(x, triangles_[t]);
-      const Box wanted = box.inflated(margin);
-      left_[t] = is_new || !contains(roomy_[t], wanted);
+      left_[t] = is_new || !contains(roomy_[t], box);
       if (left_[t]) {
         const double last = motion(boxes_[t], box) / length_;
         // Not a number where all boxes are points: no room then.
-        roomy_[t] =
-            wanted.inflated(last <= most_room ? length_ * std::clamp(motions * last, least_room, most_room) : 0);
+        roomy_[t] = box.inflated(last <= most_room ? length_ * std::clamp(motions * last, least_room, most_room) : 0);
         ++count;
       }
       boxes_[t] = box;

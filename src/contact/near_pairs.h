@@ -23,11 +23,11 @@ class NearPairs {
   NearPairs(std::span<const Triangle> triangles, Index active_count, VertexGroups groups = {})
       : triangles_(triangles), active_count_(active_count), groups_(groups) {}
 
-  /// Takes over the positions: from now on all pairs are listed whose boxes, inflated by `margin`, overlap, each once,
-  /// and others a little farther apart. The order is a function of all positions up to now.
-  void update(const Positions& x, double margin = 0);
+  /// Takes over the positions: from now on all pairs are listed whose boxes overlap, each once, and others a little
+  /// farther apart. The order is a function of all positions up to now.
+  void update(const Positions& x);
   std::span<const Pair> pairs() const { return pairs_; }
-  /// Whether the boxes of two triangles overlap at the positions, without margin; of a few that do not too.
+  /// Whether the boxes of two triangles overlap at the positions; of a few that do not too.
   bool overlap(Index a, Index b) const { return rounded_[a].overlaps(rounded_[b]); }
 
  private:
@@ -39,7 +39,7 @@ class NearPairs {
   Index active_count_;
   VertexGroups groups_;
   double length_ = 0;                // mean diagonal of the boxes
-  std::vector<Box> boxes_, roomy_;   // now; with margin and room, when their triangle last left it
+  std::vector<Box> boxes_, roomy_;   // now; with room, when their triangle last left it
   std::vector<RoundedBox> rounded_;  // as they are now
   std::vector<std::uint8_t> left_;   // per triangle: has left its box
   Bvh bvh_;                          // of the roomy ones

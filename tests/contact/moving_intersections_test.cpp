@@ -105,7 +105,6 @@ TEST(MovingIntersections, the_same_at_any_thread_count) {
 TEST(NearPairs, lists_all_whose_boxes_overlap_once_and_in_the_same_order_at_any_thread_count) {
   const Sheets sheets(24);
   const Index count = static_cast<Index>(sheets.triangles.size()), active = count / 2;
-  constexpr double margin = 0.05;
   std::vector<std::vector<NearPairs::Pair>> expected;
   for (const std::size_t threads : {1, 4}) {
     const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
@@ -113,7 +112,7 @@ TEST(NearPairs, lists_all_whose_boxes_overlap_once_and_in_the_same_order_at_any_
     NearPairs near(sheets.triangles, active);
     std::mt19937 random(9);
     for (std::size_t round = 0; round < 6; ++round) {
-      near.update(x, margin);
+      near.update(x);
       const std::vector<NearPairs::Pair> pairs(near.pairs().begin(), near.pairs().end());
       if (threads == 1) expected.push_back(pairs);
       EXPECT_TRUE(pairs == expected[round]) << threads << " threads";
@@ -123,7 +122,7 @@ TEST(NearPairs, lists_all_whose_boxes_overlap_once_and_in_the_same_order_at_any_
         for (Index a = 0; a < std::min(b, active); ++a) {
           const Triangle &s = sheets.triangles[a], &t = sheets.triangles[b];
           const bool joined = std::any_of(s.begin(), s.end(), [&](Index v) { return std::ranges::count(t, v) > 0; });
-          if (joined || !box_of(x, s).inflated(margin).overlaps(box_of(x, t).inflated(margin))) continue;
+          if (joined || !box_of(x, s).overlaps(box_of(x, t))) continue;
           EXPECT_TRUE(listed.contains({a, b})) << a << ' ' << b;
         }
       move(x, 0.02, random);
