@@ -39,9 +39,11 @@ constexpr double start_distance = 0.2;  // mean edge lengths
 /// Share of all motion, without unit, of a part that is tried again from rest on the way back, at least. 21 deep and
 /// warped meshes end 4 % closer with it; with 0.05 as close, with 0.2 3 % (docs/performance.md).
 constexpr double least_motion_share = 0.1;  // without unit
-/// Number of faces, with those of obstacles, of the meshes on which this is done, at most. On the 21 meshes it takes
-/// 3 % more time, with 8000 8 %, and they end as close; twenty others take 2 and 9 %, and end 4 and 5 % closer.
-constexpr double most_faces_to_retry = 4000;  // faces
+/// Number of faces, with those of obstacles, of the meshes on which this is done, at most, and on which layers are
+/// parted crossing by crossing too. Far parts: on the 21 meshes it takes 3 % more time, with 8000 8 %, and they end as
+/// close; twenty others take 2 and 9 %, and end 4 and 5 % closer. Layers: on none, one of 24 warps ends 8.6 times as
+/// far; on all, layered cloth takes a quarter more time (docs/performance.md).
+constexpr double most_faces_of_small = 4000;  // faces
 
 class CoarseToFine {
  public:
@@ -245,17 +247,18 @@ class CoarseToFine {
     for (const IntersectingPair& pair : pairs)
       if (is_unmoved(pair.a) && is_unmoved(pair.b)) tolerated.push_back(pair);
     tolerated = sorted(std::move(tolerated));
+    const auto faces = static_cast<double>(level.scene.triangles.size());
+    const bool is_small = faces <= most_faces_of_small;
     bool is_clean = true;
     if (!blocking_pairs(pairs, tolerated).empty()) {
-      const EscalationResult untangled = untangle(level, index, tolerated, local_tiers());
+      const EscalationResult untangled = untangle(level, index, tolerated, is_small ? local_tiers() : shallow_tiers());
       if (static_cast<double>(untangled.left.size()) > most_pairs_) return false;
       is_clean = untangled.left.empty();
     }
     RecoverOptions steps;
     steps.last_activation = 0;
     recover(level, index, steps);
-    const auto faces = static_cast<double>(level.scene.triangles.size());
-    if (is_clean && faces <= most_faces_to_retry && faces / 2 >= retried_at_) {
+    if (is_clean && is_small && faces / 2 >= retried_at_) {
       retried_at_ = faces;
       retry_far_parts(level, tolerated, steps);
     }

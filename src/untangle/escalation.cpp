@@ -208,6 +208,7 @@ class Escalation {
         std::sort(region.pairs.begin(), region.pairs.end());
       }
       if (attempt.free.empty()) continue;
+      if (strategy.leaves_most && 2 * attempt.free.size() >= free_vertices_of_parts(region.core).size()) continue;
       std::vector<Triangle> core_faces;
       for (const IntersectingPair& pair : region.pairs)
         for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);

@@ -10,7 +10,7 @@
 namespace unsnarl {
 
 /// The default: what moves faces hardly more than they overlap, placement of small components, coarse to fine for deep
-/// tangles, layers crossing by crossing, coarse to fine in wider surroundings, then for whole components.
+/// tangles, layers crossing by crossing, coarse to fine in wider and wider surroundings, then for whole components.
 std::span<const Tier> default_tiers();
 
 /// The same for coarse meshes, but for the wider surroundings: each goes by one mesh that is coarser still, not by all
@@ -19,6 +19,9 @@ std::span<const Tier> coarse_mesh_tiers();
 
 /// Those that move only what lies close to the conflict.
 std::span<const Tier> local_tiers();
+
+/// Of these, those that move faces hardly more than they overlap.
+std::span<const Tier> shallow_tiers();
 
 /// The tiers without the strategies of these names.
 std::vector<Tier> without(std::span<const Tier> tiers, std::span<const std::string> names);

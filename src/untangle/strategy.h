@@ -47,6 +47,8 @@ struct Strategy {
   /// Tangles are taken to be so many times as deep as they are. Where more than once, none is left to others: those
   /// less deep than `least_depth` count as that deep.
   int depth_factor = 1;
+  /// Regions whose components it would free half of, or more, are left to the next strategies, which take all.
+  bool leaves_most = false;
   /// A candidate that squeezes a face to less than this share of its area before is worthless.
   double area_floor = squeezed_area;
   /// Moves the free vertices of patch.x, from where they are, to a state with fewer intersecting pairs, if it finds

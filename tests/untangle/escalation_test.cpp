@@ -339,6 +339,22 @@ TEST(Escalation, a_strategy_may_take_a_tangle_for_deeper_than_it_is) {
   EXPECT_EQ(depths_told(deep, 3), std::vector<int>{3 * as_it_is[0]});
 }
 
+TEST(Escalation, a_strategy_may_leave_most_of_a_component_to_the_next) {
+  const auto is_tried = [](int rings) {
+    bool is_tried = false;
+    Scene scene = shapes::scene_of(shapes::crossing_bumps(24, 0.5));
+    const std::vector<Tier> tiers = {
+        {{.name = "note", .rings = rings, .leaves_most = true, .solve = [&](Patch&, const Task&) {
+            is_tried = true;
+            return 0;
+          }}}};
+    untangle(scene, {}, options_with(tiers));
+    return is_tried;
+  };
+  EXPECT_TRUE(is_tried(1));
+  EXPECT_FALSE(is_tried(24));
+}
+
 TEST(Escalation, squeezed_faces_make_a_candidate_worthless) {
   Scene scene = two_sheets(0.5);
   const auto to_a_point = [](Patch& patch, const Task&) {
