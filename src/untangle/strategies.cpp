@@ -80,14 +80,17 @@ Strategy wide_coarse_to_fine() {
   return wide;
 }
 
+/// Solves a patch on a mesh of most_coarse_faces at most, or with edges factor_of_whole times as long where that is
+/// coarser.
 int solve_coarsely(Patch& patch, const Task& task, CoarseMeshes meshes) {
   const double factor = std::max(factor_of_whole, std::sqrt(patch.active_count / most_coarse_faces));
   return solve_on_coarser_mesh(patch, factor, task.tolerated, task.stop, meshes).iterations;
 }
 
-/// Spares large components to be solved as a whole for what is stuck in a small part of them. Of a layered cloth of
-/// 369,000 faces with 163 pairs left, the rest of the repair takes 65 s, not 250; with four times the depth 67, with
-/// sixteen more than 172. Smaller meshes go on to the whole as before (docs/performance.md).
+/// This strategy resolves what is stuck in a small part of a large component there, before the whole is solved. A
+/// layered cloth of 369,000 faces with 163 pairs left takes 65 s from there, not 250; with four times the depth 67,
+/// with sixteen more than 172. The same cloth turned takes longer with it than without: where it fails, the whole is
+/// solved after it. Of 111 meshes of up to 20,000 faces one ends otherwise (docs/performance.md).
 Strategy far_coarse_to_fine() {
   Strategy far = wide_coarse_to_fine();
   far.name = "coarse_to_fine_far";

@@ -20,7 +20,7 @@ std::span<const Tier> coarse_mesh_tiers();
 /// Those that move only what lies close to the conflict.
 std::span<const Tier> local_tiers();
 
-/// Of these, those that move faces hardly more than they overlap.
+/// The first tier of local_tiers(): strategies that move faces hardly more than they overlap.
 std::span<const Tier> shallow_tiers();
 
 /// The tiers without the strategies of these names.

@@ -47,7 +47,8 @@ struct Strategy {
   /// Tangles are taken to be so many times as deep as they are. Where more than once, none is left to others: those
   /// less deep than `least_depth` count as that deep.
   int depth_factor = 1;
-  /// Regions whose components it would free half of, or more, are left to the next strategies, which take all.
+  /// A region of which it would free half of the connected vertices or more is left to the next strategies, which free
+  /// all of them.
   bool leaves_most = false;
   /// A candidate that squeezes a face to less than this share of its area before is worthless.
   double area_floor = squeezed_area;
