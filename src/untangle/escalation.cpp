@@ -55,6 +55,7 @@ struct Attempt {
   double distance = 0;       // of the vertices to rest after recovery, summed, where that is known
 
   bool is_clean() const { return is_sound && left.total == 0; }
+  std::size_t resolved() const { return before.total - left.total; }
   double motion() const {
     return std::sqrt((patch.x - start).leftCols(patch.free_count).colwise().squaredNorm().maxCoeff());
   }
@@ -366,10 +367,11 @@ class Escalation {
     if (attempt.is_clean() || attempt.left.is_below(options_.gain_share, attempt.before)) {
       keep(attempt, strategy);
     } else {
+      // A region that has taken in another one may have its first vertex: pairs left do not compare, those resolved do.
       const Index key = attempt.region.core.front();
       const auto known = best_.find(key);
       if (known == best_.end() || !is_current(known->second.attempt) ||
-          attempt.left.total < known->second.attempt.left.total)
+          attempt.resolved() > known->second.attempt.resolved())
         best_.insert_or_assign(key, Candidate{std::move(attempt), level});
     }
   }
@@ -416,7 +418,7 @@ class Escalation {
       const bool is_due = level_of(best.attempt.region) > level;
       if (is_due && best.attempt.left.is_below(share, best.attempt.before) && still_holds(best.attempt))
         keep(best.attempt, *levels_[best.level].strategy);
-      else if (!is_due || is_current(best.attempt)) {
+      else if (is_current(best.attempt)) {
         ++it;
         continue;
       }

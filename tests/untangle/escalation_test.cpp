@@ -355,6 +355,41 @@ TEST(Escalation, a_strategy_may_leave_most_of_a_component_to_the_next) {
   EXPECT_FALSE(is_tried(24));
 }
 
+/// A sheet with a bump of each radius, which reaches through a plane that is fixed.
+Scene bumps_through_a_plane(std::span<const double> radii) {
+  constexpr Index n = 12;
+  const Index bumps = static_cast<Index>(radii.size());
+  Shape shape = shapes::grid(n, n * bumps, false, [&](double i, double j) {
+    double height = 0.4;
+    for (Index b = 0; b < bumps; ++b) {
+      const double x = i - n / 2 + 0.31, y = j - n * (b + 0.5) + 0.17, radius = radii[static_cast<std::size_t>(b)];
+      height -= std::exp(-(x * x + y * y) / (radius * radius));
+    }
+    return Vec3(i, j, height);
+  });
+  const std::size_t free = shape.points.size();
+  shape.add(shapes::grid(n, n * bumps, false, [](double i, double j) { return Vec3(i, j, 0); }));
+  std::vector<std::uint8_t> fixed(shape.points.size(), 1);
+  std::fill(fixed.begin(), fixed.begin() + static_cast<std::ptrdiff_t>(free), std::uint8_t{0});
+  return make_scene(shape.positions(), shape.triangles, fixed);
+}
+
+// The second strategy takes both bumps at once, and leaves more pairs of the two than the first one leaves of one.
+TEST(Escalation, the_candidate_that_resolves_most_is_kept) {
+  const std::array<double, 2> radii = {1.5, 3};
+  Strategy first = lifting(0.05);
+  first.extent = Extent::rings;
+  const Strategy second = lifting(0.3);
+  const auto pairs_left = [&](const Tier& tier) {
+    Scene scene = bumps_through_a_plane(radii);
+    const std::vector<Tier> tiers = {tier};
+    return untangle(scene, {}, options_with(tiers)).left.size();
+  };
+  EXPECT_GT(pairs_left({first}), 0u);
+  EXPECT_EQ(pairs_left({second}), 0u);
+  EXPECT_EQ(pairs_left({first, second}), 0u);
+}
+
 TEST(Escalation, squeezed_faces_make_a_candidate_worthless) {
   Scene scene = two_sheets(0.5);
   const auto to_a_point = [](Patch& patch, const Task&) {
