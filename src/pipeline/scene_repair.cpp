@@ -153,12 +153,8 @@ void SceneRepair::open_dihedrals(Finders& finders) {
 EscalationOptions SceneRepair::escalation_options() {
   EscalationOptions escalation;
   escalation.tiers = default_tiers();
-  std::vector<std::string> left_out = job_.options.without_strategies;
-  if (job_.nested) left_out.emplace_back("placement");  // it begins at rest, where the surfaces cross
-  if (!left_out.empty()) {
-    tiers_ = without(default_tiers(), left_out);
-    escalation.tiers = tiers_;
-  }
+  escalation.left_out = job_.options.without_strategies;
+  if (job_.nested) escalation.left_out.emplace_back("placement");  // it begins at rest, where the surfaces cross
   escalation.stop = job_.limits.stopper();
   escalation.recorder = &job_.recorder;
   escalation.first_region = job_.regions.size();

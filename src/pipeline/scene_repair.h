@@ -105,7 +105,6 @@ class SceneRepair {
   std::vector<IntersectingPair> pairs_, ignored_;
   std::vector<std::uint8_t> let_be_;  // per component: what is left of it stays as it is
   bool float32_;
-  std::vector<Tier> tiers_;                // where not the default ones
   std::vector<std::vector<Index>> moved_;  // what regions freed
   double smallest_gap_ = std::numeric_limits<double>::infinity();
   std::atomic<bool> displacement_is_exceeded_{false};

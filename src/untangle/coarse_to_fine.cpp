@@ -33,28 +33,26 @@ constexpr int most_starts = 30;
 /// Number of times that a coarse mesh of whole components is solved, from positions that differ at random by so much of
 /// its edges, at most; the solution nearest to rest is carried to the fine one. Solutions scatter: a torus
 /// that gets here went 9 times as far as needed with other local strategies. Fifteen meshes end 11 % nearer, with 396
-/// instead of 558 flipped faces, in 1.24 of the time (docs/performance.md).
+/// instead of 558 flipped faces, in 1.24 of the time (docs/experiments.md).
 constexpr int starts_of_whole = 3;      // solutions
 constexpr double start_distance = 0.2;  // mean edge lengths
 /// Share of all motion, without unit, of a part that is tried again from rest on the way back, at least. 21 deep and
-/// warped meshes end 4 % closer with it; with 0.05 as close, with 0.2 3 % (docs/performance.md).
+/// warped meshes end 4 % closer with it; with 0.05 as close, with 0.2 3 % (docs/experiments.md).
 constexpr double least_motion_share = 0.1;  // without unit
 /// Number of faces, with those of obstacles, of the meshes on which this is done, at most, and on which layers are
 /// parted crossing by crossing too. Far parts: on the 21 meshes it takes 3 % more time, with 8000 8 %, and they end as
 /// close; twenty others take 2 and 9 %, and end 4 and 5 % closer. Layers: on none, one of 24 warps ends 8.6 times as
-/// far; on all, layered cloth takes a quarter more time (docs/performance.md).
+/// far; on all, layered cloth takes a quarter more time (docs/experiments.md).
 constexpr double most_faces_of_small = 4000;  // faces
 
 class CoarseToFine {
  public:
   /// Gives up on the way back where a mesh keeps more than `most_pairs`.
-  CoarseToFine(const Patch& patch, std::span<const IntersectingPair> tolerated, double most_pairs,
-               const std::function<bool()>& stop)
+  CoarseToFine(const Patch& patch, const Task& task, double most_pairs)
       : patch_(patch),
-        tolerated_(tolerated),
-        stop_(stop),
+        task_(task),
         most_pairs_(most_pairs),
-        mesh_(patch.triangles, ranks_of(patch, tolerated)),
+        mesh_(patch.triangles, ranks_of(patch, task.tolerated)),
         x_(patch.x),
         grid_(std::exp2(std::floor(std::log2(patch.edge_length * grid_share)))) {}
 
@@ -147,7 +145,7 @@ class CoarseToFine {
     return ranks;
   }
 
-  bool stopped() const { return stop_ && stop_(); }
+  bool stopped() const { return task_.stop && task_.stop(); }
   /// Puts the vertices to where the patch's are, the free ones at random up to so far from there.
   void begin_elsewhere(Index start, double distance) {
     x_ = patch_.x;
@@ -198,7 +196,7 @@ class CoarseToFine {
     std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(result),
                  [&](const IntersectingPair& pair) { return is_fixed(pair.a) && is_fixed(pair.b); });
     const auto number = [&](Index face) { return static_cast<Index>(mesh_.count_below(face)); };
-    for (const IntersectingPair& pair : tolerated_) result.push_back({number(pair.a), number(pair.b), pair.kind});
+    for (const IntersectingPair& pair : task_.tolerated) result.push_back({number(pair.a), number(pair.b), pair.kind});
     return sorted(std::move(result));
   }
   static std::vector<IntersectingPair> sorted(std::vector<IntersectingPair> pairs) {
@@ -211,8 +209,9 @@ class CoarseToFine {
                             std::span<const Tier> tiers,
                             const std::function<void(const EscalationProgress&)>& tell = {}) const {
     EscalationOptions escalation;
-    escalation.stop = stop_;
+    escalation.stop = task_.stop;
     escalation.tiers = tiers;
+    escalation.left_out.assign(task_.left_out.begin(), task_.left_out.end());
     escalation.on_progress = tell;
     return escalate(level.scene, index, tolerated, escalation);
   }
@@ -226,7 +225,7 @@ class CoarseToFine {
     recovery.recover = options;
     recovery.recover.unflip_rounds = 0;  // faces of a coarse mesh are not those of the surface
     recovery.min_gap = [](std::span<const Index>) { return 0.0; };
-    recovery.stop = stop_ ? stop_ : [] { return false; };
+    recovery.stop = [this] { return stopped(); };
     Recorder nobody({}, level.scene.x);
     recover_regions(level.scene, index, {dilate(level.scene, moved, recovery_rings)}, recovery, nobody);
   }
@@ -281,8 +280,7 @@ class CoarseToFine {
   }
 
   const Patch& patch_;
-  std::span<const IntersectingPair> tolerated_;
-  const std::function<bool()>& stop_;
+  const Task& task_;
   double most_pairs_;
   ProgressiveMesh mesh_;
   Positions x_;            // of the patch's vertices; only those of the mesh as it is now mean anything
@@ -292,12 +290,11 @@ class CoarseToFine {
 
 }  // namespace
 
-CoarseResult solve_on_coarser_mesh(Patch& patch, double factor, std::span<const IntersectingPair> tolerated,
-                                   const std::function<bool()>& stop, CoarseMeshes meshes) {
+CoarseResult solve_on_coarser_mesh(Patch& patch, const Task& task, double factor, CoarseMeshes meshes) {
   CoarseResult result;
   IntersectionFinder finder(patch.triangles, patch.active_count);
   const auto count_pairs = [&](const Positions& x) {
-    const std::size_t count = blocking_pairs(finder.find(x), tolerated).size();
+    const std::size_t count = blocking_pairs(finder.find(x), task.tolerated).size();
     record(patch, x, {.pairs = count});
     return count;
   };
@@ -306,9 +303,9 @@ CoarseResult solve_on_coarser_mesh(Patch& patch, double factor, std::span<const 
   if (before == 0 || !(patch.edge_length > 0)) return result;
   const double most_left = few_enough_to_keep * static_cast<double>(before);
   auto faces = static_cast<std::size_t>(patch.active_count);
-  for (double wanted = static_cast<double>(faces); !(stop && stop());) {
+  for (double wanted = static_cast<double>(faces); !(task.stop && task.stop());) {
     wanted /= factor * factor;
-    CoarseToFine solver(patch, tolerated, most_left, stop);
+    CoarseToFine solver(patch, task, most_left);
     const std::size_t finer = std::exchange(faces, solver.coarsen(wanted));
     const bool is_coarsest = faces == finer;
     if (is_coarsest && (meshes == CoarseMeshes::one || faces == static_cast<std::size_t>(patch.active_count))) break;

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <span>
 
 #include "scene/patch.h"
-#include "unsnarl/intersections.h"
+#include "untangle/strategy.h"
 
 namespace unsnarl {
 
@@ -28,9 +26,9 @@ enum class CoarseMeshes {
 /// test finds no new pair. After every round but the last, local strategies resolve what it brought, and a few steps of
 /// recovery make room for the next. The cost follows the number of faces, however deep the tangle is. What is fixed is
 /// simplified too (else its edge would keep the coarse mesh fine), and comes back to where it is. Pairs of active
-/// triangles count, but the `tolerated` ones (of patch triangles, sorted). A patch of which too many pairs are left on
+/// triangles count, but the task's `tolerated` ones. A patch of which too many pairs are left on
 /// the coarse mesh, or that cannot be simplified, stays where it is.
-CoarseResult solve_on_coarser_mesh(Patch& patch, double factor, std::span<const IntersectingPair> tolerated,
-                                   const std::function<bool()>& stop, CoarseMeshes meshes = CoarseMeshes::until_solved);
+CoarseResult solve_on_coarser_mesh(Patch& patch, const Task& task, double factor,
+                                   CoarseMeshes meshes = CoarseMeshes::until_solved);
 
 }  // namespace unsnarl

@@ -67,10 +67,14 @@ class Escalation {
              const EscalationOptions& options)
       : scene_(scene), index_(index), ignored_(ignored), options_(options), level_(scene.vertex_count(), 0) {
     for (const Tier& tier : options.tiers) {
+      const Index first = last();
       for (const Strategy& strategy : tier) {
+        if (std::find(options.left_out.begin(), options.left_out.end(), strategy.name) != options.left_out.end())
+          continue;
         if (!strategy.is_last_resort && longest_wait_ == last() - 1) ++longest_wait_;
-        levels_.push_back({&strategy, &strategy == &tier.back()});
+        levels_.push_back({&strategy, false});
       }
+      if (last() > first) levels_.back().ends_tier = true;
     }
   }
 
@@ -276,7 +280,7 @@ class Escalation {
       (is_of_region(patch, attempt.region, pair) ? own : tolerated).push_back(pair);
     attempt.before = Pairs(own);
     patch.progress = &progress;
-    Task task{.tolerated = tolerated, .depth = attempt.depth, .stop = ask_};
+    Task task{.tolerated = tolerated, .depth = attempt.depth, .left_out = options_.left_out, .stop = ask_};
     if (!options_.accept && !own.empty())
       task.few_enough = static_cast<std::size_t>(options_.gain_share * static_cast<double>(own.size() - 1));
     if (options_.min_gap) task.min_gap = options_.min_gap(attempt.free);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "scene/patch.h"
@@ -23,6 +24,8 @@ struct EscalationProgress {
 struct EscalationOptions {
   /// The strategies that are tried, in this order.
   std::span<const Tier> tiers;
+  /// Names of those that are not, here and on coarse meshes.
+  std::vector<std::string> left_out;
   /// A candidate that leaves less than this share of a region's pairs is kept at once.
   double gain_share = few_left;
   /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share.

@@ -23,7 +23,7 @@ constexpr int deep = 4;
 constexpr double rings_per_depth = 1.5;
 /// The coarse mesh of a deep tangle has edges longer by this factor for each edge of its depth. Without unit. On 58
 /// deep, warped and immersed surfaces 0.25, 0.35, 0.5, 1 end 2 to 9 % farther, with up to a quarter more flipped faces;
-/// 3 for all, however deep, leaves two tangled (docs/performance.md).
+/// 3 for all, however deep, leaves two tangled (docs/experiments.md).
 constexpr double factor_per_depth = 0.7;
 constexpr double least_factor = 3;  ///< and by this at least
 /// The same for whole components and what comes close to them. With 3, 42 samples end 3 % farther and twenty punctured
@@ -58,7 +58,7 @@ Strategy local(std::string name, int rings, LocalSettings settings, std::size_t 
 Strategy coarse_to_fine() {
   const auto solve = [](Patch& patch, const Task& task) {
     const double factor = std::max(least_factor, factor_per_depth * task.depth);
-    return solve_on_coarser_mesh(patch, factor, task.tolerated, task.stop, CoarseMeshes::one).iterations;
+    return solve_on_coarser_mesh(patch, task, factor, CoarseMeshes::one).iterations;
   };
   return {.name = "coarse_to_fine",
           .extent = Extent::depth,
@@ -84,13 +84,13 @@ Strategy wide_coarse_to_fine() {
 /// coarser.
 int solve_coarsely(Patch& patch, const Task& task, CoarseMeshes meshes) {
   const double factor = std::max(factor_of_whole, std::sqrt(patch.active_count / most_coarse_faces));
-  return solve_on_coarser_mesh(patch, factor, task.tolerated, task.stop, meshes).iterations;
+  return solve_on_coarser_mesh(patch, task, factor, meshes).iterations;
 }
 
 /// This strategy resolves what is stuck in a small part of a large component there, before the whole is solved. A
 /// layered cloth of 369,000 faces with 163 pairs left takes 65 s from there, not 250; with four times the depth 67,
 /// with sixteen more than 172. The same cloth turned takes longer with it than without: where it fails, the whole is
-/// solved after it. Of 111 meshes of up to 20,000 faces one ends otherwise (docs/performance.md).
+/// solved after it. Of 111 meshes of up to 20,000 faces one ends otherwise (docs/experiments.md).
 Strategy far_coarse_to_fine() {
   Strategy far = wide_coarse_to_fine();
   far.name = "coarse_to_fine_far";
@@ -123,7 +123,7 @@ Tier shallow_tier() {
 }
 
 /// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth is not
-/// resolved. Two rings tried before four bring nothing nearer (docs/performance.md).
+/// resolved. Two rings tried before four bring nothing nearer (docs/experiments.md).
 Tier layers_tier() {
   Tier tier = {local("contour-8", 8, {LocalMethod::contour, 0.3, 4, 60}),
                local("shorten-4", 4, {LocalMethod::shorten, 0.3, 4, 60})};
@@ -161,16 +161,6 @@ std::span<const Tier> local_tiers() {
 
 std::span<const Tier> shallow_tiers() {
   return local_tiers().first(1);
-}
-
-std::vector<Tier> without(std::span<const Tier> tiers, std::span<const std::string> names) {
-  std::vector<Tier> rest(tiers.begin(), tiers.end());
-  for (Tier& tier : rest)
-    std::erase_if(tier, [&](const Strategy& strategy) {
-      return std::find(names.begin(), names.end(), strategy.name) != names.end();
-    });
-  std::erase_if(rest, [](const Tier& tier) { return tier.empty(); });
-  return rest;
 }
 
 std::string_view strategy_name(int number) {

@@ -23,9 +23,6 @@ std::span<const Tier> local_tiers();
 /// The first tier of local_tiers(): strategies that move faces hardly more than they overlap.
 std::span<const Tier> shallow_tiers();
 
-/// The tiers without the strategies of these names.
-std::vector<Tier> without(std::span<const Tier> tiers, std::span<const std::string> names);
-
 /// Name of the strategy with this number in the order of default_tiers().
 std::string_view strategy_name(int number);
 /// The number of the one with this name; -1: there is none.

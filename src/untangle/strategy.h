@@ -16,11 +16,12 @@ namespace unsnarl {
 
 /// The input of a strategy besides the patch.
 struct Task {
-  std::span<const IntersectingPair> tolerated;  ///< pairs of patch triangles, sorted, that it need not resolve
-  std::size_t few_enough = 0;                   ///< pairs: a candidate that leaves no more is kept
-  int depth = 0;                                ///< edges: of the tangle, for Extent::depth
-  double min_gap = 0;                           ///< length: how far apart faces will have to be
-  const std::function<bool()>& stop;            ///< true: give up; may be empty
+  std::span<const IntersectingPair> tolerated = {};  ///< pairs of patch triangles, sorted, that it need not resolve
+  std::size_t few_enough = 0;                        ///< pairs: a candidate that leaves no more is kept
+  int depth = 0;                                     ///< edges: of the tangle, for Extent::depth
+  double min_gap = 0;                                ///< length: how far apart faces will have to be
+  std::span<const std::string> left_out = {};        ///< strategies that coarse meshes do without, by name
+  const std::function<bool()>& stop;                 ///< true: give up; may be empty
 };
 
 /// Which vertices of a conflict region a strategy moves.

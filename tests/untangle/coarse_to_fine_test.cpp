@@ -9,6 +9,7 @@
 #include "scene/shapes.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/local_solver.h"
+#include "untangle/strategies.h"
 #include "untangle/tangled_shapes.h"
 
 namespace unsnarl {
@@ -24,6 +25,11 @@ shapes::Shape tangled_tube(Index fine) {
   });
 }
 
+CoarseResult solve(Patch& patch, double factor, std::span<const IntersectingPair> tolerated,
+                   const std::function<bool()>& stop, CoarseMeshes meshes = CoarseMeshes::until_solved) {
+  return solve_on_coarser_mesh(patch, {.tolerated = tolerated, .stop = stop}, factor, meshes);
+}
+
 std::size_t pairs_in(const Patch& patch) {
   return IntersectionFinder(patch.triangles, patch.active_count).find(patch.x).size();
 }
@@ -33,7 +39,7 @@ TEST(CoarseToFine, resolves_nearly_all_of_a_deep_tangle) {
   Patch patch = shapes::patch_of(shape);
   const std::size_t before = pairs_in(patch);
   ASSERT_GT(before, 100u);
-  const CoarseResult result = solve_on_coarser_mesh(patch, 4, {}, {});
+  const CoarseResult result = solve(patch, 4, {}, {});
   EXPECT_EQ(result.pairs_left, pairs_in(patch));
   EXPECT_LE(result.pairs_left, before / 20);
   // Whatever lies far from the tangle has stayed, and nothing has gone farther than a few times its depth.
@@ -47,12 +53,23 @@ TEST(CoarseToFine, resolves_nearly_all_of_a_deep_tangle) {
   EXPECT_GT(at_rest, patch.free_count / 2);
 }
 
+TEST(CoarseToFine, coarse_meshes_do_without_what_is_left_out) {
+  Patch patch = shapes::patch_of(shapes::crossing_wide_bumps(2, 2));
+  const std::size_t before = pairs_in(patch);
+  std::vector<std::string> all;
+  for (const Tier& tier : coarse_mesh_tiers())
+    for (const Strategy& strategy : tier) all.push_back(strategy.name);
+  const std::function<bool()> never;
+  EXPECT_EQ(solve_on_coarser_mesh(patch, {.left_out = all, .stop = never}, 4, CoarseMeshes::one).pairs_left, before);
+  EXPECT_EQ(patch.x, patch.rest);
+}
+
 TEST(CoarseToFine, resolves_tubes_that_run_through_themselves) {
   for (const Index fine : {2, 3}) {
     Patch patch = shapes::patch_of(tangled_tube(fine));
     const std::size_t before = pairs_in(patch);
     ASSERT_GT(before, 50u);
-    const CoarseResult result = solve_on_coarser_mesh(patch, fine, {}, {});
+    const CoarseResult result = solve(patch, fine, {}, {});
     EXPECT_LE(result.pairs_left, before / 10) << before << " before";
   }
 }
@@ -61,14 +78,14 @@ TEST(CoarseToFine, vertices_that_come_back_between_narrow_layers_find_places) {
   Patch patch = shapes::patch_of(tangled_tube(8));
   const std::size_t before = pairs_in(patch);
   ASSERT_GT(before, 1000u);
-  EXPECT_LE(solve_on_coarser_mesh(patch, 8 / 1.5, {}, {}).pairs_left, before / 30);
+  EXPECT_LE(solve(patch, 8 / 1.5, {}, {}).pairs_left, before / 30);
 }
 
 TEST(CoarseToFine, tries_parts_that_went_far_again) {
   double motion = 0;
   for (const double factor : {3.0, 3.5, 5.0}) {
     Patch patch = shapes::patch_of(tangled_tube(2));
-    EXPECT_EQ(solve_on_coarser_mesh(patch, factor, {}, {}, CoarseMeshes::one).pairs_left, 0u);
+    EXPECT_EQ(solve(patch, factor, {}, {}, CoarseMeshes::one).pairs_left, 0u);
     motion += (patch.x - patch.rest).colwise().norm().mean();
   }
   EXPECT_LT(motion, 1.12);  // 1.01; where none is tried again 1.22
@@ -79,7 +96,7 @@ TEST(CoarseToFine, carries_the_nearest_of_several_solutions) {
     double motion = 0;
     for (const double factor : {1.6, 2.5}) {
       Patch patch = shapes::patch_of(shapes::limb_and_sheet());
-      EXPECT_EQ(solve_on_coarser_mesh(patch, factor, {}, {}, meshes).pairs_left, 0u);
+      EXPECT_EQ(solve(patch, factor, {}, {}, meshes).pairs_left, 0u);
       motion += (patch.x - patch.rest).colwise().norm().mean();
     }
     return motion;
@@ -94,7 +111,7 @@ TEST(CoarseToFine, resolves_what_no_short_step_can) {
     Patch patch = shapes::patch_of(shape);
     const std::size_t before = pairs_in(patch);
     ASSERT_GT(before, 50u);
-    EXPECT_LE(solve_on_coarser_mesh(patch, 3, {}, {}).pairs_left, before / 10);
+    EXPECT_LE(solve(patch, 3, {}, {}).pairs_left, before / 10);
     EXPECT_LE(pairs_in(patch), before / 10);
     for (const Triangle& t : patch.triangles) EXPECT_GT(triangle_area(patch.x, t), 0);
     const double diagonal = (patch.rest.rowwise().maxCoeff() - patch.rest.rowwise().minCoeff()).norm();
@@ -104,7 +121,7 @@ TEST(CoarseToFine, resolves_what_no_short_step_can) {
 
 TEST(CoarseToFine, an_embedded_patch_stays_where_it_is) {
   Patch patch = shapes::patch_of(shapes::bumpy_sheet(24, 2, 6));
-  const CoarseResult result = solve_on_coarser_mesh(patch, 4, {}, {});
+  const CoarseResult result = solve(patch, 4, {}, {});
   EXPECT_EQ(result.pairs_left, 0u);
   EXPECT_TRUE(patch.x == patch.rest);
 }
@@ -115,7 +132,7 @@ TEST(CoarseToFine, what_cannot_be_simplified_stays_where_it_is) {
   shape.triangles = {{0, 1, 2}, {3, 4, 5}};
   Patch patch = shapes::patch_of(shape);
   const Positions before = patch.x;
-  const CoarseResult result = solve_on_coarser_mesh(patch, 2, {}, {});
+  const CoarseResult result = solve(patch, 2, {}, {});
   EXPECT_GT(result.pairs_left, 0u);
   EXPECT_TRUE(patch.x == before);
 }
@@ -132,10 +149,10 @@ TEST(CoarseToFine, holds_what_is_fixed_and_lets_tolerated_pairs_be) {
   // All are tolerated: nothing is left to be done.
   IntersectionFinder finder(patch.triangles, patch.active_count);
   const std::vector<IntersectingPair> pairs = finder.find(patch.x);
-  EXPECT_TRUE(solve_on_coarser_mesh(patch, 4, pairs, {}).pairs_left == 0);
+  EXPECT_TRUE(solve(patch, 4, pairs, {}).pairs_left == 0);
   EXPECT_TRUE(patch.x == before);
 
-  const CoarseResult result = solve_on_coarser_mesh(patch, 4, {}, {});
+  const CoarseResult result = solve(patch, 4, {}, {});
   EXPECT_LT(result.pairs_left, pairs.size() / 10);
   for (Index v = patch.free_count; v < patch.x.cols(); ++v) EXPECT_TRUE(patch.x.col(v) == before.col(v));
 }
@@ -144,7 +161,7 @@ TEST(CoarseToFine, ends_soon_when_it_is_stopped_at_any_time) {
   const shapes::Shape shape = shapes::crossing_wide_bumps(2, 2);
   std::atomic<int> questions = 0;  // any thread may ask
   Patch whole = shapes::patch_of(shape);
-  solve_on_coarser_mesh(whole, 4, {}, [&] { return ++questions < 0; });
+  solve(whole, 4, {}, [&] { return ++questions < 0; });
   ASSERT_GT(questions, 100);
   for (int share = 0; share < 8; ++share) {
     Patch patch = shapes::patch_of(shape);
@@ -152,7 +169,7 @@ TEST(CoarseToFine, ends_soon_when_it_is_stopped_at_any_time) {
     const int last = questions * share / 8;
     const Positions start = patch.x;
     std::atomic<int> asked = 0;
-    const CoarseResult result = solve_on_coarser_mesh(patch, 4, {}, [&] { return ++asked > last; });
+    const CoarseResult result = solve(patch, 4, {}, [&] { return ++asked > last; });
     EXPECT_LT(asked, last + 16);
     EXPECT_EQ(result.pairs_left, pairs_in(patch));
     EXPECT_LE(result.pairs_left, before);
@@ -168,7 +185,7 @@ TEST(CoarseToFine, is_the_same_with_any_number_of_threads) {
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
     Patch patch = shapes::patch_of(shape);
-    solve_on_coarser_mesh(patch, 4, {}, {});
+    solve(patch, 4, {}, {});
     if (threads == 1) expected = patch.x;
     EXPECT_TRUE(patch.x == expected) << threads << " threads";
   }
