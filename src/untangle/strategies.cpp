@@ -70,8 +70,8 @@ Strategy coarse_to_fine() {
 }
 
 /// This strategy takes what the others have left for twice as deep, and so resolves it in wider surroundings on a
-/// coarser mesh. Without it one of twenty punctured surfaces stays tangled, and the others end 10 % farther, 42 samples
-/// 1 %, the ten warped and real meshes that get here 10 %. A second one, for four times as deep, brings nothing.
+/// coarser mesh. It saves time: without it whole components take its place, and samples, posed bodies and the deepest
+/// warps end as near in 1.1 of the time, a torus of these in 57 s, not 32 (docs/performance.md).
 Strategy wide_coarse_to_fine() {
   Strategy wide = coarse_to_fine();
   wide.name = "coarse_to_fine_wide";
@@ -88,9 +88,10 @@ int solve_coarsely(Patch& patch, const Task& task, CoarseMeshes meshes) {
 }
 
 /// This strategy resolves what is stuck in a small part of a large component there, before the whole is solved. A
-/// layered cloth of 369,000 faces with 163 pairs left takes 65 s from there, not 250; with four times the depth 67,
-/// with sixteen more than 172. The same cloth turned takes longer with it than without: where it fails, the whole is
-/// solved after it. Of 111 meshes of up to 20,000 faces one ends otherwise (docs/experiments.md).
+/// layered cloth of 369,000 faces with 163 pairs left takes 65 s from there; without it the whole goes so far that it
+/// stays tangled. With four times the depth it takes 67 s, with sixteen more than 172. The same cloth turned takes
+/// longer with it than without: where it fails, the whole is solved after it. Of meshes of up to 27,000 faces hardly
+/// one gets here (docs/experiments.md).
 Strategy far_coarse_to_fine() {
   Strategy far = wide_coarse_to_fine();
   far.name = "coarse_to_fine_far";
@@ -122,8 +123,8 @@ Tier shallow_tier() {
           local("contour-2", 2, contour, hub_valence), local("contour-4", 4, contour, hub_valence)};
 }
 
-/// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth is not
-/// resolved. Two rings tried before four bring nothing nearer (docs/experiments.md).
+/// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth takes
+/// twice the time. Two rings tried before four bring nothing nearer (docs/experiments.md).
 Tier layers_tier() {
   Tier tier = {local("contour-8", 8, {LocalMethod::contour, 0.3, 4, 60}),
                local("shorten-4", 4, {LocalMethod::shorten, 0.3, 4, 60})};
