@@ -13,6 +13,7 @@
 #include "mesh/adjacency.h"
 #include "mesh/areas.h"
 #include "mesh/components.h"
+#include "mesh/weld_map.h"
 #include "peer.h"
 
 namespace unsnarl::peers {
@@ -29,13 +30,19 @@ struct Extents {
   std::vector<Vec3> centres;
 };
 
+Components components_of(const Start& start) {
+  const SurfaceView surface{
+      .positions = {start.rest.data(), static_cast<std::size_t>(start.rest.size())},
+      .corners = {start.triangles.empty() ? nullptr : start.triangles.front().data(), 3 * start.triangles.size()}};
+  return find_components(surface, weld(surface, Weld::none), start.triangles, build_edges(start.triangles));
+}
+
 class ConformalisedFlow : public Peer {
  public:
   ConformalisedFlow(const Start& start, const ConformalisedFlowOptions& options)
       : options_(options),
         triangles_(start.triangles),
-        components_(
-            find_components(start.triangles, static_cast<Index>(start.rest.cols()), build_edges(start.triangles))),
+        components_(components_of(start)),
         at_rest_(extents(start.rest)) {
     const double area = total_area(start.rest, triangles_);
     unit_ = std::sqrt(area);
