@@ -26,8 +26,8 @@ enum class CoarseMeshes {
 /// test finds no new pair. After every round but the last, local strategies resolve what it brought, and a few steps of
 /// recovery make room for the next. The cost follows the number of faces, however deep the tangle is. What is fixed is
 /// simplified too (else its edge would keep the coarse mesh fine), and comes back to where it is. Pairs of active
-/// triangles count, but the task's `tolerated` ones. A patch of which too many pairs are left on
-/// the coarse mesh, or that cannot be simplified, stays where it is.
+/// triangles count, but the task's `tolerated` ones. A patch of which too many pairs are left on the coarse mesh, or
+/// that cannot be simplified, stays where it is.
 CoarseResult solve_on_coarser_mesh(Patch& patch, const Task& task, double factor,
                                    CoarseMeshes meshes = CoarseMeshes::until_solved);
 

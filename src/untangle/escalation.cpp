@@ -420,12 +420,12 @@ class Escalation {
     for (auto it = best_.begin(); it != best_.end();) {
       Candidate& best = it->second;
       const bool is_due = level_of(best.attempt.region) > level;
-      if (is_due && best.attempt.left.is_below(share, best.attempt.before) && still_holds(best.attempt))
-        keep(best.attempt, *levels_[best.level].strategy);
-      else if (is_current(best.attempt)) {
+      const bool is_worth_while = is_due && best.attempt.left.is_below(share, best.attempt.before);
+      if (!is_worth_while && is_current(best.attempt)) {
         ++it;
         continue;
       }
+      if (is_worth_while && still_holds(best.attempt)) keep(best.attempt, *levels_[best.level].strategy);
       it = best_.erase(it);
     }
   }

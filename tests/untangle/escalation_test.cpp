@@ -403,8 +403,7 @@ TEST(Escalation, squeezed_faces_make_a_candidate_worthless) {
 }
 
 TEST(Escalation, strategies_can_be_left_out_by_name) {
-  const std::vector<Tier> tiers = {{lifting(5), lifting(4)}};
-  std::vector<Tier> named = tiers;
+  std::vector<Tier> named = {{lifting(5), lifting(4)}};
   named[0][1].name = "lower";
   const auto kept = [&](std::vector<std::string> left_out) {
     Scene scene = two_sheets(1.5);
@@ -414,8 +413,18 @@ TEST(Escalation, strategies_can_be_left_out_by_name) {
   };
   EXPECT_EQ(kept({}), "lifting");
   EXPECT_EQ(kept({"lifting"}), "lower");
-  EXPECT_EQ(kept({"lower"}), "lifting") << "it ends its tier now";
+  EXPECT_EQ(kept({"lower"}), "lifting");
   EXPECT_EQ(kept({"lifting", "lower"}), "none");
+
+  // Not all the way: the candidate is kept where the first strategy ends the tier now, and what it leaves starts anew.
+  named[0][0] = lifting(0.3);
+  named[0][1] = lifting(2.4);
+  named[0].push_back(lifting(0));
+  named[0].back().name = "nothing";
+  Scene scene = two_sheets(3);
+  EscalationOptions options = options_with(named);
+  options.left_out = {"nothing"};
+  EXPECT_TRUE(untangle(scene, {}, options).left.empty());
 }
 
 TEST(Strategies, numbers_name_them_in_the_order_of_the_table) {
