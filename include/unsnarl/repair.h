@@ -49,7 +49,8 @@ struct RepairOptions {
   FindOptions find;  ///< welding, threads
   Goal goal = Goal::all;
   /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it and a way to it
-  /// is found, else float64. float32 counts only where all coordinates are within its range.
+  /// is found, else float64. Where float32 is set and the result does not hold in it, or a coordinate is beyond its
+  /// range, the status is not embedded.
   std::optional<Precision> precision;
   /// The positions that a reader of the file to be written will see, given those to be written and whether float32
   /// digits are enough. Unset: rounded to `precision`. The result is certified as it returns them.
@@ -64,7 +65,7 @@ struct RepairOptions {
   std::vector<std::string> rigid_names;  ///< of these parts, for reports; missing ones are their numbers
   bool each_component = false;  ///< repair every component as if alone; what runs through others may do so still
   /// Wanted gap between sheets / bounding-box diagonal, at most 8 mean widths of the faces (GapTooWide); 0: a few
-  /// float32 units.
+  /// units in the last place of the precision in which the result holds.
   double min_gap_rel = 0;
   /// Two faces at an edge that are folded together closer than this angle, in degrees, in [0, 90), are opened to it
   /// after the repair, as far as nothing is in the way; also where nothing intersects. 0: left as they are.
@@ -84,7 +85,7 @@ struct RepairOptions {
 };
 
 /// RepairOptions::min_gap_rel is more than 8 times as wide as the faces, by the mean side of equilateral triangles of
-/// their areas, and the surface intersects itself.
+/// their areas, and gaps are to be opened: the surface intersects itself, or dihedral angles are to be opened.
 class GapTooWide : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;

@@ -1,18 +1,10 @@
 #include "pipeline/calling_thread.h"
 
-#include <chrono>
 #include <new>
 #include <system_error>
 #include <utility>
 
 namespace unsnarl {
-namespace {
-
-/// Waiting threads are woken by each other. A wait without end is another symbol of libstdc++ since GCC 12, which
-/// distributions with glibc 2.34 do not have.
-constexpr std::chrono::hours longest_wait_for_call{1};
-
-}  // namespace
 
 void CallingThread::run(const std::function<void()>& work) {
   std::exception_ptr failure;
@@ -44,7 +36,7 @@ void CallingThread::run(const std::function<void()>& work) {
 void CallingThread::serve() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    while (wanted_ == nullptr && !has_ended_) changed_.wait_for(lock, longest_wait_for_call);
+    while (wanted_ == nullptr && !has_ended_) changed_.wait_for(lock, longest_wait);
     if (wanted_ == nullptr) return;
     lock.unlock();
     try {
@@ -67,7 +59,7 @@ void CallingThread::call(const std::function<void()>& function) {
   std::unique_lock lock(mutex_);
   wanted_ = &function;
   changed_.notify_all();
-  while (wanted_ != nullptr) changed_.wait_for(lock, longest_wait_for_call);
+  while (wanted_ != nullptr) changed_.wait_for(lock, longest_wait);
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 

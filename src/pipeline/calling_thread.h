@@ -1,12 +1,21 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <type_traits>
+#include <utility>
+
+#include "unsnarl/repair.h"
 
 namespace unsnarl {
+
+/// Of threads that are woken by each other. A wait without end is another symbol of libstdc++ since GCC 12, which
+/// distributions with glibc 2.34 do not have.
+inline constexpr std::chrono::hours longest_wait{1};
 
 /// Work that calls back from any of its threads, and a caller who is to be called in its own thread alone: the work
 /// runs in another one, and the caller's waits for what is to be called.
@@ -34,5 +43,24 @@ class CallingThread {
   std::exception_ptr thrown_;
   bool is_serving_ = false, has_ended_ = false;
 };
+
+/// Returns work(context), with a context of its own where `context` is null. The work may report progress from any of
+/// its threads; the caller is told in the thread that called this.
+template <class Work>
+std::invoke_result_t<Work, Context&> work_reporting_here(Context* context, const Work& work) {
+  Context nobody;
+  if (context == nullptr) return work(nobody);
+  if (!context->on_progress) return work(*context);
+  struct Restored {
+    Context& context;
+    const std::function<void(const Context::Progress&)> tell = std::exchange(context.on_progress, {});
+    ~Restored() { context.on_progress = tell; }
+  } callers{*context};
+  CallingThread here;
+  context->on_progress = [&](const Context::Progress& progress) { here.call([&] { callers.tell(progress); }); };
+  std::invoke_result_t<Work, Context&> result;
+  here.run([&] { result = work(*context); });
+  return result;
+}
 
 }  // namespace unsnarl

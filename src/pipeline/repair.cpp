@@ -45,7 +45,7 @@ constexpr double widest_gap_in_sides = 8;
 
 class Repair {
  public:
-  /// `known` and `finders` are null where nothing is known, as in repair_from() else. `nesting`: null for none.
+  /// `known` and `finders`: as in repair_from(), or null. `nesting`: null for none.
   Repair(const SurfaceView& surface, const KnownSurface* known, Finders* finders, const Nesting* nesting,
          const RepairOptions& options, Context& context)
       : surface_(surface),
@@ -131,7 +131,7 @@ class Repair {
   }
 
   void check_gap() const {
-    if (diagnosis_.pairs.empty()) return;
+    if (diagnosis_.pairs.empty() && !(options_.min_dihedral_deg > 0)) return;  // no gap is opened
     const double gap = options_.min_gap_rel * diagonal_;
     const double side = mean_equilateral_side(prepared_.rest, prepared_.triangles());
     if (gap > widest_gap_in_sides * side)
@@ -191,7 +191,7 @@ class Repair {
     for (Index v = 0; v < wanted.cols(); ++v)
       if (component_of[v] >= 0 && wanted.col(v) != prepared_.rest.col(v)) vertices[component_of[v]].push_back(v);
     for (const std::vector<Index>& component : vertices) {
-      if (component.empty()) continue;
+      if (component.empty() || limits_.reached()) continue;
       for (Index v : component) reached_.col(v) = wanted.col(v);
       if (!acceptance_->is_worse(acceptance_->pairs_at(reached_))) continue;
       for (Index v : component) reached_.col(v) = prepared_.rest.col(v);
@@ -262,28 +262,10 @@ class Repair {
   double smallest_gap_ = std::numeric_limits<double>::infinity();
 };
 
-/// Regions are worked on in several threads, which all tell how far they are; the caller is told in its own.
-template <class Work>
-RepairResult reporting_here(Context* context, const Work& work) {
-  Context nobody;
-  if (context == nullptr) return work(nobody);
-  if (!context->on_progress) return work(*context);
-  struct Restored {
-    Context& context;
-    const std::function<void(const Context::Progress&)> tell = std::exchange(context.on_progress, {});
-    ~Restored() { context.on_progress = tell; }
-  } callers{*context};
-  CallingThread here;
-  context->on_progress = [&](const Context::Progress& progress) { here.call([&] { callers.tell(progress); }); };
-  RepairResult result;
-  here.run([&] { result = work(*context); });
-  return result;
-}
-
 }  // namespace
 
 RepairResult repair(const SurfaceView& surface, const RepairOptions& options, Context* context) {
-  return reporting_here(context, [&](Context& own) {
+  return work_reporting_here(context, [&](Context& own) {
     if (!options.rigid.empty()) return repair_with_rigid_parts(surface, options, own);
     return Repair(surface, nullptr, nullptr, nullptr, options, own).run();
   });
@@ -295,8 +277,8 @@ RepairResult repair_nested(const SurfaceView& surface, const Nesting& nesting, c
     throw std::invalid_argument(
         "RepairOptions: rigid, each_component and paper know nothing of surfaces inside each other; leave them or the "
         "nesting out");
-  return reporting_here(context,
-                        [&](Context& own) { return Repair(surface, nullptr, nullptr, &nesting, options, own).run(); });
+  return work_reporting_here(
+      context, [&](Context& own) { return Repair(surface, nullptr, nullptr, &nesting, options, own).run(); });
 }
 
 RepairResult repair_from(const SurfaceView& surface, const KnownSurface& known, Finders& finders,

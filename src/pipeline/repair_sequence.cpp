@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "mesh/areas.h"
+#include "pipeline/calling_thread.h"
 #include "pipeline/frame_motion.h"
 #include "pipeline/threads.h"
 #include "scene/face_pairs.h"
@@ -36,10 +37,6 @@ constexpr double least_correction_rel = 3e-5;
 /// Frames that are under way at once, by thread: enough that none waits for long. They are lost where a call is cut
 /// off, and held in memory with the frames around them.
 constexpr std::size_t frames_by_thread = 2;
-
-/// Threads without a job are woken when there is one. A wait without end is another symbol of libstdc++ since GCC 12,
-/// which distributions with glibc 2.34 do not have.
-constexpr std::chrono::hours longest_wait{1};
 
 struct Frame {
   std::vector<double> input;
@@ -381,8 +378,7 @@ std::vector<FrameReport> repair_sequence(const SequenceSource& source, const Seq
     throw std::invalid_argument(
         "RepairOptions::rigid: parts of sequences cannot be rigid, since corrections are averaged "
         "over frames");
-  Context own;
-  return SequenceRepair(source, options, take, context ? *context : own).run();
+  return work_reporting_here(context, [&](Context& own) { return SequenceRepair(source, options, take, own).run(); });
 }
 
 }  // namespace unsnarl
