@@ -10,20 +10,11 @@
 
 namespace unsnarl {
 
-struct ContactListOptions {
-  /// A list holds while each vertex stays within this (in h) of the step it was about to make where the list was
-  /// gathered. As wide as the step, where that is short and most are: nine deep meshes take 5 % longer.
-  double margin = 0.02;
-  /// Share of the moving vertices up to which the list is gathered anew around those alone that leave their bounds.
-  double few = 0.3;
-};
-
 /// The contact stencils that may matter to a solver on its way, gathered anew only around vertices that have gone too
 /// far since. h: the patch's edge length. The rules must outlive this.
 class ContactList {
  public:
-  ContactList(ContactRules& rules, double h, const ContactListOptions& options = {})
-      : rules_(rules), h_(h), options_(options) {}
+  ContactList(ContactRules& rules, double h) : rules_(rules), h_(h) {}
 
   /// Lists the stencils that may be closer than `activation` while no moving vertex goes far from x.
   void gather(const Positions& x, double activation, const MovingVertices& moving);
@@ -36,12 +27,10 @@ class ContactList {
   std::span<const SeparatedStencil> in_the_way() const { return in_the_way_; }
   /// Stencils whose distance was no more than round-off where they were gathered.
   std::vector<Stencil> touching() const;
-  const std::vector<ContactRule>& rules() const { return list_; }
 
  private:
   ContactRules& rules_;
   double h_;
-  ContactListOptions options_;
   double activation_ = 0;
   std::vector<ContactRule> list_;
   Positions gathered_at_;  // where each vertex was when the list was last gathered around it ...

@@ -111,13 +111,14 @@ class CoarseToFine {
     return false;
   }
 
-  /// Puts all vertices back. False: what they bring cannot be resolved.
+  /// Puts all vertices back. False: what they bring cannot be resolved, or not in time.
   bool refine() {
     const double rounds = static_cast<double>(mesh_.round_count());
     while (mesh_.round_count() > 0) {
+      if (stopped()) return false;
       const std::vector<ProgressiveMesh::Removal> displaced = insert_vertices(patch_, mesh_, mesh_.refine(), grid_, x_);
       note_done(1 - 0.5 * static_cast<double>(mesh_.round_count()) / rounds);
-      if (mesh_.round_count() == 0 || stopped()) continue;
+      if (mesh_.round_count() == 0) break;
       if (!make_room()) return false;
       offer_better_places(patch_, mesh_, displaced, x_);
     }

@@ -16,6 +16,7 @@
 #include "untangle/conflict_regions.h"
 #include "untangle/local_solver.h"
 #include "untangle/placement.h"
+#include "untangle/shared_constants.h"
 #include "untangle/strategies.h"
 #include "untangle/tangle_depth.h"
 
@@ -85,7 +86,7 @@ class Escalation {
       const Index level = escalate_lowest();
       if (level == last()) break;
       try_strategy(level);
-      if (levels_[level].ends_tier) keep_best_candidates(level, options_.worthwhile_share);
+      if (levels_[level].ends_tier) keep_best_candidates(level, few_enough_to_keep);
       if (level >= longest_wait_) keep_waiting(level);
       find_pairs();
     }
@@ -197,6 +198,7 @@ class Escalation {
       if (strategy.depth_factor > 1)
         attempt.depth = strategy.depth_factor * std::max(attempt.depth, strategy.least_depth);
       if (attempt.depth < strategy.least_depth) continue;
+      std::vector<std::size_t> taken = {r};
       is_taken[r] = 1;
       for (bool has_grown = true; has_grown;) {
         has_grown = false;
@@ -205,6 +207,7 @@ class Escalation {
           const Index other = region_of_core[v];
           if (other < 0 || is_taken[other]) continue;
           is_taken[other] = 1;
+          taken.push_back(static_cast<std::size_t>(other));
           has_grown = true;
           region.core.insert(region.core.end(), regions[other].core.begin(), regions[other].core.end());
           region.pairs.insert(region.pairs.end(), regions[other].pairs.begin(), regions[other].pairs.end());
@@ -212,8 +215,12 @@ class Escalation {
         std::sort(region.core.begin(), region.core.end());
         std::sort(region.pairs.begin(), region.pairs.end());
       }
-      if (attempt.free.empty()) continue;
-      if (strategy.leaves_most && 2 * attempt.free.size() >= free_vertices_of_parts(region.core).size()) continue;
+      const bool is_too_large =
+          strategy.leaves_most && 2 * attempt.free.size() >= free_vertices_of_parts(region.core).size();
+      if (attempt.free.empty() || is_too_large) {
+        for (const std::size_t other : taken) is_taken[other] = other == r;  // one alone may be small enough
+        continue;
+      }
       std::vector<Triangle> core_faces;
       for (const IntersectingPair& pair : region.pairs)
         for (Index t : {pair.a, pair.b}) core_faces.push_back(scene_.triangles[t]);
@@ -282,11 +289,11 @@ class Escalation {
     patch.progress = &progress;
     Task task{.tolerated = tolerated, .depth = attempt.depth, .left_out = options_.left_out, .stop = ask_};
     if (!options_.accept && !own.empty())
-      task.few_enough = static_cast<std::size_t>(options_.gain_share * static_cast<double>(own.size() - 1));
+      task.few_enough = static_cast<std::size_t>(few_left * static_cast<double>(own.size() - 1));
     if (options_.min_gap) task.min_gap = options_.min_gap(attempt.free);
     attempt.iterations += strategy.solve(patch, task);
     attempt.left = Pairs(blocking_pairs(finder.find(patch.x), tolerated));
-    attempt.is_sound = !has_squeezed_face(patch, attempt.start, patch.x, strategy.area_floor);
+    attempt.is_sound = patch.x.allFinite() && !has_squeezed_face(patch, attempt.start, patch.x, strategy.area_floor);
     attempt.is_rejected = attempt.is_clean() && options_.accept && !options_.accept(patch);
     patch.trajectory = nullptr;
     patch.progress = nullptr;
@@ -368,7 +375,7 @@ class Escalation {
 
   void keep_or_remember(Attempt& attempt, const Strategy& strategy, Index level) {
     if (!attempt.is_clean()) attempt.trajectory.end_at_fewest_pairs();
-    if (attempt.is_clean() || attempt.left.is_below(options_.gain_share, attempt.before)) {
+    if (attempt.is_clean() || attempt.left.is_below(few_left, attempt.before)) {
       keep(attempt, strategy);
     } else {
       // A region that has taken in another one may have its first vertex: pairs left do not compare, those resolved do.

@@ -26,11 +26,6 @@ struct EscalationOptions {
   std::span<const Tier> tiers;
   /// Names of those that are not, here and on coarse meshes.
   std::vector<std::string> left_out;
-  /// A candidate that leaves less than this share of a region's pairs is kept at once.
-  double gain_share = few_left;
-  /// The best candidate of a tier is kept, before the next tier is tried, where it leaves less than this share.
-  double worthwhile_share = few_enough_to_keep;
-
   std::function<bool()> stop;
   /// Told what is kept, and a few times a second, from any thread, how far the candidates are that are made now; none:
   /// nobody is.

@@ -16,6 +16,21 @@
 namespace unsnarl {
 namespace {
 
+/// Share of a component's diagonal by which the first try of a motion goes, and how many times as far each next one.
+constexpr double first_step = 1e-3;
+constexpr double growth = 1.6;
+/// Between the last motion that is not free and the first that is. With 5, two wigs end a fourth farther.
+constexpr int bisections = 6;
+/// So much farther than the first free place, as a share of the motion.
+constexpr double margin = 0.05;
+/// Faces of a component that is moved, at most: every place tried takes an exact test of them all.
+constexpr std::size_t most_faces = 4000;
+/// Share of its distance from the point that a vertex goes, at most.
+constexpr double most_shrink = 0.95;
+/// Intersecting pairs of which normals are tried as directions, and own vertices toward which it is tried to shrink a
+/// component. With 24 vertices a wig ends 6 % farther, all others of 66 meshes as close.
+constexpr std::size_t most_tries = 16;
+
 /// A component of the patch that may be placed.
 struct Component {
   std::vector<Index> vertices, triangles;
@@ -35,8 +50,8 @@ struct Motion {
 
 class Placement {
  public:
-  Placement(Patch& patch, std::span<const IntersectingPair> tolerated, const PlacementOptions& options)
-      : patch_(patch), tolerated_(tolerated), options_(options), x_(patch.x) {
+  Placement(Patch& patch, std::span<const IntersectingPair> tolerated, const std::function<bool()>& stop)
+      : patch_(patch), tolerated_(tolerated), stop_(stop), x_(patch.x) {
     find_components();
     boxes_.resize(patch.triangles.size());
     is_present_.assign(patch.triangles.size(), 1);
@@ -48,10 +63,10 @@ class Placement {
     }
   }
 
-  int run(const std::function<bool()>& stop) {
+  int run() {
     int placed = 0;
     for (const Component& component : components_) {
-      if (stop && stop()) break;
+      if (stopped()) break;
       placed += place(component);
       for (Index t : component.triangles) is_present_[t] = 1;
     }
@@ -60,6 +75,8 @@ class Placement {
   }
 
  private:
+  bool stopped() const { return stop_ && stop_(); }
+
   void find_components() {
     const std::span<const Triangle> active(patch_.triangles.data(), static_cast<std::size_t>(patch_.active_count));
     UnionFind sets = vertices_joined_by(active, static_cast<Index>(x_.cols()));
@@ -131,7 +148,7 @@ class Placement {
       motions.push_back({.direction = d / length});
       motions.push_back({.direction = -d / length});
     };
-    const std::size_t stride = contacts.size() / options_.most_tries + 1;
+    const std::size_t stride = contacts.size() / most_tries + 1;
     for (std::size_t k = 0; k < contacts.size(); k += stride) {
       add_both_ways(area_vector(x_, patch_.triangles[contacts[k].a]));
       add_both_ways(area_vector(x_, patch_.triangles[contacts[k].b]));
@@ -143,7 +160,7 @@ class Placement {
     Vec3 middle = Vec3::Zero();
     for (Index v : component.vertices) middle += x_.col(v);
     motions.push_back({.centre = middle / static_cast<double>(component.vertices.size())});
-    const std::size_t step = component.vertices.size() / options_.most_tries + 1;
+    const std::size_t step = component.vertices.size() / most_tries + 1;
     for (std::size_t k = 0; k < component.vertices.size(); k += step)
       motions.push_back({.centre = x_.col(component.vertices[k])});
     return motions;
@@ -181,34 +198,35 @@ class Placement {
   bool place(const Component& component) {
     const std::vector<IntersectingPair> contacts = contacts_of(component);
     if (contacts.empty()) return true;
-    if (component.triangles.size() > options_.most_faces) return false;
+    if (component.triangles.size() > most_faces) return false;
     Positions from(3, static_cast<Index>(component.vertices.size()));
     for (std::size_t k = 0; k < component.vertices.size(); ++k)
       from.col(static_cast<Index>(k)) = x_.col(component.vertices[k]);
     Positions best = from;
     double least = std::numeric_limits<double>::infinity();
     for (const Motion& motion : motions_of(component, contacts)) {
+      if (stopped()) break;
       // Root mean square of the displacement at parameter 1.
       const double rate =
           motion.is_translation() ? 1 : std::sqrt((from.colwise() - motion.centre).colwise().squaredNorm().mean());
       if (!(rate > 0)) continue;
-      const double last = motion.is_translation() ? component.diagonal : options_.most_shrink;
-      double blocked = 0, parameter = options_.first_step * last;
+      const double last = motion.is_translation() ? component.diagonal : most_shrink;
+      double blocked = 0, parameter = first_step * last;
       bool free = false;
       while (parameter * rate < least) {
         move(component, from, motion, parameter);
         free = is_free(component);
         if (free || parameter == last) break;
         blocked = parameter;
-        parameter = std::min(options_.growth * parameter, last);
+        parameter = std::min(growth * parameter, last);
       }
       if (!free) continue;
-      for (int k = 0; k < options_.bisections; ++k) {
+      for (int k = 0; k < bisections; ++k) {
         const double middle = 0.5 * (blocked + parameter);
         move(component, from, motion, middle);
         (is_free(component) ? parameter : blocked) = middle;
       }
-      for (const double share : {1 + options_.margin, 1.0}) {
+      for (const double share : {1 + margin, 1.0}) {
         move(component, from, motion, share * parameter);
         if (is_free(component)) break;
       }
@@ -226,7 +244,7 @@ class Placement {
 
   Patch& patch_;
   std::span<const IntersectingPair> tolerated_;
-  const PlacementOptions& options_;
+  const std::function<bool()>& stop_;
   Positions x_;
   std::vector<Component> components_;     // largest first
   std::vector<std::uint8_t> is_present_;  // per triangle; those of components that are to be placed are not
@@ -236,9 +254,8 @@ class Placement {
 
 }  // namespace
 
-int place(Patch& patch, std::span<const IntersectingPair> tolerated, const PlacementOptions& options,
-          const std::function<bool()>& stop) {
-  return Placement(patch, tolerated, options).run(stop);
+int place(Patch& patch, std::span<const IntersectingPair> tolerated, const std::function<bool()>& stop) {
+  return Placement(patch, tolerated, stop).run();
 }
 
 std::vector<Index> vertices_of_tied_components(const Scene& scene, const ConnectedParts& parts,

@@ -111,7 +111,7 @@ Strategy coarse_to_fine_of_whole_components(CoarseMeshes meshes) {
 }
 
 Strategy placing() {
-  const auto solve = [](Patch& patch, const Task& task) { return place(patch, task.tolerated, {}, task.stop); };
+  const auto solve = [](Patch& patch, const Task& task) { return place(patch, task.tolerated, task.stop); };
   return {.name = "placement", .extent = Extent::tied_components, .reach = far_reach, .solve = solve};
 }
 

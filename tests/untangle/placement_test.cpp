@@ -27,7 +27,7 @@ double motion_of(const Patch& patch) {
 TEST(Placement, a_strip_leaves_a_sheet_by_the_shortest_way) {
   const Shape shape = sheet_with_strips(1, 0.2);
   Patch patch = shapes::patch_of(shape);
-  EXPECT_EQ(place(patch, {}, {}, {}), 2);  // the sheet, where it is, and the strip
+  EXPECT_EQ(place(patch, {}, {}), 2);  // the sheet, where it is, and the strip
   EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
   EXPECT_TRUE(patch.x.leftCols(121) == patch.rest.leftCols(121));
   EXPECT_NEAR(motion_of(patch), 0.2, 0.03);
@@ -36,7 +36,7 @@ TEST(Placement, a_strip_leaves_a_sheet_by_the_shortest_way) {
 TEST(Placement, many_strips_each_by_its_own_way) {
   const Shape shape = sheet_with_strips(4, 0.3);
   Patch patch = shapes::patch_of(shape);
-  EXPECT_EQ(place(patch, {}, {}, {}), 5);
+  EXPECT_EQ(place(patch, {}, {}), 5);
   EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
   EXPECT_LT(motion_of(patch), 0.35);
 }
@@ -50,7 +50,7 @@ TEST(Placement, what_is_hemmed_in_shrinks) {
   shape.add(shapes::grid(1, 1, false, [](double i, double j) { return Vec3(0.2 * i, 0, 1.4 * j - 0.2); }),
             Vec3(20.13, 20.37, 0));
   Patch patch = shapes::patch_of(shape);
-  place(patch, {}, {}, {});
+  place(patch, {}, {});
   EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
   const double length = (patch.x.col(strip) - patch.x.col(strip + 1)).norm();
   EXPECT_LT(length, 1.3);
@@ -62,7 +62,7 @@ TEST(Placement, what_went_astray_goes_back_to_rest_first) {
   const Shape shape = sheet_with_strips(1, 0.2);
   Patch patch = shapes::patch_of(shape);
   patch.x.rightCols(6).colwise() += Vec3(0, 0, -7);
-  place(patch, {}, {}, {});
+  place(patch, {}, {});
   EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
   EXPECT_LT(motion_of(patch), 0.25);
 }
@@ -72,7 +72,7 @@ TEST(Placement, tolerated_pairs_are_no_obstacle) {
   Patch patch = shapes::patch_of(shape);
   const std::vector<IntersectingPair> pairs = shapes::pairs_of(shape);
   ASSERT_FALSE(pairs.empty());
-  place(patch, pairs, {}, {});
+  place(patch, pairs, {});
   EXPECT_TRUE(patch.x == patch.rest);
 }
 
