@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,9 +64,10 @@ std::string_view why(LeftReason reason) {
   return "for an unknown reason";
 }
 
-std::string_view float32_remark(const RepairResult& result) {
-  if (result.status != Status::embedded || result.report.float32_embedded) return "";
-  return " (in double precision; readers that round to 32 bits may see some)";
+std::string_view float32_remark(const RepairResult& result, const RepairOptions& options) {
+  if (result.report.float32_embedded || result.report.after.total() > 0) return "";
+  if (result.status == Status::embedded) return " (in double precision; readers that round to 32 bits may see some)";
+  return options.precision == Precision::float32 ? " (in 32 bits, as asked for; none in double precision)" : "";
 }
 
 std::string fate_of_output(Status status, const std::string& output) {
@@ -151,6 +154,20 @@ std::string dihedral_in_words(const Clearance& clearance, double wanted_deg) {
                              clearance.dihedral_faces[1]);
 }
 
+/// The messages of the first few obstructions of each kind, and how many more there are.
+std::vector<std::string> obstructions_in_words(std::span<const Obstruction> obstructions) {
+  constexpr std::size_t most_of_a_kind = 5;
+  std::map<Obstruction::Kind, std::size_t> count;
+  std::vector<std::string> words;
+  for (const Obstruction& obstruction : obstructions)
+    if (++count[obstruction.kind] <= most_of_a_kind) words.push_back(obstruction.message);
+  for (const auto& [kind, of_kind] : count)
+    if (of_kind > most_of_a_kind)
+      words.push_back(
+          fmt::format("{} more like these ({}); --report lists all", of_kind - most_of_a_kind, to_string(kind)));
+  return words;
+}
+
 }  // namespace
 
 std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
@@ -182,10 +199,10 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   if (result.status == Status::displacement_exceeded && r.displacement_lower_bound_rel > options.max_displacement_rel)
     line(fmt::format("  needed at least: {}, half the depth of the deepest overlap",
                      length_in_words(r.displacement_lower_bound_rel, r.diagonal)));
-  for (const Obstruction& obstruction : r.obstructions) line("  cannot be resolved: " + obstruction.message);
+  for (const std::string& words : obstructions_in_words(r.obstructions)) line("  cannot be resolved: " + words);
   const bool is_as_asked = outcome(result.status, files.nested) == to_string(result.status);
   line(fmt::format("  {}{}{}; {:.2f} s, {:.0f} MB", is_as_asked ? "" : "not nested as asked; ",
-                   explanation(result.status, options.goal), float32_remark(result), files.whole.seconds,
+                   explanation(result.status, options.goal), float32_remark(result, options), files.whole.seconds,
                    files.whole.peak_memory_mb));
   line("  " + fate_of_output(result.status, files.output));
   return text;

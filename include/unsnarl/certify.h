@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,18 +11,19 @@
 
 namespace unsnarl {
 
-/// Findings of an exact check of given positions. Welding is that of the *input*, so vertices that have come to coincide
-/// since intersect. Polygons count as the input is cut, and as a program cuts them that reads these positions.
+/// Findings of an exact check of given positions. Welding is that of the *input*, so vertices that have come to
+/// coincide since intersect. Polygons count as the input is cut, and as a program cuts them that reads these positions.
 struct Certificate {
-  PairCounts pairs;                     ///< intersecting pairs of faces
-  PairCounts pairs_float32;             ///< the same after rounding all positions to float32; what is beyond its range
-                                        ///< counts as one degenerate pair
+  PairCounts pairs;  ///< intersecting pairs of faces
+  /// The same after rounding all positions to float32; what is beyond its range counts as one degenerate pair. Unset:
+  /// not looked for.
+  std::optional<PairCounts> pairs_float32;
   std::size_t new_zero_area_faces = 0;  ///< triangles without area that had some in the input
   bool seams_closed = true;             ///< welded vertices are at one position
 
   /// The promise: no two faces meet anywhere but in the hull of the vertices they share.
   bool embedded() const { return pairs.total() == 0 && new_zero_area_faces == 0 && seams_closed; }
-  bool float32_embedded() const { return pairs_float32.total() == 0; }
+  bool float32_embedded() const { return pairs_float32 && pairs_float32->total() == 0; }
 };
 
 /// Decides exactly whether `positions` (3 n doubles, vertex order of `input`) embed the input's faces.
@@ -42,7 +44,7 @@ class Certifier {
 
   /// All pairs of faces that intersect at these positions, sorted by (a, b).
   std::vector<IntersectingPair> find_intersections(std::span<const double> positions);
-  /// Everything but Certificate::pairs_float32, which stays empty.
+  /// Everything but Certificate::pairs_float32, which stays unset.
   Certificate certify(std::span<const double> positions);
   /// Certificate::pairs_float32.
   PairCounts pairs_in_float32(std::span<const double> positions);

@@ -104,11 +104,11 @@ enum class LeftReason : std::uint8_t {
   time_limit,             ///< not resolved when the limit was reached
   memory_limit,
   cancelled,
-  unresolved,      ///< no strategy separated them
+  unresolved,  ///< no strategy separated them
   /// Meet only where polygons are split along other diagonals than in the input: as a program splits them that reads
   /// the result, or quads along either (FindOptions::both_diagonals).
   other_diagonal,
-  rigid_faces,     ///< what their vertices of one rigid part span intersects
+  rigid_faces,  ///< what their vertices of one rigid part span intersects
 };
 inline constexpr std::size_t left_reason_count = static_cast<std::size_t>(LeftReason::rigid_faces) + 1;
 std::string_view to_string(LeftReason reason);
@@ -120,7 +120,7 @@ struct LeftPair {
   LeftReason reason = LeftReason::unresolved;
   std::string strategy;  ///< unresolved: name of the furthest strategy that was tried; else empty
 };
-/// A report lists so many pairs that are left at most; it counts all.
+/// report_json() lists so many of the pairs that are left at most; it counts all.
 inline constexpr std::size_t most_left_pairs_listed = 1000;
 
 struct StageReport {
@@ -135,7 +135,7 @@ struct RepairReport {
   std::string triangulation;  ///< how the input's polygons were split into triangles, one sentence
   PairCounts before, after;
   std::vector<Obstruction> obstructions;
-  /// The pairs of `after`, sorted: the first most_left_pairs_listed of them. Empty where memory ran out at the end.
+  /// The pairs of `after`, sorted. Empty where memory ran out at the end.
   std::vector<LeftPair> left;
   std::array<std::size_t, left_reason_count> left_by_reason{};  ///< of all, indexed by LeftReason
   double diagonal = 0;                                          ///< of the input's bounding box; unit of every *_rel
@@ -147,7 +147,8 @@ struct RepairReport {
   std::size_t flipped_triangles = 0;                   ///< normals rotated by more than 90 degrees
   std::size_t flipped_triangles_without_conflict = 0;  ///< of these: not in an intersecting pair of the input
   double min_gap_rel = 0;                              ///< smallest gap met in recovery; 0: no contact was active
-  double volume_change_rel = 0;                        ///< signed volume of closed components, after / before - 1
+  double volume_change_rel = 0;                        ///< of signed volumes, after / before - 1: of the closed,
+                                                       ///< orientable component where it changed most
   double area_change_rel = 0;
   /// Edge lengths, max(after / before, before / after) over the edges of the triangles that the faces are split into:
   /// the largest, and the 99.9th percentile, which single needles do not decide. Edges without length in the input do

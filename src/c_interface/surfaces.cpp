@@ -175,7 +175,7 @@ int unsnarl_certify(const unsnarl_surface* surface, const double* moved, size_t 
     found.report = Json{{"embedded", certificate.embedded()},
                         {"float32_embedded", certificate.float32_embedded()},
                         {"pairs", by_kind(certificate.pairs)},
-                        {"pairs_float32", by_kind(certificate.pairs_float32)},
+                        {"pairs_float32", by_kind(*certificate.pairs_float32)},
                         {"new_zero_area_faces", certificate.new_zero_area_faces},
                         {"seams_closed", certificate.seams_closed}}
                        .dump();

@@ -7,14 +7,21 @@
 #include "geometry/types.h"
 
 namespace unsnarl {
+namespace {
+
+void require_finite(std::span<const double> positions) {
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (!std::isfinite(positions[i]))
+      throw std::invalid_argument("vertex " + std::to_string(i / 3) + " has a coordinate that is not a finite number");
+}
+
+}  // namespace
 
 void require_valid(const SurfaceView& surface) {
   if (surface.positions.size() % 3 != 0)
     throw std::invalid_argument("positions hold " + std::to_string(surface.positions.size()) +
                                 " numbers, which is no multiple of 3: give x, y, z of each vertex");
-  for (std::size_t i = 0; i < surface.positions.size(); ++i)
-    if (!std::isfinite(surface.positions[i]))
-      throw std::invalid_argument("vertex " + std::to_string(i / 3) + " has a coordinate that is not a finite number");
+  require_finite(surface.positions);
   const std::size_t n = surface.vertex_count();
   if (surface.offsets.empty()) {
     if (surface.corners.size() % 3 != 0)
@@ -34,6 +41,13 @@ void require_valid(const SurfaceView& surface) {
       if (v < 0 || static_cast<std::size_t>(v) >= n)
         throw std::invalid_argument("face " + std::to_string(f) + " uses vertex " + std::to_string(v) +
                                     ", but there are " + std::to_string(n) + " vertices (counted from 0)");
+}
+
+void require_positions(const SurfaceView& surface, std::span<const double> positions) {
+  if (positions.size() != surface.positions.size())
+    throw std::invalid_argument("there are " + std::to_string(positions.size() / 3) + " positions for a surface of " +
+                                std::to_string(surface.vertex_count()) + " vertices");
+  require_finite(positions);
 }
 
 }  // namespace unsnarl

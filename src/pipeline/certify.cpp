@@ -1,12 +1,10 @@
 #include "unsnarl/certify.h"
 
-#include <cmath>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "mesh/areas.h"
+#include "mesh/validity.h"
 #include "pipeline/threads.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
@@ -24,7 +22,7 @@ class Certifier::Search {
 
   /// As the input's polygons are cut, and as a program cuts them that reads these positions.
   std::vector<IntersectingPair> pairs_at(std::span<const double> positions) {
-    check(positions);
+    require_positions(input_, positions);
     std::vector<IntersectingPair> pairs = finder_.find(prepared_.gather(positions));
     const std::optional<PreparedSurface> read = cut_anew(input_, prepared_, options_, positions);
     return read ? unite_face_pairs(std::move(pairs), FacePairFinder(*read).find(read->gather(positions))) : pairs;
@@ -51,15 +49,6 @@ class Certifier::Search {
   int threads() const { return options_.threads; }
 
  private:
-  void check(std::span<const double> positions) const {
-    if (positions.size() != input_.positions.size())
-      throw std::invalid_argument("there are " + std::to_string(positions.size() / 3) + " positions for a surface of " +
-                                  std::to_string(input_.vertex_count()) + " vertices");
-    for (std::size_t k = 0; k < positions.size(); ++k)
-      if (!std::isfinite(positions[k]))
-        throw std::invalid_argument("vertex " + std::to_string(k / 3) + " has a coordinate that is not finite");
-  }
-
   SurfaceView input_;
   FindOptions options_;
   PreparedSurface prepared_;

@@ -2,8 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "contact/intersection_finder.h"
@@ -11,6 +9,7 @@
 #include "mesh/adjacency.h"
 #include "mesh/components.h"
 #include "mesh/dihedral_angles.h"
+#include "mesh/validity.h"
 #include "pipeline/threads.h"
 #include "scene/prepared_surface.h"
 
@@ -27,9 +26,7 @@ void take(const SmallestGap& gap, const std::vector<Index>& polygon, double& dis
 
 Clearance measure_clearance(const SurfaceView& input, std::span<const double> positions, const FindOptions& options,
                             bool is_embedded) {
-  if (positions.size() != input.positions.size())
-    throw std::invalid_argument("there are " + std::to_string(positions.size() / 3) + " positions for a surface of " +
-                                std::to_string(input.vertex_count()) + " vertices");
+  require_positions(input, positions);
   const ThreadLimit threads(options.threads);
   const PreparedSurface prepared = prepare(input, options);
   const Positions x = prepared.gather(positions);

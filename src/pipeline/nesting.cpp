@@ -14,6 +14,7 @@
 #include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "mesh/union_find.h"
+#include "mesh/validity.h"
 #include "pipeline/threads.h"
 
 namespace unsnarl {
@@ -165,6 +166,7 @@ std::vector<std::string> check_nesting(const SurfaceView& surface, const Nesting
 std::vector<NestedPair> nested_pairs(const SurfaceView& before, std::span<const double> after,
                                      std::span<const IntersectingPair> pairs_after, const Nesting& nesting,
                                      const FindOptions& options) {
+  require_positions(before, after);
   const ThreadLimit threads(options.threads);
   const PreparedSurface prepared = prepare(before, options);
   const NestedSurfaces nested = nested_surfaces(before, prepared, nesting);

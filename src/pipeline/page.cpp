@@ -7,6 +7,7 @@
 
 #include "contact/intersection_finder.h"
 #include "contact/intersection_segments.h"
+#include "mesh/validity.h"
 #include "pipeline/threads.h"
 #include "render/page.h"
 #include "scene/prepared_surface.h"
@@ -26,10 +27,7 @@ nlohmann::ordered_json parsed(const std::string& report) {
 std::string view_page(std::string_view page_template, const PageSource& source) {
   const ThreadLimit threads(source.find.threads);
   const PreparedSurface prepared = prepare(source.before, source.find);
-  if (!source.after.empty() && source.after.size() != source.before.positions.size())
-    throw std::invalid_argument("PageSource::after has " + std::to_string(source.after.size() / 3) +
-                                " positions for a surface of " + std::to_string(source.before.vertex_count()) +
-                                " vertices");
+  if (!source.after.empty()) require_positions(source.before, source.after);
   IntersectionFinder finder(prepared.triangles());
   std::vector<IntersectingPair> pairs_before, pairs_after;
   const auto state_at = [&](std::span<const double> positions, std::vector<IntersectingPair>& pairs) {

@@ -250,6 +250,11 @@ class RigidRepair {
         tell(progress);
       };
     const SurfaceView placed = {attempt.positions, surface_.corners, surface_.offsets};
+    // Shares of the input's diagonal, not of that with the parts in their places.
+    if (const double diagonal = diagonal_of(placed); diagonal > 0) {
+      inner.min_gap_rel *= diagonal_of(surface_) / diagonal;
+      inner.max_displacement_rel *= diagonal_of(surface_) / diagonal;
+    }
     try {
       attempt.inner = repair(placed, inner, &context_);
     } catch (...) {
@@ -316,7 +321,16 @@ class RigidRepair {
     report.obstructions = diagnosis_.obstructions;
     report.float32_embedded = acceptance_->is_embedded_in_float32(x);
     report.stages = std::move(stages_);
+    const double inner_diagonal = report.diagonal;
     measure_change(surface_, prepared_, diagnosis_, result.positions, report);
+    if (report.diagonal > 0) {
+      const double unit = inner_diagonal / report.diagonal;
+      report.min_gap_rel *= unit;
+      for (RegionReport& region : report.regions) {
+        region.depth_rel *= unit;
+        region.displacement_rel *= unit;
+      }
+    }
     if (options_.max_displacement_rel > 0 && report.displacement_max_rel > options_.max_displacement_rel)
       result.status = Status::displacement_exceeded;
     report.components.clear();
@@ -363,7 +377,7 @@ class RigidRepair {
       else if (is_too_far)
         entry.reason = LeftReason::displacement;
       ++report.left_by_reason[static_cast<std::size_t>(entry.reason)];
-      if (report.left.size() < most_left_pairs_listed) report.left.push_back(std::move(entry));
+      report.left.push_back(std::move(entry));
     }
   }
 

@@ -34,8 +34,14 @@ std::vector<IntersectingPair> Acceptance::pairs_by_other_cuts(const Positions& x
   return read ? unite_face_pairs(std::move(pairs), FacePairFinder(*read).find(x)) : pairs;
 }
 
+std::vector<IntersectingPair> Acceptance::pairs_in_float32(const Positions& x) {
+  const std::vector<IntersectingPair> by_input =
+      pairs_of_faces(prepared_.triangulation.polygon, finders_.find_rounded(x));
+  return unite_face_pairs(pairs_by_other_cuts(rounded_to_float32(x)), by_input);
+}
+
 bool Acceptance::is_embedded_in_float32(const Positions& x) {
-  return fits_float32(x) && finders_.find_rounded(x).empty() && pairs_by_other_cuts(rounded_to_float32(x)).empty();
+  return fits_float32(x) && pairs_in_float32(x).empty();
 }
 
 bool Acceptance::is_tolerated(const IntersectingPair& pair) const {
@@ -65,15 +71,23 @@ bool Acceptance::is_worse(const Pairs& pairs) const {
          is_more(pairs.faces, before_.faces);
 }
 
-Status Acceptance::status(const Pairs& pairs, const Positions& x) const {
+bool Acceptance::holds_in_float32(const Positions& x) {
+  const std::vector<IntersectingPair> pairs = pairs_in_float32(x);
+  return fits_float32(x) && std::none_of(pairs.begin(), pairs.end(), [&](const IntersectingPair& pair) {
+           return options_.goal == Goal::all || pair.kind == PairClass::disjoint;
+         });
+}
+
+Status Acceptance::status(const Pairs& pairs, const Positions& x) {
   const auto is_fine = [&](const IntersectingPair& pair) { return is_tolerated(pair); };
   const auto is_fine_too = [&](const IntersectingPair& pair) { return tolerance_by_other_cuts(pair).has_value(); };
   const bool is_done = std::all_of(pairs.triangles.begin(), pairs.triangles.end(), is_fine) &&
                        std::all_of(pairs.by_other_cuts.begin(), pairs.by_other_cuts.end(), is_fine_too) &&
                        count_lost_areas(prepared_.rest, x, prepared_.triangles()) == 0;
-  if (!is_done) return pairs.faces.total() < before_.faces.total() ? Status::reduced : Status::no_progress;
   const bool none_left = options_.goal == Goal::all ? pairs.faces.total() == 0 : pairs.faces[PairClass::disjoint] == 0;
-  return none_left ? Status::embedded : Status::obstructed;
+  if (is_done && !none_left) return Status::obstructed;
+  if (is_done && (options_.precision != Precision::float32 || holds_in_float32(x))) return Status::embedded;
+  return pairs.faces.total() < before_.faces.total() ? Status::reduced : Status::no_progress;
 }
 
 }  // namespace unsnarl

@@ -37,11 +37,15 @@ class Acceptance {
   std::optional<LeftReason> tolerance_by_other_cuts(const IntersectingPair& pair) const;
   /// More pairs than the input, in total or of disjoint faces.
   bool is_worse(const Pairs& pairs) const;
-  /// embedded, obstructed, reduced or no_progress.
-  Status status(const Pairs& pairs, const Positions& x) const;
+  /// embedded, obstructed, reduced or no_progress. Where float32 was asked for, embedded means in float32 too.
+  Status status(const Pairs& pairs, const Positions& x);
 
  private:
   std::vector<IntersectingPair> pairs_by_other_cuts(const Positions& x);
+  /// Pairs of faces by any cut once the positions are rounded to float32.
+  std::vector<IntersectingPair> pairs_in_float32(const Positions& x);
+  /// As asked for by the goal.
+  bool holds_in_float32(const Positions& x);
 
   const SurfaceView surface_;
   const PreparedSurface& prepared_;

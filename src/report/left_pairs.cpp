@@ -120,7 +120,6 @@ void explain_left_pairs(const PreparedSurface& prepared, const Diagnosis& diagno
                            ? found->second
                            : Why{acceptance.tolerance_by_other_cuts(pair).value_or(LeftReason::other_diagonal), -1};
     ++report.left_by_reason[static_cast<std::size_t>(reason.reason)];
-    if (report.left.size() == most_left_pairs_listed) continue;
     const bool names_strategy = reason.reason == LeftReason::unresolved && reason.strategy >= 0;
     report.left.push_back(
         {pair.a, pair.b, pair.kind, reason.reason, std::string(names_strategy ? strategy_name(reason.strategy) : "")});

@@ -173,7 +173,7 @@ std::vector<RecordedFrame> recorded_frames(const Recorder& recorder, const Surfa
     const bool is_result = &frame == &shot.back();
     const Acceptance::Pairs pairs = acceptance.pairs_at(is_result ? end : x);
     out.pairs = pairs.faces.total();
-    for (const IntersectingPair& pair : pairs_of_faces(prepared.triangulation.polygon, pairs.triangles))
+    for (const IntersectingPair& pair : pairs.of_faces)
       out.intersecting.insert(out.intersecting.end(), {pair.a, pair.b});
     sort_unique(out.intersecting);
   }

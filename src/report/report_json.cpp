@@ -64,7 +64,8 @@ Json left_json(const RepairReport& report) {
   for (std::size_t i = 0; i < left_reason_count; ++i)
     if (report.left_by_reason[i] > 0)
       by_reason[std::string(to_string(static_cast<LeftReason>(i)))] = report.left_by_reason[i];
-  for (const LeftPair& pair : report.left) {
+  for (std::size_t i = 0; i < std::min(report.left.size(), most_left_pairs_listed); ++i) {
+    const LeftPair& pair = report.left[i];
     pairs.push_back({{"faces", {pair.a, pair.b}},
                      {"class", pair_class_names[static_cast<std::size_t>(pair.kind)]},
                      {"reason", to_string(pair.reason)}});

@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "mesh/validity.h"
 #include "unsnarl/report.h"
 #include "unsnarl/scene_document.h"
 
@@ -33,6 +34,7 @@ void measure_motion(std::span<const double> before, std::span<const double> afte
 SceneReport scene_report(const SurfaceView& before, std::span<const SceneFile> files,
                          std::span<const IntersectingPair> pairs_before, std::span<const double> after,
                          std::span<const IntersectingPair> pairs_after) {
+  if (!after.empty()) require_positions(before, after);
   SceneReport report;
   const double diagonal = diagonal_of(before);
   for (const SceneFile& file : files) {

@@ -22,6 +22,16 @@ std::optional<Triangle> fixed_part(const Triangle& t, std::span<const std::uint8
   return part;
 }
 
+/// `faces`: of triangles on the same three vertices, each face once.
+std::string message_of_duplicates(std::span<const std::int32_t> faces) {
+  if (faces.size() == 1)
+    return "face " + std::to_string(faces[0]) +
+           " lies on the same three vertices more than once: moving vertices cannot separate its pieces";
+  std::string list;
+  for (const std::int32_t face : faces) list += (list.empty() ? "" : ", ") + std::to_string(face);
+  return "faces " + list + " lie on the same three vertices: moving vertices cannot separate them";
+}
+
 }  // namespace
 
 bool fixed_parts_meet(const Positions& rest, std::span<const std::uint8_t> fixed, const Triangle& first,
@@ -76,9 +86,8 @@ void diagnose_intersections(const PreparedSurface& prepared, std::span<const std
   for (const std::vector<Index>& group : duplicates) {
     Obstruction obstruction{Obstruction::Kind::duplicate_faces, {}, {}};
     for (Index t : group) obstruction.faces.push_back(polygon[t]);
-    std::string list;
-    for (Index face : obstruction.faces) list += (list.empty() ? "" : ", ") + std::to_string(face);
-    obstruction.message = "faces " + list + " lie on the same three vertices: moving vertices cannot separate them";
+    sort_unique(obstruction.faces);
+    obstruction.message = message_of_duplicates(obstruction.faces);
     diagnosis.obstructions.push_back(std::move(obstruction));
   }
   for (const IntersectingPair& pair : diagnosis.pairs) {

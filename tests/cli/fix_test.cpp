@@ -116,6 +116,30 @@ TEST_F(Fix, ObstructedExitsWith7) {
   EXPECT_EQ(pairs_in(out), pairs_in(bottle));
 }
 
+TEST_F(Fix, TheFirstObstructionsOfAKindAreNamed) {
+  std::ostringstream doubled;
+  for (int i = 0; i < 7; ++i) doubled << "v " << 9 * i << " 0 0\nv " << 9 * i << " 4 0\nv " << 9 * i << " 0 4\n";
+  for (int i = 0; i < 7; ++i)
+    for (int k = 0; k < 2; ++k) doubled << "f " << 3 * i + 1 << ' ' << 3 * i + 2 << ' ' << 3 * i + 3 << '\n';
+  const std::string in = file("doubled.obj", doubled.str());
+  const Outcome outcome = run({"fix", in, "-o", folder / "out.obj"});
+  EXPECT_EQ(outcome.exit_code, 7);
+  EXPECT_NE(outcome.err.find("faces 8, 9 lie on the same three vertices"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("faces 10, 11"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("cannot be resolved: 2 more like these (duplicate_faces)"), std::string::npos);
+}
+
+TEST_F(Fix, Float32ThatIsAskedForIsBinding) {
+  const std::string in = file("near.obj",
+                              "v 0 0 1\nv 1 0 1\nv 0 1 1\nv 0 0 1.0000000001\nv 1 0 1.0000000001\n"
+                              "v 0 1 1.0000000001\nf 1 2 3\nf 4 5 6\n");
+  const std::string all = file("all.txt", "0 1 2 3 4 5\n");
+  EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj", "--fix-vertices", all}).exit_code, 0);
+  const Outcome asked = run({"fix", in, "-o", folder / "32.obj", "--fix-vertices", all, "--precision", "float32"});
+  EXPECT_EQ(asked.exit_code, 1);
+  EXPECT_NE(asked.err.find("in 32 bits, as asked for"), std::string::npos) << asked.err;
+}
+
 TEST_F(Fix, StandardInputAndOutput) {
   const Outcome outcome = run({"fix", "-", "--format", "obj", "-o", "-"}, {.input = crossing});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
