@@ -21,7 +21,9 @@ enum class Status : std::uint8_t {
   obstructed,             ///< everything else repaired; only the listed obstructions remain
   time_limit,             ///< stopped by RepairOptions::time_limit_s
   memory_limit,           ///< stopped by RepairOptions::memory_limit_mb
-  displacement_exceeded,  ///< some self-intersections are left, since resolving them moves a vertex too far
+  /// Some self-intersections are left, since resolving them moves a vertex too far; or a vertex of the result is farther
+  /// away than allowed, also where no self-intersection is left.
+  displacement_exceeded,
   cancelled,              ///< stopped by Context::cancel
 };
 std::string_view to_string(Status status);
@@ -58,9 +60,11 @@ struct Topology {
 
 /// One conflict region and how it was resolved.
 struct RegionReport {
-  std::string strategy;   ///< name of the strategy that resolved it, or these pairs of it; "none" where all failed
-  std::size_t faces = 0;  ///< faces that were free to move
-  std::size_t pairs = 0;  ///< intersecting pairs it started with
+  /// Name of the strategy that resolved it, or these pairs of it; "none" where all failed, "nesting" for the push of
+  /// repair_nested(), "paper" with RepairOptions::paper.
+  std::string strategy;
+  std::size_t faces = 0;  ///< triangles that were free to move; polygons count as those they are split into
+  std::size_t pairs = 0;  ///< of triangles: resolved; with "none", left; with "paper", at its start
   int iterations = 0;
   double seconds = 0;
   /// Depth of the tangle: how far the separation that was found moved a vertex, at most / bounding-box diagonal.

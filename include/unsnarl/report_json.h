@@ -41,7 +41,7 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
 std::string recording_json(const RepairResult& result, const SurfaceView& surface);
 
 /// The findings of `unsnarl check --json` as JSON, indented, without a line break at the end; with every place. Of
-/// `files` it uses input, format, vertices, faces and notes.
+/// `files` it uses input, format, vertices, faces, notes and scene.
 std::string check_json(const CheckReport& found, Goal goal, const FindOptions& options, const ReportFiles& files = {});
 
 /// Names of options, as reports and the command line use them.

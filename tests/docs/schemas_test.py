@@ -59,6 +59,9 @@ class Schemas(unittest.TestCase):
         cls.report, cls.check, cls.sequence = (json.loads((SCHEMAS / f"{name}.schema.json").read_text())
                                                for name in ("report", "check", "sequence"))
 
+    def options(self):
+        return set(self.report["anyOf"][0]["properties"]["options"]["properties"])
+
     def run_program(self, folder, *words):
         return subprocess.run([pages.PROGRAM, *words], cwd=folder, capture_output=True, text=True)
 
@@ -71,7 +74,9 @@ class Schemas(unittest.TestCase):
                 with self.subTest(sample=sample):
                     self.run_program(folder, "sample", sample, "-o", "in.obj", "--resolution", "12")
                     self.run_program(folder, "fix", "in.obj", "-o", "out.obj", "--report", "r.json", *options)
-                    self.assertEqual(faults(json.loads((Path(folder) / "r.json").read_text()), self.report, self.report), [])
+                    report = json.loads((Path(folder) / "r.json").read_text())
+                    self.assertEqual(faults(report, self.report, self.report), [])
+                    self.assertEqual(set(report["options"]), self.options())
                     found = json.loads(self.run_program(folder, "check", "in.obj", "--json").stdout)
                     self.assertEqual(faults(found, self.check, self.check), [])
             self.run_program(folder, "sample", "book", "-o", "second.obj")
@@ -104,6 +109,8 @@ class Schemas(unittest.TestCase):
         for row in re.findall(r"^\| (`\w[^|]*) \| \w", page, re.M):
             for name in re.findall(r"`(\w+)", row):
                 self.assertTrue(name in keys or name[0] == "_" and any(key.endswith(name) for key in keys), name)
+        described = set(re.findall(r"`(\w+)`", re.search(r"^\| `options` .*", page, re.M)[0]))
+        self.assertLessEqual({name for name in self.options() if f"{name}_rel" not in self.options()}, described)
 
 
 class Changelog(unittest.TestCase):
