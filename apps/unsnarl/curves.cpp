@@ -31,7 +31,11 @@ constexpr std::size_t most_places = 5;
 CurveDocument read_curves(const CurvesOptions& options) {
   std::optional<CurveFormat> format;
   if (!options.format.empty()) format = curve_format_from_extension(options.format);
-  if (options.input != standard_stream) return CurveDocument::read(options.input, options.flatten, format);
+  if (options.input != standard_stream) {
+    if (!format && !curve_format_from_extension(options.input))
+      throw FileError(options.input + ": name it *.svg or *.json, or add --format");
+    return CurveDocument::read(options.input, options.flatten, format);
+  }
   if (!format) throw UsageError("standard input has no extension to tell its format by: add --format svg or json");
   return CurveDocument::parse(read_bytes(standard_stream), *format, options.flatten);
 }

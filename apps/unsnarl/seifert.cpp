@@ -139,7 +139,8 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   if (!options.check.empty()) return check_file(options, link, places, interruption);
   std::optional<Format> format = format_from_name(options.format);
   if (!format) format = format_from_extension(options.output);
-  if (!format) throw UsageError(options.output + ": name it *.obj, *.off or *.ply, or add --format");
+  if (format != Format::obj && format != Format::off && format != Format::ply)
+    throw UsageError(options.output + ": name it *.obj, *.off or *.ply, or add --format");
   places.require_writable(interruption);
 
   ProgressDisplay display(options.progress, options.quiet);

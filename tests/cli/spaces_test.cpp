@@ -39,7 +39,11 @@ TEST(SeifertCommand, StreamsAndErrors) {
   EXPECT_EQ(crossing.exit_code, 3);
   EXPECT_TRUE(contains(crossing.err, "edge 0 of component 0 and edge 2 of component 0 touch"));
   EXPECT_EQ(run({"seifert", "-"}, {.input = "braid 2: 1 1\n"}).exit_code, 2);
-  EXPECT_EQ(run({"seifert", "-", "-o", folder / "s.stl"}, {.input = "braid 2: 1 1\n"}).exit_code, 2);
+  for (const char* name : {"s.stl", "s.glb"}) {
+    const Outcome refused = run({"seifert", "-", "-o", folder / name}, {.input = "braid 2: 1 1\n"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_TRUE(contains(refused.err, "name it *.obj, *.off or *.ply, or add --format")) << refused.err;
+  }
   EXPECT_EQ(run({"seifert", folder / "none", "-o", folder / "s.obj"}).exit_code, 3);
   EXPECT_EQ(run({"seifert", "-", "-o", folder / "no/s.obj"}, {.input = "braid 2: 1 1\n"}).exit_code, 4);
   EXPECT_TRUE(folder.names().empty());
@@ -69,6 +73,10 @@ TEST(IsotopyCommand, ACurveMovesToAnother) {
   const Outcome far =
       run({"isotopy", folder / "far.json", folder / "far.json", "-o", folder / "stay", "--reverse", "-q"});
   EXPECT_EQ(far.exit_code, 0) << far.err;
+  const Outcome no_curves = run({"isotopy", folder / "a.xyz", folder / "a.svg", "-o", folder / "new"});
+  EXPECT_EQ(no_curves.exit_code, 3);
+  EXPECT_TRUE(contains(no_curves.err, "name it *.svg or *.json")) << no_curves.err;
+  EXPECT_FALSE(contains(no_curves.err, "--format")) << no_curves.err;
   const Outcome full = run({"isotopy", folder / "a.svg", folder / "a.svg", "-o", folder / "way"});
   EXPECT_TRUE(contains(full.err, "-o ")) << full.err;
   EXPECT_FALSE(contains(full.err, "--picture")) << full.err;

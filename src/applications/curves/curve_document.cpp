@@ -71,7 +71,7 @@ CurveDocument CurveDocument::parse(std::string bytes, CurveFormat format, double
 
 CurveDocument CurveDocument::read(const std::string& path, double flatten_rel, std::optional<CurveFormat> format) {
   if (!format) format = curve_format_from_extension(path);
-  if (!format) throw FileError(path + ": its name does not tell the format; name it *.svg or *.json, or say --format");
+  if (!format) throw FileError(path + ": its name does not tell the format; name it *.svg or *.json");
   std::string bytes = read_file(path);
   try {
     return parse(std::move(bytes), *format, flatten_rel);
