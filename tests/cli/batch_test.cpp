@@ -304,6 +304,16 @@ TEST_F(BatchCli, RefusesWhatMakesNoSense) {
   EXPECT_NE(outcome.err.find("no 'unsnarl batch' has written"), std::string::npos) << outcome.err;
 }
 
+TEST_F(BatchCli, ResultsMayGoToTheFolderOfTheMeshes) {
+  mesh("crossing.obj", crossing);
+  out = in;
+  for (int k = 0; k < 2; ++k) {
+    const Outcome outcome = batch();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(results().size(), 1u);
+  }
+}
+
 TEST_F(BatchCli, ResultsAreNoMeshesOfTheSameBatch) {
   mesh("crossing.obj", crossing);
   EXPECT_EQ(batch().exit_code, 0);

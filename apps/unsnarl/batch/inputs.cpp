@@ -26,13 +26,19 @@ bool is_hidden(const fs::path& path) {
   return path.filename().string().starts_with('.');
 }
 
-std::vector<BatchMesh> meshes_below(const fs::path& folder, const fs::path& excluded) {
+std::vector<BatchMesh> meshes_below(const fs::path& folder, const fs::path& results) {
   std::vector<BatchMesh> meshes;
+  // The folder that is searched may be that of the results too.
+  const auto holds_results = [&](const fs::path& path) {
+    std::error_code ignored;
+    return fs::equivalent(path, results, ignored) || fs::equivalent(path, results / "fixed", ignored) ||
+           fs::equivalent(path, results / "work", ignored);
+  };
   std::error_code error;
   const auto options = fs::directory_options::skip_permission_denied;
   for (fs::recursive_directory_iterator it(folder, options, error), end; !error && it != end; it.increment(error)) {
     std::error_code ignored;
-    if (it->is_directory(ignored) && (is_hidden(it->path()) || fs::equivalent(it->path(), excluded, ignored)))
+    if (it->is_directory(ignored) && (is_hidden(it->path()) || holds_results(it->path())))
       it.disable_recursion_pending();
     else if (it->is_regular_file(ignored) && !is_hidden(it->path()) && format_from_extension(it->path().string()))
       meshes.push_back({it->path(), it->path().lexically_relative(folder).generic_string()});
@@ -163,13 +169,13 @@ std::vector<fs::path> external_files_of_gifti(const fs::path& gifti) {
 
 }  // namespace
 
-std::vector<BatchMesh> batch_meshes(const std::string& list_or_folder, const fs::path& excluded) {
+std::vector<BatchMesh> batch_meshes(const std::string& list_or_folder, const fs::path& results) {
   std::vector<BatchMesh> meshes;
   std::error_code ignored;
   if (list_or_folder == standard_stream) {
     meshes = meshes_of_list(std::cin, "standard input");
   } else if (fs::is_directory(list_or_folder, ignored)) {
-    meshes = meshes_below(list_or_folder, excluded);
+    meshes = meshes_below(list_or_folder, results);
   } else {
     if (const auto format = format_from_extension(list_or_folder))
       throw UsageError(fmt::format(

@@ -15,10 +15,11 @@ struct BatchMesh {
   std::uintmax_t bytes = 0;  ///< size of the file; 0 where there is none
 };
 
-/// The meshes below a folder (hidden files and `excluded` aside), or those that a list names: a path a line, relative
-/// to the current folder, and after a tab the name of the result where it is to be another; '-' reads the list from
-/// standard input. Sorted by name. Throws FileError, UsageError (nothing to do, two results of one name).
-std::vector<BatchMesh> batch_meshes(const std::string& list_or_folder, const std::filesystem::path& excluded);
+/// The meshes below a folder (hidden files and what a batch has written to `results` aside), or those that a list
+/// names: a path a line, relative to the current folder, and after a tab the name of the result where it is to be
+/// another; '-' reads the list from standard input. Sorted by name. Throws FileError, UsageError (nothing to do, two
+/// results of one name).
+std::vector<BatchMesh> batch_meshes(const std::string& list_or_folder, const std::filesystem::path& results);
 
 /// Part `index` of `count`: the meshes index, index + count, ... in the order of their names.
 struct Shard {
