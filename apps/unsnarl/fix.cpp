@@ -141,19 +141,19 @@ class Fix {
       files_.input = options_.inputs[0];
       files_.format = to_string(scene_.document(0).format());
     }
-    if (options.recompute_normals && !scene_.recompute_normals())
-      display_.say("note: --recompute-normals: there are no vertex normals in {} that could be updated",
-                   names_of(scene_));
     files_.vertices = surface().view().vertex_count();
     files_.faces = surface().view().face_count();
     files_.notes = scene_.notes();
+    if (options.recompute_normals && !scene_.recompute_normals())
+      files_.notes.push_back(fmt::format("--recompute-normals: there are no vertex normals in {} that could be updated",
+                                         names_of(scene_)));
+    for (const std::string& doubt : wanted_nesting_.doubts) files_.notes.push_back("--nested: " + doubt);
     files_.before_repair.push_back(clock_.stage("read"));
   }
 
   int run() {
     if (!options_.view.empty()) require_viewer();
-    for (const std::string& note : scene_.notes()) display_.say("note: {}", note);
-    for (const std::string& doubt : wanted_nesting_.doubts) display_.say("note: --nested: {}", doubt);
+    for (const std::string& note : files_.notes) display_.say("note: {}", note);
     // A folder that is missing or must not be written to is found now rather than after the work.
     std::optional<OutputFolder> folder;
     if (options_.is_scene()) folder.emplace(output_);

@@ -24,8 +24,10 @@ std::string check_json(const CheckReport& found, Goal goal, const FindOptions& o
                    {"triangulation", found.triangulation},
                    {"notes", files.notes}};
   add_scene(files.scene, false, json);
-  json["options"] = {
-      {"goal", to_string(goal)}, {"weld", to_string(options.weld)}, {"weld_tolerance", options.weld_tolerance}};
+  json["options"] = {{"goal", to_string(goal)},
+                     {"weld", to_string(options.weld)},
+                     {"weld_tolerance", options.weld_tolerance},
+                     {"both_diagonals", options.both_diagonals}};
   json["pairs"] = pair_counts_json(found.counts);
   json["intersecting_faces"] = found.faces.size();
   json["components"] = {{"total", found.topology.components},

@@ -20,6 +20,9 @@ TEST_F(Check, CheckCountsAndLocates) {
   EXPECT_EQ(outcome.exit_code, 1);
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["schema"], "unsnarl-check");
+  EXPECT_EQ(json["options"]["both_diagonals"], false);
+  EXPECT_EQ(nlohmann::json::parse(run({"check", in, "--json", "--both-diagonals"}).out)["options"]["both_diagonals"],
+            true);
   EXPECT_EQ(json["pairs"]["total"], pairs_in(in));
   EXPECT_EQ(json["components"]["intersecting"], 2);
   EXPECT_EQ(json["components"]["pairs_between"], pairs_in(in));

@@ -60,6 +60,15 @@ TEST_F(Report, AnInputThatIsRefusedHasOneToo) {
   EXPECT_EQ(contents(folder / "scene.bin"), "precious");
 }
 
+TEST_F(Report, NotesAreThoseThatWerePrinted) {
+  const std::string in = file("in.obj", crossing), report = folder / "r.json";
+  const std::string note = "--recompute-normals: there are no vertex normals in in.obj that could be updated";
+  const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--recompute-normals", "--report", report});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "note: " + note + "\n")) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(contents(report))["input"]["notes"], nlohmann::json({note}));
+}
+
 TEST_F(Report, EveryFileThatWasWrittenIsNamed) {
   const std::string in = file("in.obj", crossing);
   std::vector<std::string> call = {"fix", in, "-o", folder / "out.obj"};

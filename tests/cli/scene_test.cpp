@@ -115,6 +115,10 @@ TEST_F(SceneFiles, TheInnerFileGoesIn) {
   EXPECT_EQ(left["nested"][0]["apart"], Json({8}));
   EXPECT_TRUE(left["nested"][1]["nested"]);
   EXPECT_TRUE(left["output"]["written"]);
+
+  nested({"--nested", "a.obj,b.ply", "--time-limit", "1"});
+  ASSERT_EQ(Json::parse(contents(report))["input"]["notes"].size(), 1u);
+  EXPECT_TRUE(contains(Json::parse(contents(report))["input"]["notes"][0], "--nested: "));
 }
 
 TEST_F(SceneFiles, NestingThatMakesNoSenseIsRefused) {
