@@ -17,29 +17,46 @@ namespace {
 /// Enough to follow what happens; a recording stays small.
 constexpr int recorded_frames = 100;
 
+/// One flag a face: belongs to one of `parts`, whose options begin with `prefix`. Throws UsageError, naming the option.
+std::vector<std::uint8_t> faces_named(const Parts& parts, const std::string& prefix, const FixOptions& options,
+                                      const SceneDocument& scene) {
+  std::vector<std::uint8_t> faces(scene.surface().view().face_count(), 0);
+  const auto add = [&](const char* kind, const Parts& of_kind) {
+    try {
+      const auto more = faces_in_parts(scene.surface(), scene.face_labels(), of_kind, options.find());
+      for (std::size_t f = 0; f < faces.size(); ++f) faces[f] |= more[f];
+    } catch (const UnknownPart& e) {
+      throw UsageError(fmt::format("{}{}: {}", prefix, kind, e.what()));
+    }
+  };
+  if (!parts.files.empty() && scene.files().size() == 1)
+    throw UsageError(
+        fmt::format("{0}file tells several files apart; of one, name parts with {0}object and its like", prefix));
+  add("group", {.groups = parts.groups});
+  add("object", {.objects = parts.objects});
+  add("material", {.materials = parts.materials});
+  add("component", {.components = parts.components});
+  add("file", {.files = parts.files});
+  return faces;
+}
+
 /// One flag a vertex; empty: all may move.
 std::vector<std::uint8_t> fixed_vertices(const FixOptions& options, const SceneDocument& scene) {
   const SurfaceView surface = scene.surface();
-  const FindOptions find = options.find();
   std::vector<std::uint8_t> fixed;
   const auto add = [&fixed](std::vector<std::uint8_t> more) {
     if (fixed.empty()) fixed.resize(more.size(), 0);
     for (std::size_t v = 0; v < more.size(); ++v) fixed[v] |= more[v];
   };
-  try {
-    if (!options.fix_vertices.empty()) add(read_vertex_flags(options.fix_vertices, surface.vertex_count()));
-    if (!options.fix.empty())
-      add(vertices_of_faces(surface, faces_in_parts(surface, scene.face_labels(), options.fix, find)));
-    if (!options.only.empty()) {
-      // Nothing else may change, so a vertex that a face outside uses too stays.
-      std::vector<std::uint8_t> outside = faces_in_parts(surface, scene.face_labels(), options.only, find);
-      for (std::uint8_t& face : outside) face = !face;
-      add(vertices_of_faces(surface, outside));
-    }
-  } catch (const UnknownPart& e) {
-    throw UsageError(e.what());
+  if (!options.fix_vertices.empty()) add(read_vertex_flags(options.fix_vertices, surface.vertex_count()));
+  if (!options.fix.empty()) add(vertices_of_faces(surface, faces_named(options.fix, "--fix-", options, scene)));
+  if (!options.only.empty()) {
+    // Nothing else may change, so a vertex that a face outside uses too stays.
+    std::vector<std::uint8_t> outside = faces_named(options.only, "--only-", options, scene);
+    for (std::uint8_t& face : outside) face = !face;
+    add(vertices_of_faces(surface, outside));
   }
-  if (options.fix_boundary) add(boundary_vertices(surface, find));
+  if (options.fix_boundary) add(boundary_vertices(surface, options.find()));
   return fixed;
 }
 
@@ -51,12 +68,7 @@ void set_rigid_parts(const FixOptions& options, const SceneDocument& scene, Repa
         "--each repairs every component as if it were alone, --rigid moves parts among the others; leave "
         "one of the two out");
   const auto add = [&](const std::string& name, const Parts& parts) {
-    std::vector<std::uint8_t> flags;
-    try {
-      flags = vertices_of_faces(surface, faces_in_parts(surface, scene.face_labels(), parts, options.find()));
-    } catch (const UnknownPart& e) {
-      throw UsageError(fmt::format("--rigid: {}", e.what()));
-    }
+    const auto flags = vertices_of_faces(surface, faces_named(parts, "--rigid-", options, scene));
     result.rigid.resize(flags.size(), -1);
     const auto part = static_cast<std::int32_t>(result.rigid_names.size());
     result.rigid_names.push_back(name);

@@ -45,9 +45,11 @@ TEST_F(PartsHeld, NamedPartsStayWhereTheyAre) {
     EXPECT_EQ(pairs_in(out), 0u) << option[0];
     fs::remove(out);
   }
-  expect_refusal({"fix", in, "-o", out, "--fix-group", "anker"}, 2, "'anchor heavy', 'swimmer'");
-  expect_refusal({"fix", in, "-o", out, "--only-object", "bird"}, 2, "'rock', 'fish'");
+  expect_refusal({"fix", in, "-o", out, "--fix-group", "anker"}, 2,
+                 "--fix-group: there is no group 'anker'; there are: 'anchor heavy', 'swimmer'");
+  expect_refusal({"fix", in, "-o", out, "--only-object", "bird"}, 2, "--only-object: there is no object 'bird'");
   expect_refusal({"fix", in, "-o", out, "--fix-component", "2"}, 2, "the mesh has 2");
+  expect_refusal({"fix", in, "-o", out, "--fix-file", "in.obj"}, 2, "--fix-file tells several files apart");
   // Several times, and everything: nothing is left that could move.
   const Outcome all = run({"fix", in, "-o", out, "--fix-group", "anchor", "--fix-group", "swimmer"});
   EXPECT_EQ(all.exit_code, 7) << all.err;
