@@ -11,6 +11,7 @@
 #include "mesh_input.h"
 #include "staged_output.h"
 #include "standard_streams.h"
+#include "suggestions.h"
 #include "surface_files.h"
 #include "unsnarl/curves.h"
 #include "unsnarl/exit_code.h"
@@ -61,17 +62,28 @@ const RoutePlanSample* plan_of(std::string_view name) {
   return nullptr;
 }
 
-std::string list_of_samples() {
-  std::size_t width = 0;
-  for (const Sample& sample : all_samples()) width = std::max(width, sample.name.size());
-  std::string text;
-  for (const Sample& sample : all_samples())
-    text += fmt::format("{:<{}}  {}\n", sample.name, width, sample.description);
-  return text;
+/// Surfaces, curves, knots and plans.
+std::vector<std::string> all_names() {
+  std::vector<std::string> names;
+  for (const Sample& sample : all_samples()) names.push_back(sample.name);
+  for (const std::string_view kind : random_curve_kinds()) names.push_back(fmt::format("{}{}", curve_prefix, kind));
+  for (const KnotEntry& entry : knot_table()) names.push_back(fmt::format("{}{}", knot_prefix, entry.name));
+  for (const UnknotEntry& entry : unknot_table()) names.push_back(fmt::format("{}{}", knot_prefix, entry.name));
+  for (const RoutePlanSample& sample : route_plan_samples())
+    names.push_back(fmt::format("{}{}", routes_prefix, sample.name));
+  return names;
 }
 
-/// One line on the samples that are no surfaces.
-std::string curves_hint() {
+/// Throws UsageError where no sample is called so.
+void require_known(const std::string& name) {
+  const std::vector<std::string> names = all_names();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw UsageError(fmt::format("there is no sample '{}'{}; 'unsnarl sample --list' names them all", name,
+                               did_you_mean(name, names)));
+}
+
+/// One line on each kind of samples that are no surfaces.
+std::string list_of_others() {
   std::string names;
   for (const std::string_view kind : random_curve_kinds())
     names += fmt::format("{}{}{}", names.empty() ? "" : ", ", curve_prefix, kind);
@@ -86,11 +98,22 @@ std::string curves_hint() {
   for (const RoutePlanSample& sample : route_plan_samples())
     plans += fmt::format("{}{}{}", plans.empty() ? "" : ", ", routes_prefix, sample.name);
   return fmt::format(
-      "random closed curves, for 'unsnarl curves': {}\nknots, for 'unsnarl seifert': {}3_1 to {}10_165, as in "
-      "Rolfsen's table{}\nunknots, for 'unsnarl knot-isotopy': {}\nplans, for 'unsnarl routes': {}\n",
+      "Random closed curves, for 'unsnarl curves': {}\nKnots, for 'unsnarl seifert': {}3_1 to {}10_165, as in "
+      "Rolfsen's table{}\nUnknots, for 'unsnarl knot-isotopy': {}\nPlans, for 'unsnarl routes': {}\n",
       names, knot_prefix, knot_prefix, links, unknots, plans);
 }
 
+/// A line for each surface, which begins with its name, an empty one, and the others.
+std::string list_of_samples() {
+  std::size_t width = 0;
+  for (const Sample& sample : all_samples()) width = std::max(width, sample.name.size());
+  std::string text;
+  for (const Sample& sample : all_samples())
+    text += fmt::format("{:<{}}  {}\n", sample.name, width, sample.description);
+  return text + "\n" + list_of_others();
+}
+
+/// Of a known sample.
 std::string description_of(const std::string& name) {
   if (!kind_of_curve(name).empty())
     return fmt::format(
@@ -106,8 +129,6 @@ std::string description_of(const std::string& name) {
   if (const RoutePlanSample* const plan = plan_of(name)) return fmt::format("{}: {}\n", name, plan->description);
   const auto samples = all_samples();
   const auto found = std::find_if(samples.begin(), samples.end(), [&](const Sample& s) { return s.name == name; });
-  if (found == samples.end())
-    throw UsageError(fmt::format("there is no sample '{}'; 'unsnarl sample --list' names them all", name));
   std::string text = fmt::format("{}: {}\n", found->name, found->description);
   for (const SampleParameter& p : found->parameters)
     text += fmt::format("  --set {}={}   {} ({} to {})\n", p.name, p.value, p.description, p.minimum, p.maximum);
@@ -129,12 +150,24 @@ std::map<std::string, double> parsed(const std::vector<std::string>& assignments
   return values;
 }
 
+/// For samples that are written in one format and have no parameters. `kind`: what they are. Throws UsageError.
+void require_plain(const SampleOptions& options, const char* kind, const std::string& format) {
+  if (!options.parameters.empty()) throw UsageError(fmt::format("--set: {} have no parameters", kind));
+  if (options.resolution > 0) throw UsageError(fmt::format("--resolution: {} have none", kind));
+  if (!options.format.empty() && CLI::detail::to_lower(options.format) != format)
+    throw UsageError(fmt::format("--format {}: {} are written as {}", options.format, kind, format));
+  if (options.format.empty() && options.output != standard_stream &&
+      !CLI::detail::to_lower(options.output).ends_with("." + format))
+    throw UsageError(fmt::format("{}: name it *.{}, or add --format {}", options.output, format, format));
+}
+
 /// A curve as a file. Throws UsageError, std::invalid_argument.
 std::string curve_file(const SampleOptions& options, std::string_view kind) {
   std::optional<CurveFormat> format =
       curve_format_from_extension(options.format.empty() ? options.output : options.format);
   if (!format && options.output == standard_stream && options.format.empty()) format = CurveFormat::json;
   if (!format) throw UsageError(options.output + ": name it *.svg or *.json, or add --format");
+  if (options.resolution > 0) throw UsageError("--resolution: a curve has the parameters seed and points");
   double seed = curve_seed, points = curve_points;
   for (const auto& [name, value] : parsed(options.parameters)) {
     if (name != "seed" && name != "points")
@@ -172,11 +205,14 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
       "knot_kinks_6, knot_goeritz, ... For 'unsnarl routes', a plan: routes_star_6, routes_star_20,\n"
       "routes_star_50, routes_ring, routes_maze or routes_door");
   command
-      .add_option("-o,--output", options.output,
-                  "Where it goes: *.obj, *.off, *.ply or *.glb (curves: *.json or *.svg; knots: *.xyz; plans: *.json);\n"
-                  "'-' for standard output")
+      .add_option(
+          "-o,--output", options.output,
+          "Where it goes: *.obj, *.off, *.ply or *.glb (curves: *.json or *.svg; knots: *.xyz; plans: *.json);\n"
+          "'-' for standard output")
       ->type_name("OUT");
-  command.add_option("--format", options.format, "obj, off, ply or glb (curves: json or svg), where the name does not tell")
+  command
+      .add_option("--format", options.format,
+                  "obj, off, ply or glb (curves: json or svg; knots: xyz; plans: json), where the name does not tell")
       ->type_name("FORMAT");
   command
       .add_option("--resolution", options.resolution, "Sampling steps along the longest direction; 0: the sample's own")
@@ -193,9 +229,9 @@ void add_sample_options(CLI::App& command, SampleOptions& options) {
 }
 
 int run_sample(const SampleOptions& options, Interruption& interruption) {
+  if (!options.name.empty()) require_known(options.name);
   if (options.list) {
     write_to_stream(standard_stream, options.name.empty() ? list_of_samples() : description_of(options.name));
-    if (options.name.empty()) tell(curves_hint());  // beside the list, which programs read as one of surfaces
     return exit_embedded;
   }
   if (options.name.empty()) throw UsageError("which sample? 'unsnarl sample --list' names them all");
@@ -205,12 +241,12 @@ int run_sample(const SampleOptions& options, Interruption& interruption) {
     return exit_embedded;
   }
   if (knot_of(options.name) != nullptr || unknot_of(options.name) != nullptr) {
-    if (!options.parameters.empty()) throw UsageError("--set: knots have no parameters");
+    require_plain(options, "knots", "xyz");
     write_file(options.output, link_text(knot_of_table(options.name.substr(knot_prefix.size()))), interruption);
     return exit_embedded;
   }
   if (const RoutePlanSample* const plan = plan_of(options.name)) {
-    if (!options.parameters.empty()) throw UsageError("--set: plans have no parameters");
+    require_plain(options, "plans", "json");
     write_file(options.output, route_plan_json(sample_route_plan(plan->name)), interruption);
     return exit_embedded;
   }

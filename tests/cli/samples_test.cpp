@@ -14,8 +14,11 @@ TEST_F(Samples, SamplesAreListedDescribedAndWritten) {
   const Outcome list = run({"sample", "--list"});
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_NE(list.out.find("whitney_umbrella"), std::string::npos);
-  EXPECT_EQ(list.out.find("curve_star"), std::string::npos);  // a list of surfaces, for programs
-  EXPECT_NE(list.err.find("'unsnarl curves': curve_waves, "), std::string::npos);
+  for (const char* others :
+       {"\n\nRandom closed curves, for 'unsnarl curves': curve_waves, ", "\nKnots, for 'unsnarl sei",
+        "\nUnknots, for 'unsnarl kn", "\nPlans, for 'unsnarl routes': routes_"})
+    EXPECT_NE(list.out.find(others), std::string::npos) << others;
+  EXPECT_EQ(list.err, "");
   const Outcome one = run({"sample", "book", "--list"});
   EXPECT_EQ(one.exit_code, 0);
   EXPECT_NE(one.out.find("--set"), std::string::npos);
@@ -30,13 +33,37 @@ TEST_F(Samples, SamplesAreListedDescribedAndWritten) {
   EXPECT_EQ(run({"sample", "book", "-o", "-"}).out, contents(obj));
 }
 
+TEST_F(Samples, UnknownOnesAreNamedBeforeAllElse) {
+  for (const auto& [name, meant] : {std::pair("crossing_tube", "crossing_tubes"),
+                                    {"curve_stars", "curve_star"},
+                                    {"knot_99_1", "knot_9_1"},
+                                    {"routes_rings", "routes_ring"}})
+    for (const char* output : {"s.obj", "s.xyz"})
+      expect_refusal({"sample", name, "-o", folder / output}, 2,
+                     "there is no sample '" + std::string(name) + "'; did you mean " + meant +
+                         "?; 'unsnarl sample --list' names them all");
+  expect_refusal({"sample", "nope", "-o", folder / "s.obj"}, 2, "there is no sample 'nope'; 'unsnarl sample --list'");
+  expect_refusal({"sample", "nope", "--list"}, 2, "there is no sample 'nope'; 'unsnarl sample --list'");
+}
+
+TEST_F(Samples, KnotsAndPlansHaveOneFormatAndNothingToSet) {
+  expect_refusal({"sample", "knot_3_1", "-o", folder / "k.obj"}, 2, "k.obj: name it *.xyz, or add --format xyz");
+  expect_refusal({"sample", "knot_3_1", "-o", folder / "k.xyz", "--format", "off"}, 2, "knots are written as xyz");
+  expect_refusal({"sample", "routes_ring", "-o", folder / "r.obj"}, 2, "r.obj: name it *.json, or add --format json");
+  expect_refusal({"sample", "knot_3_1", "-o", folder / "k.xyz", "--resolution", "9"}, 2, "--resolution: knots");
+  expect_refusal({"sample", "routes_ring", "-o", folder / "r.json", "--resolution", "9"}, 2, "--resolution: plans");
+  expect_refusal({"sample", "curve_star", "-o", folder / "c.svg", "--resolution", "9"}, 2, "--resolution: a curve has");
+  EXPECT_EQ(run({"sample", "knot_3_1", "-o", folder / "k", "--format", "xyz"}).exit_code, 0);
+  EXPECT_EQ(run({"sample", "knot_3_1", "-o", "-"}).out, contents(folder / "k"));
+}
+
 // run() verifies every file that was written.
 TEST_F(Samples, EverySampleEndsAsTheExitCodeSays) {
   std::istringstream list(run({"sample", "--list"}).out);
   int samples = 0, left = 0;
   for (std::string line; std::getline(list, line);) {
     const std::string name = line.substr(0, line.find(' '));
-    if (name.empty()) continue;
+    if (name.empty()) break;  // those that follow are no surfaces
     SCOPED_TRACE(name);
     const std::string in = sample(name, {"--resolution", "10"}), out = folder / "out.obj";
     const Outcome outcome = run({"fix", in, "-o", out, "--keep-partial", "--quiet"});
