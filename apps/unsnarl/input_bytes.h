@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,6 +11,12 @@
 #include "unsnarl/link.h"
 
 namespace unsnarl::app {
+
+/// The file at `path`, open for reading; `advice` ends the message where that fails. Throws FileError.
+std::ifstream opened(const std::string& path, const std::string& advice = "");
+
+/// Throws FileError, naming `path`, where reading has just failed.
+void require_no_failure(const std::istream& in, const std::string& path);
 
 /// The bytes of the file at `path`, or of standard input for standard_stream. Throws FileError.
 std::string read_bytes(const std::string& path);

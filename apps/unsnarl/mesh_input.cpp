@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <fstream>
 #include <sstream>
 
 #include "input_bytes.h"
@@ -88,8 +87,7 @@ void claim_inputs(FilePlaces& places, const std::string& what, const std::vector
 }
 
 std::vector<std::uint8_t> read_vertex_flags(const std::string& path, std::size_t vertex_count) {
-  std::ifstream file(path);
-  if (!file) throw FileError(path + ": cannot open; --fix-vertices needs a file of 0-based vertex ids");
+  std::ifstream file = opened(path, "; --fix-vertices needs a file of 0-based vertex ids");
   std::vector<std::uint8_t> flags(vertex_count, 0);
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
@@ -105,7 +103,7 @@ std::vector<std::uint8_t> read_vertex_flags(const std::string& path, std::size_t
       flags[id] = 1;
     }
   }
-  if (file.bad()) throw FileError(path + ": cannot read");
+  require_no_failure(file, path);
   return flags;
 }
 

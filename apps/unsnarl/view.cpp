@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "file_places.h"
+#include "input_bytes.h"
 #include "mesh_input.h"
 #include "staged_output.h"
 #include "standard_streams.h"
@@ -23,8 +23,7 @@ namespace {
 
 std::string read_report(const std::string& path) {
   if (path.empty()) return {};
-  std::ifstream file(path);
-  if (!file) throw FileError(path + ": cannot open; --report needs the report that 'unsnarl fix --report' wrote");
+  std::ifstream file = opened(path, "; --report needs the report that 'unsnarl fix --report' wrote");
   std::string text{std::istreambuf_iterator<char>(file), {}};
   const nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
   if (!report.is_object() || report.value("schema", nlohmann::json()) != "unsnarl-report")

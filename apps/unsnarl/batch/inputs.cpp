@@ -13,6 +13,7 @@
 
 #include "batch/folder.h"
 #include "content_hash.h"
+#include "input_bytes.h"
 #include "mesh_input.h"
 #include "unsnarl/document.h"
 #include "usage_error.h"
@@ -76,7 +77,7 @@ std::vector<BatchMesh> meshes_of_list(std::istream& lines, const std::string& li
                                   name, format_names(" or ")));
     meshes.push_back({path, name});
   }
-  if (lines.bad()) throw FileError(list + ": cannot read");
+  require_no_failure(lines, list);
   return meshes;
 }
 
@@ -180,8 +181,7 @@ std::vector<BatchMesh> batch_meshes(const std::string& list_or_folder, const fs:
     if (const auto format = format_from_extension(list_or_folder))
       throw UsageError(fmt::format(
           "{} is a mesh; give a folder of meshes or a list of their paths, or use 'unsnarl fix'", list_or_folder));
-    std::ifstream list(list_or_folder);
-    if (!list) throw FileError(list_or_folder + ": cannot open; give a folder of meshes, or a file with a path a line");
+    std::ifstream list = opened(list_or_folder, "; give a folder of meshes, or a file with a path a line");
     meshes = meshes_of_list(list, list_or_folder);
   }
   if (meshes.empty()) throw FileError(fmt::format("{}: no mesh in it ({})", list_or_folder, format_names(", ")));
