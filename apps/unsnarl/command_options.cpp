@@ -8,6 +8,7 @@
 
 #include "standard_streams.h"
 #include "unsnarl/document.h"
+#include "usage_error.h"
 
 namespace unsnarl::app {
 namespace {
@@ -118,6 +119,12 @@ void add_mesh_options(CLI::App& command, MeshOptions& options, const std::string
       ->check(whole_number_within(0, 1024))
       ->type_name("N");
   add_quiet(command, options.quiet);
+  command.final_callback([&options] { options.require_effect(); });
+}
+
+void MeshOptions::require_effect() const {
+  if (weld == "none" && weld_tolerance > 0)
+    throw UsageError("--weld-tolerance does nothing with --weld none; leave one of the two out");
 }
 
 FindOptions MeshOptions::find() const {

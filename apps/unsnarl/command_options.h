@@ -34,6 +34,8 @@ struct MeshOptions {
   bool quiet = false;
 
   bool is_scene() const { return inputs.size() > 1; }
+  /// Refuses options that do nothing beside the others, as they do after parsing. Throws UsageError.
+  void require_effect() const;
   FindOptions find() const;
   Goal goal_wanted() const { return goal == "disjoint" ? Goal::disjoint : Goal::all; }
 };

@@ -78,11 +78,14 @@ FilePlaces checked_places(const FixOptions& options) {
 }
 
 /// The result is the input's file with other positions, so it cannot change its format.
-void check_format_of_output(const std::string& output, const Document& document) {
+void check_format_of_output(const std::string& output, const Document& document, const std::string& input) {
   const std::optional<Format> format = is_stream(output) ? std::nullopt : format_from_extension(output);
-  if (format && *format != document.format())
-    throw UsageError(fmt::format("{}: the result keeps the format of the input, {}; name it *.{}", output,
-                                 to_string(document.format()), to_string(document.format())));
+  if (!format || *format == document.format()) return;
+  std::string extension = fs::path(input).extension().string();  // of several, such as *.pial, the input's
+  if (extension.empty() || format_from_extension(input) != document.format())
+    extension = fmt::format(".{}", to_string(document.format()));
+  throw UsageError(fmt::format("{}: the result keeps the format of the input, {}; name it *{}", output,
+                               to_string(document.format()), extension));
 }
 
 std::string names_of(const SceneDocument& scene) {
@@ -137,7 +140,7 @@ class Fix {
         nesting_(wanted_nesting_.nesting) {
     claim_external_files();
     if (!options.is_scene()) {
-      check_format_of_output(output_, scene_.document(0));
+      check_format_of_output(output_, scene_.document(0), options_.inputs[0]);
       files_.input = options_.inputs[0];
       files_.format = to_string(scene_.document(0).format());
     }

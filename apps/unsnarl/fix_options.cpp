@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -100,7 +101,7 @@ void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const
   const auto named = [&](const std::string& name, auto& list, const std::string& of, const char* type) {
     // One value each time: more would swallow the name of the input.
     const bool has_shortcut = !shortcut.empty() && name == "object";
-    command.add_option((has_shortcut ? shortcut + "," : "") + prefix + name, list, what + of)
+    return command.add_option((has_shortcut ? shortcut + "," : "") + prefix + name, list, what + of)
         ->type_name(type)
         ->group(group)
         ->allow_extra_args(false);
@@ -111,7 +112,8 @@ void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const
         "faces of this object (OBJ o, STL solid, glTF node, Gmsh entity, Abaqus part, 3MF object); may be repeated",
         "NAME");
   named("material", parts.materials, "faces of this material; may be repeated", "NAME");
-  named("component", parts.components, "component of this number, as 'unsnarl check' lists them; may be repeated", "N");
+  named("component", parts.components, "component of this number, as 'unsnarl check' lists them; may be repeated", "N")
+      ->check(whole_number_within(0, std::numeric_limits<std::int32_t>::max()));
   named("file", parts.files, "file of this name, of several; may be repeated", "NAME");
 }
 
@@ -119,6 +121,11 @@ void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const
 
 void add_fix_options(CLI::App& command, FixOptions& options) {
   add_mesh_options(command, options);
+  command.final_callback([&command, &options] {
+    options.require_effect();
+    if (options.absolute && command.count("--max-displacement") + command.count("--min-gap") == 0)
+      throw UsageError("--absolute is about --max-displacement and --min-gap; give one of them, or leave it out");
+  });
   command
       .add_option("-o,--output", options.output,
                   "Where the repaired mesh goes; '-' for standard output. Of several files: the folder where they\n"
@@ -254,7 +261,8 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "  unsnarl fix inner.off outer.off skin.off -o fixed --nested inner.off,outer.off,skin.off\n"
       "  unsnarl fix --sequence 'dance/*.obj' -o fixed                              frames of a moving mesh\n\n"
       "Exit codes: 0 embedded, 1 self-intersections left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
-      "6 interrupted, 7 all repaired but what no allowed motion can resolve, 70 internal error.\n"
+      "6 interrupted, 7 all repaired but what no allowed motion can resolve (--nested: or a surface lies wrong),\n"
+      "70 internal error.\n"
       "With --only-... and --each, 0 still means that nothing in the whole file intersects; where only what they "
       "leave\n"
       "out does, the result is written and the exit code is 7.");

@@ -58,9 +58,12 @@ std::string explain_usage(const CLI::App& program, const CLI::ParseError& error,
   const std::string help = fmt::format("; 'unsnarl {} --help' explains", name);
   const std::vector<std::string> options = option_names(command);
   for (const std::string& word : words) {
+    if (word == "--") break;
     const std::string given = word.substr(0, word.find('='));
-    if (given.starts_with("--") && given.size() > 2 && command.get_option_no_throw(given) == nullptr)
-      return fmt::format("'unsnarl {}' has no option {}{}", name, given, did_you_mean(given, options)) + help;
+    if (!given.starts_with("--") || command.get_option_no_throw(given) != nullptr) continue;
+    const bool is_for_fix = name == "batch" && program.get_subcommand("fix")->get_option_no_throw(given) != nullptr;
+    const std::string advice = is_for_fix ? "; options of 'unsnarl fix' go after '--'" : did_you_mean(given, options);
+    return fmt::format("'unsnarl {}' has no option {}{}", name, given, advice) + help;
   }
   return error.what() + help;
 }

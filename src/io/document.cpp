@@ -76,8 +76,8 @@ Document Document::read(const std::filesystem::path& path, std::optional<Format>
       if (!format) refuse_foreign_format(start, path.string());
       if (!format) format = format_of_content(start);
       if (!format)
-        throw FileError(
-            fmt::format("neither the extension nor the content tells the format; name one of {}", format_names()));
+        throw FileError(fmt::format("neither the extension nor the content tells the format; add --format: {}",
+                                    format_names(" or ")));
       refuse_other_content(start, *format);
     } catch (const FileError& error) {
       throw FileError(fmt::format("{}: {}", path.string(), error.what()));

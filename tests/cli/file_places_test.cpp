@@ -151,6 +151,7 @@ TEST_F(FilePlaces, NoCommandOverwritesWhatItReads) {
   write(in, tetrahedron(0));
   write(ids, "0\n");
   expect_refusal({"fix", in, "-o", out, "--fix-vertices", ids, "--report", ids}, "--fix-vertices and --report");
+  expect_refusal({"fix", in, "-o", "-", "--report", "-"}, "-o and --report both go to standard output; give one of");
   expect_refusal({"check", in, "--pairs", folder / "./in.obj"}, "the input and --pairs");
 
   const std::string knot = folder / "knot.obj";  // whatever its name

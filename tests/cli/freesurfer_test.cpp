@@ -38,7 +38,8 @@ TEST_F(FreeSurfer, FreeSurferSurfacesNeedNoExtension) {
   EXPECT_EQ(contents(out).size(), bytes.size());
   EXPECT_EQ(run({"fix", "-", "--format", "freesurfer", "-o", "-", "--quiet"}, {.input = bytes}).out, contents(out));
   EXPECT_EQ(run({"check", out}).exit_code, 0);
-  EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj"}).exit_code, 2);
+  expect_refusal({"fix", in, "-o", folder / "out.obj"}, 2, "name it *.surf");
+  expect_refusal({"fix", file("lh.pial", bytes), "-o", folder / "lh.obj"}, 2, "name it *.pial");
 }
 
 TEST_F(FreeSurfer, MissingVerticesAreReportedAndStay) {

@@ -105,6 +105,9 @@ TEST_F(Sequence, EveryFrameIsEmbeddedAndCorrectionsGoOnSmoothly) {
   const Outcome outcome = repair({"--report", folder / "r.json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("10 of 10 frames written"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("10 frames of 53 vertices"), std::string::npos) << outcome.err;
+  const Outcome one = run({"fix", "--sequence", pattern, "-o", folder / "one", "--frames", "0:1"});
+  EXPECT_NE(one.err.find("1 frame of 53 vertices"), std::string::npos) << one.err;
   const Json report = Json::parse(contents(folder / "r.json"));
   ASSERT_EQ(report["list"].size(), std::size_t{frame_count});
   std::size_t crossing = 0;
@@ -282,6 +285,8 @@ TEST_F(Sequence, WhatMakesNoSenseIsRefused) {
   fs::rename(folder / "f9.obj", path(4));
   write(folder / "cut.pc2", cache(true).substr(0, 999));
   expect_refusal({"fix", "--sequence", path(0), folder / "cut.pc2", "-o", out}, 3, "cut off");
+  expect_refusal({"fix", "--sequence", path(0), folder / "none.pc2", "-o", out}, 3,
+                 "none.pc2: cannot open: No such file or directory");
 }
 
 TEST_F(Sequence, NoPointOfACacheIsLostOrInvented) {

@@ -49,6 +49,9 @@ TEST_F(Usage, UsageErrorsExitWith2) {
   expect_refusal({"fix"}, 2, "IN");
   expect_refusal({"fix", in}, 2, "-o");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--frobnicate"}, 2, "frobnicate");
+  expect_refusal({"batch", in, "-o", folder / "o", "--max-displacement", "1"}, 2,
+                 "'unsnarl batch' has no option --max-displacement; options of 'unsnarl fix' go after '--'");
+  expect_refusal({"batch", in, "--", "--max-displacement", "1"}, 2, "-o");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--goal", "some"}, 2, "goal");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--time-limit", "-1"}, 2, "time-limit");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--in-place"}, 2, "--in-place");
@@ -97,6 +100,20 @@ TEST_F(Usage, WhatIsNoNumberInTheRangeIsRefused) {
   expect_refusal({"fix", in, "-o", folder / "out.obj", "--min-dihedral", "90"}, 2,
                  "90 is no number from 0 to less than 90");
   expect_refusal({"fix", in, "-o", folder / "out.obj", "--threads", "-3"}, 2, "-3 is no whole number from 0 to 1024");
+  for (const char* option : {"--fix-component", "--only-component", "--rigid-component"})
+    for (const char* value : {"x", "1.5", "-1"})
+      expect_refusal({"fix", in, "-o", folder / "out.obj", option, value}, 2,
+                     option + (": " + std::string(value)) + " is no whole number from 0 to 2147483647");
+}
+
+TEST_F(Usage, OptionsThatDoNothingBesideTheOthersAreRefused) {
+  const std::string in = file("in.obj", crossing), out = folder / "out.obj";
+  expect_refusal({"fix", in, "-o", out, "--absolute"}, 2, "--absolute is about --max-displacement and --min-gap");
+  for (const std::vector<std::string>& call : {std::vector<std::string>{"fix", in, "-o", out}, {"check", in}}) {
+    std::vector<std::string> words = call;
+    words.insert(words.end(), {"--weld-tolerance", "0.5", "--weld", "none"});
+    expect_refusal(words, 2, "--weld-tolerance does nothing with --weld none");
+  }
 }
 
 TEST_F(Usage, AGapManyTimesAsWideAsTheFacesIsRefused) {
@@ -115,7 +132,9 @@ TEST_F(Usage, InputsThatMakeNoSenseExitWith3) {
   expect_refusal({"fix", wrong, "-o", out}, 3, "9");
   expect_refusal({"fix", file("nan.obj", "v 0 0 nan\nf 1 1 1\n"), "-o", out}, 3, "1");
   const std::string in = file("in.obj", crossing);
-  expect_refusal({"fix", in, "-o", out, "--fix-vertices", folder / "none.txt"}, 3, "none.txt");
+  expect_refusal({"fix", in, "-o", out, "--fix-vertices", folder / "none.txt"}, 3,
+                 "none.txt: cannot open: No such file or directory; --fix-vertices needs");
+  expect_refusal({"fix", in, "-o", out, "--fix-vertices", folder.string()}, 3, "cannot read: Is a directory");
   expect_refusal({"fix", in, "-o", out, "--fix-vertices", file("ids.txt", "0 1\n8 # too large\n")}, 3, "ids.txt:2");
   expect_refusal({"fix", in, "-o", out, "--fix-vertices", file("ids.txt", "0 -1\n")}, 3, "ids.txt:1");
 }
@@ -132,7 +151,8 @@ TEST_F(Usage, ForeignFormatsAreRefusedWithAHint) {
                                      {"a.xyz", "points have no faces"},
                                      {"a.zip", "unpack it first"}})
     expect_refusal({"check", file(name, "x")}, 3, advice);
-  expect_refusal({"check", file("a.unknown", crossing)}, 3, "neither the extension nor the content tells the format");
+  expect_refusal({"check", file("a.unknown", crossing)}, 3,
+                 "neither the extension nor the content tells the format; add --format: obj, off");
 }
 
 TEST_F(Usage, ContentAndNameAreOfOneFormat) {

@@ -393,7 +393,8 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
       ->group(limits);
   command
       .add_option("--attempts", options.attempts,
-                  "How often a mesh is tried whose worker is killed or dies, or with which the batch itself does")
+                  "How often a mesh is tried whose worker is killed or dies, or with which the batch itself does;\n"
+                  "1 to 100, 3 by default")
       ->check(whole_number_within(1, 100))
       ->type_name("N")
       ->group(limits);

@@ -354,9 +354,11 @@ void SequenceRun::summarise() {
   const Summary sum = summary();
   const StageReport whole = clock_.stage("sequence");
   const SurfaceView mesh = files_->mesh().surface();
-  display_.say("{} frames of {} vertices, {} faces{}", sequence_.last - sequence_.first, mesh.vertex_count(),
-               mesh.face_count(), done_before_ > 0 ? fmt::format("; {} were done before", done_before_) : "");
-  display_.say("  intersecting pairs before: {}, in {} frames", sum.pairs_before, sum.with_pairs);
+  const std::size_t frames = sequence_.last - sequence_.first;
+  const auto s = [](std::size_t count) { return count == 1 ? "" : "s"; };
+  display_.say("{} frame{} of {} vertices, {} faces{}", frames, s(frames), mesh.vertex_count(), mesh.face_count(),
+               done_before_ > 0 ? fmt::format("; {} were done before", done_before_) : "");
+  display_.say("  intersecting pairs before: {}, in {} frame{}", sum.pairs_before, sum.with_pairs, s(sum.with_pairs));
   display_.say("  intersecting pairs after:  {}", sum.pairs_after == 0 ? "none" : std::to_string(sum.pairs_after));
   if (sum.frames > 0)
     display_.say(
@@ -367,8 +369,8 @@ void SequenceRun::summarise() {
     display_.say(
         "  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; repaired one by one {:.2g} % and {:.2g} %",
         100 * sum.jitter.max_rel, 100 * sum.jitter.mean_rel, 100 * sum.alone.max_rel, 100 * sum.alone.mean_rel);
-  display_.say("  {} of {} frames written; {:.1f} s, {:.0f} MB", sum.frames, sequence_.last - sequence_.first,
-               whole.seconds, whole.peak_memory_mb);
+  display_.say("  {} of {} frame{} written; {:.1f} s, {:.0f} MB", sum.frames, frames, s(frames), whole.seconds,
+               whole.peak_memory_mb);
   if (is_whole_) display_.say("  wrote {}", files_->output());
   if (is_range_done_ && !is_whole_)
     display_.say("  gathered in {}.part until all {} frames are done", files_->output(), files_->count());
