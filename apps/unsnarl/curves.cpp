@@ -195,8 +195,8 @@ class Curves {
 
   void write_report(bool is_written) {
     nlohmann::ordered_json json = {{"schema", "unsnarl-curves-report"},
-                                   {"schema_version", 1},
-                                   {"program", std::string("unsnarl ") + version},
+                                   {"schema_version", 2},
+                                   {"version", version},
                                    {"input", options_.input},
                                    {"output", is_written ? options_.output : ""}};
     json.update(nlohmann::ordered_json::parse(curve_report_json(result_)));

@@ -64,8 +64,8 @@ std::string correspondence_json(const IsotopyCommandOptions& options, const Isot
     return json;
   };
   nlohmann::ordered_json json = {{"schema", "unsnarl-isotopy"},
-                                 {"schema_version", 1},
-                                 {"program", std::string("unsnarl ") + version},
+                                 {"schema_version", 2},
+                                 {"version", version},
                                  {"start", options.start},
                                  {"end", options.end},
                                  {"height", isotopy.height},

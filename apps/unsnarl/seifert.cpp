@@ -192,8 +192,8 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   }
   if (!options.report.empty()) {
     nlohmann::ordered_json json = {{"schema", "unsnarl-seifert-report"},
-                                   {"schema_version", 1},
-                                   {"program", std::string("unsnarl ") + version},
+                                   {"schema_version", 2},
+                                   {"version", version},
                                    {"input", options.input},
                                    {"output", options.output},
                                    {"points", link.point_count()},

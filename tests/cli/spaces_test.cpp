@@ -17,6 +17,7 @@ TEST(SeifertCommand, AKnotIsSpannedAndCertified) {
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_TRUE(contains(made.err, "Alexander polynomial 1 - t + t^2"));
   const auto report = nlohmann::json::parse(contents(folder / "r.json"));
+  EXPECT_EQ("unsnarl " + report["version"].get<std::string>() + "\n", run({"--version"}).out);
   EXPECT_EQ(report["hold"], true);
   EXPECT_EQ(report["genus"], 1);
   EXPECT_EQ(run({"seifert", knot, "--check", surface}).exit_code, 0);

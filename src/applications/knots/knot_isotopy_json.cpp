@@ -59,7 +59,7 @@ Json as_json(const std::vector<KnotDoublePoint>& points) {
 std::string knot_isotopy_json(const KnotIsotopy& isotopy, const KnotIsotopyFindings& findings) {
   Json json = {{"schema", "unsnarl-knot-isotopy"},
                {"schema_version", 1},
-               {"program", std::string("unsnarl ") + version},
+               {"version", version},
                {"status", to_string(isotopy.status)},
                {"found", isotopy.found},
                {"hold", findings.hold()},

@@ -178,8 +178,8 @@ std::string route_plan_json(const RoutePlan& plan) {
 std::string routes_json(const RoutePlan& plan, const RoutesResult& result) {
   const RouteFindings& f = result.found;
   Json json = {{"schema", "unsnarl-routes"},
-               {"schema_version", 1},
-               {"program", std::string("unsnarl ") + version},
+               {"schema_version", 2},
+               {"version", version},
                {"timed", plan.timed},
                {"hold", f.hold()},
                {"clearance", f.clearance},
