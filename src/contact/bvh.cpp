@@ -65,9 +65,9 @@ void Bvh::build(std::span<const Box> boxes) {
   tasks_.clear();
   order_.resize(n);
   boxes_.resize(n);
-  watched_.assign(static_cast<std::size_t>(n), 1);
+  active_.assign(static_cast<std::size_t>(n), 1);
   place_.clear();
-  is_watching_only_ = false;
+  has_only_active_ = false;
   if (n == 0) return;
   Box bounds;
   for (const Box& box : boxes)
@@ -126,10 +126,10 @@ void Bvh::fit(Node& node) {
 
 void Bvh::flag(Node& node) {
   if (node.is_leaf()) {
-    const auto end = watched_.begin() + node.end;
-    node.watched = std::find_if(watched_.begin() + node.begin, end, [](std::uint8_t w) { return w != 0; }) != end;
+    const auto end = active_.begin() + node.end;
+    node.active = std::find_if(active_.begin() + node.begin, end, [](std::uint8_t w) { return w != 0; }) != end;
   } else {
-    node.watched = (&node)[1].watched || nodes_[node.right].watched;
+    node.active = (&node)[1].active || nodes_[node.right].active;
   }
 }
 
@@ -156,25 +156,25 @@ void Bvh::visit_above(std::span<const Index> places, Visit&& visit, Index id) {
   visit(node);
 }
 
-void Bvh::watch(std::span<const std::uint8_t> watched) {
-  assert(watched.size() == order_.size());
-  is_watching_only_ = false;
-  for (std::size_t k = 0; k < order_.size(); ++k) watched_[k] = watched[order_[k]];
+void Bvh::set_active(std::span<const std::uint8_t> active) {
+  assert(active.size() == order_.size());
+  has_only_active_ = false;
+  for (std::size_t k = 0; k < order_.size(); ++k) active_[k] = active[order_[k]];
   for (std::size_t id = nodes_.size(); id-- > 0;) flag(nodes_[id]);
 }
 
-void Bvh::watch_only(std::span<const Index> watched) {
-  if (is_watching_only_) {
-    for (Index k : only_watched_) watched_[k] = 0;
-    visit_above(only_watched_, [](Node& node) { node.watched = false; });
+void Bvh::set_only_active(std::span<const Index> active) {
+  if (has_only_active_) {
+    for (Index k : only_active_) active_[k] = 0;
+    visit_above(only_active_, [](Node& node) { node.active = false; });
   } else {
-    std::fill(watched_.begin(), watched_.end(), std::uint8_t{0});
-    for (Node& node : nodes_) node.watched = false;
+    std::fill(active_.begin(), active_.end(), std::uint8_t{0});
+    for (Node& node : nodes_) node.active = false;
   }
-  is_watching_only_ = true;
-  only_watched_ = places_of(watched);
-  for (Index k : only_watched_) watched_[k] = 1;
-  visit_above(only_watched_, [](Node& node) { node.watched = true; });
+  has_only_active_ = true;
+  only_active_ = places_of(active);
+  for (Index k : only_active_) active_[k] = 1;
+  visit_above(only_active_, [](Node& node) { node.active = true; });
 }
 
 void Bvh::refit(std::span<const Box> boxes) {

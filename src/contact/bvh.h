@@ -23,11 +23,11 @@ class Bvh {
   /// The same where only these have moved (ids, each once): at a cost that follows their number.
   void refit(std::span<const Box> boxes, std::span<const Index> moved);
 
-  /// From now on self_pairs() visits only pairs of which at least one box is watched (one flag a box); until the next
+  /// From now on self_pairs() visits only pairs of which at least one box is active (one flag a box); until the next
   /// build. Where few are, most of the tree is skipped.
-  void watch(std::span<const std::uint8_t> watched);
+  void set_active(std::span<const std::uint8_t> active);
   /// The same for the boxes with these ids (each once), at a cost that follows their number and that of those before.
-  void watch_only(std::span<const Index> watched);
+  void set_only_active(std::span<const Index> active);
 
   Index size() const { return static_cast<Index>(order_.size()); }
 
@@ -40,7 +40,7 @@ class Bvh {
   /// Whether any box overlaps `box`.
   bool overlaps_any(const Box& box) const;
 
-  /// Calls visit(i, j), i != j, once for every unordered pair of (watched) boxes that overlap; order within a pair
+  /// Calls visit(i, j), i != j, once for every unordered pair of (active) boxes that overlap; order within a pair
   /// and among pairs is a function of the boxes alone.
   template <class Visit>
   void self_pairs(Visit&& visit) const;
@@ -57,7 +57,7 @@ class Bvh {
     RoundedBox box;
     Index begin = 0, end = 0;  // boxes order_[begin, end) below it
     Index right = 0;           // left child is the next node; of a leaf its number, as -1 - number
-    bool watched = true;       // a box below it is
+    bool active = true;        // a box below it is
     bool is_leaf() const { return right < 0; }
     Index leaf() const { return -1 - right; }
   };
@@ -78,13 +78,13 @@ class Bvh {
   void pairs_between(Index a, Index b, Visit& visit) const;
 
   std::vector<Node> nodes_;
-  std::vector<Index> order_;           // leaf position -> box id
-  std::vector<Index> place_;           // box id -> leaf position; empty until it is needed
-  std::vector<Box> boxes_;             // in leaf order
-  std::vector<FourBoxes> leaves_;      // the same, a leaf side by side
-  std::vector<std::uint8_t> watched_;  // in leaf order
-  std::vector<Index> only_watched_;    // leaf positions, ascending; where watch_only() was the last to say
-  bool is_watching_only_ = false;
+  std::vector<Index> order_;          // leaf position -> box id
+  std::vector<Index> place_;          // box id -> leaf position; empty until it is needed
+  std::vector<Box> boxes_;            // in leaf order
+  std::vector<FourBoxes> leaves_;     // the same, a leaf side by side
+  std::vector<std::uint8_t> active_;  // in leaf order
+  std::vector<Index> only_active_;    // leaf positions, ascending; where set_only_active() was the last to say
+  bool has_only_active_ = false;
   std::vector<std::pair<Index, Index>> tasks_;
 };
 

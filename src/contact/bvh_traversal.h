@@ -44,14 +44,14 @@ template <class Visit>
 void Bvh::pairs_with(Index i, unsigned bits, const Node& b, Visit& visit) const {
   for (; bits != 0; bits &= bits - 1) {
     const Index j = b.begin + std::countr_zero(bits);
-    if (j < b.end && (watched_[i] || watched_[j]) && boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
+    if (j < b.end && (active_[i] || active_[j]) && boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
   }
 }
 
 template <class Visit>
 void Bvh::pairs_between(Index a, Index b, Visit& visit) const {
   const Node &node_a = nodes_[a], &node_b = nodes_[b];
-  if (!(node_a.watched || node_b.watched) || !node_a.box.overlaps(node_b.box)) return;
+  if (!(node_a.active || node_b.active) || !node_a.box.overlaps(node_b.box)) return;
   if (node_a.is_leaf() && node_b.is_leaf()) {
     const FourBoxes &boxes_a = leaves_[node_a.leaf()], &boxes_b = leaves_[node_b.leaf()];
     for (Index i = node_a.begin; i < node_a.end; ++i)
@@ -68,7 +68,7 @@ void Bvh::pairs_between(Index a, Index b, Visit& visit) const {
 template <class Visit>
 void Bvh::pairs_within(Index id, Visit& visit) const {
   const Node& node = nodes_[id];
-  if (!node.watched) return;
+  if (!node.active) return;
   if (node.is_leaf()) {
     const FourBoxes& boxes = leaves_[node.leaf()];
     for (Index i = node.begin; i < node.end; ++i) {

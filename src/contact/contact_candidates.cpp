@@ -179,8 +179,8 @@ void ContactCandidates::gather(const Positions& x, double radius, const MotionBo
     bvh_.build(boxes_);
     built_ = true;
   }
-  bvh_.watch(moving_);
-  gather_watched(x, radius, bounds, moves, stencils);
+  bvh_.set_active(moving_);
+  gather_active(x, radius, bounds, moves, stencils);
 }
 
 void ContactCandidates::gather_around(std::span<const Index> vertices, const Positions& x, double radius,
@@ -199,12 +199,12 @@ void ContactCandidates::gather_around(std::span<const Index> vertices, const Pos
     for (Index k = begin; k < end; ++k) update_triangle(x, radius, bounds, touched[k]);
   });
   bvh_.refit(boxes_, touched);
-  bvh_.watch_only(touched);
-  gather_watched(x, radius, bounds, around_, stencils);
+  bvh_.set_only_active(touched);
+  gather_active(x, radius, bounds, around_, stencils);
 }
 
-void ContactCandidates::gather_watched(const Positions& x, double radius, const MotionBounds& bounds,
-                                       std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils) {
+void ContactCandidates::gather_active(const Positions& x, double radius, const MotionBounds& bounds,
+                                      std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils) {
   std::vector<std::vector<NearStencil>> lists(bvh_.task_count());
   bvh_.self_pairs_parallel(
       [&](Index task, Index a, Index b) { gather_pair(x, radius, bounds, moves, a, b, lists[task]); });

@@ -48,8 +48,8 @@ class ContactCandidates {
  private:
   /// Takes over where triangle t may be.
   void update_triangle(const Positions& x, double radius, const MotionBounds& bounds, Index t);
-  void gather_watched(const Positions& x, double radius, const MotionBounds& bounds,
-                      std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils);
+  void gather_active(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
+                     std::vector<NearStencil>& stencils);
   void gather_pair(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
                    Index a, Index b, std::vector<NearStencil>& stencils) const;
 

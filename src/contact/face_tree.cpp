@@ -43,12 +43,12 @@ void FaceTree::choose_frame(const Positions& x) {
   if (solver.info() != Eigen::Success) return;
   const Eigen::Matrix3d frame = solver.eigenvectors().transpose();
   if (!frame.allFinite()) return;
-  double upright = 0, turned = 0;
+  double along_axes = 0, turned = 0;
   for (const Triangle& t : triangles_) {
-    upright += half_surface(box_of(x, t));
+    along_axes += half_surface(box_of(x, t));
     turned += half_surface(turned_box(frame, x, t));
   }
-  is_turned_ = turned < worth_turning * upright;
+  is_turned_ = turned < worth_turning * along_axes;
   if (is_turned_) frame_ = frame;
 }
 
@@ -87,7 +87,7 @@ void FaceTree::update(const Positions& x, double margin) {
     return;
   }
   bvh_.build(boxes_);
-  if (active_count_ < n) watch_active();
+  if (active_count_ < n) set_active();
 }
 
 void FaceTree::update(const Positions& x, std::span<const Index> moved) {
@@ -95,10 +95,10 @@ void FaceTree::update(const Positions& x, std::span<const Index> moved) {
   bvh_.refit(boxes_, moved);
 }
 
-void FaceTree::watch_active() {
+void FaceTree::set_active() {
   std::vector<std::uint8_t> active(triangles_.size(), 0);
   std::fill(active.begin(), active.begin() + active_count_, std::uint8_t{1});
-  bvh_.watch(active);
+  bvh_.set_active(active);
 }
 
 }  // namespace unsnarl

@@ -27,9 +27,9 @@ class FaceTree {
   void update(const Positions& x, std::span<const Index> moved);
 
   /// From now on all pairs with an active triangle are visited, as at first.
-  void watch_active();
+  void set_active();
   /// From now on only pairs with one of these triangles (ids, each once) are visited.
-  void watch_only(std::span<const Index> watched) { bvh_.watch_only(watched); }
+  void set_only_active(std::span<const Index> active) { bvh_.set_only_active(active); }
 
   /// Calls visit(Index) once for every triangle whose box overlaps one around `box`: for all that reach into `box`, and
   /// for some that only come near.

@@ -196,13 +196,13 @@ std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
   } else if (is_all_undecided_) {
     ++decided_as_a_whole_;
     update_tree();
-    if (watches_undecided_) tree_.watch_active();
-    watches_undecided_ = false;
+    if (has_only_undecided_active_) tree_.set_active();
+    has_only_undecided_active_ = false;
     pairs_ = decide_all();
   } else if (!undecided_.items().empty()) {
     update_tree();
-    tree_.watch_only(undecided_.items());
-    watches_undecided_ = true;
+    tree_.set_only_active(undecided_.items());
+    has_only_undecided_active_ = true;
     std::vector<IntersectingPair> pairs = decide([](Index, Index) { return false; });
     std::copy_if(pairs_.begin(), pairs_.end(), std::back_inserter(pairs),
                  [&](const IntersectingPair& pair) { return !undecided_.has(pair.a) && !undecided_.has(pair.b); });

@@ -86,7 +86,7 @@ class IntersectionFinder {
   std::vector<IntersectingPair> pairs_;        // as they were last decided
   bool is_all_undecided_ = true;               // since then; or:
   Some undecided_;                             // triangles that have moved since then
-  bool watches_undecided_ = false;             // and not all active triangles
+  bool has_only_undecided_active_ = false;     // and not all active triangles
   int decided_as_a_whole_ = 0;                 // so many times
   std::optional<VertexFans> fans_;             // from the first of them on, or else in moving_
   std::optional<MovingIntersections> moving_;  // for more of these

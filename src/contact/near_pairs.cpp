@@ -33,7 +33,7 @@ void NearPairs::update(const Positions& x) {
   const bool is_new = boxes_.empty();
   boxes_.resize(n);
   rounded_.resize(n);
-  roomy_.resize(n);
+  padded_.resize(n);
   left_.resize(n);
   if (is_new) {
     for (Index t = 0; t < n; ++t) {
@@ -45,11 +45,11 @@ void NearPairs::update(const Positions& x) {
     double count = 0;
     for (Index t = begin; t < end; ++t) {
       const Box box = box_of(x, triangles_[t]);
-      left_[t] = is_new || !contains(roomy_[t], box);
+      left_[t] = is_new || !contains(padded_[t], box);
       if (left_[t]) {
         const double last = motion(boxes_[t], box) / length_;
         // Not a number where all boxes are points: no room then.
-        roomy_[t] = box.inflated(last <= most_room ? length_ * std::clamp(motions * last, least_room, most_room) : 0);
+        padded_[t] = box.inflated(last <= most_room ? length_ * std::clamp(motions * last, least_room, most_room) : 0);
         ++count;
       }
       boxes_[t] = box;
@@ -59,14 +59,14 @@ void NearPairs::update(const Positions& x) {
   });
   if (left == 0) return;
   if (is_new) {
-    bvh_.build(roomy_);
+    bvh_.build(padded_);
     if (active_count_ < n) {
       std::vector<std::uint8_t> active(static_cast<std::size_t>(n), 0);
       std::fill(active.begin(), active.begin() + active_count_, std::uint8_t{1});
-      bvh_.watch(active);
+      bvh_.set_active(active);
     }
   } else {
-    bvh_.refit(roomy_);
+    bvh_.refit(padded_);
   }
   if (left > few_left * n)
     look_for_all();
@@ -92,7 +92,7 @@ void NearPairs::look_for_those_that_left() {
   gather_in_chunks(static_cast<Index>(triangles_.size()), found, [&](Index begin, Index end, std::vector<Pair>& list) {
     for (Index t = begin; t < end; ++t) {
       if (!left_[t]) continue;
-      bvh_.query(roomy_[t], [&](Index other) {
+      bvh_.query(padded_[t], [&](Index other) {
         // Two that left find each other twice.
         if (left_[other] && other <= t) return;
         if (t >= active_count_ && other >= active_count_) return;

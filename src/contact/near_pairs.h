@@ -39,7 +39,7 @@ class NearPairs {
   Index active_count_;
   VertexGroups groups_;
   double length_ = 0;                // mean diagonal of the boxes
-  std::vector<Box> boxes_, roomy_;   // now; with room, when their triangle last left it
+  std::vector<Box> boxes_, padded_;  // now; with room, when their triangle last left it
   std::vector<RoundedBox> rounded_;  // as they are now
   std::vector<std::uint8_t> left_;   // per triangle: has left its box
   Bvh bvh_;                          // of the roomy ones

@@ -6,8 +6,8 @@
 
 namespace unsnarl {
 
-std::vector<Hinge> hinges_of(std::span<const Triangle> triangles, const EdgeTable& edges) {
-  std::vector<Hinge> hinges;
+std::vector<BendingHinge> bending_hinges_of(std::span<const Triangle> triangles, const EdgeTable& edges) {
+  std::vector<BendingHinge> hinges;
   const auto opposite = [&](Index t, const Edge& e) -> Index {
     for (Index v : triangles[t]) {
       if (v != e[0] && v != e[1]) return v;
@@ -27,7 +27,7 @@ std::vector<Hinge> hinges_of(std::span<const Triangle> triangles, const EdgeTabl
   return hinges;
 }
 
-double hinge_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
+double bending_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
   const Vec3 e = x1 - x0;
   const Vec3 n1 = e.cross(x2 - x0);
   const Vec3 n2 = (x3 - x0).cross(e);
@@ -36,8 +36,8 @@ double hinge_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x
   return std::atan2(n1.cross(n2).dot(e) / length, n1.dot(n2));
 }
 
-double hinge_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3,
-                   Eigen::Matrix<double, 3, 4>& gradient) {
+double bending_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3,
+                     Eigen::Matrix<double, 3, 4>& gradient) {
   const Vec3 e = x1 - x0;
   const Vec3 n1 = e.cross(x2 - x0);
   const Vec3 n2 = (x3 - x0).cross(e);
@@ -58,9 +58,10 @@ double hinge_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x
   return std::atan2(n1.cross(n2).dot(axis), n1.dot(n2));
 }
 
-Bending::Bending(const Positions& rest, const Positions& start, std::span<const Hinge> hinges, const Options& options) {
+Bending::Bending(const Positions& rest, const Positions& start, std::span<const BendingHinge> hinges,
+                 const Options& options) {
   constexpr double turn = 2 * std::numbers::pi;
-  for (const Hinge& hinge : hinges) {
+  for (const BendingHinge& hinge : hinges) {
     const Vec3 x0 = rest.col(hinge[0]), x1 = rest.col(hinge[1]), x2 = rest.col(hinge[2]), x3 = rest.col(hinge[3]);
     const double length = (x1 - x0).norm();
     const double area1 = 0.5 * (x1 - x0).cross(x2 - x0).norm();
@@ -71,8 +72,8 @@ Bending::Bending(const Positions& rest, const Positions& start, std::span<const 
     const double weight =
         std::min(3 * length * length / (area1 + area2), options.stiffness_cap * height_rel * height_rel);
     const double at_start =
-        hinge_angle(start.col(hinge[0]), start.col(hinge[1]), start.col(hinge[2]), start.col(hinge[3]));
-    double angle = hinge_angle(x0, x1, x2, x3);
+        bending_angle(start.col(hinge[0]), start.col(hinge[1]), start.col(hinge[2]), start.col(hinge[3]));
+    double angle = bending_angle(x0, x1, x2, x3);
     angle += turn * std::round((at_start - angle) / turn);
     hinges_.push_back(hinge);
     weights_.push_back(weight);
@@ -81,16 +82,16 @@ Bending::Bending(const Positions& rest, const Positions& start, std::span<const 
 }
 
 double Bending::value(const Positions& x, Index e) const {
-  const Hinge& h = hinges_[e];
-  const double r = hinge_angle(x.col(h[0]), x.col(h[1]), x.col(h[2]), x.col(h[3])) - rest_angles_[e];
+  const BendingHinge& h = hinges_[e];
+  const double r = bending_angle(x.col(h[0]), x.col(h[1]), x.col(h[2]), x.col(h[3])) - rest_angles_[e];
   return 0.5 * weights_[e] * r * r;
 }
 
 double Bending::linearise(const Positions& x, Index e, double weight, Positions& gradient,
                           HessianTerms& hessian) const {
-  const Hinge& h = hinges_[e];
+  const BendingHinge& h = hinges_[e];
   HessianTerms::RankOne& term = hessian.rank_ones.emplace_back();
-  const double r = hinge_angle(x.col(h[0]), x.col(h[1]), x.col(h[2]), x.col(h[3]), term.g) - rest_angles_[e];
+  const double r = bending_angle(x.col(h[0]), x.col(h[1]), x.col(h[2]), x.col(h[3]), term.g) - rest_angles_[e];
   term.vertices = h;
   term.stiffness = weight * weights_[e];
   for (int k = 0; k < 4; ++k) gradient.col(h[k]) += term.stiffness * r * term.g.col(k);

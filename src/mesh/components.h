@@ -43,7 +43,7 @@ Components find_components(const SurfaceView& surface, const WeldMap& weld_map, 
 /// The component of a face of the surface; -1 for one without corners.
 Index component_of_face(const SurfaceView& surface, const WeldMap& weld_map, const Components& components, Index face);
 
-/// Number of vertices at which the triangles around the vertex do not hang together through edges at it (bow ties).
+/// Number of vertices at which the triangles around the vertex are not connected through edges at it (bow ties).
 std::size_t count_non_manifold_vertices(std::span<const Triangle> triangles, Index vertex_count,
                                         const EdgeTable& edges);
 

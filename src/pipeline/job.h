@@ -23,7 +23,7 @@ struct Job {
   Limits& limits;
   Recorder& recorder;
   Phases& phases;
-  AttemptLog& tried;
+  AttemptLog& attempts;
   std::vector<RegionReport>& regions;
   const NestedSurfaces* nested;  ///< null: it does not matter which surface is inside which
 };

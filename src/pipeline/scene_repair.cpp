@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "contact/blocking_pairs.h"
 #include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "pipeline/gap.h"
@@ -40,12 +41,12 @@ SceneRepair::SceneRepair(const Job& job, Scene scene, std::vector<IntersectingPa
       scene_(std::move(scene)),
       pairs_(std::move(pairs)),
       ignored_(std::move(ignored)),
-      let_be_(job.diagnosis.components.count(), 0),
+      is_tolerated_(job.diagnosis.components.count(), 0),
       float32_(chooses_float32()) {}
 
 bool SceneRepair::is_resolved(Finders& finders) const {
   const auto components = components_with_rest(finders);
-  return std::all_of(components.begin(), components.end(), [&](Index c) { return let_be_[c] != 0; });
+  return std::all_of(components.begin(), components.end(), [&](Index c) { return is_tolerated_[c] != 0; });
 }
 
 std::vector<Index> SceneRepair::components_with_rest(Finders& finders) const {
@@ -103,7 +104,7 @@ SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders) {
     moved_.insert(moved_.end(), untangled.moved.begin(), untangled.moved.end());
     job_.phases.start("certify");
     report_progress(recovered_fraction, untangled.left);
-    job_.tried.solved = scene_.x;
+    job_.attempts.solved = scene_.x;
     result.before_rounding = checkpoint();
     scene_.x = as_written(scene_.x);
     // Components on which pairs are left are let be, and the others go on without them.
@@ -158,7 +159,7 @@ EscalationOptions SceneRepair::escalation_options() {
   escalation.stop = job_.limits.stopper();
   escalation.recorder = &job_.recorder;
   escalation.first_region = job_.regions.size();
-  escalation.attempts = &job_.tried;
+  escalation.attempts = &job_.attempts;
   if (job_.options.recover) escalation.recover = [this](Patch& patch) { recover(patch); };
   if (job_.options.max_displacement_rel > 0) escalation.accept = [this](Patch& patch) { return stays_near(patch); };
   escalation.on_progress = [this](const EscalationProgress& progress) {
@@ -276,7 +277,7 @@ std::vector<IntersectingPair> SceneRepair::float32_conflicts(Finders& finders, c
   if (!float32_) return {};
   std::vector<IntersectingPair> conflicts = blocking_pairs(finders.find_rounded(x), ignored_);
   std::erase_if(conflicts, [&](const IntersectingPair& pair) {
-    return !can_be_parted(pair) || (!job_.options.precision && !has_moved(pair.a, x) && !has_moved(pair.b, x));
+    return !can_be_separated(pair) || (!job_.options.precision && !has_moved(pair.a, x) && !has_moved(pair.b, x));
   });
   return conflicts;
 }
@@ -286,7 +287,7 @@ bool SceneRepair::has_moved(Index t, const Positions& x) const {
   return std::any_of(scene_.triangles[t].begin(), scene_.triangles[t].end(), moved);
 }
 
-bool SceneRepair::can_be_parted(const IntersectingPair& pair) const {
+bool SceneRepair::can_be_separated(const IntersectingPair& pair) const {
   const Index component = component_of(pair.a);
   if (component == component_of(pair.b) && job_.diagnosis.components.list[component].obstructed()) return false;
   const auto can_move = [&](Index t) {
@@ -323,36 +324,36 @@ void SceneRepair::keep_within_displacement(IntersectionFinder& finder) {
   if (!restore_what_is_too_far(scene_, merge_overlapping(moved_, scene_.vertex_count()), limit, pairs_, finder)) return;
   displacement_is_exceeded_ = true;
   for (Index v = 0; v < scene_.vertex_count(); ++v)
-    if (scene_.x.col(v) != before.col(v)) job_.tried.is_too_far[v] = 1;
+    if (scene_.x.col(v) != before.col(v)) job_.attempts.is_too_far[v] = 1;
 }
 
 // Polygons.
 
 void SceneRepair::take(const UnitedTriangulations& cuts) {
   Scene scene = make_scene(job_.prepared.rest, cuts.all.triangles, scene_.fixed);
-  ignored_ = cuts.strangers;
+  ignored_ = cuts.exclusive;
   scene.x = std::move(scene_.x);
   scene.group_of = std::move(scene_.group_of);
   scene_ = std::move(scene);
 }
 
-std::vector<IntersectingPair> SceneRepair::set_aside_what_cannot_be_parted(Finders& finders) {
+std::vector<IntersectingPair> SceneRepair::ignore_inseparable_pairs(Finders& finders) {
   std::vector<IntersectingPair> pairs = finders.as_is.find(scene_.x);
-  const auto is_let_be = [&](const IntersectingPair& pair) {
-    return let_be_[component_of(pair.a)] || let_be_[component_of(pair.b)];
+  const auto is_tolerated = [&](const IntersectingPair& pair) {
+    return is_tolerated_[component_of(pair.a)] || is_tolerated_[component_of(pair.b)];
   };
   for (const IntersectingPair& pair : blocking_pairs(pairs, ignored_))
-    if (is_let_be(pair) || pair.kind == PairClass::duplicate || !can_be_parted(pair) ||
+    if (is_tolerated(pair) || pair.kind == PairClass::duplicate || !can_be_separated(pair) ||
         (job_.options.goal == Goal::disjoint && pair.kind != PairClass::disjoint))
       ignored_.push_back(pair);
   std::sort(ignored_.begin(), ignored_.end());
-  std::erase_if(pairs, is_let_be);
+  std::erase_if(pairs, is_tolerated);
   return pairs;
 }
 
-bool SceneRepair::let_be_what_is_left(Finders& finders) {
+bool SceneRepair::tolerate_what_is_left(Finders& finders) {
   bool any = false;
-  for (const Index c : components_with_rest(finders)) any |= std::exchange(let_be_[c], std::uint8_t{1}) == 0;
+  for (const Index c : components_with_rest(finders)) any |= std::exchange(is_tolerated_[c], std::uint8_t{1}) == 0;
   return any;
 }
 

@@ -41,7 +41,7 @@ class SceneRepair {
 
   /// float32 is to hold.
   bool float32() const { return float32_; }
-  /// Smallest gap met while contacts were watched, or infinity.
+  /// Smallest gap met while contacts were listed, or infinity.
   double smallest_gap() const { return smallest_gap_; }
   /// Something could not be resolved within the displacement that is allowed.
   bool displacement_is_exceeded() const { return displacement_is_exceeded_; }
@@ -51,9 +51,9 @@ class SceneRepair {
   /// Makes the scene one of these triangles, where it is now.
   void take(const UnitedTriangulations& cuts);
   /// From now on lets be what no motion parts, or need not. Returns all pairs of components that are not let be.
-  std::vector<IntersectingPair> set_aside_what_cannot_be_parted(Finders& finders);
+  std::vector<IntersectingPair> ignore_inseparable_pairs(Finders& finders);
   /// From now on lets the components be on which something is left. Returns whether there are any besides those before.
-  bool let_be_what_is_left(Finders& finders);
+  bool tolerate_what_is_left(Finders& finders);
   void restore_to_rest(std::span<const Index> vertices);
 
   /// A state to go back to, with the same triangles or others.
@@ -79,7 +79,7 @@ class SceneRepair {
   Positions as_written(const Positions& x) const;
   std::vector<IntersectingPair> float32_conflicts(Finders& finders, const Positions& x) const;
   bool has_moved(Index t, const Positions& x) const;
-  bool can_be_parted(const IntersectingPair& pair) const;
+  bool can_be_separated(const IntersectingPair& pair) const;
   Index component_of(Index t) const { return job_.diagnosis.components.component_of_vertex[scene_.triangles[t][0]]; }
   /// Components on which something but what is let be intersects or a face has lost its area; ascending.
   std::vector<Index> components_with_rest(Finders& finders) const;
@@ -103,7 +103,7 @@ class SceneRepair {
   const Job& job_;
   Scene scene_;
   std::vector<IntersectingPair> pairs_, ignored_;
-  std::vector<std::uint8_t> let_be_;  // per component: what is left of it stays as it is
+  std::vector<std::uint8_t> is_tolerated_;  // per component: what is left of it stays as it is
   bool float32_;
   std::vector<std::vector<Index>> moved_;  // what regions freed
   double smallest_gap_ = std::numeric_limits<double>::infinity();

@@ -26,7 +26,7 @@ std::vector<Triangulation> cuts_by_positions(const SceneRepair& repair, const Jo
 void work_on(SceneRepair& repair, const std::vector<Triangulation>& cuts) {
   repair.take(unite(cuts));
   Finders finders = repair.make_finders();
-  repair.set_aside_what_cannot_be_parted(finders);
+  repair.ignore_inseparable_pairs(finders);
   repair.work(finders);
 }
 
@@ -51,12 +51,12 @@ bool settles(SceneRepair& repair, const Job& job) {
     repair.take(both);
     const SceneRepair::Checkpoint here = repair.checkpoint();
     Finders finders_of_both = repair.make_finders();
-    const std::vector<IntersectingPair> pairs = repair.set_aside_what_cannot_be_parted(finders_of_both);
+    const std::vector<IntersectingPair> pairs = repair.ignore_inseparable_pairs(finders_of_both);
     if (repair.is_resolved(finders_of_both)) {
-      const std::vector<Index> heaped = polygons_on_new_duplicates(both.all, input_size, pairs);
-      if (heaped.empty()) return true;
+      const std::vector<Index> on_duplicates = polygons_on_new_duplicates(both.all, input_size, pairs);
+      if (on_duplicates.empty()) return true;
       if (!std::exchange(best_holds, true)) best = here;
-      repair.restore_to_rest(vertices_of(job, heaped));
+      repair.restore_to_rest(vertices_of(job, on_duplicates));
       work_on(repair, input);
     } else {
       if (round < most_cuts_at_once) {
@@ -70,8 +70,8 @@ bool settles(SceneRepair& repair, const Job& job) {
   const std::vector<Triangulation> now = cuts_by_positions(repair, job);
   repair.take(unite({input[0], input[1], now[0], now[1]}));
   Finders finders_at_end = repair.make_finders();
-  repair.set_aside_what_cannot_be_parted(finders_at_end);
-  const bool is_done = !repair.let_be_what_is_left(finders_at_end);
+  repair.ignore_inseparable_pairs(finders_at_end);
+  const bool is_done = !repair.tolerate_what_is_left(finders_at_end);
   repair.take(unite(input));
   repair.restore(best);
   return is_done;
@@ -81,7 +81,7 @@ bool settles(SceneRepair& repair, const Job& job) {
 
 void settle_triangulation(SceneRepair& repair, const Job& job, Finders& finders) {
   if (job.surface.offsets.empty()) return;
-  repair.let_be_what_is_left(finders);
+  repair.tolerate_what_is_left(finders);
   while (!settles(repair, job)) {
   }
 }

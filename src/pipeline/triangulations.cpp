@@ -42,7 +42,7 @@ void add(const Triangulation& cut, UnitedTriangulations& united) {
     if (it == added.end() || it->first != all.polygon[s]) continue;
     if (std::binary_search(wanted.begin(), wanted.end(), piece(all, static_cast<std::size_t>(s)))) continue;
     for (; it != added.end() && it->first == all.polygon[s]; ++it)
-      united.strangers.push_back({s, it->second, PairClass::folded});
+      united.exclusive.push_back({s, it->second, PairClass::folded});
   }
 }
 
@@ -51,7 +51,7 @@ void add(const Triangulation& cut, UnitedTriangulations& united) {
 UnitedTriangulations unite(const std::vector<Triangulation>& cuts) {
   UnitedTriangulations united;
   for (const Triangulation& cut : cuts) add(cut, united);
-  std::sort(united.strangers.begin(), united.strangers.end());
+  std::sort(united.exclusive.begin(), united.exclusive.end());
   return united;
 }
 

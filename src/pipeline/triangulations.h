@@ -12,7 +12,7 @@ namespace unsnarl {
 struct UnitedTriangulations {
   Triangulation all;
   /// Pairs of triangles of one polygon that no cut holds both, sorted: they may meet. Their class says nothing.
-  std::vector<IntersectingPair> strangers;
+  std::vector<IntersectingPair> exclusive;
 };
 UnitedTriangulations unite(const std::vector<Triangulation>& cuts);
 

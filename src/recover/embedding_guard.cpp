@@ -2,20 +2,15 @@
 
 #include <algorithm>
 
+#include "contact/blocking_pairs.h"
+
 namespace unsnarl {
 
 EmbeddingGuard::EmbeddingGuard(const Patch& patch)
     : patch_(patch), finder_(patch.triangles, patch.active_count), tolerated_(finder_.find(patch.x)) {}
 
 std::vector<IntersectingPair> EmbeddingGuard::new_pairs(const Positions& x) {
-  std::vector<IntersectingPair> pairs = finder_.find(x);
-  if (tolerated_.empty()) return pairs;
-  const auto known = [&](const IntersectingPair& p) {
-    return std::binary_search(tolerated_.begin(), tolerated_.end(), p,
-                              [](const auto& a, const auto& b) { return a.a != b.a ? a.a < b.a : a.b < b.b; });
-  };
-  std::erase_if(pairs, known);
-  return pairs;
+  return blocking_pairs(finder_.find(x), tolerated_);
 }
 
 Index EmbeddingGuard::roll_back(Positions& x, const Positions& safe) {

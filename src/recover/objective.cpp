@@ -7,8 +7,8 @@ namespace unsnarl {
 namespace {
 
 Bending bending_of(const Patch& patch, const EdgeTable& edges, double h) {
-  std::vector<Hinge> hinges = hinges_of(patch.triangles, edges);
-  std::erase_if(hinges, [&](const Hinge& hinge) {
+  std::vector<BendingHinge> hinges = bending_hinges_of(patch.triangles, edges);
+  std::erase_if(hinges, [&](const BendingHinge& hinge) {
     return std::all_of(hinge.begin(), hinge.end(), [&](Index v) { return v >= patch.free_count; });
   });
   Bending::Options options;

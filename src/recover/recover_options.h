@@ -79,8 +79,8 @@ struct RecoverOptions {
   /// long, and half as much motion again.
   double least_gaps = barrier_gaps;
 
-  double open_target =
-      0.01;                 ///< in h: gaps are first opened to this, at most, and never beyond the activation distance
+  /// h: gaps are first opened to this, at most, and never beyond the activation distance.
+  double open_target = 0.01;
   int open_rounds = 12;     ///< of opening gaps, at most; a start at gaps of 1e-17 took 1 to 6
   double snap_reach = 0.1;  ///< share of the mean edge at a vertex from which it may go straight to its rest position
   // Faces that are flipped while the barrier is wide: rounds of steps around them with a heavier penalty; the stages

@@ -16,8 +16,8 @@ namespace {
 class Explanation {
  public:
   Explanation(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options, Status limit,
-              const AttemptLog& tried, const Positions& x)
-      : prepared_(prepared), diagnosis_(diagnosis), options_(options), limit_(limit), attempts_(tried), x_(x) {}
+              const AttemptLog& attempts, const Positions& x)
+      : prepared_(prepared), diagnosis_(diagnosis), options_(options), limit_(limit), attempts_(attempts), x_(x) {}
 
   LeftReason reason(const IntersectingPair& pair) const {
     if (const auto obstruction = obstruction_of(prepared_, diagnosis_.components, diagnosis_.fixed, pair))
@@ -99,13 +99,13 @@ class Explanation {
 }  // namespace
 
 void explain_left_pairs(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options,
-                        Status limit, const AttemptLog& tried, const Acceptance& acceptance,
+                        Status limit, const AttemptLog& attempts, const Acceptance& acceptance,
                         const Acceptance::Pairs& left, const Positions& x, RepairReport& report) {
   struct Why {
     LeftReason reason;
     int strategy;
   };
-  const Explanation explanation(prepared, diagnosis, options, limit, tried, x);
+  const Explanation explanation(prepared, diagnosis, options, limit, attempts, x);
   const std::vector<Index>& polygon = prepared.triangulation.polygon;
   std::map<std::pair<Index, Index>, Why>
       why;  // of two faces: the first reason that holds for a pair of their triangles

@@ -13,7 +13,7 @@ namespace unsnarl {
 /// Fills the list of the pairs that are left and how many there are for each reason. `limit`: the one that was reached,
 /// or Status::reduced. `left`: of the positions `x`.
 void explain_left_pairs(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options,
-                        Status limit, const AttemptLog& tried, const Acceptance& acceptance,
+                        Status limit, const AttemptLog& attempts, const Acceptance& acceptance,
                         const Acceptance::Pairs& left, const Positions& x, RepairReport& report);
 
 }  // namespace unsnarl

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "contact/blocking_pairs.h"
 #include "contact/intersection_finder.h"
+#include "geometry/jitter.h"
 #include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "mesh/progressive_mesh.h"
@@ -151,7 +153,7 @@ class CoarseToFine {
   void begin_elsewhere(Index start, double distance) {
     x_ = patch_.x;
     for (Index v = 0; v < patch_.free_count; ++v)
-      for (int k = 0; k < 3; ++k) x_(k, v) += distance * jitter_of(start * patch_.free_count + v, k);
+      for (int k = 0; k < 3; ++k) x_(k, v) += distance * jitter(start * patch_.free_count + v, k);
   }
   /// The coarse mesh is the first half of the progress, the way back the other.
   void note_done(double share) const {

@@ -11,15 +11,15 @@ namespace unsnarl {
 
 namespace {
 
-bool is_hub(const Scene& scene, Index v, std::size_t hub_valence) {
-  return scene.neighbours[v].size() > hub_valence;
+bool is_of_higher_valence(const Scene& scene, Index v, std::size_t most_valence) {
+  return scene.neighbours[v].size() > most_valence;
 }
 
 }  // namespace
 
 std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const IntersectingPair> pairs,
-                                             std::size_t hub_valence) {
-  const auto is_inner = [&](Index v) { return !is_hub(scene, v, hub_valence); };
+                                             std::size_t most_valence) {
+  const auto is_inner = [&](Index v) { return !is_of_higher_valence(scene, v, most_valence); };
   const auto inner_vertex = [&](Index t) {
     const Triangle& corners = scene.triangles[t];
     const auto it = std::find_if(corners.begin(), corners.end(), is_inner);
@@ -65,14 +65,14 @@ std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const
   return regions;
 }
 
-std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, int rings, std::size_t hub_valence) {
+std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, int rings, std::size_t most_valence) {
   std::vector<Index> all(vertices.begin(), vertices.end()), front = all;
   for (int ring = 0; ring < rings && !front.empty(); ++ring) {
     std::vector<Index> next;
     for (Index v : front) next.insert(next.end(), scene.neighbours[v].begin(), scene.neighbours[v].end());
     sort_unique(next);
     front.clear();
-    std::erase_if(next, [&](Index v) { return is_hub(scene, v, hub_valence); });
+    std::erase_if(next, [&](Index v) { return is_of_higher_valence(scene, v, most_valence); });
     std::set_difference(next.begin(), next.end(), all.begin(), all.end(), std::back_inserter(front));
     const auto middle = all.insert(all.end(), front.begin(), front.end());
     std::inplace_merge(all.begin(), middle, all.end());

@@ -10,24 +10,26 @@
 
 namespace unsnarl {
 
-/// Intersecting faces that hang together and are repaired as one.
+/// Intersecting faces that are near each other and are repaired as one.
 struct ConflictRegion {
   std::vector<Index> core;              ///< vertices of the intersecting faces, ascending
   std::vector<IntersectingPair> pairs;  ///< ascending
 };
 
-/// Vertices with more neighbours are hubs: they tie together faces far apart, and moving one moves all of those.
-constexpr std::size_t no_hubs = std::numeric_limits<std::size_t>::max();
+/// A bound of the number of neighbours. Vertices of higher valence connect faces far apart, and moving one moves all of
+/// those. This: no bound.
+constexpr std::size_t any_valence = std::numeric_limits<std::size_t>::max();
 
 /// Groups pairs whose faces intersect each other or lie within two edges of each other. Ordered by smallest vertex.
-/// Hubs are left out of the regions, and do not join them; so are pairs of which a face has nothing but hubs.
+/// Vertices of higher valence are left out of the regions, and do not join them; so are pairs of which a face has no
+/// others.
 std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const IntersectingPair> pairs,
-                                             std::size_t hub_valence = no_hubs);
+                                             std::size_t most_valence = any_valence);
 
-/// The given vertices and all that are at most `rings` edges away, without fixed ones and hubs, nor what lies behind
-/// hubs; ascending.
+/// The given vertices (ascending) and all that are at most `rings` edges away, without fixed ones and those of higher
+/// valence, nor what lies behind the latter; ascending.
 std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, int rings,
-                          std::size_t hub_valence = no_hubs);
+                          std::size_t most_valence = any_valence);
 
 /// Sets of vertices that overlap become one; each ascending.
 std::vector<std::vector<Index>> merge_overlapping(std::vector<std::vector<Index>> sets, Index vertex_count);

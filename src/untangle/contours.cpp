@@ -12,6 +12,9 @@ namespace {
 
 /// Largest |direction| of one crossing: an edge nearly parallel to the face would otherwise outweigh its whole curve.
 constexpr double direction_limit = 4.0;
+/// Sine of the angle between an edge and a face below which they count as that steep, so that the quotient is finite;
+/// the limit above decides then. With the limit alone 39 samples end 6 % farther, ten deep meshes 1 % nearer.
+constexpr double least_steepness = 1e-3;
 
 /// Union-find with the parity of each element relative to its root.
 class ParityForest {
@@ -130,9 +133,8 @@ Contours trace_contours(const Positions& x, std::span<const Triangle> triangles,
     // Sliding the edge by D over the resting face moves the crossing by D - (D.n)/(e.n) e; sliding the face by -D under
     // the resting edge, by -(D.n)/(e.n) e. Neither sheet rests: the mean of both counts, here twice.
     const double steepness = e.dot(normal);
-    const double floor = 1e-3;  // keeps the quotient finite; the limit below decides
-    crossing.direction = curve - normal * (2 * e.dot(curve) /
-                                           (std::abs(steepness) > floor ? steepness : std::copysign(floor, steepness)));
+    const double divisor = std::copysign(std::max(std::abs(steepness), least_steepness), steepness);
+    crossing.direction = curve - normal * (2 * e.dot(curve) / divisor);
     const double size = crossing.direction.norm();
     if (size > direction_limit) crossing.direction *= direction_limit / size;
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "contact/blocking_pairs.h"
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
 #include "recover/recover_options.h"
@@ -182,7 +183,7 @@ class Escalation {
   /// The regions that are tried now, each with its free vertices; one whose free vertices reach another's core takes it
   /// in.
   std::vector<Attempt> gather_attempts(const Strategy& strategy) {
-    const std::vector<ConflictRegion> regions = conflict_regions(scene_, pairs_, strategy.hub_valence);
+    const std::vector<ConflictRegion> regions = conflict_regions(scene_, pairs_, strategy.most_valence);
     std::vector<Index> region_of_core(scene_.vertex_count(), -1);
     for (std::size_t r = 0; r < regions.size(); ++r)
       for (Index v : regions[r].core) region_of_core[v] = static_cast<Index>(r);
@@ -235,9 +236,9 @@ class Escalation {
 
   std::vector<Index> free_vertices(const Strategy& strategy, const ConflictRegion& region, int depth) {
     switch (strategy.extent) {
-      case Extent::rings: return dilate(scene_, region.core, strategy.rings, strategy.hub_valence);
+      case Extent::rings: return dilate(scene_, region.core, strategy.rings, strategy.most_valence);
       case Extent::depth:
-        return dilate(scene_, region.core, static_cast<int>(strategy.rings_per_depth * depth), strategy.hub_valence);
+        return dilate(scene_, region.core, static_cast<int>(strategy.rings_per_depth * depth), strategy.most_valence);
       case Extent::tied_components: return vertices_of_tied_components(scene_, parts(), region, initial_pairs_);
       case Extent::whole_components: return free_vertices_of_parts(region.core);
     }

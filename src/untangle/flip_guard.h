@@ -7,7 +7,7 @@
 
 namespace unsnarl {
 
-/// Keeps active faces of a patch from turning over while a local strategy moves it: the area vector of each keeps at
+/// Keeps active faces of a patch from flipping while a local strategy moves it: the area vector of each keeps at
 /// least a share of its length in the direction it has at rest. Faces that `may_turn`, have no area at rest or are
 /// below that share already are left alone.
 class FlipGuard {

@@ -12,8 +12,10 @@
 #include <tuple>
 #include <utility>
 
+#include "contact/blocking_pairs.h"
 #include "contact/intersection_finder.h"
 #include "energy/minkowski_penalty.h"
+#include "geometry/jitter.h"
 #include "geometry/splitmix.h"
 #include "mesh/areas.h"
 #include "scene/patch_progress.h"
@@ -177,26 +179,10 @@ void add_jitter(const Patch& patch, std::span<const Edge> edges, double share, P
       if (end < patch.free_count) reach[end] = std::min(reach[end], length);
   }
   for (Index v = 0; v < patch.free_count; ++v)
-    for (int k = 0; k < 3; ++k) x(k, v) += share * reach[v] * jitter_of(v, k);
+    for (int k = 0; k < 3; ++k) x(k, v) += share * reach[v] * jitter(v, k);
 }
 
 }  // namespace
-
-double jitter_of(Index v, int k) {
-  return 2 * splitmix_number((static_cast<std::uint64_t>(v) * 3 + static_cast<std::uint64_t>(k) + 1) * splitmix_step) -
-         1;
-}
-
-std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs,
-                                             std::span<const IntersectingPair> tolerated) {
-  std::erase_if(pairs, [&](const IntersectingPair& pair) {
-    const auto it = std::lower_bound(tolerated.begin(), tolerated.end(), pair, [](const auto& p, const auto& q) {
-      return std::tie(p.a, p.b) < std::tie(q.a, q.b);
-    });
-    return it != tolerated.end() && it->a == pair.a && it->b == pair.b;
-  });
-  return pairs;
-}
 
 bool has_squeezed_face(const Patch& patch, const Positions& start, const Positions& x, double floor) {
   for (Index t = 0; t < patch.active_count; ++t)
@@ -308,7 +294,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
       direction *= limit / size;
       t.x.leftCols(n) += direction.transpose();
       if (!guard) continue;
-      const bool is_first = options.sides == KeepSides::at_first && !before_keeping;
+      const bool is_first = options.orientation == KeepOrientation::at_first && !before_keeping;
       const Positions unkept = is_first ? t.x : Positions();
       if (!guard->project(t.x) || !is_first) continue;
       before_keeping = t;

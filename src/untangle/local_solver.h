@@ -26,8 +26,8 @@ struct LocalSettings {
   int max_iterations;
 };
 
-/// Whether faces that intersect nothing at the start are kept from turning over (FlipGuard).
-enum class KeepSides {
+/// Whether faces that intersect nothing at the start are kept from flipping (FlipGuard).
+enum class KeepOrientation {
   yes,
   at_first,  ///< where that fails, no longer, from where the first of them had to be kept on
 };
@@ -48,8 +48,8 @@ struct LocalOptions {
   /// counted as overlap, needles that ran into each other by 1e-5 h were thrown about by 0.02 h, and never came apart.)
   double shallow_floor = 1e-4;
   double min_gap = 0;  ///< length: the same, since they will have to be that far apart
-  KeepSides sides = KeepSides::at_first;
-  std::size_t few_enough = 0;  ///< pairs; with KeepSides::at_first, a try that leaves no more is left at that
+  KeepOrientation orientation = KeepOrientation::at_first;
+  std::size_t few_enough = 0;  ///< pairs; with KeepOrientation::at_first, a try that leaves no more is left at that
   /// Progress is when the number of pairs falls by this share ...
   double progress = 0.1;
   /// ... within so many iterations: what a strategy needs that to go on beyond its iterations. On the 22 of 61 meshes
@@ -82,13 +82,6 @@ struct LocalResult {
 /// fails, patch.x is the state with the fewest pairs.
 LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span<const IntersectingPair> tolerated = {},
                           const LocalOptions& options = {}, const std::function<bool()>& stop = {});
-
-/// Unit-free pseudo-random number in [-1, 1], the same everywhere, for vertex `v`, coordinate `k`.
-double jitter_of(Index v, int k);
-
-/// Pairs of the patch's active triangles that are not tolerated.
-std::vector<IntersectingPair> blocking_pairs(std::vector<IntersectingPair> pairs,
-                                             std::span<const IntersectingPair> tolerated);
 
 /// True where some active triangle has less than `floor` times its area at `start` (and had any).
 bool has_squeezed_face(const Patch& patch, const Positions& start, const Positions& x, double floor);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "contact/blocking_pairs.h"
 #include "contact/bvh.h"
 #include "contact/bvh_traversal.h"
 #include "contact/intersection_finder.h"
@@ -109,11 +110,7 @@ class Placement {
   }
 
   bool is_tolerated(Index t, Index u) const {
-    const auto [a, b] = std::minmax(t, u);
-    const auto it =
-        std::lower_bound(tolerated_.begin(), tolerated_.end(), IntersectingPair{a, b, PairClass::disjoint},
-                         [](const auto& p, const auto& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
-    return it != tolerated_.end() && it->a == a && it->b == b;
+    return is_among({std::min(t, u), std::max(t, u), PairClass::disjoint}, tolerated_);
   }
 
   /// The component, where it is in x_, meets nothing that is present. Its own triangles are not.

@@ -12,8 +12,8 @@
 namespace unsnarl {
 namespace {
 
-/// Neighbours beyond which the first strategies hold a vertex. The needles of a CAD export met at two of 1900.
-constexpr std::size_t hub_valence = 100;
+/// Valence beyond which the first strategies hold a vertex. The needles of a CAD export met at two of 1900.
+constexpr std::size_t most_valence = 100;
 
 /// Edges: tangles at least so deep go from coarse to fine. (27k faces of a warped torus, 4 deep: nearer, in half the
 /// time. 6.6k faces, 2 deep: 0.53 % instead of 0.41.)
@@ -32,28 +32,41 @@ constexpr double factor_of_whole = 1.6;
 /// Faces of the first coarse mesh of these, at most. Other numbers were not tried.
 constexpr double most_coarse_faces = 3000;
 
+/// Strategy::reach of a deep tangle for each edge of its depth. With 4, ten deep meshes end 2 % farther.
+constexpr double deep_reach = 2.5;  // h
+/// Strategy::depth_factor of what coarse to fine leaves, at first and before whole components (docs/experiments.md).
+constexpr int wide_depths = 2, far_depths = 8;
+
+/// LocalSettings::step of strategies that move faces hardly more than they overlap, and of those that part layers. With
+/// 0.15 for the former, thirteen deep and warped meshes end 8 % farther.
+constexpr double short_step = 0.1, long_step = 0.3;  // h
+/// LocalSettings::max_iterations, and those of shallow-0: with as many, 115 meshes end as near in 1.05 of the time.
+constexpr int iterations = 60, shallow_iterations = 20;
+
 /// Strategy::reach of layers, placement and whole components. With 4 for layers, which sometimes part only far from
 /// where they were, a layered cloth of 92,000 faces is not resolved in 139 s of CPU, not 34. Other numbers were not
 /// tried.
 constexpr double far_reach = 20;  // h
 
-Strategy local(std::string name, int rings, LocalSettings settings, std::size_t hubs = no_hubs) {
+Strategy local(std::string name, int rings, LocalSettings settings, std::size_t most_valence = any_valence) {
   const auto solve = [settings](Patch& patch, const Task& task) {
     LocalOptions options;
     options.few_enough = task.few_enough;
     options.min_gap = task.min_gap;
     // Faces that are inside out have to flip, and their surroundings may have to: then no side is kept.
     switch (settings.method) {
-      case LocalMethod::shallow: options.sides = KeepSides::yes; break;  // wider strategies may still keep them
+      case LocalMethod::shallow:
+        options.orientation = KeepOrientation::yes;
+        break;  // wider strategies may still keep them
       case LocalMethod::contour:
-      case LocalMethod::shorten: options.sides = KeepSides::at_first; break;
+      case LocalMethod::shorten: options.orientation = KeepOrientation::at_first; break;
     }
     return solve_locally(patch, settings, task.tolerated, options, task.stop).iterations;
   };
-  return {.name = std::move(name), .rings = rings, .hub_valence = hubs, .solve = solve};
+  return {.name = std::move(name), .rings = rings, .most_valence = most_valence, .solve = solve};
 }
 
-/// On one coarse mesh: what is not resolved there hangs together beyond its surroundings, as a tube does that is inside
+/// On one coarse mesh: what is not resolved there is connected beyond its surroundings, as a tube does that is inside
 /// out between two curves, and coarser meshes of these take long and hardly resolve it (layered cloth: 3 minutes).
 Strategy coarse_to_fine() {
   const auto solve = [](Patch& patch, const Task& task) {
@@ -63,7 +76,7 @@ Strategy coarse_to_fine() {
   return {.name = "coarse_to_fine",
           .extent = Extent::depth,
           .rings_per_depth = rings_per_depth,
-          .reach = 2.5,
+          .reach = deep_reach,
           .least_depth = deep,
           .area_floor = 0,  // faces that found little space when they came back are recovered
           .solve = solve};
@@ -76,7 +89,7 @@ Strategy wide_coarse_to_fine() {
   Strategy wide = coarse_to_fine();
   wide.name = "coarse_to_fine_wide";
   wide.is_last_resort = true;
-  wide.depth_factor = 2;
+  wide.depth_factor = wide_depths;
   return wide;
 }
 
@@ -95,7 +108,7 @@ int solve_coarsely(Patch& patch, const Task& task, CoarseMeshes meshes) {
 Strategy far_coarse_to_fine() {
   Strategy far = wide_coarse_to_fine();
   far.name = "coarse_to_fine_far";
-  far.depth_factor = 8;
+  far.depth_factor = far_depths;
   far.leaves_most = true;
   far.solve = [](Patch& patch, const Task& task) { return solve_coarsely(patch, task, CoarseMeshes::until_solved); };
   return far;
@@ -115,19 +128,18 @@ Strategy placing() {
   return {.name = "placement", .extent = Extent::tied_components, .reach = far_reach, .solve = solve};
 }
 
-const LocalSettings contour = {LocalMethod::contour, 0.1, 2, 60};
-
 /// Strategies that move faces hardly more than they overlap.
 Tier shallow_tier() {
-  return {local("shallow-0", 0, {LocalMethod::shallow, 0.1, 1, 20}, hub_valence),
-          local("contour-2", 2, contour, hub_valence), local("contour-4", 4, contour, hub_valence)};
+  const LocalSettings contour = {LocalMethod::contour, short_step, 2, iterations};
+  return {local("shallow-0", 0, {LocalMethod::shallow, short_step, 1, shallow_iterations}, most_valence),
+          local("contour-2", 2, contour, most_valence), local("contour-4", 4, contour, most_valence)};
 }
 
 /// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth takes
 /// twice the time. Two rings tried before four bring nothing nearer (docs/experiments.md).
 Tier layers_tier() {
-  Tier tier = {local("contour-8", 8, {LocalMethod::contour, 0.3, 4, 60}),
-               local("shorten-4", 4, {LocalMethod::shorten, 0.3, 4, 60})};
+  Tier tier = {local("contour-8", 8, {LocalMethod::contour, long_step, 4, iterations}),
+               local("shorten-4", 4, {LocalMethod::shorten, long_step, 4, iterations})};
   for (Strategy& strategy : tier) strategy.reach = far_reach;
   return tier;
 }

@@ -43,7 +43,7 @@ struct Strategy {
   /// where it leaves no pair, and is dropped where it does.
   double reach = 4;
   bool is_last_resort = false;  ///< it is tried only where nothing before it has resolved the region, however far away
-  std::size_t hub_valence = no_hubs;
+  std::size_t most_valence = any_valence;
   int least_depth = 0;  ///< edges: tangles less deep are left to other strategies
   /// Tangles are taken to be so many times as deep as they are. Where more than once, none is left to others: those
   /// less deep than `least_depth` count as that deep.

@@ -13,12 +13,12 @@
 namespace unsnarl {
 namespace {
 
-/// Vertices around a pocket for an edge of its depth that counts: two for a finger, which can leave sideways by half
-/// its girth; discs have six. Of posed bodies: fingers 11 deep with a girth of 30, a chin 12 with 160, a limb 53 with
-/// 188.
-constexpr int girth_per_edge = 2;
-/// A part that is deeper, as a share of the root of the number of faces, is a limb or the outside, not a pocket: a hand
-/// beyond its fingers' conflicts has 0.2 and more, the deepest pocket of a curled body 0.17.
+/// Vertices of the loop around an enclosed region for an edge of its depth that counts: two for a finger, which can
+/// leave sideways by half that loop; discs have six. Of posed bodies: fingers 11 deep in loops of 30, a chin 12 in 160,
+/// a limb 53 in 188.
+constexpr int loop_length_per_edge = 2;
+/// A part that is deeper, as a share of the root of the number of faces, is a limb or the outside, not enclosed: a hand
+/// beyond its fingers' conflicts has 0.2 and more, the deepest enclosed region of a curled body 0.17.
 constexpr double largest_share = 0.2;
 
 /// The pieces that the intersecting faces cut the surface into, as far as they have been reached.
@@ -38,7 +38,7 @@ class Pieces {
         parts_.add();
         first_vertex_.push_back(w);
         depth_of_.push_back(depth_);
-        girth_of_.push_back(depth_ == 1);
+        loop_length_of_.push_back(depth_ == 1);
         next.push_back(w);
       }
     for (const Index v : next)
@@ -51,16 +51,16 @@ class Pieces {
 
   /// Depth of the deepest part that has been reached to its bottom; of each connected surface the deepest is the
   /// outside and does not count.
-  int deepest_pocket(std::span<const Index> component_of_vertex) {
-    std::vector<std::array<int, 3>> found;  // component, depth and girth
+  int deepest_enclosed_region(std::span<const Index> component_of_vertex) {
+    std::vector<std::array<int, 3>> found;  // component, depth and loop length
     for (Index part = 0; part < static_cast<Index>(parts_.size()); ++part)
       if (parts_.find(part) == part)
-        found.push_back({component_of_vertex[first_vertex_[part]], depth_of_[part], girth_of_[part]});
+        found.push_back({component_of_vertex[first_vertex_[part]], depth_of_[part], loop_length_of_[part]});
     std::sort(found.begin(), found.end());
     int deepest = 0;
     for (std::size_t k = 0; k + 1 < found.size(); ++k)
       if (found[k][1] < depth_ && found[k][0] == found[k + 1][0])
-        deepest = std::max(deepest, std::min(found[k][1], found[k][2] / girth_per_edge));
+        deepest = std::max(deepest, std::min(found[k][1], found[k][2] / loop_length_per_edge));
     return deepest;
   }
 
@@ -73,7 +73,7 @@ class Pieces {
     if (!parts_.unite(a, b)) return;
     const Index part = std::min(a, b), other = std::max(a, b);
     depth_of_[part] = std::max(depth_of_[part], depth_of_[other]);
-    girth_of_[part] += girth_of_[other];
+    loop_length_of_[part] += loop_length_of_[other];
   }
 
   const Scene& scene_;
@@ -84,7 +84,7 @@ class Pieces {
   // By part; valid at the root of its set.
   std::vector<Index> first_vertex_;
   std::vector<int> depth_of_;
-  std::vector<int> girth_of_;  // vertices next to the core
+  std::vector<int> loop_length_of_;  // vertices next to the core
 };
 
 }  // namespace
@@ -106,7 +106,7 @@ int tangle_depth(const Scene& scene, const ConnectedParts& parts, std::span<cons
   Pieces pieces(scene, core);
   for (int depth = 0; depth < at_most && pieces.grow(); ++depth) {
   }
-  return pieces.deepest_pocket(parts.of_vertex);
+  return pieces.deepest_enclosed_region(parts.of_vertex);
 }
 
 }  // namespace unsnarl

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "contact/blocking_pairs.h"
 #include "mesh/areas.h"
 #include "scene/trajectory.h"
 #include "untangle/local_solver.h"

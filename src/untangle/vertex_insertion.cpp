@@ -1,6 +1,7 @@
 #include "untangle/vertex_insertion.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -35,7 +36,7 @@ Vec3 point_on_fan(const Positions& x, const Removal& removal) {
 }
 
 /// The place to which the triangle of the fan carries the vertex: its offset from the triangle turns with that.
-Vec3 carried(const Removal& removal, double offset_share, const Positions& rest, const Positions& x) {
+Vec3 prolongated(const Removal& removal, double offset_share, const Positions& rest, const Positions& x) {
   const Vec3 offset = rest.col(removal.vertex) - point_on_fan(rest, removal);
   const Vec3 turned = frame_of(x, removal.corners) * (frame_of(rest, removal.corners).transpose() * offset);
   return point_on_fan(x, removal) + offset_share * turned;
@@ -52,7 +53,7 @@ struct Places {
   std::vector<Place> list;
   /// So many, the first, leave the star room: where none is free, the vertex stays at one of these, since what crosses
   /// a star that is hardly there is not resolved by local strategies.
-  std::size_t roomy = 0;
+  std::size_t with_space = 0;
 };
 
 /// Positions of a patch: at rest, at the beginning of the strategy, and now.
@@ -62,11 +63,23 @@ struct States {
   const Positions& x;
 };
 
+// Shares of the way from the parent to points of the fan at which a vertex is tried. Halved from 0.5 to 0.001 instead,
+// 128 meshes end as near, 31 posed ones and wigs 4 % farther (docs/experiments.md).
+
+/// Of the way to where it lay and to the middle of the fan.
+constexpr std::array fan_shares = {0.5, 0.25, 0.125, 0.03};
+/// To the middles of the fan's sides.
+constexpr double side_share = 0.1;
+/// Of the distance to where it lay, in eight directions from the parent.
+constexpr double corner_share = 0.02;
+/// To all of these, last.
+constexpr std::array close_shares = {0.01, 0.003, 0.001};
+
 /// The places of a vertex: where the triangle of the fan carries the vertex, with less and less of its
 /// offset from there; points of the fan closer and closer to the parent; and directions in which it may leave the
 /// parent where the fan is folded up. Places that flip fewer faces of the star come before others. Last come points of
 /// the fan so close to the parent that the new star is hardly more than the fan, which is embedded: one of them is
-/// mostly free where layers are near (other shares were not tried). `grid`: positions become multiples of it.
+/// mostly free where layers are near. `grid`: positions become multiples of it.
 Places places_for(const Removal& removal, std::span<const Triangle> star, const States& states, double grid) {
   const auto& [rest, start, x] = states;
   Places result;
@@ -77,8 +90,8 @@ Places places_for(const Removal& removal, std::span<const Triangle> star, const 
   else if (is_at(removal.corners, x, rest))
     places.push_back({rest.col(removal.vertex)});
   else
-    add(carried(removal, 1, rest, x));
-  for (const double share : {0.5, 0.25, 0.0}) add(carried(removal, share, rest, x));
+    add(prolongated(removal, 1, rest, x));
+  for (const double share : {0.5, 0.25, 0.0}) add(prolongated(removal, share, rest, x));
 
   const Vec3 on_fan = point_on_fan(x, removal), parent = x.col(removal.parent);
   std::vector<Vec3> middles;  // of the sides of the fan
@@ -90,17 +103,17 @@ Places places_for(const Removal& removal, std::span<const Triangle> star, const 
     middle += m / static_cast<double>(star.size());
     if (std::find(t.begin(), t.end(), removal.parent) == t.end()) middles.push_back(m);
   }
-  for (const double share : {0.5, 0.25, 0.125, 0.03}) {
+  for (const double share : fan_shares) {
     add(parent + share * (on_fan - parent));
     add(parent + share * (middle - parent));
   }
-  for (const Vec3& m : middles) add(parent + 0.1 * (m - parent));
-  const double near = 0.02 * (on_fan - parent).norm();
+  for (const Vec3& m : middles) add(parent + side_share * (m - parent));
+  const double near = corner_share * (on_fan - parent).norm();
   for (int corner = 0; corner < 8; ++corner)
     add(parent + near * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
 
-  result.roomy = places.size();
-  for (const double share : {0.01, 0.003, 0.001}) {
+  result.with_space = places.size();
+  for (const double share : close_shares) {
     add(parent + share * (on_fan - parent));
     add(parent + share * (middle - parent));
     for (const Vec3& m : middles) add(parent + share * (m - parent));
@@ -113,7 +126,7 @@ Places places_for(const Removal& removal, std::span<const Triangle> star, const 
       place.flipped += (b - a).cross(c - a).dot(area_vector(rest, t)) < 0;
     }
   const auto flips_fewer = [](const Place& p, const Place& q) { return p.flipped < q.flipped; };
-  const auto close = places.begin() + static_cast<std::ptrdiff_t>(result.roomy);
+  const auto close = places.begin() + static_cast<std::ptrdiff_t>(result.with_space);
   std::stable_sort(places.begin(), close, flips_fewer);
   std::stable_sort(close, places.end(), flips_fewer);
   return result;
@@ -152,7 +165,7 @@ class Insertion {
   struct Try {
     int at = 0, best = 0;
     std::size_t pairs = 0, fewest = std::numeric_limits<std::size_t>::max();
-    bool failed = false;  // no place is free: it stays at the roomy one with the fewest pairs
+    bool failed = false;  // no place is free: it stays at the one with the fewest pairs, of those with space
   };
 
   void put(std::size_t r, int place, Positions& x) const {
@@ -186,7 +199,7 @@ class Insertion {
     for (const std::size_t r : moving) {
       Try& t = tries_[r];
       if (t.failed) continue;
-      if (static_cast<std::size_t>(t.at) < places_[r].roomy && t.pairs < t.fewest) {
+      if (static_cast<std::size_t>(t.at) < places_[r].with_space && t.pairs < t.fewest) {
         t.fewest = t.pairs;
         t.best = t.at;
       }
@@ -271,7 +284,7 @@ void offer_better_places(const Patch& patch, const ProgressiveMesh& mesh, const 
     const Positions before = x;
     std::vector<std::uint8_t> is_trying(displaced.size(), 1);
     for (const Removal& removal : displaced)
-      x.col(removal.vertex) += share * (carried(removal, 1, patch.rest, before) - before.col(removal.vertex));
+      x.col(removal.vertex) += share * (prolongated(removal, 1, patch.rest, before) - before.col(removal.vertex));
     for (bool any = true; any;) {
       any = false;
       for (const IntersectingPair& pair : finder.find(x))

@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
-"""Counts the tuning constants of src/untangle and src/recover: numbers that name a default of an option or a constexpr.
-There may be no more than MOST, which rises only for what a measurement defends, and each has words beside it that say
-what it is. usage: check_constants.py PROJECT_DIR
+"""Counts the tuning constants of src/untangle and src/recover: numbers that name a default of an option or a constexpr,
+and those that stand in the code without a name. There may be no more than MOST, which rises only for what a measurement
+defends; the named ones have words beside them that say what they are. usage: check_constants.py PROJECT_DIR [--list]
 
 A field `double step = 0.1;` is one; `bool` flags, the numbers 0 and 1 without meaning of their own (counters, sums),
-infinities and values that only say "none" (-1) are not. A table of numbers (a list in braces) counts each number.
+infinities and values that only say "none" (-1) are not. A table of numbers (a list in braces) counts each number. Of
+numbers in the code count those with a decimal point but 0, 0.5, 1 and 2, and in strategies.cpp, which is a table, whole
+numbers in lists and of designated fields. The paper's own (PAPER) do not count.
 """
 import re
 import sys
 from pathlib import Path
 
-MOST = 80
+MOST = 107
+PAPER = ("paper_untangle.cpp", "RecoverOptions RecoverOptions::paper()")
 NUMBER = re.compile(r"(?<![\w.])-?(?:\d+\.\d*(?:[eE][-+]?\d+)?|\d+(?:[eE][-+]?\d+)?)(?![\w.])")
 FIELD = re.compile(r"^\s*(?:static\s+|inline\s+)*(?:constexpr\s+)?(?:double|int|Index|std::size_t|PcgOptions|Stop|"
-                   r"std::array<[^;=]*>)\s+(\w+)\s*(?:=\s*|\{)([^;]*)\}?;(.*)$")
+                   r"std::array(?:<[^;=]*>)?)\s+(\w+)\s*(?:=\s*|\{)([^;]*)\}?;(.*)$")
 STRUCT = re.compile(r"^\s*(?:struct|class)\s+(\w+)")
 
 
@@ -40,17 +43,42 @@ def fields(path):
         yield number, match[1], len(numbers), has_words
 
 
+def unnamed(path, named):
+    """(line, numbers) of every line with numbers in the code that are no field or constexpr (`named`: their lines)."""
+    if path.name == PAPER[0]:
+        return
+    is_paper = False
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        is_paper = line.startswith(PAPER[1]) or is_paper and line != "}"
+        code = re.sub(r'"[^"]*"', "", line.split("//")[0])
+        if is_paper or number in named:
+            continue
+        numbers = [n for n in re.findall(r"(?<![\w.])\d+(?:\.\d*(?:[eE][-+]?\d+)?|[eE][-+]?\d+)(?!\w)", code)
+                   if float(n) not in (0, 0.5, 1, 2)]
+        if path.name == "strategies.cpp":
+            lists = " ".join(re.findall(r"\{[^{}]*\}|local\(, \d+", code)) + " ".join(re.findall(r"\w+ = \d+[,;]", code))
+            numbers += [n for n in re.findall(r"(?<![\w.])\d+(?![\w.])", lists) if int(n) > 0]
+        if numbers:
+            yield number, numbers
+
+
 def main():
     project = Path(sys.argv[1])
     count, bare = 0, []
     for room in ("untangle", "recover"):
         for path in sorted((project / "src" / room).glob("*.[ch]*")):
+            named = set()
             for line, name, numbers, has_words in fields(path):
                 count += numbers
+                named.add(line)
                 if "--list" in sys.argv:
                     print(f"{path.relative_to(project)}:{line}: {name} ({numbers})")
                 if not has_words:
                     bare.append(f"{path}:{line}: '{name}' has no words on its unit, meaning and measurement")
+            for line, numbers in unnamed(path, named):
+                count += len(numbers)
+                if "--list" in sys.argv:
+                    print(f"{path.relative_to(project)}:{line}: {', '.join(numbers)}, unnamed")
     for finding in bare:
         print(finding)
     print(f"{count} tuning constants, {MOST} at most")

@@ -133,7 +133,7 @@ TEST(Bvh, visits_only_pairs_of_which_a_box_is_watched) {
     for (const Index every : {1, 7, 1000000}) {  // all, some, and but the first none
       std::vector<std::uint8_t> watched(boxes.size(), 0);
       for (Index i = 0; i < n; i += every) watched[i] = 1;
-      bvh.watch(watched);
+      bvh.set_active(watched);
       Pairs expected = all;
       std::erase_if(expected, [&](const auto& pair) { return !watched[pair.first] && !watched[pair.second]; });
       EXPECT_TRUE(self_pairs(bvh) == expected);
@@ -156,15 +156,15 @@ TEST(Bvh, what_few_boxes_change_is_what_all_would) {
       some.refit(boxes, chosen);
       all.refit(boxes);
       EXPECT_TRUE(self_pairs(some) == self_pairs(all));
-      some.watch_only(chosen);
-      all.watch(is_chosen);
+      some.set_only_active(chosen);
+      all.set_active(is_chosen);
       EXPECT_TRUE(parallel_pairs(some) == parallel_pairs(all));
-      some.watch_only(chosen);
+      some.set_only_active(chosen);
       EXPECT_TRUE(self_pairs(some) == self_pairs(all));
     }
-    some.watch(std::vector<std::uint8_t>(boxes.size(), 1));
+    some.set_active(std::vector<std::uint8_t>(boxes.size(), 1));
     EXPECT_TRUE(self_pairs(some) == brute_pairs(boxes));
-    some.watch_only({});
+    some.set_only_active({});
     EXPECT_TRUE(self_pairs(some).empty());
   }
 }

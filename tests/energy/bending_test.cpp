@@ -21,7 +21,7 @@ Positions bent(double angle) {
 }
 
 double angle_of(const Positions& x) {
-  return hinge_angle(x.col(0), x.col(1), x.col(2), x.col(3));
+  return bending_angle(x.col(0), x.col(1), x.col(2), x.col(3));
 }
 
 TEST(Bending, AngleIsSignedAndReachesBothSides) {
@@ -34,7 +34,7 @@ TEST(Bending, AngleGradientAgreesWithFiniteDifferences) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Positions x = bent(0.6 * static_cast<double>(seed) - 2.7) + 0.1 * random_positions(seed, 4);
     Eigen::Matrix<double, 3, 4> gradient;
-    const double angle = hinge_angle(x.col(0), x.col(1), x.col(2), x.col(3), gradient);
+    const double angle = bending_angle(x.col(0), x.col(1), x.col(2), x.col(3), gradient);
     EXPECT_DOUBLE_EQ(angle, angle_of(x));
     expect_gradient(angle_of, x, gradient, 1e-6, 1e-7);
   }
@@ -44,13 +44,13 @@ TEST(Bending, FacesWithoutAreaHaveNoGradient) {
   Positions x = bent(0.4);
   x.col(2) = Vec3(0, 0.5, 0);
   Eigen::Matrix<double, 3, 4> gradient;
-  hinge_angle(x.col(0), x.col(1), x.col(2), x.col(3), gradient);
+  bending_angle(x.col(0), x.col(1), x.col(2), x.col(3), gradient);
   EXPECT_TRUE(gradient.isZero(0));
 }
 
 TEST(Bending, GradientAgreesWithFiniteDifferences) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
-  const std::vector<Hinge> hinges = hinges_of(triangles, build_edges(triangles));
+  const std::vector<BendingHinge> hinges = bending_hinges_of(triangles, build_edges(triangles));
   EXPECT_EQ(hinges.size(), 4u);
   const Positions rest = random_positions(1, 5);
   const Positions x = rest + 0.1 * random_positions(2, 5);
@@ -59,7 +59,7 @@ TEST(Bending, GradientAgreesWithFiniteDifferences) {
 }
 
 TEST(Bending, HessianIsExactAtRest) {
-  const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
+  const std::vector<BendingHinge> hinges = {{0, 1, 2, 3}};
   const Positions rest = bent(0.3);
   const Bending energy(rest, rest, hinges, {});
   const Eigen::MatrixXd differences =
@@ -68,7 +68,7 @@ TEST(Bending, HessianIsExactAtRest) {
 }
 
 TEST(Bending, InvariantUnderRigidMotionAndScaling) {
-  const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
+  const std::vector<BendingHinge> hinges = {{0, 1, 2, 3}};
   const Positions rest = bent(0.3), x = bent(1.2);
   const double value = total_value(Bending(rest, x, hinges, {}), x);
   EXPECT_GT(value, 0);
@@ -83,7 +83,7 @@ TEST(Bending, InvariantUnderRigidMotionAndScaling) {
 
 TEST(Bending, RestAngleIsTakenOnTheSideOfTheStart) {
   // At rest almost folded to one side, at the start almost folded to the other: the nearest way is through the fold.
-  const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
+  const std::vector<BendingHinge> hinges = {{0, 1, 2, 3}};
   const Bending energy(bent(3.0), bent(-3.0), hinges, {});
   const double stiffness = linearise_all(energy, bent(-3.0), 1).hessian.rank_ones[0].stiffness;
   const double residual = 2 * std::numbers::pi - 6;
@@ -93,7 +93,7 @@ TEST(Bending, RestAngleIsTakenOnTheSideOfTheStart) {
 TEST(Bending, SliversStayAsSoftAsOrdinaryHinges) {
   Positions thin = bent(0);
   thin(0, 2) = -1e-2;
-  const std::vector<Hinge> hinges = {{0, 1, 2, 3}};
+  const std::vector<BendingHinge> hinges = {{0, 1, 2, 3}};
   const HessianTerms terms = linearise_all(Bending(thin, thin, hinges, {}), thin, 1).hessian;
   EXPECT_LT(terms.rank_ones[0].stiffness * terms.rank_ones[0].g.squaredNorm(), 50);
   thin(0, 2) = -1e-6;
@@ -102,7 +102,7 @@ TEST(Bending, SliversStayAsSoftAsOrdinaryHinges) {
 
 TEST(Bending, NonManifoldEdgesChainTheirTriangles) {
   const std::vector<Triangle> book = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
-  EXPECT_EQ(hinges_of(book, build_edges(book)).size(), 2u);
+  EXPECT_EQ(bending_hinges_of(book, build_edges(book)).size(), 2u);
 }
 
 }  // namespace

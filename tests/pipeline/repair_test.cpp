@@ -1,6 +1,7 @@
 // The whole of repair() on surfaces of the built-in generators, judged by a detector that shares no code with it. What
 // must hold on any mesh (fixed vertices, distant components, obstructions, limits): tests/property.
 #include "unsnarl/repair.h"
+#include "geometry/jitter.h"
 
 #include <gtest/gtest.h>
 
@@ -432,7 +433,7 @@ Shape fan_of_needles(double roughness, Index cells = 12) {
   Shape shape;
   shape.points.push_back({9000, 0, 0});
   for (Index i = 0; i <= cells; ++i) {
-    shape.points.push_back({-10. * i, roughness * jitter_of(i, 0), roughness * jitter_of(i, 1)});
+    shape.points.push_back({-10. * i, roughness * jitter(i, 0), roughness * jitter(i, 1)});
     shape.points.push_back({-10. * i + 3, 0.7, -0.7});
   }
   for (Index i = 0; i < cells; ++i) {

@@ -16,29 +16,29 @@ TEST(Cuts, TheSameCutAddsNothing) {
   const Triangulation cut = cut_of({{0, 1, 2}, {0, 2, 3}}, {0, 0});
   const Triangulation from_other_corners = cut_of({{2, 0, 1}, {3, 0, 2}}, {0, 0});
   const UnitedTriangulations united = unite({cut, cut, Triangulation(), from_other_corners});
-  EXPECT_TRUE(united.strangers.empty());
+  EXPECT_TRUE(united.exclusive.empty());
   EXPECT_EQ(united.all.triangles, cut.triangles);
 }
 
 TEST(Cuts, TheOtherDiagonalOfAQuad) {
   // A triangle, and a quad beside it that is cut the other way.
   const Triangulation cut = cut_of({{4, 1, 0}, {0, 1, 2}, {0, 2, 3}}, {0, 1, 1});
-  const auto [all, strangers] = unite({cut, cut_of({{4, 1, 0}, {1, 2, 3}, {1, 3, 0}}, {0, 1, 1})});
+  const auto [all, exclusive] = unite({cut, cut_of({{4, 1, 0}, {1, 2, 3}, {1, 3, 0}}, {0, 1, 1})});
   EXPECT_EQ(all.triangles, (std::vector<Triangle>{{4, 1, 0}, {0, 1, 2}, {0, 2, 3}, {1, 2, 3}, {1, 3, 0}}));
   EXPECT_EQ(all.polygon, (std::vector<Index>{0, 1, 1, 1, 1}));
-  ASSERT_EQ(strangers.size(), 4u);
+  ASSERT_EQ(exclusive.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(strangers[k].a, 1 + static_cast<Index>(k / 2));
-    EXPECT_EQ(strangers[k].b, 3 + static_cast<Index>(k % 2));
+    EXPECT_EQ(exclusive[k].a, 1 + static_cast<Index>(k / 2));
+    EXPECT_EQ(exclusive[k].b, 3 + static_cast<Index>(k % 2));
   }
 }
 
 TEST(Cuts, WhatBothCutsHoldIsNoStrangerToEither) {
   const Triangulation cut = cut_of({{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}, {0, 0, 0});
-  const auto [all, strangers] = unite({cut, cut_of({{0, 1, 2}, {0, 2, 4}, {2, 3, 4}}, {0, 0, 0})});
+  const auto [all, exclusive] = unite({cut, cut_of({{0, 1, 2}, {0, 2, 4}, {2, 3, 4}}, {0, 0, 0})});
   EXPECT_EQ(all.triangles.size(), 5u);
-  ASSERT_EQ(strangers.size(), 4u);
-  for (const IntersectingPair& pair : strangers) {
+  ASSERT_EQ(exclusive.size(), 4u);
+  for (const IntersectingPair& pair : exclusive) {
     EXPECT_GT(pair.a, 0) << "the triangle that stayed must not meet the new ones";
     EXPECT_GT(pair.b, 2);
   }

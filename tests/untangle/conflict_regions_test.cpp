@@ -106,7 +106,7 @@ shapes::Shape pierced_fan() {
   return shape;
 }
 
-TEST(ConflictRegions, hubs_do_not_join_them) {
+TEST(ConflictRegions, vertices_of_high_valence_do_not_join_them) {
   const shapes::Shape shape = pierced_fan();
   const Scene scene = shapes::scene_of(shape);
   const auto pairs = shapes::pairs_of(shape);
