@@ -52,13 +52,14 @@ struct FindOptions {
   /// Quads have two diagonals: count two faces as intersecting where they do for any choice of them (a diagonal that
   /// folds its quad left out). Readers of the file may choose either.
   bool both_diagonals = false;
-  int threads = 0;  ///< 0: as many as the machine has
+  int threads = 0;  ///< 0: as many as the machine has. >= 0
 };
 
 /// All pairs of faces that intersect, sorted by (a, b), decided by exact predicates. Ids are those of the given faces
 /// (polygons, not their triangles); a polygon that meets itself is reported with a == b.
 ///
-/// Throws std::invalid_argument when a corner names a vertex that does not exist or a coordinate is not finite.
+/// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an
+/// option is out of range.
 std::vector<IntersectingPair> find_intersections(const SurfaceView& surface, const FindOptions& options = {});
 
 PairCounts count_by_class(const std::vector<IntersectingPair>& pairs);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "pipeline/threads.h"
 #include "scene/prepared_surface.h"
 
 namespace unsnarl {
@@ -60,6 +61,7 @@ void flag_named(std::span<const FaceLabels> labels, const std::vector<std::strin
 }  // namespace
 
 std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const FindOptions& options) {
+  const ThreadLimit threads(options.threads);
   const PreparedSurface prepared = prepare(surface, options);
   const std::span<const Triangle> triangles = prepared.triangles();
   const Components components = find_components(surface, prepared.weld_map, triangles, build_edges(triangles));
@@ -99,6 +101,7 @@ std::vector<std::uint8_t> vertices_of_faces(const SurfaceView& surface, std::spa
 }
 
 std::vector<std::uint8_t> boundary_vertices(const SurfaceView& surface, const FindOptions& options) {
+  const ThreadLimit threads(options.threads);
   const PreparedSurface prepared = prepare(surface, options);
   const EdgeTable table = build_edges(prepared.triangles());
   std::vector<std::uint8_t> on_boundary(prepared.weld_map.count, 0);

@@ -122,9 +122,6 @@ class Repair {
       throw std::invalid_argument("RepairOptions::min_dihedral_deg is " + std::to_string(options_.min_dihedral_deg) +
                                   "; give degrees from 0 to less than 90");
     if (options_.paper) check_paper_options(*options_.paper);
-    if (options_.find.threads < 0)
-      throw std::invalid_argument("RepairOptions::find.threads is " + std::to_string(options_.find.threads) +
-                                  "; give 0 for as many as the machine has, or their number");
     for (const std::string& name : options_.without_strategies)
       if (strategy_number(name) < 0)
         throw std::invalid_argument("RepairOptions::without_strategies: there is no strategy '" + name + "'");

@@ -17,12 +17,9 @@ std::string check_json(const CheckReport& found, Goal goal, const FindOptions& o
   json["schema_version"] = check_schema_version;
   json["version"] = version;
   const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
-  json["input"] = {{"path", text_or_null(files.input)},
-                   {"format", text_or_null(files.format)},
-                   {"vertices", files.vertices},
-                   {"faces", files.faces},
-                   {"triangulation", found.triangulation},
-                   {"notes", files.notes}};
+  json["input"] = {{"path", text_or_null(files.input)},    {"format", text_or_null(files.format)},
+                   {"vertices", files.vertices},           {"faces", files.faces},
+                   {"triangulation", found.triangulation}, {"notes", files.notes}};
   add_scene(files.scene, false, json);
   json["options"] = {{"goal", to_string(goal)},
                      {"weld", to_string(options.weld)},

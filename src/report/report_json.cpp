@@ -160,30 +160,4 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   return text_of(json);
 }
 
-std::string_view to_string(PaperBandwidth bandwidth) {
-  switch (bandwidth) {
-    case PaperBandwidth::global: return "global";
-    case PaperBandwidth::independent: return "independent";
-    case PaperBandwidth::symmetric: return "symmetric";
-  }
-  return "unknown";
-}
-
-std::string_view to_string(PaperMeshEnergy energy) {
-  return energy == PaperMeshEnergy::penetration_depth ? "depth" : "length";
-}
-
-std::string_view to_string(Weld weld) {
-  switch (weld) {
-    case Weld::none: return "none";
-    case Weld::seams: return "seams";
-    case Weld::all: return "all";
-  }
-  return "unknown";
-}
-
-std::string_view to_string(Goal goal) {
-  return goal == Goal::all ? "all" : "disjoint";
-}
-
 }  // namespace unsnarl

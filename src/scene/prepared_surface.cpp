@@ -1,6 +1,8 @@
 #include "scene/prepared_surface.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "mesh/validity.h"
@@ -44,6 +46,12 @@ bool PreparedSurface::seams_are_closed(std::span<const double> positions) const 
 
 PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options) {
   require_valid(surface);
+  if (!(options.weld_tolerance >= 0))
+    throw std::invalid_argument("FindOptions::weld_tolerance is " + std::to_string(options.weld_tolerance) +
+                                "; give a length, or 0 for equal positions alone");
+  if (options.threads < 0)
+    throw std::invalid_argument("FindOptions::threads is " + std::to_string(options.threads) +
+                                "; give 0 for as many as the machine has, or their number");
   PreparedSurface prepared;
   prepared.weld_map = weld(surface, options.weld, options.weld_tolerance);
   prepared.triangulation = triangulate(surface, prepared.weld_map.vertex_of);

@@ -30,7 +30,7 @@ struct PreparedSurface {
   bool seams_are_closed(std::span<const double> positions) const;
 };
 
-/// Throws std::invalid_argument where the surface makes no sense (see require_valid).
+/// Throws std::invalid_argument where the surface makes no sense (see require_valid), or an option is out of range.
 PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options);
 
 /// The surface as a program that reads it at other positions (3 n doubles) sees it: welded as it was, but its polygons

@@ -363,6 +363,12 @@ TEST(RepairProperties, senseless_options_are_refused) {
   options = {};
   options.find.threads = -1;
   EXPECT_THROW(repair(surface, options), std::invalid_argument);
+  EXPECT_THROW(find_intersections(surface, options.find), std::invalid_argument);
+  options = {};
+  options.find.weld_tolerance = -1;
+  EXPECT_THROW(repair(surface, options), std::invalid_argument);
+  options.find.weld_tolerance = std::nan("");
+  EXPECT_THROW(certify(surface, surface.positions, options.find), std::invalid_argument);
 }
 
 }  // namespace
