@@ -113,7 +113,7 @@ std::string list_of_samples() {
   return text + "\n" + list_of_others();
 }
 
-/// Of a known sample.
+/// What a known sample is, and its parameters, in words.
 std::string description_of(const std::string& name) {
   if (!kind_of_curve(name).empty())
     return fmt::format(

@@ -23,8 +23,7 @@ double bending_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3&
 double bending_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3,
                      Eigen::Matrix<double, 3, 4>& gradient);
 
-/// BendingHinge bending energy E = 1/2 sum_e w_e (angle_e - rest_angle_e)^2 (Grinspun et al., Discrete Shells), without
-/// unit.
+/// Hinge bending energy E = 1/2 sum_e w_e (angle_e - rest_angle_e)^2 (Grinspun et al., Discrete Shells), without unit.
 ///
 /// w_e = min(3 |e|^2 / A_e, stiffness_cap (height / h)^2), height the smaller of the two altitudes over the edge, so
 /// that no sliver becomes stiffer than an equilateral triangle of edge h; hinges of slivers thinner than `sliver` h

@@ -8,11 +8,12 @@
 namespace unsnarl {
 namespace {
 
-/// A list holds while each vertex stays within this (in h) of the step it was about to make where the list was
-/// gathered. As wide as the step, where that is short and most are: nine deep meshes take 5 % longer.
-constexpr double list_margin = 0.02;
-/// Share of the moving vertices up to which the list is gathered anew around those alone that leave their bounds.
-constexpr double few_share = 0.3;
+/// A list holds while each vertex stays within this of the step it was about to make where the list was gathered. As
+/// wide as the step, where that is short and most are: nine deep meshes take 5 % longer.
+constexpr double list_margin = 0.02;  // h
+/// A list is gathered anew around those vertices alone that leave their bounds, where they are no more than this share
+/// of the moving ones. Other values were not tried.
+constexpr double few_share = 0.3;  // without unit
 
 }  // namespace
 void ContactList::gather(const Positions& x, double activation, const MovingVertices& moving) {

@@ -71,22 +71,18 @@ bool Acceptance::is_worse(const Pairs& pairs) const {
          is_more(pairs.faces, before_.faces);
 }
 
-bool Acceptance::holds_in_float32(const Positions& x) {
-  const std::vector<IntersectingPair> pairs = pairs_in_float32(x);
-  return fits_float32(x) && std::none_of(pairs.begin(), pairs.end(), [&](const IntersectingPair& pair) {
-           return options_.goal == Goal::all || pair.kind == PairClass::disjoint;
-         });
-}
-
 Status Acceptance::status(const Pairs& pairs, const Positions& x) {
   const auto is_fine = [&](const IntersectingPair& pair) { return is_tolerated(pair); };
   const auto is_fine_too = [&](const IntersectingPair& pair) { return tolerance_by_other_cuts(pair).has_value(); };
   const bool is_done = std::all_of(pairs.triangles.begin(), pairs.triangles.end(), is_fine) &&
                        std::all_of(pairs.by_other_cuts.begin(), pairs.by_other_cuts.end(), is_fine_too) &&
                        count_lost_areas(prepared_.rest, x, prepared_.triangles()) == 0;
-  const bool none_left = options_.goal == Goal::all ? pairs.faces.total() == 0 : pairs.faces[PairClass::disjoint] == 0;
-  if (is_done && !none_left) return Status::obstructed;
-  if (is_done && (options_.precision != Precision::float32 || holds_in_float32(x))) return Status::embedded;
+  const auto is_reached = [&](const PairCounts& left) {
+    return options_.goal == Goal::all ? left.total() == 0 : left[PairClass::disjoint] == 0;
+  };
+  const auto holds_in_float32 = [&] { return fits_float32(x) && is_reached(count_by_class(pairs_in_float32(x))); };
+  if (is_done && !is_reached(pairs.faces)) return Status::obstructed;
+  if (is_done && (options_.precision != Precision::float32 || holds_in_float32())) return Status::embedded;
   return pairs.faces.total() < before_.faces.total() ? Status::reduced : Status::no_progress;
 }
 

@@ -44,8 +44,6 @@ class Acceptance {
   std::vector<IntersectingPair> pairs_by_other_cuts(const Positions& x);
   /// Pairs of faces by any cut once the positions are rounded to float32.
   std::vector<IntersectingPair> pairs_in_float32(const Positions& x);
-  /// As asked for by the goal.
-  bool holds_in_float32(const Positions& x);
 
   const SurfaceView surface_;
   const PreparedSurface& prepared_;

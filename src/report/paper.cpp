@@ -15,17 +15,4 @@ std::string_view to_string(PaperMeshEnergy energy) {
   return energy == PaperMeshEnergy::penetration_depth ? "depth" : "length";
 }
 
-std::string_view to_string(Weld weld) {
-  switch (weld) {
-    case Weld::none: return "none";
-    case Weld::seams: return "seams";
-    case Weld::all: return "all";
-  }
-  return "unknown";
-}
-
-std::string_view to_string(Goal goal) {
-  return goal == Goal::all ? "all" : "disjoint";
-}
-
 }  // namespace unsnarl

@@ -160,4 +160,17 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   return text_of(json);
 }
 
+std::string_view to_string(Weld weld) {
+  switch (weld) {
+    case Weld::none: return "none";
+    case Weld::seams: return "seams";
+    case Weld::all: return "all";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(Goal goal) {
+  return goal == Goal::all ? "all" : "disjoint";
+}
+
 }  // namespace unsnarl

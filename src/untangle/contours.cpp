@@ -11,10 +11,10 @@ namespace unsnarl {
 namespace {
 
 /// Largest |direction| of one crossing: an edge nearly parallel to the face would otherwise outweigh its whole curve.
-constexpr double direction_limit = 4.0;
+constexpr double direction_limit = 4.0;  // without unit
 /// Sine of the angle between an edge and a face below which they count as that steep, so that the quotient is finite;
 /// the limit above decides then. With the limit alone 39 samples end 6 % farther, ten deep meshes 1 % nearer.
-constexpr double least_steepness = 1e-3;
+constexpr double least_steepness = 1e-3;  // without unit
 
 /// Union-find with the parity of each element relative to its root.
 class ParityForest {

@@ -17,19 +17,21 @@
 namespace unsnarl {
 namespace {
 
-/// Share of a component's diagonal by which the first try of a motion goes, and how many times as far each next one.
-constexpr double first_step = 1e-3;
-constexpr double growth = 1.6;
-/// Between the last motion that is not free and the first that is. With 5, two wigs end a fourth farther.
+// Values without a measurement beside them: no others were tried.
+
+/// The first try of a motion goes by this share of the component's diagonal, and each next one `growth` times as far.
+constexpr double first_step = 1e-3;  // without unit
+constexpr double growth = 1.6;       // without unit
+/// Bisections between the last motion that is not free and the first that is. With 5, two wigs end a fourth farther.
 constexpr int bisections = 6;
-/// So much farther than the first free place, as a share of the motion.
-constexpr double margin = 0.05;
-/// Faces of a component that is moved, at most: every place tried takes an exact test of them all.
-constexpr std::size_t most_faces = 4000;
-/// Share of its distance from the point that a vertex goes, at most.
-constexpr double most_shrink = 0.95;
-/// Intersecting pairs of which normals are tried as directions, and own vertices toward which it is tried to shrink a
-/// component. With 24 vertices a wig ends 6 % farther, all others of 66 meshes as close.
+/// A component goes farther than the first free place by this share of the motion.
+constexpr double margin = 0.05;  // without unit
+/// A component of more faces is not moved: every place tried takes an exact test of them all.
+constexpr std::size_t most_faces = 4000;  // faces
+/// A vertex goes this share of its distance from the point that a component shrinks to, at most.
+constexpr double most_shrink = 0.95;  // without unit
+/// So many intersecting pairs are tried for their normals as directions, and as many own vertices as points to shrink to.
+/// With 24 vertices a wig ends 6 % farther, all others of 66 meshes as close.
 constexpr std::size_t most_tries = 16;
 
 /// A component of the patch that may be placed.

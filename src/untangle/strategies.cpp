@@ -13,7 +13,7 @@ namespace unsnarl {
 namespace {
 
 /// Valence beyond which the first strategies hold a vertex. The needles of a CAD export met at two of 1900.
-constexpr std::size_t most_valence = 100;
+constexpr std::size_t most_valence_of_shallow = 100;  // neighbours
 
 /// Edges: tangles at least so deep go from coarse to fine. (27k faces of a warped torus, 4 deep: nearer, in half the
 /// time. 6.6k faces, 2 deep: 0.53 % instead of 0.41.)
@@ -131,8 +131,9 @@ Strategy placing() {
 /// Strategies that move faces hardly more than they overlap.
 Tier shallow_tier() {
   const LocalSettings contour = {LocalMethod::contour, short_step, 2, iterations};
-  return {local("shallow-0", 0, {LocalMethod::shallow, short_step, 1, shallow_iterations}, most_valence),
-          local("contour-2", 2, contour, most_valence), local("contour-4", 4, contour, most_valence)};
+  return {local("shallow-0", 0, {LocalMethod::shallow, short_step, 1, shallow_iterations}, most_valence_of_shallow),
+          local("contour-2", 2, contour, most_valence_of_shallow),
+          local("contour-4", 4, contour, most_valence_of_shallow)};
 }
 
 /// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth takes

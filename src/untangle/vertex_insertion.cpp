@@ -63,16 +63,17 @@ struct States {
   const Positions& x;
 };
 
-// Shares of the way from the parent to points of the fan at which a vertex is tried. Halved from 0.5 to 0.001 instead,
-// 128 meshes end as near, 31 posed ones and wigs 4 % farther (docs/experiments.md).
+// A vertex that comes back is tried at these shares of the way from its parent to points of the fan, without unit. With
+// shares halved from 0.5 to 0.001 instead, 128 meshes end as near, 31 posed ones and wigs 4 % farther
+// (docs/experiments.md).
 
-/// Of the way to where it lay and to the middle of the fan.
+/// The shares towards the point where it lay and the middle of the fan.
 constexpr std::array fan_shares = {0.5, 0.25, 0.125, 0.03};
-/// To the middles of the fan's sides.
+/// The share towards the middles of the fan's sides.
 constexpr double side_share = 0.1;
-/// Of the distance to where it lay, in eight directions from the parent.
+/// Eight places around the parent are so far from it, as a share of the distance to the point where the vertex lay.
 constexpr double corner_share = 0.02;
-/// To all of these, last.
+/// The shares towards all points of the fan that are tried last.
 constexpr std::array close_shares = {0.01, 0.003, 0.001};
 
 /// The places of a vertex: where the triangle of the fan carries the vertex, with less and less of its

@@ -13,7 +13,7 @@ from pathlib import Path
 import pages
 
 NUMBER = r"\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-# What the machine and the moment decide, what was measured, and all else that has digits: counts and names.
+# Numbers are of three kinds: the machine and the moment decide some, some were measured, all others are counts and names.
 KINDS = re.compile(rf"(?P<any>{NUMBER}(?= s\b| MB\b| a second\b)|(?<=residual){NUMBER}|(?<=at vertex)\d+)"
                    rf"|(?P<measured>\d+\.\d+(?:e[-+]?\d+)?|\d+(?= %| degrees\b))|\d+")
 TOLERANCE = 0.1  # share of a measured number by which it may differ; else by one in its last digit

@@ -70,6 +70,33 @@ TEST(RigidParts, two_boxes_are_parted_by_about_the_least_motion) {
   EXPECT_GT(result.report.displacement_max_rel, 0);
 }
 
+TEST(RigidParts, soft_regions_are_measured_by_the_diagonal_of_the_input) {
+  // Two boxes that go apart, so that the diagonal grows, and two soft ones that run through each other elsewhere.
+  Shape shape = shapes::box({1, 1, 1}, 4);
+  shape.add(shapes::box({1, 1, 1}, 4), {0.5, 0.02, 0.03});
+  shape.add(shapes::box({0.2, 0.2, 0.2}, 4), {0.1, 1.2, 0});
+  shape.add(shapes::box({0.2, 0.2, 0.2}, 4), {0.28, 1.21, 0.03});
+  const Surface surface = shape.surface();
+  RepairOptions options = components_rigid(surface, 2, -1);
+  options.precision = Precision::float64;  // regions are measured before rounding
+  const RepairResult result = repair(surface, options);
+  ASSERT_EQ(result.status, Status::embedded);
+  const RepairReport& report = result.report;
+  ASSERT_EQ(report.regions.size(), 1u);
+  const double diagonal = diagonal_of(surface.view());
+  EXPECT_EQ(report.diagonal, diagonal);
+  EXPECT_GT(diagonal_of({result.positions, surface.corners, surface.offsets}), 1.05 * diagonal)
+      << "the test tests nothing";
+  double largest = 0;
+  for (std::size_t v = 0; v < surface.view().vertex_count(); ++v)
+    if (options.rigid[v] < 0)
+      largest = std::max(largest, (Eigen::Map<const Vec3>(&result.positions[3 * v]) -
+                                   Eigen::Map<const Vec3>(&surface.positions[3 * v]))
+                                      .norm());
+  EXPECT_GT(largest, 0);
+  EXPECT_NEAR(report.regions[0].displacement_rel * diagonal, largest, 1e-12);
+}
+
 TEST(RigidParts, double_precision_is_rigid_to_its_last_digits) {
   Shape shape = shapes::box({1, 1, 1}, 3);
   shape.add(shapes::turned(shapes::box({1, 1, 1}, 3), 0.3), {0.9, 0.02, 0.03});
