@@ -215,7 +215,7 @@ Index ProgressiveMesh::coarsen(const Positions& x, const CoarsenOptions& options
   const Round round(x, triangles_, faces_, ranks_, options);
   std::vector<Index> candidates;
   for (Index v = 0; v < static_cast<Index>(ranks_.size()); ++v)
-    if (ranks_[v] < stays) candidates.push_back(v);
+    if (ranks_[v] < options.least_kept_rank) candidates.push_back(v);
   std::vector<Collapse> collapses(candidates.size());
   oneapi::tbb::parallel_for(std::size_t{0}, candidates.size(),
                             [&](std::size_t k) { collapses[k] = round.best_collapse(candidates[k]); });

@@ -19,9 +19,14 @@ struct CoarsenOptions {
   /// Largest distance of the vertex from the triangles that replace its star, in mean edges there.
   double largest_offset = 0.35;
   std::size_t largest_valence = 16;  ///< vertices with more neighbours stay
+  /// Vertices of this rank and above stay, whatever their shape.
+  std::uint8_t least_kept_rank = std::numeric_limits<std::uint8_t>::max();
 
-  /// For a handful of faces in the end: whatever keeps the topology, but for triangles that have next to no area.
-  static CoarsenOptions any_shape() { return {0.02, -1, std::numeric_limits<double>::infinity(), 40}; }
+  /// For a handful of faces in the end: whatever keeps the topology, but for triangles that have next to no area and
+  /// for vertices of this rank and above.
+  static CoarsenOptions any_shape(std::uint8_t least_kept_rank = std::numeric_limits<std::uint8_t>::max()) {
+    return {0.02, -1, std::numeric_limits<double>::infinity(), 40, least_kept_rank};
+  }
 };
 
 /// A triangle mesh that loses vertices round by round, each by collapsing it onto a neighbour (half-edge collapse), and
@@ -38,9 +43,10 @@ class ProgressiveMesh {
     std::vector<Index> star;          ///< ids of the faces at the vertex, ascending
   };
 
-  static constexpr std::uint8_t stays = 2;  ///< rank of a vertex that is never removed
+  /// Rank of a vertex that is never removed.
+  static constexpr std::uint8_t stays = std::numeric_limits<std::uint8_t>::max();
 
-  /// `ranks`: one a vertex, at most `stays`. A vertex is collapsed only onto one of its rank or above.
+  /// `ranks`: one a vertex. A vertex is collapsed only onto one of its rank or above.
   ProgressiveMesh(std::vector<Triangle> triangles, std::vector<std::uint8_t> ranks);
 
   /// One round: removes vertices no two of which are neighbours, short edges first. The topology is kept (link

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace unsnarl {
 
 struct PcgOptions {
   double relative_tolerance = 1e-2;  ///< of the preconditioned residual, against the right-hand side's
-  int max_iterations = 200;
+  int max_iterations = std::numeric_limits<int>::max();
 };
 
 /// Conjugate gradients for symmetric positive definite systems over 3-vectors, preconditioned by the inverses of the

@@ -11,11 +11,9 @@ namespace {
 /// A list holds while each vertex stays within this of the step it was about to make where the list was gathered. As
 /// wide as the step, where that is short and most are: nine deep meshes take 5 % longer.
 constexpr double list_margin = 0.02;  // h
-/// A list is gathered anew around those vertices alone that leave their bounds, where they are no more than this share
-/// of the moving ones. Other values were not tried.
-constexpr double few_share = 0.3;  // without unit
 
 }  // namespace
+
 void ContactList::gather(const Positions& x, double activation, const MovingVertices& moving) {
   activation_ = activation;
   travelled_.assign(moving.moves.size(), 0);
@@ -31,23 +29,12 @@ void ContactList::follow(const Positions& x, const Positions& p, const MovingVer
   for (Index v : moving.vertices)
     if (!bounds_.allow(v, x.col(v) + p.col(v) - gathered_at_.col(v))) leaving_.push_back(v);
   if (!leaving_.empty()) {
-    const double most = few_share * static_cast<double>(moving.vertices.size());
-    const bool anew = static_cast<double>(leaving_.size()) > most;
-    if (anew) {
-      gathered_at_ = x;  // of those too that are held by now
-      bounds_.reset(static_cast<Index>(x.cols()));
-      travelled_.assign(moving.moves.size(), 0);
-      travel_.assign(moving.moves.size(), 0);
-    }
-    for (Index v : anew ? moving.vertices : leaving_) {
+    for (Index v : leaving_) {
       gathered_at_.col(v) = x.col(v);
       bounds_.along.col(v) = p.col(v);
       bounds_.around[v] = list_margin * h_;
     }
-    if (anew)
-      rules_.gather(x, activation_, bounds_, moving.moves, list_);
-    else
-      rules_.gather_around(leaving_, gathered_at_, x, activation_, bounds_, list_);
+    rules_.gather_around(leaving_, gathered_at_, x, activation_, bounds_, list_);
   }
   for (Index v : moving.vertices) {
     travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();

@@ -10,9 +10,6 @@
 namespace unsnarl {
 namespace {
 
-/// The barrier sets in at this many separations at least.
-constexpr double least_activation = 1.5;
-
 /// Corner k of a triangle against the opposite edge.
 Stencil altitude_of(const Triangle& f, int k) {
   return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
@@ -130,7 +127,7 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   }
   rule.closed = !(distance > separation);
   rule.stencil.separation = std::min(0.5 * distance, separation);
-  rule.stencil.activation = std::max(std::min(activation, rule.reach), least_activation * rule.stencil.separation);
+  rule.stencil.activation = std::max(std::min(activation, rule.reach), 2 * rule.stencil.separation);
   if (near.least_distance > rule.stencil.activation) return false;
   if (s.kind == StencilKind::edge_edge) {
     const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();
@@ -159,10 +156,7 @@ void ContactRules::add_altitudes(const Positions& from, const Positions& x, cons
       const double distance = std::sqrt(squared_distance(s, x));
       if (!(distance > 0)) continue;
       rule.stencil.stencil = s;
-      const double floor = options_.altitude_floor * rule.rest_distance;
-      rule.closed = !(distance > floor);
-      rule.stencil.separation = rule.closed ? 0.5 * distance : floor;
-      rule.stencil.activation = std::max(rule.reach, least_activation * rule.stencil.separation);
+      rule.stencil.activation = rule.reach;
       rule.own_altitude = true;
       rules.push_back(rule);
     }

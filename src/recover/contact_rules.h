@@ -35,7 +35,6 @@ struct ContactRuleOptions {
   /// The barrier reaches this share of the rest distance: below 1, so that a rest shape without contact has no energy.
   double reach_share = 0.5;
   double reach_gaps = barrier_gaps;  ///< and at least this many min_gap for what is no neighbour
-  double altitude_floor = 0.05;      ///< of its rest altitude, that a face keeps at least
   double roundoff = 0;               ///< length below which computed distances mean nothing
 };
 

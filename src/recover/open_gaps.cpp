@@ -9,11 +9,6 @@
 namespace unsnarl {
 namespace {
 
-/// Computed differences point the right way only this many times above the round-off of a distance.
-constexpr double direction_margin = 1e4;
-
-/// Share of its target that a gap has where it counts as opened.
-constexpr double wide_enough = 0.9;
 /// A vertex moves in one round by this many times the least gap at it, at most: farther off, what touches at 1e-10
 /// meets elsewhere than to first order. With 4, 10, 100 times, 5, 2 and 2 gaps stay closed on 108k faces of a warped
 /// torus, 31 without.
@@ -53,7 +48,7 @@ Widening widening_of(const ContactRule& rule, double missing, const Positions& x
   result.stencil = rule.stencil.stencil;
   const Stencil& s = result.stencil;
   const Closest at = closest(s, x);
-  result.direction = rule.distance > direction_margin * roundoff ? at.direction : exact_direction(s, x);
+  result.direction = rule.distance > roundoff ? at.direction : exact_direction(s, x);
   result.missing = missing;
   for (int i = 0; i < s.size(); ++i) {
     result.weights[i] = moves[s.v[i]] ? at.weights[i] : 0;
@@ -97,7 +92,7 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
     bool any_narrow = false;
     for (const ContactRule& rule : close) {
       const double target = target_of(rule, options.target, rules.options().min_gap);
-      any_narrow |= rule.distance < wide_enough * target;
+      any_narrow |= rule.distance < target;
       const Widening gap = widening_of(rule, target - rule.distance, x, roundoff, moves);
       if (gap.squared_weights > 0) gaps.push_back(gap);
     }
@@ -126,7 +121,7 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
     filter.clear();
     for (Index v = 0; v < x.cols(); ++v) length[v] = p.col(v).norm();
     for (const ContactRule& rule : close) {
-      doubtful |= rule.distance <= direction_margin * roundoff;
+      doubtful |= rule.distance <= roundoff;
       const double left = rule.distance - approach(rule.stencil.stencil, length);
       if (rule.distance > roundoff && left <= rule.stencil.separation + roundoff)
         filter.push_back({rule.stencil.stencil, rule.stencil.separation});

@@ -163,7 +163,7 @@ void Recovery::stage(const std::vector<std::uint8_t>& moves, double activation) 
 
 void Recovery::open(double target) {
   OpenGapsOptions open;
-  open.target = std::max(target, above_min_gap(options_.open_target));
+  open.target = std::max(target, above_min_gap(options_.last_activation));
   open.max_rounds = options_.open_rounds;
   // Stencils are gathered as far around as two steps may go. Five targets end as close, but took up to 9 GB, not 2.
   open.step_cap = std::min(open.target, options_.step.cap * h_);
@@ -194,14 +194,8 @@ void Recovery::unflip(double activation) {
 
 void Recovery::snap(std::span<const std::uint8_t> moves) {
   guard_.roll_back(patch_.x, safe_);
-  std::vector<double> reach(moves.size(), 0);
-  for (Index v = 0; v < patch_.free_count; ++v) {
-    double sum = 0;
-    for (Index w : neighbours_[v]) sum += (patch_.rest.col(w) - patch_.rest.col(v)).norm();
-    const auto count = static_cast<double>(neighbours_[v].size());
-    if (count > 0) reach[v] = options_.snap_reach * sum / count;
-  }
-  snap_to_rest(patch_.x, patch_.rest, reach, rules_, orientation_of_all(), guard_, moves);
+  if (options_.snaps)
+    snap_to_rest(patch_.x, patch_.rest, options_.activation * h_, rules_, orientation_of_all(), guard_, moves);
   safe_ = patch_.x;
 }
 
@@ -226,17 +220,19 @@ RecoverResult Recovery::run() {
     return std::max(std::min(share_of_h * h_, options_.activation_motion * start_motion_), above_min_gap(share_of_h));
   };
   const double activation = activation_of(options_.activation);
-  const double last_activation = options_.last_activation > 0 ? activation_of(options_.last_activation) : activation;
+  const double last_activation = activation_of(options_.last_activation);
 
-  open(std::min(options_.open_target * h_, options_.activation_motion * start_motion_));
+  open(last_activation);
   safe_ = patch_.x;
   const Positions opened = patch_.x;
 
   stage(everything(), activation);
   snap(everything());
   unflip(activation);
-  if (last_activation < activation) stage(contact_region(), activation);
-  if (options_.last_activation > 0) stage(contact_region(), last_activation);
+  if (options_.has_last_stage) {
+    if (last_activation < activation) stage(contact_region(), activation);
+    stage(contact_region(), last_activation);
+  }
   guard_.roll_back(patch_.x, safe_);
   safe_ = patch_.x;
   const double motion = (patch_.x - patch_.rest).norm();
@@ -260,7 +256,7 @@ RecoverResult Recovery::run() {
 RecoverOptions RecoverOptions::paper() {
   RecoverOptions options;
   options.max_steps = 500;
-  options.last_activation = 0;
+  options.has_last_stage = false;
   options.stop_decrease = 0;
   options.stop_window = 1;
   options.stop_activation = 0;
@@ -273,7 +269,7 @@ RecoverOptions RecoverOptions::paper() {
   options.objective.flip_weight = 0;
   options.step.kept_area = -std::numeric_limits<double>::infinity();
   options.step.cap = std::numeric_limits<double>::infinity();
-  options.snap_reach = 0;
+  options.snaps = false;
   options.unflip_rounds = 0;
   options.most_farther = std::numeric_limits<double>::infinity();
   return options;

@@ -14,6 +14,10 @@ constexpr int recovery_rings = 2;
 /// Barriers reach this many min_gap at least. Without unit; at 1.5 contacts end between one and two gaps apart.
 constexpr double barrier_gaps = 3;
 
+/// Share of a face's area along its rest normal that it should keep. Without unit. Flipped on twelve bodies and
+/// animals, of 29: with 0.4 in the penalty 51, 0.2 % farther; with 0.05 and 0.4 in a step 71 and 65.
+constexpr double least_area = 0.2;
+
 /// Weights of the objective.
 struct ObjectiveOptions {
   /// In h: deformations shorter than this are resisted by ARAP rather than pulled to rest. On thirteen deep meshes 1.4
@@ -28,8 +32,7 @@ struct ObjectiveOptions {
   double contact_force = 10;
   // Against flipped faces. Those on twelve bodies and animals, and how far these move on average: 29 as it is; 353
   // without the penalty, and 22 % farther.
-  /// Share of a face's area along its rest normal below which it is penalised. 0.4: 51 flipped, 0.2 % farther.
-  double flip_activation = 0.2;
+  double flip_activation = least_area;  ///< share of a face's area along its rest normal below which it is penalised
   /// Weight of that penalty, in contact forces. 1: two fifths fewer flipped, 0.9 % farther on 59 meshes and no farther
   /// on 14 fine ones; but as many flipped on 36 samples, and 4 % farther.
   double flip_weight = 0.3;
@@ -47,9 +50,7 @@ struct StepOptions {
   /// end 5 % closer, others 0.2 % farther with a fifth more flipped faces; 2: fine meshes end 5 % farther. A fifth of
   /// what the Newton step wants, where that is more: surfaces far from their rest shape end 16 % farther.
   double cap = 0.5;
-  /// Share of its area along its rest normal that a face keeps in a step. Flipped on twelve bodies: 29; 0.05: 71; 0.4:
-  /// 65.
-  double kept_area = 0.2;
+  double kept_area = least_area;  ///< share of its area along its rest normal that a face keeps in a step
   /// Share of its distance from an obstacle that a vertex keeps in a step. Eight posed and deep meshes end 3 % farther
   /// with 0.3 and 9 % with 0.7, eighteen 1 % with 0.1: steps that end in the barrier's steep part are halved as a
   /// whole.
@@ -68,21 +69,23 @@ struct RecoverOptions {
 
   // Continuation: the barrier's activation distance is `activation`, then `last_activation`. A stage between them costs
   // a tenth more steps on eight posed and deep meshes, and brings nothing.
-  /// In h, at most. On these meshes 0.2 ends 2 % farther, 0.04 9 %, 0.02 13 %.
+  /// In h, at most. On these meshes 0.2 ends 2 % farther, 0.04 9 %, 0.02 13 %. After its stage, a vertex that is no
+  /// farther than this from its rest position may go straight there.
   double activation = 0.1;
-  double last_activation = 0.004;  ///< in h, at most; 0: only the steps at the first activation distance
-  /// It is at most this share of the largest displacement at the start, at any time: where little moved, little space
-  /// is needed, and a wide barrier would push everything farther away. Fans of needles end 300 times closer.
+  /// In h, at most. Gaps are first opened to this.
+  double last_activation = 0.004;
+  /// Both are at most this share of the largest displacement at the start: where little moved, little space is needed,
+  /// and a wide barrier would push everything farther away. Fans of needles end 300 times closer; with 1 a wig ends a
+  /// fourth farther.
   double activation_motion = 0.5;
+  bool has_last_stage = true;  ///< false: only the steps at the first activation distance
   /// Neither the activation distance nor the distance to which gaps are opened falls below this many min_gap, or
   /// min_gap and what they would be without it, where that is less: with three alone, a gap of 0.3 h took 17 times as
   /// long, and half as much motion again.
   double least_gaps = barrier_gaps;
 
-  /// h: gaps are first opened to this, at most, and never beyond the activation distance.
-  double open_target = 0.01;
-  int open_rounds = 12;     ///< of opening gaps, at most; a start at gaps of 1e-17 took 1 to 6
-  double snap_reach = 0.1;  ///< share of the mean edge at a vertex from which it may go straight to its rest position
+  int open_rounds = 12;  ///< of opening gaps, at most; a start at gaps of 1e-17 took 1 to 6
+  bool snaps = true;     ///< vertices near their rest positions may go straight there
   // Faces that are flipped while the barrier is wide: rounds of steps around them with a heavier penalty; the stages
   // after them turn none over again. Flipped on 41 deep and warped meshes: 1372, as near as with 2222 where the rounds
   // come last and creases are shut. Before the last stage alone: 1330, but edges stay stretched, and on 21 of them 130
@@ -108,7 +111,7 @@ struct RecoverOptions {
   double stop_activation = 0.1;
   /// Solver of the Newton steps. With a tolerance of 3e-2, 31 deep and warped meshes end 5 % closer in a tenth more
   /// time, but a helicoid and a lemniscate 84 and 19 % farther.
-  PcgOptions solver = {0.1, 60};
+  PcgOptions solver = {0.1};
   bool scalar_jacobi = false;  ///< precondition by the diagonal only
 
   /// The recovery of Minarčík, Liu, Crane, Li: Untangling Surfaces via Shape and Mesh Repulsion, §3.5.1: up to 500

@@ -4,7 +4,7 @@
 
 namespace unsnarl {
 
-Index snap_to_rest(Positions& x, const Positions& rest, std::span<const double> reach, ContactRules& rules,
+Index snap_to_rest(Positions& x, const Positions& rest, double reach, ContactRules& rules,
                    const OrientedFaces& oriented, EmbeddingGuard& guard, std::span<const std::uint8_t> moves,
                    int rounds) {
   std::vector<ContactRule> close;
@@ -22,7 +22,7 @@ Index snap_to_rest(Positions& x, const Positions& rest, std::span<const double> 
       trying[v] = 0;
       if (!moves[v] || x.col(v) == rest.col(v)) continue;
       const Vec3 way = rest.col(v) - x.col(v);
-      if (way.norm() > reach[v]) continue;
+      if (way.norm() > reach) continue;
       p.col(v) = way;
       trying[v] = 1;
       any = true;

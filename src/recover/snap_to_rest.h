@@ -12,10 +12,10 @@ namespace unsnarl {
 /// Moves vertices straight to their rest positions where nothing is in the way; those that arrive are bit-exactly
 /// there.
 ///
-/// A vertex v tries where moves[v] and 0 < |x - rest| <= reach[v]. One whose stencil would come closer than its
+/// A vertex v tries where moves[v] and 0 < |x - rest| <= reach. One whose stencil would come closer than its
 /// separation on the way, or whose face would flip, stays where it is. Then the exact guard rolls back new pairs.
 /// Returns how many arrived.
-Index snap_to_rest(Positions& x, const Positions& rest, std::span<const double> reach, ContactRules& rules,
+Index snap_to_rest(Positions& x, const Positions& rest, double reach, ContactRules& rules,
                    const OrientedFaces& oriented, EmbeddingGuard& guard, std::span<const std::uint8_t> moves,
                    int rounds = 3);
 

@@ -13,6 +13,7 @@
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
 #include "mesh/union_find.h"
+#include "untangle/shared_constants.h"
 
 namespace unsnarl {
 namespace {
@@ -22,12 +23,10 @@ namespace {
 /// The first try of a motion goes by this share of the component's diagonal, and each next one `growth` times as far.
 constexpr double first_step = 1e-3;  // without unit
 constexpr double growth = 1.6;       // without unit
-/// Bisections between the last motion that is not free and the first that is. With 5, two wigs end a fourth farther.
+/// Bisections between the last motion that is not free and the first that is. With 5, wigs end up to a fifth farther.
 constexpr int bisections = 6;
 /// A component goes farther than the first free place by this share of the motion.
 constexpr double margin = 0.05;  // without unit
-/// A component of more faces is not moved: every place tried takes an exact test of them all.
-constexpr std::size_t most_faces = 4000;  // faces
 /// A vertex goes this share of its distance from the point that a component shrinks to, at most.
 constexpr double most_shrink = 0.95;  // without unit
 /// So many intersecting pairs are tried for their normals as directions, and as many own vertices as points to shrink to.
@@ -197,7 +196,7 @@ class Placement {
   bool place(const Component& component) {
     const std::vector<IntersectingPair> contacts = contacts_of(component);
     if (contacts.empty()) return true;
-    if (component.triangles.size() > most_faces) return false;
+    if (component.triangles.size() > most_faces_of_small) return false;
     Positions from(3, static_cast<Index>(component.vertices.size()));
     for (std::size_t k = 0; k < component.vertices.size(); ++k)
       from.col(static_cast<Index>(k)) = x_.col(component.vertices[k]);

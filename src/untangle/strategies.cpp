@@ -8,6 +8,7 @@
 #include "untangle/coarse_to_fine.h"
 #include "untangle/local_solver.h"
 #include "untangle/placement.h"
+#include "untangle/shared_constants.h"
 
 namespace unsnarl {
 namespace {
@@ -25,12 +26,9 @@ constexpr double rings_per_depth = 1.5;
 /// deep, warped and immersed surfaces 0.25, 0.35, 0.5, 1 end 2 to 9 % farther, with up to a quarter more flipped faces;
 /// 3 for all, however deep, leaves two tangled (docs/experiments.md).
 constexpr double factor_per_depth = 0.7;
-constexpr double least_factor = 3;  ///< and by this at least
 /// The same for whole components and what comes close to them. With 3, 42 samples end 3 % farther and twenty punctured
 /// surfaces 12 %, but eight random warps 5 % nearer.
 constexpr double factor_of_whole = 1.6;
-/// Faces of the first coarse mesh of these, at most. Other numbers were not tried.
-constexpr double most_coarse_faces = 3000;
 
 /// Strategy::reach of a deep tangle for each edge of its depth. With 4, ten deep meshes end 2 % farther.
 constexpr double deep_reach = 2.5;  // h
@@ -39,7 +37,7 @@ constexpr int wide_depths = 2, far_depths = 8;
 
 /// LocalSettings::step of strategies that move faces hardly more than they overlap, and of those that part layers. With
 /// 0.15 for the former, thirteen deep and warped meshes end 8 % farther.
-constexpr double short_step = 0.1, long_step = 0.3;  // h
+constexpr double short_step = 0.1;  // h
 /// LocalSettings::max_iterations, and those of shallow-0: with as many, 115 meshes end as near in 1.05 of the time.
 constexpr int iterations = 60, shallow_iterations = 20;
 
@@ -70,8 +68,7 @@ Strategy local(std::string name, int rings, LocalSettings settings, std::size_t 
 /// out between two curves, and coarser meshes of these take long and hardly resolve it (layered cloth: 3 minutes).
 Strategy coarse_to_fine() {
   const auto solve = [](Patch& patch, const Task& task) {
-    const double factor = std::max(least_factor, factor_per_depth * task.depth);
-    return solve_on_coarser_mesh(patch, task, factor, CoarseMeshes::one).iterations;
+    return solve_on_coarser_mesh(patch, task, factor_per_depth * task.depth, CoarseMeshes::one).iterations;
   };
   return {.name = "coarse_to_fine",
           .extent = Extent::depth,
@@ -93,10 +90,11 @@ Strategy wide_coarse_to_fine() {
   return wide;
 }
 
-/// Solves a patch on a mesh of most_coarse_faces at most, or with edges factor_of_whole times as long where that is
+/// Solves a patch on a mesh of most_faces_of_small at most, or with edges factor_of_whole times as long where that is
 /// coarser.
 int solve_coarsely(Patch& patch, const Task& task, CoarseMeshes meshes) {
-  const double factor = std::max(factor_of_whole, std::sqrt(patch.active_count / most_coarse_faces));
+  const double factor =
+      std::max(factor_of_whole, std::sqrt(patch.active_count / static_cast<double>(most_faces_of_small)));
   return solve_on_coarser_mesh(patch, task, factor, meshes).iterations;
 }
 
@@ -139,8 +137,8 @@ Tier shallow_tier() {
 /// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth takes
 /// twice the time. Two rings tried before four bring nothing nearer (docs/experiments.md).
 Tier layers_tier() {
-  Tier tier = {local("contour-8", 8, {LocalMethod::contour, long_step, 4, iterations}),
-               local("shorten-4", 4, {LocalMethod::shorten, long_step, 4, iterations})};
+  Tier tier = {local("contour-8", 8, {LocalMethod::contour, longest_step, 4, iterations}),
+               local("shorten-4", 4, {LocalMethod::shorten, longest_step, 4, iterations})};
   for (Strategy& strategy : tier) strategy.reach = far_reach;
   return tier;
 }

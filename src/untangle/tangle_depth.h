@@ -17,8 +17,8 @@ struct ConnectedParts {
 /// How deep a conflict is, in edges of the mesh. Where a surface runs through another the intersecting faces, with the
 /// vertices `core` (ascending), enclose a region of it. The depth is the largest number of edges between a vertex of an
 /// enclosed region and those faces, but no more than half the length of the loop around it, for it may leave sideways;
-/// 0 where nothing is enclosed. What is not connected to the core changes nothing. The cost follows the surroundings of
-/// that width.
+/// 0 where nothing is enclosed. What is not connected to the core changes nothing. The cost follows the surroundings as
+/// wide as the second deepest of the regions into which the faces cut a connected surface.
 int tangle_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core);
 
 }  // namespace unsnarl

@@ -170,6 +170,26 @@ TEST(ProgressiveMesh, a_vertex_is_collapsed_only_onto_one_of_its_rank_or_above) 
   EXPECT_GT(removed[1], 100);
 }
 
+TEST(ProgressiveMesh, keeps_vertices_of_a_rank_where_all_others_may_lose_their_shape) {
+  const shapes::Shape sheet = shapes::bumpy_sheet(24, 0.2);
+  const Positions x = sheet.positions();
+  std::vector<std::uint8_t> ranks = all_free(sheet);
+  for (std::size_t v = 0; v < ranks.size(); ++v) ranks[v] = sheet.points[v][0] < 0;
+  const auto left_of = [&](const CoarsenOptions& any_shape) {
+    ProgressiveMesh mesh(sheet.triangles, ranks);
+    while (mesh.coarsen(x, any_shape) > 0) {
+    }
+    std::set<Index> left;
+    for (const Triangle& t : mesh.triangles()) left.insert(t.begin(), t.end());
+    return left;
+  };
+  const std::set<Index> all = left_of(CoarsenOptions::any_shape()), kept = left_of(CoarsenOptions::any_shape(1));
+  for (std::size_t v = 0; v < ranks.size(); ++v) {
+    EXPECT_TRUE(ranks[v] == 0 || kept.contains(static_cast<Index>(v)));
+  }
+  EXPECT_LT(all.size(), kept.size() / 10);
+}
+
 TEST(ProgressiveMesh, records_where_a_vertex_lay_on_the_fan_that_replaced_its_star) {
   const shapes::Shape sheet = shapes::bumpy_sheet(16, 0);
   const Positions x = sheet.positions();

@@ -46,7 +46,6 @@ TEST(TangleDepth, are_not_deeper_than_half_their_girth) {
   EXPECT_LE(depth_of(shape), 2);
 }
 
-// How much may be an enclosed region at all goes by the faces of what is in conflict.
 TEST(TangleDepth, do_not_depend_on_what_is_elsewhere) {
   shapes::Shape shape = shapes::bumpy_sheet(30, 0);
   shape.add(shapes::grid(40, 24, true, [](double i, double j) {

@@ -13,7 +13,7 @@ namespace {
 
 using Removal = ProgressiveMesh::Removal;
 
-constexpr double grid = 0x1p-20;
+constexpr double roundoff = 1e-12;
 
 /// A wavy sheet of 13 x 13 vertices, an edge long each, that has lost a round of them; and a fixed triangle far away.
 struct CoarseSheet {
@@ -49,7 +49,7 @@ TEST(VertexInsertion, what_is_at_rest_comes_back_exactly) {
   const std::vector<Removal> removals = sheet.mesh.refine();
   ASSERT_GT(removals.size(), 10u);
   Positions x = without(removals, sheet.patch.rest);
-  EXPECT_TRUE(insert_vertices(sheet.patch, sheet.mesh, removals, grid, x).empty());
+  EXPECT_TRUE(insert_vertices(sheet.patch, sheet.mesh, removals, x).empty());
   EXPECT_TRUE(x == sheet.patch.rest);
 }
 
@@ -60,8 +60,8 @@ TEST(VertexInsertion, offsets_turn_with_their_fans) {
   Positions turned = sheet.patch.rest;
   turned.leftCols(sheet.free_count) = turn * turned.leftCols(sheet.free_count);
   Positions x = without(removals, turned);
-  EXPECT_TRUE(insert_vertices(sheet.patch, sheet.mesh, removals, grid, x).empty());
-  EXPECT_LT((x - turned).cwiseAbs().maxCoeff(), grid);
+  EXPECT_TRUE(insert_vertices(sheet.patch, sheet.mesh, removals, x).empty());
+  EXPECT_LT((x - turned).cwiseAbs().maxCoeff(), roundoff);
 }
 
 TEST(VertexInsertion, goes_elsewhere_where_something_is_in_the_way_and_back_when_that_is_gone) {
@@ -87,7 +87,7 @@ TEST(VertexInsertion, goes_elsewhere_where_something_is_in_the_way_and_back_when
   moved.rightCols(3) = patch.x.rightCols(3);
 
   Positions x = without(removals, moved);
-  const std::vector<Removal> displaced = insert_vertices(patch, sheet.mesh, removals, grid, x);
+  const std::vector<Removal> displaced = insert_vertices(patch, sheet.mesh, removals, x);
   ASSERT_EQ(displaced.size(), 1u);
   EXPECT_EQ(displaced[0].vertex, highest.vertex);
   EXPECT_GT((x.col(highest.vertex) - tip).norm(), 0.1 * height);
@@ -101,7 +101,7 @@ TEST(VertexInsertion, goes_elsewhere_where_something_is_in_the_way_and_back_when
   x = beside;
   x.rightCols(3) = patch.rest.rightCols(3);
   offer_better_places(patch, sheet.mesh, displaced, x);
-  EXPECT_LT((x - moved).leftCols(sheet.free_count).cwiseAbs().maxCoeff(), grid);
+  EXPECT_LT((x - moved).leftCols(sheet.free_count).cwiseAbs().maxCoeff(), roundoff);
 }
 
 }  // namespace
