@@ -9,6 +9,9 @@
 
 namespace unsnarl {
 
+/// Rank of vertices that ProgressiveMesh never removes.
+constexpr std::uint8_t rank_that_stays = std::numeric_limits<std::uint8_t>::max();
+
 /// Which vertices ProgressiveMesh::coarsen() may remove.
 struct CoarsenOptions {
   /// Least quality of a new triangle, 4 sqrt(3) area / sum of squared sides: 1 if it is equilateral, 0.15 if one side
@@ -20,11 +23,11 @@ struct CoarsenOptions {
   double largest_offset = 0.35;
   std::size_t largest_valence = 16;  ///< vertices with more neighbours stay
   /// Vertices of this rank and above stay, whatever their shape.
-  std::uint8_t least_kept_rank = std::numeric_limits<std::uint8_t>::max();
+  std::uint8_t least_kept_rank = rank_that_stays;
 
   /// For a handful of faces in the end: whatever keeps the topology, but for triangles that have next to no area and
   /// for vertices of this rank and above.
-  static CoarsenOptions any_shape(std::uint8_t least_kept_rank = std::numeric_limits<std::uint8_t>::max()) {
+  static CoarsenOptions any_shape(std::uint8_t least_kept_rank = rank_that_stays) {
     return {0.02, -1, std::numeric_limits<double>::infinity(), 40, least_kept_rank};
   }
 };
@@ -43,8 +46,7 @@ class ProgressiveMesh {
     std::vector<Index> star;          ///< ids of the faces at the vertex, ascending
   };
 
-  /// Rank of a vertex that is never removed.
-  static constexpr std::uint8_t stays = std::numeric_limits<std::uint8_t>::max();
+  static constexpr std::uint8_t stays = rank_that_stays;
 
   /// `ranks`: one a vertex. A vertex is collapsed only onto one of its rank or above.
   ProgressiveMesh(std::vector<Triangle> triangles, std::vector<std::uint8_t> ranks);

@@ -10,6 +10,10 @@
 namespace unsnarl {
 namespace {
 
+/// The barrier sets in at this many separations at least. Without unit. With 2, crossing tubes and linked rings end a
+/// fifth farther with a wanted gap of a hundredth; without a wanted gap nothing changes.
+constexpr double least_activation = 1.5;
+
 /// Corner k of a triangle against the opposite edge.
 Stencil altitude_of(const Triangle& f, int k) {
   return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
@@ -127,7 +131,7 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   }
   rule.closed = !(distance > separation);
   rule.stencil.separation = std::min(0.5 * distance, separation);
-  rule.stencil.activation = std::max(std::min(activation, rule.reach), 2 * rule.stencil.separation);
+  rule.stencil.activation = std::max(std::min(activation, rule.reach), least_activation * rule.stencil.separation);
   if (near.least_distance > rule.stencil.activation) return false;
   if (s.kind == StencilKind::edge_edge) {
     const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();

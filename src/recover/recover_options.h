@@ -75,8 +75,8 @@ struct RecoverOptions {
   /// In h, at most. Gaps are first opened to this.
   double last_activation = 0.004;
   /// Both are at most this share of the largest displacement at the start: where little moved, little space is needed,
-  /// and a wide barrier would push everything farther away. Fans of needles end 300 times closer; with 1 a wig ends a
-  /// fourth farther.
+  /// and a wide barrier would push everything farther away. Fans of needles end 300 times closer; with 1 a wig ends
+  /// 1.1 to 1.4 times as far.
   double activation_motion = 0.5;
   bool has_last_stage = true;  ///< false: only the steps at the first activation distance
   /// Neither the activation distance nor the distance to which gaps are opened falls below this many min_gap, or

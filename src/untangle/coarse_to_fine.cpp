@@ -128,10 +128,10 @@ class CoarseToFine {
     std::vector<Index> vertices;  // of the patch
   };
 
-  /// What may be collapsed onto what: a vertex onto one of its rank or above. Those of the border, fixed corners of
-  /// active faces, keep its shape however coarse the mesh becomes: where they come back far from where it ran, it cuts
-  /// through what has been untangled beside it. (Clasped fists, with one setting or another changed by a little: 1 to
-  /// 1.1 times as far, in 1.5 s; without, twice as far in 6 s, but for one draw.)
+  /// A vertex is collapsed only onto one of its rank or above. Vertices of the border are fixed corners of active
+  /// faces. They keep its shape however coarse the mesh becomes: where they came back far from where it ran, it would
+  /// cut through what has been untangled beside it. (Clasped fists, with one setting or another changed by a little: 1
+  /// to 1.1 times as far, in 1.5 s; without, twice as far in 6 s, but for one draw.)
   enum Rank : std::uint8_t { free_vertex, obstacle, border };
 
   /// Those of tolerated pairs stay, so that their faces are the same on every level.

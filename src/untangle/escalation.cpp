@@ -248,7 +248,7 @@ class Escalation {
   /// Returns the free vertices of all components that have one of `vertices`, ascending.
   std::vector<Index> free_vertices_of_parts(std::span<const Index> vertices) {
     const std::vector<Index>& part_of = parts().of_vertex;
-    std::vector<std::uint8_t> is_wanted(parts().face_count.size(), 0);
+    std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(parts().count), 0);
     for (Index v : vertices) is_wanted[part_of[v]] = 1;
     std::vector<Index> free;
     for (Index v = 0; v < scene_.vertex_count(); ++v)

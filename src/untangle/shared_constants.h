@@ -22,11 +22,11 @@ constexpr double few_left = 0.1;
 /// With 1, a soup of crossings takes a tier for every pair, and two of 24 random warps take 21 and 16 s, not 2 and 13;
 /// given up at a tenth, a posed body ends twice as far.
 constexpr double few_enough_to_keep = 0.7;
-/// Number of faces, at most, of components that are placed, where each try takes an exact test of them all, and of
-/// coarse meshes, with those of obstacles, on the way back on which far parts are tried again and layers are parted
-/// crossing by crossing. Far parts: on 21 meshes it takes 3 % more time, with 8000 8 %, and they end as close; twenty
-/// others take 2 and 9 %, and end 4 and 5 % closer. Layers: on none, one of 24 warps ends 8.6 times as far; on all,
-/// layered cloth takes a quarter more time (docs/experiments.md).
+/// Number of faces, at most, of components that are placed, where each try takes an exact test of them all, of the
+/// first coarse mesh of whole components, and of coarse meshes, with those of obstacles, on the way back on which far
+/// parts are tried again and layers are parted crossing by crossing. Far parts: on 21 meshes it takes 3 % more time,
+/// with 8000 8 %, and they end as close; twenty others take 2 and 9 %, and end 4 and 5 % closer. Layers: on none, one
+/// of 24 warps ends 8.6 times as far; on all, layered cloth takes a quarter more time (docs/experiments.md).
 constexpr std::size_t most_faces_of_small = 4000;  // faces
 
 }  // namespace unsnarl

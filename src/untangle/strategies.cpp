@@ -33,13 +33,13 @@ constexpr double factor_of_whole = 1.6;
 /// Strategy::reach of a deep tangle for each edge of its depth. With 4, ten deep meshes end 2 % farther.
 constexpr double deep_reach = 2.5;  // h
 /// Strategy::depth_factor of what coarse to fine leaves, at first and before whole components (docs/experiments.md).
-constexpr int wide_depths = 2, far_depths = 8;
+constexpr int wide_depths = 2, far_depths = 8;  // times the depth
 
 /// LocalSettings::step of strategies that move faces hardly more than they overlap, and of those that part layers. With
 /// 0.15 for the former, thirteen deep and warped meshes end 8 % farther.
 constexpr double short_step = 0.1;  // h
 /// LocalSettings::max_iterations, and those of shallow-0: with as many, 115 meshes end as near in 1.05 of the time.
-constexpr int iterations = 60, shallow_iterations = 20;
+constexpr int iterations = 60, shallow_iterations = 20;  // steps
 
 /// Strategy::reach of layers, placement and whole components. With 4 for layers, which sometimes part only far from
 /// where they were, a layered cloth of 92,000 faces is not resolved in 139 s of CPU, not 34. Other numbers were not

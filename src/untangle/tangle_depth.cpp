@@ -97,8 +97,7 @@ class Pieces {
 ConnectedParts::ConnectedParts(const Scene& scene) {
   UnionFind sets = vertices_joined_by(scene.triangles, scene.vertex_count());
   of_vertex = sets.dense_ids();
-  face_count.assign(of_vertex.size(), 0);
-  for (const Triangle& t : scene.triangles) ++face_count[of_vertex[t[0]]];
+  for (const Index part : of_vertex) count = std::max(count, part + 1);
 }
 
 int tangle_depth(const Scene& scene, const ConnectedParts& parts, std::span<const Index> core) {

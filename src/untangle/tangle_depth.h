@@ -11,7 +11,7 @@ namespace unsnarl {
 struct ConnectedParts {
   explicit ConnectedParts(const Scene& scene);
   std::vector<Index> of_vertex;
-  std::vector<Index> face_count;  ///< of each part
+  Index count = 0;
 };
 
 /// How deep a conflict is, in edges of the mesh. Where a surface runs through another the intersecting faces, with the

@@ -65,25 +65,25 @@ struct States {
 // A vertex that comes back is tried at shares of the way from its parent to points of the fan, without unit: a half,
 // and each `closer` times the last, down to `least_share`. More shares, chosen one by one, end no nearer;
 // without the eight directions a tube that runs through itself keeps 6 to 18 pairs (docs/experiments.md).
-constexpr double closer = 0.2;
-constexpr double least_share = 5e-4;
+constexpr double closer = 0.2;        // without unit
+constexpr double least_share = 5e-4;  // without unit
 /// Below this share the new star has next to no space.
-constexpr double least_space = 0.01;
+constexpr double least_space = 0.01;  // without unit
 
 /// The places of a vertex: where the triangle of the fan carries the vertex, with its offset from there, half of it and
 /// none; points of the fan closer and closer to the parent; and eight directions in which it may leave the parent where
-/// the fan is folded up. Places that flip fewer faces of the star come before
-/// others. Last come points of the fan so close to the parent that the new star is hardly more than the fan, which is
-/// embedded: one of them is mostly free where layers are near.
+/// the fan is folded up. Places that flip fewer faces of the star come before others. Last come points of the fan so
+/// close to the parent that the new star is hardly more than the fan, which is embedded: one of them is mostly free
+/// where layers are near.
 Places places_for(const Removal& removal, std::span<const Triangle> star, const States& states) {
   const auto& [rest, start, x] = states;
   Places result;
   std::vector<Place>& places = result.list;
   const auto add = [&](const Vec3& p) { places.push_back({p}); };
   if (is_at(removal.corners, x, start))
-    places.push_back({start.col(removal.vertex)});
+    add(start.col(removal.vertex));
   else if (is_at(removal.corners, x, rest))
-    places.push_back({rest.col(removal.vertex)});
+    add(rest.col(removal.vertex));
   else
     add(prolongated(removal, 1, rest, x));
   for (const double share : {0.5, 0.0}) add(prolongated(removal, share, rest, x));
