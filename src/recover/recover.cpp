@@ -56,7 +56,7 @@ class Recovery {
     const double min_gap = rules_.options().min_gap;
     return std::min(options_.least_gaps * min_gap, min_gap + share_of_h * h_);
   }
-  /// Opens gaps to `target`, or to what the barrier needs where that is more.
+  /// Opens gaps to `target`, or to what the barrier needs where that is more; exactly checked.
   void open(double target);
   /// Active faces that are flipped.
   std::vector<Index> flipped_faces() const;
@@ -169,6 +169,8 @@ void Recovery::open(double target) {
   open.step_cap = std::min(open.target, options_.step.cap * h_);
   open.stop = stop_;
   open_gaps(patch_.x, rules_, orientation_of_all(), guard_, everything(), open);
+  guard_.roll_back(patch_.x, safe_);
+  safe_ = patch_.x;
 }
 
 void Recovery::unflip(double activation) {
@@ -223,7 +225,6 @@ RecoverResult Recovery::run() {
   const double last_activation = activation_of(options_.last_activation);
 
   open(last_activation);
-  safe_ = patch_.x;
   const Positions opened = patch_.x;
 
   stage(everything(), activation);
