@@ -67,7 +67,8 @@ struct RegionReport {
   std::size_t pairs = 0;  ///< of triangles: resolved; with "none", left; with "paper", at its start
   int iterations = 0;
   double seconds = 0;
-  /// Depth of the tangle: how far the separation that was found moved a vertex, at most / bounding-box diagonal.
+  /// Depth of the tangle: how far from rest the separation that was found, with those it went on from, has a vertex, at
+  /// most / bounding-box diagonal.
   double depth_rel = 0;
   /// How far one of its vertices is from rest after the recovery, at most / bounding-box diagonal, and which vertex of
   /// the input that is; -1: none moved.

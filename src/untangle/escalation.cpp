@@ -440,7 +440,7 @@ class Escalation {
 
   /// The rest of the region begins with the first strategy.
   void keep(Attempt& attempt, const Strategy& strategy) {
-    result_.depths.push_back(attempt.motion());
+    result_.depths.push_back(distances_to_rest(attempt.patch).maxCoeff());
     paste_patch(attempt.patch, scene_, index_);
     for (Index v : attempt.free) level_[v] = 0;
     for (Index v : attempt.region.core) level_[v] = 0;  // some are fixed

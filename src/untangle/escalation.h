@@ -46,7 +46,7 @@ struct EscalationOptions {
 struct EscalationResult {
   std::vector<RegionReport> regions;      ///< what was kept of each strategy, and last the regions that none resolved
   std::vector<std::vector<Index>> moved;  ///< vertices freed for each of the former, for recovery
-  std::vector<double> depths;             ///< how far each of these candidates moved a vertex, at most: a length
+  std::vector<double> depths;             ///< how far from rest each of these has a vertex, at most: a length
   std::vector<IntersectingPair> left;     ///< pairs of triangles that remain
 };
 

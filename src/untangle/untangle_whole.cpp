@@ -46,9 +46,8 @@ void untangle(Whole& whole, Scene& scene, SceneIndex& index, const PaperOptions&
     trajectory = options.recorder->new_trajectory();
     patch.trajectory = &trajectory;
   }
-  const Positions start = patch.x;
   const PaperResult untangled = paper_untangle(patch, paper, scene.face_of, options.stop);
-  const double motion = (patch.x - start).colwise().norm().maxCoeff();
+  const double depth = (patch.x - patch.rest).leftCols(patch.free_count).colwise().norm().maxCoeff();
   paste_patch(patch, scene, index);
   RegionReport report;
   report.strategy = "paper";
@@ -60,7 +59,7 @@ void untangle(Whole& whole, Scene& scene, SceneIndex& index, const PaperOptions&
     options.recorder->add(std::move(trajectory), report.strategy, options.first_region + result.regions.size(),
                           whole.free, scene.x);
   result.regions.push_back(report);
-  result.depths.push_back(motion);
+  result.depths.push_back(depth);
   result.moved.push_back(std::move(whole.free));
 }
 

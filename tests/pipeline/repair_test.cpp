@@ -58,6 +58,9 @@ TEST_P(Samples, are_embedded_afterwards_says_cgal) {
   // Nothing was thrown across the scene to get there, and the shape is still there.
   EXPECT_LT(result.report.displacement_max_rel, 0.35);
   EXPECT_LT(std::abs(result.report.area_change_rel), 0.3);
+  // Recovery leaves hardly more of a separation than it was, also of one that went on from another.
+  for (const RegionReport& region : result.report.regions)
+    EXPECT_LE(region.displacement_rel, 1.5 * region.depth_rel) << region.strategy;
 
   // What is embedded is left alone.
   Surface repaired = surface;
