@@ -251,8 +251,9 @@ TEST(Escalation, what_a_tier_leaves_is_where_the_next_starts) {
   const std::vector<Tier> small = {{lifting(0.3), lifting(2.4)}};
   const EscalationResult result = untangle(scene, {}, options_with(small));
   EXPECT_TRUE(result.left.empty());
-  EXPECT_GT(result.regions.size(), 1u);
-  for (const double depth : result.depths) EXPECT_LE(depth, 2.4 + 1e-12);
+  ASSERT_EQ(result.depths.size(), 2u);
+  EXPECT_NEAR(result.depths[0], 2.4, 1e-12);
+  EXPECT_NEAR(result.depths[1], 2 * 2.4, 1e-12) << "the depth counts from rest";
 }
 
 TEST(Escalation, what_goes_far_waits_for_a_nearer_candidate) {
