@@ -3,6 +3,7 @@
 #include <array>
 
 #include "mesh/areas.h"
+#include "recover/step_filter.h"
 
 namespace unsnarl {
 namespace {
@@ -10,8 +11,6 @@ namespace {
 /// Share of the area vector at rest that is kept. Without unit. With 0.2, three of 31 meshes end 1.3 to 2.5 times
 /// as far.
 constexpr double least_share = 0.1;
-/// A first guess that held. With 8, one of 31 meshes ends 1.3 times as far.
-constexpr int max_rounds = 10;
 
 }  // namespace
 
@@ -27,7 +26,7 @@ FlipGuard::FlipGuard(const Patch& patch, std::span<const std::uint8_t> may_turn)
 }
 
 bool FlipGuard::project(Positions& x) const {
-  for (int round = 0; round < max_rounds; ++round) {
+  for (int sweep = 0; sweep < projection_sweeps; ++sweep) {
     bool pushed = false;
     for (const Kept& kept : kept_) {
       const Triangle& t = kept.corners;
@@ -44,7 +43,7 @@ bool FlipGuard::project(Positions& x) const {
         if (t[k] < free_count_) x.col(t[k]) += missing / squares * gradient[k];
       pushed = true;
     }
-    if (!pushed) return round > 0;
+    if (!pushed) return sweep > 0;
   }
   return true;
 }

@@ -226,8 +226,8 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   auto is_clean = [&](const Positions& y) {
     return blocking_pairs(finder.find(y), tolerated).empty() && !has_squeezed_face(patch, start, y, options.area_floor);
   };
-  double at_least = options.shallow_floor * h;  // overlap that steps are for: as little as there is would never end
-  std::optional<Try> before_keeping;            // where the guard was first needed
+  double at_least = options.negligible * h;  // overlap that steps are for
+  std::optional<Try> before_keeping;         // where the guard was first needed
   // Iterations without progress after which a try is left.
   const auto patience = [&](const Try& t) {
     if (strategy.method == LocalMethod::shorten) return strategy.max_iterations;
@@ -307,7 +307,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   // patch.x stays what the metric was made of.
   Try current{.x = start, .best = start, .mark = {}};
   open_zero_length_edges(patch, edges.edges, options.opening, current.x);
-  if (strategy.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.jitter, current.x);
+  if (strategy.method != LocalMethod::shallow) add_jitter(patch, edges.edges, options.negligible, current.x);
   result.clean = go_on(current);
   result.iterations = current.iterations;
   if (!result.clean && before_keeping && current.pairs_left > options.few_enough) {

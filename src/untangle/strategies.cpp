@@ -46,7 +46,11 @@ constexpr int iterations = 60, shallow_iterations = 20;  // steps
 /// tried.
 constexpr double far_reach = 20;  // h
 
-Strategy local(std::string name, int rings, LocalSettings settings, std::size_t most_valence = any_valence) {
+/// Directions are smoothed over as many edges as rings are free, and over one at least. With two for `contour-4` and
+/// four for `contour-8`, 28 warps end 1.03 times as far in 1.1 to 1.2 of the time, with a seventh more flipped faces.
+Strategy local(std::string name, int rings, LocalMethod method, double step, int max_iterations,
+               std::size_t most_valence = any_valence) {
+  const LocalSettings settings = {method, step, std::max(1.0, static_cast<double>(rings)), max_iterations};
   const auto solve = [settings](Patch& patch, const Task& task) {
     LocalOptions options;
     options.few_enough = task.few_enough;
@@ -128,17 +132,16 @@ Strategy placing() {
 
 /// Strategies that move faces hardly more than they overlap.
 Tier shallow_tier() {
-  const LocalSettings contour = {LocalMethod::contour, short_step, 2, iterations};
-  return {local("shallow-0", 0, {LocalMethod::shallow, short_step, 1, shallow_iterations}, most_valence_of_shallow),
-          local("contour-2", 2, contour, most_valence_of_shallow),
-          local("contour-4", 4, contour, most_valence_of_shallow)};
+  return {local("shallow-0", 0, LocalMethod::shallow, short_step, shallow_iterations, most_valence_of_shallow),
+          local("contour-2", 2, LocalMethod::contour, short_step, iterations, most_valence_of_shallow),
+          local("contour-4", 4, LocalMethod::contour, short_step, iterations, most_valence_of_shallow)};
 }
 
 /// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth takes
 /// twice the time. Two rings tried before four bring nothing nearer (docs/experiments.md).
 Tier layers_tier() {
-  Tier tier = {local("contour-8", 8, {LocalMethod::contour, longest_step, 4, iterations}),
-               local("shorten-4", 4, {LocalMethod::shorten, longest_step, 4, iterations})};
+  Tier tier = {local("contour-8", 8, LocalMethod::contour, longest_step, iterations),
+               local("shorten-4", 4, LocalMethod::shorten, longest_step, iterations)};
   for (Strategy& strategy : tier) strategy.reach = far_reach;
   return tier;
 }

@@ -12,7 +12,7 @@ import re
 import sys
 from pathlib import Path
 
-MOST = 86
+MOST = 80
 PAPER = ("paper_untangle.cpp", "RecoverOptions RecoverOptions::paper()")
 NUMBER = re.compile(r"(?<![\w.])-?(?:\d+\.\d*(?:[eE][-+]?\d+)?|\d+(?:[eE][-+]?\d+)?)(?![\w.])")
 FIELD = re.compile(r"^\s*(?:static\s+|inline\s+)*(?:constexpr\s+)?(?:double|int|Index|std::size_t|PcgOptions|Stop|"
