@@ -179,7 +179,6 @@ EscalationResult SceneRepair::untangle(SceneIndex& index, std::span<const Inters
 void SceneRepair::push_into_nesting(SceneIndex& index, EscalationResult& untangled) {
   const StageClock clock;
   const std::size_t pairs = index.find_pairs().size();
-  const Positions start = scene_.x;
   const PushResult push = unsnarl::push_into_nesting(scene_, index, job_.diagnosis.components.component_of_vertex,
                                                      *job_.nested, job_.limits.stopper());
   if (push.moved.empty()) return;
@@ -194,7 +193,7 @@ void SceneRepair::push_into_nesting(SceneIndex& index, EscalationResult& untangl
   region.pairs = pairs - std::min(pairs, index.find_pairs().size());
   region.iterations = push.iterations;
   region.seconds = clock.stage("").seconds;
-  untangled.depths.push_back((scene_.x - start).colwise().norm().maxCoeff());
+  untangled.depths.push_back((scene_.x - scene_.rest).colwise().norm().maxCoeff());
   untangled.moved.push_back(std::move(free));
 }
 
