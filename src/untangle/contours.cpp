@@ -58,6 +58,11 @@ struct Incidence {
   bool operator<(const Incidence& o) const { return key() != o.key() ? key() < o.key() : other < o.other; }
 };
 
+/// Zero without an area.
+Vec3 unit_normal(const TrianglePoints& p) {
+  return (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+}
+
 /// Unit direction of the curve in face `other` from the crossing inwards, within the plane of the pierced face.
 Vec3 curve_direction(const Positions& x, const Triangle& other, const Edge& edge, const Vec3& pierced_normal) {
   const TrianglePoints p = points_of(x, other);
@@ -128,8 +133,13 @@ Contours trace_contours(const Positions& x, std::span<const Triangle> triangles,
     if (!(sum > 0)) continue;
     for (double& w : crossing.weights) w /= sum;
 
-    Vec3 curve = Vec3::Zero();
-    for (std::size_t k = begin; k < end; ++k) curve += curve_direction(x, triangles[incidences[k].other], edge, normal);
+    Vec3 curve = Vec3::Zero(), edge_normal = Vec3::Zero();
+    for (std::size_t k = begin; k < end; ++k) {
+      const Triangle& other = triangles[incidences[k].other];
+      curve += curve_direction(x, other, edge, normal);
+      edge_normal += unit_normal(points_of(x, other));
+    }
+    crossing.normals = {edge_normal.normalized(), normal};
     // Sliding the edge by D over the resting face moves the crossing by D - (D.n)/(e.n) e; sliding the face by -D under
     // the resting edge, by -(D.n)/(e.n) e. Neither sheet rests: the mean of both counts, here twice.
     const double steepness = e.dot(normal);
@@ -157,6 +167,7 @@ Contours trace_contours(const Positions& x, std::span<const Triangle> triangles,
     if (contour_of_root[root] < 0) contour_of_root[root] = contours.count++;
     contours.crossings[k].contour = contour_of_root[root];
     contours.crossings[k].side = edge_side_in_pair[k] * parity;
+    if (contours.crossings[k].side < 0) std::swap(contours.crossings[k].normals[0], contours.crossings[k].normals[1]);
   }
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (!has_crossing[k]) contours.uncrossed.push_back(pairs[k]);

@@ -21,7 +21,8 @@ struct Crossing {
   /// Volino and Magnenat-Thalmann, "Resolving Surface Collisions through Intersection Contour Minimization" (2006).
   Vec3 direction = Vec3::Zero();
   Index contour = 0;
-  int side = 1;  ///< +1: the edge is on the first sheet of its contour, -1: on the second
+  int side = 1;                   ///< +1: the edge is on the first sheet of its contour, -1: on the second
+  std::array<Vec3, 2> normals{};  ///< unit normals there of the first and the second sheet; of an edge: its faces' mean
 };
 
 /// The intersection curves of a set of triangles.

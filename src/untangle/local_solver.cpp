@@ -22,6 +22,7 @@
 #include "scene/trajectory.h"
 #include "untangle/contours.h"
 #include "untangle/flip_guard.h"
+#include "untangle/sheet_motion.h"
 #include "untangle/zero_length_edges.h"
 
 namespace unsnarl {
@@ -121,22 +122,26 @@ double deepest_overlap(const Patch& patch, const Positions& x, std::span<const I
   return deepest;
 }
 
-enum class CurveForce { per_curve, per_crossing };
+SheetMotion motion_of(LocalMethod method) {
+  switch (method) {
+    case LocalMethod::shallow:
+    case LocalMethod::slide: return SheetMotion::slide;
+    case LocalMethod::contour: return SheetMotion::steeper;
+    case LocalMethod::offset: return SheetMotion::offset;
+    case LocalMethod::shorten: return SheetMotion::free;
+  }
+  return SheetMotion::free;
+}
 
-/// Pushes the two sheets of every intersection curve apart, each curve in one direction or each of its crossings in its
-/// own.
+/// Pushes the two sheets of every intersection curve apart.
 void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& edges,
-                       std::span<const IntersectingPair> pairs, const MinkowskiPenalty& penalty, CurveForce kind,
+                       std::span<const IntersectingPair> pairs, const MinkowskiPenalty& penalty, SheetMotion motion,
                        Positions& force) {
   const Contours contours = trace_contours(x, patch.triangles, edges, pairs);
-  std::vector<Vec3> direction(contours.count, Vec3::Zero());
-  for (const Crossing& c : contours.crossings) direction[c.contour] += c.side * c.direction;
-  for (Vec3& d : direction) {
-    const double size = d.norm();
-    d = size > 0 ? Vec3(d / size) : Vec3(0, 0, 1);
-  }
-  for (const Crossing& c : contours.crossings) {
-    const Vec3 push = kind == CurveForce::per_curve ? Vec3(c.side * direction[c.contour]) : c.direction;
+  const std::vector<Vec3> pushes = sheet_pushes(contours, motion);
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    const Crossing& c = contours.crossings[i];
+    const Vec3 push = c.side * pushes[i];  // of the edge
     const auto [u, v] = edges.edges[c.edge];
     force.col(u) += (1 - c.along) * push;
     force.col(v) += c.along * push;
@@ -213,6 +218,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   LocalResult result;
   const Index n = patch.free_count;
   const double h = patch.edge_length;
+  const SheetMotion motion = motion_of(strategy.method);
   if (n == 0 || !(h > 0)) return result;
   const Positions start = patch.x;
   const EdgeTable edges = build_edges(patch.triangles);
@@ -278,16 +284,12 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
           penalty.set_margin(std::min(options.margin * h, options.shallow_margin * deepest));
         }
         limit = std::min(limit, deepest);
-        // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.
-        if (iteration % 2 == 0)
-          penalty.add(t.x, force);
-        else
-          add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), CurveForce::per_curve, force);
-      } else {
-        const CurveForce kind =
-            strategy.method == LocalMethod::shorten ? CurveForce::per_crossing : CurveForce::per_curve;
-        add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), kind, force);
       }
+      // In turn: the penalty knows nothing of pairs that only touch at a vertex, the contours nothing of depth.
+      if (strategy.method == LocalMethod::shallow && iteration % 2 == 0)
+        penalty.add(t.x, force);
+      else
+        add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), motion, force);
       Eigen::MatrixX3d direction = metric.solve(force, n);
       const double size = direction.rowwise().norm().maxCoeff();
       if (!(size > 0) || !std::isfinite(size)) break;

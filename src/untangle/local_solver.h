@@ -11,9 +11,11 @@ namespace unsnarl {
 
 /// How a local strategy finds its direction.
 enum class LocalMethod {
-  shallow,  ///< the Minkowski penalty (paper §3.2) and `contour` in turn, steps and margin as small as the overlaps
-  contour,  ///< one direction for each intersection curve, its two sheets pushed apart along it
-  shorten,  ///< one for each crossing, that shortens the curve: slow, but it gets through what hems the sheets in
+  shallow,  ///< the Minkowski penalty (paper §3.2) and `slide` in turn, steps and margin as small as the overlaps
+  slide,    ///< along intersection curves, by SheetMotion::slide
+  contour,  ///< the same, by SheetMotion::steeper
+  offset,   ///< the same, by SheetMotion::offset
+  shorten,  ///< the same, by SheetMotion::free: slow, but it gets through what hems the sheets in
 };
 
 /// Largest LocalSettings::step of a strategy, and how far others go between two looks: a try that has gone on for

@@ -25,10 +25,9 @@ constexpr double first_step = 1e-3;  // without unit
 constexpr double growth = 1.6;       // without unit
 /// Bisections between the last motion that is not free and the first that is. With 5, wigs end up to a fifth farther.
 constexpr int bisections = 6;
-/// A component goes farther than the first free place by this share of the motion.
+/// A component goes farther than the first free place by this share of the motion, and shrinks so far at most that this
+/// leaves it short of the point.
 constexpr double margin = 0.05;  // without unit
-/// A vertex goes this share of its distance from the point that a component shrinks to, at most.
-constexpr double most_shrink = 0.95;  // without unit
 /// So many intersecting pairs are tried for their normals as directions, and as many own vertices as points to shrink to.
 /// With 24 vertices a wig ends 6 % farther, all others of 66 meshes as close.
 constexpr std::size_t most_tries = 16;
@@ -208,7 +207,7 @@ class Placement {
       const double rate =
           motion.is_translation() ? 1 : std::sqrt((from.colwise() - motion.centre).colwise().squaredNorm().mean());
       if (!(rate > 0)) continue;
-      const double last = motion.is_translation() ? component.diagonal : most_shrink;
+      const double last = motion.is_translation() ? component.diagonal : 1 - margin;
       double blocked = 0, parameter = first_step * last;
       bool free = false;
       while (parameter * rate < least) {

@@ -92,6 +92,31 @@ TEST(Repair, a_nearer_way_is_taken_where_the_first_goes_far) {
   EXPECT_LT(result.report.displacement_max_rel, 0.05);
 }
 
+// Two open tubes, one around the other, whose waves run through each other by a few edge lengths. Curves that go around
+// them part along the tubes' normals; along one direction, the rim of one is dragged 15 % of the diagonal away.
+TEST(Repair, layers_part_by_their_overlap) {
+  struct Waves {
+    double bottom, height;
+    std::array<double, 3> counts, phases, heights;
+  };
+  const auto tube = [](double gap, const Waves& waves) {
+    return shapes::grid(22, 44, true, [=](double i, double j) {
+      const double z = waves.bottom + waves.height * i / 22, angle = 6.283185307179586 * j / 44;
+      double r = 0.3 + 0.12 * std::cos(3 * z + 0.5) + gap;
+      for (std::size_t k = 0; k < 3; ++k)
+        r += 0.028 * waves.heights[k] *
+             std::sin(waves.counts[k] * angle + (9 + 6 * static_cast<double>(k)) * z + waves.phases[k]);
+      return Vec3(r * std::cos(angle), 0.7 * r * std::sin(angle), z);
+    });
+  };
+  shapes::Shape layers = tube(0, {0.1, 0.8, {4, 5, 4}, {4.5, 4, 5.9}, {0.3, 1.1, 0.7}});
+  layers.add(tube(0.028, {-0.1, 0.85, {4, 7, 5}, {3, 0.8, 0.5}, {1, 0.9, 0.7}}));
+  const RepairResult result = repair(layers.surface());
+  EXPECT_EQ(result.status, Status::embedded);
+  EXPECT_LT(result.report.displacement_max_rel, 0.045);
+  EXPECT_LT(result.report.displacement_mean_rel, 0.0025);
+}
+
 TEST(Repair, few_faces_end_turned_over) {
   std::size_t flipped = 0;
   for (const Expected& sample : {Expected{"cross_cap_punctured", 22},

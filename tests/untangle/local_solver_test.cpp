@@ -43,11 +43,13 @@ Patch with_held_border(const Shape& shape, Index n) {
 }
 
 constexpr LocalSettings shallow = {LocalMethod::shallow, 0.1, 1, 60};
+constexpr LocalSettings slide = {LocalMethod::slide, 0.1, 2, 60};
 constexpr LocalSettings contour = {LocalMethod::contour, 0.1, 2, 60};
+constexpr LocalSettings offset = {LocalMethod::offset, 0.1, 2, 60};
 constexpr LocalSettings shorten = {LocalMethod::shorten, 0.1, 2, 60};
 
 TEST(LocalSolver, each_method_clears_a_shallow_crossing) {
-  for (const LocalSettings& strategy : {shallow, contour, shorten}) {
+  for (const LocalSettings& strategy : {shallow, slide, contour, offset, shorten}) {
     SCOPED_TRACE(static_cast<int>(strategy.method));
     Patch patch = with_held_border(shapes::crossing_bumps(12, 0.3), 12);
     const Positions start = patch.x;
@@ -75,7 +77,7 @@ TEST(LocalSolver, long_tries_follow_the_pairs_that_they_know) {
     LocalOptions options;
     options.patience = 1000;
     if (!follow) options.look_distance = 0;
-    const LocalResult result = solve_locally(patch, {LocalMethod::contour, 0.0005, 2, 10}, {}, options);
+    const LocalResult result = solve_locally(patch, {LocalMethod::slide, 0.0005, 2, 10}, {}, options);
     ASSERT_TRUE(result.clean);
     EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
     EXPECT_GT(result.iterations, 2 * options.despair);
@@ -95,7 +97,7 @@ TEST(LocalSolver, exactly_coincident_sheets_are_parted) {
     };
     if (touches_border(pair.a) && touches_border(pair.b)) held.push_back(pair);
   }
-  const LocalResult result = solve_locally(patch, contour, held);
+  const LocalResult result = solve_locally(patch, slide, held);
   ASSERT_TRUE(result.clean);
   EXPECT_TRUE(blocking_pairs(IntersectionFinder(patch.triangles, patch.active_count).find(patch.x), held).empty());
 }
@@ -104,7 +106,8 @@ TEST(LocalSolver, failure_keeps_the_state_with_the_fewest_pairs) {
   const Patch original = with_held_border(shapes::crossing_bumps(12, 2.5), 12);
   LocalOptions options;
   options.patience = 2;
-  for (const LocalMethod method : {LocalMethod::shallow, LocalMethod::contour, LocalMethod::shorten}) {
+  for (const LocalMethod method :
+       {LocalMethod::shallow, LocalMethod::slide, LocalMethod::contour, LocalMethod::offset, LocalMethod::shorten}) {
     Patch patch = original;
     const LocalResult result = solve_locally(patch, {method, 0.01, 0.3, 2}, {}, options);  // two small steps do not do
     EXPECT_FALSE(result.clean);
@@ -115,7 +118,7 @@ TEST(LocalSolver, failure_keeps_the_state_with_the_fewest_pairs) {
                 original.x.rightCols(patch.x.cols() - patch.free_count));
   }
   Patch stopped = original;
-  EXPECT_FALSE(solve_locally(stopped, contour, {}, {}, [] { return true; }).clean);
+  EXPECT_FALSE(solve_locally(stopped, slide, {}, {}, [] { return true; }).clean);
   EXPECT_TRUE(stopped.x == original.x);
 }
 
@@ -124,7 +127,7 @@ TEST(LocalSolver, what_only_squeezing_could_clear_is_no_success) {
   LocalOptions options;
   options.area_floor = 1.5;  // no face may be smaller than one and a half times what it was: impossible
   const Positions start = patch.x;
-  EXPECT_FALSE(solve_locally(patch, contour, {}, options).clean);
+  EXPECT_FALSE(solve_locally(patch, slide, {}, options).clean);
   EXPECT_TRUE(patch.x == start);
 }
 
@@ -158,7 +161,7 @@ TEST(LocalSolver, tolerated_pairs_are_let_be) {
   ASSERT_FALSE(foreign.empty());
 
   Patch tried = patch;
-  ASSERT_TRUE(solve_locally(tried, contour, foreign).clean);
+  ASSERT_TRUE(solve_locally(tried, slide, foreign).clean);
   const auto left = shapes::pairs_at(tried.x, tried.triangles);
   EXPECT_TRUE(std::all_of(left.begin(), left.end(), is_foreign));
   EXPECT_FALSE(left.empty()) << "the tolerated pairs were worked on";
