@@ -6,6 +6,7 @@
 
 #include "geometry/triangle_intersection.h"
 #include "mesh/adjacency.h"
+#include "mesh/areas.h"
 
 namespace unsnarl {
 namespace {
@@ -57,11 +58,6 @@ struct Incidence {
   auto key() const { return std::pair(edge, face); }
   bool operator<(const Incidence& o) const { return key() != o.key() ? key() < o.key() : other < o.other; }
 };
-
-/// Zero without an area.
-Vec3 unit_normal(const TrianglePoints& p) {
-  return (p[1] - p[0]).cross(p[2] - p[0]).normalized();
-}
 
 /// Unit direction of the curve in face `other` from the crossing inwards, within the plane of the pierced face.
 Vec3 curve_direction(const Positions& x, const Triangle& other, const Edge& edge, const Vec3& pierced_normal) {
@@ -137,7 +133,7 @@ Contours trace_contours(const Positions& x, std::span<const Triangle> triangles,
     for (std::size_t k = begin; k < end; ++k) {
       const Triangle& other = triangles[incidences[k].other];
       curve += curve_direction(x, other, edge, normal);
-      edge_normal += unit_normal(points_of(x, other));
+      edge_normal += triangle_normal(x, other);
     }
     crossing.normals = {edge_normal.normalized(), normal};
     // Sliding the edge by D over the resting face moves the crossing by D - (D.n)/(e.n) e; sliding the face by -D under

@@ -22,7 +22,6 @@
 #include "scene/trajectory.h"
 #include "untangle/contours.h"
 #include "untangle/flip_guard.h"
-#include "untangle/sheet_motion.h"
 #include "untangle/zero_length_edges.h"
 
 namespace unsnarl {
@@ -122,17 +121,6 @@ double deepest_overlap(const Patch& patch, const Positions& x, std::span<const I
   return deepest;
 }
 
-SheetMotion motion_of(LocalMethod method) {
-  switch (method) {
-    case LocalMethod::shallow:
-    case LocalMethod::slide: return SheetMotion::slide;
-    case LocalMethod::contour: return SheetMotion::steeper;
-    case LocalMethod::offset: return SheetMotion::offset;
-    case LocalMethod::shorten: return SheetMotion::free;
-  }
-  return SheetMotion::free;
-}
-
 /// Pushes the two sheets of every intersection curve apart.
 void add_contour_force(const Patch& patch, const Positions& x, const EdgeTable& edges,
                        std::span<const IntersectingPair> pairs, const MinkowskiPenalty& penalty, SheetMotion motion,
@@ -218,7 +206,6 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   LocalResult result;
   const Index n = patch.free_count;
   const double h = patch.edge_length;
-  const SheetMotion motion = motion_of(strategy.method);
   if (n == 0 || !(h > 0)) return result;
   const Positions start = patch.x;
   const EdgeTable edges = build_edges(patch.triangles);
@@ -236,7 +223,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   std::optional<Try> before_keeping;         // where the guard was first needed
   // Iterations without progress after which a try is left.
   const auto patience = [&](const Try& t) {
-    if (strategy.method == LocalMethod::shorten) return strategy.max_iterations;
+    if (strategy.motion == SheetMotion::free) return strategy.max_iterations;
     return t.iterations > strategy.max_iterations ? options.patience : options.despair;
   };
   const auto note_pairs = [&](Try& t, std::size_t count) {
@@ -289,7 +276,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
       if (strategy.method == LocalMethod::shallow && iteration % 2 == 0)
         penalty.add(t.x, force);
       else
-        add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), motion, force);
+        add_contour_force(patch, t.x, edges, pairs, penalty.penalty(), strategy.motion, force);
       Eigen::MatrixX3d direction = metric.solve(force, n);
       const double size = direction.rowwise().norm().maxCoeff();
       if (!(size > 0) || !std::isfinite(size)) break;

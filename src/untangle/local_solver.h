@@ -6,31 +6,30 @@
 #include "scene/patch.h"
 #include "unsnarl/intersections.h"
 #include "untangle/shared_constants.h"
+#include "untangle/sheet_motion.h"
 
 namespace unsnarl {
 
 /// How a local strategy finds its direction.
 enum class LocalMethod {
-  shallow,  ///< the Minkowski penalty (paper §3.2) and `slide` in turn, steps and margin as small as the overlaps
-  slide,    ///< along intersection curves, by SheetMotion::slide
-  contour,  ///< the same, by SheetMotion::steeper
-  offset,   ///< the same, by SheetMotion::offset
-  shorten,  ///< the same, by SheetMotion::free: slow, but it gets through what hems the sheets in
+  contour,  ///< it pushes the two sheets of every intersection curve apart
+  shallow,  ///< the Minkowski penalty (paper §3.2) and that in turn, steps and margin as small as the overlaps
 };
 
 /// Largest LocalSettings::step of a strategy, and how far others go between two looks: a try that has gone on for
 /// LocalOptions::despair iterations looks for intersecting pairs when its steps since add up to this, and follows those
 /// that it knows in between (but `shallow`, which is over soon). On ten deep meshes 0.8 of the time with 0.3, 0.87 with
-/// 0.4; displacements scatter around what they are without. For `shorten` and `contour-8`, which look at every step, a
-/// layered cloth would take four times as long.
+/// 0.4; displacements scatter around what they are without. For `shorten-4` and `contour-8`, which look at every step,
+/// a layered cloth would take four times as long.
 constexpr double longest_step = 0.3;  // h
 
 /// One way to untangle a small patch. Lengths in units of the patch's h.
 struct LocalSettings {
   LocalMethod method;
-  double step;      ///< largest vertex motion of an iteration, h
-  double locality;  ///< range of the direction's smoothing, h
-  /// Beyond these it goes on only as long as it makes progress. `shorten` does so from the start, and waits for
+  SheetMotion motion;  ///< of the two sheets of a curve; `free` is slow, but gets through what hems them in
+  double step;         ///< largest vertex motion of an iteration, h
+  double locality;     ///< range of the direction's smoothing, h
+  /// Beyond these it goes on only as long as it makes progress. With `free` it does so from the start, and waits for
   /// progress as many: with 30 a tangle of layered cloth keeps pairs; with 100 some sheets move a third farther.
   int max_iterations;
 };

@@ -7,17 +7,17 @@
 namespace unsnarl {
 namespace {
 
-/// Share of their square sum by which offsets are held back, so that sheets that lie along each other share what parts
-/// them. Without unit. With 1e-6, 39 posed bodies and wigs end 1.02, 28 warps 1.10 times as far, with 0.1 1.02, 1.08;
-/// with one crossing's share of it 1.01, ten deep meshes 1.03.
-constexpr double offset_damping = 0.01;
+/// The least squares of the two offsets of a curve penalise their squares by this share of the number of crossings:
+/// then sheets that lie along each other share what parts them. With 1e-6, 39 posed bodies and wigs end 1.02, 28
+/// warps 1.10 times as far, with 0.1 1.02, 1.08; with one crossing's share of it 1.01, ten deep meshes 1.03.
+constexpr double offset_damping = 0.01;  // without unit
 
 /// How the first sheet best moves against the second at a crossing.
 Vec3 steepest(const Crossing& crossing) {
   return crossing.side * crossing.direction;
 }
 
-/// The motions of one curve that come nearest to the steepest ones, and their squares.
+/// One curve: the sums that give its slide and its offsets, then the one of these that is asked for.
 class Curve {
  public:
   void add(const Crossing& crossing) {

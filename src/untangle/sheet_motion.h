@@ -15,8 +15,9 @@ enum class SheetMotion {
   free,     ///< every crossing by itself: the curve shrinks along the sheets, too, which crumples them
 };
 
-/// What the first sheet of its curve is pushed by against the second at each crossing: 1 along each curve (root mean
-/// square), but for `free`.
+/// Returns for each crossing the vector (without unit) by which the first sheet of its curve is pushed against the
+/// second there. Along each curve the vectors have length 1 (root mean square); with `free` they are the crossings'
+/// directions.
 std::vector<Vec3> sheet_pushes(const Contours& contours, SheetMotion motion);
 
 }  // namespace unsnarl

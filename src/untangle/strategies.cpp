@@ -48,23 +48,15 @@ constexpr double far_reach = 20;  // h
 
 /// Directions are smoothed over as many edges as rings are free, and over one at least. With half as many where four
 /// and eight are, 28 warps end 1.03 times as far in 1.1 to 1.2 of the time, with a seventh more flipped faces.
-Strategy local(std::string name, int rings, LocalMethod method, double step, int max_iterations,
+Strategy local(std::string name, int rings, LocalMethod method, SheetMotion motion, double step, int max_iterations,
                std::size_t most_valence = any_valence) {
-  const LocalSettings settings = {method, step, std::max(1.0, static_cast<double>(rings)), max_iterations};
+  const LocalSettings settings = {method, motion, step, std::max(1.0, static_cast<double>(rings)), max_iterations};
   const auto solve = [settings](Patch& patch, const Task& task) {
     LocalOptions options;
     options.few_enough = task.few_enough;
     options.min_gap = task.min_gap;
-    // Faces that are inside out have to flip, and their surroundings may have to: then no side is kept.
-    switch (settings.method) {
-      case LocalMethod::shallow:
-        options.orientation = KeepOrientation::yes;
-        break;  // wider strategies may still keep them
-      case LocalMethod::slide:
-      case LocalMethod::contour:
-      case LocalMethod::offset:
-      case LocalMethod::shorten: options.orientation = KeepOrientation::at_first; break;
-    }
+    // Faces that are inside out have to flip, and their surroundings may have to: wider strategies let them.
+    if (settings.method == LocalMethod::shallow) options.orientation = KeepOrientation::yes;
     return solve_locally(patch, settings, task.tolerated, options, task.stop).iterations;
   };
   return {.name = std::move(name), .rings = rings, .most_valence = most_valence, .solve = solve};
@@ -134,16 +126,19 @@ Strategy placing() {
 
 /// Strategies that move faces hardly more than they overlap.
 Tier shallow_tier() {
-  return {local("shallow-0", 0, LocalMethod::shallow, short_step, shallow_iterations, most_valence_of_shallow),
-          local("contour-2", 2, LocalMethod::slide, short_step, iterations, most_valence_of_shallow),
-          local("contour-4", 4, LocalMethod::contour, short_step, iterations, most_valence_of_shallow)};
+  return {
+      local("shallow-0", 0, LocalMethod::shallow, SheetMotion::slide, short_step, shallow_iterations,
+            most_valence_of_shallow),
+      local("contour-2", 2, LocalMethod::contour, SheetMotion::slide, short_step, iterations, most_valence_of_shallow),
+      local("contour-4", 4, LocalMethod::contour, SheetMotion::steeper, short_step, iterations,
+            most_valence_of_shallow)};
 }
 
 /// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth takes
 /// twice the time. Two rings tried before four bring nothing nearer (docs/experiments.md).
 Tier layers_tier() {
-  Tier tier = {local("contour-8", 8, LocalMethod::offset, longest_step, iterations),
-               local("shorten-4", 4, LocalMethod::shorten, longest_step, iterations)};
+  Tier tier = {local("contour-8", 8, LocalMethod::contour, SheetMotion::offset, longest_step, iterations),
+               local("shorten-4", 4, LocalMethod::contour, SheetMotion::free, longest_step, iterations)};
   for (Strategy& strategy : tier) strategy.reach = far_reach;
   return tier;
 }

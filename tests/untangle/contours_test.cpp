@@ -173,15 +173,12 @@ TEST(Contours, directions_are_the_gradient_of_the_length) {
 TEST(Contours, normals_are_those_of_the_two_sheets) {
   for (const TwoSheets& sheets : {crossing_planes(), crossing_tubes()}) {
     const Positions x = sheets.shape.positions();
-    const auto normal_of = [&](Index t) {
-      const TrianglePoints p = points_of(x, sheets.shape.triangles[t]);
-      return Vec3((p[1] - p[0]).cross(p[2] - p[0]).normalized());
-    };
+    const auto normal_of = [&](Index t) { return triangle_normal(x, sheets.shape.triangles[t]); };
     for (const Crossing& c : sheets.contours().crossings) {
       const Vec3 of_face = c.normals[c.side > 0], of_edge = c.normals[c.side < 0];
       EXPECT_NEAR((of_face - normal_of(c.face)).norm(), 0, 1e-12);
       EXPECT_NEAR(of_edge.norm(), 1, 1e-12);
-      // Of the edge's faces one at least meets the pierced one there.
+      // The normal is the mean of those faces of the edge that meet the pierced one.
       double closest = -1;
       for (Index t = 0; t < static_cast<Index>(sheets.shape.triangles.size()); ++t)
         for (Index e : sheets.edges.edges_of_triangle[t])

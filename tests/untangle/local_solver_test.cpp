@@ -42,15 +42,16 @@ Patch with_held_border(const Shape& shape, Index n) {
   return patch;
 }
 
-constexpr LocalSettings shallow = {LocalMethod::shallow, 0.1, 1, 60};
-constexpr LocalSettings slide = {LocalMethod::slide, 0.1, 2, 60};
-constexpr LocalSettings contour = {LocalMethod::contour, 0.1, 2, 60};
-constexpr LocalSettings offset = {LocalMethod::offset, 0.1, 2, 60};
-constexpr LocalSettings shorten = {LocalMethod::shorten, 0.1, 2, 60};
+constexpr LocalSettings shallow = {LocalMethod::shallow, SheetMotion::slide, 0.1, 1, 60};
+constexpr LocalSettings slide = {LocalMethod::contour, SheetMotion::slide, 0.1, 2, 60};
+constexpr LocalSettings steeper = {LocalMethod::contour, SheetMotion::steeper, 0.1, 2, 60};
+constexpr LocalSettings offset = {LocalMethod::contour, SheetMotion::offset, 0.1, 2, 60};
+constexpr LocalSettings free_crossings = {LocalMethod::contour, SheetMotion::free, 0.1, 2, 60};
+const LocalSettings every_method[] = {shallow, slide, steeper, offset, free_crossings};
 
 TEST(LocalSolver, each_method_clears_a_shallow_crossing) {
-  for (const LocalSettings& strategy : {shallow, slide, contour, offset, shorten}) {
-    SCOPED_TRACE(static_cast<int>(strategy.method));
+  for (const LocalSettings& strategy : every_method) {
+    SCOPED_TRACE(static_cast<int>(strategy.method) * 10 + static_cast<int>(strategy.motion));
     Patch patch = with_held_border(shapes::crossing_bumps(12, 0.3), 12);
     const Positions start = patch.x;
     ASSERT_FALSE(shapes::pairs_at(start, patch.triangles).empty());
@@ -77,7 +78,8 @@ TEST(LocalSolver, long_tries_follow_the_pairs_that_they_know) {
     LocalOptions options;
     options.patience = 1000;
     if (!follow) options.look_distance = 0;
-    const LocalResult result = solve_locally(patch, {LocalMethod::slide, 0.0005, 2, 10}, {}, options);
+    const LocalResult result =
+        solve_locally(patch, {LocalMethod::contour, SheetMotion::slide, 0.0005, 2, 10}, {}, options);
     ASSERT_TRUE(result.clean);
     EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
     EXPECT_GT(result.iterations, 2 * options.despair);
@@ -106,10 +108,12 @@ TEST(LocalSolver, failure_keeps_the_state_with_the_fewest_pairs) {
   const Patch original = with_held_border(shapes::crossing_bumps(12, 2.5), 12);
   LocalOptions options;
   options.patience = 2;
-  for (const LocalMethod method :
-       {LocalMethod::shallow, LocalMethod::slide, LocalMethod::contour, LocalMethod::offset, LocalMethod::shorten}) {
+  for (LocalSettings strategy : every_method) {
+    strategy.step = 0.01;  // two small steps do not do
+    strategy.locality = 0.3;
+    strategy.max_iterations = 2;
     Patch patch = original;
-    const LocalResult result = solve_locally(patch, {method, 0.01, 0.3, 2}, {}, options);  // two small steps do not do
+    const LocalResult result = solve_locally(patch, strategy, {}, options);
     EXPECT_FALSE(result.clean);
     const std::size_t left = shapes::pairs_at(patch.x, patch.triangles).size();
     EXPECT_EQ(result.pairs_left, left);

@@ -33,12 +33,10 @@ struct Crossed {
 // A tube through a wider and wider one: they cross once around.
 Crossed tube_and_funnel() {
   Shape shape = shapes::tube(12, 31, 2.1);
-  shape.add(shapes::grid(12, 29, true,
-                         [](double i, double j) {
-                           const double angle = 6.283185307179586 * j / 29 + 0.07, r = 2.137 + 0.2 * (i - 5.83);
-                           return Vec3(i - 5.83, r * std::cos(angle), r * std::sin(angle));
-                         }),
-            {0, 0, 0});
+  shape.add(shapes::grid(12, 29, true, [](double i, double j) {
+    const double angle = 6.283185307179586 * j / 29 + 0.07, r = 2.137 + 0.2 * (i - 5.83);
+    return Vec3(i - 5.83, r * std::cos(angle), r * std::sin(angle));
+  }));
   return {shape};
 }
 
