@@ -7,8 +7,8 @@
 namespace unsnarl {
 
 /// Exact signs. Each predicate tries a floating-point filter whose error is bounded and decides by exact arithmetic
-/// where the filter cannot. Filters after J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
-/// Geometric Predicates" (1997), error bounds "A".
+/// where the filter cannot. Points that are not finite have sign 0. Filters after J. R. Shewchuk, "Adaptive Precision
+/// Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), error bounds "A".
 using Sign = int;  // -1, 0, +1
 
 namespace detail {
@@ -21,6 +21,9 @@ inline constexpr double half_ulp = 1.1102230246251565e-16;  // 2^-53
 inline constexpr double orient3d_bound = (7.0 + 56.0 * half_ulp) * half_ulp;
 inline constexpr double orient2d_bound = (3.0 + 16.0 * half_ulp) * half_ulp;
 inline constexpr double underflow_guard = 1e-280;  // below it products may underflow and the bounds do not hold
+// More than what underflow of a product takes away, of a sum of products of two or, times what else multiplies it,
+// three.
+inline constexpr double lost_to_underflow = 1e-300;
 inline Sign sign_of(double value) {
   return (value > 0) - (value < 0);
 }
@@ -39,7 +42,9 @@ inline Sign orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   const double magnitude = (std::abs(bc1) + std::abs(bc2)) * std::abs(adz) +
                            (std::abs(ca1) + std::abs(ca2)) * std::abs(bdz) +
                            (std::abs(ab1) + std::abs(ab2)) * std::abs(cdz);
-  if (magnitude > detail::underflow_guard && std::abs(det) > detail::orient3d_bound * magnitude)
+  // A product that underflows may be multiplied by a difference along z that is huge.
+  const double underflow = detail::lost_to_underflow * (1 + (std::abs(adz) + std::abs(bdz) + std::abs(cdz)));
+  if (std::abs(det) > detail::orient3d_bound * magnitude + underflow)
     return -detail::sign_of(det);  // Shewchuk's sign is that of det(a - d, b - d, c - d)
   // Planes parallel to the axes are common in modelled shapes and would all reach the exact path.
   if ((adx == 0 && bdx == 0 && cdx == 0) || (ady == 0 && bdy == 0 && cdy == 0) || (adz == 0 && bdz == 0 && cdz == 0))

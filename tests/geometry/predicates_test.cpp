@@ -153,6 +153,27 @@ TEST(Predicates, orient3d_survives_underflow_and_wild_magnitudes) {
   }
 }
 
+// A product that underflows counts if the difference that multiplies it is huge.
+TEST(Predicates, orient3d_survives_underflow_beside_huge_differences) {
+  EXPECT_EQ(orient3d({0, 0, 0}, {1e-100, 0, 1e200}, {1e-162, 0, 1e-10}, {0, 1e-163, 0}),
+            orient3d_by_rationals({0, 0, 0}, {1e-100, 0, 1e200}, {1e-162, 0, 1e-10}, {0, 1e-163, 0}));
+  Random random(7);
+  for (int round = 0; round < 20000; ++round) {
+    std::array<Vec3, 4> p;
+    for (Vec3& q : p)
+      for (int k = 0; k < 3; ++k)
+        q[k] = random.integer(3) == 0 ? 0 : std::ldexp(random.real(), static_cast<int>(random.integer(900)));
+    ASSERT_EQ(orient3d(p[0], p[1], p[2], p[3]), orient3d_by_rationals(p[0], p[1], p[2], p[3])) << "round " << round;
+  }
+}
+
+TEST(Predicates, points_that_are_not_finite_have_no_side) {
+  EXPECT_EQ(orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, INFINITY}), 0);
+  EXPECT_EQ(orient3d({0, 0, NAN}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 0);
+  EXPECT_EQ(orient2d(0, 0, 1, 0, 0, NAN), 0);
+  EXPECT_EQ(orient2d(0, 0, INFINITY, 0, 0, 1), 0);
+}
+
 TEST(Predicates, orient2d_is_exact) {
   Random random(5);
   std::array<int, 3> seen{};
