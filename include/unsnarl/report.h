@@ -15,16 +15,16 @@ namespace unsnarl {
 
 /// How a repair ended. Only `embedded` promises a surface without self-intersections.
 enum class Status : std::uint8_t {
-  embedded,               ///< no two faces meet anywhere but in the hull of the vertices they share
-  reduced,                ///< fewer intersecting pairs than the input, but not none
-  no_progress,            ///< nothing better than the input was found; positions are the input's
-  obstructed,             ///< everything else repaired; only the listed obstructions remain
-  time_limit,             ///< stopped by RepairOptions::time_limit_s
-  memory_limit,           ///< stopped by RepairOptions::memory_limit_mb
-  /// Some self-intersections are left, since resolving them moves a vertex too far; or a vertex of the result is farther
-  /// away than allowed, also where no self-intersection is left.
+  embedded,      ///< no two faces meet anywhere but in the hull of the vertices they share
+  reduced,       ///< fewer intersecting pairs than the input, but not none
+  no_progress,   ///< nothing better than the input was found; positions are the input's
+  obstructed,    ///< everything else repaired; only the listed obstructions remain
+  time_limit,    ///< stopped by RepairOptions::time_limit_s
+  memory_limit,  ///< stopped by RepairOptions::memory_limit_mb
+  /// Some self-intersections are left, since resolving them moves a vertex too far; or a vertex of the result is
+  /// farther away than allowed, also where no self-intersection is left.
   displacement_exceeded,
-  cancelled,              ///< stopped by Context::cancel
+  cancelled,  ///< stopped by Context::cancel
 };
 std::string_view to_string(Status status);
 
@@ -32,7 +32,8 @@ std::string_view to_string(Status status);
 enum class Precision : std::uint8_t { float32, float64 };
 std::string_view to_string(Precision precision);
 
-/// Diagonal of the bounding box, in the units of the positions; 0 without vertices. The unit of every length `*_rel`.
+/// Diagonal of the bounding box, in the units of the positions, at most the largest double; 0 without vertices. The
+/// unit of every length `*_rel`.
 double diagonal_of(const SurfaceView& surface);
 
 /// Something that no motion of the vertices can resolve, or that the options forbid to.

@@ -24,10 +24,6 @@ TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {
   return {x.col(t[first]), x.col(t[(first + 1) % 3]), x.col(t[(first + 2) % 3])};
 }
 
-bool uses_a_vertex_twice(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
 /// Whether two triangles share a vertex of an unfolded fan: nothing is left to decide. Without branches, since most
 /// pairs of a check come here, in no order.
 bool share_an_unfolded_fan(const VertexFans& fans, const Triangle& a, const Triangle& b) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
+#include "geometry/scale.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -27,6 +29,16 @@ struct Box {
   Vec3 center() const { return 0.5 * (lo + hi); }
   double diagonal() const { return (hi - lo).norm(); }
 };
+
+/// Diagonal of the bounding box of these points, x y z of each, at this scale; 0 of none.
+inline double diagonal_of_box(std::span<const double> points, const Scale& scale) {
+  Box box;
+  for (std::size_t i = 0; i + 2 < points.size(); i += 3) box.extend(Vec3(points[i], points[i + 1], points[i + 2]));
+  if (points.empty()) return 0;
+  for (double* bound : {box.lo.data(), box.hi.data()})
+    for (int k = 0; k < 3; ++k) bound[k] = scale.in(bound[k]);
+  return box.diagonal();
+}
 
 inline Box box_of(const Positions& x, const Triangle& t) {
   Box box;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "geometry/scale.h"
+#include "geometry/sort_unique.h"
 #include "mesh/ear_clipper.h"
 
 namespace unsnarl {
@@ -26,9 +28,9 @@ class PolygonCutter {
       ++statistics_.triangles;
       emit(corners[0], corners[1], corners[2]);
     } else {
-      find_mean_normal(corners);
+      gather(corners);
       if (corners.size() == 4)
-        cut_quad(corners[0], corners[1], corners[2], corners[3], emit);
+        cut_quad(corners, emit);
       else
         clip_ears(corners, emit);
     }
@@ -38,50 +40,55 @@ class PolygonCutter {
   template <class Emit>
   void cut_otherwise(std::span<const Index> corners, Emit&& emit) {
     if (corners.size() != 4) return;
-    const Index a = corners[0], b = corners[1], c = corners[2], d = corners[3];
-    find_mean_normal(corners);
-    if (std::min({side(a, b, c), side(a, c, d), side(b, c, d), side(b, d, a)}) <= 0) return;
-    emit(b, c, d);
-    emit(b, d, a);
+    gather(corners);
+    if (std::min({side(0, 1, 2), side(0, 2, 3), side(1, 2, 3), side(1, 3, 0)}) <= 0) return;
+    emit_second_diagonal(corners, emit);
   }
 
  private:
-  Vec3 position(Index v) const {
-    const double* p = &surface_.positions[3 * static_cast<std::size_t>(v)];
-    return {p[0], p[1], p[2]};
-  }
-
-  void find_mean_normal(std::span<const Index> corners) {
-    const Vec3 origin = position(corners[0]);
+  /// The corners' positions, at a scale of their own, and the mean normal. A cut is the same at any power of two.
+  void gather(std::span<const Index> corners) {
+    coordinates_.clear();
+    for (const Index v : corners) {
+      const auto p = surface_.positions.subspan(3 * static_cast<std::size_t>(v), 3);
+      coordinates_.insert(coordinates_.end(), p.begin(), p.end());
+    }
+    const Scale scale(coordinates_);
+    points_.clear();
+    for (std::size_t k = 0; k < coordinates_.size(); k += 3)
+      points_.emplace_back(scale.in(coordinates_[k]), scale.in(coordinates_[k + 1]), scale.in(coordinates_[k + 2]));
     normal_ = Vec3::Zero();
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Vec3 a = position(corners[k]) - origin, b = position(corners[(k + 1) % corners.size()]) - origin;
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const Vec3 a = points_[k] - points_[0], b = points_[(k + 1) % points_.size()] - points_[0];
       normal_ += a.cross(b);
     }
   }
 
-  /// Positive where a, b, c turn left as seen against the mean normal.
-  double side(Index a, Index b, Index c) const { return turn(normal_, position(a), position(b), position(c)); }
+  /// Positive where the corners at these places turn left as seen against the mean normal.
+  double side(int a, int b, int c) const { return turn(normal_, points_[a], points_[b], points_[c]); }
 
   template <class Emit>
-  void cut_quad(Index a, Index b, Index c, Index d, Emit&& emit) {
+  static void emit_second_diagonal(std::span<const Index> corners, Emit&& emit) {
+    emit(corners[1], corners[2], corners[3]);
+    emit(corners[1], corners[3], corners[0]);
+  }
+
+  template <class Emit>
+  void cut_quad(std::span<const Index> corners, Emit&& emit) {
     ++statistics_.quads;
-    const bool first_is_flat = std::min(side(a, b, c), side(a, c, d)) > 0;
-    if (first_is_flat || std::min(side(b, c, d), side(b, d, a)) <= 0) {
-      emit(a, b, c);
-      emit(a, c, d);
+    const bool first_is_flat = std::min(side(0, 1, 2), side(0, 2, 3)) > 0;
+    if (first_is_flat || std::min(side(1, 2, 3), side(1, 3, 0)) <= 0) {
+      emit(corners[0], corners[1], corners[2]);
+      emit(corners[0], corners[2], corners[3]);
     } else {
       ++statistics_.quads_other_diagonal;
-      emit(b, c, d);
-      emit(b, d, a);
+      emit_second_diagonal(corners, emit);
     }
   }
 
   template <class Emit>
   void clip_ears(std::span<const Index> corners, Emit&& emit) {
     ++statistics_.clipped;
-    points_.clear();
-    for (Index corner : corners) points_.push_back(position(corner));
     triangles_.clear();
     statistics_.forced_ears += clipper_.clip(corners, points_, normal_, triangles_);
     for (const auto& [a, b, c] : triangles_) emit(corners[a], corners[b], corners[c]);
@@ -89,9 +96,11 @@ class PolygonCutter {
 
   const SurfaceView& surface_;
   CutStatistics& statistics_;
-  Vec3 normal_;
   EarClipper clipper_;
-  std::vector<Vec3> points_;         // of one polygon's corners
+  // Of one polygon.
+  std::vector<double> coordinates_;  // of its corners, as they are given
+  std::vector<Vec3> points_;         // its corners, scaled
+  Vec3 normal_;                      // of these
   std::vector<Triangle> triangles_;  // as places of its corners
 };
 
@@ -103,6 +112,44 @@ void add(CutStatistics& sum, const CutStatistics& part) {
   sum.forced_ears += part.forced_ears;
   sum.too_small += part.too_small;
   sum.dropped += part.dropped;
+}
+
+/// The segment or point of a triangle with a repeated vertex, smaller vertex first; {v, v} of a point.
+Edge extent_of(const Triangle& t) {
+  const auto [least, largest] = std::minmax({t[0], t[1], t[2]});
+  return {least, largest};
+}
+
+/// Leaves out triangles with a repeated vertex that are an edge or a corner of one with three vertices.
+void leave_out_what_others_cover(Triangulation& cut) {
+  std::vector<Edge> extents;
+  for (const Triangle& t : cut.triangles)
+    if (uses_a_vertex_twice(t)) extents.push_back(extent_of(t));
+  if (extents.empty()) return;
+  sort_unique(extents);
+  std::vector<std::uint8_t> is_covered(extents.size(), 0);
+  const auto place_of = [&](const Edge& extent) {
+    const auto place = std::lower_bound(extents.begin(), extents.end(), extent);
+    return place != extents.end() && *place == extent ? place - extents.begin() : -1;
+  };
+  for (const Triangle& t : cut.triangles) {
+    if (uses_a_vertex_twice(t)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Index a = t[k], b = t[(k + 1) % 3];
+      for (const Edge& part : {Edge{a, a}, Edge{std::min(a, b), std::max(a, b)}})
+        if (const auto place = place_of(part); place >= 0) is_covered[static_cast<std::size_t>(place)] = 1;
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cut.triangles.size(); ++i) {
+    const Triangle t = cut.triangles[i];
+    if (uses_a_vertex_twice(t) && is_covered[static_cast<std::size_t>(place_of(extent_of(t)))] != 0) continue;
+    cut.triangles[kept] = t;
+    cut.polygon[kept++] = cut.polygon[i];
+  }
+  cut.statistics.dropped += cut.triangles.size() - kept;
+  cut.triangles.resize(kept);
+  cut.polygon.resize(kept);
 }
 
 }  // namespace
@@ -117,10 +164,6 @@ Triangulation triangulate(const SurfaceView& surface, std::span<const Index> ver
     for (std::size_t f = i * polygons_in_block; f < end; ++f)
       cutter.cut(surface.face(f), [&](Index a, Index b, Index c) {
         const Triangle t = vertex_of.empty() ? Triangle{a, b, c} : Triangle{vertex_of[a], vertex_of[b], vertex_of[c]};
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-          ++block.statistics.dropped;
-          return;
-        }
         block.triangles.push_back(t);
         block.polygon.push_back(static_cast<Index>(f));
       });
@@ -136,6 +179,7 @@ Triangulation triangulate(const SurfaceView& surface, std::span<const Index> ver
     result.polygon.insert(result.polygon.end(), block.polygon.begin(), block.polygon.end());
     add(result.statistics, block.statistics);
   }
+  leave_out_what_others_cover(result);
   return result;
 }
 
@@ -145,7 +189,7 @@ Triangulation triangulate_other_diagonals(const SurfaceView& surface, std::span<
   for (std::size_t f = 0; f < surface.face_count(); ++f)
     cutter.cut_otherwise(surface.face(f), [&](Index a, Index b, Index c) {
       const Triangle t = vertex_of.empty() ? Triangle{a, b, c} : Triangle{vertex_of[a], vertex_of[b], vertex_of[c]};
-      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
+      if (uses_a_vertex_twice(t)) return;
       result.triangles.push_back(t);
       result.polygon.push_back(static_cast<Index>(f));
     });

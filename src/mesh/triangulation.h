@@ -18,7 +18,7 @@ struct CutStatistics {
   std::size_t clipped = 0;               ///< polygons with more corners, cut by ear clipping
   std::size_t forced_ears = 0;           ///< ears cut although none was convex and empty (twisted polygons)
   std::size_t too_small = 0;             ///< polygons with fewer than three corners: no triangle
-  std::size_t dropped = 0;               ///< triangles left out because two of their corners are one vertex
+  std::size_t dropped = 0;               ///< triangles with a repeated vertex left out: an edge or corner of another
 
   /// One sentence for a person; names only what occurs.
   std::string describe() const;
@@ -33,8 +33,11 @@ struct Triangulation {
 
 /// Cuts every polygon once, by the positions given: a quad along the diagonal from its first corner, or along the other
 /// where that one folds and the other does not; a larger polygon by ear clipping in its mean plane, as it is often
-/// concave. `vertex_of` (file vertex -> welded vertex, see WeldMap) renames the corners after the cut;
-/// triangles with a repeated vertex are then left out and counted. Empty: no renaming.
+/// concave. `vertex_of` (file vertex -> welded vertex, see WeldMap) renames the corners after the cut. Empty: no
+/// renaming.
+///
+/// A triangle with a repeated vertex is a segment or a point. Where that is an edge or a corner of a triangle with
+/// three vertices, whatever meets it meets that one too: it is left out and counted.
 ///
 /// Precondition: valid ids, finite coordinates. The result does not depend on the number of threads.
 Triangulation triangulate(const SurfaceView& surface, std::span<const Index> vertex_of = {});

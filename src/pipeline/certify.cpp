@@ -23,32 +23,37 @@ class Certifier::Search {
   /// As the input's polygons are cut, and as a program cuts them that reads these positions.
   std::vector<IntersectingPair> pairs_at(std::span<const double> positions) {
     require_positions(input_, positions);
-    std::vector<IntersectingPair> pairs = finder_.find(prepared_.gather(positions));
+    const Positions x = at_own_scale(positions);
+    std::vector<IntersectingPair> pairs = finder_.find(x);
     const std::optional<PreparedSurface> read = cut_anew(input_, prepared_, options_, positions);
-    return read ? unite_face_pairs(std::move(pairs), FacePairFinder(*read).find(read->gather(positions))) : pairs;
+    return read ? unite_face_pairs(std::move(pairs), FacePairFinder(*read).find(x)) : pairs;
   }
 
   Certificate certify(std::span<const double> positions) {
     Certificate certificate;
     certificate.pairs = count_by_class(pairs_at(positions));
     certificate.seams_closed = options_.weld_tolerance > 0 || prepared_.seams_are_closed(positions);
-    certificate.new_zero_area_faces =
-        count_lost_areas(prepared_.rest, prepared_.gather(positions), prepared_.triangles());
+    certificate.new_zero_area_faces = count_lost_areas(prepared_.rest, at_own_scale(positions), prepared_.triangles());
     return certificate;
   }
 
   PairCounts pairs_in_float32(std::span<const double> positions) {
     const Positions as_is = Eigen::Map<const Positions>(positions.data(), 3, static_cast<Index>(positions.size() / 3));
-    const Positions rounded = rounded_to_float32(as_is);
+    const Positions rounded = rounded_to_float32(as_is, {});
     const std::span<const double> values(rounded.data(), positions.size());
     PairCounts pairs = count_by_class(pairs_at(values));
-    if (!fits_float32(as_is)) ++pairs[PairClass::degenerate];
+    if (!fits_float32(as_is, {})) ++pairs[PairClass::degenerate];
     return pairs;
   }
 
   int threads() const { return options_.threads; }
 
  private:
+  /// Exactly, whatever numbers they are; what meets does so at any scale.
+  Positions at_own_scale(std::span<const double> positions) const {
+    return prepared_.gather(positions, Scale(positions));
+  }
+
   SurfaceView input_;
   FindOptions options_;
   PreparedSurface prepared_;

@@ -16,9 +16,10 @@
 namespace unsnarl {
 namespace {
 
-void take(const SmallestGap& gap, const std::vector<Index>& polygon, double& distance,
+void take(const SmallestGap& gap, const PreparedSurface& prepared, double& distance,
           std::array<std::int32_t, 2>& faces) {
-  distance = gap.distance;
+  const std::vector<Index>& polygon = prepared.triangulation.polygon;
+  distance = std::isfinite(gap.distance) ? prepared.scale.out(gap.distance) : gap.distance;
   if (gap.first >= 0) faces = {polygon[gap.first], polygon[gap.second]};
 }
 
@@ -45,9 +46,9 @@ Clearance measure_clearance(const SurfaceView& input, std::span<const double> po
     result.gap = 0;
     if (components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b]) result.component_gap = 0;
   }
-  if (result.gap > 0) take(smallest_gap(triangles, x), polygon, result.gap, result.gap_faces);
+  if (result.gap > 0) take(smallest_gap(triangles, x), prepared, result.gap, result.gap_faces);
   if (result.component_gap > 0 && components.count() > 1)
-    take(smallest_gap(triangles, x, components.component_of_triangle), polygon, result.component_gap,
+    take(smallest_gap(triangles, x, components.component_of_triangle), prepared, result.component_gap,
          result.component_gap_faces);
   return result;
 }

@@ -20,13 +20,13 @@ constexpr double largest_gap_of_altitude = 0.02;
 
 }  // namespace
 
-double gap_of_format(const Scene& scene, std::span<const Index> vertices, bool float32) {
+double gap_of_format(const Scene& scene, std::span<const Index> vertices, bool float32, const Scale& scale) {
   double largest = 0;
   for (Index v : vertices) largest = std::max(largest, scene.rest.col(v).cwiseAbs().maxCoeff());
-  return gap_units * (float32 ? float32_unit(largest) : float64_unit(largest));
+  return gap_units * (float32 ? float32_unit(largest, scale) : float64_unit(largest, scale));
 }
 
-bool float32_can_hold(const Scene& scene, std::span<const IntersectingPair> pairs) {
+bool float32_can_hold(const Scene& scene, std::span<const IntersectingPair> pairs, const Scale& scale) {
   std::vector<Triangle> conflict;
   double largest = 0;
   for (const IntersectingPair& pair : pairs)
@@ -34,7 +34,7 @@ bool float32_can_hold(const Scene& scene, std::span<const IntersectingPair> pair
       conflict.push_back(scene.triangles[t]);
       for (Index v : conflict.back()) largest = std::max(largest, scene.rest.col(v).cwiseAbs().maxCoeff());
     }
-  const double unit = float32_unit(largest);
+  const double unit = float32_unit(largest, scale);
   return std::isfinite(unit) && gap_units * unit <= largest_gap_of_altitude * mean_least_altitude(scene.rest, conflict);
 }
 

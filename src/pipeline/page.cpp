@@ -36,7 +36,10 @@ std::string view_page(std::string_view page_template, const PageSource& source) 
     if (source.goal == Goal::disjoint)
       std::erase_if(of_triangles, [](const IntersectingPair& pair) { return pair.kind != PairClass::disjoint; });
     pairs = pairs_of_faces(prepared.triangulation.polygon, of_triangles);
-    return PageState{positions, pairs, intersection_segments(x, prepared.triangles(), of_triangles)};
+    std::vector<std::array<Vec3, 2>> curves = intersection_segments(x, prepared.triangles(), of_triangles);
+    for (std::array<Vec3, 2>& segment : curves)
+      for (Vec3& end : segment) end = end.unaryExpr([&](double number) { return prepared.scale.out(number); });
+    return PageState{positions, pairs, std::move(curves)};
   };
   PageContent content;
   content.input_name = source.input_name;

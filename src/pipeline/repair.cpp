@@ -43,6 +43,19 @@ namespace {
 /// that was meant as a length, but is a share of the diagonal, is 21 and took all of 24 GB.
 constexpr double widest_gap_in_sides = 8;
 
+/// Lengths and vertices as they are at work -> those of the input.
+void put_into_units_of_file(const PreparedSurface& prepared, RegionHistory& region) {
+  const Scale& scale = prepared.scale;
+  for (IterationRecord& iteration : region.iterations) {
+    for (double* length : {&iteration.step, &iteration.min_gap}) *length = scale.out(*length);
+    for (double& length : iteration.bandwidth) length = scale.out(length);
+  }
+  if (region.bandwidths.empty()) return;
+  std::vector<double> of_file;
+  for (const Index v : prepared.weld_map.vertex_of) of_file.push_back(scale.out(region.bandwidths[v]));
+  region.bandwidths = std::move(of_file);
+}
+
 class Repair {
  public:
   /// `known` and `finders`: as in repair_from(), or null. `nesting`: null for none.
@@ -65,7 +78,7 @@ class Repair {
       nested_ = nested_surfaces(surface_, prepared_, *nesting_);
       require_order_is_possible(*nested_, prepared_.rest, *nesting_);
     }
-    diagonal_ = diagonal_of(surface_);
+    diagonal_ = prepared_.diagonal_of(surface_.positions);
     std::vector<std::uint8_t> fixed(prepared_.weld_map.count, 0);
     for (std::size_t v = 0; v < options_.fixed.size(); ++v)
       if (options_.fixed[v]) fixed[prepared_.weld_map.vertex_of[v]] = 1;
@@ -108,7 +121,7 @@ class Repair {
     }
     prepared_ = prepare(surface_, options_.find);
     diagnosis_ = diagnose_topology(surface_, prepared_);
-    finders_ = &own_finders_.emplace(prepared_.triangles());
+    finders_ = &own_finders_.emplace(prepared_.triangles(), prepared_.scale);
   }
 
   void check_options() const {
@@ -145,7 +158,7 @@ class Repair {
     std::optional<Finders> of_each;
     if (options_.each_component) {
       std::erase_if(pairs, [&](const auto& pair) { return are_of_two_components(diagnosis_.components, pair); });
-      of_each.emplace(cut.triangles, VertexGroups(diagnosis_.components.component_of_vertex));
+      of_each.emplace(cut.triangles, prepared_.scale, VertexGroups(diagnosis_.components.component_of_vertex));
     }
     Finders& finders = of_each ? *of_each : *finders_;
     for (const IntersectingPair& pair : pairs)
@@ -216,7 +229,7 @@ class Repair {
     if (limits_.status_or(result_.status) == Status::cancelled) result_.status = Status::cancelled;
     report.float32_embedded = acceptance_->is_embedded_in_float32(reached_);
     measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
-    report.min_gap_rel = std::isfinite(smallest_gap_) && report.diagonal > 0 ? smallest_gap_ / report.diagonal : 0;
+    report.min_gap_rel = std::isfinite(smallest_gap_) && diagonal_ > 0 ? smallest_gap_ / diagonal_ : 0;
     if (options_.max_displacement_rel > 0 && report.displacement_max_rel > options_.max_displacement_rel)
       result_.status = Status::displacement_exceeded;
     measure_components(prepared_, diagnosis_, left.triangles, report);
@@ -225,12 +238,7 @@ class Repair {
     name_duplicates_by_other_cuts(left.by_other_cuts, report);
     if (options_.each_component) name_pairs_between_components(prepared_, diagnosis_, left.triangles, report);
     report.history = recorder_->history();
-    for (RegionHistory& region : report.history) {
-      if (region.bandwidths.empty()) continue;
-      std::vector<double> of_file;
-      for (const Index v : prepared_.weld_map.vertex_of) of_file.push_back(region.bandwidths[v]);
-      region.bandwidths = std::move(of_file);
-    }
+    for (RegionHistory& region : report.history) put_into_units_of_file(prepared_, region);
     result_.frames = recorded_frames(*recorder_, surface_, prepared_, result_.positions, *acceptance_);
     phases_.report(1, left.of_faces.size(), reached_, prepared_.rest, diagonal_);
     phases_.end();

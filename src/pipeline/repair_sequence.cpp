@@ -63,11 +63,16 @@ Jitter jitter_of(const Positions& before, const Positions& here, const Positions
   return {differences.mean() / diagonal, differences.maxCoeff() / diagonal};
 }
 
-/// The largest distance of a vertex between two positions of the same surface.
-double largest_distance(const std::vector<double>& positions, const std::vector<double>& others) {
+/// The distance of each vertex between two positions of the same surface, at this scale.
+Eigen::RowVectorXd distances(const std::vector<double>& positions, const std::vector<double>& others,
+                             const Scale& scale) {
   const auto n = static_cast<Index>(positions.size() / 3);
   using Columns = Eigen::Map<const Positions>;
-  return n > 0 ? (Columns(positions.data(), 3, n) - Columns(others.data(), 3, n)).colwise().norm().maxCoeff() : 0;
+  const auto in = [&](double number) { return scale.in(number); };
+  return (Columns(positions.data(), 3, n).unaryExpr(in) - Columns(others.data(), 3, n).unaryExpr(in)).colwise().norm();
+}
+double largest(const Eigen::RowVectorXd& lengths) {
+  return lengths.size() > 0 ? lengths.maxCoeff() : 0;
 }
 
 class SequenceRepair {
@@ -234,7 +239,7 @@ class SequenceRepair {
   void repair_alone(std::size_t s) {
     Frame& frame = frames_[s];
     see(frame);
-    Finders finders(frame.seen->prepared().triangles());
+    Finders finders(frame.seen->prepared().triangles(), frame.seen->prepared().scale);
     frame.alone = repair_from(surface(frame.input), frame.seen->known(), finders, options_of(s), &context_);
     frame.is_clean = frame.alone.positions == frame.input;
     if (s < first_ || s >= last_) frame.seen.reset();  // nothing is seen from a frame that is not wanted
@@ -287,13 +292,14 @@ class SequenceRepair {
   void smooth(std::size_t t, FrameResult& result) {
     const Frame& frame = frames_[t];
     const PreparedSurface& prepared = frame.seen->prepared();
-    const double least = least_correction_rel * frame.alone.report.diagonal;
+    const Scale& scale = prepared.scale;
+    const double least = least_correction_rel * prepared.diagonal_of(frame.input);
     const Positions mean = mean_correction(t, *frame.seen);
     std::vector<double> target = frame.input;
     for (std::size_t v = 0; v < prepared.weld_map.vertex_of.size(); ++v) {
       const auto correction = mean.col(prepared.weld_map.vertex_of[v]);
       if (correction.norm() < least) continue;
-      for (int k = 0; k < 3; ++k) target[3 * v + k] += correction[k];
+      for (std::size_t k = 0; k < 3; ++k) target[3 * v + k] = scale.out(scale.in(target[3 * v + k]) + correction[k]);
     }
     RepairOptions options = options_of(t);
     const double most_displacement_rel = std::exchange(options.max_displacement_rel, 0);
@@ -303,13 +309,14 @@ class SequenceRepair {
     else if (alone.precision == Precision::float32)
       round_changed_to_float32(frame.input, target);
     // In the welding and triangulation of the input, not of the target; from what is known of the repair by itself.
-    Finders finders(prepared.triangles());
+    Finders finders(prepared.triangles(), prepared.scale);
     if (alone.after.total() == 0)
       finders.start_without_pairs(prepared.gather(result.positions), alone.float32_embedded);
     RepairResult smoothed = repair_from(surface(target), frame.seen->known(), finders, options, &context_);
     if (smoothed.status != Status::embedded) return;
     // A layer that came out on another side would pop.
-    if (largest_distance(smoothed.positions, target) > largest_distance(result.positions, target)) return;
+    if (largest(distances(smoothed.positions, target, scale)) > largest(distances(result.positions, target, scale)))
+      return;
     // The repair followed pairs from frame to target: what it calls embedded is decided once more from nothing.
     const PairCounts left = count_by_class(FacePairFinder(prepared).find(prepared.gather(smoothed.positions)));
     if (options.goal == Goal::all ? left.total() > 0 : left[PairClass::disjoint] > 0) return;
@@ -328,17 +335,17 @@ class SequenceRepair {
 
   static void measure(const Frame& frame, const std::vector<double>& positions, FrameReport& report) {
     const std::size_t n = frame.input.size() / 3;
-    double sum = 0, largest = 0;
+    const Scale scale(frame.input);
+    const Eigen::RowVectorXd moved = distances(positions, frame.input, scale);
+    double sum = 0;
     std::size_t untouched = 0;
     for (std::size_t v = 0; v < n; ++v) {
-      const Vec3 d = Vec3::Map(&positions[3 * v]) - Vec3::Map(&frame.input[3 * v]);
       untouched += std::equal(&frame.input[3 * v], &frame.input[3 * v] + 3, &positions[3 * v]);
-      sum += d.norm();
-      largest = std::max(largest, d.norm());
+      sum += moved[static_cast<Index>(v)];
     }
-    const double unit = report.diagonal > 0 ? 1 / report.diagonal : 0;
+    const double diagonal = diagonal_of_box(frame.input, scale), unit = diagonal > 0 ? 1 / diagonal : 0;
     report.displacement_mean_rel = n > 0 ? sum / static_cast<double>(n) * unit : 0;
-    report.displacement_max_rel = largest * unit;
+    report.displacement_max_rel = largest(moved) * unit;
     report.untouched_share = n > 0 ? static_cast<double>(untouched) / static_cast<double>(n) : 1;
   }
 
@@ -349,7 +356,8 @@ class SequenceRepair {
       const Frame& other = frames_[s];
       return frame.seen->correction(other.input, result_of(other));
     };
-    return jitter_of(correction(t - 1), correction(t), correction(t + 1), diagonal_of(surface(frame.input)));
+    return jitter_of(correction(t - 1), correction(t), correction(t + 1),
+                     frame.seen->prepared().diagonal_of(frame.input));
   }
 
   const SequenceSource& source_;

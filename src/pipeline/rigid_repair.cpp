@@ -45,7 +45,7 @@ class RigidRepair {
     phases.start("place");
     prepared_ = prepare(surface_, options_.find);
     find_parts();
-    finders_.emplace(prepared_.triangles());
+    finders_.emplace(prepared_.triangles(), prepared_.scale);
     diagnosis_ = diagnose(surface_, prepared_, fixed_, finders_->as_is);
     find_obstructions();
     acceptance_.emplace(surface_, prepared_, diagnosis_, options_, *finders_);
@@ -170,20 +170,21 @@ class RigidRepair {
     Attempt result;
     Bodies bodies(prepared_.rest, prepared_.triangles(), part_of_, part_count_, fixed_);
     for (const Index part : parts_that_avoid_soft) bodies.avoid_soft(part);
-    const double diagonal = diagonal_of(surface_);
+    const double diagonal = prepared_.diagonal_of(surface_.positions);
     const double limit = options_.max_displacement_rel * diagonal;
     PlaceBodiesOptions place;
     RecoverBodiesOptions recover;
     if (limit > 0) place.most_motion = recover.most_motion = limit;
     place.stop = recover.stop = limits_.stopper();
     result.is_too_far = place_bodies(bodies, place);
-    float32_ =
-        options_.precision ? *options_.precision == Precision::float32 : float32_can_hold(scene(), diagnosis_.pairs);
+    float32_ = options_.precision ? *options_.precision == Precision::float32
+                                  : float32_can_hold(scene(), diagnosis_.pairs, prepared_.scale);
     std::vector<Index> of_bodies;
     for (const Body& body : bodies.list())
       of_bodies.insert(of_bodies.end(), body.vertices.begin(), body.vertices.end());
     if (!of_bodies.empty())
-      recover.min_gap = std::max(gap_of_format(scene(), of_bodies, float32_), options_.min_gap_rel * diagonal);
+      recover.min_gap =
+          std::max(gap_of_format(scene(), of_bodies, float32_, prepared_.scale), options_.min_gap_rel * diagonal);
     if (options_.recover) recover_bodies(bodies, recover);
     result.positions = as_written(bodies.x());
     // Digits that are too few for the faces of a part would make it intersect itself.

@@ -1,5 +1,6 @@
 #include "pipeline/rigid_report.h"
 
+#include "geometry/box.h"
 #include "geometry/sort_unique.h"
 #include "rigid/bodies.h"
 
@@ -12,7 +13,11 @@ std::string name_of_rigid_part(const RepairOptions& options, Index part) {
 
 void measure_rigid_parts(const SurfaceView& surface, const RepairOptions& options, Index part_count,
                          std::span<const double> positions, RepairReport& report) {
-  const double unit = report.diagonal > 0 ? 1 / report.diagonal : 1;
+  const Scale scale(surface.positions);
+  const auto point = [&](std::span<const double> all, std::size_t v) {
+    return Vec3(scale.in(all[3 * v]), scale.in(all[3 * v + 1]), scale.in(all[3 * v + 2]));
+  };
+  const double diagonal = diagonal_of_box(surface.positions, scale), unit = diagonal > 0 ? 1 / diagonal : 1;
   for (Index part = 0; part < part_count; ++part) {
     std::vector<std::size_t> vertices;
     for (std::size_t v = 0; v < options.rigid.size(); ++v)
@@ -23,12 +28,12 @@ void measure_rigid_parts(const SurfaceView& surface, const RepairOptions& option
     if (vertices.empty()) continue;
     Positions from(3, static_cast<Index>(vertices.size())), to = from;
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-      from.col(static_cast<Index>(k)) = Eigen::Map<const Vec3>(&surface.positions[3 * vertices[k]]);
-      to.col(static_cast<Index>(k)) = Eigen::Map<const Vec3>(&positions[3 * vertices[k]]);
+      from.col(static_cast<Index>(k)) = point(surface.positions, vertices[k]);
+      to.col(static_cast<Index>(k)) = point(positions, vertices[k]);
     }
     const RigidMotion motion = best_rigid_motion(from, to);
     for (int k = 0; k < 9; ++k) entry.rotation[k] = motion.rotation(k / 3, k % 3);
-    for (int k = 0; k < 3; ++k) entry.translation[k] = motion.translation[k];
+    for (int k = 0; k < 3; ++k) entry.translation[k] = scale.out(motion.translation[k]);
     entry.rotation_deg = motion.degrees();
     entry.translation_rel = (to.rowwise().mean() - from.rowwise().mean()).norm() * unit;
     if (from == to) continue;

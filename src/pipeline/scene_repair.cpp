@@ -106,6 +106,7 @@ SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders) {
     report_progress(recovered_fraction, untangled.left);
     job_.attempts.solved = scene_.x;
     result.before_rounding = checkpoint();
+    if (may_give_up_float32() && !fits_float32(scene_.x, job_.prepared.scale)) break;
     scene_.x = as_written(scene_.x);
     // Components on which pairs are left are let be, and the others go on without them.
     for (const IntersectingPair& pair : untangled.left)
@@ -123,7 +124,7 @@ SceneRepair::Rounds SceneRepair::work_in_rounds(Finders& finders) {
     std::erase_if(conflicts, std::not_fn(goes_on));
     result.resolved = conflicts.empty() && is_resolved(finders);
     if (result.resolved) break;
-    const Positions rounded = rounded_to_float32(scene_.x);
+    const Positions rounded = rounded_to_float32(scene_.x, job_.prepared.scale);
     for (const IntersectingPair& pair : conflicts)
       for (Index t : {pair.a, pair.b})
         for (Index v : scene_.triangles[t])
@@ -244,17 +245,18 @@ void SceneRepair::report_progress(double fraction, std::span<const IntersectingP
 
 bool SceneRepair::chooses_float32() const {
   const std::optional<Precision> wanted = job_.options.precision;
-  if (wanted) return *wanted == Precision::float32 && fits_float32(scene_.rest);
+  if (wanted) return *wanted == Precision::float32 && fits_float32(scene_.rest, job_.prepared.scale);
   std::map<Index, std::vector<IntersectingPair>> of_group;
   for (const IntersectingPair& pair : pairs_)
     of_group[scene_.group_of.empty() ? 0 : component_of(pair.a)].push_back(pair);
   return std::all_of(of_group.begin(), of_group.end(),
-                     [&](const auto& group) { return float32_can_hold(scene_, group.second); });
+                     [&](const auto& group) { return float32_can_hold(scene_, group.second, job_.prepared.scale); });
 }
 
 /// Absolute gap wanted between sheets around these vertices. Local, so that distant parts change nothing.
 double SceneRepair::wanted_gap(std::span<const Index> vertices) const {
-  return std::max(gap_of_format(scene_, vertices, float32_), job_.options.min_gap_rel * job_.diagonal);
+  return std::max(gap_of_format(scene_, vertices, float32_, job_.prepared.scale),
+                  job_.options.min_gap_rel * job_.diagonal);
 }
 
 /// The state as it will be read back from the file.
@@ -263,11 +265,11 @@ Positions SceneRepair::as_written(const Positions& x) const {
     const PreparedSurface& prepared = job_.prepared;
     return prepared.gather(job_.options.as_written(prepared.scatter(job_.surface.positions, x), float32_));
   }
-  if (!float32_) return x;
-  Positions rounded = x;
-  const auto size = static_cast<std::size_t>(x.size());
-  round_changed_to_float32({scene_.rest.data(), size}, {rounded.data(), size});
-  return rounded;
+  // At another scale than the file's, double rounds too where it runs out of small numbers.
+  if (!float32_ && job_.prepared.scale.is_one()) return x;
+  std::vector<double> positions = job_.prepared.scatter(job_.surface.positions, x);
+  if (float32_) round_changed_to_float32(job_.surface.positions, positions);
+  return job_.prepared.gather(positions);
 }
 
 /// Pairs that exist only after rounding everything to float32, where float32 has to hold: everywhere if asked for, else

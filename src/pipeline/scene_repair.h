@@ -27,7 +27,7 @@ class SceneRepair {
 
   const Scene& scene() const { return scene_; }
   /// Finders of the triangles of the scene as it is now; of no use once take() has changed them.
-  Finders make_finders() const { return Finders(scene_.triangles, scene_.groups()); }
+  Finders make_finders() const { return Finders(scene_.triangles, job_.prepared.scale, scene_.groups()); }
   /// Nothing but what is let be intersects, and no face has lost its area.
   bool is_resolved(Finders& finders) const;
   /// At rest, is there anything to do?

@@ -37,11 +37,11 @@ std::vector<IntersectingPair> Acceptance::pairs_by_other_cuts(const Positions& x
 std::vector<IntersectingPair> Acceptance::pairs_in_float32(const Positions& x) {
   const std::vector<IntersectingPair> by_input =
       pairs_of_faces(prepared_.triangulation.polygon, finders_.find_rounded(x));
-  return unite_face_pairs(pairs_by_other_cuts(rounded_to_float32(x)), by_input);
+  return unite_face_pairs(pairs_by_other_cuts(rounded_to_float32(x, prepared_.scale)), by_input);
 }
 
 bool Acceptance::is_embedded_in_float32(const Positions& x) {
-  return fits_float32(x) && pairs_in_float32(x).empty();
+  return fits_float32(x, prepared_.scale) && pairs_in_float32(x).empty();
 }
 
 bool Acceptance::is_tolerated(const IntersectingPair& pair) const {
@@ -80,7 +80,9 @@ Status Acceptance::status(const Pairs& pairs, const Positions& x) {
   const auto is_reached = [&](const PairCounts& left) {
     return options_.goal == Goal::all ? left.total() == 0 : left[PairClass::disjoint] == 0;
   };
-  const auto holds_in_float32 = [&] { return fits_float32(x) && is_reached(count_by_class(pairs_in_float32(x))); };
+  const auto holds_in_float32 = [&] {
+    return fits_float32(x, prepared_.scale) && is_reached(count_by_class(pairs_in_float32(x)));
+  };
   if (is_done && !is_reached(pairs.faces)) return Status::obstructed;
   if (is_done && (options_.precision != Precision::float32 || holds_in_float32())) return Status::embedded;
   return pairs.faces.total() < before_.faces.total() ? Status::reduced : Status::no_progress;

@@ -14,14 +14,16 @@
 namespace unsnarl {
 namespace {
 
-void measure_displacement(std::span<const double> before, std::span<const double> after, RepairReport& report) {
+/// `diagonal`: at the scale.
+void measure_displacement(std::span<const double> before, std::span<const double> after, const Scale& scale,
+                          double diagonal, RepairReport& report) {
   const std::size_t n = before.size() / 3;
   if (n == 0) return;
   double sum = 0, squares = 0, largest = 0;
   std::size_t untouched = 0;
   for (std::size_t v = 0; v < n; ++v) {
     double squared = 0;
-    for (int k = 0; k < 3; ++k) squared += std::pow(after[3 * v + k] - before[3 * v + k], 2);
+    for (int k = 0; k < 3; ++k) squared += std::pow(scale.in(after[3 * v + k]) - scale.in(before[3 * v + k]), 2);
     bool same = true;
     for (int k = 0; k < 3; ++k) same &= after[3 * v + k] == before[3 * v + k];
     untouched += same;
@@ -29,7 +31,7 @@ void measure_displacement(std::span<const double> before, std::span<const double
     squares += squared;
     largest = std::max(largest, std::sqrt(squared));
   }
-  const double unit = report.diagonal > 0 ? 1 / report.diagonal : 0;
+  const double unit = diagonal > 0 ? 1 / diagonal : 0;
   report.displacement_mean_rel = sum / static_cast<double>(n) * unit;
   report.displacement_rms_rel = std::sqrt(squares / static_cast<double>(n)) * unit;
   report.displacement_max_rel = largest * unit;
@@ -98,7 +100,8 @@ void measure_stretch(const PreparedSurface& prepared, std::size_t edge_count, co
 void measure_change(const SurfaceView& surface, const PreparedSurface& prepared, const Diagnosis& diagnosis,
                     std::span<const double> positions, RepairReport& report) {
   report.diagonal = diagonal_of(surface);
-  measure_displacement(surface.positions, positions, report);
+  const double diagonal = prepared.diagonal_of(surface.positions);
+  measure_displacement(surface.positions, positions, prepared.scale, diagonal, report);
   const Positions x = prepared.gather(positions);
   const std::span<const Triangle> triangles = prepared.triangles();
   std::vector<std::uint8_t> in_conflict(triangles.size(), 0);
@@ -111,8 +114,7 @@ void measure_change(const SurfaceView& surface, const PreparedSurface& prepared,
   }
   report.volume_change_rel = volume_change(prepared, diagnosis.components, x);
   const double area = total_area(prepared.rest, triangles);
-  report.displacement_lower_bound_rel =
-      report.diagonal > 0 ? 0.5 * deepest_overlap(prepared, diagnosis) / report.diagonal : 0;
+  report.displacement_lower_bound_rel = diagonal > 0 ? 0.5 * deepest_overlap(prepared, diagnosis) / diagonal : 0;
   measure_stretch(prepared, diagnosis.edges.size(), x, report);
   report.area_change_rel = area > 0 ? total_area(x, triangles) / area - 1 : 0;
 }

@@ -161,7 +161,9 @@ std::vector<RecordedFrame> recorded_frames(const Recorder& recorder, const Surfa
         Vec3 own = Vec3::Zero();
         for (int i = 0; i < 3; ++i)
           if (displacement[i] != 0)
-            own[i] = displacement[i] + (input(i, v) - surface.positions[3 * static_cast<std::size_t>(copy) + i]);
+            own[i] = prepared.scale.out(
+                displacement[i] +
+                (input(i, v) - prepared.scale.in(surface.positions[3 * static_cast<std::size_t>(copy) + i])));
         moved.emplace_back(copy, own);
       }
     }

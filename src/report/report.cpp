@@ -54,10 +54,8 @@ std::string_view to_string(Precision precision) {
 }
 
 double diagonal_of(const SurfaceView& surface) {
-  const std::span<const double> x = surface.positions;
-  Box box;
-  for (std::size_t i = 0; i + 2 < x.size(); i += 3) box.extend(Vec3(x[i], x[i + 1], x[i + 2]));
-  return x.empty() ? 0 : box.diagonal();
+  const Scale scale(surface.positions);
+  return scale.out(diagonal_of_box(surface.positions, scale));
 }
 
 }  // namespace unsnarl

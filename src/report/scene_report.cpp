@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "geometry/box.h"
 #include "mesh/validity.h"
 #include "unsnarl/report.h"
 #include "unsnarl/scene_document.h"
@@ -10,7 +11,8 @@
 namespace unsnarl {
 namespace {
 
-void measure_motion(std::span<const double> before, std::span<const double> after, double diagonal,
+/// `diagonal`: of the scene, at the scale.
+void measure_motion(std::span<const double> before, std::span<const double> after, const Scale& scale, double diagonal,
                     SceneFileReport& report) {
   const std::size_t begin = report.file.first_vertex, n = report.file.vertices;
   if (n == 0) return;
@@ -18,7 +20,7 @@ void measure_motion(std::span<const double> before, std::span<const double> afte
   double sum = 0, largest = 0;
   for (std::size_t v = begin; v < begin + n; ++v) {
     double squared = 0;
-    for (std::size_t k = 3 * v; k < 3 * v + 3; ++k) squared += (after[k] - before[k]) * (after[k] - before[k]);
+    for (std::size_t k = 3 * v; k < 3 * v + 3; ++k) squared += std::pow(scale.in(after[k]) - scale.in(before[k]), 2);
     untouched += std::equal(&before[3 * v], &before[3 * v] + 3, &after[3 * v]);
     sum += std::sqrt(squared);
     largest = std::max(largest, std::sqrt(squared));
@@ -36,10 +38,11 @@ SceneReport scene_report(const SurfaceView& before, std::span<const SceneFile> f
                          std::span<const IntersectingPair> pairs_after) {
   if (!after.empty()) require_positions(before, after);
   SceneReport report;
-  const double diagonal = diagonal_of(before);
+  const Scale scale(before.positions);
+  const double diagonal = diagonal_of_box(before.positions, scale);
   for (const SceneFile& file : files) {
     report.files.emplace_back().file = file;
-    if (!after.empty()) measure_motion(before.positions, after, diagonal, report.files.back());
+    if (!after.empty()) measure_motion(before.positions, after, scale, diagonal, report.files.back());
   }
   const std::vector<std::int32_t> file_of = file_of_faces(files);
   std::map<std::pair<std::size_t, std::size_t>, ScenePairs> between;

@@ -13,15 +13,17 @@ namespace unsnarl {
 /// two would decide everything anew every time.
 class Finders {
  public:
-  /// The triangles, and the groups whose triangles pass through each other, must outlive this.
-  explicit Finders(std::span<const Triangle> triangles, VertexGroups groups = {}) : as_is(triangles, groups) {}
+  /// `scale`: of the positions. The triangles, and the groups whose triangles pass through each other, must outlive
+  /// this.
+  Finders(std::span<const Triangle> triangles, const Scale& scale, VertexGroups groups = {})
+      : as_is(triangles, groups), scale_(scale) {}
 
   /// Takes over that nothing intersects at x, nor once x is rounded to float32 if `rounded_too`.
   void start_without_pairs(const Positions& x, bool rounded_too) {
     as_is.start_from(x, {});
     if (!rounded_too) return;
     rounded_ = as_is;
-    rounded_->start_from(rounded_to_float32(x), {});
+    rounded_->start_from(rounded_to_float32(x, scale_), {});
   }
 
   IntersectionFinder as_is;
@@ -29,10 +31,11 @@ class Finders {
   std::vector<IntersectingPair> find_rounded(const Positions& x) {
     // A copy saves building a tree, and deciding again whatever float32 holds as it is.
     if (!rounded_) rounded_ = as_is;
-    return rounded_->find(rounded_to_float32(x));
+    return rounded_->find(rounded_to_float32(x, scale_));
   }
 
  private:
+  Scale scale_;
   std::optional<IntersectionFinder> rounded_;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/box.h"
 #include "mesh/validity.h"
 
 namespace unsnarl {
@@ -19,10 +20,10 @@ void sort_unique_faces(std::vector<IntersectingPair>& pairs) {
 
 }  // namespace
 
-Positions PreparedSurface::gather(std::span<const double> positions) const {
+Positions PreparedSurface::gather(std::span<const double> positions, const Scale& other) const {
   Positions x(3, weld_map.count);
   for (Index v = 0; v < weld_map.count; ++v)
-    for (int k = 0; k < 3; ++k) x(k, v) = positions[3 * static_cast<std::size_t>(weld_map.first[v]) + k];
+    for (int k = 0; k < 3; ++k) x(k, v) = other.in(positions[3 * static_cast<std::size_t>(weld_map.first[v]) + k]);
   return x;
 }
 
@@ -31,9 +32,13 @@ std::vector<double> PreparedSurface::scatter(std::span<const double> input, cons
   for (std::size_t v = 0; v < weld_map.vertex_of.size(); ++v) {
     const Index id = weld_map.vertex_of[v];
     for (int k = 0; k < 3; ++k)
-      if (x(k, id) != rest(k, id)) positions[3 * v + k] = x(k, id);
+      if (x(k, id) != rest(k, id)) positions[3 * v + k] = scale.out(x(k, id));
   }
   return positions;
+}
+
+double PreparedSurface::diagonal_of(std::span<const double> positions) const {
+  return diagonal_of_box(positions, scale);
 }
 
 bool PreparedSurface::seams_are_closed(std::span<const double> positions) const {
@@ -53,7 +58,11 @@ PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options) 
     throw std::invalid_argument("FindOptions::threads is " + std::to_string(options.threads) +
                                 "; give 0 for as many as the machine has, or their number");
   PreparedSurface prepared;
-  prepared.weld_map = weld(surface, options.weld, options.weld_tolerance);
+  prepared.scale = Scale(surface.positions);
+  std::vector<double> scaled;
+  if (!prepared.scale.is_one()) scaled = prepared.scale.in(surface.positions);
+  const SurfaceView at_scale = {prepared.scale.is_one() ? surface.positions : scaled, surface.corners, surface.offsets};
+  prepared.weld_map = weld(at_scale, options.weld, prepared.scale.in(options.weld_tolerance));
   prepared.triangulation = triangulate(surface, prepared.weld_map.vertex_of);
   if (options.both_diagonals)
     prepared.other_diagonals = triangulate_other_diagonals(surface, prepared.weld_map.vertex_of);
@@ -70,7 +79,10 @@ std::optional<PreparedSurface> cut_anew(const SurfaceView& surface, const Prepar
   if (cut.triangles == prepared.triangulation.triangles &&
       other_diagonals.triangles == prepared.other_diagonals.triangles)
     return std::nullopt;
-  return PreparedSurface{prepared.weld_map, std::move(cut), std::move(other_diagonals), prepared.rest};
+  PreparedSurface anew = prepared;
+  anew.triangulation = std::move(cut);
+  anew.other_diagonals = std::move(other_diagonals);
+  return anew;
 }
 
 std::vector<IntersectingPair> pairs_of_faces(std::span<const Index> polygon, std::span<const IntersectingPair> pairs) {

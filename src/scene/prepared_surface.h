@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/scale.h"
 #include "geometry/types.h"
 #include "mesh/adjacency.h"
 #include "mesh/components.h"
@@ -14,18 +15,24 @@
 
 namespace unsnarl {
 
-/// Everything that is decided once, from the input, and holds for every later state of it.
+/// Everything that is decided once, from the input, and holds for every later state of it. Positions are scaled by a
+/// power of two where the input's are so large or small that products of lengths would over- or underflow.
 struct PreparedSurface {
   WeldMap weld_map;
   Triangulation triangulation;
   Triangulation other_diagonals;  ///< of the quads; empty unless FindOptions::both_diagonals
+  Scale scale;                    ///< of all positions x of welded vertices; in(a coordinate of the file)
   Positions rest;                 ///< of the welded vertices
 
   std::span<const Triangle> triangles() const { return triangulation.triangles; }
-  /// Positions of the file's vertices -> of the welded ones (the first of each).
-  Positions gather(std::span<const double> positions) const;
+  /// Positions of the file's vertices -> of the welded ones (the first of each), at this scale.
+  Positions gather(std::span<const double> positions) const { return gather(positions, scale); }
+  /// The same at another scale.
+  Positions gather(std::span<const double> positions, const Scale& other) const;
   /// The input's positions, with those of the welded vertices that differ from rest put in their place.
   std::vector<double> scatter(std::span<const double> input, const Positions& x) const;
+  /// Diagonal of the bounding box of the file's vertices at these positions, at this scale.
+  double diagonal_of(std::span<const double> positions) const;
   /// All vertices of the file that are one lie at one position.
   bool seams_are_closed(std::span<const double> positions) const;
 };

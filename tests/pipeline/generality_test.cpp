@@ -336,6 +336,66 @@ TEST(Repair, a_collapsed_ring_is_opened_no_farther_than_it_has_to_be) {
   EXPECT_LT(result.report.displacement_mean_rel, 2e-4);
 }
 
+/// Segments and points that are faces: through a sheet, on it, and clear of it.
+Surface pins() {
+  std::vector<Vec3> points = {{-1, -1, 0},      {1, -1, 0},      {1, 1, 0},      {-1, 1, 0},
+                              {0.3, 0.2, -0.5}, {0.3, 0.2, 0.5}, {-0.4, 0.3, 0}, {0, -0.5, 0},
+                              {0, -0.5, 1},     {0.2, -0.6, 1},  {0.4, 0.9, 1}};
+  return polygons(points, {{0, 1, 2, 3}, {4, 4, 5}, {6, 6, 6}, {8, 7, 7, 8}, {9, 10, 10}});
+}
+
+TEST(Repair, counts_and_parts_faces_that_are_segments_and_points) {
+  const Surface surface = pins();
+  const PairCounts before = count_by_class(find_intersections(surface));
+  EXPECT_EQ(before[PairClass::degenerate], 3u);
+  EXPECT_EQ(before.total(), 3u);
+  const RepairResult result = repair(surface);
+  EXPECT_EQ(result.status, Status::embedded);
+  EXPECT_TRUE(certify(surface, result.positions).embedded());
+  EXPECT_TRUE(judged(prepare(surface, {}), result.positions).empty());
+}
+
+/// Coordinates times a power of two: the same result, times that.
+class AnyScale : public testing::TestWithParam<int> {};
+
+TEST_P(AnyScale, repairs_alike) {
+  const auto scaled = [](std::vector<double> numbers) {
+    for (double& x : numbers) x = std::ldexp(x, GetParam());
+    return numbers;
+  };
+  RepairOptions options;
+  options.precision = Precision::float64;  // whatever float32 can hold
+  options.record.frames = 4;
+  for (const Surface& surface : {at_scale(1), sample_of("overlapping_quads", 8), hexagons_and_a_star(), darts()}) {
+    const Surface other = {scaled(surface.positions), surface.corners, surface.offsets};
+    const std::vector<IntersectingPair> pairs = find_intersections(surface);
+    EXPECT_EQ(find_intersections(other), pairs);
+    const RepairResult result = repair(surface, options), at_other = repair(other, options);
+    EXPECT_EQ(at_other.status, Status::embedded);
+    EXPECT_EQ(at_other.positions, scaled(result.positions));
+    EXPECT_EQ(at_other.report.displacement_max_rel, result.report.displacement_max_rel);
+    EXPECT_EQ(at_other.report.diagonal, std::ldexp(result.report.diagonal, GetParam()));
+    EXPECT_EQ(at_other.frames.back().displacements, scaled(result.frames.back().displacements));
+    EXPECT_TRUE(certify(other, at_other.positions).embedded());
+    // Crossings are found at that scale too where there are some.
+    EXPECT_EQ(certify(other, other.positions).pairs.total(), pairs.size());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Repair, AnyScale, testing::Values(-900, -300, -128, 128, 300, 600, 900), [](const auto& info) {
+  return (info.param < 0 ? "minus_" : "plus_") + std::to_string(std::abs(info.param));
+});
+
+// Both need the digits of float64, one since float32 has no such numbers, one since a vertex leaves its range.
+TEST(Repair, falls_back_to_float64_where_float32_has_no_room) {
+  for (const double scale : {0x1p200, 3e38 / 4.1}) {
+    const Surface surface = at_scale(scale);
+    const RepairResult result = repair(surface);
+    EXPECT_EQ(result.status, Status::embedded) << scale;
+    EXPECT_TRUE(certify(surface, result.positions).embedded());
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Repair, Generality,
     testing::Values(

@@ -12,7 +12,7 @@ namespace {
 TEST(RepairFrom, WithoutKnowledgeItIsRepair) {
   const Surface tubes = make_sample("crossing_tubes", 16);
   const KnownSurface known(tubes, {});
-  Finders finders(known.prepared.triangles());
+  Finders finders(known.prepared.triangles(), known.prepared.scale);
   const RepairResult expected = repair(tubes), found = repair_from(tubes, known, finders, {}, nullptr);
   EXPECT_EQ(found.status, Status::embedded);
   EXPECT_TRUE(found.positions == expected.positions);
@@ -29,7 +29,8 @@ TEST(RepairFrom, WhatIsKnownOfOnePlaceSavesNothingWhereVerticesMove) {
   for (std::size_t k = 0; k < between.positions.size(); ++k)
     between.positions[k] = 0.5 * (tubes.positions[k] + clean.positions[k]);
   const KnownSurface known(tubes, {});
-  Finders anew(known.prepared.triangles()), informed(known.prepared.triangles());
+  Finders anew(known.prepared.triangles(), known.prepared.scale),
+      informed(known.prepared.triangles(), known.prepared.scale);
   informed.start_without_pairs(known.prepared.gather(clean.positions), clean.report.float32_embedded);
   const RepairResult expected = repair_from(between, known, anew, {}, nullptr);
   const RepairResult found = repair_from(between, known, informed, {}, nullptr);
@@ -52,7 +53,7 @@ TEST(RepairFrom, WeldingStaysThatOfTheKnownSurface) {
   const KnownSurface known(surface, {});
   Surface onto = surface;
   for (std::size_t v = 4; v < 8; ++v) onto.positions[3 * v + 2] = 0;
-  Finders finders(known.prepared.triangles());
+  Finders finders(known.prepared.triangles(), known.prepared.scale);
   finders.start_without_pairs(known.prepared.rest, true);
   const RepairResult found = repair_from(onto, known, finders, {}, nullptr);
   EXPECT_GT(found.report.before.total(), 0u);

@@ -23,7 +23,7 @@ class GoalTest : public ::testing::Test {
     options.goal = goal;
     const SurfaceView surface{fan_with_crossing, fan_corners};
     const PreparedSurface prepared = prepare(surface, options.find);
-    Finders finders(prepared.triangles());
+    Finders finders(prepared.triangles(), prepared.scale);
     const Diagnosis diagnosis =
         diagnose(surface, prepared, std::vector<std::uint8_t>(prepared.weld_map.count, 0), finders.as_is);
     EXPECT_EQ(diagnosis.pairs.size(), 1u);
@@ -49,7 +49,7 @@ TEST(AcceptanceOfPolygons, what_meets_as_a_reader_splits_them_counts) {
   const SurfaceView surface{input, corners, offsets};
   const RepairOptions options;
   const PreparedSurface prepared = prepare(surface, options.find);
-  Finders finders(prepared.triangles());
+  Finders finders(prepared.triangles(), prepared.scale);
   const Diagnosis diagnosis = diagnose(surface, prepared, {}, finders.as_is);
   Acceptance acceptance(surface, prepared, diagnosis, options, finders);
 

@@ -4,6 +4,7 @@ import contextlib
 import io
 import itertools
 import json
+import math
 import os
 import random
 import struct
@@ -146,6 +147,26 @@ class VerifyTest(unittest.TestCase):
         area = sum(abs((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2
                    for a, b, c in ([ell[v] for v in t] for t in cut(tuple(range(6)), ell)))
         self.assertEqual(area, 3)
+
+    def test_polygons_are_cut_alike_at_any_power_of_two(self):
+        dice = random.Random(3)
+        for size in (4, 4, 7):
+            for _ in range(200):
+                points = [tuple(dice.uniform(-1, 1) for _ in range(3)) for _ in range(size)]
+                expected = cut(tuple(range(size)), points)
+                for exponent in (-1000, -300, 300, 512, 900, 1022):
+                    scaled = [tuple(math.ldexp(c, exponent) for c in p) for p in points]
+                    self.assertEqual(cut(tuple(range(size)), scaled), expected)
+
+    def test_faces_with_a_repeated_vertex_are_segments_and_points(self):
+        sheet = b'v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 %s\nv 1 1 2\nf 1 2 3\n'
+        for face in (b'f 4 4 5\n', b'f 4 5 4 5\n'):
+            self.expect(['embedded'], sheet % b'-1' + face, sheet % b'-1' + face)
+            self.expect([], sheet % b'-1' + face, sheet % b'1' + face)
+        self.expect(['embedded'], sheet % b'0' + b'f 4 4 4\n', sheet % b'0' + b'f 4 4 4\n')
+        self.expect([], sheet % b'0' + b'f 4 4 4\n', sheet % b'1' + b'f 4 4 4\n')
+        own = sheet % b'1' + b'f 1 1 1\nf 2 1 2\n'  # an edge and a corner of the triangle
+        self.expect([], own, own)
 
     def test_unreadable_files_and_senseless_arguments(self):
         self.assertEqual(self.run_on(STUCK, b'v 1 2\n')[0], 3)

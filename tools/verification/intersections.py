@@ -165,7 +165,7 @@ class Detector:
     def kind(self, i, j):
         """The class in which two triangles intersect; None where they do not."""
         ta, tb = self.triangles[i], self.triangles[j]
-        shared = [v for v in ta if v in tb]
+        shared = [v for v in dict.fromkeys(ta) if v in tb]
         if len(shared) == 3:
             return 'duplicate'
         have_area = self.has_area(i) and self.has_area(j)

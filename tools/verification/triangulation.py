@@ -1,11 +1,29 @@
 """How polygons are cut into triangles, by the rule that src/mesh/triangulation.h states."""
+import math
+
 from .vectors import cross, dot, minus, sides
 
+LARGEST_EXPONENT = 100  # numbers up to 2^100 and down to 2^-100 are taken as they are
 
-def cut(face, p):
+
+def at_moderate_scale(points):
+    """The points times a power of two at which no product of four lengths over- or underflows."""
+    magnitudes = [abs(c) for p in points.values() for c in p if c]
+    if not magnitudes:
+        return points
+    exponent = math.frexp(max(magnitudes))[1]
+    if abs(exponent) <= LARGEST_EXPONENT:
+        return points
+    if exponent > 0:  # no bit of the smallest is lost
+        exponent = min(exponent, max(0, math.frexp(min(magnitudes))[1] + 1021))
+    return {v: tuple(math.ldexp(c, -exponent) for c in p) for v, p in points.items()}
+
+
+def cut(face, positions):
     """Triangles of a polygon. In floating point, as near-ties have to be decided like everybody else does."""
     if len(face) == 3:
         return [face]
+    p = at_moderate_scale({v: positions[v] for v in face})
     normal = (0.0, 0.0, 0.0)
     for a, b in sides(face):
         part = cross(minus(p[a], p[face[0]]), minus(p[b], p[face[0]]))
@@ -34,11 +52,15 @@ def cut(face, p):
 
 
 def triangulate(mesh, vertex_of):
-    """(triangle of welded vertices, its face)."""
+    """(triangle of welded vertices, its face). One with a repeated vertex is a segment or a point; it is left out where
+    it is an edge or a corner of a triangle with three vertices."""
     triangles = []
     for f, face in enumerate(mesh.faces):
         for t in cut(face, mesh.positions):
-            t = vertex_of[t[0]], vertex_of[t[1]], vertex_of[t[2]]
+            triangles.append(((vertex_of[t[0]], vertex_of[t[1]], vertex_of[t[2]]), f))
+    known = set()
+    if any(len(set(t)) < 3 for t, _ in triangles):
+        for t, _ in triangles:
             if len(set(t)) == 3:
-                triangles.append((t, f))
-    return triangles
+                known.update(frozenset(part) for part in list(sides(t)) + [(v,) for v in t])
+    return [(t, f) for t, f in triangles if len(set(t)) == 3 or frozenset(t) not in known]

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace unsnarl {
+
+/// A power of two between numbers as somebody gives them and numbers at which no product that we form over- or
+/// underflows. Numbers scaled in and out again are what they were: all steps are exact but that out of a range that
+/// double has no numbers for.
+class Scale {
+ public:
+  /// Exponents of numbers that are taken as they are: products of eight neither overflow nor, of parts a million times
+  /// smaller, underflow.
+  static constexpr int largest_exponent = 100;
+
+  Scale() = default;
+  /// That of numbers of which the largest magnitude is in [0.5, 1), unless it is moderate as it is: then it is 1.
+  /// Numbers that are not finite do not count.
+  explicit Scale(std::span<const double> numbers) {
+    double largest = 0, smallest = std::numeric_limits<double>::max();
+    for (const double number : numbers) {
+      const double magnitude = std::abs(number);
+      if (!(magnitude > 0 && magnitude <= std::numeric_limits<double>::max())) continue;
+      largest = std::max(largest, magnitude);
+      smallest = std::min(smallest, magnitude);
+    }
+    if (largest == 0) return;
+    exponent_ = exponent_of(largest);
+    if (std::abs(exponent_) <= largest_exponent) exponent_ = 0;
+    // No bit of the smallest may fall below what double holds.
+    if (exponent_ > 0) exponent_ = std::min(exponent_, std::max(0, exponent_of(smallest) + 1021));
+  }
+
+  /// A number given is number_in * 2^exponent().
+  int exponent() const { return exponent_; }
+  bool is_one() const { return exponent_ == 0; }
+  double in(double number) const { return is_one() ? number : std::ldexp(number, -exponent_); }
+  /// Beyond double: its largest number.
+  double out(double number) const {
+    constexpr double largest = std::numeric_limits<double>::max();
+    return is_one() ? number : std::clamp(std::ldexp(number, exponent_), -largest, largest);
+  }
+  std::vector<double> in(std::span<const double> numbers) const {
+    std::vector<double> scaled(numbers.begin(), numbers.end());
+    if (!is_one())
+      for (double& number : scaled) number = in(number);
+    return scaled;
+  }
+
+ private:
+  static int exponent_of(double magnitude) {
+    int exponent = 0;
+    std::frexp(magnitude, &exponent);
+    return exponent;
+  }
+
+  int exponent_ = 0;
+};
+
+}  // namespace unsnarl
