@@ -38,10 +38,11 @@ std::string list_of_parts(const std::vector<NamedPart>& parts) {
   std::string text;
   for (const NamedPart& part : parts)
     if (++listed[part.kind] <= parts_in_text)
-      text += fmt::format("  {} {}: {}, {}\n", to_string(part.kind), part.name,
-                          counted(part.faces, "face", "faces"), counted(part.vertices, "vertex", "vertices"));
+      text += fmt::format("  {} {}: {}, {}\n", to_string(part.kind), part.name, counted(part.faces, "face", "faces"),
+                          counted(part.vertices, "vertex", "vertices"));
   for (const auto& [kind, count] : listed)
-    if (count > parts_in_text) text += fmt::format("  and {} more {}s (--json lists all)\n", count - parts_in_text, to_string(kind));
+    if (count > parts_in_text)
+      text += fmt::format("  and {} more {}s (--json lists all)\n", count - parts_in_text, to_string(kind));
   return text;
 }
 
@@ -82,8 +83,7 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
       const ComponentFindings& c = found.components[i];
       line(fmt::format("  component {:<3} {:>6} {:<5} {:>6} {:<8} {:>5} {:<5} within {:>5} with others; {}", i, c.faces,
                        c.faces == 1 ? "face" : "faces", c.vertices, c.vertices == 1 ? "vertex" : "vertices",
-                       c.pairs_within, c.pairs_within == 1 ? "pair" : "pairs",
-                       c.pairs_with_others, extent(c.bounds)));
+                       c.pairs_within, c.pairs_within == 1 ? "pair" : "pairs", c.pairs_with_others, extent(c.bounds)));
     }
   if (found.components.size() > components_in_text)
     line(fmt::format("  and {} more (--json lists all)", found.components.size() - components_in_text));

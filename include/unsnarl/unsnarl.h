@@ -82,6 +82,12 @@ typedef struct unsnarl_surface {
                             from the innermost out, a -1 after each; all but the first of a chain have to be closed.
                             NULL: it does not matter. Not of sequences, nor with rigid, each_component or paper */
   size_t nested_count;   /* of these numbers, -1 included */
+  const char* const* rigid_names; /* names of the rigid parts, for reports; NULL: their numbers */
+  size_t rigid_name_count;
+  const int32_t* nested_surface; /* one number a vertex: the surface that it belongs to, which `nested` then counts in
+                                    place of meshes; -1: none. NULL: `nested` counts meshes */
+  const char* const* nested_names; /* names of these surfaces, for messages and reports; NULL: their numbers */
+  size_t nested_name_count;
 } unsnarl_surface;
 
 /* Polylines in the plane, or closed polygons in space (a link). */
@@ -229,6 +235,13 @@ UNSNARL_EXPORT int unsnarl_find_intersections(const unsnarl_surface* surface, co
  * "degenerate" (one of them has no area). NULL for any other number. */
 UNSNARL_EXPORT const char* unsnarl_pair_kind(int kind);
 
+/* What `unsnarl check` finds: pairs, where they are, the components, and what the surface's document names.
+ *
+ * Arrays: "pairs" and "kinds" as of unsnarl_find_intersections. Report: that of `unsnarl check --json`
+ * (docs/schemas/check.schema.json). */
+UNSNARL_EXPORT int unsnarl_check(const unsnarl_surface* surface, const unsnarl_options* options,
+                                 unsnarl_result** result);
+
 /* Decides exactly whether the faces are embedded with their vertices at `moved` (x y z of each, moved_count vertices).
  * Vertices are welded as on the positions of `surface`; polygons are split as there, and as a program splits them that
  * reads `moved`.
@@ -296,19 +309,47 @@ UNSNARL_EXPORT int unsnarl_page(const unsnarl_surface* surface, const unsnarl_pa
 
 /* Reads a mesh file with all that it holds. format: "obj", "ply", ... (docs/formats.md); NULL: by the extension. */
 UNSNARL_EXPORT int unsnarl_document_read(const char* path, const char* format, unsnarl_document** document);
-/* The mesh of the file, for the functions above. surface->size is to be set. The arrays are the document's. */
+/* Reads several mesh files of one coordinate system as one scene (docs/scenes.md), to be repaired together. All need
+ * names of their own. format: of all of them. */
+UNSNARL_EXPORT int unsnarl_document_read_scene(const char* const* paths, size_t path_count, const char* format,
+                                               unsnarl_document** document);
+/* The mesh of the file, for the functions above; of several files all meshes, with mesh_sizes. surface->size is to be
+ * set. The arrays are the document's. */
 UNSNARL_EXPORT int unsnarl_document_surface(const unsnarl_document* document, unsnarl_surface* surface);
 /* JSON: "format", "vertices", "faces", "notes" (sentences worth telling the user). */
 UNSNARL_EXPORT const char* unsnarl_document_report(const unsnarl_document* document);
+/* The faces of a part that the document names. kind: "object", "group", "material", "component" (name: its number, as
+ * unsnarl_check lists them) or, of several files, "file". UNSNARL_INVALID_ARGUMENT where there is no such part; the
+ * message lists those that there are.
+ *
+ * Array "faces" (m, 1) uint8, flags. */
+UNSNARL_EXPORT int unsnarl_document_faces(const unsnarl_document* document, const char* kind, const char* name,
+                                          const unsnarl_options* options, unsnarl_result** result);
+/* From now on unsnarl_document_write turns stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved.
+ * *is_any: 0: there are none that could be updated. */
+UNSNARL_EXPORT int unsnarl_document_recompute_normals(unsnarl_document* document, int32_t* is_any);
 /* Whether unsnarl_document_write may write there, to be asked before a repair: the format is that of the file, the
  * folder exists, nothing is write-protected, and no other part of the input would be overwritten. */
 UNSNARL_EXPORT int unsnarl_document_check_output(const unsnarl_document* document, const char* path);
 /* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was. They are read
  * back bit for bit before anything is in place. path may be that of the file that was read. The old files or the whole
- * new ones are there, never a part. */
+ * new ones are there, never a part. Of several files path is the folder where all go under their names. */
 UNSNARL_EXPORT int unsnarl_document_write(const unsnarl_document* document, const unsnarl_result* repaired,
                                           const char* path);
 UNSNARL_EXPORT void unsnarl_document_free(unsnarl_document* document);
+
+/* ---- samples ------------------------------------------------------------------------------------------------ */
+
+/* A surface that runs through itself, to play with (`unsnarl sample`). resolution: steps along its longest direction,
+ * [8, 2000]; 0: its own. parameters: JSON, an object of numbers by their names; NULL: the defaults.
+ *
+ * Arrays: "positions" (n, 3) float64, "corners" (c, 1) int32 and "offsets" (m + 1, 1) int32 as in unsnarl_surface
+ * (offsets is empty where all faces are triangles). */
+UNSNARL_EXPORT int unsnarl_sample(const char* name, int32_t resolution, const char* parameters,
+                                  unsnarl_result** result);
+/* Report: an array of all samples: "name", "description", "embeddable" (false: no motion of vertices can embed it) and
+ * "parameters", each with "name", "value" (the default), "minimum", "maximum", "description". */
+UNSNARL_EXPORT int unsnarl_list_samples(unsnarl_result** result);
 
 /* ---- curves in the plane ------------------------------------------------------------------------------------ */
 

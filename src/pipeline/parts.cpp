@@ -62,8 +62,7 @@ void flag_named(std::span<const FaceLabels> labels, const KindNames& kinds, cons
   const std::string known = list_of_names(labels, kinds);
   std::string others;
   for (const FaceLabels& label : labels)
-    if (!is_of_kind(label, kinds))
-      others += (others.empty() ? "" : ", ") + label.kind + "s";
+    if (!is_of_kind(label, kinds)) others += (others.empty() ? "" : ", ") + label.kind + "s";
   throw UnknownPart(known.empty() ? fmt::format("there is no {} '{}': the file names no {}s{}", kinds[0], name,
                                                 kinds[0], others.empty() ? "" : ", only " + others)
                                   : fmt::format("there is no {} '{}'; there are: {}", kinds[0], name, known));
@@ -94,9 +93,9 @@ std::string_view to_string(NamedPart::Kind kind) {
 
 std::vector<NamedPart> named_parts(const SurfaceView& surface, std::span<const FaceLabels> labels) {
   std::vector<NamedPart> parts;
-  for (const auto& [kinds, kind] : {std::pair{&object_kinds, NamedPart::Kind::object},
-                                    std::pair{&group_kinds, NamedPart::Kind::group},
-                                    std::pair{&material_kinds, NamedPart::Kind::material}})
+  for (const auto& [kinds, kind] :
+       {std::pair{&object_kinds, NamedPart::Kind::object}, std::pair{&group_kinds, NamedPart::Kind::group},
+        std::pair{&material_kinds, NamedPart::Kind::material}})
     for (const FaceLabels& of_kind : labels) {
       if (!is_of_kind(of_kind, *kinds)) continue;
       const std::vector<NamedPart> more = counted_parts(surface, of_kind, kind);

@@ -64,8 +64,8 @@ TEST_F(Check, PartsThatOptionsCanNameAreListedWithTheirSizes) {
   EXPECT_EQ(json["components"]["list"][1]["vertices"], 3);
   // What is listed can be named.
   for (const auto& part : json["parts"])
-    EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj", "--keep-partial",
-                   "--fix-" + part["kind"].get<std::string>(), part["name"].get<std::string>()})
+    EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj", "--keep-partial", "--fix-" + part["kind"].get<std::string>(),
+                   part["name"].get<std::string>()})
                   .exit_code,
               part["name"] == "red" ? 7 : 0);
   // Of very many the text names the first ones and counts the others.

@@ -51,8 +51,8 @@ TEST(Parts, AllNamesAreListedWithWhatTheyName) {
   const Document document = two_squares();
   std::vector<std::string> found;
   for (const NamedPart& part : named_parts(document.surface(), document.face_labels())) {
-    found.push_back(std::string(to_string(part.kind)) + " " + part.name + " " +
-                    std::to_string(part.faces) + " " + std::to_string(part.vertices));
+    found.push_back(std::string(to_string(part.kind)) + " " + part.name + " " + std::to_string(part.faces) + " " +
+                    std::to_string(part.vertices));
   }
   EXPECT_EQ(found, (std::vector<std::string>{"object body 4 8", "object hat 1 3", "group left skin 2 4",
                                              "group right skin 2 4", "group hat 1 3", "material red 2 4",
