@@ -28,12 +28,12 @@ untangled raises nothing, its ``Result.status`` says so.
 from ._call import Status
 from ._certify import Certificate, certify
 from ._curves import CurveResult, find_crossings, untangle_curves
-from ._files import check, fix, read
+from ._files import Check, Component, Part, check, fix, read
 from ._intersections import Intersections, find_intersections
 from ._library import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._progress import Progress
-from ._repair import Result, repair
+from ._repair import PaperSettings, Result, repair
 from ._routes import Routes, check_routes, plan_routes
 from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
 from ._spaces import (
@@ -50,6 +50,8 @@ from ._view import Page, view
 
 __all__ = [
     "Certificate",
+    "Check",
+    "Component",
     "CurveResult",
     "Frame",
     "Intersections",
@@ -57,6 +59,8 @@ __all__ = [
     "Jitter",
     "KnotIsotopy",
     "Page",
+    "PaperSettings",
+    "Part",
     "Progress",
     "Result",
     "Routes",

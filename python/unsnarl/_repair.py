@@ -6,17 +6,20 @@ import base64
 import ctypes
 import html
 import logging
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Optional
+from typing import Any, Generic, Literal, Optional, TypedDict, TypeVar, Union, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._arguments import Surface
 from ._call import Outcome, Status, call, call_and_wait
 from ._options import options_of, paper_options
 from ._progress import OnProgress
 from ._scenes import scene_of
+from ._types import Faces, Goal, Mesh, Meshes, Positions, Precision, Weld
 
 _log = logging.getLogger("unsnarl")
 _log.addHandler(logging.NullHandler())
@@ -25,14 +28,36 @@ _log.addHandler(logging.NullHandler())
 _MOST_DRAWN_FACES = 300_000
 
 
+class PaperSettings(TypedDict, total=False):
+    """Settings of the paper's configuration, docs/paper.md."""
+
+    bandwidth: Literal["global", "independent", "symmetric"]
+    adaptive: bool
+    bandwidth_scale: float
+    neighbourhood: float
+    gaussian: float
+    mesh: float
+    mesh_energy: Literal["depth", "length"]
+    whole_polygons: bool
+    arap: float
+    memory: int
+    iterations: int
+
+
+Paper = Union[bool, PaperSettings]
+
+#: Positions of one mesh, or a list of them.
+V_ = TypeVar("V_", covariant=True)
+
+
 @dataclass(frozen=True, repr=False)
-class Result:
-    """What a repair came to."""
+class Result(Generic[V_]):
+    """What a repair came to; of one mesh Result[Positions], of several Result[list[Positions]]."""
 
     #: (n, 3), vertex order of the input. float32 where the input is and precision is not "float64", else float64.
     #: What did not have to move is bit-identical. Never has more intersecting pairs than the input. Of a list of
     #: meshes: a list of such arrays.
-    V: Any
+    V: V_
     #: Only "embedded" promises a surface without self-intersections.
     status: Status
     #: The document that the command line writes with --report, see docs/report.md.
@@ -90,6 +115,87 @@ class Result:
         )
 
 
+@overload
+def repair(
+    V: ArrayLike,
+    F: Faces,
+    fixed: Optional[ArrayLike] = None,
+    *,
+    rigid: Optional[Sequence[ArrayLike]] = None,
+    nested: None = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
+    min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
+    threads: int = 0,
+    recover: bool = True,
+    paper: Paper = False,
+    progress: OnProgress = None,
+) -> Result[Positions]: ...
+
+
+@overload
+def repair(
+    V: Mesh,
+    F: None = None,
+    fixed: Optional[ArrayLike] = None,
+    *,
+    rigid: Optional[Sequence[ArrayLike]] = None,
+    nested: None = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
+    min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
+    threads: int = 0,
+    recover: bool = True,
+    paper: Paper = False,
+    progress: OnProgress = None,
+) -> Result[Positions]: ...
+
+
+@overload
+def repair(
+    V: Meshes,
+    F: None = None,
+    fixed: Optional[Sequence[Optional[ArrayLike]]] = None,
+    *,
+    rigid: Optional[Sequence[int]] = None,
+    nested: Union[Sequence[int], Sequence[Sequence[int]], None] = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
+    min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
+    threads: int = 0,
+    recover: bool = True,
+    paper: Paper = False,
+    progress: OnProgress = None,
+) -> Result[list[Positions]]: ...
+
+
 def repair(
     V: Any,
     F: Any = None,
@@ -97,23 +203,23 @@ def repair(
     *,
     rigid: Any = None,
     nested: Any = None,
-    goal: str = "all",
-    precision: str = "auto",
+    goal: Goal = "all",
+    precision: Precision = "auto",
     min_gap: float = 0.0,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
     time_limit: float = 0.0,
     memory_limit: float = 0.0,
-    weld: str = "seams",
+    weld: Weld = "seams",
     weld_tolerance: float = 0.0,
     both_diagonals: bool = False,
     each_component: bool = False,
     threads: int = 0,
     recover: bool = True,
-    paper: Any = False,
+    paper: Paper = False,
     progress: OnProgress = None,
-) -> Result:
+) -> Any:
     """Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
 
     The result is that of ``unsnarl fix`` on a file of the same numbers, bit for bit, at any number of threads (time
