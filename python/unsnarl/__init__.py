@@ -25,15 +25,18 @@ What is passed in is never changed. Arguments that make no sense raise ValueErro
 untangled raises nothing, its ``Result.status`` says so.
 """
 
+from ._batch import BatchResult, batch
 from ._call import Status
 from ._certify import Certificate, certify
 from ._curves import CurveResult, find_crossings, untangle_curves
+from ._file_sequences import FileSequenceResult, fix_sequence
 from ._files import Check, Component, Part, check, fix, read
 from ._intersections import Intersections, find_intersections
 from ._library import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._progress import Progress
 from ._repair import PaperSettings, Result, repair
+from ._samples import Sample, SampleParameter, sample, samples
 from ._routes import Routes, check_routes, plan_routes
 from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
 from ._spaces import (
@@ -49,10 +52,12 @@ from ._spaces import (
 from ._view import Page, view
 
 __all__ = [
+    "BatchResult",
     "Certificate",
     "Check",
     "Component",
     "CurveResult",
+    "FileSequenceResult",
     "Frame",
     "Intersections",
     "Isotopy",
@@ -64,9 +69,12 @@ __all__ = [
     "Progress",
     "Result",
     "Routes",
+    "Sample",
+    "SampleParameter",
     "SeifertSurface",
     "SequenceResult",
     "Status",
+    "batch",
     "boundary_vertices",
     "certify",
     "check",
@@ -76,6 +84,7 @@ __all__ = [
     "find_crossings",
     "find_intersections",
     "fix",
+    "fix_sequence",
     "knot_isotopy",
     "knot_of_table",
     "plan_routes",
@@ -83,6 +92,8 @@ __all__ = [
     "read",
     "repair",
     "repair_sequence",
+    "sample",
+    "samples",
     "seifert_surface",
     "untangle_curves",
     "vertices_of_faces",
