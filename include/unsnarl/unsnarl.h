@@ -48,11 +48,15 @@ typedef enum unsnarl_error {
   UNSNARL_CANNOT_READ = 2,      /* a file is missing or makes no sense */
   UNSNARL_CANNOT_WRITE = 3,     /* a file cannot be written; what was there before is still there */
   UNSNARL_OUT_OF_MEMORY = 4,
+  UNSNARL_SYSTEM_ERROR = 5,   /* the system failed (no descriptors, a read error); the same call may succeed later */
   UNSNARL_INTERNAL_ERROR = 70 /* please report it */
 } unsnarl_error;
 
 /* What the last call that failed in this thread complained of; "" if none did. Valid until the next one fails. */
 UNSNARL_EXPORT const char* unsnarl_error_message(void);
+
+/* The errno (<errno.h>: ENOENT, EACCES, EMFILE, ...) of the call of the system behind that error; 0: there was none. */
+UNSNARL_EXPORT int unsnarl_error_number(void);
 
 /* Version of the library, "major.minor.patch". */
 UNSNARL_EXPORT const char* unsnarl_version(void);
