@@ -14,6 +14,7 @@
 #include "unsnarl/exit_code.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/report_json.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -38,8 +39,8 @@ std::string list_of_parts(const std::vector<NamedPart>& parts) {
   std::string text;
   for (const NamedPart& part : parts)
     if (++listed[part.kind] <= parts_in_text)
-      text += fmt::format("  {} {}: {}, {}\n", to_string(part.kind), part.name, counted(part.faces, "face", "faces"),
-                          counted(part.vertices, "vertex", "vertices"));
+      text += fmt::format("  {} {}: {}, {}\n", to_string(part.kind), visible_text(part.name),
+                          counted(part.faces, "face", "faces"), counted(part.vertices, "vertex", "vertices"));
   for (const auto& [kind, count] : listed)
     if (count > parts_in_text)
       text += fmt::format("  and {} more {}s (--json lists all)\n", count - parts_in_text, to_string(kind));

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import weakref
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple, Optional, Union
 
@@ -25,7 +25,7 @@ class Document:
 
     def __init__(self, paths: Union[PathLike, Paths], format: Optional[Format] = None):
         self.is_scene = isinstance(paths, (list, tuple))
-        self.paths: list[Path] = [Path(path) for path in (paths if self.is_scene else [paths])]  # type: ignore[union-attr]
+        self.paths = [Path(path) for path in paths] if isinstance(paths, (list, tuple)) else [Path(paths)]
         if not self.paths:
             raise ValueError("there is no file in the list; give the names of the files of a scene")
         self.handle = ctypes.c_void_p()
@@ -104,17 +104,17 @@ class Parts(NamedTuple):
                 yield option, kind, name
 
 
-def _each(option: str, names: Any, kind: type) -> Sequence[Any]:
+def _each(option: str, names: Any, kind: type) -> list[Any]:
     if names is None:
         return []
     if isinstance(names, (str, int, np.integer)):
         names = [names]
-    names = list(names)
-    for name in names:
+    listed = list(names)
+    for name in listed:
         if not isinstance(name, (int, np.integer) if kind is int else str) or isinstance(name, bool):
             wanted = "numbers of components" if kind is int else "names"
-            raise TypeError(f"{option} is {names!r}; give {wanted}, one or a list")
-    return names
+            raise TypeError(f"{option} is {listed!r}; give {wanted}, one or a list")
+    return listed
 
 
 class NamedParts:
@@ -168,6 +168,6 @@ class NamedParts:
 
 def _copied(address: Optional[int], count: int, dtype: Any) -> NDArray[Any]:
     values: NDArray[Any] = np.empty(count, dtype)
-    if count > 0:
+    if address is not None:
         ctypes.memmove(values.ctypes.data, address, values.nbytes)
     return values

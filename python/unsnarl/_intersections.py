@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Optional, Union
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ._call import call
 from ._library import pair_kinds
 from ._options import options_of
 from ._scenes import scene_of
+from ._types import Faces, Mesh, Meshes, Weld
 
 
 @dataclass(frozen=True)
@@ -47,10 +48,10 @@ class Intersections:
 
 
 def find_intersections(
-    V: Any,
-    F: Any = None,
+    V: Union[ArrayLike, Mesh, Meshes],
+    F: Optional[Faces] = None,
     *,
-    weld: str = "seams",
+    weld: Weld = "seams",
     weld_tolerance: float = 0.0,
     both_diagonals: bool = False,
     threads: int = 0,

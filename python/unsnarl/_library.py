@@ -146,6 +146,7 @@ ProgressFunction = ctypes.CFUNCTYPE(c_int, POINTER(ProgressStruct), c_void_p)
 #: What functions take and return that is not int, or not told by what is passed.
 _SIGNATURES = {
     "error_message": ([], c_char_p),
+    "error_number": ([], c_int),
     "version": ([], c_char_p),
     "pair_kind": ([c_int], c_char_p),
     "context_new": ([ProgressFunction, c_void_p], c_void_p),
@@ -175,7 +176,9 @@ def check(code: int) -> None:
     """Raises what the last call in this thread complained of, if it did."""
     if code != 0:
         message = library.unsnarl_error_message().decode("utf-8", "replace")
-        raise _EXCEPTIONS.get(code, RuntimeError)(message)
+        kind, number = _EXCEPTIONS.get(code, RuntimeError), library.unsnarl_error_number()
+        # OSError chooses its subclass by the number: FileNotFoundError, PermissionError, ...
+        raise OSError(number, message) if kind is OSError and number != 0 else kind(message)
 
 
 version: str = library.unsnarl_version().decode()

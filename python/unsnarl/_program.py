@@ -48,7 +48,7 @@ class Ended(NamedTuple):
 def _error_number(message: str) -> Optional[int]:
     """The error of the system that a message ends with, in the system's words."""
     numbers = [n for n in errno.errorcode if re.search(re.escape(os.strerror(n)) + r"\b", message)]
-    return max(numbers, key=lambda n: len(os.strerror(n)), default=None)
+    return max(numbers, key=lambda n: len(os.strerror(n))) if numbers else None
 
 
 def path() -> Path:

@@ -6,7 +6,7 @@ import base64
 import ctypes
 import html
 import logging
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Generic, Literal, Optional, TypedDict, TypeVar, Union, overload
@@ -18,7 +18,8 @@ from ._arguments import Surface
 from ._call import Outcome, Status, call, call_and_wait
 from ._options import options_of, paper_options
 from ._progress import OnProgress
-from ._scenes import scene_of
+from ._scenes import Scene, scene_of
+from ._trimesh_scenes import with_positions
 from ._types import Faces, Goal, Mesh, Meshes, Positions, Precision, Weld
 
 _log = logging.getLogger("unsnarl")
@@ -62,8 +63,8 @@ class Result(Generic[V_]):
     status: Status
     #: The document that the command line writes with --report, see docs/report.md.
     report: dict[str, Any]
-    #: Where a mesh was given: a copy of it, of its own type, at the new positions. Else None. Of a list of meshes: a
-    #: list.
+    #: Where a mesh or a trimesh.Scene was given: a copy of it, of its own type, at the new positions. Else None. Of a
+    #: list of meshes: a list.
     mesh: Any = None
     #: Of fix(): the file that was written; None: none was.
     output: Optional[Path] = None
@@ -173,10 +174,10 @@ def repair(
 def repair(
     V: Meshes,
     F: None = None,
-    fixed: Optional[Sequence[Optional[ArrayLike]]] = None,
+    fixed: Union[Sequence[Optional[ArrayLike]], Mapping[str, ArrayLike], None] = None,
     *,
-    rigid: Optional[Sequence[int]] = None,
-    nested: Union[Sequence[int], Sequence[Sequence[int]], None] = None,
+    rigid: Optional[Sequence[Union[int, str]]] = None,
+    nested: Union[Sequence[Union[int, str]], Sequence[Sequence[Union[int, str]]], None] = None,
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
@@ -232,7 +233,8 @@ def repair(
     V, F
         Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh, pyvista
         or VTK alone, as in ``repair(mesh, fixed=ids)``; or a list of such, ``repair([(V, F), mesh, ...])``: one scene,
-        in which meshes are also separated from each other. See the documentation of the package.
+        in which meshes are also separated from each other; or a trimesh.Scene, whose geometries are repaired where
+        its nodes put them. See the documentation of the package.
     fixed
         Vertices that must not move: a mask (n,) of bool, or their ids. None: all may move. Masks of parts come from
         vertices_of_faces and boundary_vertices. Of a list of meshes: a list of the same length, with None where all
@@ -319,10 +321,32 @@ def repair(
     moved = scene.split(positions)
     if precision == "float32":
         moved = [own.astype(dtype) if small else own for own, dtype, small in zip(moved, scene.dtypes, is_float32)]
+    if scene.whole is not None:
+        find = options_of(weld=weld, weld_tolerance=weld_tolerance, both_diagonals=both_diagonals, threads=threads)
+        return _put_back(scene, repaired, moved, find)
     meshes = [moved_to(own) if moved_to else None for own, moved_to in zip(moved, scene.moved_to)]
     if not scene.is_list:
         return Result(moved[0], repaired.status, repaired.report, meshes[0], None, scene.surface, positions)
     return Result(moved, repaired.status, repaired.report, meshes, None, scene.surface, positions, scene.mesh_sizes)
+
+
+def _put_back(scene: Scene, repaired: Outcome, moved: Any, find_options: Any) -> Result[list[Positions]]:
+    """A scene of trimesh whose geometries are repaired, each in its own frame, and certified as it then is."""
+    mesh, held, notes = with_positions(scene.whole, moved)
+    positions = np.concatenate(held)
+    status, report = repaired.status, repaired.report
+    if not np.array_equal(positions, np.concatenate(moved)):
+        flat = np.ascontiguousarray(positions).ravel()
+        pointer, count = ctypes.c_void_p(flat.ctypes.data), ctypes.c_size_t(len(positions))
+        certificate = call("certify", scene.surface.struct(), pointer, count, find_options).report
+        if status == "embedded" and not certificate["embedded"]:
+            status = Status.reduced
+            notes.append("rounding in the frames of the geometries made faces meet again; give a min_gap")
+            pairs = certificate["pairs"]
+            report.update(status=str(status), exit_code=1, after={"total": sum(pairs.values()), "by_class": pairs})
+    report["input"]["notes"] += notes
+    log_notes(notes)
+    return Result(held, status, report, mesh, None, scene.surface, positions, scene.mesh_sizes)
 
 
 def log(repaired: Outcome) -> None:

@@ -38,7 +38,7 @@ class Sample:
 def samples() -> list[Sample]:
     """All samples of surfaces, as ``unsnarl sample --list`` names them."""
     return [
-        Sample(**{**one, "parameters": [SampleParameter(**parameter) for parameter in one["parameters"]]})
+        Sample(one["name"], one["description"], one["embeddable"], [SampleParameter(**p) for p in one["parameters"]])
         for one in call("list_samples").report
     ]
 

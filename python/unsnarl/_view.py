@@ -174,7 +174,7 @@ def _shown(V: Any, F: Any, after: Any) -> _Shown:
     return shown
 
 
-def _shown_result(result: Result) -> _Shown:
+def _shown_result(result: Result[Any]) -> _Shown:
     if result._before is None:
         raise ValueError("this result does not know its input; take the one that repair or fix returned")
     sizes = np.empty(0) if result._mesh_sizes is None else result._mesh_sizes

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <iterator>
@@ -104,7 +105,7 @@ void require_places_apart(const unsnarl_document& input, const fs::path& place) 
 void require_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
-    throw WriteError(folder.string() + ": there is no such folder; several files need one to go to");
+    throw WriteError(folder.string() + ": there is no such folder; several files need one to go to", ENOENT);
 }
 
 void require_target(const unsnarl_document& input, const fs::path& place) {

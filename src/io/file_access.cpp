@@ -95,7 +95,8 @@ std::string read_file(const std::filesystem::path& path, const std::function<voi
   }
   if (S_ISDIR(status.st_mode))
     throw FileError(
-        fmt::format("{}: is a folder; name a mesh file, or repair all in it with 'unsnarl batch'", path.string()));
+        fmt::format("{}: is a folder; name a mesh file, or repair all in it with 'unsnarl batch'", path.string()),
+        EISDIR);
   if (!S_ISREG(status.st_mode)) {
     throw FileError(fmt::format("{}: is not a regular file; pipe it in through standard input ('-')", path.string()));
   }
@@ -137,7 +138,7 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) {
-    throw WriteError(fmt::format("{}: is a folder; name a file", path.string()));
+    throw WriteError(fmt::format("{}: is a folder; name a file", path.string()), EISDIR);
   }
   if (exists && !S_ISREG(status.st_mode)) return write_directly(target, bytes);
   // Renaming would get past the protection of the old file.

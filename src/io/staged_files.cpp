@@ -36,13 +36,12 @@ void flush_folder(const fs::path& folder) {
 void require_replaceable(const fs::path& target) {
   std::error_code ignored;
   if (fs::is_directory(target, ignored))
-    throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()));
+    throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()), EISDIR);
   if (!fs::exists(target, ignored)) return;
   if (!fs::is_regular_file(target, ignored))
     throw WriteError(fmt::format("{}: is not a regular file", target.string()));
   // Renaming would get past the protection of the old file.
-  if (::access(target.c_str(), W_OK) != 0)
-    throw_write_error(target.string() + ": is write-protected", errno);
+  if (::access(target.c_str(), W_OK) != 0) throw_write_error(target.string() + ": is write-protected", errno);
 }
 
 }  // namespace
@@ -51,8 +50,8 @@ StagedFiles::StagedFiles(const fs::path& target) : target_(with_links_followed(t
   require_replaceable(target_);
   std::string pattern = (folder_of(target_) / ".unsnarl-XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr)
-    throw_write_error(fmt::format("{}: cannot create files in the folder {}", target.string(), folder_of(target_).string()),
-                      errno);
+    throw_write_error(
+        fmt::format("{}: cannot create files in the folder {}", target.string(), folder_of(target_).string()), errno);
   folder_ = pattern;
 }
 
