@@ -5,9 +5,10 @@ import os
 from contextlib import contextmanager
 
 import pytest
-from test_files import CROSSING
 
 import unsnarl
+
+CROSSING = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 2\nv 2 1 2\nf 1 2 3\nf 4 5 6\n"
 
 NOBODY = 65534
 
@@ -76,6 +77,16 @@ def test_numbers_in_a_file_that_is_missing(tmp_path):
     )
     with pytest.raises(FileNotFoundError, match="none.bin"):
         unsnarl.read(tmp_path / "a.gltf")
+
+
+def test_an_external_file_that_is_missing(tmp_path):
+    array = (
+        '<DataArray Intent="NIFTI_INTENT_POINTSET" DataType="NIFTI_TYPE_FLOAT32" Dimensionality="2" Dim0="3" Dim1="3" '
+        'Encoding="ExternalFileBinary" Endian="LittleEndian" ExternalFileName="none.dat"/>'
+    )
+    (tmp_path / "a.gii").write_text(f"<GIFTI>{array}</GIFTI>")
+    with pytest.raises(FileNotFoundError, match="none.dat"):
+        unsnarl.read(tmp_path / "a.gii")
 
 
 def test_where_nothing_can_be_written(mesh, tmp_path):

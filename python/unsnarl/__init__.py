@@ -17,11 +17,13 @@ repair and certify also a list of these, ``repair([(V, F), mesh])``: meshes in o
     ``(corners, offsets)`` for polygons of mixed sizes, where face f has the vertices
     ``corners[offsets[f]:offsets[f + 1]]``.
 
-Files: ``fix("in.obj", "out.obj")`` repairs one as the program does, ``check("in.obj")`` looks for intersections,
-``V, F = read("in.obj")`` gives arrays. ``view(...)`` of a mesh, a file or a Result is a page to turn it and look at it,
+Files: ``fix("in.obj", "out.obj")`` repairs one as the program does, ``fix(["a.obj", "b.obj"], "folder")`` several
+together, ``fix_sequence`` frames, ``batch`` many; ``check("in.obj")`` looks for intersections and lists the parts that the
+file names, ``V, F = read("in.obj")`` gives arrays. ``view(...)`` of a mesh, a file or a Result is a page to turn it and look at it,
 before and after. What a repair came to goes to the logger "unsnarl" too, and a Result shows itself in notebooks.
 
-What is passed in is never changed. Arguments that make no sense raise ValueError or TypeError; a mesh that could not be
+What is passed in is never changed. Arguments that make no sense raise ValueError or TypeError, files OSError with its
+errno; a mesh that could not be
 untangled raises nothing, its ``Result.status`` says so.
 """
 

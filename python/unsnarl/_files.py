@@ -90,7 +90,7 @@ def check(
     """What ``unsnarl check`` finds in a mesh file, or in a list of them, which are one scene.
 
     path: the file, or several. format: "obj", "ply", ...; None: by the extension, or the content. goal: noted in the
-    report. The other options are those of find_intersections.
+    report. weld, weld_tolerance, both_diagonals, threads: as for find_intersections.
 
     Returns a Check: intersecting pairs, parts that the file names, components. Raises OSError where a file cannot be
     read.

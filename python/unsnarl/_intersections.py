@@ -34,7 +34,7 @@ class Intersections:
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {kind}" for kind, count in self.counts.items() if count > 0)
-        return f"Intersections({counts or 'none'})"
+        return f"{type(self).__name__}({counts or 'none'})"
 
     @property
     def counts(self) -> dict[str, int]:
