@@ -8,6 +8,7 @@
 #include "file_places.h"
 #include "mesh_input.h"
 #include "pair_class_words.h"
+#include "progress.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/check.h"
@@ -53,7 +54,7 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
   const SurfaceView surface = scene.surface();
   const Topology& t = found.topology;
   std::string text;
-  const auto line = [&text](const std::string& words) { text += words + "\n"; };
+  const auto line = [&text](const std::string& words) { text += visible_text(words) + "\n"; };
   const std::string& input = options.inputs[0];
   line(fmt::format("{}: {}, {}, {}",
                    options.is_scene()         ? fmt::format("{} files", options.inputs.size())
@@ -163,23 +164,28 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
       "  unsnarl check brain.surf skull.gii skin.obj          within and between three files\n"
       "  unsnarl check hand.obj --json | jq .pairs\n"
       "  unsnarl check - --format stl < part.stl --pairs pairs.csv\n\n"
-      "Exit codes: 0 none found, 1 found, 2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 70 internal error.");
+      "Exit codes: 0 none found, 1 found, 2 usage, 3 cannot read, 4 cannot write, 6 interrupted,\n"
+      "9 the system failed (try again), 70 internal error.");
 }
 
 int run_check(const CheckOptions& options, Interruption& interruption) {
   if (options.pairs == standard_stream) throw UsageError("--pairs needs a file of its own");
+  ProgressDisplay display("auto", options.quiet);
+  display.begin("read");
   const SceneDocument scene = read_scene(options.inputs, format_from_name(options.format));
   FilePlaces places;
   claim_inputs(places, "the input", options.inputs, scene);
   places.writes("--pairs", options.pairs);
   places.require_writable(interruption);
+  display.begin("find");
   const CheckReport found = check(scene.surface(), options.find());
   const ReportFiles files = described(options, scene, found);
+  display.clear();
   if (!options.pairs.empty()) write_file(options.pairs, pairs_table(found.pairs), interruption);
   if (options.json) {
     write_to_stream(standard_stream, check_json(found, options.goal_wanted(), options.find(), files) + "\n");
   } else if (!options.quiet) {
-    for (const std::string& note : scene.notes()) tell("note: " + note + "\n");
+    for (const std::string& note : scene.notes()) tell("note: " + visible_text(note) + "\n");
     write_to_stream(standard_stream, as_text(found, options, scene, files));
   }
   const std::size_t that_count =

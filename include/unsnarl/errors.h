@@ -42,7 +42,8 @@ class SystemError : public NumberedError {
 bool is_error_of_system(int error_number);
 
 /// For a call of the system that failed while a file was read or written: throws SystemError where the errno tells of
-/// the system, else FileError or WriteError. The reason follows the message, in the words of the system, and then the advice.
+/// the system, else FileError or WriteError. The reason follows the message, in the words of the system, and then the
+/// advice.
 [[noreturn]] void throw_read_error(const std::string& message, int error_number, const std::string& advice = "");
 [[noreturn]] void throw_write_error(const std::string& message, int error_number);
 

@@ -293,17 +293,18 @@ UNSNARL_EXPORT int unsnarl_picture(const unsnarl_surface* surface, const double*
 
 /* What unsnarl_page shows besides the surface. */
 typedef struct unsnarl_page_content {
-  size_t size;         /* sizeof(unsnarl_page_content) */
-  const double* moved; /* x y z of each vertex after a repair, to be shown beside the surface; NULL: it is shown alone */
-  size_t moved_count;  /* vertices */
-  const char* name;    /* of the surface, for the reader; NULL: that of its file, or "mesh" */
+  size_t size; /* sizeof(unsnarl_page_content) */
+  const double*
+      moved;          /* x y z of each vertex after a repair, to be shown beside the surface; NULL: it is shown alone */
+  size_t moved_count; /* vertices */
+  const char* name;   /* of the surface, for the reader; NULL: that of its file, or "mesh" */
   const char* moved_name; /* likewise of what was moved; NULL: none */
   const char* report;     /* what unsnarl_result_report gave for the repair, to be shown too; NULL: none */
 } unsnarl_page_content;
 
-/* The page of `unsnarl view` (docs/viewer.md), to turn and look at in a browser: one HTML file that needs no network. Of
- * a surface of unsnarl_document_surface it has the colours and images of the file too; several meshes have a colour each.
- * content: NULL: the surface alone. UNSNARL_INVALID_ARGUMENT too where the library was built without the page.
+/* The page of `unsnarl view` (docs/viewer.md), to turn and look at in a browser: one HTML file that needs no network.
+ * Of a surface of unsnarl_document_surface it has the colours and images of the file too; several meshes have a colour
+ * each. content: NULL: the surface alone. UNSNARL_INVALID_ARGUMENT too where the library was built without the page.
  *
  * Array: "html" (k, 1) uint8, the bytes of the file. Report: "notes" (what could not be shown, sentences). */
 UNSNARL_EXPORT int unsnarl_page(const unsnarl_surface* surface, const unsnarl_page_content* content,
@@ -413,8 +414,8 @@ UNSNARL_EXPORT int unsnarl_seifert_surface(const unsnarl_curves* link, const uns
 UNSNARL_EXPORT int unsnarl_check_seifert_surface(const unsnarl_surface* surface, const unsnarl_curves* link,
                                                  const unsnarl_options* options, unsnarl_result** result);
 
-/* Moves a knot to another polygon of the same knot without ever passing through itself (docs/knot_isotopy.md). Start and
- * end have one curve each. Status "no_progress": none was found, which does not prove that there is none.
+/* Moves a knot to another polygon of the same knot without ever passing through itself (docs/knot_isotopy.md). Start
+ * and end have one curve each. Status "no_progress": none was found, which does not prove that there is none.
  *
  * Arrays: "times" (r, 1) float64 from 0 to 1; the knot at these times, "points" (p, 3) float64 and "offsets" (r + 1, 1)
  * int32. Report: what is certified of it, "found", the double points of the cylinders that were not embedded. */

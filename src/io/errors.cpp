@@ -9,9 +9,10 @@ namespace unsnarl {
 namespace {
 
 /// What a path can be the reason of: its name, its kind, its permissions, the file system or the stream that it is on.
-constexpr std::array errors_of_paths = {
-    ENOENT, EACCES, EPERM, EISDIR,    ENOTDIR, ELOOP,  ENAMETOOLONG, EINVAL, EILSEQ, EROFS, EEXIST, ENOTEMPTY,  EBUSY,
-    EXDEV,  EMLINK, ENXIO, EOVERFLOW, ENODEV,  ENOSPC, EDQUOT,       EFBIG,  EPIPE,  EBADF, ENOSYS, EOPNOTSUPP, ETXTBSY};
+constexpr std::array errors_of_paths = {ENOENT, EACCES, EPERM,     EISDIR,     ENOTDIR,   ELOOP,  ENAMETOOLONG,
+                                        EINVAL, EILSEQ, EROFS,     EEXIST,     ENOTEMPTY, EBUSY,  EXDEV,
+                                        EMLINK, ENXIO,  EOVERFLOW, ENODEV,     ENOSPC,    EDQUOT, EFBIG,
+                                        EPIPE,  EBADF,  ENOSYS,    EOPNOTSUPP, ETXTBSY};
 
 std::string with_reason(const std::string& message, int error_number) {
   return message + ": " + std::generic_category().message(error_number);
@@ -20,8 +21,8 @@ std::string with_reason(const std::string& message, int error_number) {
 }  // namespace
 
 bool is_error_of_system(int error_number) {
-  return error_number != 0 && std::find(errors_of_paths.begin(), errors_of_paths.end(), error_number) ==
-                                  errors_of_paths.end();
+  return error_number != 0 &&
+         std::find(errors_of_paths.begin(), errors_of_paths.end(), error_number) == errors_of_paths.end();
 }
 
 void throw_read_error(const std::string& message, int error_number, const std::string& advice) {

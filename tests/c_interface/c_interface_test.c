@@ -1,4 +1,5 @@
 /* The C interface as C99 sees it. c_interface_test FOLDER */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -521,8 +522,12 @@ static void reads_and_writes_files(const char* folder) {
   unsnarl_document_free(document);
 
   CHECK(unsnarl_document_read("/no/such/file.obj", NULL, &document) == UNSNARL_CANNOT_READ);
+  CHECK(unsnarl_error_number() == ENOENT);
+  CHECK(unsnarl_document_read("/no/such/\x1b[31m\n.obj", NULL, &document) == UNSNARL_CANNOT_READ);
+  CHECK(says(unsnarl_error_message(), "/no/such/\\x1b[31m\\x0a.obj"));
   CHECK(unsnarl_document_read(in, "no format", &document) == UNSNARL_INVALID_ARGUMENT);
   CHECK(unsnarl_document_read(in, "ply", &document) == UNSNARL_CANNOT_READ);
+  CHECK(unsnarl_error_number() == 0);
   CHECK(strlen(unsnarl_version()) >= 5);
 }
 
