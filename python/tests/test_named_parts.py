@@ -1,5 +1,7 @@
 """Parts by the names that files give them: what Python holds is what the command line holds."""
 
+import json
+
 import numpy as np
 import pytest
 from command_line import fix, run, sample
@@ -34,7 +36,8 @@ def test_check_lists_what_can_be_named(parts):
         ({"fix_group": "anchor"}, ["--fix-group", "anchor"]),
         ({"fix_object": ["anchor"]}, ["--fix-object", "anchor"]),
         ({"fix_component": 0}, ["--fix-component", "0"]),
-        ({"fix_component": [0, 1], "fix_boundary": True}, ["--fix-component", "0", "--fix-component", "1", "--fix-boundary"]),
+        ({"fix_component": [0, 1], "fix_boundary": True},
+         ["--fix-component", "0", "--fix-component", "1", "--fix-boundary"]),
         ({"only_component": [1, 2]}, ["--only-component", "1", "--only-component", "2"]),
         ({"rigid_object": ["anchor"]}, ["--rigid", "anchor"]),
         ({"rigid_component": [1, 2], "fix_object": "anchor"},
@@ -48,8 +51,6 @@ def test_names_mean_what_they_mean_on_the_command_line(parts, tmp_path, options,
     done = run("fix", parts, "-o", theirs, "--keep-partial", "--report", tmp_path / "report.json", "-q", *words,
                expected=result.report["exit_code"])
     assert done == "" and mine.read_bytes() == theirs.read_bytes()
-    import json
-
     report = json.loads((tmp_path / "report.json").read_text())
     assert report["options"] == result.report["options"]
     assert report.get("rigid_parts") == result.report.get("rigid_parts")

@@ -94,8 +94,11 @@ def two_spheres(make, first=np.eye(4), second=np.eye(4)):
 
 
 @KINDS
-@pytest.mark.parametrize("first, second", [(np.eye(4), np.eye(4)), (turned([3, -2, 1], 2.5), turned([0, 0, 100], -0.1))],
-                         ids=["identities", "turned"])
+@pytest.mark.parametrize(
+    "first, second",
+    [(np.eye(4), np.eye(4)), (turned([3, -2, 1], 2.5), turned([0, 0, 100], -0.1))],
+    ids=["identities", "turned"],
+)
 def test_geometries_are_separated_where_nodes_put_them(make, first, second):
     scene = two_spheres(make, first, second)
     before = {name: np.array(mesh.vertices) for name, mesh in scene.geometry.items()}
@@ -146,7 +149,6 @@ def test_a_geometry_that_several_nodes_show_gets_copies_where_they_differ(make):
     V, F = sphere(1.0)
     shifted, far = np.eye(4), np.eye(4)
     shifted[0, 3], far[0, 3] = 1.7, 50.0
-    scene = make({"ball": (V, F)}, {"a": (np.eye(4), "ball"), "b": (shifted, "ball"), "c": (far, "ball"), "d": (far + 0, "ball")})
     scene = make({"ball": (V, F)}, {"a": (np.eye(4), "ball"), "b": (shifted, "ball"), "c": (far, "ball")})
     result = unsnarl.repair(scene)
     assert result.status == "embedded" and len(unsnarl.find_intersections(result.mesh)) == 0

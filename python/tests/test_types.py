@@ -1,5 +1,6 @@
 """What mypy --strict makes of the package, and of a program that uses it."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -54,7 +55,7 @@ def mypy(*arguments, folder):
         pytest.skip("mypy is not installed")
     done = subprocess.run(
         [program, "--strict", "--no-error-summary", "--cache-dir", folder / "cache", *arguments], cwd=folder,
-        capture_output=True, text=True, env={"PATH": "/usr/bin:/bin", "MYPYPATH": str(PACKAGE.parent), "LC_ALL": "C.UTF-8"},
+        capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(PACKAGE.parent)},
     )
     assert done.returncode in (0, 1), done.stderr
     return done.stdout
@@ -68,7 +69,8 @@ def test_the_package_itself(tmp_path):
 def test_a_program_that_uses_it(tmp_path):
     (tmp_path / "program.py").write_text(PROGRAM)
     said = {}
-    for number, kind, words in re.findall(r"^program\.py:(\d+): (\w+): (.*)$", mypy("program.py", folder=tmp_path), re.M):
+    lines = mypy("program.py", folder=tmp_path)
+    for number, kind, words in re.findall(r"^program\.py:(\d+): (\w+): (.*)$", lines, re.M):
         said.setdefault(int(number), []).append((kind, words))
     for number, line in enumerate(PROGRAM.splitlines(), 1):
         wanted = line.partition("  # ")[2]

@@ -71,10 +71,11 @@ def batch(
     both_diagonals: bool = False,
     each_component: bool = False,
 ) -> BatchResult:
-    """Repairs every mesh of a folder or a list, each in a process of its own, and goes on where an earlier call stopped.
+    """Repairs every mesh of a folder or a list, each in a process of its own, and continues where an earlier call
+    stopped.
 
-    It is ``unsnarl batch``, run as a process (docs/batch.md). A mesh that crashes or runs out of memory ends nothing but
-    its own row. What it says on the way goes to the logger "unsnarl".
+    It runs ``unsnarl batch`` (docs/batch.md). A mesh that crashes or runs out of memory affects only its own row. What it
+    says on the way goes to the logger "unsnarl".
 
     Parameters
     ----------
@@ -123,7 +124,8 @@ absolute, weld, weld_tolerance, both_diagonals, each_component
         each_component=each_component,
     )
     fix_words += words_of_parts(
-        Parts(fix_group, fix_object, fix_material, fix_component), Parts(only_group, only_object, only_material, only_component)
+        Parts(fix_group, fix_object, fix_material, fix_component),
+        Parts(only_group, only_object, only_material, only_component),
     )
     words = words_of(jobs=jobs, threads=threads, summary=summary, retry=retry, thumbnails=thumbnails)
     words += ["--time-limit", repr(float(time_limit)), "--attempts", str(attempts)]
@@ -147,7 +149,8 @@ def _list_file(folder: Path, meshes: Sequence[PathLike]) -> Path:
     lines = [os.fsencode(path) for path in meshes]
     for line in lines:
         if b"\n" in line or b"\t" in line:
-            raise ValueError(f"{os.fsdecode(line)!r}: a list holds no names with line breaks or tabs; give their folder")
+            name = os.fsdecode(line)
+            raise ValueError(f"{name!r}: a list holds no names with line breaks or tabs; give their folder")
     path = folder / "meshes.txt"
     path.write_bytes(b"".join(line + b"\n" for line in lines))
     return path

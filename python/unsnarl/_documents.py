@@ -57,9 +57,8 @@ class Document:
         if len(sizes) == 0:
             sizes = np.array([[len(surface.positions) // 3, surface.face_count]])
         count = len(sizes)
-        return Scene(
-            surface, [np.dtype(np.float64)] * count, [None] * count, sizes[:, 0].tolist(), sizes[:, 1].tolist(), self.is_scene
-        )
+        dtypes = [np.dtype(np.float64)] * count
+        return Scene(surface, dtypes, [None] * count, sizes[:, 0].tolist(), sizes[:, 1].tolist(), self.is_scene)
 
     def faces_of(self, kind: str, name: Union[str, int], **options: Any) -> NDArray[np.uint8]:
         """One flag a face: it belongs to the part of this kind and name."""
@@ -149,9 +148,9 @@ class NamedParts:
             own = self.vertices(option, kind, name)
             common = np.flatnonzero(own & (numbers >= 0))
             if common.size > 0:
+                other = names[numbers[common[0]]]
                 raise ValueError(
-                    f"{option}: {names[numbers[common[0]]]!r} and {name!r} have vertex {common[0]} in common; name parts "
-                    "that share none"
+                    f"{option}: {other!r} and {name!r} have vertex {common[0]} in common; name parts that share none"
                 )
             numbers[own] = len(names)
             names.append(f"component {name}" if kind == "component" else str(name))
@@ -159,7 +158,8 @@ class NamedParts:
 
     def _faces(self, option: str, kind: str, name: Union[str, int]) -> NDArray[np.uint8]:
         if kind == "file" and not self._document.is_scene:
-            raise ValueError(f"{option} tells several files apart; of one, name parts by {option[:-4]}object and its like")
+            instead = option[: -len("file")] + "object"
+            raise ValueError(f"{option} names one of several files; of one file, name parts by {instead} and its like")
         try:
             return self._document.faces_of(kind, name, **self._find_options)
         except ValueError as error:

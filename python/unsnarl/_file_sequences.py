@@ -69,7 +69,7 @@ def fix_sequence(
 ) -> FileSequenceResult:
     """Repairs the frames of a moving mesh, file by file, so that corrections go on smoothly in time.
 
-    It is ``unsnarl fix --sequence``, run as a process: the same call goes on where an earlier one was interrupted
+    It runs ``unsnarl fix --sequence``: the same call continues where an earlier one was interrupted
     (docs/sequences.md).
 
     Parameters
@@ -85,8 +85,8 @@ def fix_sequence(
         The range wanted, (first, last) with last excluded. None: all.
     keep_partial
         Write also frames that are not embedded.
-    recompute_normals, format, fix_group, fix_object, fix_material, fix_component, fix_boundary, only_group, only_object, \
-only_material, only_component
+    recompute_normals, format, fix_group, fix_object, fix_material, fix_component, fix_boundary, only_group, \
+only_object, only_material, only_component
         As for fix.
     goal, precision, min_gap, max_displacement, absolute, time_limit, memory_limit, weld, weld_tolerance, \
 both_diagonals, each_component, threads
@@ -125,7 +125,8 @@ both_diagonals, each_component, threads
         threads=threads,
     )
     words += words_of_parts(
-        Parts(fix_group, fix_object, fix_material, fix_component), Parts(only_group, only_object, only_material, only_component)
+        Parts(fix_group, fix_object, fix_material, fix_component),
+        Parts(only_group, only_object, only_material, only_component),
     )
     if frames is not None:
         words += ["--frames", f"{int(frames[0])}:{int(frames[1])}"]
@@ -151,7 +152,9 @@ def _as_operand(path: str) -> str:
 def _vertex_file(folder: Path, fixed: ArrayLike) -> Path:
     given = np.asarray(fixed)
     if given.ndim != 1 or (given.size > 0 and given.dtype.kind not in "biu"):
-        raise ValueError(f"fixed has shape {given.shape} and dtype {given.dtype}; give a mask of bool, or a list of ids")
+        raise ValueError(
+            f"fixed has shape {given.shape} and dtype {given.dtype}; give a mask of bool, or a list of ids"
+        )
     path = folder / "fixed.txt"
     path.write_text("\n".join(map(str, np.flatnonzero(given) if given.dtype == np.bool_ else given)))
     return path

@@ -277,15 +277,15 @@ def fix(
     nested
         Which surfaces lie inside which, from the innermost out: names of files, or of one file's objects, as in
         ["inner.off", "outer.off"], or a list of such chains; see repair.
-    goal, precision, min_gap, min_dihedral, max_displacement, absolute, time_limit, memory_limit, weld, weld_tolerance, \
-both_diagonals, each_component, threads, recover, paper, progress
+    goal, precision, min_gap, min_dihedral, max_displacement, absolute, time_limit, memory_limit, weld, \
+weld_tolerance, both_diagonals, each_component, threads, recover, paper, progress
         As for repair.
 
     Returns a Result; its `output` is the file that was written (of several files the folder), or None. Of several files
     V is a list.
 
-    Raises OSError (FileNotFoundError, PermissionError, IsADirectoryError, ... where the system gave that reason) where a
-    file cannot be read or written, before the repair; ValueError and TypeError as repair does.
+    Raises OSError where a file cannot be read or written, before the repair (FileNotFoundError, PermissionError, ... as
+    the system gave the reason); ValueError and TypeError as repair does.
     """
     fix_parts = Parts(fix_group, fix_object, fix_material, fix_component, fix_file)
     only_parts = Parts(only_group, only_object, only_material, only_component, only_file)
@@ -345,7 +345,9 @@ def _check_places(path: Union[PathLike, Paths], output: Optional[PathLike], in_p
         raise ValueError("several files go to a folder: give it as output")
     if in_place == (output is not None):
         raise ValueError("give the file to write as output, or in_place=True")
-    if not is_scene and output is not None and os.path.exists(output) and os.path.samefile(path, output):  # type: ignore[arg-type]
+    if isinstance(path, (list, tuple)) or output is None:
+        return
+    if os.path.exists(path) and os.path.exists(output) and os.path.samefile(path, output):
         raise ValueError(f"{os.fspath(output)!r} is the input; give another name, or in_place=True to overwrite it")
 
 
@@ -386,9 +388,8 @@ def _lend_rigid(document: Document, scene: Scene, named: NamedParts, rigid: Any,
         return
     held = np.flatnonzero((fixed != 0) & (numbers >= 0)) if fixed.size == numbers.size else np.empty(0, int)
     if names and held.size > 0:
-        raise ValueError(
-            f"{names[numbers[held[0]]]!r} is to be rigid, but is held, at vertex {held[0]} at least; leave one of the two out"
-        )
+        name = names[numbers[held[0]]]
+        raise ValueError(f"{name!r} is to be rigid, but vertex {held[0]} of it is held; leave one of the two out")
     document.struct.lend(rigid=numbers)
     document.struct.lend_names("rigid_names", "rigid_name_count", names)
 

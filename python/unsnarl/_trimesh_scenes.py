@@ -50,8 +50,8 @@ def world_of(to_world: NDArray[np.float64], vertices: Any) -> NDArray[np.float64
     if np.array_equal(to_world, np.eye(4)):
         return local
     # A sum for each coordinate rather than a product of matrices: the same bits whatever else is in the array.
-    m = to_world
-    return np.stack([m[k, 0] * local[:, 0] + m[k, 1] * local[:, 1] + m[k, 2] * local[:, 2] + m[k, 3] for k in range(3)], 1)
+    x, y, z = local.T
+    return np.stack([row[0] * x + row[1] * y + row[2] * z + row[3] for row in to_world[:3]], axis=1)
 
 
 def local_of(instance: Instance, moved: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -82,8 +82,10 @@ def with_positions(scene: Any, moved: list[NDArray[np.float64]]) -> tuple[Any, l
             name = _free_name(result, name)
             result.geometry[name] = instance.mesh.copy()
             _show(result.graph, instance.node, name)
-            notes.append(f"geometry {instance.geometry!r} is shown by several nodes: {instance.node!r} has a copy of its "
-                         f"own now, {name!r}")
+            notes.append(
+                f"geometry {instance.geometry!r} is shown by several nodes: {instance.node!r} has a copy of its own now, "
+                f"{name!r}"
+            )
         if name not in placed:
             placed[name] = local
             if not np.array_equal(local, np.asarray(result.geometry[name].vertices)):
