@@ -1,4 +1,4 @@
-"""Has CMake build the library that the Python package calls; all else is in pyproject.toml."""
+"""Has CMake build the library that the Python package calls, and the program that it runs; all else is in pyproject.toml."""
 
 import os
 import re
@@ -23,14 +23,15 @@ class BuildWithLibrary(build_py):
         if not build:
             build = Path(self.get_finalized_command("build").build_temp).resolve()
             cmake("-S", PROJECT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
-                  "-DUNSNARL_BUILD_PYTHON=ON", "-DUNSNARL_BUILD_APPS=OFF", "-DUNSNARL_BUILD_TESTS=OFF")
+                  "-DUNSNARL_BUILD_PYTHON=ON", "-DUNSNARL_BUILD_APPS=ON", "-DUNSNARL_BUILD_TESTS=OFF")
             jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or os.cpu_count() or 1
-            cmake("--build", build, "--target", "unsnarl_c", "--parallel", jobs)
+            cmake("--build", build, "--target", "unsnarl_c", "unsnarl_program", "--parallel", jobs)
         # An editable package is where its sources are.
         destination = PROJECT / "python" if getattr(self, "editable_mode", False) else Path(self.build_lib).resolve()
         cmake("--install", build, "--component", "unsnarl_python", "--prefix", destination)
-        if not (destination / "unsnarl" / "libunsnarl_c.so").exists():
-            raise SystemExit(f"error: {build} was configured without -DUNSNARL_BUILD_PYTHON=ON: it installs no library")
+        for file, option in (("libunsnarl_c.so", "UNSNARL_BUILD_PYTHON"), ("bin/unsnarl", "UNSNARL_BUILD_APPS")):
+            if not (destination / "unsnarl" / file).exists():
+                raise SystemExit(f"error: {build} was configured without -D{option}=ON: it installs no {file}")
 
 
 def cmake(*arguments):

@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "file_places.h"
 #include "mesh_input.h"
 #include "pair_class_words.h"
+#include "progress.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/check.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/parts.h"
 #include "unsnarl/report_json.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -19,6 +23,7 @@ namespace {
 
 constexpr std::size_t places_in_text = 10;  // the JSON has all of them
 constexpr std::size_t components_in_text = 20;
+constexpr std::size_t parts_in_text = 20;  // of each kind
 
 std::string counted(std::size_t number, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", number, number == 1 ? one : many);
@@ -29,12 +34,27 @@ std::string extent(const Bounds& box) {
                      box.max[1], box.min[2], box.max[2]);
 }
 
+/// A line for each part that the file names, by what --fix-object and the like call it.
+std::string list_of_parts(const std::vector<NamedPart>& parts) {
+  std::map<NamedPart::Kind, std::size_t> listed;
+  std::string text;
+  for (const NamedPart& part : parts)
+    if (++listed[part.kind] <= parts_in_text)
+      text += fmt::format("  {} {}: {}, {}\n", to_string(part.kind), visible_text(part.name),
+                          counted(part.faces, "face", "faces"), counted(part.vertices, "vertex", "vertices"));
+  for (const auto& [kind, count] : listed)
+    if (count > parts_in_text)
+      text += fmt::format("  and {} more {}s (--json lists all)\n", count - parts_in_text, to_string(kind));
+  return text;
+}
+
 std::string as_text(const CheckReport& found, const CheckOptions& options, const SceneDocument& scene,
-                    const SceneReport& by_file) {
+                    const ReportFiles& files) {
+  const SceneReport& by_file = files.scene;
   const SurfaceView surface = scene.surface();
   const Topology& t = found.topology;
   std::string text;
-  const auto line = [&text](const std::string& words) { text += words + "\n"; };
+  const auto line = [&text](const std::string& words) { text += visible_text(words) + "\n"; };
   const std::string& input = options.inputs[0];
   line(fmt::format("{}: {}, {}, {}",
                    options.is_scene()         ? fmt::format("{} files", options.inputs.size())
@@ -46,6 +66,7 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
     line(fmt::format("  file {}: {}, {}", file.file.name, counted(file.file.vertices, "vertex", "vertices"),
                      counted(file.file.faces, "face", "faces")));
   line(fmt::format("  faces:      {}", found.triangulation));
+  text += list_of_parts(files.parts);
   line(fmt::format("  components: {} closed, {} non-orientable", t.closed_components, t.non_orientable_components));
   line(fmt::format("  edges:      {} on a boundary, {} non-manifold", t.boundary_edges, t.non_manifold_edges));
   const auto defect = [&](std::size_t number, std::string_view one, std::string_view many) {
@@ -62,9 +83,9 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
   if (found.components.size() > 1)
     for (std::size_t i = 0; i < std::min(found.components.size(), components_in_text); ++i) {
       const ComponentFindings& c = found.components[i];
-      line(fmt::format("  component {:<3} {:>6} {:<5} {:>5} {:<5} within {:>5} with others; {}", i, c.faces,
-                       c.faces == 1 ? "face" : "faces", c.pairs_within, c.pairs_within == 1 ? "pair" : "pairs",
-                       c.pairs_with_others, extent(c.bounds)));
+      line(fmt::format("  component {:<3} {:>6} {:<5} {:>6} {:<8} {:>5} {:<5} within {:>5} with others; {}", i, c.faces,
+                       c.faces == 1 ? "face" : "faces", c.vertices, c.vertices == 1 ? "vertex" : "vertices",
+                       c.pairs_within, c.pairs_within == 1 ? "pair" : "pairs", c.pairs_with_others, extent(c.bounds)));
     }
   if (found.components.size() > components_in_text)
     line(fmt::format("  and {} more (--json lists all)", found.components.size() - components_in_text));
@@ -102,6 +123,7 @@ ReportFiles described(const CheckOptions& options, const SceneDocument& scene, c
   files.vertices = scene.surface().view().vertex_count();
   files.faces = scene.surface().view().face_count();
   files.notes = scene.notes();
+  files.parts = named_parts(scene.surface(), scene.face_labels());
   if (!options.is_scene()) {
     files.input = options.inputs[0];
     files.format = to_string(scene.document(0).format());
@@ -142,24 +164,29 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
       "  unsnarl check brain.surf skull.gii skin.obj          within and between three files\n"
       "  unsnarl check hand.obj --json | jq .pairs\n"
       "  unsnarl check - --format stl < part.stl --pairs pairs.csv\n\n"
-      "Exit codes: 0 none found, 1 found, 2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 70 internal error.");
+      "Exit codes: 0 none found, 1 found, 2 usage, 3 cannot read, 4 cannot write, 6 interrupted,\n"
+      "9 the system failed (try again), 70 internal error.");
 }
 
 int run_check(const CheckOptions& options, Interruption& interruption) {
   if (options.pairs == standard_stream) throw UsageError("--pairs needs a file of its own");
+  ProgressDisplay display("auto", options.quiet);
+  display.begin("read");
   const SceneDocument scene = read_scene(options.inputs, format_from_name(options.format));
   FilePlaces places;
   claim_inputs(places, "the input", options.inputs, scene);
   places.writes("--pairs", options.pairs);
   places.require_writable(interruption);
+  display.begin("find");
   const CheckReport found = check(scene.surface(), options.find());
   const ReportFiles files = described(options, scene, found);
+  display.clear();
   if (!options.pairs.empty()) write_file(options.pairs, pairs_table(found.pairs), interruption);
   if (options.json) {
     write_to_stream(standard_stream, check_json(found, options.goal_wanted(), options.find(), files) + "\n");
   } else if (!options.quiet) {
-    for (const std::string& note : scene.notes()) tell("note: " + note + "\n");
-    write_to_stream(standard_stream, as_text(found, options, scene, files.scene));
+    for (const std::string& note : scene.notes()) tell("note: " + visible_text(note) + "\n");
+    write_to_stream(standard_stream, as_text(found, options, scene, files));
   }
   const std::size_t that_count =
       options.goal_wanted() == Goal::all ? found.counts.total() : found.counts[PairClass::disjoint];

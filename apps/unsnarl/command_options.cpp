@@ -79,7 +79,8 @@ void add_time_limit(CLI::App& command, double& seconds, const std::string& group
 void add_progress(CLI::App& command, std::string& progress, const std::string& group) {
   command
       .add_option("--progress", progress,
-                  "On standard error: a line if it is a terminal ('auto', default), JSON lines, or 'none'")
+                  "On standard error: one line that changes, or if it is no terminal a line each 30 seconds\n"
+                  "('auto', default); JSON lines; or 'none'")
       ->check(one_of({"auto", "json", "none"}))
       ->type_name("auto|json|none")
       ->group(group);

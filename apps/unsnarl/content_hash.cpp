@@ -4,15 +4,13 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
-#include <vector>
+
+#include "input_bytes.h"
 
 namespace unsnarl::app {
 namespace {
-
-constexpr std::size_t piece_bytes = std::size_t(1) << 20;
 
 class Sha256 {
  public:
@@ -43,14 +41,17 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return {};
-  std::ifstream file(path, std::ios::binary);
-  std::vector<char> piece(piece_bytes);
+  std::error_code error;
+  const bool is_file = std::filesystem::is_regular_file(path, error);
+  if (is_error_of_system(error.value())) throw_read_error(path.string() + ": cannot read", error.value());
+  if (!is_file) return {};
   Sha256 sum;
-  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0)
-    sum.add(piece.data(), static_cast<std::size_t>(file.gcount()));
-  return file.eof() ? sum.digits() : std::string();
+  try {
+    read_pieces(path.string(), [&sum](std::string_view piece) { sum.add(piece.data(), piece.size()); });
+  } catch (const FileError&) {
+    return {};
+  }
+  return sum.digits();
 }
 
 }  // namespace unsnarl::app

@@ -18,6 +18,7 @@
 #include "unsnarl/curves.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/version.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -63,7 +64,7 @@ std::vector<Curve> curves_to_move(const CurveDocument& document, const std::vect
 }
 
 std::string name_of(const std::vector<Curve>& curves, std::int32_t c) {
-  return curves[c].name.empty() ? fmt::format("curve {}", c) : curves[c].name;
+  return curves[c].name.empty() ? fmt::format("curve {}", c) : visible_text(curves[c].name);
 }
 
 std::string place_of(const std::vector<Curve>& curves, const CurveCrossing& crossing) {
@@ -205,8 +206,8 @@ class Curves {
 
   void summarise(bool is_written) const {
     const CurveReport& r = result_.report;
-    std::string text = fmt::format("{}: {}, {}\n", options_.input, count_of(result_.curves.size(), "curve"),
-                                   count_of(r.points, "point"));
+    std::string text = fmt::format("{}: {}, {}\n", visible_text(options_.input),
+                                   count_of(result_.curves.size(), "curve"), count_of(r.points, "point"));
     if (r.crossings_before == 0) {
       text += "nothing crosses; the file stays as it is\n";
     } else {
@@ -224,7 +225,7 @@ class Curves {
     if (r.fixed.empty())
       for (std::size_t k = 0; k < std::min(r.left.size(), most_places); ++k)
         text += fmt::format("left: {}\n", place_of(result_.curves, r.left[k]));
-    text += is_written ? fmt::format("wrote {}, {:.2f} s\n", options_.output, r.seconds)
+    text += is_written ? fmt::format("wrote {}, {:.2f} s\n", visible_text(options_.output), r.seconds)
                        : "nothing was written; --keep-partial writes what was reached\n";
     tell(text);
   }
@@ -316,7 +317,8 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
       "\"...\"}]};\n"
       "only \"points\" is needed.\n\n"
       "Exit codes: 0 no crossings, 1 crossings left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
-      "6 interrupted, 7 all resolved but crossings of segments that must not move, 70 internal error.");
+      "6 interrupted, 7 all resolved but crossings of segments that must not move,\n"
+      "9 the system failed (try again), 70 internal error.");
 }
 
 int run_curves(const CurvesOptions& options, Interruption& interruption) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -15,6 +14,7 @@
 #include "mesh_input.h"
 #include "pictures.h"
 #include "progress.h"
+#include "sequence/hint.h"
 #include "sequence/sequence.h"
 #include "staged_output.h"
 #include "standard_streams.h"
@@ -26,6 +26,7 @@
 #include "unsnarl/report_json.h"
 #include "unsnarl/stage_clock.h"
 #include "unsnarl/version.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 #include "viewer.h"
 
@@ -157,6 +158,7 @@ class Fix {
   int run() {
     if (!options_.view.empty()) require_viewer();
     for (const std::string& note : files_.notes) display_.say("note: {}", note);
+    if (const std::string hint = sequence_hint(options_, scene_); !hint.empty()) display_.say("note: {}", hint);
     // A folder that is missing or must not be written to is found now rather than after the work.
     std::optional<OutputFolder> folder;
     if (options_.is_scene()) folder.emplace(output_);
@@ -192,7 +194,7 @@ class Fix {
       tell(fix_summary(result_, repair_options_, files_));
       for (const std::string& path :
            {options_.report, options_.picture, options_.view, options_.record, options_.highlight})
-        if (!path.empty() && !is_stream(path)) tell(fmt::format("  wrote {}\n", path));
+        if (!path.empty() && !is_stream(path)) tell(fmt::format("  wrote {}\n", visible_text(path)));
     }
     return exit_code_of(result_.status, files_.nested);
   }
@@ -395,16 +397,17 @@ class Fix {
   ReportFiles files_;
 };
 
-/// The report about an input that is refused, so that no earlier one is taken for its own. Nothing but a report is
-/// overwritten: the files that a broken input refers to are not known.
-void write_refusal(const FixOptions& options, const std::string& error, Interruption& interruption) {
+/// The report about an input that was not repaired, so that no earlier one is taken for its own. Nothing but a report
+/// is overwritten: the files that a broken input refers to are not known.
+void write_refusal(const FixOptions& options, std::string_view status, ExitCode exit_code, const std::string& error,
+                   Interruption& interruption) {
   const fs::path path = options.report;
   if (path.empty() || (fs::exists(path) && !is_stream(path.string()) && path.extension() != ".json")) return;
   const nlohmann::ordered_json json = {{"schema", "unsnarl-report"},
                                        {"schema_version", report_schema_version},
                                        {"version", version},
-                                       {"status", "invalid_input"},
-                                       {"exit_code", static_cast<int>(exit_invalid_input)},
+                                       {"status", status},
+                                       {"exit_code", static_cast<int>(exit_code)},
                                        {"input", {{"path", fmt::format("{}", fmt::join(options.inputs, ", "))}}},
                                        {"output", {{"written", false}, {"path", nullptr}}},
                                        {"error", error}};
@@ -417,13 +420,11 @@ int run_fix(const FixOptions& options, Interruption& interruption) {
   try {
     return options.sequence ? run_sequence(options, interruption) : Fix(options, interruption).run();
   } catch (const FileError& error) {
-    if (!options.sequence) write_refusal(options, error.what(), interruption);
+    if (!options.sequence) write_refusal(options, "invalid_input", exit_invalid_input, error.what(), interruption);
     throw;
-  } catch (const std::bad_alloc&) {
-    if (options.memory_limit_mb <= 0) throw;
-    tell(fmt::format("unsnarl: {} MB are not enough to read, examine and write this mesh; raise --memory-limit\n",
-                     options.memory_limit_mb));
-    return exit_limit;
+  } catch (const SystemError& error) {
+    if (!options.sequence) write_refusal(options, "system_error", exit_system_error, error.what(), interruption);
+    throw;
   }
 }
 

@@ -262,7 +262,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       "  unsnarl fix --sequence 'dance/*.obj' -o fixed                              frames of a moving mesh\n\n"
       "Exit codes: 0 embedded, 1 self-intersections left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
       "6 interrupted, 7 all repaired but what no allowed motion can resolve (--nested: or a surface lies wrong),\n"
-      "70 internal error.\n"
+      "9 the system failed (try again), 70 internal error.\n"
       "With --only-... and --each, 0 still means that nothing in the whole file intersects; where only what they "
       "leave\n"
       "out does, the result is written and the exit code is 7.");

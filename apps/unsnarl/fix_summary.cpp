@@ -14,6 +14,7 @@
 
 #include "mesh_input.h"
 #include "pair_class_words.h"
+#include "unsnarl/visible_text.h"
 
 namespace unsnarl::app {
 namespace {
@@ -173,7 +174,7 @@ std::vector<std::string> obstructions_in_words(std::span<const Obstruction> obst
 std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
   const RepairReport& r = result.report;
   std::string text;
-  const auto line = [&text](const std::string& words) { text += words + "\n"; };
+  const auto line = [&text](const std::string& words) { text += visible_text(words) + "\n"; };
   const auto counted = [](std::size_t n, std::string_view one, std::string_view many) {
     return fmt::format("{} {}", n, n == 1 ? one : many);
   };

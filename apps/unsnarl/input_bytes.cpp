@@ -1,31 +1,61 @@
 #include "input_bytes.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
 #include <cerrno>
-#include <cstring>
-#include <iostream>
-#include <iterator>
 
 #include "mesh_input.h"
 
 namespace unsnarl::app {
+namespace {
 
-std::ifstream opened(const std::string& path, const std::string& advice) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(fmt::format("{}: cannot open: {}{}", path, std::strerror(errno), advice));
-  return file;
+/// Open for reading until it goes; standard input stays open.
+class Input {
+ public:
+  explicit Input(const std::string& path)
+      : id_(path == standard_stream ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~Input() {
+    if (id_ > STDIN_FILENO) ::close(id_);
+  }
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+  int id() const { return id_; }
+
+ private:
+  int id_;
+};
+
+}  // namespace
+
+void read_pieces(const std::string& path, const std::function<void(std::string_view)>& take,
+                 const std::string& advice) {
+  const std::string name = path == standard_stream ? "standard input" : path;
+  const Input input(path);
+  if (input.id() < 0) throw_read_error(name + ": cannot open", errno, advice);
+  std::array<char, 1 << 16> piece;
+  for (;;) {
+    const ssize_t got = ::read(input.id(), piece.data(), piece.size());
+    if (got == 0) return;
+    if (got > 0) take({piece.data(), static_cast<std::size_t>(got)});
+    if (got < 0 && errno != EINTR) throw_read_error(name + ": cannot read", errno, advice);
+  }
 }
 
-void require_no_failure(const std::istream& in, const std::string& path) {
-  if (in.bad()) throw FileError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
-}
-
-std::string read_bytes(const std::string& path) {
-  std::ifstream file;
-  if (path != standard_stream) file = opened(path);
-  std::istream& in = path == standard_stream ? std::cin : file;
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  require_no_failure(in, path == standard_stream ? "standard input" : path);
+std::string read_bytes(const std::string& path, const std::string& advice) {
+  std::string bytes;
+  read_pieces(
+      path, [&bytes](std::string_view piece) { bytes += piece; }, advice);
   return bytes;
+}
+
+std::string bytes_if_readable(const std::string& path) {
+  try {
+    return read_bytes(path);
+  } catch (const FileError&) {
+    return {};
+  }
 }
 
 Link read_link(const std::string& path) {

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "unsnarl/document.h"
@@ -12,14 +13,14 @@
 
 namespace unsnarl::app {
 
-/// The file at `path`, open for reading; `advice` ends the message where that fails. Throws FileError.
-std::ifstream opened(const std::string& path, const std::string& advice = "");
-
-/// Throws FileError, naming `path`, where reading has just failed.
-void require_no_failure(const std::istream& in, const std::string& path);
-
-/// The bytes of the file at `path`, or of standard input for standard_stream. Throws FileError.
-std::string read_bytes(const std::string& path);
+/// Calls take(piece) with the bytes of the file at `path`, or of standard input for standard_stream, in their order;
+/// `advice` ends the message where that fails. Throws FileError, SystemError.
+void read_pieces(const std::string& path, const std::function<void(std::string_view piece)>& take,
+                 const std::string& advice = "");
+/// All these bytes.
+std::string read_bytes(const std::string& path, const std::string& advice = "");
+/// The same; none where there is no such file, or it must not be read. Throws SystemError.
+std::string bytes_if_readable(const std::string& path);
 
 /// parse(bytes) of the file at `path`. Throws FileError with the path in front of what the parser says.
 template <class Parse>
@@ -28,7 +29,7 @@ auto parse_file(const std::string& path, Parse&& parse) {
   try {
     return parse(std::move(bytes));
   } catch (const FileError& e) {
-    throw FileError(fmt::format("{}: {}", path, e.what()));
+    throw FileError(fmt::format("{}: {}", path, e.what()), e.error_number());
   } catch (const std::invalid_argument& e) {
     throw FileError(fmt::format("{}: {}", path, e.what()));
   }

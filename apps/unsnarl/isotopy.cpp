@@ -16,6 +16,7 @@
 #include "unsnarl/exit_code.h"
 #include "unsnarl/isotopy.h"
 #include "unsnarl/version.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -116,7 +117,7 @@ void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
       "  unsnarl isotopy spiral.svg square.svg -o way\n"
       "  unsnarl isotopy letters.svg dots.json -o way --frames 100\n\n"
       "Exit codes: 0 a certified isotopy, 2 usage, 3 cannot read, 4 cannot write, 5 time limit, 6 interrupted,\n"
-      "70 internal error.");
+      "9 the system failed (try again), 70 internal error.");
 }
 
 int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption) {
@@ -168,7 +169,7 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
         fmt::format("{} curve{}, {} rings, {} faces, no two intersect: at every time the curves are simple and apart\n"
                     "wrote {}, {:.1f} s\n",
                     start.size(), start.size() == 1 ? "" : "s", made.rings.size(), made.surface.view().face_count(),
-                    options.folder, made.seconds));
+                    visible_text(options.folder), made.seconds));
   return exit_embedded;
 }
 

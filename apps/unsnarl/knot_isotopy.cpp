@@ -14,6 +14,7 @@
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/knot_isotopy.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -114,7 +115,7 @@ void add_knot_isotopy_options(CLI::App& command, KnotIsotopyCommandOptions& opti
       "  unsnarl knot-isotopy goeritz.xyz circle.xyz -o way\n"
       "  unsnarl knot-isotopy goeritz.xyz circle.xyz --check way/isotopy.json\n\n"
       "Exit codes: 0 a certified isotopy, 1 none found (--check: not all holds), 2 usage, 3 cannot read,\n"
-      "4 cannot write, 5 time limit, 6 interrupted, 70 internal error.");
+      "4 cannot write, 5 time limit, 6 interrupted, 9 the system failed (try again), 70 internal error.");
 }
 
 int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& interruption) {
@@ -183,7 +184,7 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
                     "simple at\nevery time; the same holds for points that move straight from ring to ring\n"
                     "wrote {}, {:.1f} s\n",
                     made.found, made.reversed ? "; END is run along backwards" : "", made.rings.size(),
-                    made.rings[1].points.size() / 3, options.folder, made.seconds));
+                    made.rings[1].points.size() / 3, visible_text(options.folder), made.seconds));
   return exit_embedded;
 }
 

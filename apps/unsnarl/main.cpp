@@ -2,6 +2,8 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -17,6 +19,7 @@
 #include "interruption.h"
 #include "isotopy.h"
 #include "knot_isotopy.h"
+#include "memory_guard.h"
 #include "routes.h"
 #include "sample.h"
 #include "seifert.h"
@@ -25,6 +28,7 @@
 #include "unsnarl/exit_code.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/version.h"
+#include "unsnarl/visible_text.h"
 #include "usage.h"
 #include "usage_error.h"
 #include "version.h"
@@ -34,7 +38,7 @@ namespace unsnarl::app {
 namespace {
 
 ExitCode complain(ExitCode code, std::string_view what) {
-  tell(fmt::format("unsnarl: {}\n", what));
+  tell(fmt::format("unsnarl: {}\n", visible_text(what)));
   return code;
 }
 
@@ -95,7 +99,7 @@ int run(int argc, char** argv) {
       "  unsnarl fix hand.obj -o out.obj --picture out.png   and look at it\n\n"
       "Exit codes: 0 embedded (check: nothing found), 1 self-intersections left (check: found), 2 usage,\n"
       "3 cannot read, 4 cannot write, 5 limit of time, memory or displacement, 6 interrupted,\n"
-      "7 all repaired but what no motion can resolve, 70 internal error.\n"
+      "7 all repaired but what no motion can resolve, 9 the system failed (try again), 70 internal error.\n"
       "'unsnarl fix --help' explains the options.");
   const std::vector<std::string> words = with_usual_spelling({argv + 1, argv + argc});
   try {
@@ -120,6 +124,20 @@ int run(int argc, char** argv) {
   return run_sample(sample, interruption);
 }
 
+/// Memory has run out: below the limit that the user set, or that of the machine. Says so without asking for any.
+ExitCode complain_of_memory(std::string_view what) {
+  const double limit_mb = MemoryGuard::limit_mb();
+  std::array<char, 256> text;
+  const auto end =
+      limit_mb > 0
+          ? fmt::format_to_n(
+                text.data(), text.size(),
+                "unsnarl: {} MB are not enough to read, examine and write this mesh; raise --memory-limit\n", limit_mb)
+          : fmt::format_to_n(text.data(), text.size(), "unsnarl: {}\n", what);
+  draw({text.data(), std::min(end.size, text.size())});
+  return limit_mb > 0 ? exit_limit : exit_system_error;
+}
+
 /// TBB says it in words only.
 bool is_about_threads(const std::exception& e) {
   return std::string_view(e.what()).starts_with("pthread_create");
@@ -137,12 +155,15 @@ ExitCode explain_error() {
     return complain(exit_invalid_input, e.what());
   } catch (const WriteError& e) {
     return complain(exit_cannot_write, e.what());
+  } catch (const SystemError& e) {
+    return complain(exit_system_error, e.what());
   } catch (const std::bad_alloc&) {
-    return complain(exit_limit, "not enough memory");
+    return complain_of_memory("not enough memory");
   } catch (const std::exception& e) {
     const auto* const system = dynamic_cast<const std::system_error*>(&e);
     if (is_about_threads(e) || (system && system->code() == std::errc::resource_unavailable_try_again))
-      return complain(exit_limit, "not enough memory to start threads; --threads 1 needs the least");
+      return complain_of_memory("not enough memory to start threads; --threads 1 needs the least");
+    if (system && is_error_of_system(system->code().value())) return complain(exit_system_error, e.what());
     return complain(exit_internal_error, fmt::format("internal error: {}. Please report it", e.what()));
   }
 }

@@ -15,6 +15,8 @@
 namespace unsnarl::app {
 namespace {
 
+std::atomic<double> limit_of_process_mb = 0;
+
 struct Memory {
   double anonymous = 0;  // bytes that are resident and no file's
   double data = 0;       // bytes mapped private and writable, resident or not: what RLIMIT_DATA counts
@@ -70,6 +72,7 @@ MemoryGuard::MemoryGuard(double limit_mb) {
   if (allowed >= static_cast<double>(limit.rlim_cur)) return;
   limit.rlim_cur = static_cast<rlim_t>(allowed);
   is_on_ = setrlimit(RLIMIT_DATA, &limit) == 0;
+  if (is_on_) limit_of_process_mb = limit_mb;
 }
 
 MemoryGuard::~MemoryGuard() {
@@ -77,6 +80,10 @@ MemoryGuard::~MemoryGuard() {
   if (!is_on_ || getrlimit(RLIMIT_DATA, &limit) != 0) return;
   limit.rlim_cur = previous_;
   setrlimit(RLIMIT_DATA, &limit);
+}
+
+double MemoryGuard::limit_mb() {
+  return limit_of_process_mb;
 }
 
 }  // namespace unsnarl::app

@@ -11,6 +11,9 @@ class MemoryGuard {
   MemoryGuard(const MemoryGuard&) = delete;
   MemoryGuard& operator=(const MemoryGuard&) = delete;
 
+  /// The limit in MB that allocations of this process have failed for, if any has; 0: there was none.
+  static double limit_mb();
+
  private:
   unsigned long previous_ = 0;
   bool is_on_ = false;

@@ -87,7 +87,7 @@ void claim_inputs(FilePlaces& places, const std::string& what, const std::vector
 }
 
 std::vector<std::uint8_t> read_vertex_flags(const std::string& path, std::size_t vertex_count) {
-  std::ifstream file = opened(path, "; --fix-vertices needs a file of 0-based vertex ids");
+  std::istringstream file(read_bytes(path, "; --fix-vertices needs a file of 0-based vertex ids"));
   std::vector<std::uint8_t> flags(vertex_count, 0);
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
@@ -103,7 +103,6 @@ std::vector<std::uint8_t> read_vertex_flags(const std::string& path, std::size_t
       flags[id] = 1;
     }
   }
-  require_no_failure(file, path);
   return flags;
 }
 

@@ -21,7 +21,7 @@ PictureKind picture_kind(const std::string& path) {
 void prepare_picture_folder(const std::string& path, const std::string& option) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) throw WriteError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
+  if (error) throw_write_error(path + ": cannot make this folder", error.value());
   if (!fs::is_empty(path, error) || error)
     throw UsageError(fmt::format("{} {}: this folder is not empty; name another, or empty it first", option, path));
 }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -15,6 +16,7 @@ using Json = nlohmann::ordered_json;
 
 /// Progress that has not changed for so long is shown again.
 constexpr std::chrono::milliseconds show_again_after{900};
+constexpr std::chrono::seconds log_interval_of_progress{30};
 
 }  // namespace
 
@@ -22,7 +24,18 @@ ProgressStyle progress_style(const std::string& name, bool quiet) {
   if (name == "json") return ProgressStyle::json;
   if (name == "none") return ProgressStyle::none;
   if (name != "auto") throw UsageError("--progress " + name + ": choose auto, json or none");
-  return !quiet && ::isatty(STDERR_FILENO) ? ProgressStyle::line : ProgressStyle::none;
+  if (quiet) return ProgressStyle::none;
+  return ::isatty(STDERR_FILENO) ? ProgressStyle::line : ProgressStyle::log;
+}
+
+ProgressDisplay::ProgressDisplay(const std::string& style, bool quiet)
+    : style_(progress_style(style, quiet)), is_quiet_(quiet) {
+  if (style_ == ProgressStyle::none) return;
+  try {
+    thread_ = std::thread([this] { show_again(); });
+  } catch (const std::system_error&) {
+    // Without memory for a thread, progress is shown where there is some.
+  }
 }
 
 ProgressDisplay::~ProgressDisplay() {
@@ -42,10 +55,15 @@ void ProgressDisplay::show(const Context::Progress& progress) {
     shown_ = progress;
     is_counted_ = true;
     ++changes_;
-    draw();
+    redraw();
   }
   ends_or_changes_.notify_all();
-  start_thread();
+}
+
+void ProgressDisplay::count(std::string_view name, std::size_t total) {
+  const std::lock_guard lock(mutex_);
+  things_ = name;
+  total_ = total;
 }
 
 void ProgressDisplay::begin(std::string_view phase) {
@@ -58,16 +76,6 @@ void ProgressDisplay::begin(std::string_view phase) {
     wipe();
   }
   ends_or_changes_.notify_all();
-  start_thread();
-}
-
-void ProgressDisplay::start_thread() {
-  if (thread_.joinable()) return;
-  try {
-    thread_ = std::thread([this] { show_again(); });
-  } catch (const std::system_error&) {
-    // Without memory for a thread, progress is shown where there is some.
-  }
 }
 
 void ProgressDisplay::clear() {
@@ -88,32 +96,49 @@ void ProgressDisplay::show_again() {
     const unsigned known = changes_;
     const bool has_news =
         ends_or_changes_.wait_for(lock, show_again_after, [&] { return is_ending_ || changes_ != known; });
-    if (!has_news && shown_) draw();
+    if (!has_news && shown_) redraw();
   }
 }
 
-void ProgressDisplay::draw() {
+std::string ProgressDisplay::words() const {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-  if (style_ == ProgressStyle::json) {
-    const Json json = {{"fraction", shown_->fraction},
-                       {"phase", shown_->phase},
-                       {"pairs_left", is_counted_ ? Json(shown_->pairs_left) : Json()},
-                       {"displacement_rel", shown_->displacement_rel},
-                       {"seconds", seconds}};
-    tell(json.dump() + "\n");
-    return;
+  std::string counted;
+  if (!things_.empty())
+    counted = fmt::format("{} of {} {}   ", things_done(), total_, things_);
+  else if (is_counted_)
+    counted = fmt::format("{} intersecting pairs left   moved up to {:.2g} % of the diagonal   ", shown_->pairs_left,
+                          100 * shown_->displacement_rel);
+  return fmt::format("{:<9} {:3.0f} %   {}{:.0f} s", shown_->phase, 100 * shown_->fraction, counted, seconds);
+}
+
+std::size_t ProgressDisplay::things_done() const {
+  return static_cast<std::size_t>(std::lround(shown_->fraction * static_cast<double>(total_)));
+}
+
+std::string ProgressDisplay::json() const {
+  Json json = {{"fraction", shown_->fraction},
+               {"phase", shown_->phase},
+               {"pairs_left", is_counted_ ? Json(shown_->pairs_left) : Json()},
+               {"displacement_rel", shown_->displacement_rel},
+               {"seconds", std::chrono::duration<double>(Clock::now() - begin_).count()}};
+  if (!things_.empty()) json[std::string(things_)] = {{"done", things_done()}, {"total", total_}};
+  return json.dump();
+}
+
+void ProgressDisplay::redraw() {
+  if (style_ == ProgressStyle::json) return tell(json() + "\n");
+  if (style_ == ProgressStyle::line) {
+    line_shown_ = true;
+    return draw("\r\x1b[K" + words());
   }
-  const std::string counted = is_counted_
-                                  ? fmt::format("{} intersecting pairs left   moved up to {:.2g} % of the diagonal   ",
-                                                shown_->pairs_left, 100 * shown_->displacement_rel)
-                                  : "";
-  tell(fmt::format("\r\x1b[K{:<9} {:3.0f} %   {}{:.0f} s", shown_->phase, 100 * shown_->fraction, counted, seconds));
-  line_shown_ = true;
+  if (Clock::now() - last_log_ < log_interval_of_progress) return;
+  last_log_ = Clock::now();
+  tell(words() + "\n");
 }
 
 void ProgressDisplay::wipe() {
   if (!line_shown_) return;
-  tell("\r\x1b[K");
+  draw("\r\x1b[K");
   line_shown_ = false;
 }
 

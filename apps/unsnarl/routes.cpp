@@ -17,6 +17,7 @@
 #include "unsnarl/exit_code.h"
 #include "unsnarl/pictures.h"
 #include "unsnarl/routes.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -154,7 +155,7 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
     tell(
         fmt::format("{} free tubes, no two faces intersect; they are no longer round, so that the agents' distances\n"
                     "are not certified\nwrote {}\n",
-                    plan.agents.size(), options.folder));
+                    plan.agents.size(), visible_text(options.folder)));
   return exit_embedded;
 }
 
@@ -193,7 +194,8 @@ void add_routes_options(CLI::App& command, RoutesCommandOptions& options) {
       "  unsnarl sample routes_star_6 -o plan.json && unsnarl routes plan.json -o out\n"
       "  unsnarl routes plan.json --check out/routes.json\n\n"
       "Exit codes: 0 certified routes, 1 none found (--check: not all holds), 2 usage, 3 cannot read,\n"
-      "4 cannot write, 5 time limit, 6 interrupted, 7 an obstruction that no routes can mend, 70 internal error.");
+      "4 cannot write, 5 time limit, 6 interrupted, 7 an obstruction that no routes can mend,\n"
+      "9 the system failed (try again), 70 internal error.");
 }
 
 int run_routes(const RoutesCommandOptions& options, Interruption& interruption) {
@@ -245,7 +247,7 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
                      plan.obstacles.empty() ? ""
                                             : fmt::format("length / that of the agent's route alone: mean {:.3f}\n",
                                                           made.mean_alone_ratio()),
-                     options.folder, made.seconds));
+                     visible_text(options.folder), made.seconds));
   return exit_embedded;
 }
 

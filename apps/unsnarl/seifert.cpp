@@ -16,6 +16,7 @@
 #include "unsnarl/pictures.h"
 #include "unsnarl/seifert.h"
 #include "unsnarl/version.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -124,7 +125,7 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
       "  echo 'braid 3: 1 -2 1 -2 1 -2' | unsnarl seifert - -o borromean.obj\n"
       "  unsnarl seifert knot.xyz --check surface.obj\n\n"
       "Exit codes: 0 a certified surface, 1 --check: not all holds, 2 usage, 3 cannot read, 4 cannot write,\n"
-      "6 interrupted, 70 internal error.");
+      "6 interrupted, 9 the system failed (try again), 70 internal error.");
 }
 
 int run_seifert(const SeifertCommandOptions& options, Interruption& interruption) {
@@ -210,14 +211,14 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     write_file(options.report, json.dump(2) + "\n", interruption);
   }
   if (!options.quiet) {
-    tell(fmt::format("{}: {} points, {} component{}; seen with {} crossings and {} Seifert circles\n", options.input,
-                     link.point_count(), link.components.size(), link.components.size() == 1 ? "" : "s",
-                     result.crossings, result.circles));
+    tell(fmt::format("{}: {} points, {} component{}; seen with {} crossings and {} Seifert circles\n",
+                     visible_text(options.input), link.point_count(), link.components.size(),
+                     link.components.size() == 1 ? "" : "s", result.crossings, result.circles));
     tell(fmt::format("{} faces, no two intersect; its boundary is the link, point by point\n",
                      result.surface.view().face_count()));
     tell(as_text(found, options.handles));
     if (result.status == Status::time_limit) tell("fairing was stopped by the time limit\n");
-    tell(fmt::format("wrote {}, {:.1f} s\n", options.output, result.seconds));
+    tell(fmt::format("wrote {}, {:.1f} s\n", visible_text(options.output), result.seconds));
   }
   return exit_embedded;
 }

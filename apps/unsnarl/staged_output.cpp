@@ -30,9 +30,10 @@ OutputFolder::OutputFolder(const fs::path& path) {
        at = at.parent_path())
     if (at.has_filename()) missing.push_back(at);
   fs::create_directories(path, error);
-  if (!fs::is_directory(path))
-    throw WriteError(error ? fmt::format("{}: cannot make this folder: {}", path.string(), error.message())
-                           : fmt::format("{}: is no folder", path.string()));
+  if (!fs::is_directory(path)) {
+    if (error) throw_write_error(path.string() + ": cannot make this folder", error.value());
+    throw WriteError(path.string() + ": is no folder");
+  }
   made_ = std::move(missing);
 }
 

@@ -10,6 +10,7 @@
 
 #include "mesh_input.h"
 #include "unsnarl/document.h"
+#include "unsnarl/visible_text.h"
 
 namespace unsnarl::app {
 
@@ -22,7 +23,14 @@ void open_missing_streams() {
   }
 }
 
-void tell(std::string_view text) {
+void tell(std::string_view lines) {
+  std::string text;
+  for (std::size_t end = 0; (end = lines.find('\n')) != lines.npos; lines.remove_prefix(end + 1))
+    text += visible_text(lines.substr(0, end)) + '\n';
+  draw(text + visible_text(lines));
+}
+
+void draw(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }

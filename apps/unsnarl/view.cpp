@@ -10,11 +10,13 @@
 #include "file_places.h"
 #include "input_bytes.h"
 #include "mesh_input.h"
+#include "progress.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/page.h"
 #include "unsnarl/report_json.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 #include "viewer.h"
 
@@ -23,8 +25,7 @@ namespace {
 
 std::string read_report(const std::string& path) {
   if (path.empty()) return {};
-  std::ifstream file = opened(path, "; --report needs the report that 'unsnarl fix --report' wrote");
-  std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text = read_bytes(path, "; --report needs the report that 'unsnarl fix --report' wrote");
   const nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
   if (!report.is_object() || report.value("schema", nlohmann::json()) != "unsnarl-report")
     throw FileError(path + ": this is not a report of 'unsnarl fix'");
@@ -92,7 +93,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       "  unsnarl view brain.surf skull.gii skin.obj fixed -o head.html     a scene; its repaired files in fixed/\n"
       "  unsnarl fix hand.obj -o hand_fixed.obj --view hand.html     repairs and shows in one go\n\n"
       "Exit codes: 0 written, 2 usage (or this build has no viewer), 3 cannot read, 4 cannot write, 6 interrupted,\n"
-      "70 internal error.");
+      "9 the system failed (try again), 70 internal error.");
 }
 
 int run_view(const ViewOptions& options, Interruption& interruption) {
@@ -104,6 +105,8 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
   places.reads("--report", options.report);
   places.writes("-o", options.output);
   const std::optional<Format> format = format_from_name(options.format);
+  ProgressDisplay display("auto", options.quiet);
+  display.begin("read");
   const SceneDocument scene = read_scene(meshes.inputs, format);
   claim_inputs(places, "the input", meshes.inputs, scene);
   PageSource source;
@@ -118,16 +121,17 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
     source.after = repaired->surface().positions;
   }
   const Appearance appearance = scene.appearance();
-  for (const std::string& note : appearance.notes)
-    if (!options.quiet) tell("note: " + note + "\n");
+  for (const std::string& note : appearance.notes) display.say("note: {}", note);
   source.appearance = &appearance;
+  display.begin("write");
   source.find = options.find();
   source.goal = options.goal_wanted();
   source.report = read_report(options.report);
   const std::string page = view_page(built_in_page(), source);
+  display.clear();
   write_file(options.output, page, interruption);
   if (!options.quiet && options.output != standard_stream)
-    tell(fmt::format("wrote {} ({:.1f} MB); open it in a browser\n", options.output, 1e-6 * page.size()));
+    tell(fmt::format("wrote {} ({:.1f} MB); open it in a browser\n", visible_text(options.output), 1e-6 * page.size()));
   return exit_embedded;
 }
 

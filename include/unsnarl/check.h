@@ -32,6 +32,7 @@ struct ConflictPlace {
 struct ComponentFindings {
   std::int32_t first_face = 0;
   std::size_t faces = 0;
+  std::size_t vertices = 0;           ///< as the mesh counts them, before welding
   std::size_t pairs_within = 0;       ///< of two of its faces
   std::size_t pairs_with_others = 0;  ///< of a face of it and one of another component
   Bounds bounds;

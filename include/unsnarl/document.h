@@ -6,12 +6,12 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "unsnarl/appearance.h"
+#include "unsnarl/errors.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -22,19 +22,6 @@ std::string_view to_string(Format format);
 std::optional<Format> format_from_extension(std::string_view path);
 /// The names of all formats: "obj, off, ply, stl, ...". before_last stands between the last two.
 std::string format_names(std::string_view before_last = ", ");
-
-/// A file cannot be read or makes no sense. The message says what, where (line or byte, face and vertex as the format
-/// counts them) and what to do.
-class FileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// A file cannot be written.
-class WriteError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Names that a file gives to its faces, of one kind.
 struct FaceLabels {
@@ -59,9 +46,10 @@ struct OutputFile {
 class Document {
  public:
   /// Format by extension unless given; FreeSurfer surfaces without a known one are recognised by their first bytes.
-  /// Throws FileError.
+  /// Throws FileError, SystemError.
   static Document read(const std::filesystem::path& path, std::optional<Format> format = {});
-  /// `folder` is where the external buffers of a glTF and the external files of a GIFTI lie. Throws FileError.
+  /// `folder` is where the external buffers of a glTF and the external files of a GIFTI lie. Throws FileError,
+  /// SystemError.
   static Document parse(std::string bytes, Format format, const std::filesystem::path& folder = {});
 
   Document(Document&&) noexcept;
@@ -114,8 +102,8 @@ class Document {
 
 /// Writes to a temporary file in the folder of `path`, flushes it to the disk, renames it: either the old file or the
 /// whole new one is there, never a part. Keeps the permissions of an existing target and respects its write protection;
-/// follows a symbolic link; writes straight into devices and pipes. Throws WriteError, and then leaves no temporary
-/// file behind.
+/// follows a symbolic link; writes straight into devices and pipes. Throws WriteError, SystemError, and then
+/// leaves no temporary file behind.
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace unsnarl

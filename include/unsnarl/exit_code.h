@@ -14,6 +14,7 @@ enum ExitCode : int {
   exit_limit = 5,
   exit_cancelled = 6,
   exit_obstructed = 7,
+  exit_system_error = 9,  ///< the system failed (no descriptors, no memory, a read error); may succeed later
   exit_internal_error = 70,
 };
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "unsnarl/document.h"
@@ -30,6 +32,21 @@ class UnknownPart : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
+
+/// A part that the file names, by the name that Parts takes.
+struct NamedPart {
+  enum class Kind : std::uint8_t { object, group, material };
+  Kind kind = Kind::object;
+  std::string name;
+  std::size_t faces = 0;
+  std::size_t vertices = 0;  ///< of the file that these faces use; parts may share some
+};
+
+std::string_view to_string(NamedPart::Kind kind);  ///< as options name it: "object", "group", "material"
+
+/// All parts that the labels of a file name: objects, then groups, then materials, each in the order of the file.
+/// Those without faces too.
+std::vector<NamedPart> named_parts(const SurfaceView& surface, std::span<const FaceLabels> labels);
 
 /// Component of each face (faces joined by a shared vertex, after welding), numbered from 0 in the order of
 /// their first faces, as `unsnarl check` lists them; -1 for a face without corners. Throws as

@@ -8,6 +8,7 @@
 #include "unsnarl/check.h"
 #include "unsnarl/clearance.h"
 #include "unsnarl/nesting.h"
+#include "unsnarl/parts.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/report.h"
 #include "unsnarl/scene_document.h"
@@ -26,6 +27,7 @@ struct ReportFiles {
   std::string format;                   ///< of the input: "obj", ...; empty: arrays or several files were given
   std::size_t vertices = 0, faces = 0;  ///< as the file counts them
   std::vector<std::string> notes;       ///< Document::notes
+  std::vector<NamedPart> parts;         ///< that the files name; check_json alone lists them
   SceneReport scene;                    ///< empty: one file or mesh was given
   std::vector<NestedPair> nested;       ///< what was to lie inside what; empty: nothing was
   std::vector<StageReport> before_repair, after_repair;        ///< reading, writing
@@ -41,7 +43,7 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
 std::string recording_json(const RepairResult& result, const SurfaceView& surface);
 
 /// The findings of `unsnarl check --json` as JSON, indented, without a line break at the end; with every place. Of
-/// `files` it uses input, format, vertices, faces, notes and scene.
+/// `files` it uses input, format, vertices, faces, notes, parts and scene.
 std::string check_json(const CheckReport& found, Goal goal, const FindOptions& options, const ReportFiles& files = {});
 
 /// Names of options, as reports and the command line use them.

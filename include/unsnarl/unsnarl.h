@@ -48,11 +48,15 @@ typedef enum unsnarl_error {
   UNSNARL_CANNOT_READ = 2,      /* a file is missing or makes no sense */
   UNSNARL_CANNOT_WRITE = 3,     /* a file cannot be written; what was there before is still there */
   UNSNARL_OUT_OF_MEMORY = 4,
+  UNSNARL_SYSTEM_ERROR = 5,   /* the system failed (no descriptors, a read error); the same call may succeed later */
   UNSNARL_INTERNAL_ERROR = 70 /* please report it */
 } unsnarl_error;
 
 /* What the last call that failed in this thread complained of; "" if none did. Valid until the next one fails. */
 UNSNARL_EXPORT const char* unsnarl_error_message(void);
+
+/* The errno (<errno.h>: ENOENT, EACCES, EMFILE, ...) of the call of the system behind that error; 0: there was none. */
+UNSNARL_EXPORT int unsnarl_error_number(void);
 
 /* Version of the library, "major.minor.patch". */
 UNSNARL_EXPORT const char* unsnarl_version(void);
@@ -82,6 +86,12 @@ typedef struct unsnarl_surface {
                             from the innermost out, a -1 after each; all but the first of a chain have to be closed.
                             NULL: it does not matter. Not of sequences, nor with rigid, each_component or paper */
   size_t nested_count;   /* of these numbers, -1 included */
+  const char* const* rigid_names; /* names of the rigid parts, for reports; NULL: their numbers */
+  size_t rigid_name_count;
+  const int32_t* nested_surface; /* one number a vertex: the surface that it belongs to, which `nested` then counts in
+                                    place of meshes; -1: none. NULL: `nested` counts meshes */
+  const char* const* nested_names; /* names of these surfaces, for messages and reports; NULL: their numbers */
+  size_t nested_name_count;
 } unsnarl_surface;
 
 /* Polylines in the plane, or closed polygons in space (a link). */
@@ -229,6 +239,13 @@ UNSNARL_EXPORT int unsnarl_find_intersections(const unsnarl_surface* surface, co
  * "degenerate" (one of them has no area). NULL for any other number. */
 UNSNARL_EXPORT const char* unsnarl_pair_kind(int kind);
 
+/* What `unsnarl check` finds: pairs, where they are, the components, and what the surface's document names.
+ *
+ * Arrays: "pairs" and "kinds" as of unsnarl_find_intersections. Report: that of `unsnarl check --json`
+ * (docs/schemas/check.schema.json). */
+UNSNARL_EXPORT int unsnarl_check(const unsnarl_surface* surface, const unsnarl_options* options,
+                                 unsnarl_result** result);
+
 /* Decides exactly whether the faces are embedded with their vertices at `moved` (x y z of each, moved_count vertices).
  * Vertices are welded as on the positions of `surface`; polygons are split as there, and as a program splits them that
  * reads `moved`.
@@ -276,17 +293,18 @@ UNSNARL_EXPORT int unsnarl_picture(const unsnarl_surface* surface, const double*
 
 /* What unsnarl_page shows besides the surface. */
 typedef struct unsnarl_page_content {
-  size_t size;         /* sizeof(unsnarl_page_content) */
-  const double* moved; /* x y z of each vertex after a repair, to be shown beside the surface; NULL: it is shown alone */
-  size_t moved_count;  /* vertices */
-  const char* name;    /* of the surface, for the reader; NULL: that of its file, or "mesh" */
+  size_t size; /* sizeof(unsnarl_page_content) */
+  const double*
+      moved;          /* x y z of each vertex after a repair, to be shown beside the surface; NULL: it is shown alone */
+  size_t moved_count; /* vertices */
+  const char* name;   /* of the surface, for the reader; NULL: that of its file, or "mesh" */
   const char* moved_name; /* likewise of what was moved; NULL: none */
   const char* report;     /* what unsnarl_result_report gave for the repair, to be shown too; NULL: none */
 } unsnarl_page_content;
 
-/* The page of `unsnarl view` (docs/viewer.md), to turn and look at in a browser: one HTML file that needs no network. Of
- * a surface of unsnarl_document_surface it has the colours and images of the file too; several meshes have a colour each.
- * content: NULL: the surface alone. UNSNARL_INVALID_ARGUMENT too where the library was built without the page.
+/* The page of `unsnarl view` (docs/viewer.md), to turn and look at in a browser: one HTML file that needs no network.
+ * Of a surface of unsnarl_document_surface it has the colours and images of the file too; several meshes have a colour
+ * each. content: NULL: the surface alone. UNSNARL_INVALID_ARGUMENT too where the library was built without the page.
  *
  * Array: "html" (k, 1) uint8, the bytes of the file. Report: "notes" (what could not be shown, sentences). */
 UNSNARL_EXPORT int unsnarl_page(const unsnarl_surface* surface, const unsnarl_page_content* content,
@@ -296,19 +314,47 @@ UNSNARL_EXPORT int unsnarl_page(const unsnarl_surface* surface, const unsnarl_pa
 
 /* Reads a mesh file with all that it holds. format: "obj", "ply", ... (docs/formats.md); NULL: by the extension. */
 UNSNARL_EXPORT int unsnarl_document_read(const char* path, const char* format, unsnarl_document** document);
-/* The mesh of the file, for the functions above. surface->size is to be set. The arrays are the document's. */
+/* Reads several mesh files of one coordinate system as one scene (docs/scenes.md), to be repaired together. All need
+ * names of their own. format: of all of them. */
+UNSNARL_EXPORT int unsnarl_document_read_scene(const char* const* paths, size_t path_count, const char* format,
+                                               unsnarl_document** document);
+/* The mesh of the file, for the functions above; of several files all meshes, with mesh_sizes. surface->size is to be
+ * set. The arrays are the document's. */
 UNSNARL_EXPORT int unsnarl_document_surface(const unsnarl_document* document, unsnarl_surface* surface);
 /* JSON: "format", "vertices", "faces", "notes" (sentences worth telling the user). */
 UNSNARL_EXPORT const char* unsnarl_document_report(const unsnarl_document* document);
+/* The faces of a part that the document names. kind: "object", "group", "material", "component" (name: its number, as
+ * unsnarl_check lists them) or, of several files, "file". UNSNARL_INVALID_ARGUMENT where there is no such part; the
+ * message lists those that there are.
+ *
+ * Array "faces" (m, 1) uint8, flags. */
+UNSNARL_EXPORT int unsnarl_document_faces(const unsnarl_document* document, const char* kind, const char* name,
+                                          const unsnarl_options* options, unsnarl_result** result);
+/* From now on unsnarl_document_write turns stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved.
+ * *is_any: 0: there are none that could be updated. */
+UNSNARL_EXPORT int unsnarl_document_recompute_normals(unsnarl_document* document, int32_t* is_any);
 /* Whether unsnarl_document_write may write there, to be asked before a repair: the format is that of the file, the
  * folder exists, nothing is write-protected, and no other part of the input would be overwritten. */
 UNSNARL_EXPORT int unsnarl_document_check_output(const unsnarl_document* document, const char* path);
 /* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was. They are read
  * back bit for bit before anything is in place. path may be that of the file that was read. The old files or the whole
- * new ones are there, never a part. */
+ * new ones are there, never a part. Of several files path is the folder where all go under their names. */
 UNSNARL_EXPORT int unsnarl_document_write(const unsnarl_document* document, const unsnarl_result* repaired,
                                           const char* path);
 UNSNARL_EXPORT void unsnarl_document_free(unsnarl_document* document);
+
+/* ---- samples ------------------------------------------------------------------------------------------------ */
+
+/* A surface that runs through itself, to play with (`unsnarl sample`). resolution: steps along its longest direction,
+ * [8, 2000]; 0: its own. parameters: JSON, an object of numbers by their names; NULL: the defaults.
+ *
+ * Arrays: "positions" (n, 3) float64, "corners" (c, 1) int32 and "offsets" (m + 1, 1) int32 as in unsnarl_surface
+ * (offsets is empty where all faces are triangles). */
+UNSNARL_EXPORT int unsnarl_sample(const char* name, int32_t resolution, const char* parameters,
+                                  unsnarl_result** result);
+/* Report: an array of all samples: "name", "description", "embeddable" (false: no motion of vertices can embed it) and
+ * "parameters", each with "name", "value" (the default), "minimum", "maximum", "description". */
+UNSNARL_EXPORT int unsnarl_list_samples(unsnarl_result** result);
 
 /* ---- curves in the plane ------------------------------------------------------------------------------------ */
 
@@ -368,8 +414,8 @@ UNSNARL_EXPORT int unsnarl_seifert_surface(const unsnarl_curves* link, const uns
 UNSNARL_EXPORT int unsnarl_check_seifert_surface(const unsnarl_surface* surface, const unsnarl_curves* link,
                                                  const unsnarl_options* options, unsnarl_result** result);
 
-/* Moves a knot to another polygon of the same knot without ever passing through itself (docs/knot_isotopy.md). Start and
- * end have one curve each. Status "no_progress": none was found, which does not prove that there is none.
+/* Moves a knot to another polygon of the same knot without ever passing through itself (docs/knot_isotopy.md). Start
+ * and end have one curve each. Status "no_progress": none was found, which does not prove that there is none.
  *
  * Arrays: "times" (r, 1) float64 from 0 to 1; the knot at these times, "points" (p, 3) float64 and "offsets" (r + 1, 1)
  * int32. Report: what is certified of it, "found", the double points of the cylinders that were not embedded. */

@@ -42,6 +42,9 @@ def test_pip_install(tmp_path):
     script = "import unsnarl; print(unsnarl.__file__, unsnarl.find_intersections([[0, 0, 0]], []))"
     said = run(sys.executable, "-c", script, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(target)})
     assert said.split() == [str(target / "unsnarl" / "__init__.py"), "Intersections(none)"]
+    for program in ([target / "bin" / "unsnarl"], [sys.executable, "-m", "unsnarl"]):
+        said = run(*program, "--version", cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(target)})
+        assert said.startswith("unsnarl ")
 
 
 def test_wheel(tmp_path):
@@ -53,17 +56,26 @@ def test_wheel(tmp_path):
     archive, wheel = map(Path, built.split())
     with tarfile.open(archive) as tar:
         inside = {name.partition("/")[2] for name in tar.getnames()}
-    assert {"CMakeLists.txt", "include/unsnarl/unsnarl.h", "src/c_interface/symbols.map", "viewer/CMakeLists.txt"} <= inside
+    assert {"CMakeLists.txt", "apps/unsnarl/main.cpp", "include/unsnarl/unsnarl.h", "tools/help_text.py", "src/c_interface/symbols.map", "viewer/CMakeLists.txt"} <= inside
     page = Path(os.environ["UNSNARL_BUILD_DIR"], "viewer", "page", "index.html")
     assert ("viewer/page.html" in inside) == page.exists()
     assert not any(name.endswith(".so") for name in inside)
 
     assert wheel.name.startswith("unsnarl-") and "-py3-none-manylinux_2_" in wheel.name
     with zipfile.ZipFile(wheel) as content:
+        (packed,) = (one for one in content.infolist() if one.filename == "unsnarl/bin/unsnarl")
+        assert packed.external_attr >> 16 & 0o111
         assert any("licenses/libgmp" in name for name in content.namelist())
         (points,) = (name for name in content.namelist() if name.endswith(".dist-info/entry_points.txt"))
         assert b"[pyvista.accessors]" in content.read(points)
         content.extractall(tmp_path / "target")
+    program = tmp_path / "target" / "unsnarl" / "bin" / "unsnarl"
+    program.chmod(0o755)  # as pip does for what is marked so in the wheel
+    listed = run("ldd", program)
+    for name in ("libtbb", "libgmp", "libzip"):
+        (line,) = (line for line in listed.splitlines() if name in line.split()[0])
+        assert str(tmp_path / "target") in line
+    assert run(program, "--version").startswith("unsnarl ")
     # What is loaded comes from inside, or from glibc and what is with it everywhere.
     script = "import unsnarl; unsnarl.find_intersections([[0, 0, 0]], []); print(open('/proc/self/maps').read())"
     maps = run(sys.executable, "-c", script, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path / "target")})

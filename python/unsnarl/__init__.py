@@ -17,23 +17,28 @@ repair and certify also a list of these, ``repair([(V, F), mesh])``: meshes in o
     ``(corners, offsets)`` for polygons of mixed sizes, where face f has the vertices
     ``corners[offsets[f]:offsets[f + 1]]``.
 
-Files: ``fix("in.obj", "out.obj")`` repairs one as the program does, ``check("in.obj")`` looks for intersections,
-``V, F = read("in.obj")`` gives arrays. ``view(...)`` of a mesh, a file or a Result is a page to turn it and look at it,
+Files: ``fix("in.obj", "out.obj")`` repairs one as the program does, ``fix(["a.obj", "b.obj"], "folder")`` several
+together, ``fix_sequence`` frames, ``batch`` many; ``check("in.obj")`` looks for intersections and lists the parts that the
+file names, ``V, F = read("in.obj")`` gives arrays. ``view(...)`` of a mesh, a file or a Result is a page to turn it and look at it,
 before and after. What a repair came to goes to the logger "unsnarl" too, and a Result shows itself in notebooks.
 
-What is passed in is never changed. Arguments that make no sense raise ValueError or TypeError; a mesh that could not be
+What is passed in is never changed. Arguments that make no sense raise ValueError or TypeError, files OSError with its
+errno; a mesh that could not be
 untangled raises nothing, its ``Result.status`` says so.
 """
 
+from ._batch import BatchResult, batch
 from ._call import Status
 from ._certify import Certificate, certify
 from ._curves import CurveResult, find_crossings, untangle_curves
-from ._files import check, fix, read
+from ._file_sequences import FileSequenceResult, fix_sequence
+from ._files import Check, Component, Part, check, fix, read
 from ._intersections import Intersections, find_intersections
 from ._library import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._progress import Progress
-from ._repair import Result, repair
+from ._repair import PaperSettings, Result, repair
+from ._samples import Sample, SampleParameter, sample, samples
 from ._routes import Routes, check_routes, plan_routes
 from ._sequence import Frame, Jitter, SequenceResult, repair_sequence
 from ._spaces import (
@@ -49,20 +54,29 @@ from ._spaces import (
 from ._view import Page, view
 
 __all__ = [
+    "BatchResult",
     "Certificate",
+    "Check",
+    "Component",
     "CurveResult",
+    "FileSequenceResult",
     "Frame",
     "Intersections",
     "Isotopy",
     "Jitter",
     "KnotIsotopy",
     "Page",
+    "PaperSettings",
+    "Part",
     "Progress",
     "Result",
     "Routes",
+    "Sample",
+    "SampleParameter",
     "SeifertSurface",
     "SequenceResult",
     "Status",
+    "batch",
     "boundary_vertices",
     "certify",
     "check",
@@ -72,6 +86,7 @@ __all__ = [
     "find_crossings",
     "find_intersections",
     "fix",
+    "fix_sequence",
     "knot_isotopy",
     "knot_of_table",
     "plan_routes",
@@ -79,6 +94,8 @@ __all__ = [
     "read",
     "repair",
     "repair_sequence",
+    "sample",
+    "samples",
     "seifert_surface",
     "untangle_curves",
     "vertices_of_faces",

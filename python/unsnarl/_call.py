@@ -92,7 +92,7 @@ def call(name: str, *arguments: Any) -> Outcome:
     return Outcome(handle)
 
 
-def _next(news: queue.SimpleQueue[Any]) -> Any:
+def next_news(news: queue.SimpleQueue[Any]) -> Any:
     """What has come; None: nothing for a while."""
     try:
         return news.get(timeout=_SIGNAL_INTERVAL_S)
@@ -129,7 +129,7 @@ def call_and_wait(name: str, *arguments: Any, progress: OnProgress) -> Outcome:
     try:
         while came_to is None:
             try:
-                report = _next(news)
+                report = next_news(news)
                 if report is None and isinstance(show, ProgressBar):
                     show.show_again()
                 if not isinstance(report, Progress):

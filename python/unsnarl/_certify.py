@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from ctypes import c_size_t, c_void_p
-from typing import Any, NamedTuple
+from typing import NamedTuple, Optional, Union
+
+from numpy.typing import ArrayLike
 
 from ._call import call
 from ._options import options_of
 from ._scenes import scene_of
+from ._types import Faces, Mesh, Meshes, Weld
 
 
 class Certificate(NamedTuple):
@@ -22,11 +26,11 @@ class Certificate(NamedTuple):
 
 
 def certify(
-    V: Any,
-    F: Any,
-    moved: Any,
+    V: Union[ArrayLike, Mesh, Meshes],
+    F: Optional[Faces],
+    moved: Union[ArrayLike, Sequence[ArrayLike]],
     *,
-    weld: str = "seams",
+    weld: Weld = "seams",
     weld_tolerance: float = 0.0,
     both_diagonals: bool = False,
     threads: int = 0,

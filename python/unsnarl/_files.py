@@ -3,66 +3,27 @@
 from __future__ import annotations
 
 import ctypes
-import inspect
 import os
-import weakref
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Optional, Union
+from typing import Any, Literal, Optional, Union, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import Surface, rigid_numbers, vertex_flags
-from ._call import Outcome, call_and_wait
-from ._intersections import Intersections, find_intersections
-from ._library import SurfaceStruct, check as check_code, library
+from ._call import call, call_and_wait
+from ._documents import Document, NamedParts, Parts
+from ._intersections import Intersections
+from ._library import pair_kinds
 from ._options import options_of, paper_options
 from ._progress import OnProgress
-from ._repair import Result, log, repair
-
-PathLike = Union[str, "os.PathLike[str]"]
-
-#: Options of repair() that fix() takes too.
-_OPTIONS = {
-    name for name, p in inspect.signature(repair).parameters.items() if p.kind is p.KEYWORD_ONLY and name not in ("progress", "nested")
-}
+from ._repair import Paper, Result, log, log_notes
+from ._scenes import Scene
+from ._types import Faces, Format, Goal, Names, Numbers, PathLike, Paths, Positions, Precision, Weld
 
 
-class Document:
-    """A mesh file with all that it holds."""
-
-    def __init__(self, path: PathLike, format: Optional[str] = None):
-        self.handle = ctypes.c_void_p()
-        name = None if format is None else format.encode()
-        check_code(library.unsnarl_document_read(os.fsencode(path), name, ctypes.byref(self.handle)))
-        weakref.finalize(self, library.unsnarl_document_free, self.handle)
-        self.struct = SurfaceStruct()
-        check_code(library.unsnarl_document_surface(self.handle, ctypes.byref(self.struct)))
-
-    def surface(self) -> Surface:
-        """A copy of the mesh."""
-        s = self.struct
-        return Surface(
-            _copied(s.positions, 3 * s.vertex_count, np.float64),
-            _copied(s.corners, s.corner_count, np.int32),
-            _copied(s.offsets, s.offset_count, np.int32),
-        )
-
-    def check_output(self, path: PathLike) -> None:
-        check_code(library.unsnarl_document_check_output(self.handle, os.fsencode(path)))
-
-    def write(self, repaired: Outcome, path: PathLike) -> None:
-        check_code(library.unsnarl_document_write(self.handle, repaired._handle, os.fsencode(path)))
-
-
-def _copied(address: Optional[int], count: int, dtype: Any) -> NDArray[Any]:
-    values: NDArray[Any] = np.empty(count, dtype)
-    if count > 0:
-        ctypes.memmove(values.ctypes.data, address, values.nbytes)
-    return values
-
-
-def read(path: PathLike, format: Optional[str] = None) -> tuple[NDArray[np.float64], Any]:
+def read(path: PathLike, format: Optional[Format] = None) -> tuple[NDArray[np.float64], Any]:
     """The mesh of a file, as (V, F) for all functions here: F is (m, 3), or (corners, offsets) of polygons.
 
     path: the file. format: "obj", "ply", ...; None: by the extension, or the content.
@@ -76,81 +37,375 @@ def read(path: PathLike, format: Optional[str] = None) -> tuple[NDArray[np.float
     return V, (surface.corners, surface.offsets)
 
 
-def check(path: PathLike, format: Optional[str] = None, **options: Any) -> Intersections:
-    """The intersecting pairs of faces of a mesh file.
+@dataclass(frozen=True)
+class Part:
+    """A part that a file names, as fix_object, fix_group and fix_material of fix() take it."""
 
-    path: the file. format: "obj", "ply", ...; None: by the extension, or the content. options: those of
-    find_intersections. Raises OSError where the file cannot be read.
+    kind: Literal["object", "group", "material"]
+    name: str
+    faces: int
+    vertices: int  #: that these faces use; parts may share some
+
+
+@dataclass(frozen=True)
+class Component:
+    """Faces that are joined by vertices which they share; its place in the list is its number."""
+
+    first_face: int
+    faces: int
+    vertices: int
+    pairs_within: int  #: intersecting pairs of two of its faces
+    pairs_with_others: int
+    min: list[float]  #: corner of the bounding box
+    max: list[float]
+
+
+@dataclass(frozen=True, repr=False)
+class Check(Intersections):
+    """What check() finds: the intersecting pairs, and what is in the file."""
+
+    #: What ``unsnarl check --json`` prints, docs/schemas/check.schema.json.
+    report: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def parts(self) -> list[Part]:
+        """Objects, then groups, then materials that the file names, each in its order."""
+        return [Part(**part) for part in self.report["parts"]]
+
+    @property
+    def components(self) -> list[Component]:
+        return [Component(**component) for component in self.report["components"]["list"]]
+
+
+def check(
+    path: Union[PathLike, Paths],
+    format: Optional[Format] = None,
+    *,
+    goal: Goal = "all",
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    threads: int = 0,
+) -> Check:
+    """What ``unsnarl check`` finds in a mesh file, or in a list of them, which are one scene.
+
+    path: the file, or several. format: "obj", "ply", ...; None: by the extension, or the content. goal: noted in the
+    report. weld, weld_tolerance, both_diagonals, threads: as for find_intersections.
+
+    Returns a Check: intersecting pairs, parts that the file names, components. Raises OSError where a file cannot be
+    read.
     """
-    V, F = read(path, format)
-    return find_intersections(V, F, **options)
+    document = Document(path, format)
+    options = options_of(
+        goal=goal, weld=weld, weld_tolerance=weld_tolerance, both_diagonals=both_diagonals, threads=threads
+    )
+    found = call("check", document.struct, options)
+    pairs = found.array("pairs")
+    meshes = document.scene().meshes_of(pairs) if document.is_scene else None
+    return Check(pairs, np.array(pair_kinds)[found.array("kinds")], meshes, found.report)
+
+
+@overload
+def fix(
+    path: PathLike,
+    output: Optional[PathLike] = None,
+    fixed: Optional[ArrayLike] = None,
+    *,
+    rigid: Optional[Sequence[ArrayLike]] = None,
+    in_place: bool = False,
+    keep_partial: bool = False,
+    recompute_normals: bool = False,
+    format: Optional[Format] = None,
+    fix_group: Optional[Names] = None,
+    fix_object: Optional[Names] = None,
+    fix_material: Optional[Names] = None,
+    fix_component: Optional[Numbers] = None,
+    fix_file: Optional[Names] = None,
+    fix_boundary: bool = False,
+    only_group: Optional[Names] = None,
+    only_object: Optional[Names] = None,
+    only_material: Optional[Names] = None,
+    only_component: Optional[Numbers] = None,
+    only_file: Optional[Names] = None,
+    rigid_group: Optional[Names] = None,
+    rigid_object: Optional[Names] = None,
+    rigid_material: Optional[Names] = None,
+    rigid_component: Optional[Numbers] = None,
+    rigid_file: Optional[Names] = None,
+    nested: Union[Sequence[str], Sequence[Sequence[str]], None] = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
+    min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
+    threads: int = 0,
+    recover: bool = True,
+    paper: Paper = False,
+    progress: OnProgress = None,
+) -> Result[Positions]: ...
+
+
+@overload
+def fix(
+    path: Paths,
+    output: Optional[PathLike] = None,
+    fixed: Optional[Sequence[Optional[ArrayLike]]] = None,
+    *,
+    rigid: Optional[Sequence[int]] = None,
+    in_place: bool = False,
+    keep_partial: bool = False,
+    recompute_normals: bool = False,
+    format: Optional[Format] = None,
+    fix_group: Optional[Names] = None,
+    fix_object: Optional[Names] = None,
+    fix_material: Optional[Names] = None,
+    fix_component: Optional[Numbers] = None,
+    fix_file: Optional[Names] = None,
+    fix_boundary: bool = False,
+    only_group: Optional[Names] = None,
+    only_object: Optional[Names] = None,
+    only_material: Optional[Names] = None,
+    only_component: Optional[Numbers] = None,
+    only_file: Optional[Names] = None,
+    rigid_group: Optional[Names] = None,
+    rigid_object: Optional[Names] = None,
+    rigid_material: Optional[Names] = None,
+    rigid_component: Optional[Numbers] = None,
+    rigid_file: Optional[Names] = None,
+    nested: Union[Sequence[str], Sequence[Sequence[str]], None] = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
+    min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
+    threads: int = 0,
+    recover: bool = True,
+    paper: Paper = False,
+    progress: OnProgress = None,
+) -> Result[list[Positions]]: ...
 
 
 def fix(
-    path: PathLike,
+    path: Union[PathLike, Paths],
     output: Optional[PathLike] = None,
     fixed: Any = None,
     *,
     rigid: Any = None,
     in_place: bool = False,
     keep_partial: bool = False,
-    format: Optional[str] = None,
+    recompute_normals: bool = False,
+    format: Optional[Format] = None,
+    fix_group: Optional[Names] = None,
+    fix_object: Optional[Names] = None,
+    fix_material: Optional[Names] = None,
+    fix_component: Optional[Numbers] = None,
+    fix_file: Optional[Names] = None,
+    fix_boundary: bool = False,
+    only_group: Optional[Names] = None,
+    only_object: Optional[Names] = None,
+    only_material: Optional[Names] = None,
+    only_component: Optional[Numbers] = None,
+    only_file: Optional[Names] = None,
+    rigid_group: Optional[Names] = None,
+    rigid_object: Optional[Names] = None,
+    rigid_material: Optional[Names] = None,
+    rigid_component: Optional[Numbers] = None,
+    rigid_file: Optional[Names] = None,
+    nested: Union[Sequence[str], Sequence[Sequence[str]], None] = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
+    min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
+    threads: int = 0,
+    recover: bool = True,
+    paper: Paper = False,
     progress: OnProgress = None,
-    **options: Any,
-) -> Result:
+) -> Any:
     """Repairs a mesh file as ``unsnarl fix`` does: everything but positions stays, and the old file or the whole new
     one is there at any time, never a part.
 
     Parameters
     ----------
     path, output
-        Files of one format. Where the result is not embedded, nothing is written, but for obstructed, where something
-        else was repaired.
+        Files of one format; output must be another file. Or a list of files, which are one scene (meshes are also
+        separated from each other), and the folder where they go under their names, made where it is missing. Where the
+        result is not embedded, nothing is written, but for obstructed, where something else was repaired.
     fixed
-        Vertices that must not move, as for repair.
+        Vertices that must not move, as for repair; of several files a list of the same length, with None where all may
+        move.
     rigid
-        Parts that move as bodies, as for repair.
+        Parts that move as bodies, as for repair; of several files the numbers of those that are rigid.
     in_place
-        Write to `path`; no output is given then.
+        Write to `path`; no output is given then. Not of several files.
     keep_partial
         Write also what a limit or an obstacle left unfinished.
+    recompute_normals
+        Turn stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved.
     format
-        Of the file, where its name does not tell: "obj", "ply", ...
-    progress, options
+        Of the files, where names do not tell: "obj", "ply", ...
+    fix_group, fix_object, fix_material, fix_component, fix_file
+        Do not move the faces of these parts: a name or number, or a list of them. check() lists those that there are;
+        fix_file names one of several files, without its folder.
+    fix_boundary
+        Do not move vertices on a boundary.
+    only_group, only_object, only_material, only_component, only_file
+        Leave all as it is but the faces of these parts.
+    rigid_group, rigid_object, rigid_material, rigid_component, rigid_file
+        Parts that are turned and shifted as one body each and never deformed. Not with `rigid`.
+    nested
+        Which surfaces lie inside which, from the innermost out: names of files, or of one file's objects, as in
+        ["inner.off", "outer.off"], or a list of such chains; see repair.
+    goal, precision, min_gap, min_dihedral, max_displacement, absolute, time_limit, memory_limit, weld, \
+weld_tolerance, both_diagonals, each_component, threads, recover, paper, progress
         As for repair.
 
-    Returns a Result; its `output` is the file that was written, or None.
+    Returns a Result; its `output` is the file that was written (of several files the folder), or None. Of several files
+    V is a list.
 
-    Raises OSError where a file cannot be read or written, before the repair; ValueError and TypeError as repair does.
+    Raises OSError where a file cannot be read or written, before the repair (FileNotFoundError, PermissionError, ... as
+    the system gave the reason); ValueError and TypeError as repair does.
     """
+    fix_parts = Parts(fix_group, fix_object, fix_material, fix_component, fix_file)
+    only_parts = Parts(only_group, only_object, only_material, only_component, only_file)
+    rigid_parts = Parts(rigid_group, rigid_object, rigid_material, rigid_component, rigid_file)
+    _check_places(path, output, in_place)
+    document = Document(path, format)
+    target = Path(document.paths[0] if output is None else output)
+    options = options_of(
+        goal=goal,
+        precision=precision,
+        min_gap=min_gap,
+        min_dihedral=min_dihedral,
+        max_displacement=max_displacement,
+        absolute=absolute,
+        time_limit=time_limit,
+        memory_limit=memory_limit,
+        weld=weld,
+        weld_tolerance=weld_tolerance,
+        both_diagonals=both_diagonals,
+        each_component=each_component,
+        threads=threads,
+        recover=recover,
+        **paper_options(paper),
+    )
+    scene = document.scene()
+    named = NamedParts(document, weld=weld, weld_tolerance=weld_tolerance, threads=threads)
+    flags = named.fixed(fix_parts, only_parts, fix_boundary)
+    own_flags = scene.flags_of_vertices(fixed)
+    document.struct.lend(fixed=flags | own_flags if own_flags.size > 0 else flags)
+    _lend_rigid(document, scene, named, rigid, rigid_parts, flags)
+    _lend_nested(document, scene, named, nested)
+    with _OutputFolder(target if document.is_scene else None) as folder:
+        document.check_output(target)
+        if recompute_normals and not document.recompute_normals():
+            log_notes([f"recompute_normals: there are no vertex normals in {', '.join(document.names)} to update"])
+        repaired = call_and_wait("repair", document.struct, options, progress=progress)
+        log(repaired)
+        V = repaired.array("positions")
+        is_changed = not np.array_equal(V.ravel(), scene.surface.positions)
+        is_written = repaired.status == "embedded" or (repaired.status == "obstructed" and is_changed) or keep_partial
+        if is_written:
+            document.write(repaired, target)
+            folder.keep()
+    report = repaired.report
+    report["output"] = {"written": is_written, "path": os.fspath(target) if is_written else None}
+    for entry in report.get("files", []):
+        entry["output"] = os.fspath(target / entry["name"]) if is_written else None
+    moved = scene.split(V) if document.is_scene else V
+    written = target if is_written else None
+    sizes = scene.mesh_sizes if document.is_scene else None
+    return Result(moved, repaired.status, report, None, written, scene.surface, V, sizes, _document=document)
+
+
+def _check_places(path: Union[PathLike, Paths], output: Optional[PathLike], in_place: bool) -> None:
+    is_scene = isinstance(path, (list, tuple))
+    if is_scene and (in_place or output is None):
+        raise ValueError("several files go to a folder: give it as output")
     if in_place == (output is not None):
         raise ValueError("give the file to write as output, or in_place=True")
-    unknown = sorted(set(options) - _OPTIONS)
-    if unknown:
-        raise TypeError(f"fix() has no option {unknown[0]!r}; there are: {', '.join(sorted(_OPTIONS))}")
-    if output is not None and os.path.exists(output) and os.path.samefile(path, output):
+    if isinstance(path, (list, tuple)) or output is None:
+        return
+    if os.path.exists(path) and os.path.exists(output) and os.path.samefile(path, output):
         raise ValueError(f"{os.fspath(output)!r} is the input; give another name, or in_place=True to overwrite it")
-    paper = paper_options(options.pop("paper", False))
-    document = Document(path, format)
-    target = Path(path if output is None else output)
-    document.check_output(target)
-    surface = document.surface()
-    flags = vertex_flags(fixed, len(surface.positions) // 3)
-    if flags.size > 0:
-        document.struct.arrays.append(flags)
-        document.struct.fixed = flags.ctypes.data
-    parts = rigid_numbers(rigid, len(surface.positions) // 3)
-    if parts.size > 0:
-        document.struct.arrays.append(parts)
-        document.struct.rigid = parts.ctypes.data
-    repaired = call_and_wait("repair", document.struct, options_of(**options, **paper), progress=progress)
-    log(repaired)
-    V = repaired.array("positions")
-    is_changed = not np.array_equal(V.ravel(), surface.positions)
-    written: Optional[Path] = None
-    if repaired.status == "embedded" or (repaired.status == "obstructed" and is_changed) or keep_partial:
-        written = target
-        document.write(repaired, written)
-    report = repaired.report
-    report["output"] = {"written": written is not None, "path": None if written is None else os.fspath(written)}
-    return Result(V, repaired.status, report, None, written, surface, V, _document=document)
+
+
+class _OutputFolder:
+    """Makes a folder where it is missing, and removes what it made unless that is kept."""
+
+    def __init__(self, folder: Optional[Path]):
+        self._folder, self._made = folder, []  # type: tuple[Optional[Path], list[Path]]
+
+    def __enter__(self) -> _OutputFolder:
+        if self._folder is not None:
+            missing = [at for at in (self._folder, *self._folder.parents) if not at.exists()]
+            self._folder.mkdir(parents=True, exist_ok=True)
+            self._made = missing
+        return self
+
+    def keep(self) -> None:
+        self._made = []
+
+    def __exit__(self, *_: Any) -> None:
+        for folder in self._made:
+            try:
+                folder.rmdir()
+            except OSError:  # it holds something by now
+                return
+
+
+def _lend_rigid(document: Document, scene: Scene, named: NamedParts, rigid: Any, parts: Parts, fixed: Any) -> None:
+    """Tells the struct which parts are rigid."""
+    wanted = list(parts.named("rigid"))
+    if rigid is not None and wanted:
+        raise ValueError(f"rigid and {wanted[0][0]} exclude each other; name all rigid parts in one way")
+    if rigid is not None:
+        numbers, names = scene.rigid_numbers(rigid), []  # type: tuple[Any, list[str]]
+    elif wanted:
+        numbers, names = named.numbered(wanted)
+    else:
+        return
+    held = np.flatnonzero((fixed != 0) & (numbers >= 0)) if fixed.size == numbers.size else np.empty(0, int)
+    if names and held.size > 0:
+        name = names[numbers[held[0]]]
+        raise ValueError(f"{name!r} is to be rigid, but vertex {held[0]} of it is held; leave one of the two out")
+    document.struct.lend(rigid=numbers)
+    document.struct.lend_names("rigid_names", "rigid_name_count", names)
+
+
+def _lend_nested(document: Document, scene: Scene, named: NamedParts, nested: Any) -> None:
+    """Tells the struct which surfaces are to lie inside which."""
+    if nested is None:
+        return
+    if isinstance(nested, str) or any(not isinstance(one, (str, list, tuple)) for one in nested):
+        raise TypeError(f"nested is {nested!r}; give names from the innermost out, as in ['a', 'b'], or a list of such")
+    chains = [list(nested)] if all(isinstance(one, str) for one in nested) else [list(chain) for chain in nested]
+    kind = "file" if document.is_scene else "object"
+    names = list(dict.fromkeys(name for chain in chains for name in chain))
+    numbers, _ = named.numbered(("nested", kind, name) for name in names)
+    document.struct.lend(nested_surface=numbers)
+    document.struct.lend_names("nested_names", "nested_name_count", names)
+    flat = np.array([i for chain in chains for i in [*map(names.index, chain), -1]], np.int32)
+    document.struct.lend(nested=flat)
+    document.struct.nested_count = len(flat)

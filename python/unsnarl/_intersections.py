@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Optional, Union
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ._call import call
 from ._library import pair_kinds
 from ._options import options_of
 from ._scenes import scene_of
+from ._types import Faces, Mesh, Meshes, Weld
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Intersections:
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {kind}" for kind, count in self.counts.items() if count > 0)
-        return f"Intersections({counts or 'none'})"
+        return f"{type(self).__name__}({counts or 'none'})"
 
     @property
     def counts(self) -> dict[str, int]:
@@ -47,10 +48,10 @@ class Intersections:
 
 
 def find_intersections(
-    V: Any,
-    F: Any = None,
+    V: Union[ArrayLike, Mesh, Meshes],
+    F: Optional[Faces] = None,
     *,
-    weld: str = "seams",
+    weld: Weld = "seams",
     weld_tolerance: float = 0.0,
     both_diagonals: bool = False,
     threads: int = 0,

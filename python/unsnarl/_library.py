@@ -19,12 +19,23 @@ class _Struct(ctypes.Structure):
 
     def __init__(self, **fields: Any):
         super().__init__(size=ctypes.sizeof(self))
-        self.arrays = []
+        self.arrays: list[Any] = []
+        self.lend(**fields)
+
+    def lend(self, **fields: Any) -> None:
+        """Sets fields, of arrays to where they are."""
         for name, value in fields.items():
             if hasattr(value, "ctypes"):  # numpy.ndarray
                 self.arrays.append(value)
                 value = value.ctypes.data if value.size > 0 else None
             setattr(self, name, value)
+
+    def lend_names(self, field: str, count_field: str, names: list[str]) -> None:
+        """Sets a list of texts and their number."""
+        texts = (c_char_p * len(names))(*(name.encode("utf-8", "surrogateescape") for name in names))
+        self.arrays.append(texts)
+        setattr(self, field, ctypes.cast(texts, c_void_p) if names else None)
+        setattr(self, count_field, len(names))
 
 
 class SurfaceStruct(_Struct):
@@ -43,6 +54,11 @@ class SurfaceStruct(_Struct):
         ("rigid", c_void_p),
         ("nested", c_void_p),
         ("nested_count", c_size_t),
+        ("rigid_names", c_void_p),
+        ("rigid_name_count", c_size_t),
+        ("nested_surface", c_void_p),
+        ("nested_names", c_void_p),
+        ("nested_name_count", c_size_t),
     ]
 
 
@@ -130,6 +146,7 @@ ProgressFunction = ctypes.CFUNCTYPE(c_int, POINTER(ProgressStruct), c_void_p)
 #: What functions take and return that is not int, or not told by what is passed.
 _SIGNATURES = {
     "error_message": ([], c_char_p),
+    "error_number": ([], c_int),
     "version": ([], c_char_p),
     "pair_kind": ([c_int], c_char_p),
     "context_new": ([ProgressFunction, c_void_p], c_void_p),
@@ -139,9 +156,10 @@ _SIGNATURES = {
     "result_report": ([c_void_p], c_char_p),
     "result_array": ([c_void_p, c_char_p, POINTER(ArrayStruct)], c_int),
     "result_free": ([c_void_p], None),
-    "document_read": ([c_char_p, c_char_p, POINTER(c_void_p)], c_int),
+    "document_read_scene": ([POINTER(c_char_p), c_size_t, c_char_p, POINTER(c_void_p)], c_int),
     "document_surface": ([c_void_p, c_void_p], c_int),
     "document_report": ([c_void_p], c_char_p),
+    "document_recompute_normals": ([c_void_p, POINTER(c_int32)], c_int),
     "document_check_output": ([c_void_p, c_char_p], c_int),
     "document_write": ([c_void_p, c_void_p, c_char_p], c_int),
     "document_free": ([c_void_p], None),
@@ -151,14 +169,16 @@ for _name, (_arguments, _result) in _SIGNATURES.items():
     _function.argtypes, _function.restype = _arguments, _result
 
 #: By unsnarl_error; what is not there is an error of the library's own.
-_EXCEPTIONS = {1: ValueError, 2: OSError, 3: OSError, 4: MemoryError}
+_EXCEPTIONS = {1: ValueError, 2: OSError, 3: OSError, 4: MemoryError, 5: OSError}
 
 
 def check(code: int) -> None:
     """Raises what the last call in this thread complained of, if it did."""
     if code != 0:
         message = library.unsnarl_error_message().decode("utf-8", "replace")
-        raise _EXCEPTIONS.get(code, RuntimeError)(message)
+        kind, number = _EXCEPTIONS.get(code, RuntimeError), library.unsnarl_error_number()
+        # OSError chooses its subclass by the number: FileNotFoundError, PermissionError, ...
+        raise OSError(number, message) if kind is OSError and number != 0 else kind(message)
 
 
 version: str = library.unsnarl_version().decode()

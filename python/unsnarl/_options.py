@@ -11,6 +11,9 @@ import numpy as np
 
 from ._library import OptionsStruct, check, library
 
+#: Options that the command line calls otherwise.
+PROGRAM_NAMES = {"each_component": "--each"}
+
 _LARGEST_COUNT = np.iinfo(np.int32).max
 _COUNTS = {"threads", "views", "handles", "points", "paper_memory", "paper_iterations"}
 

@@ -6,17 +6,21 @@ import base64
 import ctypes
 import html
 import logging
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Optional
+from typing import Any, Generic, Literal, Optional, TypedDict, TypeVar, Union, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._arguments import Surface
 from ._call import Outcome, Status, call, call_and_wait
 from ._options import options_of, paper_options
 from ._progress import OnProgress
-from ._scenes import scene_of
+from ._scenes import Scene, scene_of
+from ._trimesh_scenes import with_positions
+from ._types import Faces, Goal, Mesh, Meshes, Positions, Precision, Weld
 
 _log = logging.getLogger("unsnarl")
 _log.addHandler(logging.NullHandler())
@@ -25,20 +29,42 @@ _log.addHandler(logging.NullHandler())
 _MOST_DRAWN_FACES = 300_000
 
 
+class PaperSettings(TypedDict, total=False):
+    """Settings of the paper's configuration, docs/paper.md."""
+
+    bandwidth: Literal["global", "independent", "symmetric"]
+    adaptive: bool
+    bandwidth_scale: float
+    neighbourhood: float
+    gaussian: float
+    mesh: float
+    mesh_energy: Literal["depth", "length"]
+    whole_polygons: bool
+    arap: float
+    memory: int
+    iterations: int
+
+
+Paper = Union[bool, PaperSettings]
+
+#: Positions of one mesh, or a list of them.
+V_ = TypeVar("V_", covariant=True)
+
+
 @dataclass(frozen=True, repr=False)
-class Result:
-    """What a repair came to."""
+class Result(Generic[V_]):
+    """What a repair came to; of one mesh Result[Positions], of several Result[list[Positions]]."""
 
     #: (n, 3), vertex order of the input. float32 where the input is and precision is not "float64", else float64.
     #: What did not have to move is bit-identical. Never has more intersecting pairs than the input. Of a list of
     #: meshes: a list of such arrays.
-    V: Any
+    V: V_
     #: Only "embedded" promises a surface without self-intersections.
     status: Status
     #: The document that the command line writes with --report, see docs/report.md.
     report: dict[str, Any]
-    #: Where a mesh was given: a copy of it, of its own type, at the new positions. Else None. Of a list of meshes: a
-    #: list.
+    #: Where a mesh or a trimesh.Scene was given: a copy of it, of its own type, at the new positions. Else None. Of a
+    #: list of meshes: a list.
     mesh: Any = None
     #: Of fix(): the file that was written; None: none was.
     output: Optional[Path] = None
@@ -90,6 +116,87 @@ class Result:
         )
 
 
+@overload
+def repair(
+    V: ArrayLike,
+    F: Faces,
+    fixed: Optional[ArrayLike] = None,
+    *,
+    rigid: Optional[Sequence[ArrayLike]] = None,
+    nested: None = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
+    min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
+    threads: int = 0,
+    recover: bool = True,
+    paper: Paper = False,
+    progress: OnProgress = None,
+) -> Result[Positions]: ...
+
+
+@overload
+def repair(
+    V: Mesh,
+    F: None = None,
+    fixed: Optional[ArrayLike] = None,
+    *,
+    rigid: Optional[Sequence[ArrayLike]] = None,
+    nested: None = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
+    min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
+    threads: int = 0,
+    recover: bool = True,
+    paper: Paper = False,
+    progress: OnProgress = None,
+) -> Result[Positions]: ...
+
+
+@overload
+def repair(
+    V: Meshes,
+    F: None = None,
+    fixed: Union[Sequence[Optional[ArrayLike]], Mapping[str, ArrayLike], None] = None,
+    *,
+    rigid: Optional[Sequence[Union[int, str]]] = None,
+    nested: Union[Sequence[Union[int, str]], Sequence[Sequence[Union[int, str]]], None] = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
+    min_gap: float = 0.0,
+    min_dihedral: float = 0.0,
+    max_displacement: float = 0.0,
+    absolute: bool = False,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    weld: Weld = "seams",
+    weld_tolerance: float = 0.0,
+    both_diagonals: bool = False,
+    each_component: bool = False,
+    threads: int = 0,
+    recover: bool = True,
+    paper: Paper = False,
+    progress: OnProgress = None,
+) -> Result[list[Positions]]: ...
+
+
 def repair(
     V: Any,
     F: Any = None,
@@ -97,23 +204,23 @@ def repair(
     *,
     rigid: Any = None,
     nested: Any = None,
-    goal: str = "all",
-    precision: str = "auto",
+    goal: Goal = "all",
+    precision: Precision = "auto",
     min_gap: float = 0.0,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
     time_limit: float = 0.0,
     memory_limit: float = 0.0,
-    weld: str = "seams",
+    weld: Weld = "seams",
     weld_tolerance: float = 0.0,
     both_diagonals: bool = False,
     each_component: bool = False,
     threads: int = 0,
     recover: bool = True,
-    paper: Any = False,
+    paper: Paper = False,
     progress: OnProgress = None,
-) -> Result:
+) -> Any:
     """Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
 
     The result is that of ``unsnarl fix`` on a file of the same numbers, bit for bit, at any number of threads (time
@@ -126,7 +233,8 @@ def repair(
     V, F
         Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh, pyvista
         or VTK alone, as in ``repair(mesh, fixed=ids)``; or a list of such, ``repair([(V, F), mesh, ...])``: one scene,
-        in which meshes are also separated from each other. See the documentation of the package.
+        in which meshes are also separated from each other; or a trimesh.Scene, whose geometries are repaired where
+        its nodes put them. See the documentation of the package.
     fixed
         Vertices that must not move: a mask (n,) of bool, or their ids. None: all may move. Masks of parts come from
         vertices_of_faces and boundary_vertices. Of a list of meshes: a list of the same length, with None where all
@@ -213,10 +321,32 @@ def repair(
     moved = scene.split(positions)
     if precision == "float32":
         moved = [own.astype(dtype) if small else own for own, dtype, small in zip(moved, scene.dtypes, is_float32)]
+    if scene.whole is not None:
+        find = options_of(weld=weld, weld_tolerance=weld_tolerance, both_diagonals=both_diagonals, threads=threads)
+        return _put_back(scene, repaired, moved, find)
     meshes = [moved_to(own) if moved_to else None for own, moved_to in zip(moved, scene.moved_to)]
     if not scene.is_list:
         return Result(moved[0], repaired.status, repaired.report, meshes[0], None, scene.surface, positions)
     return Result(moved, repaired.status, repaired.report, meshes, None, scene.surface, positions, scene.mesh_sizes)
+
+
+def _put_back(scene: Scene, repaired: Outcome, moved: Any, find_options: Any) -> Result[list[Positions]]:
+    """A scene of trimesh whose geometries are repaired, each in its own frame, and certified as it then is."""
+    mesh, held, notes = with_positions(scene.whole, moved)
+    positions = np.concatenate(held)
+    status, report = repaired.status, repaired.report
+    if not np.array_equal(positions, np.concatenate(moved)):
+        flat = np.ascontiguousarray(positions).ravel()
+        pointer, count = ctypes.c_void_p(flat.ctypes.data), ctypes.c_size_t(len(positions))
+        certificate = call("certify", scene.surface.struct(), pointer, count, find_options).report
+        if status == "embedded" and not certificate["embedded"]:
+            status = Status.reduced
+            notes.append("rounding in the frames of the geometries made faces meet again; give a min_gap")
+            pairs = certificate["pairs"]
+            report.update(status=str(status), exit_code=1, after={"total": sum(pairs.values()), "by_class": pairs})
+    report["input"]["notes"] += notes
+    log_notes(notes)
+    return Result(held, status, report, mesh, None, scene.surface, positions, scene.mesh_sizes)
 
 
 def log(repaired: Outcome) -> None:

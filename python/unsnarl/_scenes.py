@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Sequence
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from ._arguments import Surface, positions_of, rigid_numbers, surface_of, vertex_flags
 from ._library import SurfaceStruct
 from ._meshes import MovedTo, opened
+from ._trimesh_scenes import instances_of, is_scene
 
 
 class Scene(NamedTuple):
@@ -20,6 +22,8 @@ class Scene(NamedTuple):
     vertex_counts: list[int]
     face_counts: list[int]
     is_list: bool  # several meshes were given, or a list of one
+    whole: Any = None  # the scene of trimesh that they are of
+    nodes: Sequence[Any] = ()  # of that scene, one a mesh
 
     @property
     def mesh_sizes(self) -> NDArray[np.uintp]:
@@ -46,6 +50,9 @@ class Scene(NamedTuple):
             return vertex_flags(fixed, self.vertex_counts[0])
         if fixed is None:
             return np.empty(0, np.uint8)
+        if isinstance(fixed, dict) and self.whole is not None:
+            numbers = self.numbers_of(list(fixed), "fixed")
+            fixed = [dict(zip(numbers, fixed.values())).get(i) for i in range(len(self.vertex_counts))]
         if not isinstance(fixed, (list, tuple)) or len(fixed) != len(self.vertex_counts):
             count = len(self.vertex_counts)
             raise ValueError(f"fixed is {_what(fixed)}; of {count} meshes give as many, or None for some")
@@ -61,6 +68,7 @@ class Scene(NamedTuple):
             return rigid_numbers(rigid, self.vertex_counts[0])
         if rigid is None:
             return np.empty(0, np.int32)
+        rigid = self.numbers_of(rigid, "rigid")
         count = len(self.vertex_counts)
         if isinstance(rigid, (str, bytes)) or not all(isinstance(i, (int, np.integer)) for i in rigid):
             raise TypeError(f"rigid is {_what(rigid)}; of {count} meshes give the numbers of those that are rigid")
@@ -70,12 +78,25 @@ class Scene(NamedTuple):
         number_of = {mesh: number for number, mesh in enumerate(dict.fromkeys(rigid))}
         return np.repeat(np.array([number_of.get(i, -1) for i in range(count)], np.int32), self.vertex_counts)
 
+    def numbers_of(self, meshes: Any, argument: str) -> Any:
+        """Nodes of a scene of trimesh as the numbers of their meshes; what is none stays."""
+        if self.whole is None or isinstance(meshes, (str, bytes)):
+            return meshes
+        unknown = [node for node in meshes if isinstance(node, str) and node not in self.nodes]
+        if unknown:
+            names = ", ".join(map(repr, self.nodes))
+            raise ValueError(f"{argument} names node {unknown[0]!r}; the scene has faces at these: {names}")
+        return [self.nodes.index(node) if node in self.nodes else node for node in meshes]
+
     def nested_numbers(self, nested: Any) -> NDArray[np.int32]:
         """Chains of meshes from the innermost out, a -1 after each, from one chain or a list of them; empty: none."""
         if nested is None:
             return np.empty(0, np.int32)
         if not self.is_list:
             raise ValueError("nested is of a list of meshes; give them as [(V, F), ...], one a surface")
+        if not isinstance(nested, (str, bytes)):
+            nested = [self.numbers_of(one, "nested") if isinstance(one, (list, tuple)) else one for one in nested]
+            nested = self.numbers_of(nested, "nested")
         try:
             chains = [[operator.index(i) for i in nested]]
         except TypeError:
@@ -107,7 +128,11 @@ class Scene(NamedTuple):
 
 
 def scene_of(V: Any, F: Any) -> Scene:
-    """One mesh as arrays or as such, or a list of them: [(V, F), mesh, ...]."""
+    """One mesh as arrays or as such, or a list of them: [(V, F), mesh, ...], or a scene of trimesh."""
+    if F is None and is_scene(V):
+        instances = instances_of(V)
+        joined = _joined([(one.positions, one.mesh.faces, None) for one in instances], True)
+        return joined._replace(whole=V, nodes=[one.node for one in instances])
     if F is not None or not isinstance(V, (list, tuple)):
         return _joined([opened(V, F)], False)
     if len(V) == 0:

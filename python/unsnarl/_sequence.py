@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ._arguments import frame_range, surface_of, vertex_flags
 from ._call import Status, call_and_wait
 from ._options import options_of
 from ._progress import OnProgress
+from ._types import Faces, Goal, Positions, Precision, Weld
 
 
 class Jitter(NamedTuple):
@@ -43,7 +44,7 @@ class Frame:
 
 
 class SequenceResult(NamedTuple):
-    V: NDArray[Any]  #: (frames, n, 3): those of the range, in the dtype of the input as for repair
+    V: Positions  #: (frames, n, 3): those of the range, in the dtype of the input as for repair
     frames: list[Frame]
 
     @property
@@ -53,17 +54,17 @@ class SequenceResult(NamedTuple):
 
 
 def repair_sequence(
-    V: Any,
-    F: Any,
-    fixed: Any = None,
+    V: ArrayLike,
+    F: Faces,
+    fixed: Optional[ArrayLike] = None,
     *,
-    frames: Any = None,
-    goal: str = "all",
-    precision: str = "auto",
+    frames: Optional[tuple[int, int]] = None,
+    goal: Goal = "all",
+    precision: Precision = "auto",
     min_gap: float = 0.0,
     max_displacement: float = 0.0,
     time_limit: float = 0.0,
-    weld: str = "seams",
+    weld: Weld = "seams",
     weld_tolerance: float = 0.0,
     both_diagonals: bool = False,
     threads: int = 0,

@@ -16,12 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._call import call
-from ._files import Document, PathLike, read
+from ._documents import Document
+from ._files import read
 from ._library import PageContentStruct, SurfaceStruct
 from ._meshes import is_path
 from ._options import options_of
 from ._repair import Result, log_notes
 from ._scenes import Scene, scene_of
+from ._types import Goal, PathLike, Weld
 
 #: Bytes beyond which a notebook is not made to hold a page unasked: it keeps all that it shows.
 _MOST_SHOWN = 40_000_000
@@ -82,8 +84,8 @@ def view(
     *,
     output: Optional[PathLike] = None,
     height: int = 560,
-    goal: Optional[str] = None,
-    weld: Optional[str] = None,
+    goal: Optional[Goal] = None,
+    weld: Optional[Weld] = None,
     weld_tolerance: Optional[float] = None,
     both_diagonals: Optional[bool] = None,
     threads: Optional[int] = None,
@@ -172,7 +174,7 @@ def _shown(V: Any, F: Any, after: Any) -> _Shown:
     return shown
 
 
-def _shown_result(result: Result) -> _Shown:
+def _shown_result(result: Result[Any]) -> _Shown:
     if result._before is None:
         raise ValueError("this result does not know its input; take the one that repair or fix returned")
     sizes = np.empty(0) if result._mesh_sizes is None else result._mesh_sizes

@@ -176,10 +176,14 @@ FindOptions find_options(const unsnarl_options& options) {
           .threads = options.threads};
 }
 
+Goal goal_of(const unsnarl_options& options) {
+  return named("goal", options.goal, {Goal::all, Goal::disjoint});
+}
+
 RepairOptions frame_options(const unsnarl_options& options, const unsnarl_surface& surface) {
   RepairOptions repair;
   repair.find = find_options(options);
-  repair.goal = named("goal", options.goal, {Goal::all, Goal::disjoint});
+  repair.goal = goal_of(options);
   if (options.precision != std::string_view("auto"))
     repair.precision = named("precision", options.precision, {Precision::float32, Precision::float64});
   repair.min_gap_rel = options.min_gap;
@@ -201,15 +205,18 @@ RepairOptions repair_options(const unsnarl_options& options, const unsnarl_surfa
   if (options.paper) repair.paper = paper_options(options);
   repair.each_component = options.each_component != 0;
   if (surface.rigid != nullptr) repair.rigid.assign(surface.rigid, surface.rigid + surface.vertex_count);
+  if (surface.rigid_names != nullptr)
+    repair.rigid_names.assign(surface.rigid_names, surface.rigid_names + surface.rigid_name_count);
   if (surface.document != nullptr) {
-    const Document& document = surface.document->document;
-    if (document.stores_float32()) {
+    const SceneDocument& scene = surface.document->scene;
+    if (const auto file = scene.float32_file()) {
       if (repair.precision == Precision::float64)
-        throw std::invalid_argument("precision is 'float64', but this file stores 32-bit numbers");
+        throw std::invalid_argument("precision is 'float64', but " + scene.files()[*file].name +
+                                    " stores 32-bit numbers");
       repair.precision = Precision::float32;
     }
-    repair.as_written = [&document](std::span<const double> positions, bool float32) {
-      return document.as_written(positions, float32);
+    repair.as_written = [&scene](std::span<const double> positions, bool float32) {
+      return scene.as_written(positions, float32);
     };
   }
   return repair;
@@ -222,6 +229,9 @@ SurfaceView view_of(const unsnarl_surface& surface) {
 }
 
 std::vector<SceneFile> meshes_of(const unsnarl_surface& surface) {
+  if (surface.document != nullptr && surface.mesh_count > 0 &&
+      surface.mesh_sizes == surface.document->mesh_sizes.data())
+    return surface.document->scene.files();
   std::vector<SceneFile> meshes;
   std::size_t vertices = 0, faces = 0;
   for (std::size_t i = 0; i < surface.mesh_count; ++i) {
@@ -240,20 +250,31 @@ std::vector<SceneFile> meshes_of(const unsnarl_surface& surface) {
 
 Nesting nesting_of(const unsnarl_surface& surface, std::span<const SceneFile> meshes) {
   if (surface.nested == nullptr || surface.nested_count == 0) return {};
+  Nesting nesting;
+  auto surfaces = static_cast<std::int32_t>(meshes.size());
+  if (surface.nested_surface != nullptr) {
+    nesting.surface_of_vertex.assign(surface.nested_surface, surface.nested_surface + surface.vertex_count);
+    surfaces = 0;
+    for (const std::int32_t number : nesting.surface_of_vertex) surfaces = std::max(surfaces, number + 1);
+    if (surface.nested_names != nullptr)
+      nesting.names.assign(surface.nested_names, surface.nested_names + surface.nested_name_count);
+  }
   std::vector<std::vector<std::int32_t>> chains(1);
   for (std::size_t i = 0; i < surface.nested_count; ++i) {
     const std::int32_t mesh = surface.nested[i];
     if (mesh == -1) {
       chains.emplace_back();
-    } else if (mesh < 0 || static_cast<std::size_t>(mesh) >= meshes.size()) {
+    } else if (mesh < 0 || mesh >= surfaces) {
       throw std::invalid_argument("nested: there is no mesh " + std::to_string(mesh) + "; there are " +
-                                  std::to_string(meshes.size()) + ", counted from 0");
+                                  std::to_string(surfaces) + ", counted from 0");
     } else {
       chains.back().push_back(mesh);
     }
   }
   if (chains.back().empty()) chains.pop_back();
-  return nesting_of_files(meshes, std::move(chains));
+  if (surface.nested_surface == nullptr) return nesting_of_files(meshes, std::move(chains));
+  nesting.chains = std::move(chains);
+  return nesting;
 }
 
 void check_corners(const SurfaceView& surface) {

@@ -27,15 +27,17 @@ unsnarl_page_content content_of(const unsnarl_page_content* given);  ///< NULL: 
 unsnarl_curves curves_of(const unsnarl_curves* given, const char* name);
 
 FindOptions find_options(const unsnarl_options& options);
+Goal goal_of(const unsnarl_options& options);
 /// `options` for a repair of `surface`.
 RepairOptions repair_options(const unsnarl_options& options, const unsnarl_surface& surface);
 /// Goal, precision, welding and limits alone, what a sequence knows of. All lengths are relative.
 RepairOptions frame_options(const unsnarl_options& options, const unsnarl_surface& surface);
 
 SurfaceView view_of(const unsnarl_surface& surface);
-/// The meshes that lie one after another in `surface`, called by their numbers; empty where it is one.
+/// The meshes that lie one after another in `surface`, called by their numbers, or as the files of its document;
+/// empty where it is one.
 std::vector<SceneFile> meshes_of(const unsnarl_surface& surface);
-/// Which of `meshes` are to lie inside which; no chains: it does not matter.
+/// Which of `meshes`, or of the surfaces that `surface` numbers, are to lie inside which; no chains: it does not matter.
 Nesting nesting_of(const unsnarl_surface& surface, std::span<const SceneFile> meshes);
 /// Throws where a face uses a vertex that does not exist.
 void check_corners(const SurfaceView& surface);

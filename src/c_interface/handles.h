@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "unsnarl/document.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/scene_document.h"
 #include "unsnarl/unsnarl.h"
 
 struct unsnarl_context {
@@ -19,8 +19,9 @@ struct unsnarl_context {
 };
 
 struct unsnarl_document {
-  std::filesystem::path path;
-  unsnarl::Document document;
+  std::vector<std::filesystem::path> paths;
+  unsnarl::SceneDocument scene;         // of one file or several
+  std::vector<std::size_t> mesh_sizes;  // as unsnarl_surface has them; empty: it is one
   std::string report;
 };
 

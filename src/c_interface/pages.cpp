@@ -12,9 +12,16 @@ std::vector<SceneFile> files_of(const unsnarl_surface& surface, const std::strin
   std::vector<SceneFile> files = meshes_of(surface);
   if (files.empty() && surface.document) {
     const SurfaceView view = view_of(surface);
-    files.push_back({name, 0, view.vertex_count(), 0, view.face_count(), surface.document->document.up()});
+    files.push_back({name, 0, view.vertex_count(), 0, view.face_count(), surface.document->scene.document(0).up()});
   }
   return files;
+}
+
+/// The names of the files that are shown.
+std::string page_title(const unsnarl_document& document) {
+  std::string title;
+  for (const SceneFile& file : document.scene.files()) title += (title.empty() ? "" : ", ") + file.name;
+  return title;
 }
 
 unsnarl_result page(const unsnarl_surface& surface, const unsnarl_page_content& content, const RepairOptions& options) {
@@ -23,9 +30,7 @@ unsnarl_result page(const unsnarl_surface& surface, const unsnarl_page_content& 
         "this build of the library has no page: it was made without Node.js or without the packages of viewer/ (npm "
         "ci)");
   PageSource source;
-  source.input_name = content.name       ? content.name
-                      : surface.document ? surface.document->path.filename().string()
-                                         : "mesh";
+  source.input_name = content.name ? content.name : surface.document ? page_title(*surface.document) : "mesh";
   if (content.moved_name) source.output_name = content.moved_name;
   source.before = view_of(surface);
   check_corners(source.before);
@@ -36,7 +41,7 @@ unsnarl_result page(const unsnarl_surface& surface, const unsnarl_page_content& 
   const std::vector<SceneFile> files = files_of(surface, source.input_name);
   source.files = files;
   Appearance appearance;
-  if (surface.document) appearance = surface.document->document.appearance();
+  if (surface.document) appearance = surface.document->scene.appearance();
   source.appearance = &appearance;
   source.find = options.find;
   source.goal = options.goal;

@@ -9,6 +9,7 @@
 #include "handles.h"
 #include "results.h"
 #include "unsnarl/certify.h"
+#include "unsnarl/check.h"
 #include "unsnarl/clearance.h"
 #include "unsnarl/nesting.h"
 #include "unsnarl/parts.h"
@@ -26,6 +27,57 @@ Json by_kind(const PairCounts& counts) {
   return json;
 }
 
+/// What a report says of the one file that was read, and of all.
+void describe_document(const unsnarl_surface& given, ReportFiles& files) {
+  if (given.document == nullptr) return;
+  const SceneDocument& scene = given.document->scene;
+  files.notes = scene.notes();
+  files.parts = named_parts(scene.surface(), scene.face_labels());
+  if (scene.files().size() > 1) return;
+  files.input = given.document->paths[0].string();
+  files.format = to_string(scene.document(0).format());
+}
+
+/// What a report says of each of several files.
+void describe_scene_files(const unsnarl_surface& given, SceneReport& report) {
+  if (given.document == nullptr || report.files.size() != given.document->paths.size()) return;
+  for (std::size_t i = 0; i < report.files.size(); ++i) {
+    report.files[i].input = given.document->paths[i].string();
+    report.files[i].format = to_string(given.document->scene.document(i).format());
+  }
+}
+
+void add_pairs(unsnarl_result& result, const std::vector<IntersectingPair>& pairs) {
+  std::vector<std::int32_t> faces;
+  std::vector<std::uint8_t> kinds;
+  faces.reserve(2 * pairs.size());
+  kinds.reserve(pairs.size());
+  for (const IntersectingPair& pair : pairs) {
+    faces.insert(faces.end(), {pair.a, pair.b});
+    kinds.push_back(static_cast<std::uint8_t>(pair.kind));
+  }
+  result.arrays["pairs"] = {std::move(faces), 2};
+  result.arrays["kinds"] = {std::move(kinds), 1};
+}
+
+unsnarl_result checked(const unsnarl_surface& given, const unsnarl_options& options) {
+  const SurfaceView surface = view_of(given);
+  const FindOptions find = find_options(options);
+  const CheckReport report = check(surface, find);
+  ReportFiles files;
+  files.vertices = surface.vertex_count();
+  files.faces = surface.face_count();
+  describe_document(given, files);
+  if (const std::vector<SceneFile> meshes = meshes_of(given); !meshes.empty()) {
+    files.scene = scene_report(surface, meshes, report.pairs);
+    describe_scene_files(given, files.scene);
+  }
+  unsnarl_result found;
+  add_pairs(found, report.pairs);
+  found.report = check_json(report, goal_of(options), find, files);
+  return found;
+}
+
 unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& given_options, Context* context) {
   const StageClock clock;
   const SurfaceView surface = view_of(given);
@@ -38,17 +90,18 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
   ReportFiles files;
   files.vertices = surface.vertex_count();
   files.faces = surface.face_count();
-  if (given.document != nullptr) {
-    files.input = given.document->path.string();
-    files.format = to_string(given.document->document.format());
-    files.notes = given.document->document.notes();
-  }
+  describe_document(given, files);
   if (!meshes.empty()) {
     Certifier certifier(surface, options.find);
     const std::vector<IntersectingPair> after = certifier.find_intersections(repaired.positions);
     files.scene =
         scene_report(surface, meshes, certifier.find_intersections(surface.positions), repaired.positions, after);
-    if (!nesting.chains.empty()) files.nested = nested_pairs(surface, repaired.positions, after, nesting, options.find);
+    describe_scene_files(given, files.scene);
+  }
+  if (!nesting.chains.empty()) {
+    Certifier certifier(surface, options.find);
+    files.nested = nested_pairs(surface, repaired.positions, certifier.find_intersections(repaired.positions), nesting,
+                                options.find);
   }
   files.clearance_before =
       measure_clearance(surface, surface.positions, options.find, repaired.report.before.total() == 0);
@@ -144,20 +197,15 @@ int unsnarl_find_intersections(const unsnarl_surface* surface, const unsnarl_opt
   return hand_out(result, [&] {
     const std::vector<IntersectingPair> pairs =
         find_intersections(view_of(surface_of(surface)), find_options(options_of(options)));
-    std::vector<std::int32_t> faces;
-    std::vector<std::uint8_t> kinds;
-    faces.reserve(2 * pairs.size());
-    kinds.reserve(pairs.size());
-    for (const IntersectingPair& pair : pairs) {
-      faces.insert(faces.end(), {pair.a, pair.b});
-      kinds.push_back(static_cast<std::uint8_t>(pair.kind));
-    }
     unsnarl_result found;
     found.report = by_kind(count_by_class(pairs)).dump();
-    found.arrays["pairs"] = {std::move(faces), 2};
-    found.arrays["kinds"] = {std::move(kinds), 1};
+    add_pairs(found, pairs);
     return found;
   });
+}
+
+int unsnarl_check(const unsnarl_surface* surface, const unsnarl_options* options, unsnarl_result** result) {
+  return hand_out(result, [&] { return checked(surface_of(surface), options_of(options)); });
 }
 
 const char* unsnarl_pair_kind(int kind) {

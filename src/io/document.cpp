@@ -10,12 +10,18 @@
 #include "io/foreign_formats.h"
 #include "io/formats.h"
 #include "io/mesh_file.h"
+#include "unsnarl/visible_text.h"
 
 namespace unsnarl {
 namespace {
 
 /// Notes on images that are listed one by one: a file may name hundreds that are all missing.
 constexpr std::size_t most_appearance_notes = 8;
+
+/// Notes quote names of the file.
+void make_visible(std::vector<std::string>& notes) {
+  for (std::string& note : notes) note = visible_text(note);
+}
 
 void check_positions(const Surface& surface, std::span<const double> positions) {
   if (positions.size() != surface.positions.size()) {
@@ -80,13 +86,13 @@ Document Document::read(const std::filesystem::path& path, std::optional<Format>
                                     format_names(" or ")));
       refuse_other_content(start, *format);
     } catch (const FileError& error) {
-      throw FileError(fmt::format("{}: {}", path.string(), error.what()));
+      throw FileError(fmt::format("{}: {}", path.string(), error.what()), error.error_number());
     }
   });
   try {
     return parse(std::move(bytes), *format, path.parent_path());
   } catch (const FileError& error) {
-    throw FileError(fmt::format("{}: {}", path.string(), error.what()));
+    throw FileError(fmt::format("{}: {}", path.string(), error.what()), error.error_number());
   }
 }
 
@@ -96,7 +102,9 @@ Document Document::parse(std::string bytes, Format format, const std::filesystem
   const std::string_view start = std::string_view(bytes).substr(0, checked_start);
   refuse_foreign_format(start, {});
   refuse_other_content(start, format);
-  return Document(format, formats[entry].parse(std::move(bytes), folder));
+  std::unique_ptr<MeshFile> file = formats[entry].parse(std::move(bytes), folder);
+  make_visible(file->notes);
+  return Document(format, std::move(file));
 }
 
 Format Document::format() const {
@@ -118,6 +126,7 @@ Appearance Document::appearance(std::size_t image_bytes) const {
     result.notes.resize(most_appearance_notes);
     result.notes.push_back(fmt::format("So it is with {} more.", more));
   }
+  make_visible(result.notes);
   return result;
 }
 const std::vector<std::string>& Document::notes() const {

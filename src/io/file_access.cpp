@@ -29,10 +29,6 @@ class Descriptor {
   int id_;
 };
 
-std::string reason() {
-  return std::generic_category().message(errno);
-}
-
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -48,7 +44,7 @@ bool write_all(int descriptor, std::string_view bytes) {
 void write_directly(const std::filesystem::path& path, std::string_view bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.id() < 0 || !write_all(file.id(), bytes) || !file.close()) {
-    throw WriteError(fmt::format("{}: cannot write: {}", path.string(), reason()));
+    throw_write_error(path.string() + ": cannot write", errno);
   }
 }
 
@@ -95,11 +91,12 @@ std::string read_file(const std::filesystem::path& path, const std::function<voi
   Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (file.id() < 0 || ::fstat(file.id(), &status) != 0) {
-    throw FileError(fmt::format("{}: cannot open: {}", path.string(), reason()));
+    throw_read_error(path.string() + ": cannot open", errno);
   }
   if (S_ISDIR(status.st_mode))
     throw FileError(
-        fmt::format("{}: is a folder; name a mesh file, or repair all in it with 'unsnarl batch'", path.string()));
+        fmt::format("{}: is a folder; name a mesh file, or repair all in it with 'unsnarl batch'", path.string()),
+        EISDIR);
   if (!S_ISREG(status.st_mode)) {
     throw FileError(fmt::format("{}: is not a regular file; pipe it in through standard input ('-')", path.string()));
   }
@@ -110,7 +107,7 @@ std::string read_file(const std::filesystem::path& path, const std::function<voi
     while (size < end) {
       const ssize_t got = ::read(file.id(), bytes.data() + size, end - size);
       if (got < 0 && errno == EINTR) continue;
-      if (got < 0) throw FileError(fmt::format("{}: cannot read: {}", path.string(), reason()));
+      if (got < 0) throw_read_error(path.string() + ": cannot read", errno);
       if (got == 0) break;
       size += static_cast<std::size_t>(got);
     }
@@ -136,26 +133,26 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
   std::error_code error;
   if (std::filesystem::is_symlink(path, error)) {
     target = std::filesystem::weakly_canonical(path, error);
-    if (error) throw WriteError(fmt::format("{}: cannot follow the link: {}", path.string(), error.message()));
+    if (error) throw_write_error(path.string() + ": cannot follow the link", error.value());
   }
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) {
-    throw WriteError(fmt::format("{}: is a folder; name a file", path.string()));
+    throw WriteError(fmt::format("{}: is a folder; name a file", path.string()), EISDIR);
   }
   if (exists && !S_ISREG(status.st_mode)) return write_directly(target, bytes);
   // Renaming would get past the protection of the old file.
   if (exists && ::access(target.c_str(), W_OK) != 0) {
-    throw WriteError(fmt::format("{}: is write-protected: {}", path.string(), reason()));
+    throw_write_error(path.string() + ": is write-protected", errno);
   }
 
   TemporaryFile temporary(target);
   if (!temporary.is_open()) {
-    throw WriteError(fmt::format("{}: cannot create a file in its folder: {}", path.string(), reason()));
+    throw_write_error(path.string() + ": cannot create a file in its folder", errno);
   }
   if (exists) temporary.take_permissions(status);
   if (!temporary.fill(bytes) || !temporary.rename_to(target)) {
-    throw WriteError(fmt::format("{}: cannot write: {}", path.string(), reason()));
+    throw_write_error(path.string() + ": cannot write", errno);
   }
   // The new name is only safe once the folder is on the disk too; some file systems cannot do this, which is no error.
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";

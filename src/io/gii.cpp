@@ -220,6 +220,7 @@ class GiftiParser {
     try {
       range = external_range(array.element, is_points, numbers.where);
     } catch (const FileError& error) {
+      if (error.error_number() != 0) throw FileError(numbers.where + ": " + error.what(), error.error_number());
       fail(error.what());
     }
     numbers.external = file_.external_files[range.file];

@@ -110,6 +110,7 @@ GltfBuffers::GltfBuffers(const std::vector<JsonText::Value>& json, std::string_v
         buffer.owned = read_file(folder / buffer.name);
       } catch (const FileError& error) {
         buffer.error = fmt::format("buffer {}: {}", i, error.what());
+        buffer.error_number = error.error_number();
       }
     }
   }
@@ -171,7 +172,7 @@ std::size_t GltfBuffers::resolve(std::size_t buffer) const {
 
 std::string_view GltfBuffers::data(std::size_t i) const {
   const Buffer& buffer = buffers_[i];
-  if (!buffer.error.empty()) throw FileError(buffer.error);
+  if (!buffer.error.empty()) throw FileError(buffer.error, buffer.error_number);
   return buffer.kind == Buffer::Kind::binary_chunk ? buffer.view : std::string_view(buffer.owned);
 }
 

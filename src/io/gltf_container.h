@@ -53,6 +53,7 @@ class GltfBuffers {
     std::string owned;           ///< data of a URI or file
     std::string_view view;       ///< data of the binary chunk
     std::string error;           ///< why there is no data
+    int error_number = 0;        ///< the errno behind it; 0: there is none
   };
   void load(std::size_t i, const JsonText::Value& json, std::string_view bytes, const GltfContainer& container);
   std::vector<Buffer> buffers_;

@@ -23,7 +23,7 @@ std::int32_t ImageCollector::add(const std::string& name, const Take& take) {
     room_ -= bytes.size();
     entry->second = static_cast<std::int32_t>(appearance_.images.size());
     appearance_.images.push_back({name, header->media_type, std::move(bytes), header->width, header->height});
-  } catch (const FileError& error) {
+  } catch (const NumberedError& error) {  // of the file or of the system: a view goes without it
     appearance_.notes.push_back(fmt::format("Image {} is left out: {}.", name, error.what()));
   }
   return entry->second;

@@ -101,7 +101,7 @@ class ObjAppearanceReader {
       if (std::filesystem::file_size(folder_ / name, failed) > most_mtl_bytes && !failed)
         throw FileError(fmt::format("more than {} MB", most_mtl_bytes / 1000000));
       read_mtl(read_file(folder_ / name), materials_);
-    } catch (const FileError& error) {
+    } catch (const NumberedError& error) {  // of the file or of the system: a view goes without it
       result_.notes.push_back(fmt::format("Materials of {} are left out: {}.", name, error.what()));
     }
   }

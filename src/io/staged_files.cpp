@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
 namespace unsnarl {
 namespace {
@@ -18,7 +17,7 @@ fs::path with_links_followed(const fs::path& path) {
   std::error_code error;
   if (!fs::is_symlink(path, error)) return path;
   const fs::path target = fs::weakly_canonical(path, error);
-  if (error) throw WriteError(fmt::format("{}: cannot follow the link: {}", path.string(), error.message()));
+  if (error) throw_write_error(path.string() + ": cannot follow the link", error.value());
   return target;
 }
 
@@ -37,13 +36,12 @@ void flush_folder(const fs::path& folder) {
 void require_replaceable(const fs::path& target) {
   std::error_code ignored;
   if (fs::is_directory(target, ignored))
-    throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()));
+    throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()), EISDIR);
   if (!fs::exists(target, ignored)) return;
   if (!fs::is_regular_file(target, ignored))
     throw WriteError(fmt::format("{}: is not a regular file", target.string()));
   // Renaming would get past the protection of the old file.
-  if (::access(target.c_str(), W_OK) != 0)
-    throw WriteError(fmt::format("{}: is write-protected: {}", target.string(), std::strerror(errno)));
+  if (::access(target.c_str(), W_OK) != 0) throw_write_error(target.string() + ": is write-protected", errno);
 }
 
 }  // namespace
@@ -52,8 +50,8 @@ StagedFiles::StagedFiles(const fs::path& target) : target_(with_links_followed(t
   require_replaceable(target_);
   std::string pattern = (folder_of(target_) / ".unsnarl-XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr)
-    throw WriteError(fmt::format("{}: cannot create files in the folder {}: {}", target.string(),
-                                 folder_of(target_).string(), std::strerror(errno)));
+    throw_write_error(
+        fmt::format("{}: cannot create files in the folder {}", target.string(), folder_of(target_).string()), errno);
   folder_ = pattern;
 }
 
@@ -75,7 +73,8 @@ void StagedFiles::write(const std::vector<OutputFile>& files) {
       write_atomically(staged, file.bytes);
     } catch (const WriteError& e) {
       // The reader of the message knows the final name only.
-      throw WriteError(fmt::format("{}: cannot be written ({})", (folder_of(target_) / name).string(), e.what()));
+      throw WriteError(fmt::format("{}: cannot be written ({})", (folder_of(target_) / name).string(), e.what()),
+                       e.error_number());
     }
     names_.push_back(name);
   }
@@ -101,7 +100,7 @@ void StagedFiles::commit() {
       static_cast<void>(::chmod(from.c_str(), old.st_mode & (same_group ? 0777 : 0707)));
     }
     fs::rename(from, to, error);
-    if (error) throw WriteError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+    if (error) throw_write_error(to.string() + ": cannot be written", error.value());
   }
   flush_folder(folder_of(target_));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "unsnarl/document.h"
+#include "unsnarl/visible_text.h"
 
 namespace unsnarl {
 namespace {
@@ -97,12 +98,9 @@ std::string_view number_token(std::string_view text, std::size_t begin) {
 }
 
 std::string in_quotes(std::string_view token) {
-  constexpr std::size_t longest = 30;
-  std::string result = "'";
-  for (const char c : token.substr(0, longest)) {
-    result += c >= ' ' && c <= '~' ? c : '?';
-  }
-  return result + (token.size() > longest ? "...'" : "'");
+  std::size_t longest = 30;
+  while (longest > 0 && token.size() > longest && (token[longest] & 0xc0) == 0x80) --longest;  // within a character
+  return '\'' + visible_text(token.substr(0, longest)) + (token.size() > longest ? "...'" : "'");
 }
 
 }  // namespace unsnarl

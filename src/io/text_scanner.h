@@ -137,7 +137,7 @@ class TextScanner {
 /// The token in `text` that starts at `begin`, as TextScanner delimits numbers.
 std::string_view number_token(std::string_view text, std::size_t begin);
 
-/// For messages: printable, at most about 30 characters.
+/// For messages: visible_text() of the first 30 bytes or so.
 std::string in_quotes(std::string_view token);
 
 }  // namespace unsnarl

@@ -61,6 +61,12 @@ void describe_components(const SurfaceView& surface, const WeldMap& weld_map, co
     ++component.faces;
     extend_by_face(component.bounds, surface, f);
   }
+  std::vector<bool> is_counted(surface.vertex_count(), false);  // a vertex is of one component only
+  for (Index f = 0; f < static_cast<Index>(surface.face_count()); ++f)
+    for (const Index v : surface.face(f)) {
+      if (!is_counted[v]) ++found.components[component_of(f)].vertices;
+      is_counted[v] = true;
+    }
   std::set<Index> involved;
   for (const IntersectingPair& pair : found.pairs) {
     const Index a = component_of(pair.a), b = component_of(pair.b);

@@ -3,14 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "pipeline/threads.h"
 #include "scene/prepared_surface.h"
 
 namespace unsnarl {
 namespace {
+
+/// What formats call parts of each kind; the first is what a person calls them.
+using KindNames = std::vector<std::string_view>;
+const KindNames object_kinds = {"object", "node"}, group_kinds = {"group", "mesh"}, material_kinds = {"material"},
+                file_kinds = {"file"};
+
+bool is_of_kind(const FaceLabels& labels, const KindNames& kinds) {
+  return std::find(kinds.begin(), kinds.end(), labels.kind) != kinds.end();
+}
 
 /// "body" names the part "body" and, as OBJ has it, each of "body left".
 bool is_named(const std::string& label, const std::string& name) {
@@ -23,11 +34,11 @@ bool is_named(const std::string& label, const std::string& name) {
 
 constexpr std::size_t names_in_message = 40;
 
-std::string list_of_names(std::span<const FaceLabels> labels, const std::vector<std::string_view>& kinds) {
+std::string list_of_names(std::span<const FaceLabels> labels, const KindNames& kinds) {
   std::string text;
   std::size_t count = 0;
   for (const FaceLabels& label : labels) {
-    if (std::find(kinds.begin(), kinds.end(), label.kind) == kinds.end()) continue;
+    if (!is_of_kind(label, kinds)) continue;
     for (const std::string& name : label.names)
       if (++count <= names_in_message) text += (text.empty() ? "'" : ", '") + name + "'";
   }
@@ -35,12 +46,12 @@ std::string list_of_names(std::span<const FaceLabels> labels, const std::vector<
   return text;
 }
 
-/// Flags the faces called `name` in labels of these kinds; the first kind is what a person calls it.
-void flag_named(std::span<const FaceLabels> labels, const std::vector<std::string_view>& kinds, const std::string& name,
-                bool by_words, std::vector<std::uint8_t>& faces) {
+/// Flags the faces called `name` in labels of these kinds.
+void flag_named(std::span<const FaceLabels> labels, const KindNames& kinds, const std::string& name, bool by_words,
+                std::vector<std::uint8_t>& faces) {
   bool found = false;
   for (const FaceLabels& label : labels) {
-    if (std::find(kinds.begin(), kinds.end(), label.kind) == kinds.end()) continue;
+    if (!is_of_kind(label, kinds)) continue;
     std::vector<std::uint8_t> matches;
     for (const std::string& known : label.names) matches.push_back(by_words ? is_named(known, name) : known == name);
     found |= std::find(matches.begin(), matches.end(), 1) != matches.end();
@@ -51,14 +62,47 @@ void flag_named(std::span<const FaceLabels> labels, const std::vector<std::strin
   const std::string known = list_of_names(labels, kinds);
   std::string others;
   for (const FaceLabels& label : labels)
-    if (std::find(kinds.begin(), kinds.end(), label.kind) == kinds.end())
-      others += (others.empty() ? "" : ", ") + label.kind + "s";
+    if (!is_of_kind(label, kinds)) others += (others.empty() ? "" : ", ") + label.kind + "s";
   throw UnknownPart(known.empty() ? fmt::format("there is no {} '{}': the file names no {}s{}", kinds[0], name,
                                                 kinds[0], others.empty() ? "" : ", only " + others)
                                   : fmt::format("there is no {} '{}'; there are: {}", kinds[0], name, known));
 }
 
+/// The parts of one kind of labels, with their faces and vertices.
+std::vector<NamedPart> counted_parts(const SurfaceView& surface, const FaceLabels& labels, NamedPart::Kind kind) {
+  std::vector<NamedPart> parts;
+  for (const std::string& name : labels.names) parts.push_back({kind, name});
+  std::vector<std::vector<std::int32_t>> faces_of(parts.size());
+  for (std::size_t f = 0; f < surface.face_count(); ++f)
+    if (labels.of_face[f] >= 0) faces_of[labels.of_face[f]].push_back(static_cast<std::int32_t>(f));
+  std::vector<std::size_t> counted_for(surface.vertex_count(), 0);  // the last part, from 1, that a vertex counted for
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    parts[p].faces = faces_of[p].size();
+    for (const std::int32_t f : faces_of[p])
+      for (const Index v : surface.face(f)) parts[p].vertices += std::exchange(counted_for[v], p + 1) != p + 1;
+  }
+  return parts;
+}
+
 }  // namespace
+
+std::string_view to_string(NamedPart::Kind kind) {
+  constexpr std::array<std::string_view, 3> names = {"object", "group", "material"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::vector<NamedPart> named_parts(const SurfaceView& surface, std::span<const FaceLabels> labels) {
+  std::vector<NamedPart> parts;
+  for (const auto& [kinds, kind] :
+       {std::pair{&object_kinds, NamedPart::Kind::object}, std::pair{&group_kinds, NamedPart::Kind::group},
+        std::pair{&material_kinds, NamedPart::Kind::material}})
+    for (const FaceLabels& of_kind : labels) {
+      if (!is_of_kind(of_kind, *kinds)) continue;
+      const std::vector<NamedPart> more = counted_parts(surface, of_kind, kind);
+      parts.insert(parts.end(), more.begin(), more.end());
+    }
+  return parts;
+}
 
 std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const FindOptions& options) {
   const ThreadLimit threads(options.threads);
@@ -74,10 +118,10 @@ std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const F
 std::vector<std::uint8_t> faces_in_parts(const SurfaceView& surface, std::span<const FaceLabels> labels,
                                          const Parts& parts, const FindOptions& options) {
   std::vector<std::uint8_t> faces(surface.face_count(), 0);
-  for (const std::string& name : parts.groups) flag_named(labels, {"group", "mesh"}, name, true, faces);
-  for (const std::string& name : parts.objects) flag_named(labels, {"object", "node"}, name, false, faces);
-  for (const std::string& name : parts.materials) flag_named(labels, {"material"}, name, false, faces);
-  for (const std::string& name : parts.files) flag_named(labels, {"file"}, name, false, faces);
+  for (const std::string& name : parts.groups) flag_named(labels, group_kinds, name, true, faces);
+  for (const std::string& name : parts.objects) flag_named(labels, object_kinds, name, false, faces);
+  for (const std::string& name : parts.materials) flag_named(labels, material_kinds, name, false, faces);
+  for (const std::string& name : parts.files) flag_named(labels, file_kinds, name, false, faces);
   if (parts.components.empty()) return faces;
   const std::vector<std::int32_t> component_of = component_of_faces(surface, options);
   const std::int32_t count = component_of.empty() ? 0 : *std::max_element(component_of.begin(), component_of.end()) + 1;

@@ -36,10 +36,15 @@ std::string check_json(const CheckReport& found, Goal goal, const FindOptions& o
   for (const ComponentFindings& component : found.components)
     json["components"]["list"].push_back({{"first_face", component.first_face},
                                           {"faces", component.faces},
+                                          {"vertices", component.vertices},
                                           {"pairs_within", component.pairs_within},
                                           {"pairs_with_others", component.pairs_with_others},
                                           {"min", component.bounds.min},
                                           {"max", component.bounds.max}});
+  json["parts"] = Json::array();
+  for (const NamedPart& part : files.parts)
+    json["parts"].push_back(
+        {{"kind", to_string(part.kind)}, {"name", part.name}, {"faces", part.faces}, {"vertices", part.vertices}});
   json["topology"] = topology_json(found.topology);
   json["places"] = Json::array();
   for (const ConflictPlace& place : found.places)

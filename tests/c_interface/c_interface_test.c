@@ -1,4 +1,5 @@
 /* The C interface as C99 sees it. c_interface_test FOLDER */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -521,9 +522,105 @@ static void reads_and_writes_files(const char* folder) {
   unsnarl_document_free(document);
 
   CHECK(unsnarl_document_read("/no/such/file.obj", NULL, &document) == UNSNARL_CANNOT_READ);
+  CHECK(unsnarl_error_number() == ENOENT);
+  CHECK(unsnarl_document_read("/no/such/\x1b[31m\n.obj", NULL, &document) == UNSNARL_CANNOT_READ);
+  CHECK(says(unsnarl_error_message(), "/no/such/\\x1b[31m\\x0a.obj"));
   CHECK(unsnarl_document_read(in, "no format", &document) == UNSNARL_INVALID_ARGUMENT);
   CHECK(unsnarl_document_read(in, "ply", &document) == UNSNARL_CANNOT_READ);
+  CHECK(unsnarl_error_number() == 0);
   CHECK(strlen(unsnarl_version()) >= 5);
+}
+
+/* Faces of a part by its name, a character each: "10" the first of two. */
+static const char* faces_of(const unsnarl_document* document, const char* kind, const char* name) {
+  static char text[8];
+  unsnarl_result* result = NULL;
+  unsnarl_array flags;
+  CHECK(unsnarl_document_faces(document, kind, name, NULL, &result) == UNSNARL_OK);
+  flags = array(result, "faces");
+  snprintf(text, sizeof text, "%d%d", ((const uint8_t*)flags.data)[0], ((const uint8_t*)flags.data)[1]);
+  unsnarl_result_free(result);
+  return text;
+}
+
+static void knows_what_files_name(const char* folder) {
+  char in[4096];
+  unsnarl_document* document = NULL;
+  unsnarl_surface surface = {.size = sizeof surface};
+  unsnarl_result* result = NULL;
+  int32_t is_any = 1;
+  snprintf(in, sizeof in, "%s/c_named.obj", folder);
+  write_text(
+      in, "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 2\nv 2 1 2\no floor\ng low\nf 1 2 3\no blade\ng high\nf 4 5 6\n");
+  CHECK(unsnarl_document_read(in, NULL, &document) == UNSNARL_OK);
+  CHECK(unsnarl_document_surface(document, &surface) == UNSNARL_OK);
+  CHECK(strcmp(faces_of(document, "object", "floor"), "10") == 0);
+  CHECK(strcmp(faces_of(document, "group", "high"), "01") == 0);
+  CHECK(strcmp(faces_of(document, "component", "1"), "01") == 0);
+  CHECK(unsnarl_document_faces(document, "object", "roof", NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "'floor', 'blade'"));
+  CHECK(unsnarl_document_faces(document, "component", "x", NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_document_faces(document, "colour", "red", NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_document_recompute_normals(document, &is_any) == UNSNARL_OK && is_any == 0);
+
+  CHECK(unsnarl_check(&surface, NULL, &result) == UNSNARL_OK);
+  CHECK(array(result, "pairs").rows == 1 && array(result, "kinds").rows == 1);
+  CHECK(says(unsnarl_result_report(result), "\"unsnarl-check\""));
+  CHECK(says(unsnarl_result_report(result), "\"name\": \"blade\""));
+  unsnarl_result_free(result);
+  unsnarl_document_free(document);
+}
+
+static void repairs_scenes_of_files(const char* folder) {
+  char first[4096], second[4096], out[4096];
+  const char* paths[2];
+  unsnarl_document* document = NULL;
+  unsnarl_surface surface = {.size = sizeof surface};
+  unsnarl_result* result = NULL;
+  snprintf(first, sizeof first, "%s/c_first.obj", folder);
+  snprintf(second, sizeof second, "%s/c_second.off", folder);
+  snprintf(out, sizeof out, "%s/CMakeFiles", folder); /* a folder that is there */
+  paths[0] = first;
+  paths[1] = second;
+  write_text(first, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+  write_text(second, "OFF\n3 1 0\n1 1 -1\n1 1 2\n2 1 2\n3 0 1 2\n");
+  CHECK(unsnarl_document_read_scene(paths, 2, NULL, &document) == UNSNARL_OK);
+  CHECK(unsnarl_document_surface(document, &surface) == UNSNARL_OK);
+  CHECK(surface.vertex_count == 6 && surface.mesh_count == 2 && surface.mesh_sizes[2] == 3);
+  CHECK(pairs_of(&surface) == 1);
+  CHECK(strcmp(faces_of(document, "file", "c_second.off"), "01") == 0);
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_OK);
+  CHECK(says(unsnarl_result_report(result), "\"name\": \"c_second.off\""));
+  CHECK(unsnarl_document_check_output(document, folder) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "part of the input"));
+  CHECK(unsnarl_document_check_output(document, "/no/such/folder") == UNSNARL_CANNOT_WRITE);
+  CHECK(unsnarl_document_write(document, result, out) == UNSNARL_OK);
+  unsnarl_result_free(result);
+  unsnarl_document_free(document);
+
+  snprintf(first, sizeof first, "%s/CMakeFiles/c_first.obj", folder);
+  snprintf(second, sizeof second, "%s/CMakeFiles/c_second.off", folder);
+  CHECK(unsnarl_document_read_scene(paths, 2, NULL, &document) == UNSNARL_OK);
+  CHECK(unsnarl_document_surface(document, &surface) == UNSNARL_OK);
+  CHECK(pairs_of(&surface) == 0);
+  unsnarl_document_free(document);
+  paths[1] = first;
+  CHECK(unsnarl_document_read_scene(paths, 2, NULL, &document) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_document_read_scene(paths, 0, NULL, &document) == UNSNARL_INVALID_ARGUMENT);
+}
+
+static void makes_samples(void) {
+  unsnarl_result* result = NULL;
+  unsnarl_array corners;
+  CHECK(unsnarl_list_samples(&result) == UNSNARL_OK);
+  CHECK(says(unsnarl_result_report(result), "\"name\":\"crossing_tubes\""));
+  unsnarl_result_free(result);
+  CHECK(unsnarl_sample("crossing_tubes", 12, "{\"radius\": 0.3}", &result) == UNSNARL_OK);
+  corners = array(result, "corners");
+  CHECK(corners.rows > 0 && array(result, "positions").columns == 3);
+  unsnarl_result_free(result);
+  CHECK(unsnarl_sample("crossing_tubes", 12, "[]", &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_sample("no sample", 0, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
 }
 
 int main(int count, char** arguments) {
@@ -542,6 +639,9 @@ int main(int count, char** arguments) {
   spans_links();
   moves_knots();
   reads_and_writes_files(arguments[1]);
+  knows_what_files_name(arguments[1]);
+  repairs_scenes_of_files(arguments[1]);
+  makes_samples();
   printf("%d failures\n", failures);
   return failures == 0 ? 0 : 1;
 }

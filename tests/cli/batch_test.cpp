@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -165,16 +167,10 @@ TEST_F(BatchCli, ListsNameMeshesAndTheirResults) {
   EXPECT_EQ(batch().exit_code, 0);
   EXPECT_TRUE(fs::exists(out + "/fixed/first/one.obj"));
   EXPECT_EQ(contents(out + "/fixed" + folder.string() + "/in/other/crossing.obj"), triangle);
-  const auto expect_refusal = [&](const std::string& lines, int exit_code, const std::string& words) {
-    write(in, lines);
-    const Outcome outcome = batch();
-    EXPECT_EQ(outcome.exit_code, exit_code);
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-  };
-  expect_refusal("a.obj\tx.obj\nb.obj\tx.obj\n", 2, "both be written to x.obj");
-  expect_refusal("a.obj\t../x.obj\n", 3, "list.txt:1: '../x.obj'");
-  expect_refusal("a.obj\na.txt\n", 3, "list.txt:2: the extension of 'a.txt'");
-  expect_refusal("", 3, "no mesh");
+  write(in, "");
+  const Outcome empty = batch();
+  EXPECT_EQ(empty.exit_code, 3);
+  EXPECT_TRUE(contains(empty.err, "no mesh")) << empty.err;
   write(in, "missing.obj\n");
   EXPECT_EQ(batch().exit_code, 1);
   EXPECT_EQ(results().at("missing.obj")["status"], "invalid_input");
@@ -183,6 +179,105 @@ TEST_F(BatchCli, ListsNameMeshesAndTheirResults) {
   from_stream.input = folder / "in/crossing.obj" + std::string("\ta.obj\n");
   EXPECT_EQ(batch({}, from_stream).exit_code, 0);
   EXPECT_TRUE(fs::exists(out + "/fixed/a.obj"));
+}
+
+TEST_F(BatchCli, ABadLineOfAListIsARow) {
+  mesh("good.obj", crossing);
+  in = folder / "list.txt";
+  const std::string good = folder / "in/good.obj";
+  write(in, good + "\tb.obj\n" + good + "\t../x.obj\nnotes.txt\n\tc.obj\nother.obj\tb.obj\nd.obj\tb.obj/d.obj\n");
+  const Outcome outcome = batch();
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "note: ../x.obj: ")) << outcome.err;
+  const std::string table = contents(out + "/results.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
+  for (const char* const words :
+       {"list.txt:2: '../x.obj' is no name of a result", "list.txt:3: the extension of 'notes.txt' tells no format",
+        "list.txt:4: there is no path of a mesh before the tab", "other.obj would both be written to b.obj",
+        "and to a folder of that name"})
+    EXPECT_TRUE(contains(table, words)) << words << '\n' << table;
+  EXPECT_TRUE(fs::exists(out + "/fixed/b.obj"));
+  EXPECT_EQ(results().at("../x.obj")["status"], "invalid_input");
+}
+
+TEST_F(BatchCli, FoldersThatCannotBeReadAreNamed) {
+  mesh("good.obj", crossing);
+  mesh("locked/bad.obj", crossing);
+  fs::permissions(in + "/locked", fs::perms::none);
+  const Outcome outcome = batch({}, {.in_child = respect_permissions});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "note: locked/: cannot list the folder: Permission denied")) << outcome.err;
+  EXPECT_EQ(results().at("locked/")["status"], "invalid_input");
+  EXPECT_EQ(results().at("good.obj")["status"], "embedded");
+  fs::permissions(in + "/locked", fs::perms::owner_all);
+  fs::permissions(in, fs::perms::none);
+  const Outcome all = batch({}, {.in_child = respect_permissions});
+  fs::permissions(in, fs::perms::owner_all);
+  EXPECT_EQ(all.exit_code, 3) << all.err;
+  EXPECT_TRUE(contains(all.err, "cannot list the folder: Permission denied")) << all.err;
+}
+
+TEST_F(BatchCli, FilesOfOtherFormatsAreCounted) {
+  mesh("good.obj", triangle);
+  mesh("a/model.fbx", "Kaydara");
+  mesh("b/model.fbx", "Kaydara");
+  mesh("readme", "text");
+  const Outcome outcome = batch();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(
+      contains(outcome.err, "formats are not read: 2 *.fbx (such as a/model.fbx), 1 without an extension (readme)"))
+      << outcome.err;
+}
+
+TEST_F(BatchCli, AnErrorOfTheSystemIsTriedAgain) {
+  if (!calls_can_fail) GTEST_SKIP() << "calls cannot be made to fail here";
+  mesh("bad.obj", crossing);
+  mesh("good.obj", crossing);
+  for (const auto& [call, error_number] :
+       {std::pair("open", EMFILE), std::pair("open", ENFILE), std::pair("read", EIO)}) {
+    const Outcome failed = batch({}, {.in_child = with_failing(call, "bad.obj", error_number)});
+    EXPECT_EQ(failed.exit_code, 1) << failed.err;
+    EXPECT_EQ(results().at("bad.obj")["status"], "system_error") << failed.err;
+    EXPECT_EQ(results().at("bad.obj")["exit_code"], 9);
+    EXPECT_EQ(results().at("good.obj")["status"], "embedded");
+    EXPECT_TRUE(contains(results().at("bad.obj")["message"], ::strerror(error_number)));
+  }
+  const Outcome again = batch();
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(contains(again.err, "1 done before")) << again.err;
+}
+
+TEST_F(BatchCli, AnErrorOfTheSystemInTheWorkerIsTriedAgain) {
+  if (!calls_can_fail) GTEST_SKIP() << "calls cannot be made to fail here";
+  mesh("bad.obj", crossing);
+  auto arguments = worker("test -e ran || export LD_PRELOAD=" UNSNARL_FAILING_READS
+                          " UNSNARL_FAIL_CALL=read UNSNARL_FAIL_FILE=bad.obj UNSNARL_FAIL_ERRNO=5; touch ran");
+  const RunOptions in_folder = {.in_child = [this] { fs::current_path(folder.string()); }};
+  EXPECT_EQ(batch(arguments, in_folder).exit_code, 1);
+  EXPECT_EQ(results().at("bad.obj")["status"], "system_error");
+  EXPECT_EQ(batch(arguments, in_folder).exit_code, 0);
+  EXPECT_EQ(calls(), 2u);
+}
+
+TEST_F(BatchCli, AWorkerThatIsNoProgramIsNamed) {
+  mesh("triangle.obj", triangle);
+  write(folder / "worker", "no program");
+  const Outcome outcome = batch({"--worker", folder / "worker"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "cannot be started; --worker needs a program")) << outcome.err;
+}
+
+TEST_F(BatchCli, CellsOfTablesAreNoFormulas) {
+  const std::vector<std::string> names = {"=1+1.obj", "+1.obj",  "-1.obj", "@SUM(1).obj",
+                                          "\t1.obj",  "\r1.obj", "'1.obj"};
+  for (const std::string& name : names) mesh(name, triangle);
+  EXPECT_EQ(batch().exit_code, 0);
+  for (const char* const table : {"/results.csv", "/timing.csv"}) {
+    const std::string text = contents(out + table);
+    for (const std::string& name : names)
+      EXPECT_TRUE(contains(text, "\n'" + name) || contains(text, "\n\"'" + name)) << name << '\n' << text;
+  }
+  EXPECT_EQ(results().count("=1+1.obj"), 1u);
 }
 
 TEST_F(BatchCli, PartsAreDisjointAndCompleteAndTheTasksOfSlurm) {
@@ -241,6 +336,14 @@ TEST_F(BatchCli, BuffersOfGltfComeAlongAndCount) {
   EXPECT_TRUE(fs::exists(out + "/fixed/two.gltf/two.gltf"));
   EXPECT_EQ(batch(arguments).exit_code, 0);
   EXPECT_EQ(calls(), 4u);
+  // Names of buffers may hold any byte.
+  mesh("three.gltf", gltf("%e9%2525.bin"));
+  mesh("\xe9%25.bin", bytes);
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+  EXPECT_EQ(contents(out + "/fixed/three.gltf/\xe9%25.bin"), bytes);
+  EXPECT_EQ(calls(), 5u);
+  EXPECT_EQ(batch(arguments).exit_code, 0);
+  EXPECT_EQ(calls(), 5u);
 }
 
 TEST_F(BatchCli, ExternalFilesOfGiftiComeAlongAndCount) {
@@ -277,7 +380,13 @@ TEST_F(BatchCli, NamesNeedNotBeUtf8) {
   EXPECT_EQ(batch().exit_code, 0);
   EXPECT_TRUE(fs::exists(out + "/fixed/\xe9\"<script>.obj"));
   EXPECT_EQ(contents(out + "/index.html").find("<script>.obj"), std::string::npos);
-  EXPECT_EQ(batch().exit_code, 0);
+  EXPECT_EQ(results().count("\\xe9\"<script>.obj"), 1u);
+  const Outcome again = batch();
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_TRUE(contains(again.err, "1 done before")) << again.err;
+  write(out + "/fixed/\xe9\"<script>.obj", "changed");
+  EXPECT_FALSE(contains(batch().err, "done before"));
+  EXPECT_TRUE(contains(contents(out + "/fixed/\xe9\"<script>.obj"), "v 0 0 0"));
 }
 
 TEST_F(BatchCli, RefusesWhatMakesNoSense) {

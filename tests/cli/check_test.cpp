@@ -47,6 +47,34 @@ TEST_F(Check, CheckCountsAndLocates) {
   EXPECT_NE(clean.out.find("no self-intersections"), std::string::npos);
 }
 
+TEST_F(Check, PartsThatOptionsCanNameAreListedWithTheirSizes) {
+  const std::string in = file("in.obj",
+                              "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 2\nv 2 1 2\n"
+                              "o sheet\ng flat lower\nusemtl red\nf 1 2 3\no blade\ng upright\nf 4 5 6\n");
+  const std::string text = run({"check", in}).out;
+  for (const char* line : {"  object sheet: 1 face, 3 vertices\n", "  object blade: 1 face, 3 vertices\n",
+                           "  group flat lower: 1 face, 3 vertices\n", "  group upright: 1 face, 3 vertices\n",
+                           "  material red: 2 faces, 6 vertices\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  EXPECT_NE(text.find("component 1        1 face       3 vertices"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(run({"check", in, "--json"}).out);
+  ASSERT_EQ(json["parts"].size(), 5u);
+  EXPECT_EQ(json["parts"][2],
+            (nlohmann::json{{"kind", "group"}, {"name", "flat lower"}, {"faces", 1}, {"vertices", 3}}));
+  EXPECT_EQ(json["components"]["list"][1]["vertices"], 3);
+  // What is listed can be named.
+  for (const auto& part : json["parts"])
+    EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj", "--keep-partial", "--fix-" + part["kind"].get<std::string>(),
+                   part["name"].get<std::string>()})
+                  .exit_code,
+              part["name"] == "red" ? 7 : 0);
+  // Of very many the text names the first ones and counts the others.
+  std::string many = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 30; ++i) many += "g part" + std::to_string(i) + "\n";
+  const std::string long_list = run({"check", file("many.obj", many + "f 1 2 3\n")}).out;
+  EXPECT_NE(long_list.find("more groups (--json lists all)"), std::string::npos) << long_list;
+}
+
 TEST_F(Check, OnePairIsNoPairs) {
   // A folded pair of faces with a common edge, and a face far away.
   const std::string in = file("in.obj",

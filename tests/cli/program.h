@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <stdlib.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -45,6 +47,29 @@ inline bool contains(const std::string& text, const std::string& part) {
 
 inline void write(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// For RunOptions::in_child: the calls "open" or "read" of files whose paths end so fail with this errno, in the
+/// program and in those that it starts.
+inline std::function<void()> with_failing(const std::string& call, const std::string& file, int error_number) {
+  return [=] {
+    ::setenv("LD_PRELOAD", UNSNARL_FAILING_READS, 1);
+    ::setenv("UNSNARL_FAIL_CALL", call.c_str(), 1);
+    ::setenv("UNSNARL_FAIL_FILE", file.c_str(), 1);
+    ::setenv("UNSNARL_FAIL_ERRNO", std::to_string(error_number).c_str(), 1);
+  };
+}
+#if defined(UNSNARL_TESTS_WITH_ADDRESS_SANITIZER)
+inline constexpr bool calls_can_fail = false;  // its library has to be the first one
+#else
+inline constexpr bool calls_can_fail = true;
+#endif
+
+/// For RunOptions::in_child: permissions count for the program too, even if we are root.
+inline void respect_permissions() {
+  constexpr unsigned long dac_override = 1, dac_read_search = 2;  // capabilities of <linux/capability.h>
+  ::prctl(PR_CAPBSET_DROP, dac_override, 0, 0, 0);
+  ::prctl(PR_CAPBSET_DROP, dac_read_search, 0, 0, 0);
 }
 
 /// A folder of its own, empty at first and removed at the end.

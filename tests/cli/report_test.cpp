@@ -3,6 +3,7 @@
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -110,6 +111,21 @@ TEST_F(Report, ProgressIsShownWhileTheInputIsRead) {
   EXPECT_EQ(first["phase"], "read");
   EXPECT_TRUE(first["pairs_left"].is_null()) << first;
   EXPECT_LE(first["seconds"], 1.2);
+}
+
+TEST_F(Report, ALogGetsALineEachHalfMinute) {
+  const std::string slow = folder / "slow";
+  ASSERT_EQ(::mkfifo(slow.c_str(), 0600), 0);
+  const auto from_slow = [&] { ::dup2(::open(slow.c_str(), O_RDONLY), STDIN_FILENO); };
+  std::thread writer([&] {
+    std::ofstream out(slow);
+    std::this_thread::sleep_for(std::chrono::seconds(32));
+    out << crossing;
+  });
+  const Outcome outcome = run({"check", "-", "--format", "obj"}, {.input = crossing, .in_child = from_slow});
+  writer.join();
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_TRUE(std::regex_match(outcome.err, std::regex("read +0 % +3[0-9] s\n"))) << outcome.err;
 }
 
 TEST_F(Report, ProgressAsJsonNeverGoesBack) {

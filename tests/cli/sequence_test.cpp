@@ -307,5 +307,55 @@ TEST_F(Sequence, NoPointOfACacheIsLostOrInvented) {
   EXPECT_THROW(PointCache::parse(bytes, PointCacheFormat::pc2), FileError);
 }
 
+TEST_F(Sequence, FramesThatAreTakenForASceneAreNamedAtOnce) {
+  std::vector<std::string> arguments = {"fix"};
+  for (int t = 0; t < 5; ++t) arguments.push_back(path(t));
+  arguments.insert(arguments.end(), {"-o", out, "--time-limit", "0.001", "--threads", "1"});
+  const Outcome outcome = run(arguments);
+  const std::string command =
+      fmt::format("unsnarl fix --sequence {} {} ... {} -o {}\n", path(0), path(1), path(4), out);
+  EXPECT_TRUE(contains(outcome.err, "note: 5 of these files have the same faces.")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, command)) << outcome.err;
+  // Other faces, or names without numbers, are no frames.
+  const std::vector<std::string> parts = {file("part1.obj", crossing), file("part2.obj", clean_cube), path(0)};
+  const std::vector<std::string> copies = {file("left.obj", crossing), file("right.obj", crossing),
+                                           file("top.obj", crossing)};
+  for (const std::vector<std::string>& scene : {parts, copies}) {
+    const Outcome other = run({"fix", scene[0], scene[1], scene[2], "-o", folder / "scene", "--time-limit", "0.001"});
+    EXPECT_FALSE(contains(other.err, "same faces")) << other.err;
+  }
+}
+
+TEST_F(Sequence, ProgressCountsFrames) {
+  const Outcome outcome = repair({"--progress", "json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream lines(outcome.err);
+  int done = -1;
+  for (std::string line; std::getline(lines, line) && line.starts_with('{');) {
+    const Json json = Json::parse(line);
+    EXPECT_EQ(json["frames"]["total"], frame_count);
+    EXPECT_GE(json["frames"]["done"], done);
+    done = json["frames"]["done"];
+  }
+  EXPECT_EQ(done, frame_count);
+}
+
+TEST_F(Sequence, TheSummaryNamesTheWorstFrameAndThoseThatAreNotSmoothed) {
+  const Outcome outcome = repair({"--report", folder / "r.json", "--no-recover"});  // so that none is smoothed
+  const Json report = Json::parse(contents(folder / "r.json"));
+  Json farthest = report["list"][0];
+  std::string unsmoothed;
+  for (const Json& frame : report["list"]) {
+    if (frame["displacement_max_rel"] > farthest["displacement_max_rel"]) farthest = frame;
+    if (frame["untouched_share"] < 1 && !frame["is_smoothed"])
+      unsmoothed += (unsmoothed.empty() ? "" : ", ") + frame["name"].get<std::string>();
+  }
+  EXPECT_TRUE(contains(outcome.err, fmt::format("farthest: {}, by ", farthest["name"].get<std::string>())))
+      << outcome.err;
+  EXPECT_FALSE(unsmoothed.empty());
+  EXPECT_TRUE(contains(outcome.err, "not smoothed, but as a repair of the frame alone left it: " + unsmoothed + "\n"))
+      << outcome.err;
+}
+
 }  // namespace
 }  // namespace unsnarl::cli

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
+#include <string.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -188,6 +191,104 @@ TEST_F(Usage, OutputsThatCannotBeWrittenExitWith4) {
   EXPECT_EQ(run({"fix", in, "-o", "-"}, to_full_disk).exit_code, 4);
   EXPECT_EQ(run({"check", in}, to_full_disk).exit_code, 4);
   EXPECT_EQ(run({"sample", "book", "-o", "-"}, to_full_disk).exit_code, 4);
+}
+
+/// No terminal does anything but show this text.
+void expect_visible(const std::string& text) {
+  const auto acts = [](unsigned char c) { return (c < ' ' && c != '\n') || c == 0x7f; };
+  EXPECT_FALSE(std::any_of(text.begin(), text.end(), acts)) << text;
+  EXPECT_FALSE(contains(text, "\xc2\x9b") || contains(text, "\xe2\x80\xae")) << text;
+}
+
+TEST_F(Usage, NamesOfFilesAreShownNotObeyed) {
+  const std::string name = "a\x1b[31m\r\n\xc2\x9b\xe9\x7f\xe2\x80\xae",
+                    shown = "a\\x1b[31m\\x0d\\x0a\\x9b\\xe9\\x7f\\u{202e}";
+  const std::string missing = folder / name, plain = file("plain.obj", crossing);
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"fix", missing, "-o", folder / "o"},
+                                                    {"fix", plain, "-o", missing + "/o.obj"},
+                                                    {"fix", plain, "-o", folder / "o.obj", "--fix-vertices", missing},
+                                                    {"fix", plain, "-o", folder / "o.obj", "--fix-group", name},
+                                                    {"fix", "--sequence", missing, "-o", folder / "o"},
+                                                    {"check", missing},
+                                                    {"view", missing, "-o", folder / "o.html"},
+                                                    {"batch", missing, "-o", folder / "b"},
+                                                    {"sample", name, "-o", folder / "o.obj"},
+                                                    {"curves", missing + ".svg", "-o", folder / "o.svg"},
+                                                    {"isotopy", missing + ".svg", missing + ".svg", "-o", folder / "i"},
+                                                    {"seifert", missing, "-o", folder / "o.obj"},
+                                                    {"knot-isotopy", missing, missing, "-o", folder / "k"},
+                                                    {"routes", missing, "-o", folder / "r"},
+                                                    {"fix", plain, "-o", folder / "o.obj", "--weld", name},
+                                                    {name}}) {
+    if (arguments[0] == "view" && !UNSNARL_VIEWER) continue;
+    const Outcome outcome = run(arguments);
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_NE(outcome.exit_code, 70);
+    expect_visible(outcome.err + outcome.out);
+    EXPECT_TRUE(contains(outcome.err, shown)) << arguments[0] << '\n' << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+  const std::string there = file(name + ".obj", crossing);
+  const Outcome checked = run({"check", there}), fixed = run({"fix", there, "-o", folder / (name + ".o.obj")});
+  EXPECT_EQ(checked.exit_code, 1) << checked.err;
+  EXPECT_EQ(fixed.exit_code, 0) << fixed.err;
+  for (const std::string& text : {checked.out, fixed.err}) {
+    expect_visible(text);
+    EXPECT_TRUE(contains(text, shown + ".obj")) << text;
+  }
+}
+
+TEST_F(Usage, NamesInFilesAreShownNotObeyed) {
+  const std::string name =
+                        "a\x1b]0;owned\a\xc2\x9b"
+                        "2J",
+                    shown = "a\\x1b]0;owned\\x07\\x9b2J";
+  const std::string in =
+      file("in.obj", "mtllib " + name + "\ng " + name + "\no " + name + "\nusemtl " + name + "\n" + crossing);
+  for (const char* const option : {"--fix-group", "--fix-object", "--fix-material"}) {
+    const Outcome outcome = run({"fix", in, "-o", folder / "o.obj", option, "x"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    expect_visible(outcome.err);
+    EXPECT_TRUE(contains(outcome.err, shown)) << outcome.err;
+  }
+  const Outcome broken = run({"check", file("broken.obj", "v 0 0 " + name + "\n")});
+  EXPECT_EQ(broken.exit_code, 3);
+  expect_visible(broken.err);
+  EXPECT_TRUE(contains(broken.err, "a\\x1b]0;owned")) << broken.err;
+  expect_visible(run({"check", in}).out);
+}
+
+TEST_F(Usage, AnErrorOfTheSystemExitsWith9) {
+  if (!calls_can_fail) GTEST_SKIP() << "calls cannot be made to fail here";
+  const std::string in = file("in.obj", crossing);
+  const std::string svg = file("in.svg", "<svg><path d='M0 0 10 10 10 0 0 10z'/></svg>");
+  const std::string knot = file("in.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  const std::string plan = file("in.json", "{}");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"fix", in, "-o", folder / "o.obj"},
+        {"check", in},
+        {"view", in, "-o", folder / "o.html"},
+        {"fix", "--sequence", in, file("in2.obj", crossing), "-o", folder / "s"},
+        {"curves", svg, "-o", folder / "o.svg"},
+        {"isotopy", svg, svg, "-o", folder / "i"},
+        {"seifert", knot, "-o", folder / "o.obj"},
+        {"knot-isotopy", knot, knot, "-o", folder / "k"},
+        {"routes", plan, "-o", folder / "r"}})
+    for (const auto& [call, error_number] : {std::pair("open", EMFILE), std::pair("read", EIO)}) {
+      if (arguments[0] == "view" && !UNSNARL_VIEWER) continue;
+      const std::string input = arguments[1] == "--sequence" ? arguments[2] : arguments[1];
+      const RunOptions failing = {.in_child = with_failing(call, fs::path(input).filename(), error_number)};
+      const Outcome outcome = run(arguments, failing);
+      EXPECT_EQ(outcome.exit_code, 9) << arguments[0] << ' ' << outcome.err;
+      EXPECT_TRUE(contains(outcome.err, ::strerror(error_number))) << outcome.err;
+      EXPECT_FALSE(fs::exists(folder / "o.obj"));
+    }
+  const std::string report = folder / "report.json";
+  const RunOptions failing = {.in_child = with_failing("read", "in.obj", EIO)};
+  EXPECT_EQ(run({"fix", in, "-o", folder / "o.obj", "--report", report}, failing).exit_code, 9);
+  const auto json = nlohmann::json::parse(contents(report));
+  EXPECT_EQ(json["status"], "system_error");
+  EXPECT_EQ(json["exit_code"], 9);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 
@@ -104,6 +106,40 @@ TEST_F(FileAccess, RefusesWhatIsNoFileAndNamesIt) {
   EXPECT_NE(read_error(folder_ / "pipe.obj").find("not a regular file"), std::string::npos);
   write_atomically(folder_ / "bad.obj", "v 0 0 x\n");
   EXPECT_NE(read_error(folder_ / "bad.obj").find("bad.obj: line 1: "), std::string::npos);
+}
+
+/// While it lives, this process can open no more files.
+class NoMoreDescriptors {
+ public:
+  NoMoreDescriptors() {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit none = {0, before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NoMoreDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(FileAccess, AFailureOfTheSystemIsNoErrorOfTheFile) {
+  write_atomically(folder_ / "a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  {
+    const NoMoreDescriptors none;
+    EXPECT_THROW(Document::read(folder_ / "a.off"), SystemError);
+    EXPECT_THROW(write_atomically(folder_ / "a.off", "x"), SystemError);
+  }
+  EXPECT_EQ(Document::read(folder_ / "a.off").format(), Format::off);
+  EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(FileAccess, AnErrorOfAFileKeepsTheNumberOfTheSystem) {
+  try {
+    Document::read(folder_ / "missing.obj");
+    ADD_FAILURE() << "it was read";
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.error_number(), ENOENT);
+  }
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ TEST(TextScanner, ContinuationAndComments) {
 }
 
 TEST(TextScanner, QuotesOnlyWhatCanBePrinted) {
-  EXPECT_EQ(in_quotes(std::string("a\0b\xFF", 4)), "'a?b?'");
+  EXPECT_EQ(in_quotes(std::string("a\0b\xFF", 4)), "'a\\x00b\\xff'");
+  EXPECT_EQ(in_quotes(std::string(29, 'x') + "\xc3\xa5y"), "'" + std::string(29, 'x') + "...'");
   EXPECT_EQ(in_quotes(std::string(100, 'x')), "'" + std::string(30, 'x') + "...'");
 }
 

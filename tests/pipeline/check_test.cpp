@@ -51,10 +51,22 @@ TEST(Check, components_and_their_pairs) {
   EXPECT_EQ(found.components[0].pairs_with_others, found.places[1].pairs);
   const ComponentFindings& sheet = found.components[4];
   EXPECT_EQ(sheet.faces, 18u);
+  EXPECT_EQ(sheet.vertices, 16u);
   EXPECT_EQ(sheet.first_face, static_cast<std::int32_t>(surface.view().face_count()) - 18);
   EXPECT_EQ(sheet.pairs_within + sheet.pairs_with_others, 0u);
   EXPECT_EQ(sheet.bounds.min, (std::array{-1.5, 48.5, 0.0}));
   EXPECT_EQ(sheet.bounds.max, (std::array{1.5, 51.5, 0.0}));
+}
+
+TEST(Check, vertices_of_components_are_those_of_the_mesh) {
+  // A square of two triangles with corners of their own along the diagonal, and a triangle that meets none of them.
+  const Surface surface{{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 9, 0, 0, 9, 1, 0, 8, 0, 0, 7, 7, 7},
+                        {0, 1, 2, 3, 4, 5, 6, 7, 8},
+                        {}};
+  const CheckReport found = check(surface);
+  ASSERT_EQ(found.components.size(), 2u);
+  EXPECT_EQ(found.components[0].vertices, 6u);
+  EXPECT_EQ(found.components[1].vertices, 3u);
 }
 
 TEST(Check, an_empty_surface_has_nothing) {

@@ -47,6 +47,27 @@ TEST(Parts, NamesMeanFaces) {
   EXPECT_EQ(faces(document, {}), Flags(5, 0));
 }
 
+TEST(Parts, AllNamesAreListedWithWhatTheyName) {
+  const Document document = two_squares();
+  std::vector<std::string> found;
+  for (const NamedPart& part : named_parts(document.surface(), document.face_labels())) {
+    found.push_back(std::string(to_string(part.kind)) + " " + part.name + " " + std::to_string(part.faces) + " " +
+                    std::to_string(part.vertices));
+  }
+  EXPECT_EQ(found, (std::vector<std::string>{"object body 4 8", "object hat 1 3", "group left skin 2 4",
+                                             "group right skin 2 4", "group hat 1 3", "material red 2 4",
+                                             "material blue 3 7"}));
+  // Nodes and meshes of a glTF are called what the options call them; a name without faces is there all the same.
+  const Surface surface{std::vector<double>(9), {0, 1, 2, 0, 2, 1}, {}};
+  const std::vector<FaceLabels> labels = {{"mesh", {"seat", "none"}, {-1, 0}}, {"node", {"chair"}, {0, 0}}};
+  const std::vector<NamedPart> parts = named_parts(surface, labels);
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(parts[0].kind, NamedPart::Kind::object);
+  EXPECT_EQ(parts[0].vertices, 3u);
+  EXPECT_EQ(parts[1].kind, NamedPart::Kind::group);
+  EXPECT_EQ(parts[2].faces, 0u);
+}
+
 TEST(Parts, ComponentsAreCountedAfterWelding) {
   const Document document = two_squares();
   EXPECT_EQ(component_of_faces(document.surface()), (std::vector<std::int32_t>{0, 0, 0, 0, 1}));

@@ -25,6 +25,7 @@
 #include "fix.h"
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -84,7 +85,8 @@ class Batch {
         interruption_(interruption),
         folder_{options.output},
         shard_(shard_from(options.shard)),
-        all_(batch_meshes(options.input, options.output)),
+        inputs_(batch_inputs(options.input, options.output)),
+        all_(inputs_.meshes),
         mine_(part_of(all_, shard_)),
         program_(options.worker.empty() ? fs::read_symlink("/proc/self/exe").string() : options.worker),
         journal_(folder_.journal()),
@@ -104,6 +106,7 @@ class Batch {
 
   int run() {
     if (!options_.summary) {
+      if (!options_.quiet) describe_inputs();
       work();
       if (error_) std::rethrow_exception(error_);
       if (workers_.is_stopped()) return exit_cancelled;
@@ -114,7 +117,7 @@ class Batch {
     const std::map<std::string, std::size_t> counts = statuses(records);
     if (!options_.quiet) {
       for (const auto& [status, count] : counts) tell(fmt::format("{:>8} {}\n", count, status));
-      tell(is_whole ? fmt::format("see {}\n", (folder_.root / "index.html").string())
+      tell(is_whole ? fmt::format("see {}\n", visible_text((folder_.root / "index.html").string()))
                     : "when all parts are done: the same command with --summary\n");
     }
     return counts.size() == 1 && counts.contains(std::string(to_string(Status::embedded))) ? exit_embedded
@@ -127,10 +130,32 @@ class Batch {
     if (std::error_code ignored; !fs::is_directory(options_.input, ignored))
       places.reads("the list of meshes", options_.input);
     places.reads("--fix-vertices", fix_vertices);
-    for (const BatchMesh& mesh : all_) places.reads("a mesh of the batch", mesh.path);
-    for (const BatchMesh& mesh : all_)
+    std::vector<BatchMesh> meshes;
+    std::ranges::copy_if(all_, std::back_inserter(meshes), [](const BatchMesh& mesh) { return mesh.fault.empty(); });
+    for (const BatchMesh& mesh : meshes) places.reads("a mesh of the batch", mesh.path);
+    for (const BatchMesh& mesh : meshes)
       places.writes("a result of a batch", folder_.root / BatchFolder::mesh(mesh.name),
                     "name another folder for the results");
+  }
+
+  /// What of the inputs will not be worked on.
+  void describe_inputs() const {
+    constexpr std::size_t most_lines = 10;
+    std::size_t faults = 0;
+    for (const BatchMesh& mesh : all_)
+      if (!mesh.fault.empty() && ++faults <= most_lines)
+        tell(fmt::format("note: {}: {}\n", visible_text(mesh.name), visible_text(mesh.fault)));
+    if (faults > most_lines) tell(fmt::format("note: {} more like these\n", faults - most_lines));
+    std::vector<std::string> others;
+    for (const auto& [extension, files] : inputs_.others)
+      others.push_back(visible_text(
+          fmt::format("{} {} ({}{})", files.count, extension, files.count == 1 ? "" : "such as ", files.first)));
+    if (others.empty()) return;
+    if (others.size() > most_lines) {
+      others[most_lines] = fmt::format("{} more kinds", others.size() - most_lines);
+      others.resize(most_lines + 1);
+    }
+    tell(fmt::format("note: left out, since their formats are not read: {}\n", fmt::join(others, ", ")));
   }
 
   std::string key_of(const BatchMesh& mesh, const std::string& content) const {
@@ -138,7 +163,7 @@ class Batch {
   }
 
   /// The record of a mesh that needs no more work; null otherwise.
-  Record finished(const std::string& key) const {
+  Record finished(const BatchMesh& mesh, const std::string& key) const {
     const JournalEntry* const entry = journal_.find(key);
     if (entry == nullptr || entry->line.empty()) return {};
     Record record = Record::parse(entry->line, nullptr, false);
@@ -149,15 +174,17 @@ class Batch {
     const auto raised = [&](Status limit, const char* name, double now) {
       return status == to_string(limit) && bound(now) > bound(run.value(name, 0.0));
     };
-    if (status == status_cannot_write || (options_.retry && !is_success(status)) ||
+    if (status == status_cannot_write || status == status_system_error || (options_.retry && !is_success(status)) ||
         raised(Status::time_limit, "time_limit_s", options_.time_limit_s) ||
         raised(Status::memory_limit, "memory_limit_mb", memory_limit_mb_))
       return {};
-    const std::string output = record.value("output", "");
-    if (!output.empty() && sha256_of_file(folder_.root / output) != record.value("output_sha256", "")) return {};
+    // The record shows the name of the output; one that is no text has other bytes.
+    if (record.contains("output") &&
+        sha256_of_file(folder_.root / BatchFolder::mesh(mesh.name)) != record.value("output_sha256", ""))
+      return {};
     const Record buffers = record.value("buffers", Record::object());
     for (const auto& [name, hash] : buffers.items())
-      if (sha256_of_file(folder_.root / name) != hash) return {};
+      if (sha256_of_file(folder_.root / decoded_uri(name)) != hash) return {};
     if (options_.thumbnails && record.contains("vertices") && !record.contains("thumbnail")) return {};
     return record;
   }
@@ -224,11 +251,33 @@ class Batch {
     late_.push_back(task);
   }
 
-  void work_on(Task task) {
+  void work_on(const Task& task) {
     const BatchMesh& mesh = mine_[task.mesh];
+    if (!mesh.fault.empty()) return progress_.done(mesh, status_invalid_input);
+    try {
+      repair_if_needed(mesh, task);
+    } catch (const SystemError& error) {
+      {
+        const std::lock_guard lock(mutex_);
+        unread_[mesh.name] = refused(mesh, status_system_error, error.what());
+      }
+      progress_.done(mesh, status_system_error);
+    }
+  }
+
+  /// A record of what was not worked on.
+  static Record refused(const BatchMesh& mesh, const char* status, const std::string& why) {
+    const bool is_of_system = status == std::string_view(status_system_error);
+    return {{"mesh", as_utf8(mesh.name)},
+            {"status", status},
+            {"exit_code", static_cast<int>(is_of_system ? exit_system_error : exit_invalid_input)},
+            {"message", visible_text(why)}};
+  }
+
+  void repair_if_needed(const BatchMesh& mesh, Task task) {
     const std::string content = content_hash(mesh);
     const std::string key = key_of(mesh, content);
-    if (const Record record = finished(key); !record.is_null()) return progress_.skipped(mesh);
+    if (const Record record = finished(mesh, key); !record.is_null()) return progress_.skipped(mesh);
     const JournalEntry* const entry = journal_.find(key);
     const int unexplained = entry == nullptr ? 0 : entry->unexplained;
     // A mesh that was being worked on when the batch was ended may have ended it: it waits until the rest is done.
@@ -236,13 +285,17 @@ class Batch {
     Record record;
     if (unexplained >= options_.attempts && !options_.retry) {
       record = {
-          {"mesh", mesh.name},
+          {"mesh", as_utf8(mesh.name)},
           {"status", status_ended_the_batch},
           {"message", fmt::format("the batch ended {} times while it was worked on; --retry tries again", unexplained)},
           {"run", Record::object()}};
     } else {
       journal_.started(key);
-      record = repaired(mesh);
+      try {
+        record = repaired(mesh);
+      } catch (const SystemError& error) {
+        record = refused(mesh, status_system_error, error.what());
+      }
       if (workers_.is_stopped()) return journal_.stopped(key);
       if (record["status"] == status_killed && ++task.killed < options_.attempts) {
         journal_.stopped(key);
@@ -266,7 +319,7 @@ class Batch {
                    thumbnail = place / "thumbnail.png", said = place / "said";
     std::error_code error;
     fs::create_directories(place / "out", error);
-    if (error) throw WriteError(fmt::format("{}: cannot make this folder: {}", place.string(), error.message()));
+    if (error) throw_write_error(place.string() + ": cannot make this folder", error.value());
     std::string input = mesh.path.string();
     if (input.starts_with('-')) input = "./" + input;
     std::vector<std::string> words = {"fix",
@@ -302,30 +355,39 @@ class Batch {
   void take_over_meshes(const BatchMesh& mesh, const fs::path& from, Record& record) {
     const std::string to = BatchFolder::mesh(mesh.name);
     std::vector<fs::path> others;
-    for (const auto& entry : fs::recursive_directory_iterator(from))
-      if (entry.is_regular_file() && entry.path() != from / fs::path(mesh.name).filename())
-        others.push_back(entry.path().lexically_relative(from));
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(from, error), end; !error && it != end; it.increment(error))
+      if (it->is_regular_file() && it->path() != from / fs::path(mesh.name).filename())
+        others.push_back(it->path().lexically_relative(from));
+    if (error) throw_read_error(from.string() + ": cannot list the folder", error.value());
     std::sort(others.begin(), others.end());
     for (const fs::path& name : others) {
       const std::string place = (fs::path(to).parent_path() / name).generic_string();
-      record["buffers"][place] = sha256_of_file(from / name);
+      record["buffers"][encoded_uri(place)] = sha256_of_file(from / name);
       folder_.take_over(from / name, place);
     }
     const std::string hash = sha256_of_file(from / fs::path(mesh.name).filename());
     if (!folder_.take_over(from / fs::path(mesh.name).filename(), to)) return;
-    record["output"] = to;
+    record["output"] = as_utf8(to);
     record["output_sha256"] = hash;
   }
 
   std::vector<Record> records_of(const std::vector<BatchMesh>& meshes) const {
     std::vector<Record> records;
-    for (const BatchMesh& mesh : meshes) {
+    for (const BatchMesh& mesh : meshes) records.push_back(record_of_mesh(mesh));
+    return records;
+  }
+
+  Record record_of_mesh(const BatchMesh& mesh) const {
+    if (!mesh.fault.empty()) return refused(mesh, status_invalid_input, mesh.fault);
+    if (const auto unread = unread_.find(mesh.name); unread != unread_.end()) return unread->second;
+    try {
       const JournalEntry* const entry = journal_.find(key_of(mesh, content_hash(mesh)));
       Record record = entry == nullptr ? Record() : Record::parse(entry->line, nullptr, false);
-      if (!record.is_object()) record = {{"mesh", mesh.name}, {"status", status_pending}};
-      records.push_back(std::move(record));
+      return record.is_object() ? record : Record{{"mesh", as_utf8(mesh.name)}, {"status", status_pending}};
+    } catch (const SystemError& error) {
+      return refused(mesh, status_system_error, error.what());
     }
-    return records;
   }
 
   static std::map<std::string, std::size_t> statuses(const std::vector<Record>& records) {
@@ -338,7 +400,9 @@ class Batch {
   Interruption& interruption_;
   BatchFolder folder_;
   Shard shard_;
-  std::vector<BatchMesh> all_, mine_;
+  const BatchInputs inputs_;
+  const std::vector<BatchMesh>& all_;
+  std::vector<BatchMesh> mine_;
   std::string program_;
   BatchJournal journal_;
   BatchProgress progress_;
@@ -351,6 +415,7 @@ class Batch {
   std::mutex mutex_;
   std::deque<std::size_t> todo_;
   std::deque<Task> late_;
+  std::map<std::string, Record> unread_;  // of meshes that the system gave no bytes of
   std::exception_ptr error_;
 };
 
@@ -409,7 +474,8 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
       "  unsnarl batch scans -o repaired --summary           when all parts are done\n\n"
       "What is done is not done again: the same command goes on after an interruption, a crash or a power cut.\n\n"
       "Exit codes: 0 all embedded, 1 all have been worked on but not all are embedded (results.csv says why),\n"
-      "2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 70 internal error.");
+      "2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 9 the system failed (try again),\n"
+      "70 internal error.");
 }
 
 int run_batch(const BatchOptions& options, Interruption& interruption) {

@@ -23,7 +23,7 @@ void BatchFolder::prepare() const {
                     "folder",
                     root.string()));
   fs::create_directories(journal(), error);
-  if (error) throw WriteError(fmt::format("{}: cannot make this folder: {}", journal().string(), error.message()));
+  if (error) throw_write_error(journal().string() + ": cannot make this folder", error.value());
 }
 
 bool BatchFolder::take_over(const fs::path& from, const std::string& to) const {
@@ -35,7 +35,7 @@ bool BatchFolder::take_over(const fs::path& from, const std::string& to) const {
   }
   fs::create_directories(target.parent_path(), error);
   fs::rename(from, target, error);
-  if (error) throw WriteError(fmt::format("{}: cannot be written: {}", target.string(), error.message()));
+  if (error) throw_write_error(target.string() + ": cannot be written", error.value());
   return true;
 }
 

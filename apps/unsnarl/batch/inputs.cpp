@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
-#include <fstream>
-#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
 #include "batch/folder.h"
 #include "content_hash.h"
 #include "input_bytes.h"
 #include "mesh_input.h"
 #include "unsnarl/document.h"
+#include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -27,26 +27,66 @@ bool is_hidden(const fs::path& path) {
   return path.filename().string().starts_with('.');
 }
 
-std::vector<BatchMesh> meshes_below(const fs::path& folder, const fs::path& results) {
-  std::vector<BatchMesh> meshes;
-  // The folder that is searched may be that of the results too.
-  const auto holds_results = [&](const fs::path& path) {
-    std::error_code ignored;
-    return fs::equivalent(path, results, ignored) || fs::equivalent(path, results / "fixed", ignored) ||
-           fs::equivalent(path, results / "work", ignored);
-  };
-  std::error_code error;
-  const auto options = fs::directory_options::skip_permission_denied;
-  for (fs::recursive_directory_iterator it(folder, options, error), end; !error && it != end; it.increment(error)) {
-    std::error_code ignored;
-    if (it->is_directory(ignored) && (is_hidden(it->path()) || holds_results(it->path())))
-      it.disable_recursion_pending();
-    else if (it->is_regular_file(ignored) && !is_hidden(it->path()) && format_from_extension(it->path().string()))
-      meshes.push_back({it->path(), it->path().lexically_relative(folder).generic_string()});
+/// Searches a folder and those below it.
+class FolderSearch {
+ public:
+  FolderSearch(const fs::path& root, const fs::path& results) : root_(root), results_(results) {}
+
+  BatchInputs run() {
+    folders_ = {root_};
+    while (!folders_.empty()) {
+      const fs::path folder = std::move(folders_.back());
+      folders_.pop_back();
+      list(folder);
+    }
+    return std::move(found_);
   }
-  if (error) throw FileError(fmt::format("{}: cannot list the folder: {}", folder.string(), error.message()));
-  return meshes;
-}
+
+ private:
+  void list(const fs::path& folder) {
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) take(*it);
+    if (!error) return;
+    if (folder == root_) throw_read_error(folder.string() + ": cannot list the folder", error.value());
+    found_.meshes.push_back({folder, name_of_entry(folder) + "/", 0, "cannot list the folder: " + error.message()});
+  }
+
+  void take(const fs::directory_entry& entry) {
+    if (is_hidden(entry.path())) return;
+    std::error_code error;
+    if (entry.is_directory(error)) {
+      if (!entry.is_symlink(error) && !holds_results(entry.path())) folders_.push_back(entry.path());
+    } else if (entry.is_regular_file(error)) {
+      take_file(entry.path());
+    } else if (error && error != std::errc::no_such_file_or_directory) {
+      found_.meshes.push_back({entry.path(), name_of_entry(entry.path()), 0, "cannot be read: " + error.message()});
+    }
+  }
+
+  void take_file(const fs::path& path) {
+    const std::string name = name_of_entry(path);
+    if (format_from_extension(path.string())) {
+      found_.meshes.push_back({path, name});
+    } else {
+      const std::string extension = path.extension().string();
+      OtherFiles& others = found_.others[extension.empty() ? "without an extension" : "*" + extension];
+      if (others.count++ == 0 || name < others.first) others.first = name;
+    }
+  }
+
+  std::string name_of_entry(const fs::path& path) const { return path.lexically_relative(root_).generic_string(); }
+
+  /// The folder that is searched may be that of the results too.
+  bool holds_results(const fs::path& path) const {
+    std::error_code ignored;
+    return fs::equivalent(path, results_, ignored) || fs::equivalent(path, results_ / "fixed", ignored) ||
+           fs::equivalent(path, results_ / "work", ignored);
+  }
+
+  const fs::path root_, results_;
+  std::vector<fs::path> folders_;  // still to be listed
+  BatchInputs found_;
+};
 
 /// The folders of a path are kept; of one that leads out of the current folder, all from the root on.
 std::string name_of(const fs::path& path) {
@@ -60,49 +100,63 @@ bool stays_inside(const fs::path& name) {
          std::none_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".." || part == "."; });
 }
 
-std::vector<BatchMesh> meshes_of_list(std::istream& lines, const std::string& list) {
+BatchMesh mesh_of_line(const std::string& line, const std::string& place) {
+  const std::size_t tab = line.find('\t');
+  const std::string path = line.substr(0, tab);
+  const std::string name = tab == std::string::npos && !path.empty() ? name_of(path) : line.substr(tab + 1);
+  BatchMesh mesh{path, name};
+  if (path.empty()) {
+    mesh.fault = place + ": there is no path of a mesh before the tab";
+  } else if (!stays_inside(name)) {
+    mesh.fault = fmt::format("{}: '{}' is no name of a result; give a relative path without '..'", place, name);
+  } else if (!format_from_extension(name)) {
+    mesh.fault = fmt::format("{}: the extension of '{}' tells no format that is read; choose {}", place, name,
+                             format_names(" or "));
+  }
+  if (name.empty()) mesh.name = place;
+  return mesh;
+}
+
+std::vector<BatchMesh> meshes_of_list(std::istream&& lines, const std::string& list) {
   std::vector<BatchMesh> meshes;
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
     if (line.ends_with('\r')) line.pop_back();
-    if (line.empty()) continue;
-    const std::size_t tab = line.find('\t');
-    const std::string path = line.substr(0, tab);
-    const std::string name = tab == std::string::npos ? name_of(path) : line.substr(tab + 1);
-    if (path.empty() || !stays_inside(name))
-      throw FileError(
-          fmt::format("{}:{}: '{}' is no name of a result; give a relative path without '..'", list, number, name));
-    if (!format_from_extension(name))
-      throw FileError(fmt::format("{}:{}: the extension of '{}' tells no format that is read; choose {}", list, number,
-                                  name, format_names(" or ")));
-    meshes.push_back({path, name});
+    if (!line.empty()) meshes.push_back(mesh_of_line(line, fmt::format("{}:{}", list, number)));
   }
-  require_no_failure(lines, list);
   return meshes;
 }
 
-/// Two meshes must not write to one place. The same path twice is one mesh.
-void sort_and_check(std::vector<BatchMesh>& meshes) {
-  std::sort(meshes.begin(), meshes.end(),
-            [](const BatchMesh& a, const BatchMesh& b) { return std::tie(a.name, a.path) < std::tie(b.name, b.path); });
-  const auto same = [](const BatchMesh& a, const BatchMesh& b) { return a.name == b.name && a.path == b.path; };
-  meshes.erase(std::unique(meshes.begin(), meshes.end(), same), meshes.end());
+/// Two meshes must not write to one place: the second is refused. The same path twice is one mesh.
+void keep_places_apart(std::vector<BatchMesh>& meshes) {
   std::map<fs::path, const BatchMesh*> by_place;
-  for (const BatchMesh& mesh : meshes) {
-    const auto [same, is_new] = by_place.emplace(BatchFolder::mesh(mesh.name), &mesh);
-    if (!is_new)
-      throw UsageError(
-          fmt::format("{} and {} would both be written to {}; give one another name, after a tab in the "
-                      "list",
-                      same->second->path.string(), mesh.path.string(), mesh.name));
+  std::vector<BatchMesh> kept;
+  kept.reserve(meshes.size());
+  for (BatchMesh& mesh : meshes) {
+    if (!mesh.fault.empty()) {
+      kept.push_back(std::move(mesh));
+      continue;
+    }
+    const auto same = by_place.find(BatchFolder::mesh(mesh.name));
+    if (same != by_place.end() && same->second->path == mesh.path) continue;
+    kept.push_back(std::move(mesh));
+    if (same == by_place.end()) {
+      by_place.emplace(BatchFolder::mesh(kept.back().name), &kept.back());
+    } else {
+      kept.back().fault =
+          fmt::format("{} and {} would both be written to {}; give one another name, after a tab in the list",
+                      same->second->path.string(), kept.back().path.string(), kept.back().name);
+    }
   }
-  for (const auto& [place, mesh] : by_place)
-    for (fs::path folder = place.parent_path(); !folder.empty(); folder = folder.parent_path())
+  for (BatchMesh& mesh : kept)
+    for (fs::path folder = fs::path(BatchFolder::mesh(mesh.name)).parent_path(); !folder.empty() && mesh.fault.empty();
+         folder = folder.parent_path())
       if (const auto file = by_place.find(folder); file != by_place.end())
-        throw UsageError(
-            fmt::format("{} and {} would be written to {} and to a folder of that name; give one another name, after "
-                        "a tab in the list",
-                        file->second->path.string(), mesh->path.string(), file->second->name));
+        mesh.fault = fmt::format(
+            "{} and {} would be written to {} and to a folder of that name; give one another name, after a tab in the "
+            "list",
+            file->second->path.string(), mesh.path.string(), file->second->name);
+  meshes = std::move(kept);
 }
 
 std::optional<std::size_t> whole_number(const char* text) {
@@ -129,67 +183,50 @@ Shard shard_of_slurm_task() {
   return {(*id - first) / step, *count};
 }
 
-/// Resolves a relative URI of a glTF.
-std::string decoded(const std::string& uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned int code = 0;
-    if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::from_chars(uri.data() + i + 1, uri.data() + i + 3, code, 16).ptr == uri.data() + i + 3) {
-      text += static_cast<char>(code);
-      i += 2;
-    } else {
-      text += uri[i];
-    }
-  }
-  return text;
-}
-
 /// The files that hold the numbers of a glTF. One that is no glTF refers to none: reading it will say what is wrong.
 std::vector<fs::path> buffers_of_gltf(const fs::path& gltf) {
   std::vector<fs::path> files;
-  std::ifstream file(gltf, std::ios::binary);
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  const nlohmann::json json = nlohmann::json::parse(bytes_if_readable(gltf.string()), nullptr, false);
   if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return files;
   for (const nlohmann::json& buffer : json["buffers"])
     if (buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string())
       if (const std::string uri = buffer["uri"]; !uri.starts_with("data:"))
-        files.push_back(gltf.parent_path() / decoded(uri));
+        files.push_back(gltf.parent_path() / decoded_uri(uri));
   return files;
 }
 
 /// The same of a GIFTI, which is read whole only where it has such files.
 std::vector<fs::path> external_files_of_gifti(const fs::path& gifti) {
   std::vector<fs::path> files;
-  std::ifstream file(gifti, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (text.find("ExternalFileBinary") == std::string::npos) return files;
+  if (bytes_if_readable(gifti.string()).find("ExternalFileBinary") == std::string::npos) return files;
   for (const fs::path& name : external_files(gifti, Format::gii)) files.push_back(gifti.parent_path() / name);
   return files;
 }
 
 }  // namespace
 
-std::vector<BatchMesh> batch_meshes(const std::string& list_or_folder, const fs::path& results) {
-  std::vector<BatchMesh> meshes;
-  std::error_code ignored;
+BatchInputs batch_inputs(const std::string& list_or_folder, const fs::path& results) {
+  BatchInputs inputs;
+  std::error_code error;
   if (list_or_folder == standard_stream) {
-    meshes = meshes_of_list(std::cin, "standard input");
-  } else if (fs::is_directory(list_or_folder, ignored)) {
-    meshes = meshes_below(list_or_folder, results);
+    inputs.meshes = meshes_of_list(std::istringstream(read_bytes(standard_stream)), "standard input");
+  } else if (fs::is_directory(list_or_folder, error)) {
+    inputs = FolderSearch(list_or_folder, results).run();
   } else {
     if (const auto format = format_from_extension(list_or_folder))
       throw UsageError(fmt::format(
           "{} is a mesh; give a folder of meshes or a list of their paths, or use 'unsnarl fix'", list_or_folder));
-    std::ifstream list = opened(list_or_folder, "; give a folder of meshes, or a file with a path a line");
-    meshes = meshes_of_list(list, list_or_folder);
+    inputs.meshes = meshes_of_list(
+        std::istringstream(read_bytes(list_or_folder, "; give a folder of meshes, or a file with a path a line")),
+        list_or_folder);
   }
-  if (meshes.empty()) throw FileError(fmt::format("{}: no mesh in it ({})", list_or_folder, format_names(", ")));
-  sort_and_check(meshes);
-  for (BatchMesh& mesh : meshes)
-    if (const std::uintmax_t bytes = fs::file_size(mesh.path, ignored); bytes != static_cast<std::uintmax_t>(-1))
-      mesh.bytes = bytes;
-  return meshes;
+  if (inputs.meshes.empty()) throw FileError(fmt::format("{}: no mesh in it ({})", list_or_folder, format_names(", ")));
+  std::stable_sort(inputs.meshes.begin(), inputs.meshes.end(),
+                   [](const BatchMesh& a, const BatchMesh& b) { return a.name < b.name; });
+  keep_places_apart(inputs.meshes);
+  for (BatchMesh& mesh : inputs.meshes)
+    if (const std::uintmax_t bytes = fs::file_size(mesh.path, error); mesh.fault.empty() && !error) mesh.bytes = bytes;
+  return inputs;
 }
 
 Shard shard_from(const std::string& text) {
@@ -206,6 +243,34 @@ std::vector<BatchMesh> part_of(const std::vector<BatchMesh>& meshes, const Shard
   std::vector<BatchMesh> part;
   for (std::size_t i = shard.index; i < meshes.size(); i += shard.count) part.push_back(meshes[i]);
   return part;
+}
+
+std::string encoded_uri(const std::string& path) {
+  std::string uri;
+  const bool is_text = is_utf8(path);
+  for (const char byte : path) {
+    const auto code = static_cast<unsigned char>(byte);
+    if (byte == '%' || (!is_text && code >= 0x80))
+      uri += fmt::format("%{:02X}", code);
+    else
+      uri += byte;
+  }
+  return uri;
+}
+
+std::string decoded_uri(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned int code = 0;
+    if (uri[i] == '%' && i + 2 < uri.size() &&
+        std::from_chars(uri.data() + i + 1, uri.data() + i + 3, code, 16).ptr == uri.data() + i + 3) {
+      text += static_cast<char>(code);
+      i += 2;
+    } else {
+      text += uri[i];
+    }
+  }
+  return text;
 }
 
 std::string content_hash(const BatchMesh& mesh) {

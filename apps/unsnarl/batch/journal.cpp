@@ -7,12 +7,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
-#include "unsnarl/document.h"
+#include "input_bytes.h"
 
 namespace unsnarl::app {
 namespace {
@@ -31,12 +30,13 @@ bool ends_in_the_middle_of_a_line(int file) {
 void BatchJournal::read() {
   entries_.clear();
   std::vector<fs::path> files;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder_, ignored))
-    if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
+  std::error_code error;
+  for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error))
+    if (it->path().extension() == ".jsonl") files.push_back(it->path());
+  if (is_error_of_system(error.value())) throw_read_error(folder_.string() + ": cannot list the folder", error.value());
   std::sort(files.begin(), files.end());
   for (const fs::path& path : files) {
-    std::ifstream file(path);
+    std::istringstream file(bytes_if_readable(path.string()));
     for (std::string line; std::getline(file, line);) take(line);
   }
 }
@@ -48,7 +48,7 @@ BatchJournal::~BatchJournal() {
 void BatchJournal::open(const std::string& name, const std::function<void()>& before_waiting) {
   path_ = folder_ / (name + ".jsonl");
   file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (file_ < 0) throw WriteError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
+  if (file_ < 0) throw_write_error(path_.string() + ": cannot be written", errno);
   // A file system without locks is no reason to do nothing: two runs at once do the same work and write the same bytes.
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     before_waiting();
@@ -100,8 +100,7 @@ void BatchJournal::append(const std::string& line) {
   const std::lock_guard lock(mutex_);
   const ssize_t written = ::write(file_, bytes.data(), bytes.size());
   if (written != static_cast<ssize_t>(bytes.size()))
-    throw WriteError(fmt::format("{}: cannot be written: {}", path_.string(),
-                                 written < 0 ? std::strerror(errno) : "the disk is full"));
+    throw_write_error(path_.string() + ": cannot be written", written < 0 ? errno : ENOSPC);
 }
 
 }  // namespace unsnarl::app

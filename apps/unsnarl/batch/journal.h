@@ -21,20 +21,21 @@ struct JournalEntry {
 /// run was killed are skipped.
 class BatchJournal {
  public:
-  /// Reads the journals in `folder`, which need not exist.
+  /// Reads the journals in `folder`, which need not exist. Throws SystemError.
   explicit BatchJournal(const std::filesystem::path& folder) : folder_(folder) { read(); }
   ~BatchJournal();
   BatchJournal(const BatchJournal&) = delete;
   BatchJournal& operator=(const BatchJournal&) = delete;
 
   /// Opens NAME.jsonl for the lines to come, for this process alone: waits until another run on this machine that works
-  /// on the same shard has ended, after calling `before_waiting`. Then reads all journals anew. Throws WriteError.
+  /// on the same shard has ended, after calling `before_waiting`. Then reads all journals anew. Throws WriteError,
+  /// SystemError.
   void open(const std::string& name, const std::function<void()>& before_waiting);
 
   /// nullptr: nothing is known of this key.
   const JournalEntry* find(const std::string& key) const;
 
-  // By any thread. Throw WriteError.
+  // By any thread. Throw WriteError, SystemError.
   void started(const std::string& key);
   void stopped(const std::string& key);
   void ended(const std::string& key, const std::string& result);

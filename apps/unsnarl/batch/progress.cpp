@@ -10,7 +10,7 @@ namespace unsnarl::app {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
-constexpr Seconds tick_length(1), log_interval(60);
+constexpr Seconds tick_length(1), log_interval(30);
 
 std::string duration(double seconds) {
   if (seconds < 120) return fmt::format("{:.0f} s", seconds);
@@ -55,7 +55,7 @@ void BatchProgress::watch(const std::function<void()>& tick) {
     lock.unlock();
     if (!ended) tick();
     if (!quiet_ && on_terminal_) {
-      tell("\r\x1b[K" + line + (ended ? "\n" : ""));
+      draw("\r\x1b[K" + line + (ended ? "\n" : ""));
     } else if (!quiet_ && (ended || Clock::now() >= next_log)) {
       tell(line + "\n");
       next_log = Clock::now() + std::chrono::duration_cast<Clock::duration>(log_interval);

@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
+#include "input_bytes.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/intersections.h"
+#include "unsnarl/visible_text.h"
 
 namespace unsnarl::app {
 namespace {
@@ -35,8 +35,7 @@ constexpr std::size_t longest_message = 500;  // bytes
 
 /// The last line of what a worker said, where programs put the reason.
 std::string last_line(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text = bytes_if_readable(path.string());
   while (!text.empty() && text.back() == '\n') text.pop_back();
   text = text.substr(text.rfind('\n') + 1);
   if (text.starts_with("unsnarl: ")) text = text.substr(9);
@@ -51,6 +50,7 @@ std::string status_of(const WorkerEnd& end, const Record& report) {
     case exit_usage: return status_usage_error;
     case exit_invalid_input: return status_invalid_input;
     case exit_cannot_write: return status_cannot_write;
+    case exit_system_error: return status_system_error;
     case exit_limit: return std::string(to_string(Status::memory_limit));
     default: return status_internal_error;
   }
@@ -115,13 +115,16 @@ const std::vector<std::string>& record_columns() {
   return columns;
 }
 
+std::string as_utf8(const std::string& name) {
+  return is_utf8(name) ? name : visible_text(name);
+}
+
 Record record_of(const std::string& mesh, const WorkerEnd& end, const std::filesystem::path& report_path,
                  const std::filesystem::path& standard_error) {
-  std::ifstream file(report_path, std::ios::binary);
-  const Record report = file ? Record::parse(file, nullptr, false) : Record();
+  const Record report = Record::parse(bytes_if_readable(report_path.string()), nullptr, false);
   const bool is_whole = report.is_object() && report.contains("before");  // else the mesh was refused
   Record record;
-  record["mesh"] = mesh;
+  record["mesh"] = as_utf8(mesh);
   record["status"] = status_of(end, is_whole ? report : Record::object());
   record["exit_code"] = end.timed_out ? static_cast<int>(exit_limit) : end.exit_code;
   if (is_whole) take_report(record, report);

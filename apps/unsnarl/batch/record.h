@@ -21,12 +21,17 @@ const std::vector<std::string>& record_columns();
 inline constexpr const char* status_pending = "pending";
 inline constexpr const char* status_invalid_input = "invalid_input";
 inline constexpr const char* status_cannot_write = "cannot_write";
+inline constexpr const char* status_system_error = "system_error";
 inline constexpr const char* status_usage_error = "usage_error";
 inline constexpr const char* status_internal_error = "internal_error";
 inline constexpr const char* status_killed = "killed";
 inline constexpr const char* status_ended_the_batch = "ended_the_batch";
 
+/// A name for a record: itself, or where it is no text what can be read of it.
+std::string as_utf8(const std::string& name);
+
 /// The record of a mesh from how its worker ended, its report and what it said; either file may be missing.
+/// Throws SystemError.
 Record record_of(const std::string& mesh, const WorkerEnd& end, const std::filesystem::path& report,
                  const std::filesystem::path& standard_error);
 

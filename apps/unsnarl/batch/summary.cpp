@@ -16,12 +16,20 @@ std::string text_of(const Record& value) {
   return value.dump(-1, ' ', false, Record::error_handler_t::replace);
 }
 
+/// Text that a spreadsheet takes for text: what it would compute begins with one of these characters. The mark before
+/// them goes before marks too, so that taking one mark away always gives the text back.
+std::string harmless(const std::string& text) {
+  constexpr std::string_view computed = "=+-@\t\r\n", mark = "'";
+  const bool begins = !text.empty() && (computed.find(text[0]) != computed.npos || text.starts_with(mark));
+  return begins ? std::string(mark) + text : text;
+}
+
 /// A value as a field of CSV (RFC 4180).
 std::string csv_field(const Record& record, const std::string& column) {
   const auto found = record.find(column);
   if (found == record.end() || found->is_null()) return {};
   if (!found->is_string()) return text_of(*found);
-  std::string text = found->get<std::string>();
+  std::string text = harmless(found->get<std::string>());
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   for (std::size_t i = 0; (i = text.find('"', i)) != std::string::npos; i += 2) text.insert(i, 1, '"');
   return '"' + text + '"';

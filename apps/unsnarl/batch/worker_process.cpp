@@ -1,13 +1,16 @@
 #include "batch/worker_process.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
+#include <cstring>
+
+#include "unsnarl/errors.h"
 
 #ifdef __linux__
 #include <sys/prctl.h>
@@ -69,7 +72,7 @@ WorkerEnd WorkerProcesses::run(const std::string& program, const std::vector<std
   const Clock::time_point start = Clock::now();
   const pid_t self = ::getpid();
   const pid_t child = ::fork();
-  if (child < 0) throw std::system_error(errno, std::generic_category(), "cannot start a process");
+  if (child < 0) throw SystemError(fmt::format("cannot start a process: {}", std::strerror(errno)), errno);
   if (child == 0) become(words.data(), standard_error.c_str(), self);
 
   std::list<Running>::iterator entry;
@@ -97,8 +100,7 @@ WorkerEnd WorkerProcesses::run(const std::string& program, const std::vector<std
   end.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   end.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   end.peak_memory_mb = 1e-6 * bytes_of_maxrss * static_cast<double>(usage.ru_maxrss);
-  if (end.exit_code == exit_cannot_start)
-    throw std::system_error(ENOENT, std::generic_category(), program + ": cannot be started");
+  if (end.exit_code == exit_cannot_start) throw FileError(program + ": cannot be started; --worker needs a program");
   return end;
 }
 

@@ -23,7 +23,8 @@ struct WorkerEnd {
 class WorkerProcesses {
  public:
   /// Runs a program to its end, its standard error going to a file. time_limit_s: beyond it the worker is killed by
-  /// stop_late_ones(); 0: none. Throws std::system_error where no process can be started.
+  /// stop_late_ones(); 0: none. Throws SystemError where no process can be started,
+  /// FileError where this program cannot.
   WorkerEnd run(const std::string& program, const std::vector<std::string>& arguments,
                 const std::filesystem::path& standard_error, double time_limit_s);
   /// Kills those beyond their limits; to be called now and then.

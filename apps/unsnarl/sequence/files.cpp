@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <new>
 #include <optional>
 
 #include "content_hash.h"
@@ -30,9 +31,17 @@ bool is_there(const fs::path& path) {
 std::vector<std::string> matches_of(const std::string& pattern) {
   if (is_there(pattern)) return {pattern};  // its name may hold brackets
   glob_t found{};
-  const int status = ::glob(pattern.c_str(), 0, nullptr, &found);
+  thread_local int failure = 0;
+  failure = 0;
+  const auto note_failure = [](const char*, int error_number) -> int {
+    if (is_error_of_system(error_number)) failure = error_number;
+    return failure;
+  };
+  const int status = ::glob(pattern.c_str(), 0, note_failure, &found);
   std::vector<std::string> paths(found.gl_pathv, found.gl_pathv + (status == 0 ? found.gl_pathc : 0));
   ::globfree(&found);
+  if (status == GLOB_NOSPACE) throw std::bad_alloc();
+  if (failure != 0) throw_read_error(pattern + ": cannot list the folder", failure);
   if (paths.empty()) throw FileError(pattern + ": there is no such file");
   return paths;
 }

@@ -6,17 +6,17 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
+#include <sstream>
 #include <utility>
 
-#include "unsnarl/document.h"
+#include "input_bytes.h"
 
 namespace unsnarl::app {
 
 SequenceRecord::Lock::Lock(const std::filesystem::path& path)
     : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (file_ < 0) throw WriteError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+  if (file_ < 0) throw_write_error(path.string() + ": cannot be written", errno);
   while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
   }
 }
@@ -38,7 +38,7 @@ std::unique_ptr<SequenceRecord::Lock> SequenceRecord::lock() {
 void SequenceRecord::read() {
   lines_.clear();
   ends_in_a_line_ = true;
-  std::ifstream file(path_);
+  std::istringstream file(bytes_if_readable(path_.string()));
   for (std::string line; std::getline(file, line);) {
     ends_in_a_line_ = !file.eof();
     Json json = Json::parse(line, nullptr, false);

@@ -29,7 +29,7 @@ class SequenceRecord {
    private:
     int file_ = -1;
   };
-  /// Waits for other calls, then reads what they have added. Throws WriteError.
+  /// Waits for other calls, then reads what they have added. Throws WriteError, SystemError.
   std::unique_ptr<Lock> lock();
 
   /// The line of a frame that is done; null: it is not.

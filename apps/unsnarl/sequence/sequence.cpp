@@ -122,6 +122,7 @@ class SequenceRun {
     }
     for (const std::string& note : files_->mesh().notes()) display_.say("note: {}", note);
     require_own_places();
+    display_.begin("read");
     read_contents();
     if (files_->is_one_file()) {
       const auto lock = record_.lock();
@@ -134,6 +135,8 @@ class SequenceRun {
       context.cancel();
       if (!options_.quiet) tell("\nstopping; the frames that are done stay, and the same call goes on from there\n");
     });
+    display_.count("frames", sequence_.last - sequence_.first);
+    display_.begin("frames");
     reports_ = repair_sequence(
         source(), sequence_, [&](FrameResult&& result) { take(std::move(result)); }, &context);
     interruption_.set_handler(nullptr);
@@ -256,9 +259,12 @@ class SequenceRun {
     double displacement_mean = 0, displacement_max = 0;  // / diagonal of each frame
     double mean_length = 0, max_length = 0;              // the same in the units of the file
     double untouched_mean = 0, untouched_min = 1;
-    Jitter jitter, alone;  // over the frames of which both are known
+    Jitter jitter, alone;                 // over the frames of which both are known
+    std::size_t farthest = 0;             // the frame of displacement_max
+    std::vector<std::size_t> unsmoothed;  // frames that were repaired, each by itself
   };
   Summary summary() const;
+  std::string names_of_frames(const std::vector<std::size_t>& frames) const;
   std::string report_json() const;
   void summarise();
 
@@ -291,7 +297,11 @@ SequenceRun::Summary SequenceRun::summary() const {
     sum.with_pairs += frame["before"]["total"] != 0;
     sum.smoothed += frame["is_smoothed"].get<bool>();
     sum.displacement_mean += report.displacement_mean_rel;
-    sum.displacement_max = std::max(sum.displacement_max, report.displacement_max_rel);
+    if (report.displacement_max_rel > sum.displacement_max) {
+      sum.displacement_max = report.displacement_max_rel;
+      sum.farthest = report.frame;
+    }
+    if (report.untouched_share < 1 && !frame["is_smoothed"].get<bool>()) sum.unsmoothed.push_back(report.frame);
     sum.mean_length += report.displacement_mean_rel * report.diagonal;
     sum.max_length = std::max(sum.max_length, report.displacement_max_rel * report.diagonal);
     sum.untouched_mean += report.untouched_share;
@@ -312,6 +322,15 @@ SequenceRun::Summary SequenceRun::summary() const {
   sum.jitter.mean_rel /= m;
   sum.alone.mean_rel /= m;
   return sum;
+}
+
+/// The first few by name, the others by number.
+std::string SequenceRun::names_of_frames(const std::vector<std::size_t>& frames) const {
+  constexpr std::size_t most_names = 8;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(frames.size(), most_names); ++i) names.push_back(files_->name(frames[i]));
+  if (frames.size() > most_names) names.push_back(fmt::format("{} more", frames.size() - most_names));
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string SequenceRun::report_json() const {
@@ -365,6 +384,10 @@ void SequenceRun::summarise() {
         "  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal ({:.2g}) at most, {:.2g} % ({:.2g}) on average",
         100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, sum.max_length, 100 * sum.displacement_mean,
         sum.mean_length);
+  if (sum.displacement_max > 0)
+    display_.say("  farthest: {}, by {:.2g} % of the diagonal", files_->name(sum.farthest), 100 * sum.displacement_max);
+  if (!sum.unsmoothed.empty())
+    display_.say("  not smoothed, but as a repair of the frame alone left it: {}", names_of_frames(sum.unsmoothed));
   if (sum.jitter_frames > 0)
     display_.say(
         "  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; repaired one by one {:.2g} % and {:.2g} %",

@@ -76,7 +76,7 @@ CurveDocument CurveDocument::read(const std::string& path, double flatten_rel, s
   try {
     return parse(std::move(bytes), *format, flatten_rel);
   } catch (const FileError& e) {
-    throw FileError(fmt::format("{}: {}", path, e.what()));
+    throw FileError(fmt::format("{}: {}", path, e.what()), e.error_number());
   }
 }
 

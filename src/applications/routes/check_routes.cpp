@@ -7,6 +7,7 @@
 
 #include "applications/routes/proven_bounds.h"
 #include "applications/routes/segments.h"
+#include "unsnarl/visible_text.h"
 
 namespace unsnarl {
 namespace {
@@ -173,7 +174,7 @@ RouteFindings check_routes(const RoutePlan& plan, std::span<const Route> routes)
 }
 
 std::string route_faults(const RoutePlan& plan, const RouteFindings& f) {
-  const auto name = [&](int agent) -> const std::string& { return plan.agents[agent].name; };
+  const auto name = [&](int agent) { return visible_text(plan.agents[agent].name); };
   std::string text;
   if (!f.places_kept) text += "a route does not go through the places of its agent\n";
   if (f.clearance < 1)
@@ -182,7 +183,7 @@ std::string route_faults(const RoutePlan& plan, const RouteFindings& f) {
                     plan.timed ? "at some time" : "the routes of", name(f.agents[0]), name(f.agents[1]), f.clearance);
   if (f.obstacle_clearance < 1)
     text += fmt::format("the route of '{}' has {:.6g} of the distance from the obstacle '{}' that it needs\n",
-                        name(f.obstacle[0]), f.obstacle_clearance, plan.obstacles[f.obstacle[1]].name);
+                        name(f.obstacle[0]), f.obstacle_clearance, visible_text(plan.obstacles[f.obstacle[1]].name));
   if (f.self_clearance < 1)
     text += fmt::format("the route of '{}' has {:.6g} of the distance from itself that it needs\n", name(f.self),
                         f.self_clearance);
