@@ -48,6 +48,7 @@ sigset_t signals_to_wait_for() {
 }  // namespace
 
 Interruption::Interruption() {
+  state();  // made while there is memory: it is needed where there is none
   // A reader of our output that goes away is a failed write, with a message and an exit code, not a silent death.
   signal(SIGPIPE, SIG_IGN);
   // So is a file beyond the limit that the shell sets (ulimit -f).

@@ -165,10 +165,6 @@ TEST_F(FilePlaces, NoCommandOverwritesWhatItReads) {
   const std::string curves = folder / "curves.json";
   write(curves, R"({"curves": [{"closed": true, "points": [[0, 0], [9, 0], [0, 9]]}]})");
   expect_refusal({"curves", curves, "-o", folder / "c.json", "--report", curves}, "the input and --report");
-
-  const std::string list = folder / "list.txt";
-  write(list, in + "\tfixed.obj\n" + in + "\tfixed.obj/other.obj\n");
-  expect_refusal({"batch", list, "-o", folder / "batch"}, "to a folder of that name");
 }
 
 TEST_F(FilePlaces, AFrameDoesNotOverwriteAnotherFrameThroughALink) {
