@@ -10,6 +10,10 @@ function(run)
   endif()
 endfunction()
 
+cmake_path(IS_PREFIX BUILD_DIR ${WORK_DIR} NORMALIZE is_of_the_build)
+if(NOT is_of_the_build)
+  message(FATAL_ERROR "WORK_DIR is emptied and so has to be a folder below BUILD_DIR")
+endif()
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix --component unsnarl)
 run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix

@@ -28,9 +28,13 @@ def main():
             print(f"{tool} is not installed")
             sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory() as work:
+        target = Path(work) / "packages"
+        target.mkdir()
+        (target / "notes.txt").write_text("of somebody")
         made = output(sys.executable, "-B", PROJECT / "packaging" / "build_packages", "--build-dir", sys.argv[1], "-o",
-                      Path(work) / "packages")
+                      target)
         deb, tarball = made.split()
+        assert sorted(map(str, target.iterdir())) == sorted([deb, tarball, str(target / "notes.txt")])
         held = {line.split()[5] for line in output("dpkg-deb", "-c", deb).splitlines()}
         missing = [path for path in INSTALLED if f"./usr/{path}" not in held]
         assert not missing, missing
