@@ -8,11 +8,12 @@ import tempfile
 from contextlib import contextmanager
 from pathlib import Path
 
+MADE = "etc/made_for_trials"  # in a root: that it is ours, to install to and to remove from
 LONGEST_NAME = 100  # characters of a root's folder; file systems take 255, some tools add to it
 
 
 def make_root(folder, suite, packages):
-    """A Debian of this release with its base system and these packages alone; one that is there is taken as it is."""
+    """A Debian of this release with its base system and these packages alone; one that was made before is taken as it is."""
     name = "-".join([suite, *sorted(packages)])
     if len(name) > LONGEST_NAME:
         name = f"{suite}-{hashlib.sha256(name.encode()).hexdigest()[:12]}"
@@ -24,7 +25,10 @@ def make_root(folder, suite, packages):
             unfinished = Path(beside) / name
             include = [f"--include={','.join(packages)}"] if packages else []
             subprocess.run(["mmdebstrap", "--quiet", "--variant=minbase", *include, suite, unfinished], check=True)
+            (unfinished / MADE).touch()
             unfinished.rename(root)
+    if not (root / MADE).exists():
+        sys.exit(f"error: {root} was not made by this script; name another folder with --roots")
     return root
 
 
