@@ -54,9 +54,10 @@ if(missing)
   list(JOIN missing " " names)
   set(advice "")
   if("libgtest-dev" IN_LIST missing)
-    set(advice "; libgtest-dev is for the tests alone: -DUNSNARL_BUILD_TESTS=OFF does without")
+    set(advice "libgtest-dev is for the tests alone: -DUNSNARL_BUILD_TESTS=OFF does without.")
   endif()
-  message(FATAL_ERROR "Missing, or too old. Debian: apt-get install --no-install-recommends ${names}${advice}")
+  # CMake leaves lines that begin with a space as they are, to be copied.
+  message(FATAL_ERROR "Missing, or too old. On Debian:\n  apt-get install --no-install-recommends ${names}\n${advice}")
 endif()
 
 # What a program is linked with that is linked with the static library: as CMake packages, names for the linker, and

@@ -27,7 +27,7 @@ def weaknesses(path):
         "no text relocations": "TEXTREL" not in dynamic,
         "the stack protector": "__stack_chk_fail" in symbols,
         "_FORTIFY_SOURCE": bool(re.search(r"__\w+_chk\b", symbols.replace("__stack_chk", ""))),
-        "_GLIBCXX_ASSERTIONS": "__glibcxx_assert_fail" in symbols,
+        "_GLIBCXX_ASSERTIONS": b"__n < this->size()" in path.read_bytes(),
         "marks where indirect jumps may land": code.count("endbr64") > 1000,
         # Larger frames are probed page by page, and none is entered without.
         "stack clash protection": bool(re.search(r"sub\s+\$0x1000,%rsp\s*\n.*or[ql]\s+\$0x0,", code)),

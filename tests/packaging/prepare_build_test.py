@@ -73,9 +73,8 @@ class PrepareBuildTest(unittest.TestCase):
                               *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ("fmt", "pugixml", "GTest"))],
                              capture_output=True, text=True)
         self.assertNotEqual(run.returncode, 0)
-        said = " ".join(run.stderr.split())
-        self.assertIn("apt-get install --no-install-recommends libfmt-dev libpugixml-dev libgtest-dev; libgtest-dev is for "
-                      "the tests alone: -DUNSNARL_BUILD_TESTS=OFF does without", said)
+        self.assertIn("  apt-get install --no-install-recommends libfmt-dev libpugixml-dev libgtest-dev\n", run.stderr)
+        self.assertIn("-DUNSNARL_BUILD_TESTS=OFF", run.stderr)
 
     def test_the_site_says_what_it_needs(self):
         run = subprocess.run(["cmake", "-DPROGRAM=x", f"-DSITE={self.root}", "-DCMAKE_SYSTEM_PROGRAM_PATH=/nowhere",
@@ -83,7 +82,7 @@ class PrepareBuildTest(unittest.TestCase):
                               "-DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF", "-P", PROJECT / "cmake/build_site.cmake"],
                              capture_output=True, text=True)
         self.assertNotEqual(run.returncode, 0)
-        self.assertIn("apt-get install --no-install-recommends mkdocs", " ".join(run.stderr.split()))
+        self.assertIn("  apt-get install --no-install-recommends mkdocs python3-pygments\n", run.stderr)
 
     def test_lines_arrive_whole(self):
         text = "".join(f"[{i}/1000] line {i}\n" for i in range(1, 1001)) + "the last without an end"
