@@ -65,6 +65,26 @@ class Run:
         self.stderr = output["err"].decode(errors="replace")
 
 
+MADE_BY = ".made_by_bench"  # a file in each folder of results: which script's it is
+
+
+def results_folder(path):
+    """The folder for the results of the script that runs, made where there is none.
+
+    The script may delete in it and write over what is there. So it ends the process instead where the folder holds
+    anything and the same script has not made it.
+    """
+    path, script = Path(path).absolute(), Path(sys.argv[0]).name
+    mark = path / MADE_BY
+    if path.exists() and (not path.is_dir() or any(path.iterdir())):
+        if not mark.is_file() or mark.read_text().strip() != script:
+            sys.exit(f"error: {path} is not empty, and bench/{script} has not made it. Nothing was changed. "
+                     "Name a new folder with -o, or an empty one.")
+    path.mkdir(parents=True, exist_ok=True)
+    mark.write_text(script + "\n")
+    return path
+
+
 def find_meshes(roots):
     """(dataset, name, path) of every mesh among files and below folders, in a fixed order. A dataset is the first
     folder below the one given, or the one given where meshes lie in it directly."""

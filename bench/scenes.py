@@ -1,6 +1,7 @@
 """Meshes of any size with tangles in them, made of the program's own samples: for bench/scale."""
 
 import subprocess
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -29,14 +30,13 @@ def write_obj(path, vertices, triangles):
 
 def sample(program, name):
     """A built-in sample, as triangles."""
-    path = Path(program).parent / f".{name}.obj"
     run = subprocess.run([program, "sample", name, "-o", "-", "--format", "obj"], capture_output=True)
     if run.returncode:
         raise RuntimeError(f"'unsnarl sample {name}' failed: {run.stderr.decode()}")
-    path.write_bytes(run.stdout)
-    mesh = read_obj(path)
-    path.unlink()
-    return mesh
+    with tempfile.NamedTemporaryFile(suffix=".obj") as file:
+        file.write(run.stdout)
+        file.flush()
+        return read_obj(file.name)
 
 
 def refine(vertices, triangles, chosen):

@@ -11,3 +11,24 @@ target_compile_options(unsnarl_compile_options INTERFACE
   $<$<BOOL:${UNSNARL_WARNINGS_AS_ERRORS}>:-Werror>)
 target_include_directories(unsnarl_compile_options INTERFACE
   ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${UNSNARL_GENERATED_INCLUDE_DIR})
+
+# The same bytes from every folder.
+target_compile_options(unsnarl_compile_options INTERFACE
+  -ffile-prefix-map=${PROJECT_BINARY_DIR}=build -ffile-prefix-map=${PROJECT_SOURCE_DIR}=.)
+
+# A mistake in memory ends the program rather than being of use to a hostile file; tests/packaging/hardening_test.py
+# reads it off what is built. Sanitizers do this and more, in ways of their own.
+string(TOUPPER "CMAKE_CXX_FLAGS_${CMAKE_BUILD_TYPE}" flags_of_the_type)
+if(NOT "${CMAKE_CXX_FLAGS} ${${flags_of_the_type}}" MATCHES "-fsanitize" AND NOT UNSNARL_BUILD_FUZZERS)
+  include(CheckPIESupported)
+  check_pie_supported()
+  set(is_optimised $<NOT:$<CONFIG:Debug>>)  # without, there is nothing that _FORTIFY_SOURCE could check
+  target_compile_options(unsnarl_compile_options INTERFACE
+    -fstack-protector-strong -fstack-clash-protection
+    $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>:-fcf-protection>
+    $<${is_optimised}:-U_FORTIFY_SOURCE> $<${is_optimised}:-D_FORTIFY_SOURCE=2>)
+  # For what reads files and takes arguments. In the solvers, which see surfaces that were checked, it costs more than 1 %.
+  set(UNSNARL_CHECKED -D_GLIBCXX_ASSERTIONS)
+  add_link_options(LINKER:-z,relro LINKER:-z,now LINKER:-z,noexecstack)
+  string(COMPARE NOTEQUAL "${CMAKE_BUILD_TYPE}" Debug UNSNARL_HARDENED)
+endif()

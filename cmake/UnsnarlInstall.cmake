@@ -1,15 +1,34 @@
-# `cmake --install` gives a relocatable package: find_package(unsnarl) brings the target unsnarl::unsnarl.
+# `cmake --install` gives a relocatable package. Component unsnarl: what is used; unsnarl_dev: what programs are built with,
+# by find_package(unsnarl) or pkg-config.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/unsnarl)
-install(TARGETS unsnarl EXPORT unsnarl_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unsnarl)
+set(doc_dir ${CMAKE_INSTALL_DATADIR}/doc/unsnarl)
+install(TARGETS unsnarl EXPORT unsnarl_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT unsnarl_dev)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/unsnarl ${UNSNARL_GENERATED_INCLUDE_DIR}/unsnarl
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT unsnarl FILES_MATCHING PATTERN "*.h")
-install(EXPORT unsnarl_targets NAMESPACE unsnarl:: FILE unsnarl-targets.cmake DESTINATION ${package_dir} COMPONENT unsnarl)
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT unsnarl_dev FILES_MATCHING PATTERN "*.h")
+
+# Two exports: a program in C needs none of what the static library is linked with.
+foreach(export IN ITEMS unsnarl unsnarl_c)
+  install(EXPORT ${export}_targets NAMESPACE unsnarl:: FILE ${export}-targets.cmake DESTINATION ${package_dir}
+          COMPONENT unsnarl_dev)
+endforeach()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/unsnarl-config.cmake.in
   ${PROJECT_BINARY_DIR}/unsnarl-config.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/unsnarl-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/unsnarl-config.cmake ${PROJECT_BINARY_DIR}/unsnarl-config-version.cmake
-        DESTINATION ${package_dir} COMPONENT unsnarl)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/unsnarl COMPONENT unsnarl)
+        DESTINATION ${package_dir} COMPONENT unsnarl_dev)
+
+list(TRANSFORM UNSNARL_LINKED_LIBRARIES PREPEND -l OUTPUT_VARIABLE linked)
+list(JOIN linked " " UNSNARL_LINK_FLAGS)
+set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH UNSNARL_PREFIX_FROM_PC /${pkgconfig_dir} /)
+foreach(file IN ITEMS unsnarl.pc unsnarl_c.pc)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${file}.in ${PROJECT_BINARY_DIR}/${file} @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${file} DESTINATION ${pkgconfig_dir} COMPONENT unsnarl_dev)
+endforeach()
+
+# Laid out as in the source tree, so that the pages' links hold.
+install(FILES LICENSE NOTICE README.md CHANGELOG.md SECURITY.md DESTINATION ${doc_dir} COMPONENT unsnarl OPTIONAL)
+install(DIRECTORY docs DESTINATION ${doc_dir} COMPONENT unsnarl OPTIONAL PATTERN images EXCLUDE)
+install(DIRECTORY examples DESTINATION ${doc_dir} COMPONENT unsnarl_dev OPTIONAL PATTERN __pycache__ EXCLUDE)

@@ -89,14 +89,24 @@ def check_self_contained(folder, without):
     return files
 
 
-def licences_of(files):
-    """The copyright files of the Debian packages that these files are of, and of what is compiled in, by package."""
-    found = {package: Path("/usr/share/doc") / package / "copyright" for package in _COMPILED_IN}
+def _packages_of(files):
+    """The Debian packages that these files are of, and those that leave code in what is compiled."""
+    found = set(_COMPILED_IN)
     for path in files:
         names = {str(path), str(path.resolve()), str(path.resolve()).removeprefix("/usr"), f"/usr{path}"}
         listed = subprocess.run(["dpkg", "-S", *names], capture_output=True, text=True).stdout
         if not listed:
             raise SystemExit(f"error: no package has {path}")
-        package = listed.split(":")[0]
-        found[package] = Path("/usr/share/doc") / package / "copyright"
-    return dict(sorted(found.items()))
+        found.add(listed.split(":")[0])
+    return sorted(found)
+
+
+def licences_of(files):
+    """The copyright files of the Debian packages that these files are of, and of what is compiled in, by package."""
+    return {package: Path("/usr/share/doc") / package / "copyright" for package in _packages_of(files)}
+
+
+def versions_of(files):
+    """A line for each of the same packages: its name and its version in Debian, to be held against Debian's advisories."""
+    return "".join(sorted(_output("dpkg-query", "-W", "-f", "${Package} ${Version}\n", *_packages_of(files))
+                          .splitlines(keepends=True)))

@@ -7,7 +7,7 @@ export default defineConfig({
     assetsInlineLimit: Number.MAX_SAFE_INTEGER,
     cssCodeSplit: false,
     modulePreload: false,
-    emptyOutDir: true,
+    emptyOutDir: false,  // the folder may hold anything
     target: 'es2022',
     chunkSizeWarningLimit: 2000,
   },

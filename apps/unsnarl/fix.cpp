@@ -156,7 +156,6 @@ class Fix {
   }
 
   int run() {
-    if (!options_.view.empty()) require_viewer();
     for (const std::string& note : files_.notes) display_.say("note: {}", note);
     if (const std::string hint = sequence_hint(options_, scene_); !hint.empty()) display_.say("note: {}", hint);
     // A folder that is missing or must not be written to is found now rather than after the work.

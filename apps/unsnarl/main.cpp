@@ -164,7 +164,7 @@ ExitCode explain_error() {
     if (is_about_threads(e) || (system && system->code() == std::errc::resource_unavailable_try_again))
       return complain_of_memory("not enough memory to start threads; --threads 1 needs the least");
     if (system && is_error_of_system(system->code().value())) return complain(exit_system_error, e.what());
-    return complain(exit_internal_error, fmt::format("internal error: {}. Please report it", e.what()));
+    return complain(exit_internal_error, fmt::format("internal error: {}. {}", e.what(), advice_on_defects(homepage)));
   }
 }
 

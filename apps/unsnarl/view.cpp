@@ -92,12 +92,11 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       "  unsnarl view hand.obj hand_fixed.obj -o hand.html\n"
       "  unsnarl view brain.surf skull.gii skin.obj fixed -o head.html     a scene; its repaired files in fixed/\n"
       "  unsnarl fix hand.obj -o hand_fixed.obj --view hand.html     repairs and shows in one go\n\n"
-      "Exit codes: 0 written, 2 usage (or this build has no viewer), 3 cannot read, 4 cannot write, 6 interrupted,\n"
-      "9 the system failed (try again), 70 internal error.");
+      "Exit codes: 0 written, 2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 9 the system failed (try again),\n"
+      "70 internal error.");
 }
 
 int run_view(const ViewOptions& options, Interruption& interruption) {
-  require_viewer();
   const Meshes meshes = sorted_out(options);
   if (std::count(options.inputs.begin(), options.inputs.end(), standard_stream) > 1)
     throw UsageError("IN and OUT cannot both come from standard input");

@@ -5,9 +5,6 @@
 
 namespace unsnarl::app {
 
-/// Throws UsageError where this build has no viewer.
-void require_viewer();
-
 /// The name of a mesh as the page shows it: the last part of its path.
 std::string page_name(const std::string& path);
 /// Those of several.

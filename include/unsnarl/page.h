@@ -26,7 +26,7 @@ struct PageSource {
   std::span<const RecordedFrame> frames;   ///< RepairResult::frames; may be empty
 };
 
-/// The page that viewer/ builds, without data. Empty in a build without it.
+/// The page that viewer/ builds, without data.
 std::string_view built_in_page();
 
 /// One HTML file that shows it all, and needs no network: the template with the mesh, its intersections and its

@@ -49,7 +49,7 @@ typedef enum unsnarl_error {
   UNSNARL_CANNOT_WRITE = 3,     /* a file cannot be written; what was there before is still there */
   UNSNARL_OUT_OF_MEMORY = 4,
   UNSNARL_SYSTEM_ERROR = 5,   /* the system failed (no descriptors, a read error); the same call may succeed later */
-  UNSNARL_INTERNAL_ERROR = 70 /* please report it */
+  UNSNARL_INTERNAL_ERROR = 70 /* a defect of the library */
 } unsnarl_error;
 
 /* What the last call that failed in this thread complained of; "" if none did. Valid until the next one fails. */
@@ -304,7 +304,7 @@ typedef struct unsnarl_page_content {
 
 /* The page of `unsnarl view` (docs/viewer.md), to turn and look at in a browser: one HTML file that needs no network.
  * Of a surface of unsnarl_document_surface it has the colours and images of the file too; several meshes have a colour
- * each. content: NULL: the surface alone. UNSNARL_INVALID_ARGUMENT too where the library was built without the page.
+ * each. content: NULL: the surface alone.
  *
  * Array: "html" (k, 1) uint8, the bytes of the file. Report: "notes" (what could not be shown, sentences). */
 UNSNARL_EXPORT int unsnarl_page(const unsnarl_surface* surface, const unsnarl_page_content* content,

@@ -13,17 +13,6 @@ def crossing():
 
 
 @pytest.fixture
-def page(crossing):
-    """Skips a test where the library was built without the page of view()."""
-    try:
-        unsnarl.view(*crossing)
-    except ValueError as error:
-        if "npm ci" not in str(error):
-            raise
-        pytest.skip(str(error))
-
-
-@pytest.fixture
 def sheets():
     """Two bumpy sheets of quads that run through each other; coordinates are float32 numbers."""
     return crossing_sheets(12)

@@ -8,7 +8,7 @@ import pytest
 NOTEBOOK = Path(__file__).resolve().parents[2] / "examples" / "repair.ipynb"
 
 
-def test_notebook(tmp_path, monkeypatch, page):
+def test_notebook(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     notebook = json.loads(NOTEBOOK.read_text())
     assert notebook["nbformat"] == 4 and notebook["metadata"]["kernelspec"]["language"] == "python"

@@ -13,7 +13,6 @@ import pytest
 
 import unsnarl
 
-pytestmark = pytest.mark.usefixtures("page")
 
 CROSSING = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 2\nv 2 1 2\nf 1 2 3\nf 4 5 6\n"
 #: The start of a PNG, which is all that is read of it here.

@@ -114,7 +114,7 @@ def view(
     Returns a Page.
 
     Raises ValueError and TypeError as repair does, and where `after` is no version of the mesh; OSError where a file
-    cannot be read or written; ValueError also where the package was built without the page.
+    cannot be read or written.
     """
     if output is not None and Path(output).suffix.lower() not in (".html", ".htm"):
         raise ValueError(f"output is {os.fspath(output)!r}; the page is an HTML file: end its name in .html")

@@ -25,10 +25,6 @@ std::string page_title(const unsnarl_document& document) {
 }
 
 unsnarl_result page(const unsnarl_surface& surface, const unsnarl_page_content& content, const RepairOptions& options) {
-  if (built_in_page().empty())
-    throw std::invalid_argument(
-        "this build of the library has no page: it was made without Node.js or without the packages of viewer/ (npm "
-        "ci)");
   PageSource source;
   source.input_name = content.name ? content.name : surface.document ? page_title(*surface.document) : "mesh";
   if (content.moved_name) source.output_name = content.moved_name;

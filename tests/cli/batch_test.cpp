@@ -407,10 +407,25 @@ TEST_F(BatchCli, RefusesWhatMakesNoSense) {
   in = folder / "none";
   expect_refusal({}, 3, "cannot open");
   in = folder / "in";
-  fs::create_directories(out + "/fixed");
-  const Outcome outcome = batch();
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("no 'unsnarl batch' has written"), std::string::npos) << outcome.err;
+}
+
+TEST_F(BatchCli, ReplacesAndDeletesNothingThatNoBatchHasWritten) {
+  mesh("crossing.obj", crossing);
+  for (const char* const name : {"fixed", "reports", "thumbnails", "work"}) {
+    const std::string thesis = out + "/" + name + "/1-of-1/thesis.txt";
+    fs::create_directories(fs::path(thesis).parent_path());
+    write(thesis, "precious");
+    fs::create_directories(out + "/journal");  // somebody's own
+    const Outcome outcome = batch();
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_NE(outcome.err.find("was not written by 'unsnarl batch'"), std::string::npos) << outcome.err;
+    EXPECT_EQ(contents(thesis), "precious");
+    fs::remove_all(out);
+  }
+  fs::create_directories(out);
+  write(out + "/index.html", "my page");
+  EXPECT_EQ(batch().exit_code, 2);
+  EXPECT_EQ(contents(out + "/index.html"), "my page");
 }
 
 TEST_F(BatchCli, ResultsMayGoToTheFolderOfTheMeshes) {

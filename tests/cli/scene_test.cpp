@@ -208,7 +208,6 @@ TEST_F(SceneFiles, PicturesShowEachInItsColour) {
   EXPECT_NE(contents(folder / "two.png"), contents(folder / "one.png"));
 }
 
-#if UNSNARL_VIEWER
 TEST_F(SceneFiles, ThePageShowsAllFilesBeforeAndAfter) {
   ASSERT_EQ(run({"fix", a, b, "-o", out}).exit_code, 0);
   EXPECT_EQ(run({"view", a, b, out, "-o", folder / "p.html"}).exit_code, 0);
@@ -216,7 +215,6 @@ TEST_F(SceneFiles, ThePageShowsAllFilesBeforeAndAfter) {
   EXPECT_EQ(run({"view", a, b, "--scene", "-o", folder / "p.html"}).exit_code, 0);
   EXPECT_EQ(run({"view", a, b, "-o", folder / "p.html"}).exit_code, 3);  // no repaired version of a
 }
-#endif
 
 }  // namespace
 }  // namespace unsnarl::cli

@@ -220,7 +220,6 @@ TEST_F(Usage, NamesOfFilesAreShownNotObeyed) {
                                                     {"routes", missing, "-o", folder / "r"},
                                                     {"fix", plain, "-o", folder / "o.obj", "--weld", name},
                                                     {name}}) {
-    if (arguments[0] == "view" && !UNSNARL_VIEWER) continue;
     const Outcome outcome = run(arguments);
     EXPECT_NE(outcome.exit_code, 0);
     EXPECT_NE(outcome.exit_code, 70);
@@ -274,7 +273,6 @@ TEST_F(Usage, AnErrorOfTheSystemExitsWith9) {
         {"knot-isotopy", knot, knot, "-o", folder / "k"},
         {"routes", plan, "-o", folder / "r"}})
     for (const auto& [call, error_number] : {std::pair("open", EMFILE), std::pair("read", EIO)}) {
-      if (arguments[0] == "view" && !UNSNARL_VIEWER) continue;
       const std::string input = arguments[1] == "--sequence" ? arguments[2] : arguments[1];
       const RunOptions failing = {.in_child = with_failing(call, fs::path(input).filename(), error_number)};
       const Outcome outcome = run(arguments, failing);

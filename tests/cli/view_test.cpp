@@ -21,8 +21,6 @@ class View : public ::testing::Test {
   const std::string in = folder / "in.obj", page = folder / "page.html";
 };
 
-#if UNSNARL_VIEWER
-
 TEST_F(View, WritesOnePageThatNeedsNothingElse) {
   const Outcome outcome = run({"view", in, "-o", page});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -83,15 +81,6 @@ TEST_F(View, RefusesWhatMakesNoSense) {
   EXPECT_TRUE(contains(complaint({"view", in, "-o", folder / "absent/page.html"}, 4), "absent"));
   EXPECT_TRUE(contains(complaint({"fix", in, "-o", folder / "out.obj", "--view", in}, 2), "html"));
 }
-
-#else
-
-TEST_F(View, SaysThatThisBuildHasNone) {
-  EXPECT_NE(complaint({"view", in, "-o", page}, 2).find("npm ci"), std::string::npos);
-  EXPECT_NE(complaint({"fix", in, "-o", folder / "out.obj", "--view", page}, 2).find("no viewer"), std::string::npos);
-}
-
-#endif
 
 }  // namespace
 }  // namespace unsnarl::cli

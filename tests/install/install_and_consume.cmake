@@ -1,6 +1,6 @@
 # Installs the built project under a fresh prefix, then configures, builds and runs a consumer that knows only the prefix.
 # cmake -DBUILD_DIR=... -DCONSUMER_DIR=... -DWORK_DIR=... -DCXX_COMPILER=... -DCXX_FLAGS=... -DBUILD_TYPE=...
-#       -DGENERATOR=... -DMAN_PAGE=PATH_BELOW_PREFIX_OR_NOTHING -P this
+#       -DGENERATOR=... -DLIBRARY_DIR=... -DMAN_PAGE=PATH_BELOW_PREFIX_OR_NOTHING -P this
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   message("${output}")
@@ -10,13 +10,39 @@ function(run)
   endif()
 endfunction()
 
+cmake_path(IS_PREFIX BUILD_DIR ${WORK_DIR} NORMALIZE is_of_the_build)
+if(NOT is_of_the_build)
+  message(FATAL_ERROR "WORK_DIR is emptied and so has to be a folder below BUILD_DIR")
+endif()
 file(REMOVE_RECURSE ${WORK_DIR})
-run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix --component unsnarl)
-run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix
-    -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_C_FLAGS=${CXX_FLAGS} -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
-run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-run(${WORK_DIR}/build/consumer)
-run(${WORK_DIR}/build/consumer_in_c)
+foreach(component IN ITEMS unsnarl unsnarl_dev)
+  run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix --component ${component})
+endforeach()
+set(flags -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+  -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_C_FLAGS=${CXX_FLAGS} -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
+foreach(consumer IN ITEMS consumer consumer_in_c)
+  run(${CMAKE_COMMAND} -S ${CONSUMER_DIR}/../${consumer} -B ${WORK_DIR}/${consumer} ${flags})
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/${consumer})
+  run(${WORK_DIR}/${consumer}/${consumer})
+endforeach()
+run(${WORK_DIR}/consumer/consumer_in_c)
+
+find_program(PKG_CONFIG pkg-config)
+if(PKG_CONFIG)
+  set(ENV{PKG_CONFIG_PATH} ${WORK_DIR}/prefix/${LIBRARY_DIR}/pkgconfig)
+  separate_arguments(cxx_flags UNIX_COMMAND "${CXX_FLAGS}")
+  foreach(package IN ITEMS unsnarl unsnarl_c)
+    execute_process(COMMAND ${PKG_CONFIG} --cflags --libs ${package}
+      OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+    separate_arguments(found UNIX_COMMAND "${found}")
+    set(source -std=c++20 ${CONSUMER_DIR}/consumer.cpp)
+    if(package STREQUAL unsnarl_c)
+      set(source -x c ${CONSUMER_DIR}/../consumer_in_c/consumer.c -x none)
+    endif()
+    run(${CXX_COMPILER} ${cxx_flags} ${source} ${found} -Wl,-rpath,${WORK_DIR}/prefix/${LIBRARY_DIR} -o ${WORK_DIR}/by_${package})
+    run(${WORK_DIR}/by_${package})
+  endforeach()
+endif()
 if(MAN_PAGE AND NOT EXISTS ${WORK_DIR}/prefix/${MAN_PAGE})
   message(FATAL_ERROR "the man page was not installed to ${MAN_PAGE}")
 endif()

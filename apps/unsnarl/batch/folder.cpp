@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "unsnarl/document.h"
 #include "usage_error.h"
 
@@ -15,13 +17,24 @@ std::string BatchFolder::mesh(const std::string& name) {
   return path + "/" + fs::path(name).filename().string();
 }
 
+namespace {
+
+/// Whether a batch has been here: it writes to its journal before anything else.
+bool has_records(const fs::path& journal) {
+  std::error_code error;
+  return std::any_of(fs::directory_iterator(journal, error), fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) { return entry.path().extension() == ".jsonl"; });
+}
+
+}  // namespace
+
 void BatchFolder::prepare() const {
   std::error_code error;
-  if (fs::exists(root / "fixed", error) && !fs::exists(journal(), error))
-    throw UsageError(
-        fmt::format("{}: there is a folder 'fixed' in it that no 'unsnarl batch' has written; name another "
-                    "folder",
-                    root.string()));
+  for (const char* const name : {"fixed", "reports", "thumbnails", "work", "results.jsonl", "results.csv", "index.html"})
+    if (fs::exists(root / name, error) && !has_records(journal()))
+      throw UsageError(fmt::format("{}: '{}' in it was not written by 'unsnarl batch', which would replace it; name "
+                                   "another folder",
+                                   root.string(), name));
   fs::create_directories(journal(), error);
   if (error) throw_write_error(journal().string() + ": cannot make this folder", error.value());
 }
