@@ -115,9 +115,11 @@ class Curves {
     const bool any_moved = result_.report.moved_points + result_.report.inserted_points > 0;
     const bool is_written = result_.status == Status::embedded || (result_.status == Status::obstructed && any_moved) ||
                             options_.keep_partial;
-    if (is_written) write_output();
-    if (!options_.picture.empty()) write_picture();
-    if (!options_.report.empty()) write_report(is_written);
+    StagedOutput outputs(interruption_);
+    if (is_written) add_output(outputs);
+    if (!options_.picture.empty()) add_picture(outputs);
+    if (!options_.report.empty()) add_report(is_written, outputs);
+    outputs.commit();
     if (!options_.quiet) summarise(is_written);
     return exit_code_of(result_.status);
   }
@@ -140,7 +142,7 @@ class Curves {
     places.require_writable(interruption_);
   }
 
-  void write_output() {
+  void add_output(StagedOutput& outputs) {
     std::string bytes = document_.patched(result_.curves);
     std::string broken = broken_promise(bytes);
     if (!broken.empty()) {
@@ -149,16 +151,13 @@ class Curves {
     }
     if (!broken.empty()) throw std::logic_error("the file to be written does not hold what was certified: " + broken);
     if (is_stream(options_.output)) {
-      write_to_stream(options_.output, bytes);
+      outputs.add(options_.output, bytes);
       return;
     }
-    StagedOutput staged(options_.output, interruption_);
-    staged.write({OutputFile{{}, bytes}});
-    const CurveDocument written =
-        CurveDocument::read(staged.main_file().string(), options_.flatten, document_.format());
+    const std::filesystem::path place = outputs.add(options_.output, {OutputFile{{}, bytes}});
+    const CurveDocument written = CurveDocument::read(place.string(), options_.flatten, document_.format());
     if (written.curves().size() != result_.curves.size())
       throw std::logic_error("the file written has another number of curves. It was removed");
-    staged.commit();
   }
 
   /// Certifies the bytes of the file, not the numbers that were computed. Empty: they hold.
@@ -188,20 +187,20 @@ class Curves {
                interruption_);
   }
 
-  void write_picture() {
+  void add_picture(StagedOutput& outputs) const {
     const std::string picture =
         curve_picture_svg(result_.joined, result_.report.before, result_.curves, result_.report.left);
-    write_file(options_.picture, picture, interruption_);
+    outputs.add(options_.picture, picture);
   }
 
-  void write_report(bool is_written) {
+  void add_report(bool is_written, StagedOutput& outputs) const {
     nlohmann::ordered_json json = {{"schema", "unsnarl-curves-report"},
                                    {"schema_version", 2},
                                    {"version", version},
                                    {"input", options_.input},
                                    {"output", is_written ? options_.output : ""}};
     json.update(nlohmann::ordered_json::parse(curve_report_json(result_)));
-    write_file(options_.report, json.dump(2) + "\n", interruption_);
+    outputs.add(options_.report, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   }
 
   void summarise(bool is_written) const {

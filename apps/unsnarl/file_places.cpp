@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+
 #include "mesh_input.h"
 #include "staged_output.h"
 #include "standard_streams.h"
@@ -17,8 +19,9 @@ namespace fs = std::filesystem;
 std::vector<std::string> identities_of(const fs::path& path) {
   if (path == standard_stream) return {standard_stream};
   std::error_code error;
-  const fs::path canonical = fs::weakly_canonical(fs::absolute(path), error);
-  std::vector<std::string> identities = {(error ? fs::absolute(path).lexically_normal() : canonical).string()};
+  const fs::path absolute = fs::absolute(path, error);
+  const fs::path canonical = fs::weakly_canonical(absolute, error);
+  std::vector<std::string> identities = {(error ? absolute.lexically_normal() : canonical).string()};
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0)
     identities.push_back(fmt::format("file {} on device {}", status.st_ino, status.st_dev));
@@ -56,8 +59,24 @@ void FilePlaces::claim(const fs::path& path, const File& file) {
   for (const std::string& identity : identities) files_.emplace(identity, file);
 }
 
+void FilePlaces::writes_beside(const std::string& what, const fs::path& main, const std::vector<fs::path>& names,
+                               const std::string& advice) {
+  for (const fs::path& name : names) {
+    claim(main.parent_path() / name, {what, advice, true});
+    beside_[main].push_back(name);
+  }
+}
+
+bool FilePlaces::has(const fs::path& path) const {
+  const std::vector<std::string> identities = identities_of(path);
+  return std::any_of(identities.begin(), identities.end(),
+                     [this](const std::string& identity) { return files_.contains(identity); });
+}
+
 void FilePlaces::require_writable(Interruption& interruption) const {
-  for (const fs::path& path : outputs_) StagedOutput(path, interruption);
+  StagedOutput outputs(interruption);
+  for (const fs::path& path : outputs_) outputs.open(path);
+  for (const auto& [main, names] : beside_) outputs.open_beside(main, names);
 }
 
 }  // namespace unsnarl::app

@@ -21,6 +21,12 @@ class FilePlaces {
   /// Standard output takes one output; pipes and devices any number. `advice` says what to do instead.
   /// Throws UsageError where an input or another output has this place.
   void writes(const std::string& what, const std::filesystem::path& path, const std::string& advice = other_name);
+  /// The same of files of these names beside an output `main`, relative to its folder; they may be in subfolders that
+  /// are not there yet.
+  void writes_beside(const std::string& what, const std::filesystem::path& main,
+                     const std::vector<std::filesystem::path>& names, const std::string& advice = other_name);
+  /// Has an input or an output this place?
+  bool has(const std::filesystem::path& path) const;
   /// Finds out whether files can be made at the places of all outputs. Throws WriteError.
   void require_writable(Interruption& interruption) const;
 
@@ -33,6 +39,7 @@ class FilePlaces {
 
   std::map<std::string, File> files_;  // by what two paths of one file have in common, see identities_of()
   std::vector<std::filesystem::path> outputs_;
+  std::map<std::filesystem::path, std::vector<std::filesystem::path>> beside_;  // names by the main file
 };
 
 }  // namespace unsnarl::app

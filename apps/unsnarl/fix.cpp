@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -35,6 +34,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
 /// Path of the result, or of the folder of several.
 std::string checked_output(const FixOptions& options) {
   scene_names(options.inputs);  // throws where two are the same
@@ -47,7 +51,7 @@ std::string checked_output(const FixOptions& options) {
     if (options.inputs[0] == standard_stream) throw UsageError("--in-place needs a file, not standard input");
   } else if (options.output.empty()) {
     const std::string wanted = options.inputs.back();
-    const bool is_result = options.inputs.size() == 2 && !fs::exists(wanted);
+    const bool is_result = options.inputs.size() == 2 && !is_there(wanted);
     throw UsageError("where should the result go? Give -o OUT ('-' for standard output), or --in-place" +
                      (is_result ? fmt::format("; for {0}: unsnarl fix {1} -o {0}", wanted, options.inputs[0]) : ""));
   }
@@ -104,6 +108,16 @@ bool is_to_be_written(const RepairResult& result, const Surface& input, bool kee
   }
 }
 
+/// Was something better than the input reached, which is not what was asked for?
+bool is_partial(const RepairResult& result, const Surface& input) {
+  switch (result.status) {
+    case Status::embedded:
+    case Status::obstructed:
+    case Status::no_progress: return false;
+    default: return result.positions != input.positions;
+  }
+}
+
 /// The promise of the status that what was just written breaks. Empty: none.
 std::string broken_promise(const RepairResult& result, const RepairOptions& options, const Surface& input,
                            const Surface& read_back, Certifier& certifier) {
@@ -140,6 +154,7 @@ class Fix {
         wanted_nesting_(nesting_wanted(options, scene_)),
         nesting_(wanted_nesting_.nesting) {
     claim_external_files();
+    choose_partial_names();
     if (!options.is_scene()) {
       check_format_of_output(output_, scene_.document(0), options_.inputs[0]);
       files_.input = options_.inputs[0];
@@ -175,25 +190,10 @@ class Fix {
                                       : repair_nested(surface(), nesting_, repair_options_, &context);
     interruption_.set_handler(nullptr);
 
-    const StageClock writing;
-    begin_writing();
-    if (is_to_be_written(result_, surface(), options_.keep_partial)) write_output();
-    if (options_.is_scene()) describe_files();
-    if (!nesting_.chains.empty()) describe_nesting();
-    files_.after_repair.push_back(writing.stage("write"));
-
-    write_pictures();
-    write_recording();
-    measure_clearances();
-    files_.whole = clock_.stage("fix");
-    write_report();
-    write_view();
+    write_all();
     if (!options_.quiet) {
       display_.clear();
-      tell(fix_summary(result_, repair_options_, files_));
-      for (const std::string& path :
-           {options_.report, options_.picture, options_.view, options_.record, options_.highlight})
-        if (!path.empty() && !is_stream(path)) tell(fmt::format("  wrote {}\n", visible_text(path)));
+      tell(fix_summary(result_, repair_options_, files_, other_outputs()));
     }
     return exit_code_of(result_.status, files_.nested);
   }
@@ -211,8 +211,58 @@ class Fix {
     return *certifier_;
   }
 
+  /// The result and all that is said of it: all files are new, or all are as they were.
+  void write_all() {
+    const StageClock writing;
+    begin_writing();
+    StagedOutput outputs(interruption_);
+    if (is_to_be_written(result_, surface(), options_.keep_partial)) {
+      add_result(outputs);
+      files_.output = output_;
+    } else if (!partial_infix_.empty() && is_partial(result_, surface())) {
+      add_result(outputs, partial_infix_);
+      files_.partial = partial_places();
+    }
+    if (options_.is_scene()) describe_files();
+    if (!nesting_.chains.empty()) describe_nesting();
+    files_.after_repair.push_back(writing.stage("write"));
+
+    add_pictures(outputs);
+    add_recording(outputs);
+    measure_clearances();
+    files_.whole = clock_.stage("fix");
+    add_report(outputs);
+    add_view(outputs);
+    try {
+      outputs.commit();
+    } catch (const ChangedMeanwhile& changed) {
+      keep_beside(changed);
+    }
+  }
+
+  /// What somebody has saved over the input meanwhile is not lost, nor is the result.
+  [[noreturn]] void keep_beside(const ChangedMeanwhile& changed) {
+    if (partial_infix_.empty()) throw changed;
+    StagedOutput outputs(interruption_);
+    add_result(outputs, partial_infix_);
+    outputs.commit();
+    throw WriteError(fmt::format("{}; the result is in {}", changed.what(), fmt::join(partial_places(), ", ")));
+  }
+
+  std::vector<std::string> other_outputs() const {
+    std::vector<std::string> paths;
+    for (const std::string& path :
+         {options_.report, options_.picture, options_.view, options_.record, options_.highlight})
+      if (!path.empty() && !is_stream(path)) paths.push_back(path);
+    return paths;
+  }
+
   /// Where the main file of a result ends up: the files of a scene all have names, of a single one links are followed.
-  fs::path main_place(std::size_t i) const { return options_.is_scene() ? target(i) : fs::weakly_canonical(target(i)); }
+  fs::path main_place(std::size_t i) const {
+    std::error_code error;
+    const fs::path place = options_.is_scene() ? target(i) : fs::weakly_canonical(target(i), error);
+    return error ? target(i) : place;
+  }
   /// The name that external files of a result are called after; in place they keep theirs.
   fs::path name_giver(std::size_t i) const { return options_.in_place ? fs::path() : main_place(i).filename(); }
 
@@ -227,17 +277,45 @@ class Fix {
         throw UsageError("this file keeps its numbers in other files, which cannot go to a stream; give -o FILE");
       if (names.empty()) continue;
       const fs::path main = main_place(i);
-      const std::vector<fs::path> replaced = external_files(main, document.format());
+      const std::vector<fs::path> replaced = options_.in_place ? names : external_files(main, document.format());
+      places_.writes_beside("an external file of " + scene_.files()[i].name, main, names,
+                            "write the result to another folder");
       for (const fs::path& name : names) {
         const fs::path place = main.parent_path() / name;
-        places_.writes("an external file of " + scene_.files()[i].name, place, "write the result to another folder");
-        if (fs::exists(place) && std::find(replaced.begin(), replaced.end(), name) == replaced.end())
+        if (is_there(place) && std::find(replaced.begin(), replaced.end(), name) == replaced.end())
           throw UsageError(
               fmt::format("{} is there already and would be overwritten by the external file of this name; write "
                           "the result to another folder",
                           place.string()));
       }
     }
+  }
+
+  /// What is reached short of the goal goes beside the output, where nothing that this call reads or writes is: also
+  /// not the partial result that it goes on from.
+  void choose_partial_names() {
+    if (options_.no_partial || is_stream(output_)) return;
+    const auto is_free = [&](const std::string& infix) {
+      for (std::size_t i = 0; i < scene_.files().size(); ++i) {
+        const fs::path main = with_infix(target(i), infix);
+        std::vector<fs::path> places = {main};
+        for (const fs::path& name : external_files(scene_.document(i), target(i).filename(), infix))
+          places.push_back(main.parent_path() / name);
+        for (const fs::path& place : places)
+          if (places_.has(place) || !can_be_replaced(place)) return false;
+      }
+      return true;
+    };
+    partial_infix_ = partial_infix;
+    for (int number = 2; !is_free(partial_infix_); ++number)
+      partial_infix_ = fmt::format("{}.{}", partial_infix, number);
+  }
+
+  std::vector<std::string> partial_places() const {
+    std::vector<std::string> paths;
+    for (std::size_t i = 0; i < scene_.files().size(); ++i)
+      paths.push_back(with_infix(target(i), partial_infix_).string());
+    return paths;
   }
 
   /// Shows that outputs are written, unless one goes to standard output, which may be the same terminal.
@@ -252,36 +330,25 @@ class Fix {
 
   bool float32_digits() const { return result_.report.precision == Precision::float32; }
 
-  void write_output() {
-    std::vector<OutputFile> all;
-    for (std::size_t i = 0; i < scene_.files().size(); ++i) {
-      std::vector<OutputFile> files =
-          scene_.patched(i, result_.positions, float32_digits(), is_stream(output_) ? fs::path() : name_giver(i));
-      if (options_.is_scene()) files[0].name = scene_.files()[i].name;
-      std::move(files.begin(), files.end(), std::back_inserter(all));
-    }
+  /// Adds the result under its names, or beside those with an infix, and certifies what is read back.
+  void add_result(StagedOutput& outputs, const std::string& infix = {}) {
     if (is_stream(output_)) {
-      verify(Document::parse(all[0].bytes, scene_.document(0).format()).surface());
-      write_to_stream(output_, all[0].bytes);
-    } else {
-      // The files of a scene all have names; what is a link in their folder is replaced.
-      StagedOutput staged(options_.is_scene() ? fs::path(output_) / ".scene" : target(0), interruption_);
-      staged.write(all);
-      verify(read_back(staged).surface());
-      staged.commit();
+      std::string bytes = scene_.patched(0, result_.positions, float32_digits())[0].bytes;
+      verify(Document::parse(bytes, scene_.document(0).format()).surface());
+      return outputs.add(output_, std::move(bytes));
     }
-    files_.output = output_;
-  }
-
-  SceneDocument read_back(const StagedOutput& staged) const {
+    // The files of a scene all have names; what is a link in their folder is replaced.
+    const auto links = options_.is_scene() ? StagedFiles::Links::replaced : StagedFiles::Links::followed;
     std::vector<Document> documents;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < scene_.files().size(); ++i) {
+      const std::vector<OutputFile> files = scene_.patched(i, result_.positions, float32_digits(),
+                                                           infix.empty() ? name_giver(i) : target(i).filename(), infix);
+      const fs::path written = outputs.add(with_infix(target(i), infix), files, links);
+      documents.push_back(Document::read(written, scene_.document(i).format()));
       names.push_back(scene_.files()[i].name);
-      const fs::path path = options_.is_scene() ? staged.staged(names.back()) : staged.main_file();
-      documents.push_back(Document::read(path, scene_.document(i).format()));
     }
-    return {std::move(documents), std::move(names)};
+    verify(SceneDocument(std::move(documents), std::move(names)).surface());
   }
 
   /// The certificate is worth nothing if the file says something else.
@@ -313,15 +380,14 @@ class Fix {
     }
   }
 
-  void write_pictures() {
+  void add_pictures(StagedOutput& outputs) {
     if (options_.highlight.empty() && options_.picture.empty()) return;
     const std::vector<IntersectingPair> pairs_before = certifier().find_intersections(surface().positions);
     const std::vector<IntersectingPair> pairs_after = certifier().find_intersections(result_.positions);
     if (!options_.highlight.empty())
-      write_file(options_.highlight, highlight_file(surface(), result_.positions, pairs_before, pairs_after),
-                 interruption_);
+      outputs.add(options_.highlight, highlight_file(surface(), result_.positions, pairs_before, pairs_after));
     if (picture_kind(options_.picture) != PictureKind::still) {
-      write_animation(options_.picture, surface(), scene_.files(), result_, interruption_);
+      add_animation(options_.picture, surface(), scene_.files(), result_, outputs);
     } else if (!options_.picture.empty()) {
       PictureOptions picture;
       picture.files = scene_.files();
@@ -331,15 +397,14 @@ class Fix {
       picture.after_label = picture_label("after", pairs_after.size());
       const SurfaceView before = surface();
       const SurfaceView after = {result_.positions, before.corners, before.offsets};
-      write_file(options_.picture,
-                 picture_png(before, intersecting_faces(pairs_before), after, intersecting_faces(pairs_after), picture),
-                 interruption_);
+      outputs.add(options_.picture, picture_png(before, intersecting_faces(pairs_before), after,
+                                                intersecting_faces(pairs_after), picture));
     }
   }
 
-  void write_recording() {
+  void add_recording(StagedOutput& outputs) const {
     if (options_.record.empty()) return;
-    write_file(options_.record, recording_json(result_, surface()) + "\n", interruption_);
+    outputs.add(options_.record, recording_json(result_, surface()) + "\n");
   }
 
   /// Measures the file read and, where one was written, what is read back from it.
@@ -356,12 +421,12 @@ class Fix {
         written == input.positions ? files_.clearance_before : measured(written, result_.report.after.total());
   }
 
-  void write_report() {
+  void add_report(StagedOutput& outputs) const {
     if (options_.report.empty()) return;
-    write_file(options_.report, report_json(result_, repair_options_, files_) + "\n", interruption_);
+    outputs.add(options_.report, report_json(result_, repair_options_, files_) + "\n");
   }
 
-  void write_view() {
+  void add_view(StagedOutput& outputs) {
     if (options_.view.empty()) return;
     const Appearance appearance = scene_.appearance();
     for (const std::string& note : appearance.notes) display_.say("note: {}", note);
@@ -376,13 +441,14 @@ class Fix {
     source.goal = repair_options_.goal;
     source.report = report_json(result_, repair_options_, files_);
     source.frames = result_.frames;
-    write_file(options_.view, view_page(built_in_page(), source), interruption_);
+    outputs.add(options_.view, view_page(built_in_page(), source));
   }
 
   StageClock clock_;
   const FixOptions& options_;
   Interruption& interruption_;
   std::string output_;
+  std::string partial_infix_;  // of the names of a partial result; empty: none is kept
   FilePlaces places_;
   ProgressDisplay display_;
   MemoryGuard memory_guard_;
@@ -401,15 +467,16 @@ class Fix {
 void write_refusal(const FixOptions& options, std::string_view status, ExitCode exit_code, const std::string& error,
                    Interruption& interruption) {
   const fs::path path = options.report;
-  if (path.empty() || (fs::exists(path) && !is_stream(path.string()) && path.extension() != ".json")) return;
-  const nlohmann::ordered_json json = {{"schema", "unsnarl-report"},
-                                       {"schema_version", report_schema_version},
-                                       {"version", version},
-                                       {"status", status},
-                                       {"exit_code", static_cast<int>(exit_code)},
-                                       {"input", {{"path", fmt::format("{}", fmt::join(options.inputs, ", "))}}},
-                                       {"output", {{"written", false}, {"path", nullptr}}},
-                                       {"error", error}};
+  if (path.empty() || (is_there(path) && !is_stream(path.string()) && path.extension() != ".json")) return;
+  const nlohmann::ordered_json json = {
+      {"schema", "unsnarl-report"},
+      {"schema_version", report_schema_version},
+      {"version", version},
+      {"status", status},
+      {"exit_code", static_cast<int>(exit_code)},
+      {"input", {{"path", fmt::format("{}", fmt::join(options.inputs, ", "))}}},
+      {"output", {{"written", false}, {"path", nullptr}, {"partial", nlohmann::ordered_json::array()}}},
+      {"error", error}};
   write_file(options.report, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n", interruption);
 }
 

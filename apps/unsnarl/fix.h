@@ -15,7 +15,8 @@ namespace unsnarl::app {
 struct FixOptions : MeshOptions {
   std::string output;
   bool in_place = false;
-  bool keep_partial = false;
+  bool keep_partial = false;  ///< what is unfinished goes to the output itself
+  bool no_partial = false;    ///< and not beside it
   std::string precision = "auto";
   double time_limit_s = 0, memory_limit_mb = 0;
   double min_dihedral_deg = 0;

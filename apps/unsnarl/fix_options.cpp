@@ -132,8 +132,11 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
                   "go under their names, all or none")
       ->type_name("OUT");
   command.add_flag("--in-place", options.in_place, "Overwrite IN with the repaired mesh");
-  command.add_flag("--keep-partial", options.keep_partial,
-                   "Write the result also where self-intersections are left or a limit was reached");
+  CLI::Option* const keep_partial = command.add_flag(
+      "--keep-partial", options.keep_partial,
+      "Write the result to OUT also where self-intersections are left or a limit was reached. Default:\n"
+      "it goes to OUT.partial.EXT beside it, and OUT is not written");
+  command.add_flag("--no-partial", options.no_partial, "Write no OUT.partial.EXT")->excludes(keep_partial);
   command.add_flag(
       "--recompute-normals", options.recompute_normals,
       "Turn stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved; else they stay as\n"

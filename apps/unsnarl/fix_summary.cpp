@@ -71,11 +71,12 @@ std::string_view float32_remark(const RepairResult& result, const RepairOptions&
   return options.precision == Precision::float32 ? " (in 32 bits, as asked for; none in double precision)" : "";
 }
 
-std::string fate_of_output(Status status, const std::string& output) {
-  if (output == standard_stream) return "written to standard output";
-  if (!output.empty()) return "wrote " + output;
-  return status == Status::obstructed ? "nothing written, since nothing else was to be repaired"
-                                      : "nothing written; --keep-partial writes what was reached";
+std::string fate_of_output(const RepairResult& result, const ReportFiles& files) {
+  if (files.output == standard_stream) return "written to standard output";
+  if (!files.output.empty()) return "wrote " + files.output;
+  if (result.status == Status::obstructed) return "nothing written, since nothing else was to be repaired";
+  if (result.status == Status::no_progress) return "nothing written, since nothing better than the input was found";
+  return "nothing written; --keep-partial writes what was reached";
 }
 
 /// "7.6 % of the diagonal (0.19)": a length, in brackets in the units of the file. `of` follows the sign.
@@ -171,7 +172,8 @@ std::vector<std::string> obstructions_in_words(std::span<const Obstruction> obst
 
 }  // namespace
 
-std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
+std::string fix_summary(const RepairResult& result, const RepairOptions& options, const ReportFiles& files,
+                        const std::vector<std::string>& other_outputs) {
   const RepairReport& r = result.report;
   std::string text;
   const auto line = [&text](const std::string& words) { text += visible_text(words) + "\n"; };
@@ -205,7 +207,11 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   line(fmt::format("  {}{}{}; {:.2f} s, {:.0f} MB", is_as_asked ? "" : "not nested as asked; ",
                    explanation(result.status, options.goal), float32_remark(result, options), files.whole.seconds,
                    files.whole.peak_memory_mb));
-  line("  " + fate_of_output(result.status, files.output));
+  if (files.partial.empty()) line("  " + fate_of_output(result, files));
+  for (const std::string& path : other_outputs) line("  wrote " + path);
+  if (!files.partial.empty())
+    line(fmt::format("  not repaired completely: the best result so far is in {} ({} intersecting pairs, before {})",
+                     fmt::join(files.partial, ", "), r.after.total(), r.before.total()));
   return text;
 }
 

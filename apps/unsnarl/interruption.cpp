@@ -17,7 +17,7 @@ namespace {
 struct State {
   std::mutex mutex;
   std::function<void()> on_first;
-  std::filesystem::path temporary_folder;
+  std::vector<std::filesystem::path> temporary_folders;
 };
 State& state() {
   static State* const state = new State;
@@ -37,11 +37,11 @@ sigset_t signals_to_wait_for() {
 
 /// No destructors run: the other threads are still at work. Precondition: the state is locked.
 [[noreturn]] void end_locked(int exit_code) {
-  const std::filesystem::path& folder = state().temporary_folder;
-  // Again and again, since the other threads may be writing into it.
+  // Again and again, since the other threads may be writing into them.
   std::error_code ignored;
-  for (int attempt = 0; attempt < 100 && !folder.empty() && std::filesystem::exists(folder, ignored); ++attempt)
-    std::filesystem::remove_all(folder, ignored);
+  for (const std::filesystem::path& folder : state().temporary_folders)
+    for (int attempt = 0; attempt < 100 && std::filesystem::exists(folder, ignored); ++attempt)
+      std::filesystem::remove_all(folder, ignored);
   std::_Exit(exit_code);
 }
 
@@ -78,9 +78,9 @@ void Interruption::set_handler(std::function<void()> on_first) {
   state().on_first = std::move(on_first);
 }
 
-void Interruption::hold_off(const std::function<void(std::filesystem::path& temporary_folder)>& action) {
+void Interruption::hold_off(const std::function<void(std::vector<std::filesystem::path>&)>& action) {
   const std::lock_guard lock(state().mutex);
-  action(state().temporary_folder);
+  action(state().temporary_folders);
 }
 
 void Interruption::end_process(int exit_code) {

@@ -78,7 +78,7 @@ std::string correspondence_json(const IsotopyCommandOptions& options, const Isot
                               {"on_start", places(isotopy.on_start[c])},
                               {"on_end", places(isotopy.on_end[c])}});
   for (const IsotopyRing& ring : isotopy.rings) json["rings"].push_back({{"time", ring.time}, {"curves", ring.curves}});
-  return json.dump() + "\n";
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
@@ -150,20 +150,19 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
 
   const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
   const std::string surface = surface_file(made.surface, Format::obj, "isotopy by unsnarl; z is time", {});
-  StagedOutput staged(path("surface.obj"), interruption);
-  staged.write({OutputFile{{}, surface}});
-  const Document written = Document::read(staged.main_file(), Format::obj);
+  StagedOutput outputs(interruption);
+  const Document written = Document::read(outputs.add(path("surface.obj"), {OutputFile{{}, surface}}), Format::obj);
   FindOptions find;
   find.weld = Weld::none;
   if (written.surface().positions != made.surface.positions || written.surface().corners != made.surface.corners ||
       !find_intersections(written.surface(), find).empty())
     throw std::logic_error("the surface to be written is not the one that was certified");
-  staged.commit();
-  write_file(path("animation.svg"), isotopy_animation_svg(made), interruption);
+  outputs.add(path("animation.svg"), isotopy_animation_svg(made));
   for (int k = 0; k < options.frames; ++k)
-    write_file(path(fmt::format("frame_{:04}.svg", k)),
-               isotopy_frame_svg(made, static_cast<double>(k) / (options.frames - 1)), interruption);
-  write_file(path("correspondence.json"), correspondence_json(options, made), interruption);
+    outputs.add(path(fmt::format("frame_{:04}.svg", k)),
+                isotopy_frame_svg(made, static_cast<double>(k) / (options.frames - 1)));
+  outputs.add(path("correspondence.json"), correspondence_json(options, made));
+  outputs.commit();
   if (!options.quiet)
     tell(
         fmt::format("{} curve{}, {} rings, {} faces, no two intersect: at every time the curves are simple and apart\n"

@@ -161,7 +161,7 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
   }
 
   const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
-  StagedOutput staged(path("isotopy.json"), interruption);
+  StagedOutput outputs(interruption);
   KnotIsotopyFindings found = check_knot_isotopy(made, start, end);
   std::vector<OutputFile> files{{{}, knot_isotopy_json(made, found)},
                                 {"animation.gif", knot_isotopy_gif(made)},
@@ -169,15 +169,15 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
   for (int k = 0; k < options.frames; ++k)
     files.push_back({fmt::format("frame_{:04}.xyz", k),
                      link_text(knot_isotopy_slice(made, static_cast<double>(k) / (options.frames - 1)))});
-  staged.write(files);
-  found = check_knot_isotopy(parse_knot_isotopy(read_bytes(staged.main_file().string())), start, end);
+  const fs::path written = outputs.add(path("isotopy.json"), files);
+  found = check_knot_isotopy(parse_knot_isotopy(read_bytes(written.string())), start, end);
   if (!found.hold()) throw std::logic_error("the isotopy to be written does not hold: " + as_text(found));
-  staged.commit();
   if (!options.report.empty()) {
     KnotIsotopy without_rings = made;
     without_rings.rings.clear();
-    write_file(options.report, knot_isotopy_json(without_rings, found), interruption);
+    outputs.add(options.report, knot_isotopy_json(without_rings, found));
   }
+  outputs.commit();
   if (!options.quiet)
     tell(
         fmt::format("{}{}\n{} rings of {} points; no two triangles of the cylinder in R^4 meet, so that the knot is "

@@ -56,10 +56,11 @@ bool may_have_external_files(Format format) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> external_files(const Document& document, const std::filesystem::path& main_name) {
+std::vector<std::filesystem::path> external_files(const Document& document, const std::filesystem::path& main_name,
+                                                  const std::string& infix) {
   std::vector<std::filesystem::path> names;
   if (!may_have_external_files(document.format())) return names;
-  const std::vector<OutputFile> files = document.patched(document.surface().positions, true, main_name);
+  const std::vector<OutputFile> files = document.patched(document.surface().positions, true, main_name, infix);
   for (std::size_t i = 1; i < files.size(); ++i) names.push_back(files[i].name);
   return names;
 }

@@ -27,9 +27,9 @@ std::vector<std::string> scene_names(const std::vector<std::string>& paths);
 SceneDocument read_scene(const std::vector<std::string>& paths, const std::optional<Format>& format);
 
 /// Names of the files beside a glTF or a GIFTI in which its numbers are, relative to its folder. With `main_name`,
-/// those of a result of this name, see Document::patched.
-std::vector<std::filesystem::path> external_files(const Document& document,
-                                                  const std::filesystem::path& main_name = {});
+/// those of a result of this name, with this infix, see Document::patched.
+std::vector<std::filesystem::path> external_files(const Document& document, const std::filesystem::path& main_name = {},
+                                                  const std::string& infix = {});
 /// The same of what is at `path`; empty where that is no mesh.
 std::vector<std::filesystem::path> external_files(const std::filesystem::path& path, Format format);
 

@@ -22,18 +22,19 @@ void prepare_picture_folder(const std::string& path, const std::string& option) 
   std::error_code error;
   fs::create_directories(path, error);
   if (error) throw_write_error(path + ": cannot make this folder", error.value());
-  if (!fs::is_empty(path, error) || error)
+  const bool is_empty = fs::is_empty(path, error);
+  if (error) throw_write_error(path + ": cannot list this folder", error.value());
+  if (!is_empty)
     throw UsageError(fmt::format("{} {}: this folder is not empty; name another, or empty it first", option, path));
 }
 
-void write_animation(const std::string& path, const SurfaceView& surface, std::span<const SceneFile> files,
-                     const RepairResult& result, Interruption& interruption) {
+void add_animation(const std::string& path, const SurfaceView& surface, std::span<const SceneFile> files,
+                   const RepairResult& result, StagedOutput& outputs) {
   const AnimationOptions options{.files = files};
-  if (picture_kind(path) == PictureKind::gif)
-    return write_file(path, animation_gif(surface, result.frames, options), interruption);
+  if (picture_kind(path) == PictureKind::gif) return outputs.add(path, animation_gif(surface, result.frames, options));
   int number = 0;
   animation_pngs(surface, result.frames, options, [&](const std::string& png) {
-    write_file((fs::path(path) / fmt::format("{:04}.png", number++)).string(), png, interruption);
+    outputs.add((fs::path(path) / fmt::format("{:04}.png", number++)).string(), png);
   });
 }
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "interruption.h"
+#include "staged_output.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/scene_document.h"
 
@@ -20,8 +20,8 @@ PictureKind picture_kind(const std::string& path);
 /// Makes sure that there is an empty folder. Throws UsageError, WriteError.
 void prepare_picture_folder(const std::string& path, const std::string& option);
 
-/// The frames of a repair of `surface`, which is of `files`, as a GIF or into a folder. Throws WriteError.
-void write_animation(const std::string& path, const SurfaceView& surface, std::span<const SceneFile> files,
-                     const RepairResult& result, Interruption& interruption);
+/// Adds the frames of a repair of `surface`, which is of `files`, as a GIF or into a folder. Throws WriteError.
+void add_animation(const std::string& path, const SurfaceView& surface, std::span<const SceneFile> files,
+                   const RepairResult& result, StagedOutput& outputs);
 
 }  // namespace unsnarl::app

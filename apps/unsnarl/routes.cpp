@@ -99,15 +99,13 @@ std::vector<std::string> names_of(const RoutePlan& plan) {
   return names;
 }
 
-/// Writes tubes, reads them back; throws std::logic_error where they are others or intersect.
-void write_tubes(const std::string& path, const RoutePlan& plan, const Surface& tubes, Interruption& interruption) {
-  StagedOutput staged(path, interruption);
-  staged.write({OutputFile{{}, surface_file(tubes, Format::obj, "tubes of routes by unsnarl", names_of(plan))}});
-  const Document written = Document::read(staged.main_file(), Format::obj);
+/// Adds tubes, reads them back; throws std::logic_error where they are others or intersect.
+void add_tubes(const std::string& path, const RoutePlan& plan, const Surface& tubes, StagedOutput& outputs) {
+  const std::string bytes = surface_file(tubes, Format::obj, "tubes of routes by unsnarl", names_of(plan));
+  const Document written = Document::read(outputs.add(path, {OutputFile{{}, bytes}}), Format::obj);
   if (written.surface().positions != tubes.positions || written.surface().corners != tubes.corners ||
       !pairs_of_tubes(plan, written.surface()).empty())
     throw std::logic_error("the tubes to be written are not the ones that were certified");
-  staged.commit();
 }
 
 int tell_failure(const RoutesCommandOptions& options, const RoutePlan& plan, const RoutesResult& made) {
@@ -149,8 +147,10 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
     return repaired.status == Status::embedded ? exit_intersecting : exit_code_of(repaired.status);
   }
   const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
-  write_tubes(path("tubes.obj"), plan, after, interruption);
-  write_file(path("picture.png"), picture(plan, tubes, after, parts, "free tubes"), interruption);
+  StagedOutput outputs(interruption);
+  add_tubes(path("tubes.obj"), plan, after, outputs);
+  outputs.add(path("picture.png"), picture(plan, tubes, after, parts, "free tubes"));
+  outputs.commit();
   if (!options.quiet)
     tell(
         fmt::format("{} free tubes, no two faces intersect; they are no longer round, so that the agents' distances\n"
@@ -230,17 +230,15 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
   const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
   std::vector<SceneFile> parts;
   const Surface tubes = route_tubes(plan, made.routes, options.sides, &parts);
-  {
-    StagedOutput staged(path("routes.json"), interruption);
-    staged.write({OutputFile{{}, routes_json(plan, made)}});
-    const RouteFindings found = check_routes(plan, parse_routes(read_bytes(staged.main_file().string()), plan));
-    if (!found.hold()) throw std::logic_error("the routes to be written do not hold: " + route_faults(plan, found));
-    write_tubes(path("tubes.obj"), plan, tubes, interruption);
-    staged.commit();
-  }
-  write_file(path("animation.svg"), routes_animation_svg(plan, made.routes), interruption);
-  write_file(path("picture.png"), picture(plan, route_tubes(plan, made.asked, options.sides), tubes, std::move(parts)),
-             interruption);
+  StagedOutput outputs(interruption);
+  const fs::path written = outputs.add(path("routes.json"), {OutputFile{{}, routes_json(plan, made)}});
+  const RouteFindings found = check_routes(plan, parse_routes(read_bytes(written.string()), plan));
+  if (!found.hold()) throw std::logic_error("the routes to be written do not hold: " + route_faults(plan, found));
+  add_tubes(path("tubes.obj"), plan, tubes, outputs);
+  outputs.add(path("animation.svg"), routes_animation_svg(plan, made.routes));
+  outputs.add(path("picture.png"),
+              picture(plan, route_tubes(plan, made.asked, options.sides), tubes, std::move(parts)));
+  outputs.commit();
   if (!options.quiet)
     tell(fmt::format("{} route{}, certified as written:\n{}{}wrote {}, {:.1f} s\n", made.routes.size(),
                      made.routes.size() == 1 ? "" : "s", as_text(plan, made.found),

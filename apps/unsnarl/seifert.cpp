@@ -59,6 +59,11 @@ nlohmann::ordered_json as_json(const SeifertFindings& f) {
           {"hold", f.hold()}};
 }
 
+/// Bytes that are not UTF-8, which names of files may have, become U+FFFD.
+std::string text_of(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 int check_file(const SeifertCommandOptions& options, const Link& link, FilePlaces& places, Interruption& interruption) {
   const Document document = read_mesh(options.check, format_from_name(options.format));
   claim_input(places, "--check", options.check, document);
@@ -69,7 +74,7 @@ int check_file(const SeifertCommandOptions& options, const Link& link, FilePlace
   } catch (const std::invalid_argument& e) {
     throw FileError(fmt::format("{}: {}", options.check, e.what()));
   }
-  if (!options.report.empty()) write_file(options.report, as_json(found).dump(2) + "\n", interruption);
+  if (!options.report.empty()) write_file(options.report, text_of(as_json(found)), interruption);
   if (!options.quiet)
     tell(as_text(found, options.handles) + faults(found) + (found.hold() ? "a Seifert surface of the link\n" : ""));
   return found.hold() ? exit_embedded : exit_intersecting;
@@ -173,14 +178,12 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     if (!found.hold())
       throw std::logic_error("the file to be written is no Seifert surface of the link: " + faults(found));
   };
+  StagedOutput outputs(interruption);
   if (is_stream(options.output)) {
     certify(Document::parse(bytes, *format));
-    write_to_stream(options.output, bytes);
+    outputs.add(options.output, bytes);
   } else {
-    StagedOutput staged(options.output, interruption);
-    staged.write({OutputFile{{}, bytes}});
-    certify(Document::read(staged.main_file(), *format));
-    staged.commit();
+    certify(Document::read(outputs.add(options.output, {OutputFile{{}, bytes}}), *format));
   }
   if (!options.picture.empty()) {
     wanted.fair = false;
@@ -188,8 +191,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     picture.before_label = "Seifert's algorithm";
     picture.after_label = "faired";
     picture.inset = false;
-    write_file(options.picture, picture_png(seifert_surface(link, wanted).surface, {}, result.surface, {}, picture),
-               interruption);
+    outputs.add(options.picture, picture_png(seifert_surface(link, wanted).surface, {}, result.surface, {}, picture));
   }
   if (!options.report.empty()) {
     nlohmann::ordered_json json = {{"schema", "unsnarl-seifert-report"},
@@ -208,8 +210,9 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
                                    {"fairing_stopped", result.status == Status::time_limit},
                                    {"seconds", result.seconds}};
     json.update(as_json(found));
-    write_file(options.report, json.dump(2) + "\n", interruption);
+    outputs.add(options.report, text_of(json));
   }
+  outputs.commit();
   if (!options.quiet) {
     tell(fmt::format("{}: {} points, {} component{}; seen with {} crossings and {} Seifert circles\n",
                      visible_text(options.input), link.point_count(), link.components.size(),

@@ -10,24 +10,32 @@
 
 namespace unsnarl::app {
 
-/// StagedFiles that an interruption removes, or lets be renamed to the last.
+/// All that one call writes: StagedFiles that an interruption removes, or lets be moved to the last, and streams.
 class StagedOutput {
  public:
-  /// Throws WriteError as StagedFiles does.
-  StagedOutput(const std::filesystem::path& target, Interruption& interruption);
+  explicit StagedOutput(Interruption& interruption) : interruption_(interruption) {}
   ~StagedOutput();
   StagedOutput(const StagedOutput&) = delete;
   StagedOutput& operator=(const StagedOutput&) = delete;
 
-  void write(const std::vector<OutputFile>& files) { files_->write(files); }
-  std::filesystem::path main_file() const { return files_->main_file(); }
-  /// The place of a file of this name, relative to the folder of the target, until commit().
-  std::filesystem::path staged(const std::filesystem::path& name) const { return files_->folder() / name; }
-  std::vector<std::filesystem::path> targets() const { return files_->targets(); }
+  // As of StagedFiles.
+  void open(const std::filesystem::path& target);
+  void open_beside(const std::filesystem::path& target, const std::vector<std::filesystem::path>& names);
+  std::filesystem::path add(const std::filesystem::path& target, const std::vector<OutputFile>& files,
+                            StagedFiles::Links links = StagedFiles::Links::followed);
+  /// A file of its own, or a stream, which is written to by commit().
+  void add(const std::string& path, std::string bytes);
+  /// Writes to the streams, which cannot be taken back, then moves all files into place. Throws WriteError.
   void commit();
 
  private:
-  std::optional<StagedFiles> files_;
+  struct Stream {
+    std::string path, bytes;
+  };
+  void hold_off(const std::function<void()>& action);
+
+  std::optional<StagedFiles> files_{std::in_place};
+  std::vector<Stream> streams_;
   Interruption& interruption_;
 };
 

@@ -12,6 +12,7 @@
 
 #include "unsnarl/appearance.h"
 #include "unsnarl/errors.h"
+#include "unsnarl/file_stamp.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -36,7 +37,15 @@ struct FaceLabels {
 struct OutputFile {
   std::filesystem::path name;
   std::string bytes;
+  /// The file that this one replaces, as it was when it was read; empty: it replaces none that was read.
+  std::optional<FileStamp> replaces = {};
 };
+
+/// "a/out.obj" with the infix ".partial" is "a/out.partial.obj".
+std::filesystem::path with_infix(const std::filesystem::path& path, std::string_view infix);
+
+/// The infix of files that hold what an unfinished repair has reached.
+inline constexpr const char* partial_infix = ".partial";
 
 /// A mesh file with its bytes: positions out, positions patched back in, every other token as it was.
 ///
@@ -87,10 +96,11 @@ class Document {
   /// main_name: what the main file will be called, unless it replaces the one read. The external files of a GIFTI are
   /// then called after it (lh.gii.data, lh.gii.2.data), so that those read can stay beside it; where it is empty, and
   /// in a glTF, they keep their names.
-  /// Throws FileError where the format cannot hold the change (integer positions), WriteError for coordinates beyond
-  /// float32, std::invalid_argument for a wrong count or a coordinate that is not finite.
+  /// infix: all names get it, see with_infix(), so that a file called main_name and those beside it stay. \pre a
+  /// main_name Throws FileError where the format cannot hold the change (integer positions), WriteError for coordinates
+  /// beyond float32, std::invalid_argument for a wrong count or a coordinate that is not finite.
   std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits,
-                                  const std::filesystem::path& main_name = {}) const;
+                                  const std::filesystem::path& main_name = {}, const std::string& infix = {}) const;
   /// The positions that reading patched(...) back gives, bit for bit.
   std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const;
 
@@ -98,6 +108,7 @@ class Document {
   explicit Document(Format format, std::unique_ptr<class MeshFile> file);
   Format format_;
   std::unique_ptr<class MeshFile> file_;
+  std::optional<FileStamp> read_from_;  // empty: it was parsed from bytes
 };
 
 /// Writes to a temporary file in the folder of `path`, flushes it to the disk, renames it: either the old file or the

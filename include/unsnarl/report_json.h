@@ -24,6 +24,7 @@ inline constexpr int check_schema_version = 1;      ///< of check_json
 /// The files and the time around a call, as reports list them.
 struct ReportFiles {
   std::string input, output;            ///< paths; empty: arrays or several files were given, none was written
+  std::vector<std::string> partial;     ///< paths of what an unfinished repair reached; empty: none was written
   std::string format;                   ///< of the input: "obj", ...; empty: arrays or several files were given
   std::size_t vertices = 0, faces = 0;  ///< as the file counts them
   std::vector<std::string> notes;       ///< Document::notes

@@ -50,7 +50,7 @@ class SceneDocument {
   std::span<const double> positions_of(std::size_t file, std::span<const double> positions) const;
   /// The files to write for one of the files of the scene, see Document::patched. `positions`: of the whole scene.
   std::vector<OutputFile> patched(std::size_t file, std::span<const double> positions, bool float32_digits,
-                                  const std::filesystem::path& main_name = {}) const;
+                                  const std::filesystem::path& main_name = {}, const std::string& infix = {}) const;
   /// The positions that reading all of them back gives, bit for bit.
   std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const;
 

@@ -337,10 +337,19 @@ UNSNARL_EXPORT int unsnarl_document_recompute_normals(unsnarl_document* document
  * folder exists, nothing is write-protected, and no other part of the input would be overwritten. */
 UNSNARL_EXPORT int unsnarl_document_check_output(const unsnarl_document* document, const char* path);
 /* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was. They are read
- * back bit for bit before anything is in place. path may be that of the file that was read. The old files or the whole
- * new ones are there, never a part. Of several files path is the folder where all go under their names. */
+ * back bit for bit before anything is in place. path may be that of the file that was read; where somebody has changed
+ * that since, it is left as it is, the result is written as of unsnarl_document_write_partial, and the error says so.
+ * The old files or the whole new ones are there, never a part. Of several files path is the folder where all go under
+ * their names. */
 UNSNARL_EXPORT int unsnarl_document_write(const unsnarl_document* document, const unsnarl_result* repaired,
                                           const char* path);
+/* Keeps what an unfinished repair has reached beside path, which is left as it is: in out.partial.obj for out.obj, with
+ * buffers of such names for a glTF. Of several files path is the folder; each is kept under such a name. */
+UNSNARL_EXPORT int unsnarl_document_write_partial(unsnarl_document* document, const unsnarl_result* repaired,
+                                                  const char* path);
+/* The path that this has written file number `file` of the document to (0 where it is one file); NULL: it has not. It is
+ * the document's, until the next call. */
+UNSNARL_EXPORT const char* unsnarl_document_partial(const unsnarl_document* document, size_t file);
 UNSNARL_EXPORT void unsnarl_document_free(unsnarl_document* document);
 
 /* ---- samples ------------------------------------------------------------------------------------------------ */

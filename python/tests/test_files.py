@@ -103,6 +103,47 @@ def test_what_is_unfinished_is_written_where_asked_for(mesh, tmp_path):
     assert kept.output == out and out.exists() and kept.status != "embedded"
 
 
+def two_overlaps(path, deep=0.4):
+    """One that a motion of 0.05 resolves, and one so deep."""
+    points, faces = [], []
+    for i, depth in enumerate([0.02, deep]):
+        tip = (4 - depth * 3**0.5) / 3
+        points += [[x + 9 * i, y, z] for x, y, z in [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (tip, tip, tip)]]
+        points += [[x + 9 * i, y, z] for x, y, z in [(2.6, 2.5, 2), (2.5, 2.6, 2.2), (2.4, 2.4, 2.7)]]
+        corners = [(1, 3, 2), (1, 2, 4), (2, 3, 4), (1, 4, 3), (5, 7, 6), (5, 6, 8), (6, 7, 8), (5, 8, 7)]
+        faces += [[c + 8 * i for c in face] for face in corners]
+    lines = [f"v {x:.6g} {y:.6g} {z:.6g}" for x, y, z in points] + [f"f {a} {b} {c}" for a, b, c in faces]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_what_an_incomplete_repair_reached_is_kept_beside_the_output(tmp_path):
+    source = two_overlaps(tmp_path / "in.obj")
+    limit = 0.05 / unsnarl.repair(*unsnarl.read(source)).report["diagonal"]
+    result = unsnarl.fix(source, tmp_path / "out.obj", max_displacement=limit)
+    assert result.status == "displacement_exceeded" and result.output is None
+    assert result.partial == tmp_path / "out.partial.obj"
+    assert result.report["output"] == {"written": False, "path": None, "partial": [str(result.partial)]}
+    assert 0 < len(unsnarl.check(result.partial)) < len(unsnarl.check(source))
+    again = unsnarl.fix(result.partial, tmp_path / "out.obj", max_displacement=limit, no_partial=True)
+    assert again.output is None and again.partial is None
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["in.obj", "out.partial.obj"]
+
+
+def test_an_edit_saved_meanwhile_is_not_overwritten(mesh, tmp_path):
+    edited = []
+
+    def edit(*state):
+        if not edited:
+            with open(mesh, "a") as file:
+                file.write("# edited\n")
+            edited.append(mesh.read_text())
+
+    with pytest.raises(OSError, match="in.partial.obj"):
+        unsnarl.fix(mesh, in_place=True, progress=edit)
+    assert mesh.read_text() == edited[0] and len(unsnarl.check(tmp_path / "in.partial.obj")) == 0
+
+
 def test_refusals(mesh, tmp_path):
     with pytest.raises(OSError, match="nowhere.obj"):
         unsnarl.fix(tmp_path / "nowhere.obj", tmp_path / "out.obj")

@@ -121,7 +121,7 @@ def test_result_in_words(crossing):
     report = result.report
     assert (report["schema"], report["version"]) == ("unsnarl-report", unsnarl.__version__)
     assert report["input"]["path"] is None
-    assert report["output"] == {"written": False, "path": None}
+    assert report["output"] == {"written": False, "path": None, "partial": []}
     assert report["displacement_max_rel"] * report["diagonal"] == pytest.approx(
         np.linalg.norm(result.V - crossing[0], axis=1).max()
     )

@@ -85,6 +85,12 @@ class Document:
     def write(self, repaired: Outcome, path: PathLike) -> None:
         check_code(library.unsnarl_document_write(self.handle, repaired._handle, os.fsencode(path)))
 
+    def write_partial(self, repaired: Outcome, path: PathLike) -> list[Path]:
+        """Beside `path`, or of several files in this folder; returns the paths of the files."""
+        check_code(library.unsnarl_document_write_partial(self.handle, repaired._handle, os.fsencode(path)))
+        places = (library.unsnarl_document_partial(self.handle, i) for i in range(len(self.paths)))
+        return [Path(os.fsdecode(place)) for place in places]
+
 
 class Parts(NamedTuple):
     """Parts of files by what names them."""

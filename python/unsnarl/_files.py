@@ -114,6 +114,7 @@ def fix(
     rigid: Optional[Sequence[ArrayLike]] = None,
     in_place: bool = False,
     keep_partial: bool = False,
+    no_partial: bool = False,
     recompute_normals: bool = False,
     format: Optional[Format] = None,
     fix_group: Optional[Names] = None,
@@ -161,6 +162,7 @@ def fix(
     rigid: Optional[Sequence[int]] = None,
     in_place: bool = False,
     keep_partial: bool = False,
+    no_partial: bool = False,
     recompute_normals: bool = False,
     format: Optional[Format] = None,
     fix_group: Optional[Names] = None,
@@ -207,6 +209,7 @@ def fix(
     rigid: Any = None,
     in_place: bool = False,
     keep_partial: bool = False,
+    no_partial: bool = False,
     recompute_normals: bool = False,
     format: Optional[Format] = None,
     fix_group: Optional[Names] = None,
@@ -251,7 +254,9 @@ def fix(
     path, output
         Files of one format; output must be another file. Or a list of files, which are one scene (meshes are also
         separated from each other), and the folder where they go under their names, made where it is missing. Where the
-        result is not embedded, nothing is written, but for obstructed, where something else was repaired.
+        result is not embedded, they are not written, but for obstructed, where something else was repaired. The best
+        state that was reached goes to a file beside each, out.partial.obj for out.obj, unless nothing better than the
+        input was found.
     fixed
         Vertices that must not move, as for repair; of several files a list of the same length, with None where all may
         move.
@@ -260,7 +265,9 @@ def fix(
     in_place
         Write to `path`; no output is given then. Not of several files.
     keep_partial
-        Write also what a limit or an obstacle left unfinished.
+        Write to `output` also what a limit or an obstacle left unfinished.
+    no_partial
+        Write no files beside it.
     recompute_normals
         Turn stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved.
     format
@@ -281,11 +288,12 @@ def fix(
 weld_tolerance, both_diagonals, each_component, threads, recover, paper, progress
         As for repair.
 
-    Returns a Result; its `output` is the file that was written (of several files the folder), or None. Of several files
-    V is a list.
+    Returns a Result; its `output` is the file that was written (of several files the folder), or None, its `partial` the
+    one beside it (of several files a list), or None. Of several files V is a list.
 
     Raises OSError where a file cannot be read or written, before the repair (FileNotFoundError, PermissionError, ... as
-    the system gave the reason); ValueError and TypeError as repair does.
+    the system gave the reason), or where the file to overwrite was changed meanwhile and is left as it is; ValueError and
+    TypeError as repair does.
     """
     fix_parts = Parts(fix_group, fix_object, fix_material, fix_component, fix_file)
     only_parts = Parts(only_group, only_object, only_material, only_component, only_file)
@@ -326,17 +334,28 @@ weld_tolerance, both_diagonals, each_component, threads, recover, paper, progres
         V = repaired.array("positions")
         is_changed = not np.array_equal(V.ravel(), scene.surface.positions)
         is_written = repaired.status == "embedded" or (repaired.status == "obstructed" and is_changed) or keep_partial
+        partial: list[Path] = []
         if is_written:
             document.write(repaired, target)
             folder.keep()
+        elif is_changed and not no_partial and repaired.status not in ("obstructed", "no_progress"):
+            partial = document.write_partial(repaired, target)
+            folder.keep()
     report = repaired.report
-    report["output"] = {"written": is_written, "path": os.fspath(target) if is_written else None}
+    report["output"] = {
+        "written": is_written,
+        "path": os.fspath(target) if is_written else None,
+        "partial": [os.fspath(path) for path in partial],
+    }
     for entry in report.get("files", []):
         entry["output"] = os.fspath(target / entry["name"]) if is_written else None
     moved = scene.split(V) if document.is_scene else V
     written = target if is_written else None
     sizes = scene.mesh_sizes if document.is_scene else None
-    return Result(moved, repaired.status, report, None, written, scene.surface, V, sizes, _document=document)
+    kept = None if not partial else partial if document.is_scene else partial[0]
+    return Result(
+        moved, repaired.status, report, None, written, scene.surface, V, sizes, _document=document, partial=kept
+    )
 
 
 def _check_places(path: Union[PathLike, Paths], output: Optional[PathLike], in_place: bool) -> None:

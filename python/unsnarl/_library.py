@@ -162,6 +162,8 @@ _SIGNATURES = {
     "document_recompute_normals": ([c_void_p, POINTER(c_int32)], c_int),
     "document_check_output": ([c_void_p, c_char_p], c_int),
     "document_write": ([c_void_p, c_void_p, c_char_p], c_int),
+    "document_write_partial": ([c_void_p, c_void_p, c_char_p], c_int),
+    "document_partial": ([c_void_p, c_size_t], c_char_p),
     "document_free": ([c_void_p], None),
 }
 for _name, (_arguments, _result) in _SIGNATURES.items():

@@ -72,6 +72,8 @@ class Result(Generic[V_]):
     _after: Any = field(default=None, compare=False)
     _mesh_sizes: Any = field(default=None, compare=False)
     _document: Any = field(default=None, compare=False)
+    #: Of fix(): the file beside it in which an unfinished repair is kept, of several files a list; None: none is.
+    partial: Union[Path, list[Path], None] = None
 
     def picture(self, width: int = 1200) -> bytes:
         """Before and after, side by side, intersecting faces in red: the bytes of a PNG file.

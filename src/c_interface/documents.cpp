@@ -52,7 +52,7 @@ std::unique_ptr<unsnarl_document> read(std::vector<fs::path> paths, std::optiona
   // Notes quote the file, whose bytes need not be UTF-8.
   std::string report = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   return std::unique_ptr<unsnarl_document>(
-      new unsnarl_document{std::move(paths), std::move(scene), std::move(mesh_sizes), std::move(report)});
+      new unsnarl_document{std::move(paths), std::move(scene), std::move(mesh_sizes), std::move(report), {}});
 }
 
 bool is_one_file(const unsnarl_document& input) {
@@ -115,42 +115,76 @@ void require_target(const unsnarl_document& input, const fs::path& place) {
     throw std::invalid_argument(place.string() + ": the result keeps the format of the input, " +
                                 std::string(to_string(document.format())));
   if (!is_one_file(input)) require_folder(place);
-  for (std::size_t i = 0; i < input.paths.size(); ++i) const StagedFiles can_be_replaced(target_of(input, i, place));
+  for (std::size_t i = 0; i < input.paths.size(); ++i) {
+    const fs::path target = target_of(input, i, place);
+    std::vector<fs::path> beside;
+    for (const OutputFile& file :
+         input.scene.patched(i, input.scene.surface().positions, true, main_name(input, i, target)))
+      if (!file.name.empty()) beside.push_back(file.name);
+    StagedFiles().open_beside(target, beside);
+  }
   require_places_apart(input, place);
 }
 
-/// The files to write, all at once.
-std::vector<OutputFile> files_to_write(const unsnarl_document& input, std::span<const double> positions, bool float32,
-                                       const fs::path& place) {
-  std::vector<OutputFile> all;
-  for (std::size_t i = 0; i < input.paths.size(); ++i) {
-    std::vector<OutputFile> files =
-        input.scene.patched(i, positions, float32, main_name(input, i, target_of(input, i, place)));
-    if (!is_one_file(input)) files[0].name = input.paths[i].filename();
-    std::move(files.begin(), files.end(), std::back_inserter(all));
-  }
-  return all;
-}
-
-void require_same(const unsnarl_document& input, std::size_t i, const fs::path& staged, const fs::path& target,
-                  std::span<const double> expected) {
-  const std::span<const double> own = input.scene.positions_of(i, expected);
-  const Document written = Document::read(staged, input.scene.document(i).format());
-  if (!std::equal(own.begin(), own.end(), written.surface().positions.begin(), written.surface().positions.end()))
-    throw std::logic_error(target.string() + " would not give back the positions that were to be written to it");
-}
-
-void write(const unsnarl_document& input, std::span<const double> positions, bool float32, const fs::path& place) {
-  require_target(input, place);
-  StagedFiles staged(is_one_file(input) ? place : place / ".scene");
-  staged.write(files_to_write(input, positions, float32, place));
+/// Adds all files of a result, with an infix beside the targets, and reads them back.
+void add(StagedFiles& staged, const unsnarl_document& input, const unsnarl_result& repaired, const fs::path& place,
+         const std::string& infix = {}) {
+  const auto& positions = std::get<std::vector<double>>(repaired.arrays.at("positions").values);
+  const bool float32 = *repaired.precision == Precision::float32;
   const std::vector<double> expected = input.scene.as_written(positions, float32);
+  const auto links = is_one_file(input) ? StagedFiles::Links::followed : StagedFiles::Links::replaced;
   for (std::size_t i = 0; i < input.paths.size(); ++i) {
     const fs::path target = target_of(input, i, place);
-    require_same(input, i, is_one_file(input) ? staged.main_file() : staged.folder() / target.filename(), target,
-                 expected);
+    const fs::path name = infix.empty() ? main_name(input, i, target) : target.filename();
+    const fs::path written =
+        staged.add(with_infix(target, infix), input.scene.patched(i, positions, float32, name, infix), links);
+    const std::span<const double> own = input.scene.positions_of(i, expected);
+    if (!std::ranges::equal(own, Document::read(written, input.scene.document(i).format()).surface().positions))
+      throw std::logic_error(target.string() + " would not give back the positions that were to be written to it");
   }
+}
+
+/// Beside the targets, where nothing is that was read. Returns the places.
+std::vector<std::string> write_partial(const unsnarl_document& input, const unsnarl_result& repaired,
+                                       const fs::path& place) {
+  const std::vector<fs::path> read = files_read(input);
+  const auto is_free = [&](const fs::path& at) {
+    std::error_code ignored;
+    return can_be_replaced(at) && std::none_of(read.begin(), read.end(),
+                                               [&](const fs::path& file) { return fs::equivalent(at, file, ignored); });
+  };
+  std::vector<std::string> places;
+  std::string infix = partial_infix;
+  for (int number = 2; places.size() < input.paths.size(); ++number) {
+    places.clear();
+    for (std::size_t i = 0; i < input.paths.size(); ++i)
+      if (const fs::path at = with_infix(target_of(input, i, place), infix); is_free(at)) places.push_back(at.string());
+    if (places.size() < input.paths.size()) infix = std::string(partial_infix) + "." + std::to_string(number);
+  }
+  StagedFiles staged;
+  add(staged, input, repaired, place, infix);
   staged.commit();
+  return places;
+}
+
+void write(const unsnarl_document& input, const unsnarl_result& repaired, const fs::path& place) {
+  require_target(input, place);
+  StagedFiles staged;
+  add(staged, input, repaired, place);
+  try {
+    staged.commit();
+  } catch (const ChangedMeanwhile& changed) {
+    throw WriteError(std::string(changed.what()) + "; the result is in " + write_partial(input, repaired, place)[0]);
+  }
+}
+
+void require_repaired(const unsnarl_document& document, const unsnarl_result& repaired) {
+  if (!repaired.precision) throw std::invalid_argument("repaired is no result of unsnarl_repair");
+  const auto& positions = std::get<std::vector<double>>(repaired.arrays.at("positions").values);
+  if (positions.size() != document.scene.surface().positions.size())
+    throw std::invalid_argument("repaired is of another mesh: " + std::to_string(positions.size() / 3) +
+                                " vertices, where the document has " +
+                                std::to_string(document.scene.surface().view().vertex_count()));
 }
 
 /// The parts of one kind and name. Throws std::invalid_argument.
@@ -257,14 +291,23 @@ int unsnarl_document_write(const unsnarl_document* document, const unsnarl_resul
     require(document, "document");
     require(repaired, "repaired");
     require(path, "path");
-    if (!repaired->precision) throw std::invalid_argument("repaired is no result of unsnarl_repair");
-    const auto& positions = std::get<std::vector<double>>(repaired->arrays.at("positions").values);
-    if (positions.size() != document->scene.surface().positions.size())
-      throw std::invalid_argument("repaired is of another mesh: " + std::to_string(positions.size() / 3) +
-                                  " vertices, where the document has " +
-                                  std::to_string(document->scene.surface().view().vertex_count()));
-    write(*document, positions, *repaired->precision == Precision::float32, path);
+    require_repaired(*document, *repaired);
+    write(*document, *repaired, path);
   });
+}
+
+int unsnarl_document_write_partial(unsnarl_document* document, const unsnarl_result* repaired, const char* path) {
+  return guarded([&] {
+    require(document, "document");
+    require(repaired, "repaired");
+    require(path, "path");
+    require_repaired(*document, *repaired);
+    document->partial = write_partial(*document, *repaired, path);
+  });
+}
+
+const char* unsnarl_document_partial(const unsnarl_document* document, size_t file) {
+  return file < document->partial.size() ? document->partial[file].c_str() : nullptr;
 }
 
 void unsnarl_document_free(unsnarl_document* document) {

@@ -23,6 +23,7 @@ struct unsnarl_document {
   unsnarl::SceneDocument scene;         // of one file or several
   std::vector<std::size_t> mesh_sizes;  // as unsnarl_surface has them; empty: it is one
   std::string report;
+  std::vector<std::string> partial;  // places of unsnarl_document_write_partial, one a file; empty: nothing was written
 };
 
 struct unsnarl_result {

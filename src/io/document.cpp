@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -46,6 +47,11 @@ bool has_word(std::string_view words, std::string_view word) {
 
 }  // namespace
 
+std::filesystem::path with_infix(const std::filesystem::path& path, std::string_view infix) {
+  const std::filesystem::path name = path.stem().string() + std::string(infix) + path.extension().string();
+  return path.parent_path() / name;
+}
+
 std::string_view to_string(Format format) {
   return formats[static_cast<std::size_t>(format)].name;
 }
@@ -77,7 +83,7 @@ Document::~Document() = default;
 
 Document Document::read(const std::filesystem::path& path, std::optional<Format> format) {
   if (!format) format = format_from_extension(path.string());
-  std::string bytes = read_file(path, [&](std::string_view start) {
+  FileRead file = read_stamped_file(path, [&](std::string_view start) {
     try {
       if (!format) refuse_foreign_format(start, path.string());
       if (!format) format = format_of_content(start);
@@ -90,7 +96,9 @@ Document Document::read(const std::filesystem::path& path, std::optional<Format>
     }
   });
   try {
-    return parse(std::move(bytes), *format, path.parent_path());
+    Document document = parse(std::move(file.bytes), *format, path.parent_path());
+    document.read_from_ = file.stamp;
+    return document;
   } catch (const FileError& error) {
     throw FileError(fmt::format("{}: {}", path.string(), error.what()), error.error_number());
   }
@@ -142,10 +150,18 @@ bool Document::recompute_normals() {
 }
 
 std::vector<OutputFile> Document::patched(std::span<const double> positions, bool float32_digits,
-                                          const std::filesystem::path& main_name) const {
+                                          const std::filesystem::path& main_name, const std::string& infix) const {
   check_positions(file_->surface, positions);
-  if (main_name.empty()) return file_->patched(positions, float32_digits);
-  return file_->patched_as(main_name.filename().string(), positions, float32_digits);
+  assert(infix.empty() || !main_name.empty());
+  if (main_name.empty()) {
+    std::vector<OutputFile> files = file_->patched(positions, float32_digits);
+    files[0].replaces = read_from_;
+    return files;
+  }
+  std::vector<OutputFile> files =
+      file_->patched_as(with_infix(main_name.filename(), infix).string(), infix, positions, float32_digits);
+  for (OutputFile& file : files) file.replaces.reset();
+  return files;
 }
 
 std::vector<double> Document::as_written(std::span<const double> positions, bool float32_digits) const {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/mesh_file.h"
+#include "unsnarl/staged_files.h"
 
 namespace unsnarl {
 namespace {
@@ -48,45 +49,28 @@ void write_directly(const std::filesystem::path& path, std::string_view bytes) {
   }
 }
 
-/// A file next to the target that is removed again unless it was renamed.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::filesystem::path& target) {
-    for (int attempt = 0; attempt < 1000; ++attempt) {
-      path_ = target.parent_path() / fmt::format(".{}.{}-{}", target.filename().string(), ::getpid(), attempt);
-      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (descriptor_ >= 0 || errno != EEXIST) return;
-    }
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    if (descriptor_ < 0) return;
-    ::close(descriptor_);
-    if (!renamed_) ::unlink(path_.c_str());
-  }
-
-  bool is_open() const { return descriptor_ >= 0; }
-  bool fill(std::string_view bytes) { return write_all(descriptor_, bytes) && ::fsync(descriptor_) == 0; }
-  void take_permissions(const struct stat& from) {
-    // The group may be one we are not in; then the permissions must not grow for another group.
-    const bool same_group = ::fchown(descriptor_, static_cast<uid_t>(-1), from.st_gid) == 0;
-    static_cast<void>(::fchmod(descriptor_, from.st_mode & (same_group ? 0777 : 0707)));
-  }
-  bool rename_to(const std::filesystem::path& target) {
-    renamed_ = ::rename(path_.c_str(), target.c_str()) == 0;
-    return renamed_;
-  }
-
- private:
-  std::filesystem::path path_;
-  int descriptor_ = -1;
-  bool renamed_ = false;
-};
-
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path, const std::function<void(std::string_view)>& check_start) {
+FileStamp::FileStamp(const struct stat& status)
+    : device(status.st_dev),
+      inode(status.st_ino),
+      size(status.st_size),
+#ifdef __APPLE__
+      modified_s(status.st_mtimespec.tv_sec),
+      modified_ns(status.st_mtimespec.tv_nsec) {
+}
+#else
+      modified_s(status.st_mtim.tv_sec),
+      modified_ns(status.st_mtim.tv_nsec) {
+}
+#endif
+
+std::string read_file(const std::filesystem::path& path) {
+  return read_stamped_file(path).bytes;
+}
+
+FileRead read_stamped_file(const std::filesystem::path& path,
+                           const std::function<void(std::string_view)>& check_start) {
   // O_NONBLOCK: opening a pipe that nobody writes to must not hang.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
@@ -120,7 +104,7 @@ std::string read_file(const std::filesystem::path& path, const std::function<voi
     bytes.reserve(whole);
   }
   read_up_to(whole);
-  return bytes;
+  return {std::move(bytes), FileStamp(status)};
 }
 
 bool is_inside_folder(const std::filesystem::path& name) {
@@ -128,36 +112,19 @@ bool is_inside_folder(const std::filesystem::path& name) {
   return std::none_of(name.begin(), name.end(), [](const std::filesystem::path& part) { return part == ".."; });
 }
 
-void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
-  std::filesystem::path target = path;
-  std::error_code error;
-  if (std::filesystem::is_symlink(path, error)) {
-    target = std::filesystem::weakly_canonical(path, error);
-    if (error) throw_write_error(path.string() + ": cannot follow the link", error.value());
-  }
-  struct stat status {};
-  const bool exists = ::stat(target.c_str(), &status) == 0;
-  if (exists && S_ISDIR(status.st_mode)) {
-    throw WriteError(fmt::format("{}: is a folder; name a file", path.string()), EISDIR);
-  }
-  if (exists && !S_ISREG(status.st_mode)) return write_directly(target, bytes);
-  // Renaming would get past the protection of the old file.
-  if (exists && ::access(target.c_str(), W_OK) != 0) {
-    throw_write_error(path.string() + ": is write-protected", errno);
-  }
+int write_new_file(const std::filesystem::path& path, std::string_view bytes) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  const bool is_whole = file.id() >= 0 && write_all(file.id(), bytes) && ::fsync(file.id()) == 0 && file.close();
+  return is_whole ? 0 : errno;
+}
 
-  TemporaryFile temporary(target);
-  if (!temporary.is_open()) {
-    throw_write_error(path.string() + ": cannot create a file in its folder", errno);
-  }
-  if (exists) temporary.take_permissions(status);
-  if (!temporary.fill(bytes) || !temporary.rename_to(target)) {
-    throw_write_error(path.string() + ": cannot write", errno);
-  }
-  // The new name is only safe once the folder is on the disk too; some file systems cannot do this, which is no error.
-  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  Descriptor handle(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (handle.id() >= 0) static_cast<void>(::fsync(handle.id()));
+void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
+  struct stat status {};
+  const bool is_device = ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+  if (is_device) return write_directly(path, bytes);
+  StagedFiles files;
+  files.add(path, bytes);
+  files.commit();
 }
 
 }  // namespace unsnarl

@@ -41,8 +41,8 @@ class GiftiFile final : public PointFile {
     std::size_t file = 0;  ///< number in external_files
   };
 
-  std::vector<OutputFile> patched_as(const std::string& main_name, std::span<const double> positions,
-                                     bool float32_digits) const override {
+  std::vector<OutputFile> patched_as(const std::string& main_name, const std::string&,
+                                     std::span<const double> positions, bool float32_digits) const override {
     std::vector<TextEdit> edits;
     for (const Reference& reference : references) {
       const std::string name = own_name(main_name, reference.file);
@@ -147,7 +147,8 @@ class GiftiParser {
     const auto known = std::find_if(files.begin(), files.end(), [&](const auto& file) { return file->name == name; });
     const auto i = static_cast<std::size_t>(known - files.begin());
     if (known == files.end()) {
-      ExternalFile file{name, read_file(folder_ / name)};
+      FileRead read = read_stamped_file(folder_ / name);
+      ExternalFile file{name, std::move(read.bytes), read.stamp};
       files.push_back(std::make_shared<ExternalFile>(std::move(file)));
     }
     file_.references.push_back({xml_.range(attribute), i});

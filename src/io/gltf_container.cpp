@@ -35,6 +35,17 @@ std::string json_string(std::string_view text, std::string_view old_token) {
   return result + '"';
 }
 
+/// The URI of the file with_infix(): its last part has the infix before the last dot, however that is written.
+std::string uri_with_infix(const std::string& uri, std::string_view infix) {
+  const std::string extension = std::filesystem::path(percent_decoded(uri)).extension().string();
+  // The URI of an extension has at least as many characters as the extension: go back until it is the same.
+  for (std::size_t at = uri.size();; --at) {
+    if (percent_decoded(std::string_view(uri).substr(at)) == extension)
+      return uri.substr(0, at) + std::string(infix) + uri.substr(at);
+    if (at == 0) return uri + std::string(infix);
+  }
+}
+
 }  // namespace
 
 GltfContainer GltfContainer::of_glb(std::string_view bytes) {
@@ -107,7 +118,9 @@ GltfBuffers::GltfBuffers(const std::vector<JsonText::Value>& json, std::string_v
       buffer.same_as = known.try_emplace(buffer.name, i).first->second;
       if (buffer.same_as != i) continue;
       try {
-        buffer.owned = read_file(folder / buffer.name);
+        FileRead file = read_stamped_file(folder / buffer.name);
+        buffer.owned = std::move(file.bytes);
+        buffer.stamp = file.stamp;
       } catch (const FileError& error) {
         buffer.error = fmt::format("buffer {}: {}", i, error.what());
         buffer.error_number = error.error_number();
@@ -155,7 +168,7 @@ void GltfBuffers::load(std::size_t i, const JsonText::Value& json, std::string_v
     }
     return;
   }
-  buffer.name = percent_decoded(uri);
+  buffer.name = std::filesystem::path(percent_decoded(uri)).lexically_normal();
   if (!is_inside_folder(buffer.name) || uri.find("://") != std::string::npos) {
     buffer.error =
         fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i, in_quotes(uri));
@@ -178,7 +191,8 @@ std::string_view GltfBuffers::data(std::size_t i) const {
 
 std::vector<OutputFile> GltfBuffers::rebuilt(std::string_view bytes, const GltfContainer& container,
                                              std::vector<TextEdit> json_edits,
-                                             std::map<std::size_t, std::string> changed) const {
+                                             std::map<std::size_t, std::string> changed,
+                                             const std::string& infix) const {
   std::vector<OutputFile> files(1);
   std::optional<std::string> binary;
   for (std::size_t i = 0; i < buffers_.size(); ++i) {
@@ -194,8 +208,13 @@ std::vector<OutputFile> GltfBuffers::rebuilt(std::string_view bytes, const GltfC
       base64_patch(encoded, buffer.owned, change->second);
       json_edits.push_back(
           {buffer.uri.begin(), buffer.uri.end(), json_string(uri.substr(0, start) + encoded, buffer.uri.text())});
-    } else if (buffer.kind == Buffer::Kind::file && buffer.same_as == i && buffer.error.empty()) {
-      files.push_back({buffer.name, is_changed ? std::move(change->second) : buffer.owned});
+    } else if (buffer.kind == Buffer::Kind::file && buffers_[buffer.same_as].error.empty()) {
+      const std::string uri = uri_with_infix(buffer.uri.string(), infix);
+      if (!infix.empty())
+        json_edits.push_back({buffer.uri.begin(), buffer.uri.end(), json_string(uri, buffer.uri.text())});
+      if (buffer.same_as == i)
+        files.push_back(
+            {with_infix(buffer.name, infix), is_changed ? std::move(change->second) : buffer.owned, buffer.stamp});
     }
   }
   files[0].bytes = container.rebuilt(bytes, std::move(json_edits), binary);

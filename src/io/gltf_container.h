@@ -40,9 +40,11 @@ class GltfBuffers {
   /// Throws FileError where the buffer could not be read.
   std::string_view data(std::size_t buffer) const;
 
-  /// All files to write: the main file with `json_edits` and the changed buffers, then the external buffers.
+  /// All files to write: the main file with `json_edits` and the changed buffers, then the external buffers, whose
+  /// names get the infix.
   std::vector<OutputFile> rebuilt(std::string_view bytes, const GltfContainer& container,
-                                  std::vector<TextEdit> json_edits, std::map<std::size_t, std::string> changed) const;
+                                  std::vector<TextEdit> json_edits, std::map<std::size_t, std::string> changed,
+                                  const std::string& infix) const;
 
  private:
   struct Buffer {
@@ -51,6 +53,7 @@ class GltfBuffers {
     JsonText::Value uri;
     std::filesystem::path name;  ///< of a file
     std::string owned;           ///< data of a URI or file
+    FileStamp stamp;             ///< of a file
     std::string_view view;       ///< data of the binary chunk
     std::string error;           ///< why there is no data
     int error_number = 0;        ///< the errno behind it; 0: there is none

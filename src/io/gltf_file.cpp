@@ -61,7 +61,8 @@ std::vector<double> GltfFile::as_written(std::span<const double> positions, bool
   return result;
 }
 
-std::vector<OutputFile> GltfFile::patched(std::span<const double> positions, bool float32_digits) const {
+std::vector<OutputFile> GltfFile::patched_as(const std::string&, const std::string& infix,
+                                             std::span<const double> positions, bool float32_digits) const {
   const std::vector<double> written = as_written(positions, float32_digits);  // refuses what cannot be changed
   std::map<std::size_t, std::string> changed;
   std::vector<bool> block_changed(blocks.size());
@@ -84,7 +85,7 @@ std::vector<OutputFile> GltfFile::patched(std::span<const double> positions, boo
   for (const auto& [id, accessor] : accessors) {
     if (block_changed[accessor.block]) update_bounds(accessor, changed.at(accessor.layout.buffer), edits);
   }
-  return buffers.rebuilt(bytes, container, std::move(edits), std::move(changed));
+  return buffers.rebuilt(bytes, container, std::move(edits), std::move(changed), infix);
 }
 
 bool GltfFile::has_vertex_normals() const {

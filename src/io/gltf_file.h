@@ -33,7 +33,11 @@ struct GltfPositions {
 /// A parsed glTF or GLB: which bytes of its buffers are the positions, and how new ones get there.
 class GltfFile final : public MeshFile {
  public:
-  std::vector<OutputFile> patched(std::span<const double> positions, bool) const override;
+  std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const override {
+    return patched_as({}, {}, positions, float32_digits);
+  }
+  std::vector<OutputFile> patched_as(const std::string& main_name, const std::string& infix,
+                                     std::span<const double> positions, bool float32_digits) const override;
   std::vector<double> as_written(std::span<const double> positions, bool) const override;
   bool has_vertex_normals() const override;
   Appearance appearance(std::size_t room) const override {

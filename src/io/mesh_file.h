@@ -24,10 +24,11 @@ class MeshFile {
   virtual std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const = 0;
   virtual std::vector<double> as_written(std::span<const double> positions, bool float32_digits) const = 0;
   /// patched() for a main file that is to have this name: the files beside it are named after it where the format says
-  /// in the main file what they are called and other files may refer to the old ones.
-  virtual std::vector<OutputFile> patched_as(const std::string& main_name, std::span<const double> positions,
-                                             bool float32_digits) const {
+  /// in the main file what they are called and other files may refer to the old ones. Else their names get the infix.
+  virtual std::vector<OutputFile> patched_as(const std::string& main_name, const std::string& infix,
+                                             std::span<const double> positions, bool float32_digits) const {
     static_cast<void>(main_name);
+    static_cast<void>(infix);
     return patched(positions, float32_digits);
   }
 
@@ -50,8 +51,16 @@ class MeshFile {
 /// `check_start` is called with the first bytes (all, or at least `checked_start`) before the others are read, which
 /// may be gigabytes; what it throws ends the reading.
 inline constexpr std::size_t checked_start = 4096;
-std::string read_file(const std::filesystem::path& path,
-                      const std::function<void(std::string_view start)>& check_start = {});
+struct FileRead {
+  std::string bytes;
+  FileStamp stamp;  ///< as the file was before its first byte was read
+};
+FileRead read_stamped_file(const std::filesystem::path& path,
+                           const std::function<void(std::string_view start)>& check_start = {});
+std::string read_file(const std::filesystem::path& path);
+
+/// Makes a file that was not there, on the disk when this returns. The errno of what failed; 0: nothing.
+int write_new_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Is this, as a mesh file may refer to it, a name of a file in or below its own folder? Only these are read and, at
 /// the output, written.

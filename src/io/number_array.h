@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/text_edits.h"
+#include "unsnarl/file_stamp.h"
 
 namespace unsnarl {
 
@@ -49,6 +50,7 @@ class EncodedNumbers {
 struct ExternalFile {
   std::filesystem::path name;  ///< relative to the folder of the main file
   std::string bytes;
+  FileStamp stamp;
 };
 
 /// Numbers of one type behind each other, wherever and however a file keeps them.

@@ -220,7 +220,7 @@ std::vector<OutputFile> PointFile::patched_with(std::vector<TextEdit> edits, std
                                                 bool float32_digits) const {
   const std::vector<double> written = as_written(positions, float32_digits);
   std::vector<OutputFile> files = {{{}, bytes}};
-  for (const auto& file : external_files) files.push_back({file->name, file->bytes});
+  for (const auto& file : external_files) files.push_back({file->name, file->bytes, file->stamp});
   for (const PointBlock& block : blocks_) {
     if (!has_moved(block, written)) continue;
     if (block.array.is_text) {

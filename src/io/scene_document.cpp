@@ -171,8 +171,8 @@ std::span<const double> SceneDocument::positions_of(std::size_t file, std::span<
 }
 
 std::vector<OutputFile> SceneDocument::patched(std::size_t file, std::span<const double> positions, bool float32_digits,
-                                               const std::filesystem::path& main_name) const {
-  return documents_[file].patched(positions_of(file, positions), float32_digits, main_name);
+                                               const std::filesystem::path& main_name, const std::string& infix) const {
+  return documents_[file].patched(positions_of(file, positions), float32_digits, main_name, infix);
 }
 
 std::vector<double> SceneDocument::as_written(std::span<const double> positions, bool float32_digits) const {

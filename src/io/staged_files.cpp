@@ -6,12 +6,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+
+#include "io/mesh_file.h"
 
 namespace unsnarl {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// In a temporary folder: the new files, and the old ones while they are being replaced, each under its name.
+constexpr const char *new_folder = "new", *old_folder = "old";
 
 fs::path with_links_followed(const fs::path& path) {
   std::error_code error;
@@ -25,7 +31,7 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// A rename is only safe from a loss of power once the folder is on the disk; some file systems cannot, which is fine.
+/// A move is only safe from a loss of power once the folder is on the disk; some file systems cannot, which is fine.
 void flush_folder(const fs::path& folder) {
   const int id = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (id < 0) return;
@@ -33,76 +39,263 @@ void flush_folder(const fs::path& folder) {
   ::close(id);
 }
 
+bool is_mount_point(const fs::path& path) {
+#ifdef STATX_ATTR_MOUNT_ROOT
+  struct statx status {};
+  return ::statx(AT_FDCWD, path.c_str(), AT_SYMLINK_NOFOLLOW, STATX_TYPE, &status) == 0 &&
+         (status.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
+#else
+  static_cast<void>(path);
+  return false;
+#endif
+}
+
 void require_replaceable(const fs::path& target) {
-  std::error_code ignored;
-  if (fs::is_directory(target, ignored))
-    throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()), EISDIR);
-  if (!fs::exists(target, ignored)) return;
-  if (!fs::is_regular_file(target, ignored))
-    throw WriteError(fmt::format("{}: is not a regular file", target.string()));
+  struct stat status {};
+  if (::stat(target.c_str(), &status) != 0) return;
+  if (S_ISDIR(status.st_mode)) throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()), EISDIR);
+  if (!S_ISREG(status.st_mode)) throw WriteError(fmt::format("{}: is not a regular file", target.string()));
   // Renaming would get past the protection of the old file.
-  if (::access(target.c_str(), W_OK) != 0) throw_write_error(target.string() + ": is write-protected", errno);
+  if (::access(target.c_str(), W_OK) != 0)
+    throw_write_error(target.string() + ": is write-protected", errno);
+  if (is_mount_point(target))
+    throw WriteError(
+        fmt::format("{}: is a mount point, which no other file can take the place of; name another file, or mount its "
+                    "folder instead",
+                    target.string()));
+}
+
+/// The innermost folder on the way to this place that is there.
+fs::path existing_folder_of(const fs::path& place) {
+  std::error_code ignored;
+  fs::path folder = folder_of(place);
+  while (!fs::exists(folder, ignored) && folder.has_relative_path()) folder = folder_of(folder);
+  return folder;
+}
+
+bool leads_into(const fs::path& folder, const fs::path& place) {
+  std::error_code error;
+  const fs::path root = fs::canonical(folder, error);
+  if (error) return false;
+  const fs::path real = fs::canonical(place, error);
+  return !error && std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
+}
+
+bool has_hidden_part(const fs::path& name) {
+  return std::any_of(name.begin(), name.end(), [](const fs::path& part) { return part.string().starts_with('.'); });
+}
+
+/// `name`: of a file that belongs to the main one at `target`. It may come from a file that somebody else made.
+void require_place_beside(const fs::path& target, const fs::path& name) {
+  const fs::path place = folder_of(target) / name;
+  std::error_code ignored;
+  if (!is_inside_folder(name) || (has_hidden_part(name) && !has_hidden_part(target.filename())))
+    throw WriteError(
+        fmt::format("{}: a file of this name is not written: its name was given by the input, and is hidden or leads "
+                    "out of the folder of the result; rename it there",
+                    place.string()));
+  const fs::path folder = existing_folder_of(place);
+  if (!fs::is_directory(folder, ignored))
+    throw WriteError(fmt::format("{}: {} is no folder", place.string(), folder.string()));
+  if (!leads_into(folder_of(target), folder))
+    throw WriteError(fmt::format("{}: {} leads out of the folder of the result; write to another folder",
+                                 place.string(), folder.string()));
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw_write_error(fmt::format("{}: cannot create files in the folder {}", place.string(), folder.string()), errno);
+  require_replaceable(place);
+}
+
+void copy_permissions(const fs::path& from, const fs::path& to) {
+  struct stat old {};
+  if (::stat(from.c_str(), &old) != 0) return;
+  // The group may be one we are not in; then the permissions must not grow for another group.
+  const bool same_group = ::chown(to.c_str(), static_cast<uid_t>(-1), old.st_gid) == 0;
+  static_cast<void>(::chmod(to.c_str(), old.st_mode & (same_group ? 0777 : 0707)));
 }
 
 }  // namespace
 
-StagedFiles::StagedFiles(const fs::path& target) : target_(with_links_followed(target)) {
-  require_replaceable(target_);
-  std::string pattern = (folder_of(target_) / ".unsnarl-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr)
-    throw_write_error(
-        fmt::format("{}: cannot create files in the folder {}", target.string(), folder_of(target_).string()), errno);
-  folder_ = pattern;
-}
-
-StagedFiles::~StagedFiles() {
-  std::error_code ignored;
-  reserve_.reset();
-  fs::remove_all(folder_, ignored);
-}
-
-void StagedFiles::write(const std::vector<OutputFile>& files) {
-  names_.clear();
-  for (const OutputFile& file : files) {
-    const fs::path name = file.name.empty() ? target_.filename() : file.name;
-    const fs::path staged = folder_ / name;
-    std::error_code error;
-    // Whoever interrupts the process may have removed folder_, which must not be made anew.
-    if (name.has_parent_path()) fs::create_directories(staged.parent_path(), error);
-    try {
-      write_atomically(staged, file.bytes);
-    } catch (const WriteError& e) {
-      // The reader of the message knows the final name only.
-      throw WriteError(fmt::format("{}: cannot be written ({})", (folder_of(target_) / name).string(), e.what()),
-                       e.error_number());
-    }
-    names_.push_back(name);
+bool can_be_replaced(const fs::path& place) {
+  try {
+    require_replaceable(place);
+    return true;
+  } catch (const WriteError&) {
+    return false;
   }
 }
 
-std::vector<fs::path> StagedFiles::targets() const {
-  std::vector<fs::path> paths;
-  for (const fs::path& name : names_) paths.push_back(folder_of(target_) / name);
-  return paths;
+/// Moves that can be taken back. Once it is made it allocates nothing, so that lack of memory cannot stop it half way.
+class StagedFiles::Moves {
+ public:
+  explicit Moves(const std::vector<File>& files) : files_(files), states_(files.size(), State::untouched) {
+    for (const File& file : files) find_missing_folders(folder_of(file.target));
+  }
+
+  /// Where the old file has a name in the temporary folder too, moving the new one over it is one step, before and
+  /// after which there is a whole file; some file systems have no second names.
+  bool put_aside(std::size_t i) {
+    const File& file = files_[i];
+    failed_ = i;
+    bool is_aside = ::linkat(AT_FDCWD, file.target.c_str(), AT_FDCWD, file.old.c_str(), 0) == 0;
+    if (!is_aside && (errno == ENOENT || errno == ENOTDIR)) return true;  // there is none
+    is_aside = is_aside || ::rename(file.target.c_str(), file.old.c_str()) == 0;
+    if (is_aside) states_[i] = State::put_aside;
+    return is_aside;
+  }
+  bool make_folders() {
+    for (; made_ < missing_.size(); ++made_)
+      if (::mkdir(missing_[made_].c_str(), 0777) != 0 && errno != EEXIST) return false;
+    return true;
+  }
+  bool replace(std::size_t i) {
+    failed_ = i;
+    if (::rename(files_[i].staged.c_str(), files_[i].target.c_str()) != 0) return false;
+    states_[i] = states_[i] == State::put_aside ? State::replaced : State::made;
+    return true;
+  }
+  /// False: not all is as it was; the old files that are not back are in the temporary folders.
+  bool take_back() {
+    bool all = true;
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      if (states_[i] == State::made) all &= ::unlink(files_[i].target.c_str()) == 0;
+      if (states_[i] == State::put_aside || states_[i] == State::replaced) all &= put_back(files_[i]);
+    }
+    while (made_ > 0) ::rmdir(missing_[--made_].c_str());
+    return all;
+  }
+  /// The file that the last step was about.
+  const fs::path& failed() const { return files_[failed_].target; }
+
+ private:
+  enum class State : std::uint8_t { untouched, put_aside, replaced, made };
+
+  static bool put_back(const File& file) {
+    if (::rename(file.old.c_str(), file.target.c_str()) == 0) return true;
+    ::unlink(file.target.c_str());
+    return ::linkat(AT_FDCWD, file.old.c_str(), AT_FDCWD, file.target.c_str(), 0) == 0;
+  }
+  void find_missing_folders(const fs::path& folder) {
+    std::error_code ignored;
+    if (fs::exists(folder, ignored) || !folder.has_relative_path()) return;
+    find_missing_folders(folder_of(folder));
+    if (std::find(missing_.begin(), missing_.end(), folder) == missing_.end()) missing_.push_back(folder);
+  }
+
+  const std::vector<File>& files_;
+  std::vector<State> states_;
+  std::vector<fs::path> missing_;  // folders, the outermost first
+  std::size_t made_ = 0;           // of these
+  std::size_t failed_ = 0;
+};
+
+StagedFiles::StagedFiles() : reserve_(new char[reserve_size]) {}
+
+StagedFiles::~StagedFiles() {
+  reserve_.reset();
+  std::error_code ignored;
+  for (const fs::path& folder : folders()) fs::remove_all(folder, ignored);
+}
+
+void StagedFiles::open(const fs::path& target, Links links) {
+  const fs::path place = links == Links::followed ? with_links_followed(target) : target;
+  require_replaceable(place);
+  const fs::path folder = folder_of(place);
+  if (folders_.contains(folder)) return;
+  std::string pattern = (folder / ".unsnarl-XXXXXX").string();
+  const auto entry = folders_.emplace(folder, fs::path()).first;
+  if (::mkdtemp(pattern.data()) == nullptr) {
+    const int reason = errno;
+    folders_.erase(entry);
+    throw_write_error(fmt::format("{}: cannot create files in the folder {}", target.string(), folder.string()), reason);
+  }
+  entry->second = std::move(pattern);
+}
+
+void StagedFiles::open_beside(const fs::path& target, const std::vector<fs::path>& names) {
+  open(target);
+  for (const fs::path& name : names) require_place_beside(with_links_followed(target), name);
+}
+
+fs::path StagedFiles::staging_of(const fs::path& target) const {
+  return folders_.at(folder_of(target));
+}
+
+fs::path StagedFiles::add(const fs::path& target, std::string_view bytes) {
+  return add(target, {{{}, std::string(bytes)}});
+}
+
+fs::path StagedFiles::add(const fs::path& target, const std::vector<OutputFile>& files, Links links) {
+  open(target, links);
+  const fs::path main = links == Links::followed ? with_links_followed(target) : target;
+  for (const OutputFile& file : files) {
+    const fs::path name = file.name.empty() ? main.filename() : file.name;
+    if (!file.name.empty()) require_place_beside(main, name);
+    const fs::path staging = staging_of(main);
+    const File added = {staging / new_folder / name, folder_of(main) / name, staging / old_folder / name,
+                        file.replaces};
+    std::error_code error;
+    // Whoever interrupts the process may have removed the temporary folder, which must not be made anew.
+    if (fs::exists(staging, error)) fs::create_directories(added.staged.parent_path(), error);
+    const int failed = error ? error.value() : write_new_file(added.staged, file.bytes);
+    if (failed != 0) throw_write_error(added.target.string() + ": cannot be written", failed);
+    files_.push_back(added);
+  }
+  return staging_of(main) / new_folder / main.filename();
+}
+
+std::vector<fs::path> StagedFiles::folders() const {
+  std::vector<fs::path> all;
+  if (is_kept_) return all;
+  for (const auto& [folder, staging] : folders_) all.push_back(staging);
+  return all;
+}
+
+const StagedFiles::File* StagedFiles::changed_file() const {
+  struct stat status {};
+  for (const File& file : files_)
+    if (file.replaces && (::stat(file.old.c_str(), &status) != 0 || FileStamp(status) != *file.replaces)) return &file;
+  return nullptr;
+}
+
+void StagedFiles::prepare() const {
+  for (const File& file : files_) {
+    require_replaceable(file.target);
+    copy_permissions(file.target, file.staged);
+    std::error_code error;
+    fs::create_directories(file.old.parent_path(), error);
+    if (error) throw_write_error(file.target.string() + ": cannot be written", error.value());
+  }
 }
 
 void StagedFiles::commit() {
-  // Either all files of a glTF, a GIFTI or a scene are the new ones, or none is.
-  for (const fs::path& target : targets()) require_replaceable(target);
-  for (std::size_t i = names_.size(); i-- > 0;) {
-    const fs::path from = folder_ / names_[i], to = folder_of(target_) / names_[i];
-    std::error_code error;
-    fs::create_directories(folder_of(to), error);
-    struct stat old {};
-    if (::stat(to.c_str(), &old) == 0) {
-      // The group may be one we are not in; then the permissions must not grow for another group.
-      const bool same_group = ::chown(from.c_str(), static_cast<uid_t>(-1), old.st_gid) == 0;
-      static_cast<void>(::chmod(from.c_str(), old.st_mode & (same_group ? 0777 : 0707)));
-    }
-    fs::rename(from, to, error);
-    if (error) throw_write_error(to.string() + ": cannot be written", error.value());
+  prepare();
+  Moves moves(files_);
+  const auto all = [&](auto step) {
+    for (std::size_t i = files_.size(); i-- > 0;)
+      if (!(moves.*step)(i)) return false;
+    return true;
+  };
+  const File* changed = nullptr;
+  const bool is_done =
+      all(&Moves::put_aside) && moves.make_folders() && (changed = changed_file()) == nullptr && all(&Moves::replace);
+  if (!is_done) {
+    const int reason = errno;
+    is_kept_ = !moves.take_back();
+    const std::string left = is_kept_ ? where_old_files_are() : "";
+    if (changed != nullptr)
+      throw ChangedMeanwhile(fmt::format("{}: was changed or replaced after it was read, and is left as it is{}",
+                                         changed->target.string(), left));
+    throw_write_error(fmt::format("{}: cannot be written{}", moves.failed().string(), left), reason);
   }
-  flush_folder(folder_of(target_));
+  for (const File& file : files_) flush_folder(folder_of(file.target));
+  files_.clear();
+}
+
+std::string StagedFiles::where_old_files_are() const {
+  std::string folders;
+  for (const auto& [folder, staging] : folders_)
+    folders += (folders.empty() ? "" : ", ") + (staging / old_folder).string();
+  return fmt::format(" (not all old files could be put back: those that are missing are in {})", folders);
 }
 
 }  // namespace unsnarl

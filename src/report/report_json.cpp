@@ -88,7 +88,8 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   json["input"] = {{"path", text_or_null(files.input)}, {"format", text_or_null(files.format)},
                    {"vertices", files.vertices},        {"faces", files.faces},
                    {"triangulation", r.triangulation},  {"notes", files.notes}};
-  json["output"] = {{"written", !files.output.empty()}, {"path", text_or_null(files.output)}};
+  json["output"] = {
+      {"written", !files.output.empty()}, {"path", text_or_null(files.output)}, {"partial", files.partial}};
   add_scene(files.scene, true, json);
   if (!files.nested.empty()) json["nested"] = Json::array();
   for (const NestedPair& pair : files.nested)

@@ -483,6 +483,7 @@ static void reads_and_writes_files(const char* folder) {
   unsnarl_surface surface = {.size = sizeof surface};
   unsnarl_result* result = NULL;
   FILE* file;
+  const char* partial = NULL;
   char line[64] = "";
 
   snprintf(in, sizeof in, "%s/c_in.obj", folder);
@@ -507,6 +508,15 @@ static void reads_and_writes_files(const char* folder) {
   CHECK(says(unsnarl_error_message(), "keeps the format of the input, obj"));
   CHECK(unsnarl_document_write(document, result, "/no/such/folder/a.obj") == UNSNARL_CANNOT_WRITE);
   CHECK(unsnarl_document_write(document, result, out) == UNSNARL_OK);
+  CHECK(unsnarl_document_write_partial(document, result, "/no/such/folder/a.obj") == UNSNARL_CANNOT_WRITE);
+  CHECK(unsnarl_document_partial(document, 0) == NULL);
+  CHECK(unsnarl_document_write_partial(document, result, out) == UNSNARL_OK);
+  partial = unsnarl_document_partial(document, 0);
+  CHECK(says(partial, ".partial.obj"));
+  file = fopen(partial, "rb");
+  CHECK(file != NULL && fgets(line, sizeof line, file) != NULL && strcmp(line, "# kept\n") == 0);
+  if (file != NULL) fclose(file);
+  CHECK(remove(partial) == 0);
   unsnarl_result_free(result);
   unsnarl_document_free(document);
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <bit>
@@ -186,6 +188,92 @@ TEST_F(FilePlaces, EveryPlaceIsTestedBeforeTheWork) {
     expect_refusal({"fix", in, "-o", out, option, folder / name}, "cannot create files", 4);
   write(folder / "k.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   expect_refusal({"seifert", folder / "k.xyz", "-o", out, "--report", folder / "none/file"}, "cannot create files", 4);
+}
+
+TEST_F(FilePlaces, ABufferInASubfolderGetsOneBesideTheResult) {
+  fs::create_directories(folder / "in/data/deeper");
+  fs::create_directory(folder / "out");
+  std::string text = gltf(1);
+  text.replace(text.find("scene.bin"), 9, "data/./deeper/scene.bin");
+  const std::string in = file("in/g.gltf", text), out = folder / "out/g.gltf";
+  write(folder / "in/data/deeper/scene.bin", buffer(1));
+  const Outcome outcome = run({"fix", in, "-o", out});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(pairs_in(out), 0u);
+  EXPECT_TRUE(fs::exists(folder / "out/data/deeper/scene.bin"));
+  ASSERT_EQ(run({"fix", in, "-o", out}).exit_code, 0);  // its own is replaced
+  ASSERT_EQ(run({"batch", folder / "in", "-o", folder / "batch"}).exit_code, 0);
+  EXPECT_EQ(pairs_in(folder / "batch/fixed/g.gltf/g.gltf"), 0u);
+  // Where a file has the place of the subfolder, or a link leads elsewhere, nothing is written.
+  fs::create_directories(folder / "second");
+  fs::create_directories(folder / "third");
+  write(folder / "second/data", "precious");
+  fs::create_directory_symlink(folder / "out", folder / "third/data");
+  expect_refusal({"fix", in, "-o", folder / "second/g.gltf"}, "is no folder", 4);
+  expect_refusal({"fix", in, "-o", folder / "third/g.gltf"}, "leads out of the folder", 4);
+}
+
+TEST_F(FilePlaces, NoHiddenFilesAreMadeThatAFileNames) {
+  fs::create_directories(folder / "in/.git/hooks");
+  fs::create_directory(folder / "out");
+  write(folder / "in/.git/hooks/scene", buffer(1));
+  std::string text = gltf(1);
+  text.replace(text.find("scene.bin"), 9, ".git/hooks/scene");
+  expect_refusal({"fix", file("in/g.gltf", text), "-o", folder / "out/g.gltf"}, "a file of this name is not written",
+                 4);
+}
+
+TEST_F(FilePlaces, NoPlaceIsAnInternalError) {
+  const std::string in = file("in.obj", tetrahedron(0)), long_name(300, 'a');
+  const Folder elsewhere;
+  fs::create_symlink("loop.obj", elsewhere / "loop.obj");
+  write(folder / "file", "no folder");
+  for (const std::string& place : {folder / (long_name + ".obj"), folder / (long_name + "/out.obj"),
+                                   elsewhere / "loop.obj", folder / "file/out.obj", folder / "none/out.obj"}) {
+    expect_refusal({"fix", in, "-o", place}, "", 4);
+    expect_refusal({"fix", in, "-o", folder / "out.obj", "--report", place}, "", 4);
+    expect_refusal({"fix", in, in + "/../in.obj", "-o", place}, "");
+    EXPECT_NE(run({"fix", in, place}).exit_code, 70);
+    EXPECT_NE(run({"fix", place, "--in-place"}).exit_code, 70);
+    EXPECT_NE(run({"fix", place, "-o", folder / "out.obj", "--report", place}).exit_code, 70);
+    EXPECT_NE(run({"batch", place, "-o", folder / "b"}).exit_code, 70);
+    EXPECT_NE(run({"batch", folder.string(), "-o", place}).exit_code, 70);
+    EXPECT_NE(run({"check", in, "--pairs", place}).exit_code, 70);
+    EXPECT_NE(run({"sample", "crossing_tubes", "-o", place}).exit_code, 70);
+    EXPECT_NE(run({"view", in, "-o", place}).exit_code, 70);
+    EXPECT_NE(run({"fix", "--sequence", in, file("in1.obj", tetrahedron(0)), "-o", place}).exit_code, 70);
+  }
+}
+
+TEST_F(FilePlaces, AFolderThatOneMayNotEnterIsNoInternalError) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can give its rights up";
+  const std::string in = file("in.obj", tetrahedron(0));
+  for (const char* name : {"locked", "open"}) fs::create_directory(folder / name);
+  ::chmod(folder.string().c_str(), 0755);
+  ::chmod((folder / "locked").c_str(), 0700);
+  ::chmod((folder / "open").c_str(), 0777);
+  const RunOptions as_nobody = {.in_child = [] {
+    static_cast<void>(::setgid(65534));
+    static_cast<void>(::setuid(65534));
+  }};
+  if (run({"--version"}, as_nobody).exit_code != 0) GTEST_SKIP() << "others may not run the program";
+  const std::string place = folder / "locked/x.obj";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"fix", in, "-o", place},
+        {"fix", in, "-o", folder / "locked/deeper/x.obj"},
+        {"fix", in, "-o", folder / "open/x.obj", "--report", place},
+        {"fix", in, in, "-o", folder / "locked/out"},
+        {"batch", folder / "open", "-o", folder / "locked/b"},
+        {"sample", "crossing_tubes", "-o", place},
+        {"fix", "--sequence", in, "-o", folder / "locked/f"},
+        {"fix", place, "-o", folder / "open/x.obj"},
+        {"fix", in, place},
+        {"check", place},
+        {"view", in, "-o", folder / "locked/x.html"},
+        {"fix", in, "-o", folder / "open/x.obj", "--picture", folder / "locked/"}}) {
+    const Outcome outcome = run(words, as_nobody);
+    EXPECT_TRUE(outcome.exit_code >= 2 && outcome.exit_code <= 4) << words.back() << outcome.exit_code << outcome.err;
+  }
 }
 
 }  // namespace

@@ -69,7 +69,8 @@ TEST_F(Limits, InterruptedExitsWith6AndLeavesNothing) {
   // Large enough to be at work when the signal comes, which is sent at the first sign of progress.
   const std::string in = sample("crumpled_sheet", {"--resolution", "200"}), out = folder / "out.obj";
   const auto before = folder.names();
-  const Outcome once = run({"fix", in, "-o", out, "--progress", "json"}, {.signal_after = {"fraction"}});
+  const Outcome once =
+      run({"fix", in, "-o", out, "--progress", "json", "--no-partial"}, {.signal_after = {"fraction"}});
   EXPECT_EQ(once.exit_code, 6) << once.err;
   EXPECT_EQ(folder.names(), before);
   const Outcome kept =

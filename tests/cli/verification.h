@@ -30,6 +30,7 @@ class Verification {
     if (format_[0] == '.') format_.erase(0, 1);
     if (format_ == "gii") return;  // judged by other programs, in tests/io/foreign_readers_test.py
     is_in_place_ = has("--in-place");
+    if (is_in_place_ && format_ == "gltf") return;  // its old buffer is gone then
     output_ = is_in_place_ ? arguments[1] : value_of("-o");
     if (output_.empty() || output_.starts_with("/dev/")) return;
     old_output_ = bytes_of(output_);

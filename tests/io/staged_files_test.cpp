@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <fstream>
 #include <iterator>
 
@@ -31,10 +32,10 @@ TEST_F(StagedFilesTest, AreInPlaceOnceCommitted) {
   const fs::path main = folder.write("x.gii", "old");
   ::chmod(main.c_str(), 0640);
   {
-    StagedFiles staged(main);
-    staged.write(three);
-    EXPECT_EQ(content(staged.main_file()), "main");
-    EXPECT_EQ(content(staged.folder() / "deeper/b.bin"), "b");
+    StagedFiles staged;
+    const fs::path written = staged.add(main, three);
+    EXPECT_EQ(content(written), "main");
+    EXPECT_EQ(content(written.parent_path() / "deeper/b.bin"), "b");
     EXPECT_EQ(content(main), "old");
     staged.commit();
   }
@@ -46,26 +47,82 @@ TEST_F(StagedFilesTest, AreInPlaceOnceCommitted) {
 }
 
 TEST_F(StagedFilesTest, LeaveNothingUnlessCommitted) {
-  { StagedFiles(folder.path() / "x.gii").write(three); }
+  { StagedFiles().add(folder.path() / "x.gii", three); }
   EXPECT_EQ(entries(), 0u);
 }
 
 TEST_F(StagedFilesTest, LeaveAllAsTheyWereWhereOneCannotBeReplaced) {
   const fs::path main = folder.write("x.gii", "old"), last = folder.write("deeper/b.bin", "old b");
-  fs::create_directory(folder.path() / "a.bin");
   {
-    StagedFiles staged(main);
-    staged.write(three);
+    StagedFiles staged;
+    staged.add(main, three);
+    fs::create_directory(folder.path() / "a.bin");
     EXPECT_THROW(staged.commit(), WriteError);
   }
   EXPECT_EQ(content(main) + content(last), "oldold b");
   EXPECT_EQ(entries(), 3u);
 }
 
+TEST_F(StagedFilesTest, AreTakenBackWhereAMoveFails) {
+  // The folder of the second is gone when its turn comes, so the first, which is moved already, has to come back.
+  const fs::path main = folder.write("main.obj", "old"), other = folder.path() / "other";
+  fs::create_directory(other);
+  {
+    StagedFiles staged;
+    staged.add(main, "new");
+    const fs::path written = staged.add(other / "r.json", "report");
+    staged.add(folder.path() / "fresh.obj", "fresh");
+    fs::remove(written);
+    EXPECT_THROW(staged.commit(), WriteError);
+  }
+  EXPECT_EQ(content(main), "old");
+  EXPECT_FALSE(fs::exists(folder.path() / "fresh.obj"));
+  EXPECT_TRUE(fs::is_empty(other));
+  EXPECT_EQ(entries(), 2u);
+}
+
 TEST_F(StagedFilesTest, ReplaceNoPipes) {
   ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
-  EXPECT_THROW(StagedFiles(folder.path() / "pipe"), WriteError);
+  EXPECT_THROW(StagedFiles().open(folder.path() / "pipe"), WriteError);
   EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(StagedFilesTest, ReplaceNothingThatWasChangedAfterItWasRead) {
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  for (const std::string how : {"longer", "as long", "another file"}) {
+    const fs::path main = folder.write("a.obj", mesh);
+    const Document document = Document::read(main);
+    const std::string edited = how == "longer" ? mesh + "# edited" : "v 9" + mesh.substr(3);
+    if (how == "another file")
+      fs::rename(folder.write("b.obj", edited), main);
+    else
+      folder.write("a.obj", edited);
+    fs::last_write_time(main, fs::last_write_time(main) + std::chrono::seconds(how == "as long" ? 1 : 0));
+    StagedFiles staged;
+    staged.add(main, document.patched(document.surface().positions, true));
+    EXPECT_THROW(staged.commit(), ChangedMeanwhile) << how;
+    EXPECT_EQ(content(main), edited) << how;
+  }
+  const fs::path main = folder.write("a.obj", mesh);
+  const Document document = Document::read(main);
+  StagedFiles staged;
+  staged.add(main, document.patched(document.surface().positions, true));
+  staged.commit();
+  EXPECT_EQ(content(main), mesh);
+}
+
+TEST_F(StagedFilesTest, WriteNoHiddenFilesNorOutsideTheFolder) {
+  const fs::path main = folder.path() / "out/x.gltf";
+  fs::create_directories(folder.path() / "out");
+  fs::create_directories(folder.path() / "elsewhere");
+  fs::create_directory_symlink(folder.path() / "elsewhere", folder.path() / "out/link");
+  for (const char* name : {".profile", ".git/hooks/x", "data/.x", "../x.bin", "/tmp/x.bin", "link/x.bin"}) {
+    EXPECT_THROW(StagedFiles().open_beside(main, {name}), WriteError) << name;
+    EXPECT_THROW(StagedFiles().add(main, {{{}, "main"}, {name, "bytes"}}), WriteError) << name;
+  }
+  StagedFiles().open_beside(main, {"data/deeper/x.bin"});
+  StagedFiles().open_beside(folder.path() / "out/.x.gii", {".x.gii.data"});  // asked for by the user
+  EXPECT_EQ(std::distance(fs::recursive_directory_iterator(folder.path()), fs::recursive_directory_iterator()), 3);
 }
 
 }  // namespace

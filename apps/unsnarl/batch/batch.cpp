@@ -67,6 +67,14 @@ FixOptions parsed_fix_options(const std::vector<std::string>& words) {
   return options;
 }
 
+/// The path of this program. Throws FileError.
+std::string own_path() {
+  std::error_code error;
+  const fs::path path = fs::read_symlink("/proc/self/exe", error);
+  if (error) throw FileError(fmt::format("/proc/self/exe: {}; name this program with --worker", error.message()));
+  return path.string();
+}
+
 std::string host_name() {
   std::string name(256, '\0');
   if (::gethostname(name.data(), name.size() - 1) != 0) return {};
@@ -88,7 +96,7 @@ class Batch {
         inputs_(batch_inputs(options.input, options.output)),
         all_(inputs_.meshes),
         mine_(part_of(all_, shard_)),
-        program_(options.worker.empty() ? fs::read_symlink("/proc/self/exe").string() : options.worker),
+        program_(options.worker.empty() ? own_path() : options.worker),
         journal_(folder_.journal()),
         progress_(mine_, options.quiet) {
     const FixOptions fix = parsed_fix_options(options.fix_options);
@@ -353,23 +361,41 @@ class Batch {
 
   /// The repaired mesh and, of a glTF or a GIFTI, its external files: these first.
   void take_over_meshes(const BatchMesh& mesh, const fs::path& from, Record& record) {
-    const std::string to = BatchFolder::mesh(mesh.name);
-    std::vector<fs::path> others;
-    std::error_code error;
-    for (fs::recursive_directory_iterator it(from, error), end; !error && it != end; it.increment(error))
-      if (it->is_regular_file() && it->path() != from / fs::path(mesh.name).filename())
-        others.push_back(it->path().lexically_relative(from));
-    if (error) throw_read_error(from.string() + ": cannot list the folder", error.value());
-    std::sort(others.begin(), others.end());
-    for (const fs::path& name : others) {
+    const std::string to = BatchFolder::mesh(mesh.name), partial = partial_place(to);
+    const fs::path main = from / fs::path(to).filename(), unfinished = with_infix(main, partial_infix);
+    for (const fs::path& name : files_below(from)) {
+      if (from / name == main || from / name == unfinished) continue;
       const std::string place = (fs::path(to).parent_path() / name).generic_string();
       record["buffers"][encoded_uri(place)] = sha256_of_file(from / name);
       folder_.take_over(from / name, place);
     }
-    const std::string hash = sha256_of_file(from / fs::path(mesh.name).filename());
-    if (!folder_.take_over(from / fs::path(mesh.name).filename(), to)) return;
+    if (folder_.take_over(unfinished, partial)) record["partial"] = as_utf8(partial);
+    const std::string hash = sha256_of_file(main);
+    if (!folder_.take_over(main, to)) return;
     record["output"] = as_utf8(to);
     record["output_sha256"] = hash;
+  }
+
+  static std::vector<fs::path> files_below(const fs::path& folder) {
+    std::vector<fs::path> names;
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+      if (std::error_code ignored; it->is_regular_file(ignored)) names.push_back(it->path().lexically_relative(folder));
+    if (error) throw_read_error(folder.string() + ": cannot list the folder", error.value());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  /// Where what a repair reached goes that did not end clean: beside its result, where no other mesh's result goes.
+  std::string partial_place(const std::string& result) const {
+    const auto is_result = [&](const fs::path& place) {
+      return std::any_of(all_.begin(), all_.end(),
+                         [&](const BatchMesh& mesh) { return BatchFolder::mesh(mesh.name) == place; });
+    };
+    fs::path place = with_infix(result, partial_infix);
+    for (int number = 2; is_result(place); ++number)
+      place = with_infix(result, fmt::format("{}.{}", partial_infix, number));
+    return place.generic_string();
   }
 
   std::vector<Record> records_of(const std::vector<BatchMesh>& meshes) const {

@@ -91,7 +91,9 @@ class FolderSearch {
 /// The folders of a path are kept; of one that leads out of the current folder, all from the root on.
 std::string name_of(const fs::path& path) {
   fs::path name = path.lexically_normal();
-  if (name.is_absolute() || *name.begin() == "..") name = fs::absolute(path).lexically_normal().relative_path();
+  std::error_code ignored;  // of a current folder that is gone: then the mesh cannot be read
+  if (name.is_absolute() || *name.begin() == "..")
+    name = fs::absolute(path, ignored).lexically_normal().relative_path();
   return name.generic_string();
 }
 

@@ -109,7 +109,8 @@ const std::vector<std::string>& record_columns() {
     names.insert(names.end(), {"dihedral_deg", "gap_rel"});
     for (const char* side : {"before", "after"})
       for (const auto& kind : pair_class_names) names.push_back(fmt::format("{}_{}", side, kind));
-    names.insert(names.end(), {"obstructions", "left_because", "message", "output", "input_sha256", "output_sha256"});
+    names.insert(names.end(),
+                 {"obstructions", "left_because", "message", "output", "partial", "input_sha256", "output_sha256"});
     return names;
   }();
   return columns;

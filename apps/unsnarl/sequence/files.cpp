@@ -155,18 +155,14 @@ class NumberedFiles : public SequenceFiles {
   }
 
   std::vector<double> write(std::size_t t, std::span<const double> positions, bool float32) override {
-    const std::vector<OutputFile> files = document(t).patched(positions, float32);
-    if (files.size() > 1)
-      throw UsageError(names_[t] + ": this file keeps its numbers in other files; give frames of one file each");
-    StagedOutput staged(target(t), interruption_);
-    staged.write(files);
-    const Document written = Document::read(staged.main_file(), first_.document(0).format());
-    require_same_faces(written, t);
-    staged.commit();
-    const std::lock_guard lock(mutex_);
-    documents_.erase(documents_.begin(), documents_.upper_bound(t));
-    return written.surface().positions;
+    return write_to(target(t), t, positions, float32);
   }
+  std::string write_partial(std::size_t t, std::span<const double> positions, bool float32) override {
+    const fs::path place = with_infix(target(t), partial_infix);
+    write_to(place, t, positions, float32);
+    return place.string();
+  }
+  void flush_partial() override {}
   bool is_one_file() const override { return false; }
   void gather(const IsRecorded&) override {}
   void flush(const IsRecorded&) override {}
@@ -175,6 +171,19 @@ class NumberedFiles : public SequenceFiles {
 
  private:
   fs::path target(std::size_t t) const { return folder_ / names_[t]; }
+
+  std::vector<double> write_to(const fs::path& place, std::size_t t, std::span<const double> positions, bool float32) {
+    const std::vector<OutputFile> files = document(t).patched(positions, float32, place.filename());
+    if (files.size() > 1)
+      throw UsageError(names_[t] + ": this file keeps its numbers in other files; give frames of one file each");
+    StagedOutput output(interruption_);
+    const Document written = Document::read(output.add(place, files), first_.document(0).format());
+    require_same_faces(written, t);
+    output.commit();
+    const std::lock_guard lock(mutex_);
+    documents_.erase(documents_.begin(), documents_.upper_bound(t));
+    return written.surface().positions;
+  }
 
   const Document& document(std::size_t t) {
     const std::lock_guard lock(mutex_);
@@ -263,6 +272,17 @@ class CacheFrames : public SequenceFiles {
     return output_.positions(t);
   }
 
+  std::string write_partial(std::size_t t, std::span<const double> positions, bool) override {
+    partial_[t].assign(positions.begin(), positions.end());
+    return partial_place().string();
+  }
+  void flush_partial() override {
+    if (partial_.empty()) return;
+    PointCache cache = output_;
+    for (const auto& [t, positions] : partial_) cache.set_positions(t, positions);
+    write_file(partial_place().string(), cache.bytes(), interruption_);
+  }
+
   bool is_one_file() const override { return true; }
   void gather(const IsRecorded& is_recorded) override {
     for (const fs::path& place : {part_, target_}) {
@@ -284,15 +304,14 @@ class CacheFrames : public SequenceFiles {
   bool finish(const IsRecorded& is_recorded) override {
     gather(is_recorded);
     if (std::find(is_done_.begin(), is_done_.end(), false) != is_done_.end()) return false;
-    StagedOutput staged(target_, interruption_);
-    staged.write({{{}, output_.bytes()}});
-    staged.commit();
+    write_file(target_.string(), output_.bytes(), interruption_);
     std::error_code ignored;
     fs::remove(part_, ignored);
     return true;
   }
 
  private:
+  fs::path partial_place() const { return with_infix(target_, partial_infix); }
   static PointCache parsed(const fs::path& path, const std::string& named) {
     return parse_file(path.string(), [&](std::string bytes) {
       return PointCache::parse(std::move(bytes), *point_cache_format(named));
@@ -319,6 +338,7 @@ class CacheFrames : public SequenceFiles {
   const PointCache input_;
   PointCache output_;
   std::vector<bool> is_done_;  // frames of output_ that are recorded or written; all others are the input's
+  std::map<std::size_t, std::vector<double>> partial_;  // what was reached of frames that did not end clean
   std::string faces_hash_;
   bool is_flushed_ = true;
 };

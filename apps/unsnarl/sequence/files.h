@@ -42,6 +42,11 @@ class SequenceFiles {
   /// Writes a frame, or keeps it for flush(), and returns what was read back. Throws WriteError.
   virtual std::vector<double> write(std::size_t frame, std::span<const double> positions, bool float32) = 0;
 
+  /// Keeps what was reached of a frame that did not end clean beside its output, which stays as it is; on the disk
+  /// after flush_partial(). Returns the path. Throws WriteError.
+  virtual std::string write_partial(std::size_t frame, std::span<const double> positions, bool float32) = 0;
+  virtual void flush_partial() = 0;
+
   // Frames that share one file, where several calls may be at work on different ones: the record is locked for these
   // three, and what is not recorded is taken from the input, never from an output that happens to be there.
   virtual bool is_one_file() const = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <tuple>
@@ -141,6 +142,7 @@ class SequenceRun {
         source(), sequence_, [&](FrameResult&& result) { take(std::move(result)); }, &context);
     interruption_.set_handler(nullptr);
     flush();
+    files_->flush_partial();
     if (context.is_cancelled()) exit_code_ = exit_cancelled;
     is_range_done_ = unwritten_ == 0 && !context.is_cancelled();
     if (is_range_done_) {
@@ -161,7 +163,7 @@ class SequenceRun {
     places.writes("the record of what is done", record);
     places.writes("--report", options_.report);
     for (const fs::path& place : {record, fs::path(options_.report)})
-      if (!place.empty() && !is_stream(place.string())) StagedOutput(place, interruption_);
+      if (!place.empty() && !is_stream(place.string())) StagedOutput(interruption_).open(place);
   }
 
   /// Checks all frames that matter before any work.
@@ -215,8 +217,7 @@ class SequenceRun {
     note_status(status);
     if (!is_good(status) && !options_.keep_partial) {
       ++unwritten_;
-      display_.say("{}: {}; not written: --keep-partial writes what was reached", files_->name(t), status);
-      return;
+      return keep_partial(result);
     }
     const bool float32_digits = result.report.precision == Precision::float32;
     // The certificate is about these positions, bit for bit.
@@ -225,6 +226,18 @@ class SequenceRun {
     done_[t] = frame_json(result.report);
     unrecorded_.push_back(t);
     if (unrecorded_.size() >= files_->frames_between_flushes()) flush();
+  }
+
+  /// Where anything better than the input was reached.
+  void keep_partial(const FrameResult& result) {
+    const std::size_t t = result.report.frame;
+    const bool is_kept =
+        !options_.no_partial && result.report.status != Status::no_progress && result.report.displacement_max_rel > 0;
+    if (is_kept)
+      partial_[t] = files_->write_partial(t, result.positions, result.report.precision == Precision::float32);
+    display_.say("{}: {}; {}", files_->name(t), to_string(result.report.status),
+                 is_kept ? fmt::format("what was reached goes to {}", partial_[t])
+                         : "not written: --keep-partial writes what was reached");
   }
 
   /// Records all frames that have been written.
@@ -280,6 +293,7 @@ class SequenceRun {
   std::string asked_for_;              // hash of the program and its options
   std::vector<Json> done_;             // report of each frame that is written; null: it is not
   std::vector<std::size_t> unrecorded_;
+  std::map<std::size_t, std::string> partial_;  // where what was reached of a frame is, which is not written
   std::size_t done_before_ = 0, unwritten_ = 0;
   bool is_range_done_ = false, is_whole_ = false;
   std::vector<FrameReport> reports_;
@@ -358,6 +372,8 @@ std::string SequenceRun::report_json() const {
   for (const FrameReport& report : reports_) {
     const Json& frame = done_[report.frame];
     Json line = {{"frame", report.frame}, {"name", files_->name(report.frame)}, {"written", !frame.is_null()}};
+    const auto partial = partial_.find(report.frame);
+    line["partial"] = partial == partial_.end() ? Json() : Json(partial->second);
     line.update(frame.is_null() ? frame_json(report) : frame);
     line["jitter"] = jitter_json(report.jitter);
     json["list"].push_back(std::move(line));
@@ -397,6 +413,10 @@ void SequenceRun::summarise() {
   if (is_whole_) display_.say("  wrote {}", files_->output());
   if (is_range_done_ && !is_whole_)
     display_.say("  gathered in {}.part until all {} frames are done", files_->output(), files_->count());
+  if (!partial_.empty())
+    display_.say("  {} frame{} not repaired completely: the best result so far is in {}{}", partial_.size(),
+                 partial_.size() == 1 ? " is" : "s are", partial_.begin()->second,
+                 partial_.begin()->second == partial_.rbegin()->second ? "" : " and so on");
 }
 
 }  // namespace
