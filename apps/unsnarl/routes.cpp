@@ -99,15 +99,17 @@ std::vector<std::string> names_of(const RoutePlan& plan) {
   return names;
 }
 
-/// Writes tubes, reads them back; throws std::logic_error where they are others or intersect.
-void write_tubes(const std::string& path, const RoutePlan& plan, const Surface& tubes, Interruption& interruption) {
+/// Writes tubes that are read back as they are and of which none meets another, nor an obstacle; others are not
+/// written.
+bool write_tubes(const std::string& path, const RoutePlan& plan, const Surface& tubes, Interruption& interruption) {
   StagedOutput staged(path, interruption);
   staged.write({OutputFile{{}, surface_file(tubes, Format::obj, "tubes of routes by unsnarl", names_of(plan))}});
   const Document written = Document::read(staged.main_file(), Format::obj);
   if (written.surface().positions != tubes.positions || written.surface().corners != tubes.corners ||
       !pairs_of_tubes(plan, written.surface()).empty())
-    throw std::logic_error("the tubes to be written are not the ones that were certified");
+    return false;
   staged.commit();
+  return true;
 }
 
 int tell_failure(const RoutesCommandOptions& options, const RoutePlan& plan, const RoutesResult& made) {
@@ -117,6 +119,15 @@ int tell_failure(const RoutesCommandOptions& options, const RoutePlan& plan, con
     tell("no routes were found that keep clear of each other; of the best:\n" + route_faults(plan, made.found));
   tell(fmt::format("{}: nothing was written\n", to_string(made.status)));
   return exit_code_of(made.status);
+}
+
+int tell_broken_tubes(const RoutesCommandOptions& options) {
+  if (!options.quiet)
+    tell(
+        fmt::format("the routes keep clear, but faces of the tubes around them meet: are radii close to what double "
+                    "precision tells apart?\n{}: nothing was written\n",
+                    to_string(Status::no_progress)));
+  return exit_code_of(Status::no_progress);
 }
 
 /// The paper's own way: surfaces of straight tubes, untangled as any surface is; only their ends stay.
@@ -149,7 +160,7 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
     return repaired.status == Status::embedded ? exit_intersecting : exit_code_of(repaired.status);
   }
   const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
-  write_tubes(path("tubes.obj"), plan, after, interruption);
+  if (!write_tubes(path("tubes.obj"), plan, after, interruption)) return tell_broken_tubes(options);
   write_file(path("picture.png"), picture(plan, tubes, after, parts, "free tubes"), interruption);
   if (!options.quiet)
     tell(
@@ -235,7 +246,7 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
     staged.write({OutputFile{{}, routes_json(plan, made)}});
     const RouteFindings found = check_routes(plan, parse_routes(read_bytes(staged.main_file().string()), plan));
     if (!found.hold()) throw std::logic_error("the routes to be written do not hold: " + route_faults(plan, found));
-    write_tubes(path("tubes.obj"), plan, tubes, interruption);
+    if (!write_tubes(path("tubes.obj"), plan, tubes, interruption)) return tell_broken_tubes(options);
     staged.commit();
   }
   write_file(path("animation.svg"), routes_animation_svg(plan, made.routes), interruption);
