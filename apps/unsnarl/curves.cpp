@@ -24,8 +24,6 @@
 namespace unsnarl::app {
 namespace {
 
-/// How far the written points of one joint may be apart / diagonal: transforms of elements are inverted in doubles.
-constexpr double joint_apart_rel = 1e-8;
 /// A message names so many places at most.
 constexpr std::size_t most_places = 5;
 
@@ -144,39 +142,25 @@ class Curves {
 
   void add_output(StagedOutput& outputs) {
     std::string bytes = document_.patched(result_.curves);
-    std::string broken = broken_promise(bytes);
-    if (!broken.empty()) {
+    if (!curve_file_faults(document_, bytes, result_).empty()) {
       bytes = document_.patched(result_.curves, true);
-      broken = broken_promise(bytes);
+      require_kept(bytes);
     }
-    if (!broken.empty()) throw std::logic_error("the file to be written does not hold what was certified: " + broken);
     if (is_stream(options_.output)) {
       outputs.add(options_.output, bytes);
       return;
     }
     const std::filesystem::path place = outputs.add(options_.output, {OutputFile{{}, bytes}});
-    const CurveDocument written = CurveDocument::read(place.string(), options_.flatten, document_.format());
-    if (written.curves().size() != result_.curves.size())
-      throw std::logic_error("the file written has another number of curves. It was removed");
+    require_kept(read_bytes(place.string()));
   }
 
-  /// Certifies the bytes of the file, not the numbers that were computed. Empty: they hold.
-  std::string broken_promise(const std::string& bytes) const {
-    const std::vector<Curve> written = document_.read_back(bytes);
-    if (written.size() != result_.curves.size()) return "it has another number of curves";
-    for (std::size_t c = 0; c < written.size(); ++c)
-      if (written[c].size() != result_.curves[c].size() || written[c].closed != result_.curves[c].closed)
-        return fmt::format("{} has another number of points", name_of(written, static_cast<std::int32_t>(c)));
-    for (const CurveJoint& joint : result_.report.joints) {
-      const auto [c, k] = joint[0];
-      for (const auto& [other, point] : joint)
-        for (int axis = 0; axis < 2; ++axis)
-          if (!(std::abs(written[other].points[2 * point + axis] - written[c].points[2 * k + axis]) <=
-                joint_apart_rel * result_.report.diagonal))
-            return fmt::format("{} and {} have come apart", name_of(written, c), name_of(written, other));
-    }
-    const std::size_t crossings = find_crossings(written, result_.report.joints).size();
-    return crossings > result_.report.crossings_after ? count_of(crossings, "crossing") + " in it" : "";
+  void require_kept(const std::string& bytes) const {
+    const std::string faults = curve_file_faults(document_, bytes, result_);
+    if (!faults.empty())
+      throw WriteError(
+          fmt::format("{}: nothing was written: after rounding to the numbers of this file, {}. Where elements have "
+                      "transforms, apply them to the coordinates first",
+                      options_.output, faults));
   }
 
   void write_integrand(const std::vector<Curve>& curves) {

@@ -99,13 +99,12 @@ std::vector<std::string> names_of(const RoutePlan& plan) {
   return names;
 }
 
-/// Adds tubes, reads them back; throws std::logic_error where they are others or intersect.
-void add_tubes(const std::string& path, const RoutePlan& plan, const Surface& tubes, StagedOutput& outputs) {
+/// Adds tubes that are read back as they are and of which none meets another, nor an obstacle; false: they do not hold.
+bool add_tubes(const std::string& path, const RoutePlan& plan, const Surface& tubes, StagedOutput& outputs) {
   const std::string bytes = surface_file(tubes, Format::obj, "tubes of routes by unsnarl", names_of(plan));
   const Document written = Document::read(outputs.add(path, {OutputFile{{}, bytes}}), Format::obj);
-  if (written.surface().positions != tubes.positions || written.surface().corners != tubes.corners ||
-      !pairs_of_tubes(plan, written.surface()).empty())
-    throw std::logic_error("the tubes to be written are not the ones that were certified");
+  return written.surface().positions == tubes.positions && written.surface().corners == tubes.corners &&
+         pairs_of_tubes(plan, written.surface()).empty();
 }
 
 int tell_failure(const RoutesCommandOptions& options, const RoutePlan& plan, const RoutesResult& made) {
@@ -115,6 +114,15 @@ int tell_failure(const RoutesCommandOptions& options, const RoutePlan& plan, con
     tell("no routes were found that keep clear of each other; of the best:\n" + route_faults(plan, made.found));
   tell(fmt::format("{}: nothing was written\n", to_string(made.status)));
   return exit_code_of(made.status);
+}
+
+int tell_broken_tubes(const RoutesCommandOptions& options) {
+  if (!options.quiet)
+    tell(
+        fmt::format("the routes keep clear, but faces of the tubes around them meet: are radii close to what double "
+                    "precision tells apart?\n{}: nothing was written\n",
+                    to_string(Status::no_progress)));
+  return exit_code_of(Status::no_progress);
 }
 
 /// The paper's own way: surfaces of straight tubes, untangled as any surface is; only their ends stay.
@@ -148,7 +156,7 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
   }
   const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
   StagedOutput outputs(interruption);
-  add_tubes(path("tubes.obj"), plan, after, outputs);
+  if (!add_tubes(path("tubes.obj"), plan, after, outputs)) return tell_broken_tubes(options);
   outputs.add(path("picture.png"), picture(plan, tubes, after, parts, "free tubes"));
   outputs.commit();
   if (!options.quiet)
@@ -234,7 +242,7 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
   const fs::path written = outputs.add(path("routes.json"), {OutputFile{{}, routes_json(plan, made)}});
   const RouteFindings found = check_routes(plan, parse_routes(read_bytes(written.string()), plan));
   if (!found.hold()) throw std::logic_error("the routes to be written do not hold: " + route_faults(plan, found));
-  add_tubes(path("tubes.obj"), plan, tubes, outputs);
+  if (!add_tubes(path("tubes.obj"), plan, tubes, outputs)) return tell_broken_tubes(options);
   outputs.add(path("animation.svg"), routes_animation_svg(plan, made.routes));
   outputs.add(path("picture.png"),
               picture(plan, route_tubes(plan, made.asked, options.sides), tubes, std::move(parts)));

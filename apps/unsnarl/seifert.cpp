@@ -31,20 +31,6 @@ std::string as_text(const SeifertFindings& f, int handles) {
   return text;
 }
 
-/// Lists what is wrong, one thing a line; empty: nothing.
-std::string faults(const SeifertFindings& f) {
-  std::string text;
-  if (f.intersecting_pairs > 0) text += fmt::format("{} pairs of faces intersect\n", f.intersecting_pairs);
-  if (!f.oriented) text += "it is no oriented manifold with boundary\n";
-  if (f.oriented && !f.spans_link) text += "its boundary is not the link\n";
-  if (f.closed_components > 0) text += fmt::format("{} of its components have no boundary\n", f.closed_components);
-  if (f.oriented && f.euler_characteristic != f.expected_euler_characteristic)
-    text += "its Euler characteristic is not that of Seifert's algorithm\n";
-  if (f.oriented && f.spans_link && f.intersecting_pairs == 0 && f.alexander_of_surface != f.alexander_of_link)
-    text += "its Alexander polynomial is not that of the diagram\n";
-  return text;
-}
-
 nlohmann::ordered_json as_json(const SeifertFindings& f) {
   return {{"intersecting_pairs", f.intersecting_pairs},
           {"oriented", f.oriented},
@@ -76,8 +62,19 @@ int check_file(const SeifertCommandOptions& options, const Link& link, FilePlace
   }
   if (!options.report.empty()) write_file(options.report, text_of(as_json(found)), interruption);
   if (!options.quiet)
-    tell(as_text(found, options.handles) + faults(found) + (found.hold() ? "a Seifert surface of the link\n" : ""));
+    tell(as_text(found, options.handles) + seifert_faults(found) +
+         (found.hold() ? "a Seifert surface of the link\n" : ""));
   return found.hold() ? exit_embedded : exit_intersecting;
+}
+
+int tell_failure(const SeifertCommandOptions& options, std::string why) {
+  while (why.ends_with('\n')) why.pop_back();
+  if (!options.quiet)
+    tell(
+        fmt::format("{}: no surface was found that holds: {}. Are strands too close to each other for double "
+                    "precision? Move them apart\n{}: nothing was written\n",
+                    options.input, why, to_string(Status::no_progress)));
+  return exit_code_of(Status::no_progress);
 }
 
 }  // namespace
@@ -129,8 +126,8 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
       "  unsnarl sample knot_4_1 -o knot.xyz && unsnarl seifert knot.xyz -o surface.obj --picture surface.png\n"
       "  echo 'braid 3: 1 -2 1 -2 1 -2' | unsnarl seifert - -o borromean.obj\n"
       "  unsnarl seifert knot.xyz --check surface.obj\n\n"
-      "Exit codes: 0 a certified surface, 1 --check: not all holds, 2 usage, 3 cannot read, 4 cannot write,\n"
-      "6 interrupted, 9 the system failed (try again), 70 internal error.");
+      "Exit codes: 0 a certified surface, 1 none found (--check: not all holds), 2 usage, 3 cannot read,\n"
+      "4 cannot write, 6 interrupted, 9 the system failed (try again), 70 internal error.");
 }
 
 int run_seifert(const SeifertCommandOptions& options, Interruption& interruption) {
@@ -165,6 +162,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     throw FileError(fmt::format("{}: {}", options.input, e.what()));
   }
   display.clear();
+  if (result.status == Status::no_progress) return tell_failure(options, result.message);
 
   const std::string bytes =
       surface_file(result.surface, *format, fmt::format("Seifert surface of {}, by unsnarl", options.input));
@@ -175,15 +173,15 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     } catch (const std::invalid_argument& e) {
       throw FileError(fmt::format("{}: {}; nothing was written", options.input, e.what()));
     }
-    if (!found.hold())
-      throw std::logic_error("the file to be written is no Seifert surface of the link: " + faults(found));
+    return found.hold();
   };
   StagedOutput outputs(interruption);
   if (is_stream(options.output)) {
-    certify(Document::parse(bytes, *format));
+    if (!certify(Document::parse(bytes, *format))) return tell_failure(options, seifert_faults(found));
     outputs.add(options.output, bytes);
   } else {
-    certify(Document::read(outputs.add(options.output, {OutputFile{{}, bytes}}), *format));
+    const std::filesystem::path place = outputs.add(options.output, {OutputFile{{}, bytes}});
+    if (!certify(Document::read(place, *format))) return tell_failure(options, seifert_faults(found));
   }
   if (!options.picture.empty()) {
     wanted.fair = false;
@@ -220,6 +218,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     tell(fmt::format("{} faces, no two intersect; its boundary is the link, point by point\n",
                      result.surface.view().face_count()));
     tell(as_text(found, options.handles));
+    if (!result.message.empty()) tell(result.message + "\n");
     if (result.status == Status::time_limit) tell("fairing was stopped by the time limit\n");
     tell(fmt::format("wrote {}, {:.1f} s\n", visible_text(options.output), result.seconds));
   }

@@ -39,7 +39,7 @@ struct CurveCrossing {
 using CurveJoint = std::vector<std::array<std::int32_t, 2>>;  ///< {curve, point}, sorted
 
 /// All pairs of segments that meet where they should not, sorted, by exact arithmetic. The points of a joint count as
-/// one; nothing else does.
+/// one as far as they are at one position, bit for bit; nothing else does.
 /// Throws std::invalid_argument as untangle_curves does.
 std::vector<CurveCrossing> find_crossings(std::span<const Curve> curves, std::span<const CurveJoint> joints = {});
 
@@ -130,7 +130,8 @@ class CurveDocument {
 
   /// The file with these curves in place of its own: as many, closed where they were, points moved or inserted.
   /// Coordinates that moved are rounded to 1e-9 of the diagonal, unless all digits are asked for: where curves are
-  /// closer than that, only these keep them apart.
+  /// closer than that, only these keep them apart. Points at one position are read as one position again; only where
+  /// elements of a drawing have different transforms can it happen that no doubles say so.
   std::string patched(std::span<const Curve> curves, bool all_digits = false) const;
   /// The curves of a file that patched() wrote, flattened as here: compare point by point. Throws FileError.
   std::vector<Curve> read_back(const std::string& bytes) const;
@@ -140,6 +141,11 @@ class CurveDocument {
   CurveFormat format_;
   std::unique_ptr<class CurveFile> file_;
 };
+
+/// Certifies the bytes of a file that patched() wrote for a result: it has the curves, points and joints of the result
+/// and no more crossings than the result says, counted on the numbers that are read back, by exact arithmetic. Returns
+/// what does not hold; empty: all holds. Throws FileError.
+std::string curve_file_faults(const CurveDocument& document, const std::string& bytes, const CurveResult& result);
 
 /// The integrand of the Gaussian self-contact energy over pairs of points of one curve (paper eq. (1), Fig. 4), with
 /// the intrinsic distance as weight: w(s, t) / epsilon exp(-|y(s) - y(t)|^2 / epsilon^2), as the bytes of a PNG of

@@ -63,7 +63,8 @@ std::vector<Curve> isotopy_slice(const Isotopy& isotopy, double time);
 
 /// An SVG file in which the curves move from start to end and back; frames: [2, 1000] keyframes at most.
 std::string isotopy_animation_svg(const Isotopy& isotopy, int frames = 60);
-/// The curves at a time as an SVG file, all of one size.
+/// The curves at a time as an SVG file, all of one size; coordinates have six digits, or all of them where curves would
+/// cross as they are read back.
 std::string isotopy_frame_svg(const Isotopy& isotopy, double time);
 
 }  // namespace unsnarl

@@ -47,15 +47,21 @@ struct SeifertFindings {
   }
 };
 
+/// What of it does not hold, one line each; empty: all holds.
+std::string seifert_faults(const SeifertFindings& findings);
+
 /// Everything by exact arithmetic and integers. The surface must consist of triangles. views, handles: as in
 /// SeifertOptions. Throws std::invalid_argument for a surface that is no triangle mesh, or whose sides 64-bit numbers
 /// cannot tell apart, or as check_link does.
 SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views = 60, int handles = 0);
 
 struct SeifertResult {
-  /// embedded; cancelled or time_limit where fairing was stopped: the surface is embedded then too.
+  /// embedded; cancelled or time_limit where fairing was stopped: the surface is embedded then too. no_progress: none
+  /// was found for which check_seifert_surface says that all holds, since strands are too close for doubles: there is
+  /// no surface, and `message` says why.
   Status status = Status::embedded;
   Surface surface;  ///< triangles; the first vertices are the points of the link, component by component
+  std::string message;  ///< also where the surface was left as it was built, and why; else empty
   std::size_t crossings = 0, circles = 0;  ///< of the diagram that it was built from
   double area = 0;
   double seconds = 0;
@@ -67,7 +73,7 @@ struct SeifertResult {
 /// same bytes on every run (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument as check_link does, for an option out of range, and for a link that no view tells
-/// apart.
+/// apart, or whose surface is too thin to be certified.
 SeifertResult seifert_surface(const Link& link, const SeifertOptions& options = {}, Context* context = nullptr);
 
 /// "1 - 3t + t^2" of such coefficients.

@@ -411,7 +411,9 @@ UNSNARL_EXPORT int unsnarl_check_routes(const char* plan, const unsnarl_curves* 
 /* An oriented surface without self-intersections whose boundary is the link (docs/seifert.md).
  *
  * Arrays: "positions" (n, 3) float64, the points of the link first, and "corners" (m, 3) int32. Report: what
- * unsnarl_check_seifert_surface finds; "crossings" and "circles" of the diagram, "area", "seconds". */
+ * unsnarl_check_seifert_surface finds; "crossings" and "circles" of the diagram, "area", "seconds". Status "no_progress":
+ * strands are too close to each other for double precision, the arrays are empty and "message" says why; with another
+ * status "message" is there where the surface was left as it was built. */
 UNSNARL_EXPORT int unsnarl_seifert_surface(const unsnarl_curves* link, const unsnarl_options* options,
                                            unsnarl_context* context, unsnarl_result** result);
 

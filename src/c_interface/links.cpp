@@ -31,7 +31,10 @@ unsnarl_result spanned(const Link& link, const unsnarl_options& given, Context* 
   options.time_limit_s = given.time_limit;
   SeifertResult made = seifert_surface(link, options, context);
 
-  Json json = json_of(check_seifert_surface(made.surface, link, options.views, options.handles));
+  Json json = Json::object();
+  if (made.status != Status::no_progress)
+    json = json_of(check_seifert_surface(made.surface, link, options.views, options.handles));
+  if (!made.message.empty()) json["message"] = made.message;
   json["crossings"] = made.crossings;
   json["circles"] = made.circles;
   json["area"] = made.area;

@@ -67,6 +67,14 @@ TEST(FindCrossings, SharedEndsOfAJointDoNotCount) {
   EXPECT_TRUE(find_crossings(curves, joints).empty());
 }
 
+TEST(FindCrossings, PointsOfAJointThatAreApartAreTwo) {
+  const double just_below = -1e-15;
+  const std::vector<Curve> curves{open({-1, 0, 0, 0, 1, 0}), open({0, just_below, 0, 1})};
+  const std::vector<CurveJoint> joints{{{0, 1}, {1, 0}}};
+  EXPECT_EQ(find_crossings(curves, joints).size(), 2U);
+  EXPECT_EQ(oracle::count_crossings(curves, joints), 2U);
+}
+
 TEST(FindCrossings, FoldedSegmentsMeet) {
   EXPECT_EQ(find_crossings(std::vector<Curve>{open({0, 0, 2, 0, 1, 0})}).size(), 1U);
   EXPECT_EQ(find_crossings(std::vector<Curve>{open({0, 0, 1, 0, 2, 0})}).size(), 0U);

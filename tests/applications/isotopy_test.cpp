@@ -82,6 +82,19 @@ TEST(PlanarIsotopy, LockedLettersComeApartAndChangePlaces) {
   expect_isotopy({letter(-3), letter(3)}, {letter(3), letter(-3)});
 }
 
+TEST(IsotopyFrame, CurvesAreSimpleAsTheyAreReadBackFarFromTheOriginToo) {
+  const double x = 1e6, far = x + 1e-3;
+  const std::vector<Curve> square{polygon({x, x, far, x, far, far, x, far})};
+  const Isotopy made = planar_isotopy(square, square);
+  ASSERT_EQ(made.status, Status::embedded);
+  for (const double time : {0.0, 0.4, 1.0}) {
+    const std::vector<Curve> back = CurveDocument::parse(isotopy_frame_svg(made, time), CurveFormat::svg).curves();
+    ASSERT_EQ(back.size(), 1U);
+    EXPECT_EQ(back[0].points, isotopy_slice(made, time)[0].points);
+    EXPECT_EQ(oracle::count_crossings(back, {}), 0U);
+  }
+}
+
 TEST(PlanarIsotopy, RefusesWhatCannotBe) {
   const Curve square = polygon({0, 0, 1, 0, 1, 1, 0, 1}), backwards = polygon({0, 0, 0, 1, 1, 1, 1, 0});
   EXPECT_NE(refusal({square}, {backwards}).find("runs around the other way"), std::string::npos);

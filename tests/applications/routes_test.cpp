@@ -351,6 +351,27 @@ std::string refusal(const std::string& text) {
   return "taken";
 }
 
+TEST(CheckPlan, RadiiThatDoublePrecisionDoesNotTellFromNoneAreRefused) {
+  const auto refusal = [](double radius, double place) {
+    RoutePlan plan;
+    plan.agents = {{.name = "a", .radius = radius, .start = {place, 0, 0}, .goal = {place, place, 0}, .waypoints = {}}};
+    try {
+      check_plan(plan);
+    } catch (const std::invalid_argument& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  for (const double radius : {5e-324, 1e-300, 1e-100, 1e-71})
+    EXPECT_NE(refusal(radius, 1).find("agents[0].radius"), std::string::npos) << radius;
+  EXPECT_NE(refusal(1e-300, 1e-300).find("too small"), std::string::npos);
+  EXPECT_NE(refusal(1e-14, 1).find("too small beside coordinates up to 1"), std::string::npos);
+  EXPECT_NE(refusal(0.3, 1e16).find("too small beside coordinates"), std::string::npos);
+  EXPECT_EQ(refusal(1e-11, 1), "");
+  EXPECT_EQ(refusal(1e-60, 1e-55), "");
+  EXPECT_EQ(refusal(1e60, 1e65), "");
+}
+
 TEST(RoutePlanFile, WhatIsWrongIsNamedWithItsPlace) {
   const auto one = [](const std::string& members) { return "{\"agents\": [{" + members + "}]}"; };
   EXPECT_EQ(refusal("{\"agents\": ["), "byte 13: this is not JSON");

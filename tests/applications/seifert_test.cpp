@@ -140,6 +140,21 @@ TEST(SeifertSurface, FlatAndSteepKnotsAndPlanarDiagramsAreSpanned) {
   EXPECT_THROW(spanned(flat, {.fair = false}), std::invalid_argument);
 }
 
+TEST(SeifertSurface, NearlyFlatPolygonsAreSpannedThoughTheBestViewIsFromTheirSide) {
+  std::uint64_t state = 0;
+  const auto random = [&] { return splitmix_number(++state * splitmix_step) - 0.5; };
+  for (int k = 0; k < 60; ++k) {
+    Link link;
+    std::vector<double>& points = link.components.emplace_back();
+    for (int p = 0; p < 4 + k % 4; ++p) points.insert(points.end(), {random(), random(), 1e-6 * random()});
+    SeifertOptions as_built;
+    as_built.fair = false;
+    const SeifertResult made = seifert_surface(link, as_built);
+    EXPECT_EQ(made.status, Status::embedded) << k << ": " << made.message;
+    EXPECT_TRUE(check_seifert_surface(made.surface, link).hold()) << k;
+  }
+}
+
 TEST(SeifertSurface, HandlesRaiseTheGenusAndKeepThePolynomial) {
   // The last link has two lowest discs, side by side.
   for (const char* text : {"braid 2: 1 1 1", "braid 3: 1 -2 1 -2 1 -2", "0 0 0\n1 0 0\n0 1 0\n\n5 0 0\n6 0 0\n5 1 0\n"})

@@ -55,6 +55,19 @@ TEST_F(Curves, StreamsAndSamples) {
   EXPECT_EQ(document.curves()[0].size(), 300U);
 }
 
+TEST_F(Curves, AnEndOnAnotherCurveIsOnItInTheFileToo) {
+  const std::string json = folder / "in.json", result = folder / "out.json";
+  write(json, R"({"curves": [{"points": [[0.1, 0.2], [7.123456789123, 1.987654321987]]},
+      {"points": [[3.6117283945615, 1.0938271609935], [3.3, 5.1], [6.6, 5.2], [2.9, 5.3]]},
+      {"closed": true, "points": [[2.123, 3.217], [4.731, 3.111], [4.633, 4.419], [2.017, 4.523]]}]})");
+  ASSERT_EQ(run({"curves", json, "-o", result}).exit_code, 0);
+  const std::vector<Curve> curves = CurveDocument::read(result).curves();
+  ASSERT_EQ(curves[0].size(), 3U);
+  EXPECT_EQ(curves[0].points[2], curves[1].points[0]);
+  EXPECT_EQ(curves[0].points[3], curves[1].points[1]);
+  EXPECT_EQ(oracle::count_crossings(curves, {{{{0, 1}, {1, 0}}}}), 0U);
+}
+
 TEST_F(Curves, FixedCurvesThatCrossExitWith7) {
   const std::string json = folder / "in.json", result = folder / "out.json";
   write(json,

@@ -60,6 +60,8 @@ TEST(RoutesCommand, ErrorsAndObstructions) {
   const std::string near = R"({"agents": [{"name": "a", "radius": 1, "start": [0, 0, 0], "goal": [9, 0, 0]},
                                           {"name": "b", "radius": 1, "start": [0, 1, 0], "goal": [9, 9, 0]}]})";
   EXPECT_TRUE(contains(said(near, 7), "the start of 'a' and the start of 'b' are 1 apart"));
+  EXPECT_TRUE(contains(said(R"({"agents": [{"radius": 1e-300, "start": [0, 0, 0], "goal": [1, 0, 0]}]})", 3),
+                       "agents[0].radius is 1e-300, which is too small"));
   EXPECT_EQ(run({"routes", "-"}, {.input = near}).exit_code, 2);
   const std::string timed = R"({"timed": true, "agents": [{"radius": 1, "start": [0, 0, 0], "goal": [9, 0, 0]}]})";
   const Outcome free_in_time = run({"routes", "-", "-o", folder / "out", "--free-tubes"}, {.input = timed});

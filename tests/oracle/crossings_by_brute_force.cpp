@@ -57,8 +57,12 @@ std::size_t count_crossings(std::span<const Curve> curves, std::span<const Curve
   std::map<std::array<int, 2>, int> id_of;
   int ids = 0;
   for (const CurveJoint& joint : joints) {
-    for (const auto& [c, k] : joint) id_of[{c, k}] = ids;
-    ++ids;
+    std::map<std::array<double, 2>, int> id_at;  // points of a joint that are not at one position are not one
+    for (const auto& [c, k] : joint) {
+      const auto [at, is_new] = id_at.try_emplace({curves[c].points[2 * k], curves[c].points[2 * k + 1]}, ids);
+      ids += is_new;
+      id_of[{c, k}] = at->second;
+    }
   }
   std::vector<PlaneSegment> segments;
   for (int c = 0; c < static_cast<int>(curves.size()); ++c) {

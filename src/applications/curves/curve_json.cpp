@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "applications/curves/curve_file.h"
+#include "applications/curves/written_places.h"
 #include "io/json_text.h"
 #include "io/text_edits.h"
 
@@ -17,22 +18,22 @@ class JsonCurveFile final : public CurveFile {
   };
 
   std::string patched(std::span<const Curve> moved, double rounding) const override {
+    const WrittenPlaces written_at(curves, moved, rounding);
     std::vector<TextEdit> edits;
     for (std::size_t c = 0; c < moved.size(); ++c) {
       const std::vector<double>&now = moved[c].points, &own = curves[c].points;
       if (now == own) continue;
-      if (now.size() == own.size()) {
-        for (std::size_t k = 0; k < now.size(); ++k)
-          if (now[k] != own[k])
-            edits.push_back(
-                {places[c].tokens[k].first, places[c].tokens[k].second, digits_of(rounded(now[k], rounding))});
-        continue;
+      std::string list = "[";
+      for (std::size_t k = 0; k + 1 < now.size(); k += 2) {
+        const Vec2 written = written_at({now[k], now[k + 1]});
+        list += fmt::format("{}[{}, {}]", k == 0 ? "" : ", ", digits_of(written.x()), digits_of(written.y()));
+        for (std::size_t axis = 0; now.size() == own.size() && axis < 2; ++axis)
+          if (now[k + axis] != own[k + axis])
+            edits.push_back({places[c].tokens[k + axis].first, places[c].tokens[k + axis].second,
+                             digits_of(written[static_cast<Index>(axis)])});
       }
       // Points were inserted: the list is written anew.
-      std::string list = "[";
-      for (std::size_t k = 0; k + 1 < now.size(); k += 2)
-        list += fmt::format("{}[{}, {}]", k == 0 ? "" : ", ", digits_of(now[k]), digits_of(now[k + 1]));
-      edits.push_back({places[c].begin, places[c].end, list + "]"});
+      if (now.size() != own.size()) edits.push_back({places[c].begin, places[c].end, list + "]"});
     }
     return with_edits(bytes, std::move(edits));
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -200,6 +201,20 @@ std::vector<CurveJoint> join_ends(std::vector<Curve>& curves, double distance, s
     joints.push_back(std::move(joint));
   }
   return joints;
+}
+
+std::vector<CurveJoint> joints_at_one_position(std::span<const Curve> curves, std::span<const CurveJoint> joints) {
+  std::vector<CurveJoint> result;
+  for (const CurveJoint& joint : joints) {
+    std::map<std::array<double, 2>, CurveJoint> by_position;
+    for (const auto& [c, k] : joint) {
+      const Vec2 p = point(curves[c], k);
+      by_position[{p.x(), p.y()}].push_back({c, k});
+    }
+    for (auto& [position, points] : by_position)
+      if (points.size() > 1) result.push_back(std::move(points));
+  }
+  return result;
 }
 
 CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joints, bool fix_ends) {

@@ -74,6 +74,10 @@ void check_curves(std::span<const Curve> curves);
 /// would leave a segment without length is not joined. Returns the joints; adds the number of points inserted.
 std::vector<CurveJoint> join_ends(std::vector<Curve>& curves, double distance, std::size_t& inserted);
 
+/// The joints whose points are at one position, bit for bit; one that is in several places becomes several, or none.
+std::vector<CurveJoint> joints_at_one_position(std::span<const Curve> curves, std::span<const CurveJoint> joints);
+
+/// Precondition: the points of a joint are at one position.
 CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joints, bool fix_ends);
 
 /// The curves with the positions x of the net's vertices.

@@ -11,6 +11,7 @@
 
 #include "applications/curves/curve_file.h"
 #include "applications/curves/path_data.h"
+#include "applications/curves/written_places.h"
 #include "io/text_edits.h"
 
 namespace unsnarl {
@@ -122,8 +123,9 @@ class SvgFile final : public CurveFile {
   double flatten = 0;
 
  private:
-  std::string path_of(const Shape& shape, std::span<const Curve> moved, double rounding) const;
-  std::string points_of(const Shape& shape, const Piece& piece, const Curve& moved, double rounding) const;
+  bool is_moved(const Piece& piece, std::span<const Curve> moved) const;
+  std::string path_of(const Shape& shape, std::span<const Curve> moved, TransformedPlaces& places) const;
+  std::string points_of(const Shape& shape, const Piece& piece, const Curve& moved, TransformedPlaces& places) const;
 };
 
 class SvgParser {
@@ -320,37 +322,46 @@ class SvgParser {
   std::map<std::string, int> skipped_;
 };
 
-bool is_same(const Curve& a, const Curve& b) {
-  return a.points == b.points;
+/// For each point of a moved curve the point of the file's that it is still; -1: none.
+std::vector<std::ptrdiff_t> own_points(const Curve& own, const Curve& moved) {
+  const auto at = [](const Curve& curve, std::size_t k) {
+    return std::array<double, 2>{curve.points[2 * k], curve.points[2 * k + 1]};
+  };
+  std::map<std::array<double, 2>, std::size_t> places;
+  for (std::size_t k = 0; k < own.size(); ++k) places.emplace(at(own, k), k);
+  std::vector<std::ptrdiff_t> result(moved.size(), -1);
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const auto found = places.find(at(moved, k));
+    if (moved.size() == own.size() && at(own, k) == at(moved, k))
+      result[k] = static_cast<std::ptrdiff_t>(k);
+    else if (moved.size() != own.size() && found != places.end())
+      result[k] = static_cast<std::ptrdiff_t>(found->second);
+  }
+  return result;
 }
 
-std::string SvgFile::points_of(const Shape& shape, const Piece& piece, const Curve& moved, double rounding) const {
-  const Curve& own = curves[*piece.curve];
-  const Eigen::Matrix2d back = shape.transform.linear.inverse();
-  const double fine = rounding / std::max(shape.transform.scale(), 1e-300);
+bool SvgFile::is_moved(const Piece& piece, std::span<const Curve> moved) const {
+  return piece.curve && moved[*piece.curve].points != curves[*piece.curve].points;
+}
+
+std::string SvgFile::points_of(const Shape& shape, const Piece& piece, const Curve& moved,
+                               TransformedPlaces& places) const {
+  const std::vector<std::ptrdiff_t> own = own_points(curves[*piece.curve], moved);
   std::string text;
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    const Vec2 p(moved.points[2 * i], moved.points[2 * i + 1]);
-    Vec2 local;
-    const bool is_own = moved.size() == own.size() && p.x() == own.points[2 * i] && p.y() == own.points[2 * i + 1];
-    if (is_own) {
-      local = piece.path.points[i];
-    } else {
-      local = back * (p - shape.transform.offset);
-      local = {rounded(local.x(), fine), rounded(local.y(), fine)};
-    }
+    const Vec2 local = own[i] >= 0 ? piece.path.points[static_cast<std::size_t>(own[i])]
+                                   : places.local({moved.points[2 * i], moved.points[2 * i + 1]}, shape.transform);
     text += fmt::format("{}{},{}", i == 0 ? "" : " ", digits_of(local.x()), digits_of(local.y()));
   }
   return text;
 }
 
-std::string SvgFile::path_of(const Shape& shape, std::span<const Curve> moved, double rounding) const {
+std::string SvgFile::path_of(const Shape& shape, std::span<const Curve> moved, TransformedPlaces& places) const {
   std::string text;
   for (const Piece& piece : shape.pieces) {
     if (!text.empty()) text += ' ';
-    const bool is_moved = piece.curve && !is_same(moved[*piece.curve], curves[*piece.curve]);
-    if (is_moved) {
-      text += "M " + points_of(shape, piece, moved[*piece.curve], rounding);
+    if (is_moved(piece, moved)) {
+      text += "M " + points_of(shape, piece, moved[*piece.curve], places);
       if (moved[*piece.curve].closed) text += " Z";
     } else {
       text += fmt::format("M {},{}", digits_of(piece.path.start.x()), digits_of(piece.path.start.y()));
@@ -364,20 +375,24 @@ std::string SvgFile::path_of(const Shape& shape, std::span<const Curve> moved, d
 }
 
 std::string SvgFile::patched(std::span<const Curve> moved, double rounding) const {
+  TransformedPlaces places(curves, moved, rounding);
+  for (const Shape& shape : shapes)
+    for (const Piece& piece : shape.pieces)
+      for (std::size_t k = 0; is_moved(piece, moved) && k < moved[*piece.curve].size(); ++k)
+        places.expect({moved[*piece.curve].points[2 * k], moved[*piece.curve].points[2 * k + 1]}, shape.transform);
   std::vector<TextEdit> edits;
   for (const Shape& shape : shapes) {
-    if (std::none_of(shape.pieces.begin(), shape.pieces.end(), [&](const Piece& piece) {
-          return piece.curve && !is_same(moved[*piece.curve], curves[*piece.curve]);
-        }))
+    if (std::none_of(shape.pieces.begin(), shape.pieces.end(),
+                     [&](const Piece& piece) { return is_moved(piece, moved); }))
       continue;
     const auto attributes = attributes_of(bytes, shape.name);
     if (shape.kind == "path") {
       const Attribute& d = attributes.find("d")->second;
-      edits.push_back({d.value_begin, d.value_end, path_of(shape, moved, rounding)});
+      edits.push_back({d.value_begin, d.value_end, path_of(shape, moved, places)});
       continue;
     }
     const Piece& piece = shape.pieces[0];
-    const std::string points = points_of(shape, piece, moved[*piece.curve], rounding);
+    const std::string points = points_of(shape, piece, moved[*piece.curve], places);
     if (shape.kind == "polyline" || shape.kind == "polygon") {
       const Attribute& list = attributes.find("points")->second;
       edits.push_back({list.value_begin, list.value_end, points});

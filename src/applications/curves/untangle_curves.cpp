@@ -196,7 +196,7 @@ class CurveUntangling {
 
 std::vector<CurveCrossing> find_crossings(std::span<const Curve> curves, std::span<const CurveJoint> joints) {
   check_curves(curves);
-  const CurveNet net = make_net(curves, joints, false);
+  const CurveNet net = make_net(curves, joints_at_one_position(curves, joints), false);
   return as_crossings(net, find_meetings(net, net.rest));
 }
 

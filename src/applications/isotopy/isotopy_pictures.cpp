@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 
 #include "applications/isotopy/rings.h"
@@ -16,7 +17,10 @@ struct Bounds {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
 };
 
-std::string opening(const Isotopy& isotopy) {
+/// Significant digits of coordinates in pictures, and those that give every double back.
+constexpr int short_digits = 6, all_digits = 17;
+
+std::string opening(const Isotopy& isotopy, int digits = short_digits) {
   Bounds b;
   for (const IsotopyRing& ring : isotopy.rings)
     for (const std::vector<double>& p : ring.curves)
@@ -27,17 +31,34 @@ std::string opening(const Isotopy& isotopy) {
   const Vec2 size = b.high - b.low;
   const double longer = size.maxCoeff(), room = margin * longer;
   return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"600\" viewBox=\"{:.6g} {:.6g} {:.6g} {:.6g}\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"600\" viewBox=\"{:.{}g} {:.{}g} {:.6g} {:.6g}\">\n"
       "<g fill=\"#7f9fc4\" fill-opacity=\"0.5\" stroke=\"#1f2f4f\" stroke-linejoin=\"round\" "
       "stroke-width=\"{:.6g}\">\n",
-      b.low.x() - room, b.low.y() - room, size.x() + 2 * room, size.y() + 2 * room, stroke * longer);
+      b.low.x() - room, digits, b.low.y() - room, digits, size.x() + 2 * room, size.y() + 2 * room, stroke * longer);
 }
 
-std::string points_text(const std::vector<double>& p) {
+std::string points_text(const std::vector<double>& p, int digits = short_digits) {
   std::string text;
   for (std::size_t k = 0; k < p.size(); k += 2)
-    fmt::format_to(std::back_inserter(text), "{}{:.6g},{:.6g}", k == 0 ? "" : " ", p[k], p[k + 1]);
+    fmt::format_to(std::back_inserter(text), "{}{:.{}g},{:.{}g}", k == 0 ? "" : " ", p[k], digits, p[k + 1], digits);
   return text;
+}
+
+std::string frame_of(const Isotopy& isotopy, std::span<const Curve> curves, int digits) {
+  std::string text = opening(isotopy, digits);
+  for (const Curve& curve : curves)
+    text += fmt::format("<polygon points=\"{}\"/>\n", points_text(curve.points, digits));
+  return text + "</g>\n</svg>\n";
+}
+
+/// As it is read back.
+bool has_simple_curves(const std::string& frame, std::size_t count) {
+  try {
+    const std::vector<Curve> curves = CurveDocument::parse(frame, CurveFormat::svg).curves();
+    return curves.size() == count && find_crossings(curves).empty();
+  } catch (const FileError&) {
+    return false;  // nothing is left of a curve
+  }
 }
 
 /// The ring that begins the strip of a time, and how far the time is along it, in [0, 1].
@@ -72,10 +93,9 @@ std::vector<Curve> isotopy_slice(const Isotopy& isotopy, double time) {
 }
 
 std::string isotopy_frame_svg(const Isotopy& isotopy, double time) {
-  std::string text = opening(isotopy);
-  for (const Curve& curve : isotopy_slice(isotopy, time))
-    text += fmt::format("<polygon points=\"{}\"/>\n", points_text(curve.points));
-  return text + "</g>\n</svg>\n";
+  const std::vector<Curve> curves = isotopy_slice(isotopy, time);
+  const std::string text = frame_of(isotopy, curves, short_digits);
+  return has_simple_curves(text, curves.size()) ? text : frame_of(isotopy, curves, all_digits);
 }
 
 std::string isotopy_animation_svg(const Isotopy& isotopy, int frames) {

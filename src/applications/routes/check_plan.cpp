@@ -12,7 +12,12 @@
 namespace unsnarl {
 namespace {
 
-constexpr double largest_coordinate = 1e70;  // its sixth power is finite
+/// The sixth power of the first is finite; the square of the second, and of what is left of it by rounding, is not
+/// zero.
+constexpr double largest_coordinate = 1e70, least_radius = 1e-70;
+/// A thousand times what is rounded off a point / its largest coordinate: rings of smaller radii would lose their
+/// shape.
+constexpr double least_radius_rel = 1e-12;
 
 void check_point(const RoutePoint& p, const std::string& place) {
   for (const double c : p)
@@ -29,8 +34,14 @@ void check_name(const std::string& name, const std::string& place) {
 
 void check_agent(const RouteAgent& agent, const std::string& place) {
   check_name(agent.name, place);
-  if (!(agent.radius > 0 && agent.radius <= largest_coordinate))
+  if (!(agent.radius > 0))
     throw std::invalid_argument(fmt::format("{}.radius is {}; give a number above 0", place, agent.radius));
+  if (!(agent.radius <= largest_coordinate))
+    throw std::invalid_argument(
+        fmt::format("{}.radius is {}; give {} at most, in another unit", place, agent.radius, largest_coordinate));
+  if (agent.radius < least_radius)
+    throw std::invalid_argument(fmt::format("{}.radius is {}, which is too small: give {} at least, in another unit",
+                                            place, agent.radius, least_radius));
   check_point(agent.start, place + ".start");
   check_point(agent.goal, place + ".goal");
   for (std::size_t k = 0; k < agent.waypoints.size(); ++k)
@@ -55,6 +66,25 @@ void check_obstacle(const RouteObstacle& obstacle, const std::string& place) {
       if (v < 0 || static_cast<std::size_t>(v) >= surface.vertex_count())
         throw std::invalid_argument(
             fmt::format("{}.faces[{}] uses vertex {}, but it has {} vertices", place, f, v, surface.vertex_count()));
+}
+
+double largest_coordinate_of(const RoutePlan& plan) {
+  double largest = 0;
+  for (const RouteAgent& agent : plan.agents)
+    for (const Vec3& p : places_of(agent)) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  for (const RouteObstacle& obstacle : plan.obstacles)
+    for (const double c : obstacle.surface.positions) largest = std::max(largest, std::abs(c));
+  return largest;
+}
+
+void check_radii_beside_coordinates(const RoutePlan& plan) {
+  const double largest = largest_coordinate_of(plan), least = least_radius_rel * largest;
+  for (std::size_t i = 0; i < plan.agents.size(); ++i)
+    if (plan.agents[i].radius < least)
+      throw std::invalid_argument(fmt::format(
+          "agents[{}].radius is {}, which is too small beside coordinates up to {}: double precision cannot "
+          "say where such a tube is; give {:.3g} at least, or move the plan nearer to the origin",
+          i, plan.agents[i].radius, largest, least));
 }
 
 /// Whether every edge, by the positions of its ends, has an even number of faces.
@@ -186,6 +216,7 @@ void check_plan(const RoutePlan& plan) {
       throw std::invalid_argument(
           fmt::format("{}.name: '{}' is the name of obstacles[{}] too", place, plan.obstacles[o].name, at->second));
   }
+  check_radii_beside_coordinates(plan);
 }
 
 std::vector<std::string> route_obstructions(const RoutePlan& plan) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,8 +11,9 @@
 namespace unsnarl {
 namespace {
 
-/// Vertices lie within the tubes by this part of the radius, so that rounding them does not take them out.
-constexpr double inside = 1 - 1e-9;
+/// Vertices lie within the tubes by this part of the radius, or of their largest coordinate where that is more, so that
+/// rounding them does not take them out.
+constexpr double inside_of_radius = 1e-9, inside_of_coordinate = 1e-15;
 
 /// One tube: rings of points around centres, closed by a point at each end.
 class Tube {
@@ -61,9 +63,13 @@ class Tube {
 
 void add_tube(const Route& route, double radius, int sides, Surface& surface) {
   std::vector<Vec3> p;
-  for (const RoutePoint& point : route.points) p.push_back(vec(point));
+  double largest = 0;
+  for (const RoutePoint& point : route.points) {
+    p.push_back(vec(point));
+    largest = std::max(largest, p.back().cwiseAbs().maxCoeff());
+  }
   const std::size_t n = p.size();
-  const double r = radius * inside;
+  const double r = std::min(radius * (1 - inside_of_radius), radius - inside_of_coordinate * largest);
   const int cap_rings = std::max(1, sides / 4 - 1);
   Tube tube(surface, sides);
   Vec3 e = Vec3::Zero();

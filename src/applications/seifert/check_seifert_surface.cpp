@@ -147,6 +147,19 @@ SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& li
   return found;
 }
 
+std::string seifert_faults(const SeifertFindings& f) {
+  std::string text;
+  if (f.intersecting_pairs > 0) text += fmt::format("{} pairs of faces intersect\n", f.intersecting_pairs);
+  if (!f.oriented) text += "it is no oriented manifold with boundary\n";
+  if (f.oriented && !f.spans_link) text += "its boundary is not the link\n";
+  if (f.closed_components > 0) text += fmt::format("{} of its components have no boundary\n", f.closed_components);
+  if (f.oriented && f.euler_characteristic != f.expected_euler_characteristic)
+    text += "its Euler characteristic is not that of Seifert's algorithm\n";
+  if (f.oriented && f.spans_link && f.intersecting_pairs == 0 && f.alexander_of_surface != f.alexander_of_link)
+    text += "its Alexander polynomial is not that of the diagram\n";
+  return text;
+}
+
 std::string polynomial_text(std::span<const std::string> coefficients) {
   Polynomial polynomial;
   for (const std::string& c : coefficients) polynomial.emplace_back(c);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/distances.h"
+#include "geometry/predicates.h"
 #include "geometry/sort_unique.h"
 #include "geometry/triangle_intersection.h"
 
@@ -35,22 +36,19 @@ double squared_distance(const TrianglePoints& a, const TrianglePoints& b) {
   return least;
 }
 
-/// Whether a plane across a normal of either triangle, or of an edge within one, keeps them this far apart: cheap, and
-/// enough for most that are not near each other.
-bool are_separated(const TrianglePoints& a, const TrianglePoints& b, double by) {
-  const auto beyond = [&](const Vec3& axis, const Vec3& origin, const TrianglePoints& t, double room) {
-    return std::min({axis.dot(t[0] - origin), axis.dot(t[1] - origin), axis.dot(t[2] - origin)}) >= room;
-  };
-  for (const auto& [s, t] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-    const Vec3 normal = ((*s)[1] - (*s)[0]).cross((*s)[2] - (*s)[0]);
-    const double room = by * normal.norm();
-    if (beyond(normal, (*s)[0], *t, room) || beyond(-normal, (*s)[0], *t, room)) return true;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 out = ((*s)[(k + 1) % 3] - (*s)[k]).cross(normal);
-      if (beyond(out, (*s)[k], *t, by * out.norm())) return true;
-    }
+/// Whether there is this much room between the triangles along the axis, whatever is rounded: the difference of two
+/// points and its product with the axis are off by a few roundings of the magnitudes that they are made of.
+bool are_separated_along(const Vec3& axis, const TrianglePoints& a, const TrianglePoints& b, double room) {
+  constexpr double few_roundings = 16 * detail::half_ulp;
+  const Vec3 origin = a[0], size = axis.cwiseAbs();
+  double highest = 0, lowest = std::numeric_limits<double>::infinity(), magnitude = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) highest = std::max(highest, axis.dot(a[k] - origin));
+    lowest = std::min(lowest, axis.dot(b[k] - origin));
+    magnitude = std::max(magnitude, size.dot(a[k].cwiseAbs()) + size.dot(b[k].cwiseAbs()));
   }
-  return false;
+  magnitude += size.dot(origin.cwiseAbs());
+  return magnitude > detail::underflow_guard && lowest - highest > room + few_roundings * magnitude;
 }
 
 double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -69,6 +67,19 @@ int place_of(const Triangle& t, Index v) {
 }
 
 }  // namespace
+
+bool are_separated(const TrianglePoints& a, const TrianglePoints& b, double by) {
+  for (const auto& [s, t] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    const Vec3 normal = ((*s)[1] - (*s)[0]).cross((*s)[2] - (*s)[0]);
+    const double room = by * normal.norm();
+    if (are_separated_along(normal, *s, *t, room) || are_separated_along(-normal, *s, *t, room)) return true;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 out = ((*s)[(k + 1) % 3] - (*s)[k]).cross(normal);
+      if (are_separated_along(out, *s, *t, by * out.norm())) return true;
+    }
+  }
+  return false;
+}
 
 EmbeddedMesh::EmbeddedMesh(SpanningMesh mesh, Index boundary_count, double edge, double gap)
     : x_(std::move(mesh.x)), faces_of_(x_.size()), boundary_count_(boundary_count), edge_(edge), gap_(gap), grid_([&] {
@@ -182,10 +193,8 @@ double EmbeddedMesh::soundness_of_pair(const Triangle& a, const Triangle& b) con
   if (t[1] != s[0]) return -1;
   const Vec3 m = normal(s), n = normal(t);
   const double cosine = m.dot(n) / std::max(m.norm() * n.norm(), std::numeric_limits<double>::min());
-  if (cosine < 0) {
-    const Triangle same = {t[1], t[0], t[2]};
-    if (triangles_fold_flat(points(s), points(same)) != Meeting::no) return -1;
-  }
+  const Triangle same = {t[1], t[0], t[2]};
+  if (triangles_fold_flat(points(s), points(same)) != Meeting::no) return -1;
   return (1 + cosine) / sharp_fold;
 }
 

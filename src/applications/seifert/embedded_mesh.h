@@ -5,8 +5,13 @@
 #include <vector>
 
 #include "applications/seifert/spanning_start.h"
+#include "geometry/triangle_intersection.h"
 
 namespace unsnarl {
+
+/// Whether a plane across a normal of either triangle, or of an edge within one, keeps them this far apart: cheap, and
+/// enough for most that are not near each other. Never true of triangles that meet, whatever is rounded.
+bool are_separated(const TrianglePoints& a, const TrianglePoints& b, double by);
 
 /// Faces near a place: a grid of cells over a box, each with the faces whose bounding boxes reach into it.
 class FaceGrid {

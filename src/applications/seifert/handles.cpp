@@ -172,7 +172,7 @@ void cut_to_holes(FlatDisc& disc, std::vector<FlatDisc> holes) {
           hole = h;
           corner = c;
         }
-    if (std::isinf(least)) throw std::logic_error("a hole is seen from no corner");
+    if (std::isinf(least)) throw NoSpanningStart("a hole is seen from no corner of its disc");
     FlatDisc& cut = holes[hole];
     const auto go_around = [&](auto& outline, auto& of_hole) {
       std::rotate(of_hole.begin(), of_hole.begin() + static_cast<std::ptrdiff_t>(corner), of_hole.end());

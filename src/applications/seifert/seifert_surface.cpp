@@ -6,6 +6,7 @@
 #include "applications/seifert/fair_surface.h"
 #include "applications/seifert/link_diagram.h"
 #include "geometry/box.h"
+#include "unsnarl/intersections.h"
 #include "unsnarl/seifert.h"
 #include "unsnarl/stage_clock.h"
 
@@ -49,6 +50,33 @@ double edge_length(const Link& link, const SeifertOptions& options) {
                     coarsest_edge_rel * diagonal);
 }
 
+Surface surface_of(const SpanningMesh& mesh) {
+  Surface surface;
+  for (const Vec3& p : mesh.x) surface.positions.insert(surface.positions.end(), {p[0], p[1], p[2]});
+  for (const Triangle& t : mesh.faces) surface.corners.insert(surface.corners.end(), t.begin(), t.end());
+  return surface;
+}
+
+double area_of(const SpanningMesh& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.faces)
+    area += 0.5 * (mesh.x[t[1]] - mesh.x[t[0]]).cross(mesh.x[t[2]] - mesh.x[t[0]]).norm();
+  return area;
+}
+
+SeifertResult without_surface(SeifertResult result, const std::string& why) {
+  result.status = Status::no_progress;
+  result.message = why;
+  return result;
+}
+
+/// By exact arithmetic, every vertex by itself.
+std::size_t intersecting_pairs(const SpanningMesh& mesh) {
+  FindOptions find;
+  find.weld = Weld::none;
+  return find_intersections(surface_of(mesh), find).size();
+}
+
 }  // namespace
 
 SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, Context* context) {
@@ -62,7 +90,15 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
   result.crossings = diagram->crossings.size();
   result.circles = static_cast<std::size_t>(diagram->circles);
   const double edge = edge_length(link, options);
-  SpanningMesh mesh = spanning_start(link, *diagram, disc_step * edge, options.handles);
+  SpanningMesh start;
+  try {
+    start = spanning_start(link, *diagram, disc_step * edge, options.handles);
+  } catch (const NoSpanningStart& e) {
+    return without_surface(std::move(result), e.what());
+  }
+  if (const std::size_t pairs = intersecting_pairs(start); pairs > 0)
+    return without_surface(std::move(result), fmt::format("{} pairs of its faces intersect", pairs));
+  SpanningMesh mesh = start;
   if (options.fair) {
     const auto progress = [&](double fraction) {
       if (context && context->on_progress) context->on_progress({.fraction = fraction, .phase = "fair"});
@@ -75,11 +111,21 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
     };
     mesh = fair(std::move(mesh), static_cast<Index>(link.point_count()), edge, {}, progress, goes_on);
   }
-  for (const Vec3& p : mesh.x) result.surface.positions.insert(result.surface.positions.end(), {p[0], p[1], p[2]});
-  for (const Triangle& t : mesh.faces) {
-    result.surface.corners.insert(result.surface.corners.end(), t.begin(), t.end());
-    result.area += 0.5 * (mesh.x[t[1]] - mesh.x[t[0]]).cross(mesh.x[t[2]] - mesh.x[t[0]]).norm();
+  const auto faults = [&](const SpanningMesh& made) {
+    return seifert_faults(check_seifert_surface(surface_of(made), link, options.views, options.handles));
+  };
+  std::string wrong;
+  try {
+    wrong = faults(mesh);
+  } catch (const std::invalid_argument& e) {  // faired to triangles so thin that their sides are not told apart
+    if (!options.fair) throw;
+    wrong = faults(start);
+    mesh = std::move(start);
+    result.message = fmt::format("the surface is left as it was built, since after fairing {}", e.what());
   }
+  if (!wrong.empty()) return without_surface(std::move(result), wrong);
+  result.surface = surface_of(mesh);
+  result.area = area_of(mesh);
   result.seconds = clock.stage("").seconds;
   return result;
 }

@@ -17,8 +17,9 @@ constexpr double winding_of_band = 1.6;
 /// Width of the collar / the smallest gap between the strands of a crossing, and / the smallest room beside a strand
 /// within a band: all of it stays apart from the other strand's.
 constexpr double collar_of_gap = 0.25;
-/// Corners of discs are moved by up to half of this aside / the smallest room beside a strand within a band.
-constexpr double corner_shift = 1e-3;
+/// Corners of discs are moved by up to half of this aside / the smallest room beside a strand within a band, and / the
+/// smallest distance of a corner of the link from an edge in the picture, so that no outline comes to cross itself.
+constexpr double corner_shift = 1e-3, corner_shift_of_picture = 0.1;
 
 /// A point of the collar's free rim, in the frame of the diagram.
 struct RimPoint {
@@ -39,6 +40,7 @@ class Construction {
   }
 
   SpanningMesh build(int handles) {
+    room_ = room_in_picture();
     make_rim();
     hang_collar();
     place_bands();
@@ -189,9 +191,25 @@ class Construction {
     for (std::size_t i = 0; i < circles.size(); ++i) hang_wall(circles[i], lowest_ + step_ * depth[i], depth[i] == 0);
   }
 
+  double room_in_picture() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Positions& p : diagram_.points)
+      for (const Positions& q : diagram_.points)
+        for (Index v = 0; v < p.cols(); ++v)
+          for (Index k = 0; k < q.cols(); ++k) {
+            const auto next = static_cast<Index>((k + 1) % q.cols());
+            if (&p == &q && (v == k || v == next)) continue;
+            const Vec2 at = p.col(v).head<2>(), a = q.col(k).head<2>(), d = q.col(next).head<2>() - a;
+            const double t = std::clamp((at - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+            least = std::min(least, (at - a - t * d).norm());
+          }
+    return least;
+  }
+
   /// Another one for each number, far below the room between walls.
   double shift(Index k) const {
-    return corner_shift * beside_ * (splitmix_number(static_cast<std::uint64_t>(k) * splitmix_step) - 0.5);
+    return std::min(corner_shift * beside_, corner_shift_of_picture * room_) *
+           (splitmix_number(static_cast<std::uint64_t>(k) * splitmix_step) - 0.5);
   }
 
   void hang_wall(const std::vector<Index>& circle, double height, bool is_lowest) {
@@ -236,7 +254,7 @@ class Construction {
     for (const Vec2& p : disc.outline) flat.emplace_back(p.x(), p.y(), 0);
     std::vector<Triangle> cut;
     if (clipper_.clip(disc.corners, flat, is_clockwise(disc) ? Vec3(-Vec3::UnitZ()) : Vec3::UnitZ(), cut) > 0)
-      throw std::logic_error("a Seifert circle crosses itself");
+      throw NoSpanningStart("a Seifert circle crosses itself");
     for (const Triangle& t : cut) mesh_.faces.push_back({disc.corners[t[0]], disc.corners[t[1]], disc.corners[t[2]]});
   }
 
@@ -244,6 +262,7 @@ class Construction {
   const double step_;
   double collar_ = 0;  // its width
   double beside_ = 0;  // the smallest room beside a strand within a band, in the picture
+  double room_ = 0;  // the smallest distance of a corner of the link from an edge that it is no end of, in the picture
   SpanningMesh mesh_;
   std::vector<FlatDisc> lowest_discs_, discs_;  // several side by side are the lowest, at the same height
   double lowest_ = 0;

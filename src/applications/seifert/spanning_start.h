@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <vector>
 
 #include "applications/seifert/link_diagram.h"
@@ -12,6 +13,11 @@ struct SpanningMesh {
   std::vector<Triangle> faces;
 };
 
+/// Strands so close to each other that doubles do not say on which side of each other what is built around them lies.
+struct NoSpanningStart : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Seifert's surface of a diagram, embedded by the way it is built, and with the very points of the link as its
 /// boundary (H. Seifert, "Über das Geschlecht von Knoten", 1934).
 ///
@@ -22,7 +28,8 @@ struct SpanningMesh {
 ///   link, at a height of its own: the deeper a circle lies within others, the higher. Walls stand over the circles,
 ///   which do not meet in the picture, and the discs of the circles around one pass below its own.
 ///
-/// step: between the heights of discs, > 0. handles: hung from the lowest disc.
+/// step: between the heights of discs, > 0. handles: hung from the lowest disc. Throws NoSpanningStart; what it returns
+/// can intersect itself where strands are close to each other by so little that rounding decides.
 SpanningMesh spanning_start(const Link& link, const LinkDiagram& diagram, double step, int handles = 0);
 
 }  // namespace unsnarl

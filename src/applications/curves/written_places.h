@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "applications/curves/path_data.h"
+
+namespace unsnarl {
+
+/// Where the points of moved curves are written. Points at one position are one (a joint), so that one decision is made
+/// for all of them: coordinates that a point of the file has kept stay as they are, the others are rounded.
+class WrittenPlaces {
+ public:
+  /// own: the curves of the file; moved: as many, with points moved or inserted. rounding: a length; 0: all digits.
+  WrittenPlaces(std::span<const Curve> own, std::span<const Curve> moved, double rounding);
+
+  Vec2 operator()(const Vec2& moved) const;
+  /// Has a point of the file this position before and after?
+  bool is_kept(const Vec2& moved) const;
+
+ private:
+  using Place = std::array<double, 2>;
+  std::map<Place, std::array<bool, 2>> kept_;
+  double rounding_;
+};
+
+/// The same for points in elements of a drawing that have transforms of their own.
+class TransformedPlaces {
+ public:
+  TransformedPlaces(std::span<const Curve> own, std::span<const Curve> moved, double rounding);
+
+  /// A point of this position is to be written in an element of this transform. All of them, before the first local().
+  void expect(const Vec2& moved, const Affine& transform);
+  /// Its coordinates in the element. Those of one position are read as one wherever doubles of all elements can say so:
+  /// the certificate of the written file tells where they cannot.
+  Vec2 local(const Vec2& moved, const Affine& transform);
+
+ private:
+  using Place = std::array<double, 2>;
+  struct Use {
+    std::vector<Affine> transforms;  ///< without doubles
+    std::optional<Vec2> read;        ///< the position that all are to be read as
+  };
+  std::optional<Vec2> local_of(const Vec2& read, const Affine& transform) const;
+  Vec2 choose(const Vec2& moved, const Use& use) const;
+
+  WrittenPlaces kept_;
+  std::map<Place, Use> uses_;
+  double rounding_;
+};
+
+}  // namespace unsnarl

@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "geometry/splitmix.h"
+#include "oracle/crossings_by_brute_force.h"
+#include "unsnarl/curves.h"
+
+namespace unsnarl {
+namespace {
+
+/// A wavy ring and two curves of which one ends on the ring, the other on the ring and on the first: all numbers are as
+/// long as doubles are.
+std::vector<std::vector<double>> random_net(std::uint64_t seed) {
+  std::uint64_t state = seed * 1000;
+  const auto random = [&](double from, double to) {
+    return from + (to - from) * splitmix_number(++state * splitmix_step);
+  };
+  std::vector<double> ring;
+  const double phase = random(0, 6);
+  for (int k = 0; k < 24; ++k) {
+    const double t = 2 * std::numbers::pi * k / 24, r = 30 * (1 + 0.4 * std::sin(3 * t + phase));
+    ring.insert(ring.end(), {50 + r * std::cos(t), 50 + r * std::sin(t)});
+  }
+  const auto on = [&](const std::vector<double>& curve, std::size_t k) {
+    const double t = random(0.2, 0.8);
+    return std::array{(1 - t) * curve[2 * k] + t * curve[2 * k + 2], (1 - t) * curve[2 * k + 1] + t * curve[2 * k + 3]};
+  };
+  const auto wiggle = [&](std::array<double, 2> a, std::array<double, 2> b) {
+    std::vector<double> curve{a[0], a[1]};
+    for (int k = 1; k < 12; ++k)
+      for (int axis = 0; axis < 2; ++axis) curve.push_back(a[axis] + (b[axis] - a[axis]) * k / 12 + random(-4, 4));
+    curve.insert(curve.end(), {b[0], b[1]});
+    return curve;
+  };
+  const std::vector<double> first = wiggle(on(ring, 3), {random(0, 100), random(0, 100)});
+  return {ring, first, wiggle(on(ring, 14), on(first, 6))};
+}
+
+std::string points_json(const std::vector<double>& points) {
+  std::string text;
+  for (std::size_t k = 0; k < points.size(); k += 2)
+    text += fmt::format("{}[{}, {}]", k == 0 ? "" : ", ", points[k], points[k + 1]);
+  return "[" + text + "]";
+}
+
+CurveDocument as_json(const std::vector<std::vector<double>>& net) {
+  return CurveDocument::parse(fmt::format(R"({{"curves": [{{"points": {}, "closed": true}}, {{"points": {}}}, )"
+                                          R"({{"points": {}}}]}})",
+                                          points_json(net[0]), points_json(net[1]), points_json(net[2])),
+                              CurveFormat::json);
+}
+
+/// The second curve in an element that is turned, the third in one that is shifted and drawn larger.
+CurveDocument as_svg(const std::vector<std::vector<double>>& net) {
+  const double turn = 33 * std::numbers::pi / 180;
+  const std::array<std::string, 3> transforms = {"", "rotate(33)", "translate(7.1,3) scale(2.3)"};
+  std::string text = "<svg>";
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::string data = "M";
+    for (std::size_t k = 0; k < net[c].size(); k += 2) {
+      double x = net[c][k], y = net[c][k + 1];
+      if (c == 1)
+        std::tie(x, y) = std::pair(std::cos(turn) * x + std::sin(turn) * y, std::cos(turn) * y - std::sin(turn) * x);
+      if (c == 2) std::tie(x, y) = std::pair((x - 7.1) / 2.3, (y - 3) / 2.3);
+      data += fmt::format(" {},{}", x, y);
+    }
+    text += fmt::format("<path transform=\"{}\" d=\"{}{}\"/>", transforms[c], data, c == 0 ? "Z" : "");
+  }
+  return CurveDocument::parse(text + "</svg>", CurveFormat::svg);
+}
+
+/// As many crossings are in the file as in the result, by an oracle for which points at two places are two. Returns the
+/// status, or none where the certificate refuses the file.
+std::optional<Status> status_of_written(const CurveDocument& document) {
+  const CurveResult result = untangle_curves(document.curves());
+  const std::string bytes = document.patched(result.curves);
+  const std::size_t there = oracle::count_crossings(document.read_back(bytes), result.report.joints);
+  const std::string faults = curve_file_faults(document, bytes, result);
+  EXPECT_EQ(faults.empty(), there <= result.report.crossings_after) << faults;
+  if (!faults.empty()) return std::nullopt;
+  return result.status;
+}
+
+TEST(CurveFileFaults, JointsOfRandomNetsAreOnePointInTheFileToo) {
+  int embedded = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const std::optional<Status> status = status_of_written(as_json(random_net(seed)));
+    EXPECT_TRUE(status.has_value()) << seed;
+    embedded += status == Status::embedded;
+  }
+  EXPECT_GT(embedded, 10);
+}
+
+TEST(CurveFileFaults, AndWhereElementsHaveTransforms) {
+  int embedded = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const std::optional<Status> status = status_of_written(as_svg(random_net(seed)));
+    EXPECT_TRUE(status.has_value()) << seed;
+    embedded += status == Status::embedded;
+  }
+  EXPECT_GT(embedded, 10);
+}
+
+/// An open curve that ends on another one, well apart from it elsewhere.
+struct Tee {
+  CurveDocument document = CurveDocument::parse(
+      "{\"curves\": [{\"points\": [[0, 0], [10, 0.3]]}, {\"points\": [[5, 0.15], [5, 3], [7, 3]]}]}",
+      CurveFormat::json);
+  CurveResult result = untangle_curves(document.curves());
+
+  std::string faults(const std::vector<Curve>& written) const {
+    return curve_file_faults(document, document.patched(written, true), result);
+  }
+};
+
+TEST(CurveFileFaults, AnEndThatIsShiftedByTheLastDigitIsRefused) {
+  const Tee tee;
+  ASSERT_EQ(tee.result.report.joints.size(), 1U);
+  EXPECT_EQ(tee.faults(tee.result.curves), "");
+  std::vector<Curve> corrupted = tee.result.curves;
+  corrupted[1].points[1] = std::nextafter(corrupted[1].points[1], -1);
+  EXPECT_EQ(tee.faults(corrupted), "it has 2 crossings, the result 0");
+  corrupted[1].points[1] = 1;
+  EXPECT_EQ(tee.faults(corrupted), "curve 0 and curve 1 have come apart");
+}
+
+TEST(CurveFileFaults, OtherCurvesAreRefused) {
+  const Tee tee;
+  std::vector<Curve> corrupted = tee.result.curves;
+  corrupted[1].points[5] = -3;
+  EXPECT_EQ(tee.faults(corrupted), "it has 1 crossing, the result 0");
+  corrupted = tee.result.curves;
+  corrupted[1].points[4] = corrupted[1].points[2];
+  corrupted[1].points[5] = corrupted[1].points[3];
+  EXPECT_NE(tee.faults(corrupted).find("has no length"), std::string::npos);
+  EXPECT_EQ(curve_file_faults(tee.document, tee.document.patched(tee.document.curves()), tee.result),
+            "curve 0 has another number of points");
+  EXPECT_EQ(curve_file_faults(tee.document, R"({"curves": []})", tee.result), "it has another number of curves");
+}
+
+}  // namespace
+}  // namespace unsnarl
