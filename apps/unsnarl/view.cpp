@@ -12,6 +12,7 @@
 #include "mesh_input.h"
 #include "staged_output.h"
 #include "standard_streams.h"
+#include "unsnarl/depth_limit.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/page.h"
 #include "unsnarl/report_json.h"
@@ -25,6 +26,8 @@ std::string read_report(const std::string& path) {
   if (path.empty()) return {};
   std::ifstream file = opened(path, "; --report needs the report that 'unsnarl fix --report' wrote");
   std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (too_deep_bracket(text) != std::string::npos)
+    throw FileError(fmt::format("{}: nested too deeply; this is not a report of 'unsnarl fix'", path));
   const nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
   if (!report.is_object() || report.value("schema", nlohmann::json()) != "unsnarl-report")
     throw FileError(path + ": this is not a report of 'unsnarl fix'");

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <utility>
 
+#include "unsnarl/depth_limit.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl::app {
@@ -41,6 +42,7 @@ void SequenceRecord::read() {
   std::ifstream file(path_);
   for (std::string line; std::getline(file, line);) {
     ends_in_a_line_ = !file.eof();
+    if (too_deep_bracket(line) != std::string::npos) continue;
     Json json = Json::parse(line, nullptr, false);
     if (!json.is_object() || !json.contains("name") || !json["name"].is_string()) continue;
     const std::string name = json["name"].get<std::string>();

@@ -12,6 +12,8 @@
 #include "applications/curves/curve_file.h"
 #include "applications/curves/path_data.h"
 #include "io/text_edits.h"
+#include "io/xml_text.h"
+#include "unsnarl/depth_limit.h"
 
 namespace unsnarl {
 namespace {
@@ -139,6 +141,9 @@ class SvgParser {
       throw FileError(fmt::format("line {}: this is not well-formed XML: {}",
                                   line_of(file_.bytes, std::min<std::size_t>(result.offset, file_.bytes.size())),
                                   result.description()));
+    if (const std::optional<std::size_t> place = too_deep_element(document))
+      throw FileError(fmt::format("line {}: nested too deeply: more than {} elements within each other",
+                                  line_of(file_.bytes, std::min(*place, file_.bytes.size())), deepest_nesting));
     const pugi::xml_node root = document.document_element();
     if (local_name(root) != "svg")
       throw FileError(fmt::format("the root element is <{}>; an SVG file has <svg>", root.name()));
