@@ -23,6 +23,7 @@
 #include "standard_streams.h"
 #include "unsnarl/document.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/limit_reached.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/version.h"
 #include "usage.h"
@@ -137,6 +138,9 @@ ExitCode explain_error() {
     return complain(exit_invalid_input, e.what());
   } catch (const WriteError& e) {
     return complain(exit_cannot_write, e.what());
+  } catch (const LimitReached& e) {
+    const std::string_view option = e.status() == Status::memory_limit ? "--memory-limit" : "--time-limit";
+    return complain(exit_limit, fmt::format("{}; raise {}", e.what(), option));
   } catch (const std::bad_alloc&) {
     return complain(exit_limit, "not enough memory");
   } catch (const std::exception& e) {

@@ -59,7 +59,7 @@ struct OutputFile {
 class Document {
  public:
   /// Format by extension unless given; FreeSurfer surfaces without a known one are recognised by their first bytes.
-  /// Throws FileError.
+  /// Throws FileError, also where there is no face: what is cut short after its points would pass for repaired.
   static Document read(const std::filesystem::path& path, std::optional<Format> format = {});
   /// `folder` is where the external buffers of a glTF and the external files of a GIFTI lie. Throws FileError.
   static Document parse(std::string bytes, Format format, const std::filesystem::path& folder = {});

@@ -48,6 +48,7 @@ typedef enum unsnarl_error {
   UNSNARL_CANNOT_READ = 2,      /* a file is missing or makes no sense */
   UNSNARL_CANNOT_WRITE = 3,     /* a file cannot be written; what was there before is still there */
   UNSNARL_OUT_OF_MEMORY = 4,
+  UNSNARL_LIMIT_REACHED = 5,  /* a limit of time or memory, before there was any result */
   UNSNARL_INTERNAL_ERROR = 70 /* please report it */
 } unsnarl_error;
 

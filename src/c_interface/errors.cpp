@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "unsnarl/document.h"
+#include "unsnarl/limit_reached.h"
 #include "unsnarl/version.h"
 
 namespace unsnarl::c_interface {
@@ -34,6 +35,8 @@ int code_of_current_exception() noexcept {
     return keep(UNSNARL_CANNOT_READ, e.what());
   } catch (const WriteError& e) {
     return keep(UNSNARL_CANNOT_WRITE, e.what());
+  } catch (const LimitReached& e) {
+    return keep(UNSNARL_LIMIT_REACHED, e.what());
   } catch (const std::bad_alloc&) {
     return keep(UNSNARL_OUT_OF_MEMORY, "there is not enough memory");
   } catch (const std::exception& e) {

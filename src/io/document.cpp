@@ -29,6 +29,16 @@ void check_positions(const Surface& surface, std::span<const double> positions) 
   }
 }
 
+/// What is cut short after its points would pass for a surface without self-intersections.
+void require_faces(const SurfaceView& surface) {
+  if (surface.face_count() > 0) return;
+  const std::size_t count = surface.vertex_count();
+  throw FileError(
+      fmt::format("the file has {} vert{} and no faces, so there is nothing to repair; it is cut short, or holds "
+                  "points or lines only",
+                  count, count == 1 ? "ex" : "ices"));
+}
+
 bool has_word(std::string_view words, std::string_view word) {
   while (!words.empty()) {
     const std::size_t end = std::min(words.find(' '), words.size());
@@ -96,7 +106,9 @@ Document Document::parse(std::string bytes, Format format, const std::filesystem
   const std::string_view start = std::string_view(bytes).substr(0, checked_start);
   refuse_foreign_format(start, {});
   refuse_other_content(start, format);
-  return Document(format, formats[entry].parse(std::move(bytes), folder));
+  std::unique_ptr<MeshFile> file = formats[entry].parse(std::move(bytes), folder);
+  require_faces(file->surface);
+  return Document(format, std::move(file));
 }
 
 Format Document::format() const {

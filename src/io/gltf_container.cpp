@@ -6,6 +6,7 @@
 
 #include "io/base64.h"
 #include "io/byte_order.h"
+#include "io/linked_file.h"
 #include "io/mesh_file.h"
 #include "io/text_scanner.h"
 #include "io/uri.h"
@@ -107,7 +108,7 @@ GltfBuffers::GltfBuffers(const std::vector<JsonText::Value>& json, std::string_v
       buffer.same_as = known.try_emplace(buffer.name, i).first->second;
       if (buffer.same_as != i) continue;
       try {
-        buffer.owned = read_file(folder / buffer.name);
+        buffer.owned = read_linked_file(folder, buffer.name);
       } catch (const FileError& error) {
         buffer.error = fmt::format("buffer {}: {}", i, error.what());
       }
@@ -155,10 +156,9 @@ void GltfBuffers::load(std::size_t i, const JsonText::Value& json, std::string_v
     return;
   }
   buffer.name = percent_decoded(uri);
-  if (!is_inside_folder(buffer.name) || uri.find("://") != std::string::npos) {
-    buffer.error =
-        fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i, in_quotes(uri));
-  }
+  if (uri.find("://") != std::string::npos)
+    buffer.error = fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i,
+                               in_quotes(uri));
 }
 
 std::size_t GltfBuffers::resolve(std::size_t buffer) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <new>
 
 #include "io/text_scanner.h"
 #include "unsnarl/depth_limit.h"
@@ -81,7 +82,9 @@ std::size_t XmlText::whole_number(const pugi::xml_node& element, const char* att
 std::string XmlText::value(const pugi::xml_attribute& attribute) {
   const std::string text = fmt::format("<value>{}</value>", attribute.value());
   pugi::xml_document document;
-  document.load_buffer(text.data(), text.size(), pugi::parse_escapes | pugi::parse_ws_pcdata, pugi::encoding_utf8);
+  const pugi::xml_parse_result result = document.load_buffer(
+      text.data(), text.size(), pugi::parse_escapes | pugi::parse_ws_pcdata, pugi::encoding_utf8);
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   return document.document_element().text().get();
 }
 

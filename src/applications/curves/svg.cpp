@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <new>
 #include <optional>
 #include <pugixml.hpp>
 
@@ -137,6 +138,7 @@ class SvgParser {
     const pugi::xml_parse_result result =
         document.load_buffer(file_.bytes.data(), file_.bytes.size(),
                              pugi::parse_default | pugi::parse_declaration | pugi::parse_doctype, pugi::encoding_utf8);
+    if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result)
       throw FileError(fmt::format("line {}: this is not well-formed XML: {}",
                                   line_of(file_.bytes, std::min<std::size_t>(result.offset, file_.bytes.size())),
