@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <map>
+#include <new>
 
 #include "file_places.h"
+#include "memory_guard.h"
 #include "mesh_input.h"
 #include "pair_class_words.h"
 #include "progress.h"
@@ -89,15 +91,15 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
     }
   if (found.components.size() > components_in_text)
     line(fmt::format("  and {} more (--json lists all)", found.components.size() - components_in_text));
-  if (found.pairs.empty()) {
+  if (found.counts.total() == 0) {
     line("no self-intersections");
     return text;
   }
   line(fmt::format("{}: {} in {}; {} within a component, {} between two",
-                   counted(found.pairs.size(), "pair of faces intersects", "pairs of faces intersect"),
+                   counted(found.counts.total(), "pair of faces intersects", "pairs of faces intersect"),
                    counted(found.faces.size(), "face", "faces"),
                    counted(found.intersecting_components, "component", "components"), found.pairs_within_components,
-                   found.pairs.size() - found.pairs_within_components));
+                   found.counts.total() - found.pairs_within_components));
   for (std::size_t i = 0; i < pair_class_count; ++i)
     if (found.counts.by_class[i] > 0)
       line(fmt::format("  {:>10} {} ({})", found.counts.by_class[i], pair_class_words[i], pair_class_names[i]));
@@ -145,31 +147,16 @@ std::string pairs_table(const std::vector<IntersectingPair>& pairs) {
   return text;
 }
 
-}  // namespace
-
-void add_check_options(CLI::App& command, CheckOptions& options) {
-  add_mesh_options(command, options);
-  command.add_flag("--json", options.json, "Print the findings as JSON, with every place");
-  command.add_option("--pairs", options.pairs, "Write all intersecting pairs: 0-based ids of both faces, class")
-      ->type_name("FILE.csv");
-  command.footer(
-      "Classes of pairs:\n"
-      "  disjoint    the faces share no vertex\n"
-      "  one_vertex  they share one vertex and meet elsewhere too\n"
-      "  folded      they share an edge and overlap\n"
-      "  duplicate   they have the same three vertices\n"
-      "  degenerate  one of them has no area\n\n"
-      "Examples:\n"
-      "  unsnarl check hand.obj\n"
-      "  unsnarl check brain.surf skull.gii skin.obj          within and between three files\n"
-      "  unsnarl check hand.obj --json | jq .pairs\n"
-      "  unsnarl check - --format stl < part.stl --pairs pairs.csv\n\n"
-      "Exit codes: 0 none found, 1 found, 2 usage, 3 cannot read, 4 cannot write, 6 interrupted,\n"
-      "9 the system failed (try again), 70 internal error.");
+/// Pairs are listed for who writes them, or tells the files of a scene by them.
+CheckLimits limits_of(const CheckOptions& options) {
+  CheckLimits limits{.time_limit_s = options.time_limit_s, .memory_limit_mb = options.memory_limit_mb};
+  if (options.pairs.empty() && !options.is_scene()) limits.pairs_listed = 0;
+  return limits;
 }
 
-int run_check(const CheckOptions& options, Interruption& interruption) {
+int checked(const CheckOptions& options, Interruption& interruption) {
   if (options.pairs == standard_stream) throw UsageError("--pairs needs a file of its own");
+  const MemoryGuard memory_guard(options.memory_limit_mb);
   ProgressDisplay display("auto", options.quiet);
   display.begin("read");
   const SceneDocument scene = read_scene(options.inputs, format_from_name(options.format));
@@ -178,7 +165,7 @@ int run_check(const CheckOptions& options, Interruption& interruption) {
   places.writes("--pairs", options.pairs);
   places.require_writable(interruption);
   display.begin("find");
-  const CheckReport found = check(scene.surface(), options.find());
+  const CheckReport found = check(scene.surface(), options.find(), limits_of(options));
   const ReportFiles files = described(options, scene, found);
   display.clear();
   if (!options.pairs.empty()) write_file(options.pairs, pairs_table(found.pairs), interruption);
@@ -191,6 +178,40 @@ int run_check(const CheckOptions& options, Interruption& interruption) {
   const std::size_t that_count =
       options.goal_wanted() == Goal::all ? found.counts.total() : found.counts[PairClass::disjoint];
   return that_count == 0 ? exit_embedded : exit_intersecting;
+}
+
+}  // namespace
+
+void add_check_options(CLI::App& command, CheckOptions& options) {
+  add_mesh_options(command, options);
+  command.add_flag("--json", options.json, "Print the findings as JSON, with every place");
+  command.add_option("--pairs", options.pairs, "Write all intersecting pairs: 0-based ids of both faces, class")
+      ->type_name("FILE.csv");
+  add_time_limit(command, options.time_limit_s);
+  add_memory_limit(command, options.memory_limit_mb);
+  command.footer(
+      "Classes of pairs:\n"
+      "  disjoint    the faces share no vertex\n"
+      "  one_vertex  they share one vertex and meet elsewhere too\n"
+      "  folded      they share an edge and overlap\n"
+      "  duplicate   they have the same three vertices\n"
+      "  degenerate  one of them has no area\n\n"
+      "Examples:\n"
+      "  unsnarl check hand.obj\n"
+      "  unsnarl check brain.surf skull.gii skin.obj          within and between three files\n"
+      "  unsnarl check hand.obj --json | jq .pairs\n"
+      "  unsnarl check - --format stl < part.stl --pairs pairs.csv\n\n"
+      "Exit codes: 0 none found, 1 found, 2 usage, 3 cannot read, 4 cannot write,\n"
+      "5 limit of time or memory, 6 interrupted, 9 the system failed (try again), 70 internal error.");
+}
+
+int run_check(const CheckOptions& options, Interruption& interruption) {
+  try {
+    return checked(options, interruption);
+  } catch (const std::bad_alloc&) {
+    if (options.memory_limit_mb <= 0) throw;
+    throw LimitReached(Status::memory_limit);
+  }
 }
 
 }  // namespace unsnarl::app

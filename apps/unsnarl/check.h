@@ -8,6 +8,7 @@ namespace unsnarl::app {
 struct CheckOptions : MeshOptions {
   bool json = false;
   std::string pairs;
+  double time_limit_s = 0, memory_limit_mb = 0;
 };
 void add_check_options(CLI::App& command, CheckOptions& options);
 

@@ -76,6 +76,14 @@ void add_time_limit(CLI::App& command, double& seconds, const std::string& group
       ->group(group);
 }
 
+void add_memory_limit(CLI::App& command, double& megabytes, const std::string& group) {
+  command
+      .add_option("--memory-limit", megabytes, "Stop before the program holds more than this many MB; 0: none")
+      ->check(not_negative())
+      ->type_name("MB")
+      ->group(group);
+}
+
 void add_progress(CLI::App& command, std::string& progress, const std::string& group) {
   command
       .add_option("--progress", progress,

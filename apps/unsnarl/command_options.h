@@ -20,6 +20,7 @@ CLI::Validator file_named(std::vector<std::string> extensions, bool folders = fa
 
 /// Options that commands share word for word. group: the heading that they stand under in the help.
 void add_time_limit(CLI::App& command, double& seconds, const std::string& group = "Options");
+void add_memory_limit(CLI::App& command, double& megabytes, const std::string& group = "Options");
 void add_progress(CLI::App& command, std::string& progress, const std::string& group = "Options");
 void add_quiet(CLI::App& command, bool& quiet, const std::string& group = "Options");
 

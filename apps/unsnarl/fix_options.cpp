@@ -211,12 +211,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       ->type_name("auto|float32|float64");
   const std::string limits = "Limits";
   add_time_limit(command, options.time_limit_s, limits);
-  command
-      .add_option("--memory-limit", options.memory_limit_mb,
-                  "Stop before the program holds more than this many MB; 0: none")
-      ->check(not_negative())
-      ->type_name("MB")
-      ->group(limits);
+  add_memory_limit(command, options.memory_limit_mb, limits);
   const std::string shown = "What is shown";
   command.add_option("--report", options.report, "Write a JSON report: counts, displacement, regions, seconds, ...")
       ->type_name("FILE")

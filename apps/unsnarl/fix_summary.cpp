@@ -61,6 +61,7 @@ std::string_view why(LeftReason reason) {
     case LeftReason::unresolved: return "that no strategy separated";
     case LeftReason::other_diagonal: return "where polygons are split along other diagonals than in the input";
     case LeftReason::rigid_faces: return "within a rigid part";
+    case LeftReason::count: break;
   }
   return "for an unknown reason";
 }

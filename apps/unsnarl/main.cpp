@@ -26,6 +26,7 @@
 #include "standard_streams.h"
 #include "unsnarl/document.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/limit_reached.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/version.h"
 #include "unsnarl/visible_text.h"
@@ -157,6 +158,9 @@ ExitCode explain_error() {
     return complain(exit_cannot_write, e.what());
   } catch (const SystemError& e) {
     return complain(exit_system_error, e.what());
+  } catch (const LimitReached& e) {
+    const std::string_view option = e.status() == Status::memory_limit ? "--memory-limit" : "--time-limit";
+    return complain(exit_limit, fmt::format("{}; raise {}", e.what(), option));
   } catch (const std::bad_alloc&) {
     return complain_of_memory("not enough memory");
   } catch (const std::exception& e) {

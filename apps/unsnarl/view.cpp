@@ -13,6 +13,7 @@
 #include "progress.h"
 #include "staged_output.h"
 #include "standard_streams.h"
+#include "unsnarl/depth_limit.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/page.h"
 #include "unsnarl/report_json.h"
@@ -26,6 +27,8 @@ namespace {
 std::string read_report(const std::string& path) {
   if (path.empty()) return {};
   std::string text = read_bytes(path, "; --report needs the report that 'unsnarl fix --report' wrote");
+  if (too_deep_bracket(text) != std::string::npos)
+    throw FileError(fmt::format("{}: nested too deeply; this is not a report of 'unsnarl fix'", path));
   const nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
   if (!report.is_object() || report.value("schema", nlohmann::json()) != "unsnarl-report")
     throw FileError(path + ": this is not a report of 'unsnarl fix'");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "unsnarl/intersections.h"
+#include "unsnarl/limit_reached.h"
 #include "unsnarl/report.h"
 #include "unsnarl/surface.h"
 
@@ -38,9 +39,18 @@ struct ComponentFindings {
   Bounds bounds;
 };
 
+/// What a check may take.
+struct CheckLimits {
+  double time_limit_s = 0;     ///< wall-clock seconds; 0: none
+  double memory_limit_mb = 0;  ///< MB (10^6 bytes) of resident memory, looked at all the time; 0: none
+  /// So many pairs are listed, the first of all; everything is counted. Without a list, memory does not follow the
+  /// number of pairs.
+  std::size_t pairs_listed = std::numeric_limits<std::size_t>::max();
+};
+
 /// The findings of `unsnarl check`.
 struct CheckReport {
-  std::vector<IntersectingPair> pairs;  ///< as find_intersections gives them
+  std::vector<IntersectingPair> pairs;  ///< as find_intersections gives them, CheckLimits::pairs_listed at most
   PairCounts counts;
   std::vector<std::int32_t> faces;    ///< in any pair, ids, ascending
   std::vector<ConflictPlace> places;  ///< most pairs first
@@ -52,7 +62,8 @@ struct CheckReport {
   std::string triangulation;                  ///< how the polygons were split into triangles, one sentence
 };
 
-/// Counts and locates the self-intersections of a surface. Throws as find_intersections does.
-CheckReport check(const SurfaceView& surface, const FindOptions& options = {});
+/// Counts and locates the self-intersections of a surface. Throws as find_intersections does, LimitReached, and
+/// std::invalid_argument where a limit is negative.
+CheckReport check(const SurfaceView& surface, const FindOptions& options = {}, const CheckLimits& limits = {});
 
 }  // namespace unsnarl

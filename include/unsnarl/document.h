@@ -55,7 +55,8 @@ inline constexpr const char* partial_infix = ".partial";
 class Document {
  public:
   /// Format by extension unless given; FreeSurfer surfaces without a known one are recognised by their first bytes.
-  /// Throws FileError, SystemError.
+  /// Throws FileError, also where there is no face: what is cut short after its points would pass for repaired; and
+  /// SystemError.
   static Document read(const std::filesystem::path& path, std::optional<Format> format = {});
   /// `folder` is where the external buffers of a glTF and the external files of a GIFTI lie. Throws FileError,
   /// SystemError.

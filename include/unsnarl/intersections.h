@@ -16,10 +16,12 @@ enum class PairClass : std::uint8_t {
   folded,      ///< they share an edge and overlap flat
   duplicate,   ///< they have the same three vertices
   degenerate,  ///< at least one of them has zero area
+  count,       ///< no class: how many there are; a new one comes before it
 };
-inline constexpr std::size_t pair_class_count = 5;
+inline constexpr auto pair_class_count = static_cast<std::size_t>(PairClass::count);
 inline constexpr std::array<std::string_view, pair_class_count> pair_class_names = {"disjoint", "one_vertex", "folded",
                                                                                     "duplicate", "degenerate"};
+static_assert(!pair_class_names.back().empty(), "every PairClass has a name");
 
 /// Two intersecting faces, a < b. Touching counts as intersecting.
 struct IntersectingPair {

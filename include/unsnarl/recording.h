@@ -20,10 +20,20 @@ struct RecordOptions {
 };
 
 /// The energies that the solvers minimise.
-enum class EnergyTerm : std::uint8_t { gaussian, minkowski, arap, bending, pull, orientation, barrier };
-inline constexpr std::size_t energy_term_count = 7;
+enum class EnergyTerm : std::uint8_t {
+  gaussian,
+  minkowski,
+  arap,
+  bending,
+  pull,
+  orientation,
+  barrier,
+  count,  ///< no term: how many there are; a new one comes before it
+};
+inline constexpr auto energy_term_count = static_cast<std::size_t>(EnergyTerm::count);
 inline constexpr std::array<std::string_view, energy_term_count> energy_term_names = {
     "gaussian", "minkowski", "arap", "bending", "pull", "orientation", "barrier"};
+static_assert(!energy_term_names.back().empty(), "every EnergyTerm has a name");
 
 /// One iteration: the state reached, and the step that led to it. Of a long try of a strategy those alone at which all
 /// pairs were looked for.
@@ -38,10 +48,17 @@ struct IterationRecord {
   std::array<double, 3> bandwidth = {none, none, none};
   /// Weighted terms of the objective, by EnergyTerm; NaN: the method does not have it. Weights and units are the
   /// method's own: compare within a region and phase only.
-  std::array<double, energy_term_count> energy = {none, none, none, none, none, none, none};
+  std::array<double, energy_term_count> energy = no_energies();
 
   double& operator[](EnergyTerm term) { return energy[static_cast<std::size_t>(term)]; }
   double operator[](EnergyTerm term) const { return energy[static_cast<std::size_t>(term)]; }
+
+ private:
+  static constexpr std::array<double, energy_term_count> no_energies() {
+    std::array<double, energy_term_count> energies{};
+    for (double& energy : energies) energy = none;
+    return energies;
+  }
 };
 
 /// The iterations that led one region to where it ended, tries that were given up left out.

@@ -100,12 +100,13 @@ struct RepairResult {
 
 /// Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
 ///
-/// Nothing is lost where memory runs out on the way; std::bad_alloc is thrown only if there is not even enough to find
-/// the input's intersections. Never returns positions with more intersecting pairs than the input. The same input and
+/// Nothing is lost where memory runs out on the way, and the status says so (memory_limit), also of a result that is
+/// embedded; std::bad_alloc is thrown only if there is not even enough to find the input's intersections. Never returns positions with more intersecting pairs than the input. The same input and
 /// options give the same bytes at any thread count (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an
-/// option is out of range, GapTooWide among them.
+/// option is out of range, GapTooWide among them; LimitReached where a limit ends the search for the input's
+/// intersections, which thousands of faces do not take long for.
 RepairResult repair(const SurfaceView& surface, const RepairOptions& options = {}, Context* context = nullptr);
 
 }  // namespace unsnarl

@@ -20,7 +20,9 @@ enum class Status : std::uint8_t {
   no_progress,   ///< nothing better than the input was found; positions are the input's
   obstructed,    ///< everything else repaired; only the listed obstructions remain
   time_limit,    ///< stopped by RepairOptions::time_limit_s
-  memory_limit,  ///< stopped by RepairOptions::memory_limit_mb
+  /// Stopped by RepairOptions::memory_limit_mb, or an allocation failed. What is left is counted; where that is nothing,
+  /// vertices may lie farther from the input than they need.
+  memory_limit,
   /// Some self-intersections are left, since resolving them moves a vertex too far; or a vertex of the result is
   /// farther away than allowed, also where no self-intersection is left.
   displacement_exceeded,
@@ -115,8 +117,9 @@ enum class LeftReason : std::uint8_t {
   /// the result, or quads along either (FindOptions::both_diagonals).
   other_diagonal,
   rigid_faces,  ///< what their vertices of one rigid part span intersects
+  count,        ///< no reason: how many there are; a new one comes before it
 };
-inline constexpr std::size_t left_reason_count = static_cast<std::size_t>(LeftReason::rigid_faces) + 1;
+inline constexpr auto left_reason_count = static_cast<std::size_t>(LeftReason::count);
 std::string_view to_string(LeftReason reason);
 
 /// Two faces that intersect in the result, a <= b.

@@ -49,6 +49,7 @@ typedef enum unsnarl_error {
   UNSNARL_CANNOT_WRITE = 3,     /* a file cannot be written; what was there before is still there */
   UNSNARL_OUT_OF_MEMORY = 4,
   UNSNARL_SYSTEM_ERROR = 5,   /* the system failed (no descriptors, a read error); the same call may succeed later */
+  UNSNARL_LIMIT_REACHED = 6,  /* a limit of time or memory, before there was any result */
   UNSNARL_INTERNAL_ERROR = 70 /* a defect of the library */
 } unsnarl_error;
 

@@ -171,7 +171,7 @@ for _name, (_arguments, _result) in _SIGNATURES.items():
     _function.argtypes, _function.restype = _arguments, _result
 
 #: By unsnarl_error; what is not there is an error of the library's own.
-_EXCEPTIONS = {1: ValueError, 2: OSError, 3: OSError, 4: MemoryError, 5: OSError}
+_EXCEPTIONS = {1: ValueError, 2: OSError, 3: OSError, 4: MemoryError, 5: OSError, 6: TimeoutError}
 
 
 def check(code: int) -> None:

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "unsnarl/errors.h"
+#include "unsnarl/limit_reached.h"
 #include "unsnarl/version.h"
 #include "unsnarl/visible_text.h"
 
@@ -40,6 +41,8 @@ int code_of_current_exception() noexcept {
     return keep(UNSNARL_CANNOT_WRITE, e.what(), e.error_number());
   } catch (const SystemError& e) {
     return keep(UNSNARL_SYSTEM_ERROR, e.what(), e.error_number());
+  } catch (const LimitReached& e) {
+    return keep(UNSNARL_LIMIT_REACHED, e.what());
   } catch (const std::bad_alloc&) {
     return keep(UNSNARL_OUT_OF_MEMORY, "there is not enough memory", ENOMEM);
   } catch (const std::system_error& e) {  // no thread can be started

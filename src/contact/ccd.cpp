@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/stop_check.h"
 #include "geometry/parallel_lists.h"
 
 namespace unsnarl {
@@ -114,6 +115,7 @@ int filter_displacements(std::span<const SeparatedStencil> stencils, const Posit
   for (int sweep = 0;; ++sweep) {
     gather_in_chunks(static_cast<Index>(stencils.size()), collisions,
                      [&](Index begin, Index end, std::vector<Collision>& list) {
+                       end_long_work_if(options.stop, stencils.size());
                        for (Index k = begin; k < end; ++k) {
                          const Stencil& s = stencils[k].stencil;
                          bool touched = false, moving = false;

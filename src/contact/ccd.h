@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct CcdOptions {
   /// Share of the time reached that an advance must bring for the next one to be tried. Without unit. On a deep torus
   /// the filter of the steps takes four times as long with 0, and no different with 1e-3 or 5e-2.
   double least_advance = 1e-2;
+  std::function<bool()> stop;  ///< asked by filter_displacements, which true ends by WorkStopped; may be empty
 };
 
 /// Conservative time of impact of two primitives whose vertices move from x to x + p at constant velocity.

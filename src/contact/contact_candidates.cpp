@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
+#include "contact/stop_check.h"
 #include "geometry/parallel_lists.h"
 #include "geometry/parallel_sums.h"
 
@@ -15,6 +17,8 @@ constexpr double length_rounding = 1e-9;
 /// Cross products shorter than this are not made unit vectors: their squares may underflow.
 constexpr double least_normal = 1e-140;
 
+/// Pairs of triangles that are gathered before the next look at the clock: a tenth of a second.
+constexpr std::uint32_t candidates_between_looks = 1 << 15;
 constexpr Index primitives_a_task = 1024;  // triangles or edges
 
 /// What is passed along an axis by points that start at `at` and move by up to `motion`.
@@ -162,7 +166,8 @@ void ContactCandidates::update_triangle(const Positions& x, double radius, const
 }
 
 void ContactCandidates::gather(const Positions& x, double radius, const MotionBounds& bounds,
-                               std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils) {
+                               std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils,
+                               const std::function<bool()>& stop) {
   // What stands still needs no looking at, however much of it there is: only pairs with a moving triangle are visited.
   const Index triangle_count = static_cast<Index>(triangles_.size());
   moving_.resize(triangles_.size());
@@ -180,11 +185,12 @@ void ContactCandidates::gather(const Positions& x, double radius, const MotionBo
     built_ = true;
   }
   bvh_.set_active(moving_);
-  gather_active(x, radius, bounds, moves, stencils);
+  gather_active(x, radius, bounds, moves, stencils, stop);
 }
 
 void ContactCandidates::gather_around(std::span<const Index> vertices, const Positions& x, double radius,
-                                      const MotionBounds& bounds, std::vector<NearStencil>& stencils) {
+                                      const MotionBounds& bounds, std::vector<NearStencil>& stencils,
+                                      const std::function<bool()>& stop) {
   around_.assign(around_vertex_.size(), 0);
   std::fill(moving_.begin(), moving_.end(), std::uint8_t{0});
   std::vector<Index> touched;
@@ -200,15 +206,19 @@ void ContactCandidates::gather_around(std::span<const Index> vertices, const Pos
   });
   bvh_.refit(boxes_, touched);
   bvh_.set_only_active(touched);
-  gather_active(x, radius, bounds, around_, stencils);
+  gather_active(x, radius, bounds, around_, stencils, stop);
 }
 
 void ContactCandidates::gather_active(const Positions& x, double radius, const MotionBounds& bounds,
-                                      std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils) {
+                                      std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils,
+                                      const std::function<bool()>& stop) {
   std::vector<std::vector<NearStencil>> lists(bvh_.task_count());
-  bvh_.self_pairs_parallel(
-      [&](Index task, Index a, Index b) { gather_pair(x, radius, bounds, moves, a, b, lists[task]); });
-  join_lists(lists, stencils);
+  StopCheck check(stop, lists.size(), candidates_between_looks);
+  bvh_.self_pairs_parallel([&](Index task, Index a, Index b) {
+    check.step(task);
+    gather_pair(x, radius, bounds, moves, a, b, lists[task]);
+  });
+  join_lists(std::move(lists), stencils);
 }
 
 void ContactCandidates::gather_pair(const Positions& x, double radius, const MotionBounds& bounds,

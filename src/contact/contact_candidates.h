@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,14 +31,15 @@ class ContactCandidates {
 
   /// All stencils with at least one vertex v with moves[v] != 0 whose primitives may come `radius` close while every
   /// vertex keeps to its bounds, and few others: only some whose least_distance is that small. `moves` has one entry a
-  /// vertex. Parallel; the order is a function of the arguments, and of those of the first call, alone.
+  /// vertex. Parallel; the order is a function of the arguments, and of those of the first call, alone. Throws
+  /// WorkStopped soon after `stop` says so.
   void gather(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
-              std::vector<NearStencil>& stencils);
+              std::vector<NearStencil>& stencils, const std::function<bool()>& stop = {});
 
   /// The same for the stencils with at least one of some `vertices`, after x and the bounds of these alone have changed
   /// since the last gathering; at a cost that follows their number. Each once.
   void gather_around(std::span<const Index> vertices, const Positions& x, double radius, const MotionBounds& bounds,
-                     std::vector<NearStencil>& stencils);
+                     std::vector<NearStencil>& stencils, const std::function<bool()>& stop = {});
 
   /// Whether a triangle at the one primitive shares a vertex with a triangle at the other. For listed stencils.
   bool are_neighbours(const Stencil& stencil) const;
@@ -49,7 +51,7 @@ class ContactCandidates {
   /// Takes over where triangle t may be.
   void update_triangle(const Positions& x, double radius, const MotionBounds& bounds, Index t);
   void gather_active(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
-                     std::vector<NearStencil>& stencils);
+                     std::vector<NearStencil>& stencils, const std::function<bool()>& stop);
   void gather_pair(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
                    Index a, Index b, std::vector<NearStencil>& stencils) const;
 

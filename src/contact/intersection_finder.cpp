@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <mutex>
 #include <utility>
 
+#include "contact/stop_check.h"
 #include "geometry/parallel_lists.h"
 #include "geometry/triangle_intersection.h"
 
@@ -15,6 +17,10 @@ namespace {
 constexpr double few_moved = 0.25;
 /// A surface that has moved as a whole so many times will go on to do so.
 constexpr int seldom = 2;
+/// That visit() hands over at once: 12 kB a task of the tree.
+constexpr std::size_t pairs_a_block = 1024;
+/// Pairs of boxes that overlap: a tenth of a second where all are decided. Surfaces of ten thousand faces have fewer.
+constexpr std::uint32_t pairs_between_looks = 1 << 18;
 
 bool is_few(std::size_t count, std::size_t of) {
   return static_cast<double>(count) < few_moved * static_cast<double>(of);
@@ -162,26 +168,58 @@ void IntersectionFinder::query(const Box& box, std::vector<Index>& found) const 
   tree_.query(box, [&](Index t) { found.push_back(t); });
 }
 
-template <class Skip>
-std::vector<IntersectingPair> IntersectionFinder::decide(Skip&& skip) const {
-  std::vector<std::vector<IntersectingPair>> found(tree_.task_count());
+template <class Skip, class Found>
+void IntersectionFinder::decide_each(const std::function<bool()>& stop, Skip&& skip, Found&& found) const {
+  StopCheck check(stop, static_cast<std::size_t>(tree_.task_count()), pairs_between_looks);
   tree_.self_pairs([&](Index task, Index i, Index j) {
+    check.step(task);
     if (i >= active_count_ || skip(i, j) || !groups_.meet(triangles_[i], triangles_[j])) return;
     PairClass kind;
-    if (intersects(x_, triangles_[i], triangles_[j], kind)) found[task].push_back({i, j, kind});
+    if (intersects(x_, triangles_[i], triangles_[j], kind)) found(task, IntersectingPair{i, j, kind});
   });
+}
+
+template <class Skip>
+std::vector<IntersectingPair> IntersectionFinder::decide(const std::function<bool()>& stop, Skip&& skip) const {
+  std::vector<std::vector<IntersectingPair>> found(tree_.task_count());
+  decide_each(stop, skip, [&](Index task, const IntersectingPair& pair) { found[task].push_back(pair); });
   std::vector<IntersectingPair> pairs;
-  join_lists(found, pairs);
+  join_lists(std::move(found), pairs);
   return pairs;
 }
 
-std::vector<IntersectingPair> IntersectionFinder::decide_all() {
+void IntersectionFinder::prepare_all() {
+  update_tree();
+  if (has_only_undecided_active_) tree_.set_active();
+  has_only_undecided_active_ = false;
   if (!fans_) fans_.emplace(triangles_, active_count_, static_cast<Index>(x_.cols()));
   fans_->update(x_);
-  return decide([&](Index i, Index j) { return share_an_unfolded_fan(*fans_, triangles_[i], triangles_[j]); });
 }
 
-std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
+void IntersectionFinder::visit(const Positions& x, const PairVisitor& visitor) {
+  begin_change();
+  note(x);
+  prepare_all();
+  is_all_undecided_ = true;
+  std::mutex taking;
+  std::vector<std::vector<IntersectingPair>> blocks(tree_.task_count());
+  const auto hand_over = [&](std::vector<IntersectingPair>& block) {
+    const std::lock_guard lock(taking);
+    if (!block.empty()) visitor.take(block);
+    block.clear();
+  };
+  decide_each(
+      visitor.stop, [&](Index i, Index j) { return share_an_unfolded_fan(*fans_, triangles_[i], triangles_[j]); },
+      [&](Index task, const IntersectingPair& pair) {
+        if (visitor.keep && !visitor.keep(pair)) return;
+        blocks[task].push_back(pair);
+        if (blocks[task].size() == pairs_a_block) hand_over(blocks[task]);
+      });
+  for (std::vector<IntersectingPair>& block : blocks) hand_over(block);
+  end_change();
+}
+
+std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x, const std::function<bool()>& stop) {
   begin_change();
   note(x);
   const std::size_t undecided = undecided_.items().size();
@@ -191,15 +229,14 @@ std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x) {
     pairs_ = moving_->find(x_);
   } else if (is_all_undecided_) {
     ++decided_as_a_whole_;
-    update_tree();
-    if (has_only_undecided_active_) tree_.set_active();
-    has_only_undecided_active_ = false;
-    pairs_ = decide_all();
+    prepare_all();
+    pairs_ = decide(
+        stop, [&](Index i, Index j) { return share_an_unfolded_fan(*fans_, triangles_[i], triangles_[j]); });
   } else if (!undecided_.items().empty()) {
     update_tree();
     tree_.set_only_active(undecided_.items());
     has_only_undecided_active_ = true;
-    std::vector<IntersectingPair> pairs = decide([](Index, Index) { return false; });
+    std::vector<IntersectingPair> pairs = decide(stop, [](Index, Index) { return false; });
     std::copy_if(pairs_.begin(), pairs_.end(), std::back_inserter(pairs),
                  [&](const IntersectingPair& pair) { return !undecided_.has(pair.a) && !undecided_.has(pair.b); });
     pairs_ = std::move(pairs);

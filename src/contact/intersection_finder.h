@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,8 +27,18 @@ class IntersectionFinder {
   IntersectionFinder(std::span<const Triangle> triangles, Index active_count, VertexGroups groups = {});
 
   /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates, anew for what has moved since the last
-  /// time. Same result at any thread count.
-  std::vector<IntersectingPair> find(const Positions& x);
+  /// time. Same result at any thread count. Throws WorkStopped soon after `stop` says so.
+  std::vector<IntersectingPair> find(const Positions& x, const std::function<bool()>& stop = {});
+
+  /// Takes part of visit().
+  struct PairVisitor {
+    std::function<bool(const IntersectingPair&)> keep;                  ///< of those that intersect; empty: all
+    std::function<void(std::span<const IntersectingPair>)> take;        ///< a block of those kept
+    std::function<bool()> stop;                                         ///< may be empty
+  };
+  /// The same pairs in blocks and in no order, so that memory does not follow their number; none is remembered. `keep`
+  /// is called by many threads, `take` by one at a time. Throws WorkStopped soon after `stop` says so.
+  void visit(const Positions& x, const PairVisitor& visitor);
 
   /// Takes over that these are all intersecting pairs at x, as find() would return them.
   void start_from(const Positions& x, std::vector<IntersectingPair> pairs);
@@ -72,9 +83,12 @@ class IntersectionFinder {
   void update_tree();
   /// Those pairs that the tree visits, but for those that skip(i, j) is true of.
   template <class Skip>
-  std::vector<IntersectingPair> decide(Skip&& skip) const;
-  /// All pairs, those that share a vertex fan by fan where that tells.
-  std::vector<IntersectingPair> decide_all();
+  std::vector<IntersectingPair> decide(const std::function<bool()>& stop, Skip&& skip) const;
+  /// Calls found(task, pair) for those that intersect.
+  template <class Skip, class Found>
+  void decide_each(const std::function<bool()>& stop, Skip&& skip, Found&& found) const;
+  /// Makes the tree and the fans ready for a look at all pairs, those that share a vertex fan by fan where that tells.
+  void prepare_all();
 
   std::span<const Triangle> triangles_;
   Index active_count_;

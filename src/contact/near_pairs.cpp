@@ -83,7 +83,7 @@ void NearPairs::look_for_all() {
   bvh_.self_pairs_parallel([&](Index task, Index i, Index j) {
     if (is_wanted(i, j)) found[task].push_back({std::min(i, j), std::max(i, j)});
   });
-  join_lists(found, pairs_);
+  join_lists(std::move(found), pairs_);
 }
 
 void NearPairs::look_for_those_that_left() {

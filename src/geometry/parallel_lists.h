@@ -3,20 +3,30 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "geometry/types.h"
 
 namespace unsnarl {
 
-/// Replaces `out` by the lists, one after the other.
+/// Appends the lists, one after the other. Each is given back at once: there is never room for all twice.
 template <class Item>
-void join_lists(const std::vector<std::vector<Item>>& lists, std::vector<Item>& out) {
-  out.clear();
-  std::size_t size = 0;
+void append_lists(std::vector<std::vector<Item>>&& lists, std::vector<Item>& out) {
+  std::size_t size = out.size();
   for (const auto& list : lists) size += list.size();
   out.reserve(size);
-  for (const auto& list : lists) out.insert(out.end(), list.begin(), list.end());
+  for (auto& list : lists) {
+    out.insert(out.end(), list.begin(), list.end());
+    std::vector<Item>().swap(list);
+  }
+}
+
+/// Replaces `out` by the lists.
+template <class Item>
+void join_lists(std::vector<std::vector<Item>>&& lists, std::vector<Item>& out) {
+  out.clear();
+  append_lists(std::move(lists), out);
 }
 
 /// Builds a list in parallel that does not depend on the number of threads: `append(begin, end, list)` adds what the
@@ -34,7 +44,7 @@ void gather_in_chunks(Index count, std::vector<Item>& out, Append&& append) {
     const Index begin = static_cast<Index>(k) * chunk;
     append(begin, std::min(count, begin + chunk), lists[k]);
   });
-  join_lists(lists, out);
+  join_lists(std::move(lists), out);
 }
 
 }  // namespace unsnarl

@@ -36,6 +36,16 @@ void check_positions(const Surface& surface, std::span<const double> positions) 
   }
 }
 
+/// What is cut short after its points would pass for a surface without self-intersections.
+void require_faces(const SurfaceView& surface) {
+  if (surface.face_count() > 0) return;
+  const std::size_t count = surface.vertex_count();
+  throw FileError(
+      fmt::format("the file has {} vert{} and no faces, so there is nothing to repair; it is cut short, or holds "
+                  "points or lines only",
+                  count, count == 1 ? "ex" : "ices"));
+}
+
 bool has_word(std::string_view words, std::string_view word) {
   while (!words.empty()) {
     const std::size_t end = std::min(words.find(' '), words.size());
@@ -112,6 +122,7 @@ Document Document::parse(std::string bytes, Format format, const std::filesystem
   refuse_other_content(start, format);
   std::unique_ptr<MeshFile> file = formats[entry].parse(std::move(bytes), folder);
   make_visible(file->notes);
+  require_faces(file->surface);
   return Document(format, std::move(file));
 }
 

@@ -12,6 +12,7 @@
 
 #include "io/base64_numbers.h"
 #include "io/formats.h"
+#include "io/linked_file.h"
 #include "io/point_file.h"
 #include "io/text_scanner.h"
 #include "io/xml_text.h"
@@ -62,14 +63,6 @@ class GiftiFile final : public PointFile {
     return i == 0 ? main_name + ".data" : fmt::format("{}.{}.data", main_name, i + 1);
   }
 };
-
-/// Is this the file itself, or a link to one that lies in or below the folder too?
-bool leads_inside(const fs::path& folder, const fs::path& name) {
-  std::error_code error;
-  const fs::path root = fs::weakly_canonical(folder, error);
-  const fs::path place = fs::weakly_canonical(folder / name, error);
-  return !error && std::mismatch(root.begin(), root.end(), place.begin(), place.end()).first == root.end();
-}
 
 class GiftiParser {
  public:
@@ -138,16 +131,12 @@ class GiftiParser {
     const fs::path given = XmlText::value(attribute), name = given.lexically_normal();
     if (given.empty())
       throw FileError("its numbers are in another file, but ExternalFileName does not say which; the file is damaged");
-    if (!is_inside_folder(given) || !leads_inside(folder_, name))
-      throw FileError(fmt::format(
-          "its numbers are in {}, which is not in the folder of the GIFTI file, or a link out of it; put it "
-          "there",
-          in_quotes(given.string())));
+    const fs::path place = linked_file(folder_, given);
     auto& files = file_.external_files;
     const auto known = std::find_if(files.begin(), files.end(), [&](const auto& file) { return file->name == name; });
     const auto i = static_cast<std::size_t>(known - files.begin());
     if (known == files.end()) {
-      FileRead read = read_stamped_file(folder_ / name);
+      FileRead read = read_stamped_file(place);
       ExternalFile file{name, std::move(read.bytes), read.stamp};
       files.push_back(std::make_shared<ExternalFile>(std::move(file)));
     }

@@ -327,7 +327,6 @@ class GltfParser {
     nodes.finish(faces.count(), file_.labels);
     meshes.finish(faces.count(), file_.labels);
     materials.finish(faces.count(), file_.labels);
-    if (faces.count() == 0) file_.notes.emplace_back("The file has no faces.");
   }
 
   /// A vertex belongs to the first place that shows it. False: some corner belongs to another place.

@@ -6,6 +6,7 @@
 
 #include "io/base64.h"
 #include "io/byte_order.h"
+#include "io/linked_file.h"
 #include "io/mesh_file.h"
 #include "io/text_scanner.h"
 #include "io/uri.h"
@@ -118,7 +119,7 @@ GltfBuffers::GltfBuffers(const std::vector<JsonText::Value>& json, std::string_v
       buffer.same_as = known.try_emplace(buffer.name, i).first->second;
       if (buffer.same_as != i) continue;
       try {
-        FileRead file = read_stamped_file(folder / buffer.name);
+        FileRead file = read_stamped_file(linked_file(folder, buffer.name.string()));
         buffer.owned = std::move(file.bytes);
         buffer.stamp = file.stamp;
       } catch (const FileError& error) {
@@ -169,10 +170,9 @@ void GltfBuffers::load(std::size_t i, const JsonText::Value& json, std::string_v
     return;
   }
   buffer.name = std::filesystem::path(percent_decoded(uri)).lexically_normal();
-  if (!is_inside_folder(buffer.name) || uri.find("://") != std::string::npos) {
-    buffer.error =
-        fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i, in_quotes(uri));
-  }
+  if (uri.find("://") != std::string::npos)
+    buffer.error = fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i,
+                               in_quotes(uri));
 }
 
 std::size_t GltfBuffers::resolve(std::size_t buffer) const {

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "io/image_header.h"
+#include "io/linked_file.h"
 #include "io/mesh_file.h"
 
 namespace unsnarl {
@@ -36,11 +37,11 @@ void ImageCollector::require_room(std::uintmax_t bytes) const {
 }
 
 std::string ImageCollector::read_beside(const std::filesystem::path& folder, const std::filesystem::path& name) const {
-  if (!is_inside_folder(name)) throw FileError("it is not in the folder of the mesh");
+  const std::filesystem::path place = linked_file(folder, name);
   std::error_code failed;
-  const std::uintmax_t size = std::filesystem::file_size(folder / name, failed);
+  const std::uintmax_t size = std::filesystem::file_size(place, failed);
   if (!failed) require_room(size);
-  return read_file(folder / name);
+  return read_file(place);
 }
 
 }  // namespace unsnarl

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "unsnarl/depth_limit.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl {
 namespace {
-
-constexpr int deepest_nesting = 256;
 
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -98,11 +97,11 @@ class JsonParser {
     }
   }
 
-  void value(int depth) {
+  void value(std::size_t depth) {
     const std::size_t node = open();
     const char c = here();
     if (c == '{' || c == '[') {
-      if (depth == deepest_nesting) fail("too many brackets within each other");
+      if (depth == deepest_nesting) fail("nested too deeply: too many brackets within each other");
       container(c == '{', depth);
     } else if (c == '"') {
       string();
@@ -114,7 +113,7 @@ class JsonParser {
     close(node);
   }
 
-  void container(bool is_object, int depth) {
+  void container(bool is_object, std::size_t depth) {
     const char last = is_object ? '}' : ']';
     ++at_;
     skip_space();

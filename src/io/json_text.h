@@ -9,7 +9,8 @@
 namespace unsnarl {
 
 /// A JSON text (RFC 8259) together with the place of each of its values, so that single numbers can be replaced and
-/// all else stays as it was. Throws FileError, naming the byte, where the text is not JSON.
+/// all else stays as it was. Throws FileError, naming the byte, where the text is not JSON or is nested deeper than
+/// deepest_nesting.
 class JsonText {
  public:
   class Value;

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "io/image_collector.h"
+#include "io/linked_file.h"
 #include "io/mesh_file.h"
 #include "io/mtl.h"
 #include "io/text_scanner.h"
@@ -96,11 +97,11 @@ class ObjAppearanceReader {
   }
   void library(std::string_view name) {
     try {
-      if (!is_inside_folder(name)) throw FileError("it is not in the folder of the mesh");
+      const std::filesystem::path place = linked_file(folder_, name);
       std::error_code failed;
-      if (std::filesystem::file_size(folder_ / name, failed) > most_mtl_bytes && !failed)
+      if (std::filesystem::file_size(place, failed) > most_mtl_bytes && !failed)
         throw FileError(fmt::format("more than {} MB", most_mtl_bytes / 1000000));
-      read_mtl(read_file(folder_ / name), materials_);
+      read_mtl(read_file(place), materials_);
     } catch (const NumberedError& error) {  // of the file or of the system: a view goes without it
       result_.notes.push_back(fmt::format("Materials of {} are left out: {}.", name, error.what()));
     }

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "unsnarl/depth_limit.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl {
 
 nlohmann::ordered_json parse_json(std::string_view text) {
+  if (const std::size_t place = too_deep_bracket(text); place != std::string_view::npos)
+    throw FileError(
+        fmt::format("byte {}: nested too deeply: more than {} brackets within each other", place, deepest_nesting));
   try {
     return nlohmann::ordered_json::parse(text);
   } catch (const nlohmann::json::parse_error& e) {

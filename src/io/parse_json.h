@@ -5,8 +5,8 @@
 
 namespace unsnarl {
 
-/// A JSON text as a value whose members keep their order. Throws FileError, naming the byte, where it is not JSON or
-/// has a number too large for double precision.
+/// A JSON text as a value whose members keep their order. Throws FileError, naming the byte, where it is not JSON, is
+/// nested deeper than deepest_nesting or has a number too large for double precision.
 nlohmann::ordered_json parse_json(std::string_view text);
 
 }  // namespace unsnarl

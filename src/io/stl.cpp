@@ -44,7 +44,6 @@ class StlFile : public MeshFile {
   void make_faces() {
     surface.corners.resize(surface.positions.size() / 3);
     std::iota(surface.corners.begin(), surface.corners.end(), 0);
-    if (surface.corners.empty()) notes.emplace_back("The file has no faces.");
   }
 };
 

@@ -10,7 +10,6 @@ void FaceCollector::note_ignored(std::vector<std::string>& notes) const {
         fmt::format("{} face{} with fewer than three corners stay{} in the file but {} not part of the surface.",
                     ignored_, ignored_ == 1 ? "" : "s", ignored_ == 1 ? "s" : "", ignored_ == 1 ? "is" : "are"));
   }
-  if (count_ == 0) notes.push_back("The file has no faces.");
 }
 
 }  // namespace unsnarl

@@ -16,6 +16,7 @@
 #include "io/token_edits.h"
 #include "io/xml_text.h"
 #include "io/zip_archive.h"
+#include "unsnarl/depth_limit.h"
 
 namespace unsnarl {
 namespace {
@@ -135,8 +136,8 @@ class ThreemfParser {
     const auto found = object_of_id_.find(node.attribute("objectid").value());
     if (found == object_of_id_.end())
       xml_.fail(node, fmt::format("there is no object {}; the file is damaged", node.attribute("objectid").value()));
-    if (depth > largest_depth)
-      xml_.fail(node, "components are nested too deep, or within themselves; the file is damaged");
+    if (depth > deepest_nesting)
+      xml_.fail(node, "nested too deeply: components within each other, or within themselves; the file is damaged");
     if (++shows_ > largest_shows) xml_.fail(node, "components show more objects than can be read; the file is damaged");
     const pugi::xml_node object = found->second;
     const Placement placement = outer * transform_of(node);
@@ -207,8 +208,6 @@ class ThreemfParser {
     file_.surface.positions.insert(file_.surface.positions.end(), world.begin(), world.end());
   }
 
-  /// Components within components; real files have two or three.
-  static constexpr std::size_t largest_depth = 64;
   /// Objects shown, each time counted; keeps components that double at every level from taking for ever.
   static constexpr std::size_t largest_shows = 1000000;
   ThreemfFile& file_;

@@ -5,11 +5,26 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <new>
 
 #include "io/text_scanner.h"
+#include "unsnarl/depth_limit.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl {
+namespace {
+
+/// Goes through the elements without recursion.
+struct DepthCheck : pugi::xml_tree_walker {
+  bool for_each(pugi::xml_node& node) override {
+    if (node.type() != pugi::node_element || static_cast<std::size_t>(depth()) < deepest_nesting) return true;
+    place = static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
+    return false;
+  }
+  std::optional<std::size_t> place;
+};
+
+}  // namespace
 
 XmlText::XmlText(std::string_view text, const char* root, std::string_view ending)
     : text_(text), buffer_(std::string(text).append(ending)) {
@@ -22,6 +37,9 @@ XmlText::XmlText(std::string_view text, const char* root, std::string_view endin
     fail(std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)), text.size()),
          fmt::format("this is no XML ({}); the file is cut short, damaged or of another format", result.description()));
   }
+  if (const std::optional<std::size_t> place = too_deep_element(document_))
+    fail(std::min(*place, text.size()), fmt::format("nested too deeply: more than {} elements within each other",
+                                                    deepest_nesting));
   root_ = document_.document_element();
   if (std::strcmp(root_.name(), root) != 0) {
     fail(root_, fmt::format("the root element is <{}>, but <{}> should be here; check the format",
@@ -64,7 +82,9 @@ std::size_t XmlText::whole_number(const pugi::xml_node& element, const char* att
 std::string XmlText::value(const pugi::xml_attribute& attribute) {
   const std::string text = fmt::format("<value>{}</value>", attribute.value());
   pugi::xml_document document;
-  document.load_buffer(text.data(), text.size(), pugi::parse_escapes | pugi::parse_ws_pcdata, pugi::encoding_utf8);
+  const pugi::xml_parse_result result = document.load_buffer(
+      text.data(), text.size(), pugi::parse_escapes | pugi::parse_ws_pcdata, pugi::encoding_utf8);
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   return document.document_element().text().get();
 }
 
@@ -74,6 +94,12 @@ void XmlText::fail(const pugi::xml_node& at, const std::string& message) const {
 
 void XmlText::fail(std::size_t offset, const std::string& message) const {
   TextScanner(text_, {}).fail(message, offset);
+}
+
+std::optional<std::size_t> too_deep_element(const pugi::xml_document& document) {
+  DepthCheck check;
+  document.root().traverse(check);
+  return check.place;
 }
 
 std::string in_attribute(std::string_view text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
@@ -13,8 +14,8 @@ namespace unsnarl {
 class XmlText {
  public:
   /// `text`, in UTF-8, has to outlive this. `ending` is read after it, to close elements of a text that goes on as
-  /// something else. Throws FileError, naming the line, where it is no XML, and unless its root element is called
-  /// `root`.
+  /// something else. Throws FileError, naming the line, where it is no XML, where it is nested deeper than
+  /// deepest_nesting, and unless its root element is called `root`.
   XmlText(std::string_view text, const char* root, std::string_view ending = {});
   XmlText(const XmlText&) = delete;
   XmlText& operator=(const XmlText&) = delete;
@@ -42,6 +43,10 @@ class XmlText {
   pugi::xml_document document_;
   pugi::xml_node root_;
 };
+
+/// Place in the text of the first element that is nested deeper than deepest_nesting, if there is one. Every reader of
+/// XML asks this before it follows the elements down.
+std::optional<std::size_t> too_deep_element(const pugi::xml_document& document);
 
 /// A text as it stands in an attribute, whichever quotes are around it.
 std::string in_attribute(std::string_view text);

@@ -1,10 +1,14 @@
 #include "unsnarl/check.h"
 
 #include <algorithm>
-#include <set>
+#include <functional>
+#include <span>
+#include <stdexcept>
 
+#include "contact/stop_check.h"
 #include "mesh/components.h"
 #include "mesh/union_find.h"
+#include "pipeline/limits.h"
 #include "pipeline/threads.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
@@ -22,41 +26,101 @@ void extend_by_face(Bounds& bounds, const SurfaceView& surface, Index f) {
     }
 }
 
-std::vector<ConflictPlace> find_places(const SurfaceView& surface, const WeldMap& weld_map,
-                                       const std::vector<IntersectingPair>& pairs, const std::vector<Index>& faces) {
-  UnionFind sets(surface.face_count());
-  for (const IntersectingPair& pair : pairs) sets.unite(pair.a, pair.b);
-  std::vector<Index> face_at(static_cast<std::size_t>(weld_map.count), -1);
-  for (Index f : faces)
-    for (Index corner : surface.face(f)) {
-      Index& other = face_at[weld_map.vertex_of[corner]];
-      if (other >= 0) sets.unite(other, f);
-      other = f;
+/// What follows from all pairs, of which the first alone are kept.
+class PairTally {
+ public:
+  PairTally(std::size_t faces, std::size_t components, std::size_t listed)
+      : listed_(listed), connected_(faces), pairs_of_face_(faces, 0), is_in_any_(faces, 0), of_component_(components) {}
+
+  /// component_of(face): its component.
+  template <class ComponentOf>
+  void add(std::span<const IntersectingPair> pairs, const ComponentOf& component_of) {
+    for (const IntersectingPair& pair : pairs) {
+      ++counts_[pair.kind];
+      connected_.unite(pair.a, pair.b);
+      ++pairs_of_face_[pair.a];
+      is_in_any_[pair.a] = is_in_any_[pair.b] = 1;
+      OfComponent &a = of_component_[component_of(pair.a)], &b = of_component_[component_of(pair.b)];
+      if (&a == &b) {
+        ++a.within;
+      } else {
+        ++a.with_others, ++b.with_others;
+      }
     }
-  std::vector<Index> place_of(surface.face_count(), -1);
-  std::vector<ConflictPlace> places;
-  for (Index f : faces) {
-    Index& place = place_of[sets.find(f)];
-    if (place < 0) {
-      place = static_cast<Index>(places.size());
-      places.emplace_back();
-    }
-    places[place].faces.push_back(f);
-    extend_by_face(places[place].bounds, surface, f);
+    if (listed_ == 0) return;
+    list_.insert(list_.end(), pairs.begin(), pairs.end());
+    if (list_.size() / 2 >= listed_) keep_first();
   }
-  for (const IntersectingPair& pair : pairs) ++places[place_of[sets.find(pair.a)]].pairs;
-  std::stable_sort(places.begin(), places.end(),
-                   [](const ConflictPlace& a, const ConflictPlace& b) { return a.pairs > b.pairs; });
-  return places;
-}
+
+  void describe(CheckReport& found) {
+    keep_first();
+    std::sort(list_.begin(), list_.end());
+    found.pairs = std::move(list_);
+    found.counts = counts_;
+    for (std::size_t f = 0; f < is_in_any_.size(); ++f)
+      if (is_in_any_[f]) found.faces.push_back(static_cast<Index>(f));
+    for (std::size_t c = 0; c < of_component_.size(); ++c) {
+      const OfComponent& component = of_component_[c];
+      found.components[c].pairs_within = component.within;
+      found.components[c].pairs_with_others = component.with_others;
+      found.pairs_within_components += component.within;
+      found.intersecting_components += component.within + component.with_others > 0;
+    }
+  }
+
+  /// Places where faces intersect: connected by pairs, or by vertices among those in any.
+  std::vector<ConflictPlace> places(const SurfaceView& surface, const WeldMap& weld_map,
+                                    const std::vector<Index>& faces) {
+    std::vector<Index> face_at(static_cast<std::size_t>(weld_map.count), -1);
+    for (Index f : faces)
+      for (Index corner : surface.face(f)) {
+        Index& other = face_at[weld_map.vertex_of[corner]];
+        if (other >= 0) connected_.unite(other, f);
+        other = f;
+      }
+    std::vector<Index> place_of(surface.face_count(), -1);
+    std::vector<ConflictPlace> places;
+    for (Index f : faces) {
+      Index& place = place_of[connected_.find(f)];
+      if (place < 0) {
+        place = static_cast<Index>(places.size());
+        places.emplace_back();
+      }
+      places[place].faces.push_back(f);
+      places[place].pairs += pairs_of_face_[f];
+      extend_by_face(places[place].bounds, surface, f);
+    }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const ConflictPlace& a, const ConflictPlace& b) { return a.pairs > b.pairs; });
+    return places;
+  }
+
+ private:
+  struct OfComponent {
+    std::size_t within = 0, with_others = 0;
+  };
+  void keep_first() {
+    if (list_.size() <= listed_) return;
+    std::nth_element(list_.begin(), list_.begin() + static_cast<std::ptrdiff_t>(listed_), list_.end());
+    list_.resize(listed_);
+  }
+
+  const std::size_t listed_;
+  std::vector<IntersectingPair> list_;
+  PairCounts counts_;
+  UnionFind connected_;
+  std::vector<std::size_t> pairs_of_face_;  // in which it is the first of two
+  std::vector<std::uint8_t> is_in_any_;
+  std::vector<OfComponent> of_component_;
+};
 
 void describe_components(const SurfaceView& surface, const WeldMap& weld_map, const Components& components,
                          CheckReport& found) {
-  const auto component_of = [&](Index f) { return component_of_face(surface, weld_map, components, f); };
   found.components.resize(components.list.size());
   for (Index f = static_cast<Index>(surface.face_count()); f-- > 0;) {
-    if (component_of(f) < 0) continue;
-    ComponentFindings& component = found.components[component_of(f)];
+    const Index c = component_of_face(surface, weld_map, components, f);
+    if (c < 0) continue;
+    ComponentFindings& component = found.components[c];
     component.first_face = f;
     ++component.faces;
     extend_by_face(component.bounds, surface, f);
@@ -67,33 +131,45 @@ void describe_components(const SurfaceView& surface, const WeldMap& weld_map, co
       if (!is_counted[v]) ++found.components[component_of(f)].vertices;
       is_counted[v] = true;
     }
-  std::set<Index> involved;
-  for (const IntersectingPair& pair : found.pairs) {
-    const Index a = component_of(pair.a), b = component_of(pair.b);
-    involved.insert({a, b});
-    found.pairs_within_components += a == b;
-    for (const Index c : {a, b}) found.components[c].pairs_with_others += a != b;
-    if (a == b) ++found.components[a].pairs_within;
-  }
-  found.intersecting_components = involved.size();
   for (const Component& component : components.list) found.closed_non_orientable += component.obstructed();
+}
+
+/// Throws LimitReached.
+void find_pairs(const PreparedSurface& prepared, const CheckLimits& limits, PairTally& tally,
+                const std::function<Index(Index)>& component_of) {
+  RepairOptions wanted;
+  wanted.time_limit_s = limits.time_limit_s;
+  wanted.memory_limit_mb = limits.memory_limit_mb;
+  const Context nobody;
+  Limits watch(wanted, nobody);
+  try {
+    FacePairFinder(prepared).visit(prepared.rest, watch.stopper(), [&](std::span<const IntersectingPair> pairs) {
+      tally.add(pairs, component_of);
+      if (watch.reached()) throw WorkStopped();
+    });
+  } catch (const WorkStopped&) {
+    throw LimitReached(watch.status_or(Status::time_limit));
+  }
 }
 
 }  // namespace
 
-CheckReport check(const SurfaceView& surface, const FindOptions& options) {
+CheckReport check(const SurfaceView& surface, const FindOptions& options, const CheckLimits& limits) {
+  if (!(limits.time_limit_s >= 0) || !(limits.memory_limit_mb >= 0))
+    throw std::invalid_argument("CheckLimits: limits must not be negative");
   CheckReport found;
   const ThreadLimit threads(options.threads);
   const PreparedSurface prepared = prepare(surface, options);
-  found.pairs = FacePairFinder(prepared).find(prepared.rest);
-  found.counts = count_by_class(found.pairs);
-  found.faces = intersecting_faces(found.pairs);
   found.triangulation = prepared.triangulation.statistics.describe();
   const EdgeTable edges = build_edges(prepared.triangles());
   const Components components = find_components(surface, prepared.weld_map, prepared.triangles(), edges);
   found.topology = describe_topology(surface, prepared.weld_map, prepared.triangulation, edges, components);
   describe_components(surface, prepared.weld_map, components, found);
-  found.places = find_places(surface, prepared.weld_map, found.pairs, found.faces);
+  PairTally tally(surface.face_count(), components.list.size(), limits.pairs_listed);
+  find_pairs(prepared, limits, tally,
+             [&](Index f) { return component_of_face(surface, prepared.weld_map, components, f); });
+  tally.describe(found);
+  found.places = tally.places(surface, prepared.weld_map, found.faces);
   return found;
 }
 

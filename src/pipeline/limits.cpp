@@ -27,4 +27,9 @@ Status Limits::status_or(Status status) const {
   return reason == none ? status : static_cast<Status>(reason);
 }
 
+Status Limits::status_of_result(Status status) const {
+  const Status limit = status_or(status);
+  return limit == Status::cancelled || limit == Status::memory_limit ? limit : status;
+}
+
 }  // namespace unsnarl

@@ -20,10 +20,17 @@ class Limits {
   std::function<bool()> stopper() {
     return [this] { return reached(); };
   }
+  /// For what has no result yet: a cancellation ends it where it has one.
+  std::function<bool()> stopper_but_for_cancellation() {
+    return [this] { return reached() && status_or(Status::cancelled) != Status::cancelled; };
+  }
   /// Memory could not be had: what was at work is gone, what was reached is still there.
   void run_out_of_memory();
   /// The limit that was reached, or `status` where none was.
   Status status_or(Status status) const;
+  /// The status of a result that would have `status`: that of a cancellation, or of memory that ran out, comes before
+  /// any other. Such a result may be embedded, but it is not the one that the same call would give again.
+  Status status_of_result(Status status) const;
 
  private:
   using Clock = std::chrono::steady_clock;

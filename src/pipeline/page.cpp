@@ -1,5 +1,7 @@
 #include "unsnarl/page.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -7,19 +9,23 @@
 
 #include "contact/intersection_finder.h"
 #include "contact/intersection_segments.h"
+#include "io/parse_json.h"
 #include "mesh/validity.h"
 #include "pipeline/threads.h"
 #include "render/page.h"
 #include "scene/prepared_surface.h"
+#include "unsnarl/document.h"
 
 namespace unsnarl {
 namespace {
 
 nlohmann::ordered_json parsed(const std::string& report) {
   if (report.empty()) return nullptr;
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(report, nullptr, false);
-  if (json.is_discarded()) throw std::invalid_argument("PageSource::report is not JSON; give what report_json returns");
-  return json;
+  try {
+    return parse_json(report);
+  } catch (const FileError& error) {
+    throw std::invalid_argument(fmt::format("PageSource::report: {}; give what report_json returns", error.what()));
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/stop_check.h"
 #include "mesh/areas.h"
 #include "pipeline/calling_thread.h"
 #include "pipeline/job.h"
@@ -31,6 +32,7 @@
 #include "scene/finders.h"
 #include "scene/prepared_surface.h"
 #include "scene/recorder.h"
+#include "unsnarl/limit_reached.h"
 #include "untangle/attempt_log.h"
 #include "untangle/paper_untangle.h"
 #include "untangle/strategies.h"
@@ -82,7 +84,7 @@ class Repair {
     std::vector<std::uint8_t> fixed(prepared_.weld_map.count, 0);
     for (std::size_t v = 0; v < options_.fixed.size(); ++v)
       if (options_.fixed[v]) fixed[prepared_.weld_map.vertex_of[v]] = 1;
-    diagnose_intersections(prepared_, fixed, finders_->as_is, diagnosis_);
+    diagnose_within_limits(fixed);
     check_gap();
     result_.report.topology = diagnosis_.topology;
     result_.report.triangulation = prepared_.triangulation.statistics.describe();
@@ -122,6 +124,14 @@ class Repair {
     prepared_ = prepare(surface_, options_.find);
     diagnosis_ = diagnose_topology(surface_, prepared_);
     finders_ = &own_finders_.emplace(prepared_.triangles(), prepared_.scale);
+  }
+
+  void diagnose_within_limits(std::span<const std::uint8_t> fixed) {
+    try {
+      diagnose_intersections(prepared_, fixed, finders_->as_is, diagnosis_, limits_.stopper_but_for_cancellation());
+    } catch (const WorkStopped&) {
+      throw LimitReached(limits_.status_or(Status::time_limit));
+    }
   }
 
   void check_options() const {
@@ -182,6 +192,7 @@ class Repair {
       }
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
+      scene.round();
     }
     scene.keep_within_displacement(finders.as_is);
     displacement_is_exceeded_ = scene.displacement_is_exceeded();
@@ -225,8 +236,7 @@ class Repair {
     result_.status = acceptance_->status(left, reached_);
     if (result_.status == Status::reduced || result_.status == Status::no_progress)
       result_.status = limits_.status_or(displacement_is_exceeded_ ? Status::displacement_exceeded : result_.status);
-    // An unfinished result lies farther off than it need, so a call that was cancelled says so.
-    if (limits_.status_or(result_.status) == Status::cancelled) result_.status = Status::cancelled;
+    result_.status = limits_.status_of_result(result_.status);
     report.float32_embedded = acceptance_->is_embedded_in_float32(reached_);
     measure_change(surface_, prepared_, diagnosis_, result_.positions, report);
     report.min_gap_rel = std::isfinite(smallest_gap_) && diagonal_ > 0 ? smallest_gap_ / diagonal_ : 0;

@@ -283,9 +283,20 @@ class SequenceRepair {
               .precision = alone.precision,
               .alone = {},
               .jitter = {}};
-    if (!frame.is_clean && frame.alone.status == Status::embedded && options_.repair.recover) smooth(t, result);
+    if (!frame.is_clean && frame.alone.status == Status::embedded && options_.repair.recover) {
+      smooth(t, result);
+      if (lacked_memory_around(t)) report.status = Status::memory_limit;
+    }
     measure(frame, result.positions, report);
     if (t > 0 && t + 1 < source_.frames) report.alone = jitter_at(t, [](const Frame& f) { return f.alone.positions; });
+  }
+
+  /// Whether the mean of the corrections is that of repairs that memory ran out in.
+  bool lacked_memory_around(std::size_t t) const {
+    const auto begin = frames_.begin();
+    return std::any_of(begin + static_cast<std::ptrdiff_t>(begin_around(t)),
+                       begin + static_cast<std::ptrdiff_t>(end_around(t)),
+                       [](const Frame& frame) { return frame.alone.status == Status::memory_limit; });
   }
 
   /// Replaces the result of a repair by itself with a smooth one, where that holds.
@@ -313,6 +324,7 @@ class SequenceRepair {
     if (alone.after.total() == 0)
       finders.start_without_pairs(prepared.gather(result.positions), alone.float32_embedded);
     RepairResult smoothed = repair_from(surface(target), frame.seen->known(), finders, options, &context_);
+    if (smoothed.status == Status::memory_limit) result.report.status = smoothed.status;
     if (smoothed.status != Status::embedded) return;
     // A layer that came out on another side would pop.
     if (largest(distances(smoothed.positions, target, scale)) > largest(distances(result.positions, target, scale)))

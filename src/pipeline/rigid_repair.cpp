@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "contact/stop_check.h"
 #include "geometry/sort_unique.h"
 #include "pipeline/gap.h"
 #include "pipeline/limits.h"
@@ -25,6 +26,7 @@
 #include "scene/prepared_surface.h"
 #include "scene/rounding.h"
 #include "scene/scene.h"
+#include "unsnarl/limit_reached.h"
 #include "unsnarl/stage_clock.h"
 
 namespace unsnarl {
@@ -46,7 +48,7 @@ class RigidRepair {
     prepared_ = prepare(surface_, options_.find);
     find_parts();
     finders_.emplace(prepared_.triangles(), prepared_.scale);
-    diagnosis_ = diagnose(surface_, prepared_, fixed_, finders_->as_is);
+    diagnose_within_limits();
     find_obstructions();
     acceptance_.emplace(surface_, prepared_, diagnosis_, options_, *finders_);
     const PairCounts before = acceptance_->pairs_at(prepared_.rest).faces;
@@ -63,6 +65,8 @@ class RigidRepair {
         Attempt other = repaired_attempt(in_soft, phases);
         if (other.inner.report.after.total() < best.inner.report.after.total()) best = std::move(other);
       }
+    } catch (const LimitReached& reached) {
+      best.inner.status = reached.status();
     } catch (const std::bad_alloc&) {
       limits_.run_out_of_memory();
     }
@@ -79,6 +83,15 @@ class RigidRepair {
     bool is_too_far = false;        // a part had no place within the displacement that is allowed
     RepairResult inner;             // of the soft parts around them
   };
+
+  void diagnose_within_limits() {
+    try {
+      diagnosis_ =
+          diagnose(surface_, prepared_, fixed_, finders_->as_is, limits_.stopper_but_for_cancellation());
+    } catch (const WorkStopped&) {
+      throw LimitReached(limits_.status_or(Status::time_limit));
+    }
+  }
 
   void check_options() const {
     const std::size_t n = surface_.vertex_count();
@@ -230,6 +243,7 @@ class RigidRepair {
     Attempt result = attempt(in_soft);
     phases.end();
     repair_around(result);
+    if (result.inner.status == Status::memory_limit) limits_.run_out_of_memory();
     return result;
   }
 
@@ -315,7 +329,8 @@ class RigidRepair {
       else if (attempt.is_too_far)
         result.status = Status::displacement_exceeded;
     }
-    if (inner == Status::cancelled) result.status = Status::cancelled;
+    result.status = limits_.status_of_result(result.status);
+    if (inner == Status::cancelled) result.status = inner;
     report.before = acceptance_->pairs_at(prepared_.rest).faces;
     report.after = left.faces;
     report.topology = diagnosis_.topology;

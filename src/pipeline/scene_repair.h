@@ -36,6 +36,8 @@ class SceneRepair {
   void work(Finders& finders);
   /// Opens faces that are folded together closer than RepairOptions::min_dihedral_deg.
   void open_dihedrals(Finders& finders);
+  /// Where the work ended between: makes of the positions those that will be read back.
+  void round() { scene_.x = as_written(scene_.x); }
   /// Puts what was moved farther than allowed back to rest.
   void keep_within_displacement(IntersectionFinder& finder);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/stop_check.h"
 #include "geometry/parallel_lists.h"
 
 namespace unsnarl {
@@ -45,6 +46,7 @@ void ContactList::follow(const Positions& x, const Positions& p, const MovingVer
   way.along = p;
   gather_in_chunks(
       static_cast<Index>(list_.size()), in_the_way_, [&](Index begin, Index end, std::vector<SeparatedStencil>& list) {
+        end_long_work_if(rules_.options().stop, list_.size());
         for (Index k = begin; k < end; ++k) {
           const BarrierStencil& s = list_[k].stencil;
           const double left = list_[k].distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
@@ -59,6 +61,7 @@ void ContactList::pick_near(const Positions& x, const MovingVertices& moving, st
   for (Index v : moving.vertices) travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
   gather_in_chunks(static_cast<Index>(list_.size()), near,
                    [&](Index begin, Index end, std::vector<BarrierStencil>& list) {
+                     end_long_work_if(rules_.options().stop, list_.size());
                      for (Index k = begin; k < end; ++k) {
                        const ContactRule& rule = list_[k];
                        if (rule.distance - approach(rule.stencil.stencil, travelled_) < rule.stencil.activation)

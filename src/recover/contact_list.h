@@ -25,6 +25,7 @@ class ContactList {
 
   /// Stencils that may collide in the step of follow().
   std::span<const SeparatedStencil> in_the_way() const { return in_the_way_; }
+  const std::function<bool()>& stop() const { return rules_.options().stop; }
   /// Stencils whose distance was no more than round-off where they were gathered.
   std::vector<Stencil> touching() const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/stop_check.h"
 #include "geometry/parallel_lists.h"
 #include "mesh/vertices_within.h"
 
@@ -17,6 +18,14 @@ constexpr double least_activation = 1.5;
 /// Corner k of a triangle against the opposite edge.
 Stencil altitude_of(const Triangle& f, int k) {
   return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
+}
+
+/// Appends what is in `from`, which holds anything afterwards.
+void take_over(std::vector<ContactRule>& from, std::vector<ContactRule>& to) {
+  if (to.empty())
+    to.swap(from);
+  else
+    to.insert(to.end(), from.begin(), from.end());
 }
 
 }  // namespace
@@ -52,7 +61,7 @@ ContactRules::ContactRules(const Patch& patch, std::span<const IntersectingPair>
 void ContactRules::gather(const Positions& x, double activation, const MotionBounds& bounds,
                           std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
   rules.clear();
-  candidates_.gather(x, activation, bounds, moves, stencils_);
+  candidates_.gather(x, activation, bounds, moves, stencils_, options_.stop);
   add_rules(x, x, activation, bounds, moves, rules);
 }
 
@@ -64,7 +73,7 @@ void ContactRules::gather_around(std::span<const Index> vertices, const Position
     const Stencil& s = rule.stencil.stencil;
     return std::any_of(s.v.begin(), s.v.begin() + s.size(), [&](Index v) { return is_anew_[v] != 0; });
   });
-  candidates_.gather_around(vertices, from, activation, bounds, stencils_);
+  candidates_.gather_around(vertices, from, activation, bounds, stencils_, options_.stop);
   add_rules(from, x, activation, bounds, is_anew_, rules);
 }
 
@@ -72,6 +81,7 @@ void ContactRules::add_rules(const Positions& from, const Positions& x, double a
                              std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
   gather_in_chunks(
       static_cast<Index>(stencils_.size()), added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+        end_long_work_if(options_.stop, stencils_.size());
         for (Index k = begin; k < end; ++k) {
           const NearStencil& near = stencils_[k];
           const double distance = &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x));
@@ -79,11 +89,11 @@ void ContactRules::add_rules(const Positions& from, const Positions& x, double a
           if (rule_of(near, distance, activation, rule)) list.push_back(rule);
         }
       });
-  rules.insert(rules.end(), added_.begin(), added_.end());
+  take_over(added_, rules);
   gather_in_chunks(patch_.active_count, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
     add_altitudes(from, x, bounds, moves, begin, end, list);
   });
-  rules.insert(rules.end(), added_.begin(), added_.end());
+  take_over(added_, rules);
 }
 
 bool ContactRules::are_neighbours(const Stencil& s) const {

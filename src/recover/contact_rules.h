@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct ContactRuleOptions {
   double reach_share = 0.5;
   double reach_gaps = barrier_gaps;  ///< and at least this many min_gap for what is no neighbour
   double roundoff = 0;               ///< length below which computed distances mean nothing
+  std::function<bool()> stop;        ///< asked while rules are gathered, which true ends by WorkStopped; may be empty
 };
 
 /// Gathers the close stencils of a patch with their rules.

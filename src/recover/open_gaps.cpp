@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "contact/stop_check.h"
 #include "geometry/predicates.h"
 
 namespace unsnarl {
@@ -106,6 +107,7 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
     bool changed = true;
     for (int sweep = 0; changed && sweep < projection_sweeps; ++sweep) {
       changed = false;
+      end_long_work_if(options.stop, gaps.size());
       for (const Widening& gap : gaps) changed |= widen(gap, p);
       for (Index v = 0; v < x.cols(); ++v) {
         const double wanted = p.col(v).norm();
@@ -126,7 +128,7 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
       if (rule.distance > roundoff && left <= rule.stencil.separation + roundoff)
         filter.push_back({rule.stencil.stencil, rule.stencil.separation});
     }
-    filter_step(filter, oriented, x, p, OnCollision::shorten);
+    filter_step(filter, oriented, x, p, OnCollision::shorten, {.stop = options.stop});
     safe = x;
     x += p;
     if (doubtful) guard.roll_back(x, safe);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/stop_check.h"
 #include "mesh/areas.h"
 #include "recover/contact_rules.h"
 #include "recover/embedding_guard.h"
@@ -24,23 +25,46 @@ double edge_length_of(const Patch& patch) {
   return patch.edge_length > 0 ? patch.edge_length : mean_edge_length(patch.rest, active);
 }
 
-ContactRules contact_rules_of(const Patch& patch, const RecoverOptions& recovery) {
-  IntersectionFinder at_rest(patch.triangles, patch.active_count);
+/// Length below which computed distances mean nothing.
+double roundoff_of(const Patch& patch) {
   const double largest = std::max(patch.x.cwiseAbs().maxCoeff(), patch.rest.cwiseAbs().maxCoeff());
-  const double ulp = std::numeric_limits<double>::epsilon() * largest;
+  return roundoff_ulps * (std::numeric_limits<double>::epsilon() * largest);
+}
+
+/// Most edges, those without length aside, are shorter than what can be told apart beside the largest coordinate:
+/// everything there touches all else.
+bool is_below_roundoff(const Patch& patch) {
+  std::vector<double> lengths;
+  for (Index t = 0; t < patch.active_count; ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Triangle& f = patch.triangles[t];
+      const double length = (patch.rest.col(f[k]) - patch.rest.col(f[(k + 1) % 3])).norm();
+      if (length > 0) lengths.push_back(length);
+    }
+  if (lengths.empty()) return false;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle < roundoff_of(patch);
+}
+
+ContactRules contact_rules_of(const Patch& patch, const RecoverOptions& recovery, const std::function<bool()>& stop) {
+  IntersectionFinder at_rest(patch.triangles, patch.active_count);
   ContactRuleOptions options;
-  options.roundoff = roundoff_ulps * ulp;
+  options.roundoff = roundoff_of(patch);
   options.min_gap = std::max(recovery.min_gap, options.roundoff);
   options.reach_gaps = recovery.least_gaps;
-  return ContactRules(patch, at_rest.find(patch.rest), options);
+  options.stop = stop;
+  return ContactRules(patch, at_rest.find(patch.rest, stop), options);
 }
 
 class Recovery {
  public:
   Recovery(Patch& patch, const RecoverOptions& options, const std::function<bool()>& stop);
+  /// Where it is stopped on the way, the patch is where it was last seen to be embedded.
   RecoverResult run();
 
  private:
+  void work();
   /// Per vertex: whether it is free.
   std::vector<std::uint8_t> everything() const;
   /// Free vertices among `front` and in so many rings around those.
@@ -93,7 +117,7 @@ Recovery::Recovery(Patch& patch, const RecoverOptions& options, const std::funct
       start_(patch.x),
       start_motion_((patch.x - patch.rest).colwise().norm().maxCoeff()),
       guard_(patch),
-      rules_(contact_rules_of(patch, options)),
+      rules_(contact_rules_of(patch, options, stop)),
       neighbours_(vertex_neighbours(rules_.candidates().edges().edges, static_cast<Index>(patch.x.cols()))),
       objective_(patch, rules_.candidates().edges(), options.objective, h_),
       problem_(patch, rules_, neighbours_, objective_, options.step, h_, guard_.pairs_at_start()),
@@ -218,6 +242,20 @@ void Recovery::measure_gap(double radius) {
 }
 
 RecoverResult Recovery::run() {
+  try {
+    work();
+  } catch (const WorkStopped&) {
+    patch_.x = safe_;
+    result_.stopped = true;
+  }
+  for (Index v = 0; v < patch_.free_count; ++v) {
+    result_.at_rest += patch_.x.col(v) == patch_.rest.col(v);
+    result_.moved |= patch_.x.col(v) != start_.col(v);
+  }
+  return result_;
+}
+
+void Recovery::work() {
   const auto activation_of = [&](double share_of_h) {
     return std::max(std::min(share_of_h * h_, options_.activation_motion * start_motion_), above_min_gap(share_of_h));
   };
@@ -245,11 +283,6 @@ RecoverResult Recovery::run() {
     open(0);  // where all has room now
     measure_gap(last_activation);
   }
-  for (Index v = 0; v < patch_.free_count; ++v) {
-    result_.at_rest += patch_.x.col(v) == patch_.rest.col(v);
-    result_.moved |= patch_.x.col(v) != start_.col(v);
-  }
-  return result_;
 }
 
 }  // namespace
@@ -277,8 +310,14 @@ RecoverOptions RecoverOptions::paper() {
 }
 
 RecoverResult recover(Patch& patch, const RecoverOptions& options, const std::function<bool()>& stop) {
-  if (patch.free_count == 0) return {};
-  return Recovery(patch, options, stop).run();
+  if (patch.free_count == 0 || is_below_roundoff(patch)) return {};
+  try {
+    return Recovery(patch, options, stop).run();
+  } catch (const WorkStopped&) {  // before it began
+    RecoverResult result;
+    result.stopped = true;
+    return result;
+  }
 }
 
 }  // namespace unsnarl

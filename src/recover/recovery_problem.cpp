@@ -191,7 +191,7 @@ void RecoveryProblem::slide_along_flips(Eigen::Matrix3Xd& step) {
 
 void RecoveryProblem::filter(Eigen::Matrix3Xd& step) {
   filter_step(contacts_.in_the_way(), oriented(), patch_.x, spread(step), OnCollision::shorten,
-              {.slack = options_.kept_distance});
+              {.slack = options_.kept_distance, .stop = contacts_.stop()});
   collect(step);
 }
 

@@ -32,7 +32,7 @@ Index snap_to_rest(Positions& x, const Positions& rest, double reach, ContactRul
     rules.gather(x, rules.options().min_gap, bounds, trying, close);
     filter.clear();
     for (const ContactRule& rule : close) filter.push_back({rule.stencil.stencil, rule.stencil.separation});
-    filter_step(filter, oriented, x, p, OnCollision::stay);
+    filter_step(filter, oriented, x, p, OnCollision::stay, {.stop = rules.options().stop});
     safe = x;
     Index moved = 0;
     for (Index v = 0; v < x.cols(); ++v) {

@@ -30,7 +30,7 @@ std::string check_json(const CheckReport& found, Goal goal, const FindOptions& o
   json["components"] = {{"total", found.topology.components},
                         {"intersecting", found.intersecting_components},
                         {"pairs_within", found.pairs_within_components},
-                        {"pairs_between", found.pairs.size() - found.pairs_within_components},
+                        {"pairs_between", found.counts.total() - found.pairs_within_components},
                         {"closed_non_orientable", found.closed_non_orientable},
                         {"list", Json::array()}};
   for (const ComponentFindings& component : found.components)

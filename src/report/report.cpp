@@ -45,6 +45,7 @@ std::string_view to_string(LeftReason reason) {
     case LeftReason::unresolved: return "unresolved";
     case LeftReason::other_diagonal: return "other_diagonal";
     case LeftReason::rigid_faces: return "rigid_faces";
+    case LeftReason::count: break;
   }
   return "unknown";
 }

@@ -63,10 +63,10 @@ Diagnosis diagnose_topology(const SurfaceView& surface, const PreparedSurface& p
 }
 
 void diagnose_intersections(const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
-                            IntersectionFinder& finder, Diagnosis& diagnosis) {
+                            IntersectionFinder& finder, Diagnosis& diagnosis, const std::function<bool()>& stop) {
   const std::span<const Triangle> triangles = prepared.triangles();
   const std::vector<Index>& polygon = prepared.triangulation.polygon;
-  diagnosis.pairs = finder.find(prepared.rest);
+  diagnosis.pairs = finder.find(prepared.rest, stop);
 
   diagnosis.fixed.assign(fixed.begin(), fixed.end());
 
@@ -106,9 +106,9 @@ void diagnose_intersections(const PreparedSurface& prepared, std::span<const std
 }
 
 Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
-                   IntersectionFinder& finder) {
+                   IntersectionFinder& finder, const std::function<bool()>& stop) {
   Diagnosis result = diagnose_topology(surface, prepared);
-  diagnose_intersections(prepared, fixed, finder, result);
+  diagnose_intersections(prepared, fixed, finder, result, stop);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,12 +39,12 @@ std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared,
 Diagnosis diagnose_topology(const SurfaceView& surface, const PreparedSurface& prepared);
 
 /// Adds what intersects at prepared.rest to a diagnose_topology(), and what of it nothing resolves. `fixed`: one flag a
-/// welded vertex; empty: none. `finder`: of the prepared triangles.
+/// welded vertex; empty: none. `finder`: of the prepared triangles. Throws WorkStopped soon after `stop` says so.
 void diagnose_intersections(const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
-                            IntersectionFinder& finder, Diagnosis& diagnosis);
+                            IntersectionFinder& finder, Diagnosis& diagnosis, const std::function<bool()>& stop = {});
 
 /// Both. Arguments as above.
 Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
-                   IntersectionFinder& finder);
+                   IntersectionFinder& finder, const std::function<bool()>& stop = {});
 
 }  // namespace unsnarl

@@ -1,5 +1,10 @@
 #include "scene/face_pairs.h"
 
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
 namespace unsnarl {
 namespace {
 
@@ -11,6 +16,19 @@ std::vector<T> joined(const std::vector<T>& a, const std::vector<T>& b) {
   return both;
 }
 
+/// The triangles of each polygon, ascending.
+IndexLists pieces_of_polygons(std::span<const Index> polygon) {
+  const Index count = polygon.empty() ? 0 : 1 + *std::max_element(polygon.begin(), polygon.end());
+  IndexLists pieces;
+  pieces.offsets.assign(static_cast<std::size_t>(count) + 1, 0);
+  for (const Index p : polygon) ++pieces.offsets[p + 1];
+  std::partial_sum(pieces.offsets.begin(), pieces.offsets.end(), pieces.offsets.begin());
+  pieces.items.resize(polygon.size());
+  std::vector<Index> next(pieces.offsets.begin(), pieces.offsets.end() - 1);
+  for (std::size_t t = 0; t < polygon.size(); ++t) pieces.items[next[polygon[t]]++] = static_cast<Index>(t);
+  return pieces;
+}
+
 }  // namespace
 
 FacePairFinder::FacePairFinder(const PreparedSurface& surface)
@@ -20,6 +38,7 @@ FacePairFinder::FacePairFinder(const PreparedSurface& surface)
       finder_(triangles_.empty() ? surface.triangles() : triangles_) {}
 
 bool FacePairFinder::are_of_one_quad(const IntersectingPair& pair) const {
+  if (triangles_.empty()) return false;
   const auto first_other = static_cast<Index>(surface_.triangulation.triangles.size());
   return polygon_[pair.a] == polygon_[pair.b] && pair.a < first_other && pair.b >= first_other;
 }
@@ -29,6 +48,39 @@ std::vector<IntersectingPair> FacePairFinder::find(const Positions& x) {
   if (triangles_.empty()) return pairs_of_faces(surface_.triangulation.polygon, pairs);
   std::erase_if(pairs, [this](const IntersectingPair& pair) { return are_of_one_quad(pair); });
   return pairs_of_faces(polygon_, pairs);
+}
+
+bool FacePairFinder::stands_for_its_faces(const Positions& x, const IndexLists& pieces,
+                                          const IntersectingPair& pair) const {
+  const auto order = [](const IntersectingPair& p) { return std::tuple(p.kind, p.a, p.b); };
+  for (const Index i : pieces[polygon()[pair.a]])
+    for (const Index j : pieces[polygon()[pair.b]]) {
+      IntersectingPair other{std::min(i, j), std::max(i, j)};
+      if (i == j || (other.a == pair.a && other.b == pair.b) || are_of_one_quad(other)) continue;
+      if (intersects(x, triangles()[other.a], triangles()[other.b], other.kind) && order(other) < order(pair))
+        return false;
+    }
+  return true;
+}
+
+void FacePairFinder::visit(const Positions& x, const std::function<bool()>& stop,
+                           const std::function<void(std::span<const IntersectingPair>)>& take) {
+  const IndexLists pieces = pieces_of_polygons(polygon());
+  std::vector<IntersectingPair> faces;
+  IntersectionFinder::PairVisitor visitor;
+  visitor.stop = stop;
+  visitor.keep = [&](const IntersectingPair& pair) {
+    return !are_of_one_quad(pair) && stands_for_its_faces(x, pieces, pair);
+  };
+  visitor.take = [&](std::span<const IntersectingPair> pairs) {
+    faces.clear();
+    for (const IntersectingPair& pair : pairs) {
+      const auto [a, b] = std::minmax(polygon()[pair.a], polygon()[pair.b]);
+      faces.push_back({a, b, pair.kind});
+    }
+    take(faces);
+  };
+  finder_.visit(x, visitor);
 }
 
 }  // namespace unsnarl

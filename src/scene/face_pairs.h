@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "contact/intersection_finder.h"
@@ -15,10 +17,18 @@ class FacePairFinder {
 
   /// Pairs of faces, sorted, each once, in the class of its first occurrence.
   std::vector<IntersectingPair> find(const Positions& x);
+  /// The same pairs in blocks and in no order, so that memory does not follow their number. `take` is called by one
+  /// thread at a time. Throws WorkStopped soon after `stop` says so.
+  void visit(const Positions& x, const std::function<bool()>& stop,
+             const std::function<void(std::span<const IntersectingPair>)>& take);
 
  private:
   /// The triangles of a quad along one diagonal always overlap those along the other.
   bool are_of_one_quad(const IntersectingPair& pair) const;
+  std::span<const Triangle> triangles() const { return triangles_.empty() ? surface_.triangles() : triangles_; }
+  std::span<const Index> polygon() const { return triangles_.empty() ? surface_.triangulation.polygon : polygon_; }
+  /// Whether no intersecting pair of pieces of the same two faces comes before this one: in its class, then by ids.
+  bool stands_for_its_faces(const Positions& x, const IndexLists& pieces, const IntersectingPair& pair) const;
 
   const PreparedSurface& surface_;
   std::vector<Triangle> triangles_;  ///< along both diagonals; empty: only one counts

@@ -33,6 +33,15 @@ bool says(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }
 
+TEST(CurveDocument, GroupsNestedTooDeeplyAreRefused) {
+  std::string open, close;
+  for (int k = 0; k < 255; ++k) open += "<g>", close += "</g>";
+  EXPECT_EQ(svg_error("<svg>" + open + close + "</svg>"), "");
+  EXPECT_EQ(svg_error("<svg>\n<g>" + open + close + "</g></svg>"),
+            "line 2: nested too deeply: more than 256 elements within each other");
+  EXPECT_TRUE(says(json_error("{\"curves\": " + std::string(300, '[')), "nested too deeply"));
+}
+
 TEST(CurveDocument, UnmovedFilesComeBackByteForByte) {
   const std::string text =
       "<?xml version=\"1.0\"?>\n<!-- kept --><svg xmlns=\"http://www.w3.org/2000/svg\"  >"

@@ -65,6 +65,7 @@ static int holds(unsnarl_array bytes, const char* part) {
 }
 
 static void makes_pages(void) {
+  static char deep[300000];
   const unsnarl_surface surface = crossing();
   unsnarl_page_content content = {.size = sizeof content, .name = "<a>", .moved_name = "b"};
   unsnarl_result* repaired = NULL;
@@ -94,11 +95,23 @@ static void makes_pages(void) {
   content.report = "no JSON";
   CHECK(unsnarl_page(&surface, &content, NULL, &page) == UNSNARL_INVALID_ARGUMENT);
   CHECK(says(unsnarl_error_message(), "JSON"));
+  memset(deep, '[', sizeof deep - 1);
+  content.report = deep;
+  CHECK(unsnarl_page(&surface, &content, NULL, &page) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "nested too deeply"));
   content.size = 3;
   CHECK(unsnarl_page(&surface, &content, NULL, &page) == UNSNARL_INVALID_ARGUMENT);
   CHECK(says(unsnarl_error_message(), "page_content: its size is 3"));
   CHECK(unsnarl_page(NULL, NULL, NULL, &page) == UNSNARL_INVALID_ARGUMENT);
   unsnarl_result_free(repaired);
+}
+
+static void refuses_deep_nesting(void) {
+  static char plan[300000] = "{\"agents\": ";
+  unsnarl_result* result = NULL;
+  memset(plan + strlen(plan), '[', sizeof plan - 1 - strlen(plan));
+  CHECK(unsnarl_plan_routes(plan, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "nested too deeply"));
 }
 
 static void finds_and_repairs(void) {
@@ -633,6 +646,7 @@ static void makes_samples(void) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   finds_and_repairs();
+  refuses_deep_nesting();
   makes_pages();
   heeds_options();
   takes_structs_of_older_callers();

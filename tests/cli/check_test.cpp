@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -101,6 +103,35 @@ TEST_F(Check, WeldDecidesWhatTouchingMeans) {
       file("near.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -0.001 1 0\nv 0.999 0 0\nv 1 1 0\nf 1 2 3\nf 4 5 6\n");
   EXPECT_EQ(run({"check", near}).exit_code, 1);
   EXPECT_EQ(run({"check", near, "--weld-tolerance", "0.01"}).exit_code, 0);
+}
+
+/// Triangles through one line, with corners of their own: every two intersect.
+std::string bundle(int count) {
+  std::string obj;
+  for (int t = 0; t < count; ++t) {
+    const double angle = 3.0 * t / count, shift = 1e-3 * t;
+    obj += fmt::format("v {} {} {}\nv {} {} {}\nv 0 0 {}\nf {} {} {}\n", -std::cos(angle), -std::sin(angle), shift - 9,
+                       std::cos(angle), std::sin(angle), shift - 9, shift + 9, 3 * t + 1, 3 * t + 2, 3 * t + 3);
+  }
+  return obj;
+}
+
+TEST_F(Check, MemoryDoesNotFollowTheNumberOfPairs) {
+  if (!memory_can_be_limited) GTEST_SKIP() << "the sanitizer needs all addresses";
+  constexpr int count = 3000;
+  const std::string in = file("in.obj", bundle(count));
+  // A list of them all is 54 MB.
+  const Outcome outcome = run({"check", in, "--json", "--memory-limit", "55", "--threads", "1"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["pairs"]["total"], count * (count - 1) / 2);
+}
+
+TEST_F(Check, LimitsOfTimeAndMemoryExitWith5) {
+  const std::string in = file("in.obj", bundle(1000)), table = folder / "pairs.csv";
+  expect_refusal({"check", in, "--time-limit", "0.001"}, 5, "raise --time-limit");
+  if (!memory_can_be_limited) return;
+  expect_refusal({"check", in, "--memory-limit", "20", "--threads", "1"}, 5, "raise --memory-limit");
+  expect_refusal({"check", in, "--memory-limit", "20", "--pairs", table, "--threads", "1"}, 5, "raise --memory-limit");
 }
 
 }  // namespace

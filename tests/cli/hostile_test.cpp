@@ -113,6 +113,41 @@ TEST_F(Hostile, GarbageIsRefusedInEveryFormat) {
   }
 }
 
+TEST_F(Hostile, WhatIsNestedTooDeeplyIsRefused) {
+  const auto nested = [](const std::string& before, const std::string& open, const std::string& close,
+                         const std::string& after) {
+    constexpr std::size_t depth = 200000;
+    return before + repeated(open, depth * open.size()) + repeated(close, depth * close.size()) + after;
+  };
+  const std::string mesh = file("in.obj", crossing), out = folder / "out";
+  const std::string svg = file("deep.svg", nested("<svg><path d=\"M0 0L1 1\"/>", "<g>", "</g>", "</svg>"));
+  const std::string plan = file("plan.json", nested("{\"agents\": ", "[", "]", "}"));
+  const std::string start = file("start.json", nested("{\"agents\": [{\"start\": ", "{\"a\":", "}", "}]}"));
+  const std::string curves = file("curves.json", nested("{\"curves\": ", "[", "]", "}"));
+  const std::string report =
+      file("report.json", nested("{\"schema\": \"unsnarl-report\", \"schema_version\": ", "[", "]", "}"));
+  const std::string knot = file("knot.txt", "0 0 0\n1 0 0\n0 1 0\n");
+  const std::string gltf = file("deep.gltf", nested("{\"asset\": ", "[", "]", "}"));
+  const std::string vtp = file("deep.vtp", nested("<VTKFile>", "<PolyData>", "</PolyData>", "</VTKFile>"));
+  const std::string gii = file("deep.gii", nested("<GIFTI>", "<DataArray>", "</DataArray>", "</GIFTI>"));
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"curves", svg, "-o", out},
+           {"isotopy", svg, svg, "-o", out},
+           {"curves", curves, "-o", out},
+           {"routes", plan, "-o", out},
+           {"routes", start, "-o", out},
+           {"knot-isotopy", knot, knot, "--check", plan},
+           {"view", mesh, "--report", report, "-o", folder / "out.html"},
+           {"fix", gltf, "-o", out},
+           {"check", vtp},
+           {"check", gii}}) {
+    SCOPED_TRACE(arguments[0] + " " + arguments[1]);
+    expect_refusal(arguments, 3, "nested too deeply");
+  }
+  const Outcome batch = run({"batch", folder / ".", "-o", out, "--format", "gltf"});
+  EXPECT_LT(batch.exit_code, 70) << batch.err;
+}
+
 TEST_F(Hostile, FoldersAndPipesAsInputsAreRefusedAtOnce) {
   for (const char* format : formats) {
     const std::string directory = folder / ("d." + std::string(format)), pipe = folder / ("p." + std::string(format));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/program_test.h"
@@ -81,6 +82,32 @@ TEST_F(Limits, InterruptedExitsWith6AndLeavesNothing) {
   const Outcome twice = run({"fix", in, "-o", out, "--progress", "json"}, {.signal_after = {"fraction", "stopping"}});
   EXPECT_EQ(twice.exit_code, 6) << twice.err;
   EXPECT_EQ(folder.names(), before);
+}
+
+/// Two wavy sheets through each other, and two triangles through them that are 1e30 times as large.
+std::string sheets_among_huge_triangles() {
+  constexpr int n = 14;
+  std::string vertices, faces;
+  for (int sheet = 0; sheet < 2; ++sheet)
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        vertices += fmt::format("v {} {} {}\n", i + 0.31 * sheet, j + 0.17 * sheet,
+                                (sheet ? 0.3 : -0.3) * std::sin(0.5 * i) * std::cos(0.4 * j));
+        const int a = (sheet * (n + 1) + i) * (n + 1) + j + 1;
+        if (i < n && j < n) faces += fmt::format("f {0} {1} {2}\nf {0} {2} {3}\n", a, a + n + 1, a + n + 2, a + 1);
+      }
+  const int next = 2 * (n + 1) * (n + 1) + 1;
+  return vertices +
+         "v 0.3 0.2 -1e30\nv 1e30 2e20 1e30\nv -1e30 -1e25 1e29\nv 0.1 0.7 -1e31\nv 1e32 -2e31 1e30\n"
+         "v -1e30 1e25 1e30\n" +
+         faces + fmt::format("f {} {} {}\nf {} {} {}\n", next, next + 1, next + 2, next + 3, next + 4, next + 5);
+}
+
+TEST_F(Limits, WhatIsFarBelowTheLargestNumbersTakesNoMoreThanItIsWorth) {
+  if (!memory_can_be_limited) GTEST_SKIP() << "the sanitizer needs all addresses";
+  const std::string in = file("in.obj", sheets_among_huge_triangles()), out = folder / "out.obj";
+  const Outcome outcome = run({"fix", in, "-o", out, "--memory-limit", "150", "--threads", "1"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
+
+#include "contact/stop_check.h"
 
 namespace unsnarl {
 namespace {
@@ -235,6 +238,32 @@ TEST(ContactCandidates, KnowNeighbours) {
   EXPECT_FALSE(candidates.are_neighbours({StencilKind::vertex_face, {4, 0, 1, 2}, {4, 0}}));
   EXPECT_TRUE(candidates.are_neighbours({StencilKind::edge_edge, {0, 1, 2, 3}, {0, 4}}));
   EXPECT_FALSE(candidates.are_neighbours({StencilKind::edge_edge, {1, 2, 4, 5}, {3, 5}}));
+}
+
+TEST(ContactCandidates, stop_within_a_long_gathering) {
+  // All are near all.
+  constexpr Index count = 400;
+  Positions x(3, 3 * count);
+  std::vector<Triangle> triangles;
+  for (Index t = 0; t < count; ++t) {
+    const double angle = 3.0 * t / count;
+    x.col(3 * t) = Vec3(std::cos(angle), std::sin(angle), 1e-3 * t);
+    x.col(3 * t + 1) = Vec3(-std::cos(angle), -std::sin(angle), 1e-3 * t);
+    x.col(3 * t + 2) = Vec3(0, 0.1, 9 + 1e-3 * t);
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  ContactCandidates candidates(triangles, 3 * count);
+  MotionBounds bounds;
+  bounds.reset(3 * count);
+  const std::vector<std::uint8_t> moves(3 * count, 1);
+  std::vector<NearStencil> found, again;
+  candidates.gather(x, 10, bounds, moves, found);
+  EXPECT_GT(found.size(), 500000u);
+  int asked = 0;
+  EXPECT_THROW(candidates.gather(x, 10, bounds, moves, again, [&] { return ++asked > 0; }), WorkStopped);
+  EXPECT_EQ(asked, 1);
+  candidates.gather(x, 10, bounds, moves, again);
+  EXPECT_TRUE(again == found);
 }
 
 }  // namespace

@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "contact/stop_check.h"
 
 namespace unsnarl {
 namespace {
@@ -75,6 +78,51 @@ TEST(IntersectionFinder, sorted_and_the_same_at_any_thread_count) {
     EXPECT_TRUE(found == expected) << threads << " threads";
   }
   EXPECT_GT(expected.size(), 100u);
+}
+
+TEST(IntersectionFinder, visits_what_it_finds_without_a_list_of_all) {
+  const WavySheets sheets(0.5);
+  const auto expected = IntersectionFinder(sheets.triangles).find(sheets.x);
+  IntersectionFinder finder(sheets.triangles);
+  std::vector<IntersectingPair> visited, kept;
+  std::size_t largest = 0;
+  finder.visit(sheets.x, {.keep = {}, .take = [&](std::span<const IntersectingPair> pairs) {
+                            largest = std::max(largest, pairs.size());
+                            visited.insert(visited.end(), pairs.begin(), pairs.end());
+                          }, .stop = {}});
+  std::sort(visited.begin(), visited.end());
+  EXPECT_TRUE(visited == expected);
+  EXPECT_LE(largest, 1024u);
+  const auto is_even = [](const IntersectingPair& pair) { return pair.a % 2 == 0; };
+  finder.visit(sheets.x, {.keep = is_even, .take = [&](std::span<const IntersectingPair> pairs) {
+                            kept.insert(kept.end(), pairs.begin(), pairs.end());
+                          }, .stop = {}});
+  EXPECT_EQ(kept.size(), static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), is_even)));
+  EXPECT_TRUE(finder.find(sheets.x) == expected);
+}
+
+TEST(IntersectionFinder, stops_when_asked_and_begins_anew) {
+  // Triangles through one line: every two intersect.
+  constexpr Index count = 1000;
+  Positions x(3, 3 * count);
+  std::vector<Triangle> triangles;
+  for (Index t = 0; t < count; ++t) {
+    const double angle = 3.0 * t / count;
+    x.col(3 * t) = Vec3(std::cos(angle), std::sin(angle), 1e-3 * t - 9);
+    x.col(3 * t + 1) = Vec3(-std::cos(angle), -std::sin(angle), 1e-3 * t - 9);
+    x.col(3 * t + 2) = Vec3(0, 0, 1e-3 * t + 9);
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  IntersectionFinder finder(triangles);
+  std::size_t visited = 0;
+  int asked = 0;
+  const auto always = [&] { return ++asked > 0; };
+  EXPECT_THROW(finder.find(x, always), WorkStopped);
+  EXPECT_THROW(finder.visit(x, {.keep = {}, .take = [&](auto pairs) { visited += pairs.size(); }, .stop = always}),
+               WorkStopped);
+  EXPECT_LT(visited, 300000u);
+  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(finder.find(x, [] { return false; }).size(), count * (count - 1) / 2u);
 }
 
 TEST(IntersectionFinder, what_moved_since_the_last_time_is_decided_as_if_anew) {

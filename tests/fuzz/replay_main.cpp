@@ -1,4 +1,4 @@
-// Runs one target over kept files, without a fuzzer: replay TARGET FILE_OR_FOLDER...
+// Runs one target over kept files and deeply nested texts, without a fuzzer: replay TARGET FILE_OR_FOLDER...
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/nested_shapes.h"
 #include "fuzz/targets.h"
 
 namespace fs = std::filesystem;
@@ -31,6 +32,10 @@ int main(int argc, char** argv) {
     std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     target->run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  }
+  for (const std::string& text : unsnarl::fuzz::nested_shapes()) {
+    std::fprintf(stderr, "nested: %s ...\n", text.substr(0, 60).c_str());
+    target->run({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   }
   std::printf("%zu files\n", files.size());
   return files.empty() ? 1 : 0;

@@ -39,7 +39,10 @@ TEST(Document, FreeSurferSurfacesNeedNoExtension) {
       return error.what();
     }
   };
-  EXPECT_EQ(error_of("lh.pial_semi", std::string("\xFF\xFF\xFE\n\n\0\0\0\0\0\0\0\0", 13)), "read as surf");
+  EXPECT_EQ(error_of("lh.pial_semi", std::string("\xFF\xFF\xFE\n\n\0\0\0\0\0\0\0\0", 13)),
+            (folder / "lh.pial_semi").string() +
+                ": the file has 0 vertices and no faces, so there is nothing to repair; it is cut short, or holds points "
+                "or lines only");
   EXPECT_PRED2(message_contains, error_of("mesh", triangle), "neither the extension nor the content tells the format");
   EXPECT_PRED2(message_contains, error_of("a.FBX", "anything"), "FBX files are not read; import it into Blender");
   EXPECT_PRED2(message_contains, error_of("a.usdz", "PK"), "USD files are not read");
@@ -47,6 +50,43 @@ TEST(Document, FreeSurferSurfacesNeedNoExtension) {
   EXPECT_PRED2(message_contains, error_of("a", "BLENDER-v300"), "Blend files are not read");
   EXPECT_PRED2(message_contains, error_of("a.ply", "#usda 1.0\n"), "USD files are not read");
   std::filesystem::remove_all(folder);
+}
+
+TEST(Document, WhatHasNoFacesIsRefused) {
+  const std::string gii_points =
+      "<GIFTI><DataArray Intent=\"NIFTI_INTENT_POINTSET\" DataType=\"NIFTI_TYPE_FLOAT32\" Dimensionality=\"2\" "
+      "Dim0=\"1\" Dim1=\"3\" Encoding=\"ASCII\"><Data>0 0 0</Data></DataArray><DataArray "
+      "Intent=\"NIFTI_INTENT_TRIANGLE\" DataType=\"NIFTI_TYPE_INT32\" Dimensionality=\"2\" Dim0=\"0\" Dim1=\"3\" "
+      "Encoding=\"ASCII\"><Data></Data></DataArray></GIFTI>";
+  const std::string vtp_points =
+      "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"1\"><Points><DataArray "
+      "type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0</DataArray></Points></Piece></PolyData>"
+      "</VTKFile>";
+  const std::vector<std::pair<Format, std::string>> files = {
+      {Format::obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\n"},
+      {Format::obj, "v 0 0 0\nv 1 0 0\nl 1 2\nf 1 2\n"},
+      {Format::obj, "# nothing\n"},
+      {Format::off, "OFF\n1 0 0\n0 0 0\n"},
+      {Format::ply,
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+       "0 0 0\n"},
+      {Format::stl, "solid a\nendsolid a\n"},
+      {Format::gltf, R"({"asset":{"version":"2.0"}})"},
+      {Format::gii, gii_points},
+      {Format::vtk, "# vtk DataFile Version 3.0\na\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 0 0\n"},
+      {Format::vtk,
+       "# vtk DataFile Version 3.0\na\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n0 0 0 1 1 1\nLINES 1 3\n2 0 1\n"},
+      {Format::vtp, vtp_points},
+      {Format::msh, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n"},
+      {Format::inp, "*NODE\n1, 0, 0, 0\n"}};
+  for (const auto& [format, bytes] : files) {
+    try {
+      Document::parse(bytes, format);
+      ADD_FAILURE() << "read: " << bytes;
+    } catch (const FileError& error) {
+      EXPECT_STRNE(error.what(), "");
+    }
+  }
 }
 
 TEST(Document, RefusesPositionsThatAreNotItsOwn) {

@@ -320,8 +320,8 @@ TEST_F(GiiFolder, WhatNeedNotBeReadIsPassedOnOrNoted) {
   ASSERT_EQ(parse(with("/no/such.dat")).notes().size(), 1u);
   EXPECT_EQ(
       parse(with("/no/such.dat")).notes()[0],
-      "DataArray 3 (NIFTI_INTENT_SHAPE) is not part of the surface, and its file is not copied: its numbers are in "
-      "'/no/such.dat', which is not in the folder of the GIFTI file, or a link out of it; put it there.");
+      "DataArray 3 (NIFTI_INTENT_SHAPE) is not part of the surface, and its file is not copied: '/no/such.dat' "
+      "is not in the folder of the file that names it, or is a link out of it; put it there.");
   EXPECT_EQ(parse(with("missing.dat")).notes().size(), 1u);
   EXPECT_EQ(parse(with("missing.dat")).patched(positions, true, "b.gii").size(), 2u);
 }

@@ -70,6 +70,17 @@ TEST_F(ObjAppearance, WhatIsMissingIsSaid) {
   EXPECT_TRUE(appearance_of(skinned, mtl_text, 10).uv_of_corner.empty());
 }
 
+TEST_F(ObjAppearance, LinksOutOfTheFolderAreNotFollowed) {
+  const TestFolder elsewhere;
+  std::filesystem::create_symlink(elsewhere.write("other.mtl", mtl_text), folder_.path() / "link.mtl");
+  std::filesystem::create_symlink(elsewhere.write("secret.png", png_bytes(3, 3)), folder_.path() / "link.png");
+  EXPECT_NE(appearance_of("mtllib link.mtl\n" + vertices + "f 1 2 3\n").notes.at(0).find("a link out of it"),
+            std::string::npos);
+  const Appearance look = appearance_of(vertices + "usemtl skin\nf 1 2 3\n", "newmtl skin\nmap_Kd link.png\n");
+  EXPECT_TRUE(look.images.empty());
+  EXPECT_NE(look.notes.at(0).find("a link out of it"), std::string::npos);
+}
+
 TEST_F(ObjAppearance, NotesEndSomewhere) {
   std::string obj = vertices, mtl;
   for (int i = 0; i < 30; ++i) {
@@ -84,7 +95,7 @@ TEST_F(ObjAppearance, NotesEndSomewhere) {
 TEST_F(ObjAppearance, OneColourIsNotWorthShowing) {
   EXPECT_FALSE(appearance_of(vertices + "usemtl red\nf 1 2 3\n").is_worth_showing());
   EXPECT_TRUE(appearance_of(vertices + "usemtl red\nf 1 2 3\nusemtl none\nf 1 2 4\n").is_worth_showing());
-  EXPECT_FALSE(appearance_of("v 0 0 0\n").is_worth_showing());
+  EXPECT_FALSE(appearance_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").is_worth_showing());
 }
 
 }  // namespace

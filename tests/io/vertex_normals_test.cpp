@@ -88,8 +88,8 @@ TEST(VertexNormals, PlyPropertiesOfVertices) {
 }
 
 TEST(VertexNormals, FilesWithoutThemSaySo) {
-  EXPECT_FALSE(Document::parse("v 0 0 0\n", Format::obj).recompute_normals());
-  EXPECT_FALSE(Document::parse("OFF\n0 0 0\n", Format::off).recompute_normals());
+  EXPECT_FALSE(Document::parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", Format::obj).recompute_normals());
+  EXPECT_FALSE(Document::parse("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", Format::off).recompute_normals());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "unsnarl/depth_limit.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl {
@@ -57,12 +58,19 @@ TEST(XmlText, errors_name_the_line) {
   EXPECT_NE(error(std::string("\xFF\xFE<\0a\0/\0>\0", 10)), "");
 }
 
-TEST(XmlText, depth_costs_nothing) {
-  std::string deep;
-  for (int i = 0; i < 200000; ++i) deep += "<a>";
-  EXPECT_NE(error(deep), "");
-  for (int i = 0; i < 200000; ++i) deep += "</a>";
-  EXPECT_EQ(error(deep), "");
+std::string nested(std::size_t depth, const std::string& inside = {}) {
+  std::string xml;
+  for (std::size_t i = 0; i < depth; ++i) xml += "<a>";
+  xml += inside;
+  for (std::size_t i = 0; i < depth; ++i) xml += "</a>";
+  return xml;
+}
+
+TEST(XmlText, what_is_nested_too_deeply_is_refused) {
+  EXPECT_EQ(error(nested(deepest_nesting, "text<!-- and a comment -->")), "");
+  EXPECT_EQ(error(nested(deepest_nesting + 1)).substr(0, 26), "line 1: nested too deeply:");
+  EXPECT_EQ(error(nested(200000)).substr(0, 26), "line 1: nested too deeply:");
+  EXPECT_NE(error(nested(200000).substr(0, 600000)), "");
 }
 
 }  // namespace

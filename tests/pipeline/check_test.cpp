@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -67,6 +68,49 @@ TEST(Check, vertices_of_components_are_those_of_the_mesh) {
   ASSERT_EQ(found.components.size(), 2u);
   EXPECT_EQ(found.components[0].vertices, 6u);
   EXPECT_EQ(found.components[1].vertices, 3u);
+}
+
+TEST(Check, lists_the_first_pairs_and_counts_all) {
+  const Surface surface = two_places();
+  const CheckReport all = check(surface);
+  for (const std::size_t listed : {std::size_t{0}, std::size_t{1}, all.pairs.size() / 3, 2 * all.pairs.size()}) {
+    const CheckReport found = check(surface, {}, {.pairs_listed = listed});
+    const std::size_t count = std::min(listed, all.pairs.size());
+    EXPECT_EQ(found.pairs, std::vector(all.pairs.begin(), all.pairs.begin() + static_cast<std::ptrdiff_t>(count)));
+    EXPECT_EQ(found.counts.by_class, all.counts.by_class);
+    EXPECT_EQ(found.faces, all.faces);
+    ASSERT_EQ(found.places.size(), all.places.size());
+    EXPECT_EQ(found.places[0].pairs, all.places[0].pairs);
+    EXPECT_EQ(found.places[0].faces, all.places[0].faces);
+    EXPECT_EQ(found.components[0].pairs_with_others, all.components[0].pairs_with_others);
+    EXPECT_EQ(found.intersecting_components, all.intersecting_components);
+  }
+}
+
+/// Triangles that all run through the line of those before: every two intersect.
+Surface bundle(std::int32_t count) {
+  Surface surface;
+  for (std::int32_t t = 0; t < count; ++t) {
+    const double angle = 3 * static_cast<double>(t) / count, shift = 1e-3 * t;
+    surface.positions.insert(surface.positions.end(), {-std::cos(angle), -std::sin(angle), shift - 9, std::cos(angle),
+                                                       std::sin(angle), shift - 9, 0, 0, shift + 9});
+    for (std::int32_t k = 0; k < 3; ++k) surface.corners.push_back(3 * t + k);
+  }
+  return surface;
+}
+
+TEST(Check, a_limit_ends_it) {
+  const Surface surface = bundle(800);
+  EXPECT_EQ(check(surface, {}, {.pairs_listed = 0}).counts.total(), 800u * 799 / 2);
+  for (const CheckLimits& limits : {CheckLimits{.time_limit_s = 1e-9}, CheckLimits{.memory_limit_mb = 1e-9}}) {
+    try {
+      check(surface, {}, limits);
+      ADD_FAILURE() << "no limit";
+    } catch (const LimitReached& reached) {
+      EXPECT_EQ(reached.status(), limits.time_limit_s > 0 ? Status::time_limit : Status::memory_limit);
+    }
+  }
+  EXPECT_THROW(check(surface, {}, {.time_limit_s = -1}), std::invalid_argument);
 }
 
 TEST(Check, an_empty_surface_has_nothing) {

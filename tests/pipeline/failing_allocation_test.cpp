@@ -7,12 +7,14 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
+#include <map>
 #include <new>
 
 #include "contact/intersection_finder.h"
 #include "pipeline/judged.h"
 #include "scene/shapes.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/sequence.h"
 
 namespace unsnarl {
 namespace {
@@ -107,10 +109,19 @@ TEST(FailingAllocation, a_finder_finds_all_when_it_is_asked_again) {
   }
 }
 
-TEST(FailingAllocation, leaves_the_status_true) {
+/// What an allocation that fails may make of a result: nothing, or one that says so.
+void expect_same_or_said(const RepairResult& result, const RepairResult& reference, const Surface& surface) {
+  const std::size_t left = judged(surface, result.positions).size();
+  EXPECT_EQ(result.report.after.total(), left);
+  EXPECT_LE(left, judged(surface, surface.positions).size());
+  if (result.status == Status::memory_limit) return;
+  EXPECT_EQ(result.status, reference.status);
+  EXPECT_TRUE(result.positions == reference.positions) << to_string(result.status) << " with other positions";
+}
+
+TEST(FailingAllocation, the_result_is_the_same_or_says_that_memory_ran_out) {
   const shapes::Shape shape = shapes::crossing_bumps(4, 0.3);
   const Surface surface = shape.surface();
-  const std::size_t before = judged(surface, surface.positions).size();
   for (const bool is_rigid : {false, true}) {
     SCOPED_TRACE(is_rigid);
     RepairOptions options;
@@ -118,10 +129,11 @@ TEST(FailingAllocation, leaves_the_status_true) {
     if (is_rigid)
       for (std::size_t v = 0; v < shape.points.size(); ++v)
         options.rigid.push_back(v < shape.points.size() / 2 ? 0 : -1);
-    Status status = Status::no_progress;
-    const long count = allocations_of([&] { status = repair(surface, options).status; });
-    ASSERT_EQ(status, Status::embedded);
-    constexpr int tries = 60;
+    RepairResult reference;
+    const long count = allocations_of([&] { reference = repair(surface, options); });
+    ASSERT_EQ(reference.status, Status::embedded);
+    constexpr int tries = 200;
+    int said = 0;
     for (int k = 0; k < tries; ++k) {
       SCOPED_TRACE(k);
       RepairResult result;
@@ -129,12 +141,53 @@ TEST(FailingAllocation, leaves_the_status_true) {
         EXPECT_LT(k, tries / 2) << "what was prepared can be given back as it was";
         continue;
       }
-      const std::size_t left = judged(surface, result.positions).size();
-      EXPECT_EQ(result.status == Status::embedded, left == 0) << to_string(result.status);
-      EXPECT_EQ(result.report.after.total(), left);
-      EXPECT_LE(left, before);
+      expect_same_or_said(result, reference, surface);
+      said += result.status == Status::memory_limit;
+    }
+    EXPECT_GT(said, tries / 2);
+  }
+}
+
+/// A sequence of two sheets that pass through each other, and what becomes of it.
+std::map<std::size_t, FrameResult> repaired_frames() {
+  const shapes::Shape shape = shapes::crossing_bumps(3, 0.3);
+  const Surface surface = shape.surface();
+  SequenceSource source;
+  source.corners = surface.corners;
+  source.frames = 3;
+  source.positions = [&](std::size_t t) {
+    std::vector<double> positions = surface.positions;
+    for (std::size_t v = 0; v < positions.size() / 6; ++v) positions[3 * v + 2] += 0.02 * static_cast<double>(t);
+    return positions;
+  };
+  SequenceOptions options;
+  options.repair.find.threads = 1;
+  std::map<std::size_t, FrameResult> results;
+  repair_sequence(source, options, [&](FrameResult&& result) { results[result.report.frame] = std::move(result); });
+  return results;
+}
+
+TEST(FailingAllocation, frames_are_the_same_or_say_that_memory_ran_out) {
+  std::map<std::size_t, FrameResult> reference;
+  const long count = allocations_of([&] { reference = repaired_frames(); });
+  ASSERT_EQ(reference.size(), 3u);
+  bool is_any_smoothed = false;
+  for (const auto& [t, frame] : reference) is_any_smoothed |= frame.report.is_smoothed;
+  EXPECT_TRUE(is_any_smoothed);
+  constexpr int tries = 150;
+  int said = 0;
+  for (int k = 0; k < tries; ++k) {
+    SCOPED_TRACE(k);
+    std::map<std::size_t, FrameResult> results;
+    if (!ends_without(count * k / tries, [&] { results = repaired_frames(); })) continue;
+    for (const auto& [t, frame] : results) {
+      said += frame.report.status == Status::memory_limit;
+      if (frame.report.status == Status::memory_limit) continue;
+      EXPECT_EQ(frame.report.status, reference[t].report.status);
+      EXPECT_TRUE(frame.positions == reference[t].positions) << "frame " << t;
     }
   }
+  EXPECT_GT(said, 0);
 }
 
 }  // namespace

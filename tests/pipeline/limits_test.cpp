@@ -20,6 +20,8 @@ void expect_true_and_not_worse(const Surface& surface, const RepairResult& resul
   const std::size_t left = judged(surface, result.positions).size();
   EXPECT_EQ(result.report.after.total(), left);
   EXPECT_LE(left, judged(surface, surface.positions).size());
+  // Where memory ran out a result is not the one that it would be, embedded or not.
+  if (result.status == Status::memory_limit) return;
   EXPECT_EQ(result.status == Status::embedded, left == 0) << to_string(result.status);
 }
 

@@ -418,6 +418,23 @@ TEST(Recover, StoppedAtOnceItDoesNotOpenGaps) {
     EXPECT_TRUE(stopped.x.col(v) == patch.x.col(v) || stopped.x.col(v) == patch.rest.col(v)) << v;
 }
 
+TEST(Recover, stops_within_a_step) {
+  // So many looks at the clock, and where they end it: all leave an embedded state that was reached.
+  Patch reference = crossing_bumps(12, 0.5, 0.05);
+  int looks = 0;
+  recover(reference, {}, [&] { return ++looks < 0; });
+  ASSERT_GT(looks, 10);
+  for (int last = 0; last < looks; last += 1 + looks / 20) {
+    SCOPED_TRACE(last);
+    Patch patch = crossing_bumps(12, 0.5, 0.05);
+    int asked = 0;
+    const RecoverResult result = recover(patch, {}, [&] { return asked++ >= last; });
+    EXPECT_TRUE(result.stopped);
+    EXPECT_LE(asked, last + 20) << "it ends soon";
+    EXPECT_TRUE(IntersectionFinder(patch.triangles, patch.active_count).find(patch.x).empty());
+  }
+}
+
 TEST(Recover, PairsThatCannotBePartedAreNoObstacle) {
   // A duplicate of a free face: an intersecting pair before and after, and no other.
   Patch patch = crossing_bumps(12, 0.4, 1e-12);

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
 #include "unsnarl/certify.h"
 #include "unsnarl/repair.h"
 
@@ -47,6 +51,44 @@ TEST(FacePairs, repair_holds_for_either_diagonal) {
   EXPECT_EQ(find_intersections({result.positions, surface.corners, surface.offsets}, both).size(), 0u);
   // Nobody asked: it is embedded as it is cut.
   EXPECT_TRUE(repair(surface).positions == surface.positions);
+}
+
+/// Polygons of 3 to 6 corners in one heap.
+Surface heap_of_polygons() {
+  Surface surface;
+  surface.offsets.push_back(0);
+  std::uint64_t state = 1;
+  const auto random = [&] {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(state >> 33) / static_cast<double>(std::uint64_t{1} << 31);
+  };
+  for (int f = 0; f < 60; ++f) {
+    const double x = 3 * random(), y = 3 * random(), z = random();
+    const int corners = 3 + f % 4;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * 3.14159265358979 * k / corners;
+      surface.corners.push_back(static_cast<std::int32_t>(surface.positions.size() / 3));
+      surface.positions.insert(surface.positions.end(),
+                               {x + std::cos(angle), y + std::sin(angle), z + 0.4 * random() * std::cos(2 * angle)});
+    }
+    surface.offsets.push_back(static_cast<std::int32_t>(surface.corners.size()));
+  }
+  return surface;
+}
+
+TEST(FacePairs, visits_the_pairs_that_it_finds_each_once) {
+  const Surface surface = heap_of_polygons();
+  for (const FindOptions& options : {FindOptions{}, both}) {
+    const PreparedSurface prepared = prepare(surface, options);
+    const std::vector<IntersectingPair> found = FacePairFinder(prepared).find(prepared.rest);
+    std::vector<IntersectingPair> visited;
+    FacePairFinder(prepared).visit(prepared.rest, {}, [&](std::span<const IntersectingPair> pairs) {
+      visited.insert(visited.end(), pairs.begin(), pairs.end());
+    });
+    std::sort(visited.begin(), visited.end());
+    EXPECT_GT(found.size(), 100u);
+    EXPECT_EQ(visited, found);
+  }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "input_bytes.h"
+#include "unsnarl/depth_limit.h"
 
 namespace unsnarl::app {
 namespace {
@@ -80,6 +81,7 @@ void BatchJournal::ended(const std::string& key, const std::string& result) {
 }
 
 void BatchJournal::take(std::string_view line) {
+  if (too_deep_bracket(line) != std::string_view::npos) return;
   const Json json = Json::parse(line, nullptr, false);
   if (!json.is_object()) return;
   const auto word = [&json](const char* name) {

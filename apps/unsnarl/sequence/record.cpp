@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "input_bytes.h"
+#include "unsnarl/depth_limit.h"
 
 namespace unsnarl::app {
 
@@ -41,6 +42,7 @@ void SequenceRecord::read() {
   std::istringstream file(bytes_if_readable(path_.string()));
   for (std::string line; std::getline(file, line);) {
     ends_in_a_line_ = !file.eof();
+    if (too_deep_bracket(line) != std::string::npos) continue;
     Json json = Json::parse(line, nullptr, false);
     if (!json.is_object() || !json.contains("name") || !json["name"].is_string()) continue;
     const std::string name = json["name"].get<std::string>();

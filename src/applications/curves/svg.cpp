@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <new>
 #include <optional>
 #include <pugixml.hpp>
 
@@ -13,6 +14,8 @@
 #include "applications/curves/path_data.h"
 #include "applications/curves/written_places.h"
 #include "io/text_edits.h"
+#include "io/xml_text.h"
+#include "unsnarl/depth_limit.h"
 
 namespace unsnarl {
 namespace {
@@ -137,10 +140,14 @@ class SvgParser {
     const pugi::xml_parse_result result =
         document.load_buffer(file_.bytes.data(), file_.bytes.size(),
                              pugi::parse_default | pugi::parse_declaration | pugi::parse_doctype, pugi::encoding_utf8);
+    if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result)
       throw FileError(fmt::format("line {}: this is not well-formed XML: {}",
                                   line_of(file_.bytes, std::min<std::size_t>(result.offset, file_.bytes.size())),
                                   result.description()));
+    if (const std::optional<std::size_t> place = too_deep_element(document))
+      throw FileError(fmt::format("line {}: nested too deeply: more than {} elements within each other",
+                                  line_of(file_.bytes, std::min(*place, file_.bytes.size())), deepest_nesting));
     const pugi::xml_node root = document.document_element();
     if (local_name(root) != "svg")
       throw FileError(fmt::format("the root element is <{}>; an SVG file has <svg>", root.name()));

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace unsnarl {
+
+// What a file names, its buffers, images, materials and arrays, is read by one rule: it lies in the folder of that file
+// or below, by its name and once symbolic links are followed. A mesh from elsewhere could have any other file of ours
+// copied beside its result, or put into a page.
+
+/// The place of the file `name` that a file in `folder` names. Throws FileError unless the rule allows it; whether it
+/// is there is for its reader to say.
+std::filesystem::path linked_file(const std::filesystem::path& folder, const std::filesystem::path& name);
+
+/// The bytes of this file. Throws FileError.
+std::string read_linked_file(const std::filesystem::path& folder, const std::filesystem::path& name);
+
+}  // namespace unsnarl
