@@ -73,7 +73,7 @@ int tell_failure(const SeifertCommandOptions& options, std::string why) {
     tell(
         fmt::format("{}: no surface was found that holds: {}. Are strands too close to each other for double "
                     "precision? Move them apart\n{}: nothing was written\n",
-                    options.input, why, to_string(Status::no_progress)));
+                    visible_text(options.input), why, to_string(Status::no_progress)));
   return exit_code_of(Status::no_progress);
 }
 
