@@ -79,7 +79,7 @@ Strategy coarse_to_fine() {
 
 /// This strategy takes what the others have left for twice as deep, and so resolves it in wider surroundings on a
 /// coarser mesh. It saves time: without it whole components take its place, and samples, posed bodies and the deepest
-/// warps end as near in 1.1 of the time, a torus of these in 57 s, not 32 (docs/performance.md).
+/// warps end as near in 1.1 of the time, a torus of these in 57 s, not 32 (docs/experiments.md).
 Strategy wide_coarse_to_fine() {
   Strategy wide = coarse_to_fine();
   wide.name = "coarse_to_fine_wide";
