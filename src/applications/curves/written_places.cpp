@@ -9,13 +9,13 @@
 namespace unsnarl {
 namespace {
 
-using Place = std::array<double, 2>;
+using WrittenPlace = std::array<double, 2>;
 
 /// Neighbouring doubles, to either side, among which a coordinate is looked for that is read as wanted: a rotation
 /// reaches a given position from about one of them.
 constexpr int neighbours_looked_at = 3;
 
-Place place_at(const Curve& curve, std::size_t k) {
+WrittenPlace place_at(const Curve& curve, std::size_t k) {
   return {curve.points[2 * k], curve.points[2 * k + 1]};
 }
 
@@ -58,10 +58,10 @@ WrittenPlaces::WrittenPlaces(std::span<const Curve> own, std::span<const Curve> 
     : rounding_(rounding) {
   for (std::size_t c = 0; c < moved.size(); ++c) {
     const bool is_as_long = moved[c].size() == own[c].size();
-    std::set<Place> places;
+    std::set<WrittenPlace> places;
     for (std::size_t k = 0; !is_as_long && k < own[c].size(); ++k) places.insert(place_at(own[c], k));
     for (std::size_t k = 0; k < moved[c].size(); ++k) {
-      const Place now = place_at(moved[c], k);
+      const WrittenPlace now = place_at(moved[c], k);
       std::array<bool, 2>& kept = kept_[now];
       for (std::size_t axis = 0; axis < 2; ++axis)
         kept[axis] |= is_as_long ? now[axis] == place_at(own[c], k)[axis] : places.contains(now);
