@@ -128,7 +128,7 @@ void describe_components(const SurfaceView& surface, const WeldMap& weld_map, co
   std::vector<bool> is_counted(surface.vertex_count(), false);  // a vertex is of one component only
   for (Index f = 0; f < static_cast<Index>(surface.face_count()); ++f)
     for (const Index v : surface.face(f)) {
-      if (!is_counted[v]) ++found.components[component_of(f)].vertices;
+      if (!is_counted[v]) ++found.components[component_of_face(surface, weld_map, components, f)].vertices;
       is_counted[v] = true;
     }
   for (const Component& component : components.list) found.closed_non_orientable += component.obstructed();
