@@ -77,8 +77,7 @@ void add_time_limit(CLI::App& command, double& seconds, const std::string& group
 }
 
 void add_memory_limit(CLI::App& command, double& megabytes, const std::string& group) {
-  command
-      .add_option("--memory-limit", megabytes, "Stop before the program holds more than this many MB; 0: none")
+  command.add_option("--memory-limit", megabytes, "Stop before the program holds more than this many MB; 0: none")
       ->check(not_negative())
       ->type_name("MB")
       ->group(group);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <stdexcept>
-#include <string>
 
 #include "unsnarl/report.h"
 
@@ -12,10 +11,7 @@ namespace unsnarl {
 class LimitReached : public std::runtime_error {
  public:
   /// status: Status::time_limit or Status::memory_limit
-  explicit LimitReached(Status status)
-      : std::runtime_error(std::string(status == Status::memory_limit ? "the memory limit" : "the time limit") +
-                           " was reached before all self-intersections of the input were found"),
-        status_(status) {}
+  explicit LimitReached(Status status);
   Status status() const { return status_; }
 
  private:

@@ -101,8 +101,9 @@ struct RepairResult {
 /// Moves the vertices as little as possible so that no two faces intersect; connectivity is kept.
 ///
 /// Nothing is lost where memory runs out on the way, and the status says so (memory_limit), also of a result that is
-/// embedded; std::bad_alloc is thrown only if there is not even enough to find the input's intersections. Never returns positions with more intersecting pairs than the input. The same input and
-/// options give the same bytes at any thread count (time limits and cancellation aside).
+/// embedded; std::bad_alloc is thrown only if there is not even enough to find the input's intersections. Never returns
+/// positions with more intersecting pairs than the input. The same input and options give the same bytes at any thread
+/// count (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an
 /// option is out of range, GapTooWide among them; LimitReached where a limit ends the search for the input's

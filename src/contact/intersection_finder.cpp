@@ -230,8 +230,8 @@ std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x, const
   } else if (is_all_undecided_) {
     ++decided_as_a_whole_;
     prepare_all();
-    pairs_ = decide(
-        stop, [&](Index i, Index j) { return share_an_unfolded_fan(*fans_, triangles_[i], triangles_[j]); });
+    pairs_ =
+        decide(stop, [&](Index i, Index j) { return share_an_unfolded_fan(*fans_, triangles_[i], triangles_[j]); });
   } else if (!undecided_.items().empty()) {
     update_tree();
     tree_.set_only_active(undecided_.items());

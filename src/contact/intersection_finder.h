@@ -32,9 +32,9 @@ class IntersectionFinder {
 
   /// Takes part of visit().
   struct PairVisitor {
-    std::function<bool(const IntersectingPair&)> keep;                  ///< of those that intersect; empty: all
-    std::function<void(std::span<const IntersectingPair>)> take;        ///< a block of those kept
-    std::function<bool()> stop;                                         ///< may be empty
+    std::function<bool(const IntersectingPair&)> keep;            ///< of those that intersect; empty: all
+    std::function<void(std::span<const IntersectingPair>)> take;  ///< a block of those kept
+    std::function<bool()> stop;                                   ///< may be empty
   };
   /// The same pairs in blocks and in no order, so that memory does not follow their number; none is remembered. `keep`
   /// is called by many threads, `take` by one at a time. Throws WorkStopped soon after `stop` says so.

@@ -171,8 +171,8 @@ void GltfBuffers::load(std::size_t i, const JsonText::Value& json, std::string_v
   }
   buffer.name = std::filesystem::path(percent_decoded(uri)).lexically_normal();
   if (uri.find("://") != std::string::npos)
-    buffer.error = fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i,
-                               in_quotes(uri));
+    buffer.error =
+        fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i, in_quotes(uri));
 }
 
 std::size_t GltfBuffers::resolve(std::size_t buffer) const {

@@ -27,8 +27,9 @@ bool leads_inside(const fs::path& folder, const fs::path& name) {
 fs::path linked_file(const fs::path& folder, const fs::path& name) {
   const fs::path from = folder.empty() ? fs::path(".") : folder;
   if (!is_inside_folder(name) || !leads_inside(from, name))
-    throw FileError(fmt::format("{} is not in the folder of the file that names it, or is a link out of it; put it there",
-                                in_quotes(name.string())));
+    throw FileError(
+        fmt::format("{} is not in the folder of the file that names it, or is a link out of it; put it there",
+                    in_quotes(name.string())));
   return folder / name;
 }
 

@@ -38,8 +38,8 @@ XmlText::XmlText(std::string_view text, const char* root, std::string_view endin
          fmt::format("this is no XML ({}); the file is cut short, damaged or of another format", result.description()));
   }
   if (const std::optional<std::size_t> place = too_deep_element(document_))
-    fail(std::min(*place, text.size()), fmt::format("nested too deeply: more than {} elements within each other",
-                                                    deepest_nesting));
+    fail(std::min(*place, text.size()),
+         fmt::format("nested too deeply: more than {} elements within each other", deepest_nesting));
   root_ = document_.document_element();
   if (std::strcmp(root_.name(), root) != 0) {
     fail(root_, fmt::format("the root element is <{}>, but <{}> should be here; check the format",
@@ -82,8 +82,8 @@ std::size_t XmlText::whole_number(const pugi::xml_node& element, const char* att
 std::string XmlText::value(const pugi::xml_attribute& attribute) {
   const std::string text = fmt::format("<value>{}</value>", attribute.value());
   pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(
-      text.data(), text.size(), pugi::parse_escapes | pugi::parse_ws_pcdata, pugi::encoding_utf8);
+  const pugi::xml_parse_result result =
+      document.load_buffer(text.data(), text.size(), pugi::parse_escapes | pugi::parse_ws_pcdata, pugi::encoding_utf8);
   if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   return document.document_element().text().get();
 }

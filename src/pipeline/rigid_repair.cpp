@@ -86,8 +86,7 @@ class RigidRepair {
 
   void diagnose_within_limits() {
     try {
-      diagnosis_ =
-          diagnose(surface_, prepared_, fixed_, finders_->as_is, limits_.stopper_but_for_cancellation());
+      diagnosis_ = diagnose(surface_, prepared_, fixed_, finders_->as_is, limits_.stopper_but_for_cancellation());
     } catch (const WorkStopped&) {
       throw LimitReached(limits_.status_or(Status::time_limit));
     }

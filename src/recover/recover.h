@@ -30,7 +30,8 @@ struct RecoverResult {
 /// whichever is less, and those that end closer than min_gap are opened, unless they are hemmed in (neighbours that are
 /// closer at rest need a share of their rest distance only); free vertices that can reach their rest
 /// positions are bit-exactly there; what is closer than round-off to something stays where it is while others step, and
-/// so does all where most edges are shorter than that; the same bytes at any number of threads. `stop` is asked once a step; what was reached by then is kept.
+/// so does all where most edges are shorter than that; the same bytes at any number of threads. `stop` is asked once a
+/// step; what was reached by then is kept.
 RecoverResult recover(Patch& patch, const RecoverOptions& options = {}, const std::function<bool()>& stop = {});
 
 }  // namespace unsnarl

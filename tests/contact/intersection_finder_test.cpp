@@ -86,17 +86,22 @@ TEST(IntersectionFinder, visits_what_it_finds_without_a_list_of_all) {
   IntersectionFinder finder(sheets.triangles);
   std::vector<IntersectingPair> visited, kept;
   std::size_t largest = 0;
-  finder.visit(sheets.x, {.keep = {}, .take = [&](std::span<const IntersectingPair> pairs) {
-                            largest = std::max(largest, pairs.size());
-                            visited.insert(visited.end(), pairs.begin(), pairs.end());
-                          }, .stop = {}});
+  finder.visit(sheets.x, {.keep = {},
+                          .take =
+                              [&](std::span<const IntersectingPair> pairs) {
+                                largest = std::max(largest, pairs.size());
+                                visited.insert(visited.end(), pairs.begin(), pairs.end());
+                              },
+                          .stop = {}});
   std::sort(visited.begin(), visited.end());
   EXPECT_TRUE(visited == expected);
   EXPECT_LE(largest, 1024u);
   const auto is_even = [](const IntersectingPair& pair) { return pair.a % 2 == 0; };
-  finder.visit(sheets.x, {.keep = is_even, .take = [&](std::span<const IntersectingPair> pairs) {
-                            kept.insert(kept.end(), pairs.begin(), pairs.end());
-                          }, .stop = {}});
+  finder.visit(
+      sheets.x,
+      {.keep = is_even,
+       .take = [&](std::span<const IntersectingPair> pairs) { kept.insert(kept.end(), pairs.begin(), pairs.end()); },
+       .stop = {}});
   EXPECT_EQ(kept.size(), static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), is_even)));
   EXPECT_TRUE(finder.find(sheets.x) == expected);
 }

@@ -39,10 +39,11 @@ TEST(Document, FreeSurferSurfacesNeedNoExtension) {
       return error.what();
     }
   };
-  EXPECT_EQ(error_of("lh.pial_semi", std::string("\xFF\xFF\xFE\n\n\0\0\0\0\0\0\0\0", 13)),
-            (folder / "lh.pial_semi").string() +
-                ": the file has 0 vertices and no faces, so there is nothing to repair; it is cut short, or holds points "
-                "or lines only");
+  EXPECT_EQ(
+      error_of("lh.pial_semi", std::string("\xFF\xFF\xFE\n\n\0\0\0\0\0\0\0\0", 13)),
+      (folder / "lh.pial_semi").string() +
+          ": the file has 0 vertices and no faces, so there is nothing to repair; it is cut short, or holds points "
+          "or lines only");
   EXPECT_PRED2(message_contains, error_of("mesh", triangle), "neither the extension nor the content tells the format");
   EXPECT_PRED2(message_contains, error_of("a.FBX", "anything"), "FBX files are not read; import it into Blender");
   EXPECT_PRED2(message_contains, error_of("a.usdz", "PK"), "USD files are not read");

@@ -318,10 +318,9 @@ TEST_F(GiiFolder, WhatNeedNotBeReadIsPassedOnOrNoted) {
     return replaced(one, "</GIFTI>", array("SHAPE", "FLOAT32", name, 0) + "</GIFTI>");
   };
   ASSERT_EQ(parse(with("/no/such.dat")).notes().size(), 1u);
-  EXPECT_EQ(
-      parse(with("/no/such.dat")).notes()[0],
-      "DataArray 3 (NIFTI_INTENT_SHAPE) is not part of the surface, and its file is not copied: '/no/such.dat' "
-      "is not in the folder of the file that names it, or is a link out of it; put it there.");
+  EXPECT_EQ(parse(with("/no/such.dat")).notes()[0],
+            "DataArray 3 (NIFTI_INTENT_SHAPE) is not part of the surface, and its file is not copied: '/no/such.dat' "
+            "is not in the folder of the file that names it, or is a link out of it; put it there.");
   EXPECT_EQ(parse(with("missing.dat")).notes().size(), 1u);
   EXPECT_EQ(parse(with("missing.dat")).patched(positions, true, "b.gii").size(), 2u);
 }
@@ -361,7 +360,7 @@ TEST_F(GiiFolder, ReferencesOutOfTheFolderAndDamageAreRefused) {
   EXPECT_EQ(parse(named("sub/link.dat")).surface().positions, positions);
   const std::string where = "line 4: DataArray 1 (NIFTI_INTENT_POINTSET): ";
   for (const std::string name : {"/etc/hostname", "../all.dat", "sub/../all.dat", "out.dat", "etc/hostname"})
-    expect_error(named(name), where + "its numbers are in '" + name + "', which is not in the folder");
+    expect_error(named(name), where + "'" + name + "' is not in the folder");
   expect_error(named("none.dat"), "none.dat: cannot open");
   expect_error(named("sub"), "is a folder");
   expect_error(named(""), "ExternalFileName does not say which");

@@ -83,8 +83,8 @@ Patch crumpled_sheet(int n, double noise, std::uint64_t seed) {
   return sheets.patch;
 }
 
-/// Three sheets 1e-9 apart within their fixed borders, crumpled at rest, every second vertex 1e-9 away from an opposite edge of its star:
-/// needles that are hemmed in from all sides.
+/// Three sheets 1e-9 apart within their fixed borders, crumpled at rest, every second vertex 1e-9 away from an opposite
+/// edge of its star: needles that are hemmed in from all sides.
 Patch needles_between_sheets(int n, std::uint64_t seed) {
   constexpr double tiny = 1e-9;
   Sheets sheets(n, 3);
