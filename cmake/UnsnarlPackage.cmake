@@ -5,14 +5,12 @@ set(CPACK_PACKAGE_CONTACT "the unsnarl authors")
 set(CPACK_PACKAGE_HOMEPAGE_URL "${PROJECT_HOMEPAGE_URL}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "removes self-intersections from surface meshes")
 set(CPACK_DEBIAN_UNSNARL_DESCRIPTION
-"${CPACK_PACKAGE_DESCRIPTION_SUMMARY}
-Takes a surface mesh that runs through itself and gives back the same mesh,
+"Takes a surface mesh that runs through itself and gives back the same mesh,
 moved as little as possible, with no self-intersection left: same vertices,
 faces and attributes, certified by exact arithmetic on the file that was
 written. Holds the program and the library for C.")
 set(CPACK_DEBIAN_UNSNARL_DEV_DESCRIPTION
-"${CPACK_PACKAGE_DESCRIPTION_SUMMARY} (development)
-The libraries of unsnarl for programs in C++ (static) and C (shared):
+"The libraries of unsnarl for programs in C++ (static) and C (shared):
 headers, examples, and files for find_package of CMake and for pkg-config.")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_GENERATOR DEB)

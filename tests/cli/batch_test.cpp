@@ -412,7 +412,7 @@ TEST_F(BatchCli, RefusesWhatMakesNoSense) {
 TEST_F(BatchCli, ReplacesAndDeletesNothingThatNoBatchHasWritten) {
   mesh("crossing.obj", crossing);
   for (const char* const name : {"fixed", "reports", "thumbnails", "work"}) {
-    const std::string thesis = out + "/" + name + "/1-of-1/thesis.txt";
+    const std::string thesis = out + "/" + name + "/0-of-1/thesis.txt";
     fs::create_directories(fs::path(thesis).parent_path());
     write(thesis, "precious");
     fs::create_directories(out + "/journal");  // somebody's own
