@@ -3,37 +3,16 @@
 #include <sys/mount.h>
 #include <sys/stat.h>
 
-#include <array>
-#include <bit>
-#include <cstdint>
 #include <cstdlib>
 
 #include "cli/program_test.h"
+#include "cli/two_tetrahedra.h"
 
 /// Whatever call of the system fails, all files that one call of the program writes are new, or all are as they were.
 namespace unsnarl::cli {
 namespace {
 
-/// A tetrahedron into which the tip of a small one sticks.
-constexpr std::array<std::array<float, 3>, 8> points = {{{0, 0, 0},
-                                                         {4, 0, 0},
-                                                         {0, 4, 0},
-                                                         {0, 0, 4},
-                                                         {1.2F, 1.2F, 1.1F},
-                                                         {2.6F, 2.5F, 2},
-                                                         {2.5F, 2.6F, 2.2F},
-                                                         {2, 2, 2.7F}}};
-constexpr std::array<int, 24> corners = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 4, 6, 5, 4, 5, 7, 5, 6, 7, 4, 7, 6};
-
-std::string buffer() {
-  std::string bytes;
-  for (const int c : corners)
-    for (const float x : points[c]) {
-      const auto word = std::bit_cast<std::uint32_t>(x);
-      for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 255);
-    }
-  return bytes;
-}
+using two_tetrahedra::buffer;
 
 std::string gltf(const std::string& uri) {
   return fmt::format(
@@ -137,11 +116,9 @@ TEST_F(FailingCalls, AMeshWhoseReportOrPictureFailsIsNotReplaced) {
   for (const auto& [option, name] :
        {std::pair("--report", "r.json"), {"--picture", "p.png"}, {"--highlight", "h.ply"}, {"--record", "c.json"}}) {
     fs::create_directory(folder / "said");
-    const Outcome outcome = run_with({"fix", in, "-o", out, option, folder / (std::string("said/") + name)},
-                                     {{"FAIL_WHAT", "write"},
-                                      {"FAIL_BELOW", folder / "said"},
-                                      {"FAIL_AT", "1"},
-                                      {"FAIL_MODE", "after"}});
+    const Outcome outcome =
+        run_with({"fix", in, "-o", out, option, folder / (std::string("said/") + name)},
+                 {{"FAIL_WHAT", "write"}, {"FAIL_BELOW", folder / "said"}, {"FAIL_AT", "1"}, {"FAIL_MODE", "after"}});
     EXPECT_EQ(outcome.exit_code, 9) << option << outcome.err;
     EXPECT_EQ(contents(out), "precious") << option;
     EXPECT_TRUE(fs::is_empty(folder / "said")) << option;

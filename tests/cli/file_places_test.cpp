@@ -3,35 +3,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
-#include <bit>
-#include <cstdint>
-
 #include "cli/program_test.h"
+#include "cli/two_tetrahedra.h"
 
 namespace unsnarl::cli {
 namespace {
 
-constexpr std::array<std::array<float, 3>, 8> points = {{{0, 0, 0},
-                                                         {4, 0, 0},
-                                                         {0, 4, 0},
-                                                         {0, 0, 4},
-                                                         {1.2F, 1.2F, 1.1F},
-                                                         {2.6F, 2.5F, 2},
-                                                         {2.5F, 2.6F, 2.2F},
-                                                         {2, 2, 2.7F}}};
-constexpr std::array<int, 24> corners = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 4, 6, 5, 4, 5, 7, 5, 6, 7, 4, 7, 6};
-
-/// A tetrahedron and a small one whose tip sticks into it, larger by `scale`, as the bytes of a buffer.
-std::string buffer(float scale) {
-  std::string bytes;
-  for (const int c : corners)
-    for (const float x : points[c]) {
-      const auto word = std::bit_cast<std::uint32_t>(scale * x);
-      for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 255);
-    }
-  return bytes;
-}
+using two_tetrahedra::buffer;
 
 std::string gltf(float scale) {
   return fmt::format(

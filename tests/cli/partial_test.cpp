@@ -9,12 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program_test.h"
+#include "cli/two_tetrahedra.h"
 
 /// What a repair reached that did not end clean.
 namespace unsnarl::cli {
 namespace {
 
-constexpr std::array<int, 24> corners = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 4, 6, 5, 4, 5, 7, 5, 6, 7, 4, 7, 6};
+using two_tetrahedra::corners;
 
 /// Two tetrahedra, of which the second sticks into the first so deep, at least.
 std::array<std::array<double, 3>, 8> tetrahedra(double x, double depth) {
