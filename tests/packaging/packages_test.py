@@ -40,7 +40,7 @@ def pack(target, **options):
 
 
 def main():
-    for tool in ("patchelf", "dpkg-shlibdeps"):
+    for tool in ("patchelf", "dpkg-shlibdeps", "file"):
         if not shutil.which(tool):
             print(f"{tool} is not installed")
             sys.exit(SKIPPED)
