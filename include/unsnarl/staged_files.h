@@ -63,6 +63,7 @@ class StagedFiles {
   void prepare() const;
   const File* changed_file() const;
   std::string where_old_files_are() const;
+  void remove_known_files(const std::filesystem::path& staging) const;
   std::filesystem::path staging_of(const std::filesystem::path& target) const;
 
   /// Bytes that removing a folder needs: listing one takes a buffer of 32 kB, which there may be none for where the

@@ -352,7 +352,9 @@ weld_tolerance, both_diagonals, each_component, threads, recover, paper, progres
     moved = scene.split(V) if document.is_scene else V
     written = target if is_written else None
     sizes = scene.mesh_sizes if document.is_scene else None
-    kept = None if not partial else partial if document.is_scene else partial[0]
+    kept: Union[Path, list[Path], None] = None
+    if partial:
+        kept = partial if document.is_scene else partial[0]
     return Result(
         moved, repaired.status, report, None, written, scene.surface, V, sizes, _document=document, partial=kept
     )

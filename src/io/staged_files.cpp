@@ -193,7 +193,19 @@ StagedFiles::StagedFiles() : reserve_(new char[reserve_size]) {}
 StagedFiles::~StagedFiles() {
   reserve_.reset();
   std::error_code ignored;
-  for (const fs::path& folder : folders()) fs::remove_all(folder, ignored);
+  for (const fs::path& folder : folders()) {
+    fs::remove_all(folder, ignored);
+    if (ignored) remove_known_files(folder);
+  }
+}
+
+/// Without listing folders, for which there may be no descriptor left.
+void StagedFiles::remove_known_files(const fs::path& staging) const {
+  for (const File& file : files_) {
+    ::unlink(file.staged.c_str());
+    ::unlink(file.old.c_str());
+  }
+  for (const fs::path& folder : {staging / new_folder, staging / old_folder, staging}) ::rmdir(folder.c_str());
 }
 
 void StagedFiles::open(const fs::path& target, Links links) {

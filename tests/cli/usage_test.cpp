@@ -160,8 +160,8 @@ TEST_F(Usage, ForeignFormatsAreRefusedWithAHint) {
 
 TEST_F(Usage, ContentAndNameAreOfOneFormat) {
   const std::string ply =
-      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
-      "element face 0\nproperty list uchar int vertex_indices\nend_header\n";
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   expect_refusal({"check", file("a.obj", ply)}, 3, "by its content this is ply, not obj; name it *.ply");
   expect_refusal({"check", file("a.stl", ply)}, 3, "by its content this is ply, not stl");
   EXPECT_EQ(run({"check", file("a", ply)}).exit_code, 0);
