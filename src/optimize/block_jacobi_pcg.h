@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/fit.h"
 #include "geometry/parallel_sums.h"
 
 namespace unsnarl {
@@ -26,8 +27,8 @@ class BlockJacobiPcg {
   int solve(Apply&& apply, std::span<const Eigen::Matrix3d> inverse_blocks, const Eigen::Matrix3Xd& b,
             Eigen::Matrix3Xd& x, const PcgOptions& options) {
     const Index n = static_cast<Index>(b.cols());
-    for (Eigen::Matrix3Xd* w : {&r_, &z_, &p_, &ap_}) w->resize(3, n);
-    x.setZero(3, n);
+    for (Eigen::Matrix3Xd* w : {&r_, &z_, &p_, &ap_, &x}) fit(*w, 3, n);
+    x.setZero();
     r_ = b;
     double rz = step(inverse_blocks, 0, x);
     p_ = z_;

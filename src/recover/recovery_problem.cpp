@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/fit.h"
 #include "mesh/union_find.h"
 #include "scene/trajectory.h"
 
@@ -75,7 +76,7 @@ double RecoveryProblem::linearise(Eigen::Matrix3Xd& gradient) {
   contacts_.pick_near(patch_.x, moving(), objective_.contacts());
   gradient_.resize(3, patch_.x.cols());
   const double value = objective_.linearise(patch_.x, gradient_, hessian_);
-  gradient.resize(3, unknowns());
+  fit(gradient, 3, unknowns());
   for (Index i = 0; i < unknowns(); ++i) gradient.col(i) = gradient_.col(moving().vertices[i]);
   if (is_new_state_) note_iteration();
   is_new_state_ = false;
