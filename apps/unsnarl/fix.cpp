@@ -240,7 +240,7 @@ class Fix {
     }
   }
 
-  /// What somebody has saved over the input meanwhile is not lost, nor is the result.
+  /// Writes the result beside the target, which somebody has changed meanwhile and which stays as it is.
   [[noreturn]] void keep_beside(const ChangedMeanwhile& changed) {
     if (partial_infix_.empty()) throw changed;
     StagedOutput outputs(interruption_);
@@ -291,8 +291,8 @@ class Fix {
     }
   }
 
-  /// What is reached short of the goal goes beside the output, where nothing that this call reads or writes is: also
-  /// not the partial result that it goes on from.
+  /// Chooses names for a partial result beside the output, which no other input or output of this call has: it may
+  /// go on from an earlier partial result.
   void choose_partial_names() {
     if (options_.no_partial || is_stream(output_)) return;
     const auto is_free = [&](const std::string& infix) {

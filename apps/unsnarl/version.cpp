@@ -21,7 +21,8 @@ std::string version_json() {
 
 std::string advice_on_defects(std::string_view homepage) {
   const std::string evidence = "the command, the mesh and this message";
-  if (homepage.empty()) return "This is a defect of the program; whoever gave it to you needs " + evidence + " to mend it";
+  if (homepage.empty())
+    return "This is a defect of the program; whoever gave it to you needs " + evidence + " to mend it";
   return "This is a defect of the program; please report it at " + std::string(homepage) + ", with " + evidence;
 }
 

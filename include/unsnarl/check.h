@@ -39,7 +39,7 @@ struct ComponentFindings {
   Bounds bounds;
 };
 
-/// What a check may take.
+/// Limits of a check.
 struct CheckLimits {
   double time_limit_s = 0;     ///< wall-clock seconds; 0: none
   double memory_limit_mb = 0;  ///< MB (10^6 bytes) of resident memory, looked at all the time; 0: none

@@ -47,7 +47,7 @@ struct SeifertFindings {
   }
 };
 
-/// What of it does not hold, one line each; empty: all holds.
+/// The findings that do not hold, one line each; empty: all hold.
 std::string seifert_faults(const SeifertFindings& findings);
 
 /// Everything by exact arithmetic and integers. The surface must consist of triangles. views, handles: as in
@@ -60,7 +60,7 @@ struct SeifertResult {
   /// was found for which check_seifert_surface says that all holds, since strands are too close for doubles: there is
   /// no surface, and `message` says why.
   Status status = Status::embedded;
-  Surface surface;  ///< triangles; the first vertices are the points of the link, component by component
+  Surface surface;      ///< triangles; the first vertices are the points of the link, component by component
   std::string message;  ///< also where the surface was left as it was built, and why; else empty
   std::size_t crossings = 0, circles = 0;  ///< of the diagram that it was built from
   double area = 0;

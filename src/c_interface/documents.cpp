@@ -59,7 +59,7 @@ bool is_one_file(const unsnarl_document& input) {
   return input.paths.size() == 1;
 }
 
-/// Where file i of the input goes. `place`: of several files their folder.
+/// The path that file i of the input is written to. `place`: the file, or the folder of several files.
 fs::path target_of(const unsnarl_document& input, std::size_t i, const fs::path& place) {
   return is_one_file(input) ? place : place / input.paths[i].filename();
 }

@@ -27,7 +27,7 @@ Json by_kind(const PairCounts& counts) {
   return json;
 }
 
-/// What a report says of the one file that was read, and of all.
+/// The report's entries on files: of the one that was read, or of each of several.
 void describe_document(const unsnarl_surface& given, ReportFiles& files) {
   if (given.document == nullptr) return;
   const SceneDocument& scene = given.document->scene;

@@ -17,9 +17,10 @@ namespace {
 constexpr double few_moved = 0.25;
 /// A surface that has moved as a whole so many times will go on to do so.
 constexpr int seldom = 2;
-/// That visit() hands over at once: 12 kB a task of the tree.
+/// Pairs that visit() hands over at once, in each task of the tree: 12 kB.
 constexpr std::size_t pairs_a_block = 1024;
-/// Pairs of boxes that overlap: a tenth of a second where all are decided. Surfaces of ten thousand faces have fewer.
+/// Pairs of overlapping boxes between two looks at the clock: a tenth of a second where all are decided. Surfaces of
+/// ten thousand faces have fewer.
 constexpr std::uint32_t pairs_between_looks = 1 << 18;
 
 bool is_few(std::size_t count, std::size_t of) {

@@ -21,8 +21,7 @@ inline constexpr double half_ulp = 1.1102230246251565e-16;  // 2^-53
 inline constexpr double orient3d_bound = (7.0 + 56.0 * half_ulp) * half_ulp;
 inline constexpr double orient2d_bound = (3.0 + 16.0 * half_ulp) * half_ulp;
 inline constexpr double underflow_guard = 1e-280;  // below it products may underflow and the bounds do not hold
-// More than what underflow of a product takes away, of a sum of products of two or, times what else multiplies it,
-// three.
+// An underflowing product loses less than this; in orient3d it is then multiplied by a difference along z.
 inline constexpr double lost_to_underflow = 1e-300;
 inline Sign sign_of(double value) {
   return (value > 0) - (value < 0);

@@ -33,8 +33,4 @@ fs::path linked_file(const fs::path& folder, const fs::path& name) {
   return folder / name;
 }
 
-std::string read_linked_file(const fs::path& folder, const fs::path& name) {
-  return read_file(linked_file(folder, name));
-}
-
 }  // namespace unsnarl

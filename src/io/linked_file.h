@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 namespace unsnarl {
 
@@ -12,8 +11,5 @@ namespace unsnarl {
 /// The place of the file `name` that a file in `folder` names. Throws FileError unless the rule allows it; whether it
 /// is there is for its reader to say.
 std::filesystem::path linked_file(const std::filesystem::path& folder, const std::filesystem::path& name);
-
-/// The bytes of this file. Throws FileError.
-std::string read_linked_file(const std::filesystem::path& folder, const std::filesystem::path& name);
 
 }  // namespace unsnarl

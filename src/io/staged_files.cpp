@@ -53,11 +53,11 @@ bool is_mount_point(const fs::path& path) {
 void require_replaceable(const fs::path& target) {
   struct stat status {};
   if (::stat(target.c_str(), &status) != 0) return;
-  if (S_ISDIR(status.st_mode)) throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()), EISDIR);
+  if (S_ISDIR(status.st_mode))
+    throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()), EISDIR);
   if (!S_ISREG(status.st_mode)) throw WriteError(fmt::format("{}: is not a regular file", target.string()));
   // Renaming would get past the protection of the old file.
-  if (::access(target.c_str(), W_OK) != 0)
-    throw_write_error(target.string() + ": is write-protected", errno);
+  if (::access(target.c_str(), W_OK) != 0) throw_write_error(target.string() + ": is write-protected", errno);
   if (is_mount_point(target))
     throw WriteError(
         fmt::format("{}: is a mount point, which no other file can take the place of; name another file, or mount its "
@@ -218,7 +218,8 @@ void StagedFiles::open(const fs::path& target, Links links) {
   if (::mkdtemp(pattern.data()) == nullptr) {
     const int reason = errno;
     folders_.erase(entry);
-    throw_write_error(fmt::format("{}: cannot create files in the folder {}", target.string(), folder.string()), reason);
+    throw_write_error(fmt::format("{}: cannot create files in the folder {}", target.string(), folder.string()),
+                      reason);
   }
   entry->second = std::move(pattern);
 }

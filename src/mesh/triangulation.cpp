@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geometry/predicates.h"
 #include "geometry/scale.h"
 #include "geometry/sort_unique.h"
 #include "mesh/ear_clipper.h"
@@ -46,7 +47,8 @@ class PolygonCutter {
   }
 
  private:
-  /// The corners' positions, at a scale of their own, and the mean normal. A cut is the same at any power of two.
+  /// Takes the corners' positions at a scale of their own, so that a cut is the same at any power of two, and finds the
+  /// mean normal.
   void gather(std::span<const Index> corners) {
     coordinates_.clear();
     for (const Index v : corners) {
@@ -120,8 +122,30 @@ Edge extent_of(const Triangle& t) {
   return {least, largest};
 }
 
-/// Leaves out triangles with a repeated vertex that are an edge or a corner of one with three vertices.
-void leave_out_what_others_cover(Triangulation& cut) {
+/// The position of each vertex of the triangles: of the first file vertex that it is.
+class CornerPositions {
+ public:
+  CornerPositions(const SurfaceView& surface, std::span<const Index> vertex_of) : surface_(surface) {
+    for (std::size_t v = vertex_of.size(); v-- > 0;) {
+      const auto welded = static_cast<std::size_t>(vertex_of[v]);
+      if (welded >= file_vertex_of_.size()) file_vertex_of_.resize(welded + 1);
+      file_vertex_of_[welded] = static_cast<Index>(v);
+    }
+  }
+  bool has_area(const Triangle& t) const { return !collinear((*this)[t[0]], (*this)[t[1]], (*this)[t[2]]); }
+
+ private:
+  Vec3 operator[](Index v) const {
+    return Vec3::Map(
+        &surface_.positions[3 * static_cast<std::size_t>(file_vertex_of_.empty() ? v : file_vertex_of_[v])]);
+  }
+
+  const SurfaceView& surface_;
+  std::vector<Index> file_vertex_of_;  // empty: they are the same
+};
+
+/// Leaves out triangles with a repeated vertex that are an edge or a corner of one with area.
+void leave_out_what_others_cover(const SurfaceView& surface, std::span<const Index> vertex_of, Triangulation& cut) {
   std::vector<Edge> extents;
   for (const Triangle& t : cut.triangles)
     if (uses_a_vertex_twice(t)) extents.push_back(extent_of(t));
@@ -132,12 +156,14 @@ void leave_out_what_others_cover(Triangulation& cut) {
     const auto place = std::lower_bound(extents.begin(), extents.end(), extent);
     return place != extents.end() && *place == extent ? place - extents.begin() : -1;
   };
+  const CornerPositions positions(surface, vertex_of);
   for (const Triangle& t : cut.triangles) {
     if (uses_a_vertex_twice(t)) continue;
     for (int k = 0; k < 3; ++k) {
       const Index a = t[k], b = t[(k + 1) % 3];
       for (const Edge& part : {Edge{a, a}, Edge{std::min(a, b), std::max(a, b)}})
-        if (const auto place = place_of(part); place >= 0) is_covered[static_cast<std::size_t>(place)] = 1;
+        if (const auto place = place_of(part); place >= 0 && positions.has_area(t))
+          is_covered[static_cast<std::size_t>(place)] = 1;
     }
   }
   std::size_t kept = 0;
@@ -179,7 +205,7 @@ Triangulation triangulate(const SurfaceView& surface, std::span<const Index> ver
     result.polygon.insert(result.polygon.end(), block.polygon.begin(), block.polygon.end());
     add(result.statistics, block.statistics);
   }
-  leave_out_what_others_cover(result);
+  leave_out_what_others_cover(surface, vertex_of, result);
   return result;
 }
 

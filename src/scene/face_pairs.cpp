@@ -1,12 +1,17 @@
 #include "scene/face_pairs.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
 namespace unsnarl {
 namespace {
+
+/// Pairs of pieces of two faces: so few are decided again to tell which stands for the faces. Two quads along both
+/// diagonals have 16.
+constexpr std::size_t few_piece_pairs = 64;
 
 template <class T>
 std::vector<T> joined(const std::vector<T>& a, const std::vector<T>& b) {
@@ -66,21 +71,34 @@ bool FacePairFinder::stands_for_its_faces(const Positions& x, const IndexLists& 
 void FacePairFinder::visit(const Positions& x, const std::function<bool()>& stop,
                            const std::function<void(std::span<const IntersectingPair>)>& take) {
   const IndexLists pieces = pieces_of_polygons(polygon());
+  const auto has_few_pieces = [&](const IntersectingPair& pair) {
+    const std::size_t a = pieces[polygon()[pair.a]].size(), b = pieces[polygon()[pair.b]].size();
+    return a * b <= few_piece_pairs;
+  };
   std::vector<IntersectingPair> faces;
+  std::map<std::pair<Index, Index>, PairClass> of_large_faces;
   IntersectionFinder::PairVisitor visitor;
   visitor.stop = stop;
   visitor.keep = [&](const IntersectingPair& pair) {
-    return !are_of_one_quad(pair) && stands_for_its_faces(x, pieces, pair);
+    return !are_of_one_quad(pair) && (!has_few_pieces(pair) || stands_for_its_faces(x, pieces, pair));
   };
   visitor.take = [&](std::span<const IntersectingPair> pairs) {
     faces.clear();
     for (const IntersectingPair& pair : pairs) {
-      const auto [a, b] = std::minmax(polygon()[pair.a], polygon()[pair.b]);
-      faces.push_back({a, b, pair.kind});
+      const std::pair<Index, Index> ids = std::minmax(polygon()[pair.a], polygon()[pair.b]);
+      if (has_few_pieces(pair)) {
+        faces.push_back({ids.first, ids.second, pair.kind});
+      } else {
+        PairClass& kind = of_large_faces.try_emplace(ids, pair.kind).first->second;
+        kind = std::min(kind, pair.kind);
+      }
     }
     take(faces);
   };
   finder_.visit(x, visitor);
+  faces.clear();
+  for (const auto& [ids, kind] : of_large_faces) faces.push_back({ids.first, ids.second, kind});
+  take(faces);
 }
 
 }  // namespace unsnarl

@@ -17,8 +17,9 @@ class FacePairFinder {
 
   /// Pairs of faces, sorted, each once, in the class of its first occurrence.
   std::vector<IntersectingPair> find(const Positions& x);
-  /// The same pairs in blocks and in no order, so that memory does not follow their number. `take` is called by one
-  /// thread at a time. Throws WorkStopped soon after `stop` says so.
+  /// The same pairs in blocks and in no order, so that memory does not follow their number, but for those of polygons
+  /// with many corners, which come last. `take` is called by one thread at a time. Throws WorkStopped soon after `stop`
+  /// says so.
   void visit(const Positions& x, const std::function<bool()>& stop,
              const std::function<void(std::span<const IntersectingPair>)>& take);
 

@@ -57,5 +57,4 @@ ssize_t read(int file, void* bytes, std::size_t count) {
   if (length > 0 && fails("read", {path, static_cast<std::size_t>(length)})) return -1;
   return real<ssize_t (*)(int, void*, std::size_t)>("read")(file, bytes, count);
 }
-
 }

@@ -130,17 +130,17 @@ TEST_F(Hostile, WhatIsNestedTooDeeplyIsRefused) {
   const std::string gltf = file("deep.gltf", nested("{\"asset\": ", "[", "]", "}"));
   const std::string vtp = file("deep.vtp", nested("<VTKFile>", "<PolyData>", "</PolyData>", "</VTKFile>"));
   const std::string gii = file("deep.gii", nested("<GIFTI>", "<DataArray>", "</DataArray>", "</GIFTI>"));
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"curves", svg, "-o", out},
-           {"isotopy", svg, svg, "-o", out},
-           {"curves", curves, "-o", out},
-           {"routes", plan, "-o", out},
-           {"routes", start, "-o", out},
-           {"knot-isotopy", knot, knot, "--check", plan},
-           {"view", mesh, "--report", report, "-o", folder / "out.html"},
-           {"fix", gltf, "-o", out},
-           {"check", vtp},
-           {"check", gii}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"curves", svg, "-o", out},
+                                             {"isotopy", svg, svg, "-o", out},
+                                             {"curves", curves, "-o", out},
+                                             {"routes", plan, "-o", out},
+                                             {"routes", start, "-o", out},
+                                             {"knot-isotopy", knot, knot, "--check", plan},
+                                             {"view", mesh, "--report", report, "-o", folder / "out.html"},
+                                             {"fix", gltf, "-o", out},
+                                             {"check", vtp},
+                                             {"check", gii}}) {
     SCOPED_TRACE(arguments[0] + " " + arguments[1]);
     expect_refusal(arguments, 3, "nested too deeply");
   }

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "geometry/predicates.h"
 #include "geometry/scale.h"
 #include "mesh/shapes.h"
 #include "mesh/weld_map.h"
@@ -154,7 +155,8 @@ void expect_cut_as_by_the_rule(const Surface& s, const std::vector<Index>& corne
     return uses_a_vertex_twice(t) &&
            std::any_of(all_triangles.begin(), all_triangles.end(), [&](const Triangle& other) {
              const auto has = [&](Index v) { return std::find(other.begin(), other.end(), v) != other.end(); };
-             return !uses_a_vertex_twice(other) && std::all_of(t.begin(), t.end(), has);
+             const bool has_area = !collinear(at(s, other[0]), at(s, other[1]), at(s, other[2]));
+             return has_area && !uses_a_vertex_twice(other) && std::all_of(t.begin(), t.end(), has);
            });
   });
   EXPECT_EQ(cut.triangles, expected);
@@ -284,6 +286,18 @@ TEST(Triangulation, PolygonsAreCutAlikeAtAnyPowerOfTwo) {
       EXPECT_EQ(triangulate_other_diagonals(scaled).triangles, other.triangles) << exponent;
     }
   }
+}
+
+// What meets a segment along an edge of a triangle without area may share that edge with the triangle.
+TEST(Triangulation, RepeatedCornersOnATriangleWithoutAreaStay) {
+  Surface s = polygon({{0, 0, 0}, {2, 0, 0}, {1, 0, 0}});
+  add_vertex(s, 0, 1, 0);
+  add_face(s, {0, 1, 3});
+  add_face(s, {0, 0, 2});
+  EXPECT_EQ(triangulate(s).triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 3}, {0, 0, 2}}));
+  Surface with_area = s;
+  with_area.positions[7] = 1;
+  EXPECT_EQ(triangulate(with_area).triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 3}}));
 }
 
 TEST(Triangulation, CornersAreRenamedAfterTheCut) {

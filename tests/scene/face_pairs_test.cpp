@@ -91,5 +91,34 @@ TEST(FacePairs, visits_the_pairs_that_it_finds_each_once) {
   }
 }
 
+/// Two bands of many corners each; the second runs through the far end of the first many times.
+Surface long_bands() {
+  constexpr int steps = 1500;
+  Surface surface;
+  surface.offsets = {0};
+  const auto add = [&](double x, double y, double z) {
+    surface.corners.push_back(static_cast<std::int32_t>(surface.positions.size() / 3));
+    surface.positions.insert(surface.positions.end(), {x, y, z});
+  };
+  for (int i = 0; i < steps; ++i) add(i, 0, 0);
+  for (int i = steps; i-- > 0;) add(i, 1, 0);
+  surface.offsets.push_back(static_cast<std::int32_t>(surface.corners.size()));
+  const auto second = [&](int i, double y) { add(steps - 1 - 0.2 * i, y, 0.3 * std::sin(1.3 * i)); };
+  for (int i = 0; i < steps; ++i) second(i, 0.5);
+  for (int i = steps; i-- > 0;) second(i, 0.7);
+  surface.offsets.push_back(static_cast<std::int32_t>(surface.corners.size()));
+  return surface;
+}
+
+/// To decide all pieces of two such faces again for each pair of pieces that meet would take hours.
+TEST(FacePairs, visits_polygons_of_many_corners_at_no_greater_cost) {
+  const PreparedSurface prepared = prepare(long_bands(), {});
+  std::vector<IntersectingPair> visited;
+  FacePairFinder(prepared).visit(prepared.rest, {}, [&](std::span<const IntersectingPair> pairs) {
+    visited.insert(visited.end(), pairs.begin(), pairs.end());
+  });
+  EXPECT_EQ(visited, (std::vector<IntersectingPair>{{0, 1, PairClass::disjoint}}));
+}
+
 }  // namespace
 }  // namespace unsnarl

@@ -165,6 +165,9 @@ class VerifyTest(unittest.TestCase):
             self.expect([], sheet % b'-1' + face, sheet % b'1' + face)
         self.expect(['embedded'], sheet % b'0' + b'f 4 4 4\n', sheet % b'0' + b'f 4 4 4\n')
         self.expect([], sheet % b'0' + b'f 4 4 4\n', sheet % b'1' + b'f 4 4 4\n')
+        flat = b'v 0 0 0\nv 2 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n'
+        self.expect([], flat, flat)  # the triangle without area shares the edge on which it lies
+        self.expect(['embedded'], flat + b'f 1 1 3\n', flat + b'f 1 1 3\n')
         own = sheet % b'1' + b'f 1 1 1\nf 2 1 2\n'  # an edge and a corner of the triangle
         self.expect([], own, own)
 

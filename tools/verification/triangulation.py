@@ -1,5 +1,6 @@
 """How polygons are cut into triangles, by the rule that src/mesh/triangulation.h states."""
 import math
+from fractions import Fraction
 
 from .vectors import cross, dot, minus, sides
 
@@ -53,14 +54,25 @@ def cut(face, positions):
 
 def triangulate(mesh, vertex_of):
     """(triangle of welded vertices, its face). One with a repeated vertex is a segment or a point; it is left out where
-    it is an edge or a corner of a triangle with three vertices."""
+    it is an edge or a corner of a triangle with area."""
     triangles = []
     for f, face in enumerate(mesh.faces):
         for t in cut(face, mesh.positions):
             triangles.append(((vertex_of[t[0]], vertex_of[t[1]], vertex_of[t[2]]), f))
-    known = set()
-    if any(len(set(t)) < 3 for t, _ in triangles):
-        for t, _ in triangles:
-            if len(set(t)) == 3:
-                known.update(frozenset(part) for part in list(sides(t)) + [(v,) for v in t])
-    return [(t, f) for t, f in triangles if len(set(t)) == 3 or frozenset(t) not in known]
+    extents = {frozenset(t) for t, _ in triangles if len(set(t)) < 3}
+    if not extents:
+        return triangles
+    first = {}
+    for v in range(len(mesh.positions)):
+        first.setdefault(vertex_of[v], mesh.positions[v])
+
+    def has_area(t):
+        a, b, c = (tuple(Fraction(x) for x in first[v]) for v in t)
+        return any(cross(minus(b, a), minus(c, a)))
+
+    covered = set()
+    for t, _ in triangles:
+        parts = [frozenset(part) for part in list(sides(t)) + [(v,) for v in t]]
+        if len(set(t)) == 3 and not extents.isdisjoint(parts) and has_area(t):
+            covered.update(parts)
+    return [(t, f) for t, f in triangles if len(set(t)) == 3 or frozenset(t) not in covered]

@@ -146,7 +146,7 @@ class Batch {
                     "name another folder for the results");
   }
 
-  /// What of the inputs will not be worked on.
+  /// Says which inputs will not be worked on.
   void describe_inputs() const {
     constexpr std::size_t most_lines = 10;
     std::size_t faults = 0;
@@ -386,7 +386,7 @@ class Batch {
     return names;
   }
 
-  /// Where what a repair reached goes that did not end clean: beside its result, where no other mesh's result goes.
+  /// The place of a partial result: beside the result, where no other mesh's result goes.
   std::string partial_place(const std::string& result) const {
     const auto is_result = [&](const fs::path& place) {
       return std::any_of(all_.begin(), all_.end(),

@@ -30,11 +30,13 @@ bool has_records(const fs::path& journal) {
 
 void BatchFolder::prepare() const {
   std::error_code error;
-  for (const char* const name : {"fixed", "reports", "thumbnails", "work", "results.jsonl", "results.csv", "index.html"})
+  for (const char* const name :
+       {"fixed", "reports", "thumbnails", "work", "results.jsonl", "results.csv", "index.html"})
     if (fs::exists(root / name, error) && !has_records(journal()))
-      throw UsageError(fmt::format("{}: '{}' in it was not written by 'unsnarl batch', which would replace it; name "
-                                   "another folder",
-                                   root.string(), name));
+      throw UsageError(
+          fmt::format("{}: '{}' in it was not written by 'unsnarl batch', which would replace it; name "
+                      "another folder",
+                      root.string(), name));
   fs::create_directories(journal(), error);
   if (error) throw_write_error(journal().string() + ": cannot make this folder", error.value());
 }

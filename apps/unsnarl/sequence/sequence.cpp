@@ -228,7 +228,7 @@ class SequenceRun {
     if (unrecorded_.size() >= files_->frames_between_flushes()) flush();
   }
 
-  /// Where anything better than the input was reached.
+  /// True if a state better than the input was reached.
   void keep_partial(const FrameResult& result) {
     const std::size_t t = result.report.frame;
     const bool is_kept =

@@ -11,8 +11,9 @@
 
 namespace unsnarl {
 
-/// Where the points of moved curves are written. Points at one position are one (a joint), so that one decision is made
-/// for all of them: coordinates that a point of the file has kept stay as they are, the others are rounded.
+/// The positions at which the points of moved curves are written. Points at one position are one (a joint), so that one
+/// decision is made for all of them: coordinates that a point of the file has kept stay as they are, the others are
+/// rounded.
 class WrittenPlaces {
  public:
   /// own: the curves of the file; moved: as many, with points moved or inserted. rounding: a length; 0: all digits.
