@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "geometry/box.h"
+#include "geometry/scale.h"
 #include "mesh/triangulation.h"
 #include "render/camera.h"
 #include "render/page_appearance.h"
@@ -21,32 +22,47 @@ constexpr std::string_view place_for_data = "<!--unsnarl-data-->";
 /// From the units of the file to those of the page.
 class PageUnits {
  public:
-  explicit PageUnits(std::span<const double> positions) {
+  explicit PageUnits(std::span<const double> positions) : scale_(positions) {
     Box box;
-    for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
-      box.extend(Vec3(positions[i], positions[i + 1], positions[i + 2]));
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3) box.extend(scaled(positions, i));
     if (!positions.empty()) {
       centre_ = box.center();
       diagonal_ = box.diagonal();
     }
   }
-  const Vec3& centre() const { return centre_; }
-  double diagonal() const { return diagonal_; }
-  double unit() const { return diagonal_ > 0 ? diagonal_ : 1; }
+  // Of the file.
+  Vec3 centre() const {
+    return centre_.unaryExpr([&](double x) { return scale_.out(x); });
+  }
+  double diagonal() const { return scale_.out(diagonal_); }
 
-  void append(const Vec3& p, std::vector<float>& to) const {
-    const Vec3 q = (p - centre_) / unit();
-    for (int k = 0; k < 3; ++k) to.push_back(static_cast<float>(q[k]));
+  float length(double of_file) const { return static_cast<float>(scale_.in(of_file) / unit()); }
+  void append(const Vec3& p, std::vector<float>& to) const { append_scaled(scaled({p.data(), 3}, 0), to); }
+  /// The lengths of the motions between positions.
+  std::vector<float> distances(std::span<const double> before, std::span<const double> after) const {
+    std::vector<float> result;
+    for (std::size_t i = 0; i + 2 < before.size(); i += 3)
+      result.push_back(static_cast<float>((scaled(after, i) - scaled(before, i)).norm() / unit()));
+    return result;
   }
   std::vector<float> of(std::span<const double> positions) const {
     std::vector<float> result;
     result.reserve(positions.size());
-    for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
-      append(Vec3(positions[i], positions[i + 1], positions[i + 2]), result);
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3) append_scaled(scaled(positions, i), result);
     return result;
   }
 
  private:
+  double unit() const { return diagonal_ > 0 ? diagonal_ : 1; }
+  Vec3 scaled(std::span<const double> positions, std::size_t i) const {
+    return {scale_.in(positions[i]), scale_.in(positions[i + 1]), scale_.in(positions[i + 2])};
+  }
+  void append_scaled(const Vec3& p, std::vector<float>& to) const {
+    const Vec3 q = (p - centre_) / unit();
+    for (int k = 0; k < 3; ++k) to.push_back(static_cast<float>(q[k]));
+  }
+
+  Scale scale_;  // of the centre and the diagonal
   Vec3 centre_ = Vec3::Zero();
   double diagonal_ = 0;
 };
@@ -84,16 +100,6 @@ void add_conflicts(const std::string& suffix, const PageState& state, const Page
   elements.add_words("curves_" + suffix, curves, 3);
 }
 
-/// Lengths of the motions, in units of the diagonal.
-std::vector<float> displacements(std::span<const double> before, std::span<const double> after, double unit) {
-  std::vector<float> result;
-  for (std::size_t i = 0; i + 2 < before.size(); i += 3) {
-    const Vec3 d(after[i] - before[i], after[i + 1] - before[i + 1], after[i + 2] - before[i + 2]);
-    result.push_back(static_cast<float>(d.norm() / unit));
-  }
-  return result;
-}
-
 /// The lists of all frames end to end; what is said of each, and how much of the lists is its own, comes as JSON.
 Json add_frames(std::span<const RecordedFrame> frames, const PageUnits& units, PageElements& elements) {
   Json described = Json::array();
@@ -108,7 +114,7 @@ Json add_frames(std::span<const RecordedFrame> frames, const PageUnits& units, P
                          {"faces", frame.intersecting.size()}});
     vertices.insert(vertices.end(), frame.vertices.begin(), frame.vertices.end());
     faces.insert(faces.end(), frame.intersecting.begin(), frame.intersecting.end());
-    for (const double d : frame.displacements) displacements.push_back(static_cast<float>(d / units.unit()));
+    for (const double d : frame.displacements) displacements.push_back(units.length(d));
   }
   elements.add_words("frame_vertices", vertices, 1);
   elements.add_words("frame_displacements", displacements, 3);
@@ -161,8 +167,7 @@ std::string make_page(std::string_view page_template, const PageContent& content
   add_conflicts("before", content.before, units, elements);
   if (content.after) {
     elements.add_words_like("positions_after", units.of(content.after->positions), "positions_before", before);
-    elements.add_words("displacement", displacements(content.before.positions, content.after->positions, units.unit()),
-                       1);
+    elements.add_words("displacement", units.distances(content.before.positions, content.after->positions), 1);
     add_conflicts("after", *content.after, units, elements);
   }
   std::string page;

@@ -3,12 +3,41 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/scale.h"
 #include "render/animation.h"
 #include "render/gif.h"
 #include "render/picture.h"
 #include "render/png.h"
 
 namespace unsnarl {
+namespace {
+
+/// A surface, and frames of it, at a scale: cameras and shading know moderate numbers only.
+class AtScale {
+ public:
+  AtScale(const SurfaceView& surface, const Scale& scale, std::span<const RecordedFrame> frames = {})
+      : surface_(surface), frames_(frames) {
+    if (scale.is_one()) return;
+    positions_ = scale.in(surface.positions);
+    surface_.positions = positions_;
+    scaled_frames_.assign(frames.begin(), frames.end());
+    for (RecordedFrame& frame : scaled_frames_) frame.displacements = scale.in(frame.displacements);
+    frames_ = scaled_frames_;
+  }
+  AtScale(const AtScale&) = delete;
+  AtScale& operator=(const AtScale&) = delete;
+
+  const SurfaceView& surface() const { return surface_; }
+  std::span<const RecordedFrame> frames() const { return frames_; }
+
+ private:
+  SurfaceView surface_;
+  std::span<const RecordedFrame> frames_;
+  std::vector<double> positions_;
+  std::vector<RecordedFrame> scaled_frames_;
+};
+
+}  // namespace
 
 std::string picture_label(std::string_view title, std::size_t pairs) {
   const std::string count = pairs == 0   ? "no self-intersections"
@@ -19,18 +48,21 @@ std::string picture_label(std::string_view title, std::size_t pairs) {
 
 std::string picture_png(const SurfaceView& before, std::span<const std::int32_t> red_before, const SurfaceView& after,
                         std::span<const std::int32_t> red_after, const PictureOptions& options) {
-  return encode_png(render_pair(before, red_before, after, red_after, options));
+  const Scale scale(before.positions);
+  const AtScale scaled_before(before, scale), scaled_after(after, scale);
+  return encode_png(render_pair(scaled_before.surface(), red_before, scaled_after.surface(), red_after, options));
 }
 
 std::string picture_png(const SurfaceView& surface, std::span<const std::int32_t> red, const PictureOptions& options) {
-  return encode_png(render_surface(surface, red, options));
+  return encode_png(render_surface(AtScale(surface, Scale(surface.positions)).surface(), red, options));
 }
 
 std::string animation_gif(const SurfaceView& surface, std::span<const RecordedFrame> frames,
                           const AnimationOptions& options) {
+  const AtScale scaled(surface, Scale(surface.positions), frames);
   std::vector<Image> images;
   std::vector<double> delays;
-  render_animation(surface, frames, options, [&](Image image, double seconds) {
+  render_animation(scaled.surface(), scaled.frames(), options, [&](Image image, double seconds) {
     images.push_back(std::move(image));
     delays.push_back(seconds);
   });
@@ -39,7 +71,9 @@ std::string animation_gif(const SurfaceView& surface, std::span<const RecordedFr
 
 void animation_pngs(const SurfaceView& surface, std::span<const RecordedFrame> frames, const AnimationOptions& options,
                     const std::function<void(std::string png)>& take) {
-  render_animation(surface, frames, options, [&](const Image& image, double) { take(encode_png(image)); });
+  const AtScale scaled(surface, Scale(surface.positions), frames);
+  render_animation(scaled.surface(), scaled.frames(), options,
+                   [&](const Image& image, double) { take(encode_png(image)); });
 }
 
 }  // namespace unsnarl

@@ -67,6 +67,27 @@ TEST(Page, PositionsAreRelativeToTheMiddleInUnitsOfTheDiagonal) {
   EXPECT_EQ(scene["centre"], Json({11, 21, 31}));
 }
 
+TEST(Page, IsTheSameAtAnyPowerOfTwo) {
+  Surface moved = surface;
+  moved.positions[0] -= 0.25;
+  const auto page_at = [&](int exponent) {
+    Surface before = surface, after = moved;
+    for (Surface* s : {&before, &after})
+      for (double& x : s->positions) x = std::ldexp(x, exponent);
+    PageContent content = content_of(before);
+    content.before.curves = {{Vec3(before.positions[0], before.positions[1], before.positions[2]), Vec3::Zero()}};
+    content.after.emplace().positions = after.positions;
+    return make_page(page_template, content);
+  };
+  const std::string usual = page_at(0);
+  for (const int exponent : {-900, -300, 300, 900}) {
+    const std::string page = page_at(exponent);
+    for (const char* list : {"positions_before", "positions_after", "displacement", "curves_before"})
+      EXPECT_EQ(text_of(page, list), text_of(usual, list)) << list << " at 2^" << exponent;
+    EXPECT_EQ(Json::parse(text_of(page, "scene"))["diagonal"], std::ldexp(std::sqrt(8.0), exponent));
+  }
+}
+
 TEST(Page, PolygonsComeWithTheTrianglesThatDrawThem) {
   const std::string page = make_page(page_template, content_of(surface));
   EXPECT_EQ(text_of(page, "corners"), packed<Index>({0, 1, 2, 3, 0, 1, 4}, 4));

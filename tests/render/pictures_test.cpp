@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -39,6 +40,22 @@ TEST(Pictures, animation_as_gif_and_as_pngs) {
   ASSERT_EQ(pngs.size(), 2u);
   for (const std::string& png : pngs) EXPECT_EQ(png.substr(1, 3), "PNG");
   EXPECT_NE(pngs[0], pngs[1]);
+}
+
+TEST(Pictures, are_the_same_at_any_power_of_two) {
+  const auto scaled = [](std::vector<double> numbers, int exponent) {
+    for (double& x : numbers) x = std::ldexp(x, exponent);
+    return numbers;
+  };
+  const AnimationOptions options = {.width = 160, .height = 128};
+  for (const int exponent : {-900, -300, 300, 900}) {
+    const Surface other = {scaled(triangle.positions, exponent), triangle.corners, {}};
+    EXPECT_EQ(picture_png(other, red, other, {}, thumbnail), picture_png(triangle, red, triangle, {}, thumbnail));
+    EXPECT_EQ(picture_png(other, red, thumbnail), picture_png(triangle, red, thumbnail));
+    std::vector<RecordedFrame> frames = two_frames();
+    frames[1].displacements = scaled(frames[1].displacements, exponent);
+    EXPECT_EQ(animation_gif(other, frames, options), animation_gif(triangle, two_frames(), options));
+  }
 }
 
 TEST(Pictures, no_frames) {
