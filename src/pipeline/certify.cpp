@@ -5,7 +5,7 @@
 
 #include "mesh/areas.h"
 #include "mesh/validity.h"
-#include "pipeline/threads.h"
+#include "run/thread_limit.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "scene/rounding.h"

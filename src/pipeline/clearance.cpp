@@ -10,7 +10,7 @@
 #include "mesh/components.h"
 #include "mesh/dihedral_angles.h"
 #include "mesh/validity.h"
-#include "pipeline/threads.h"
+#include "run/thread_limit.h"
 #include "scene/prepared_surface.h"
 
 namespace unsnarl {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pipeline/limits.h"
-#include "pipeline/phases.h"
+#include "run/limits.h"
+#include "run/phases.h"
 #include "scene/diagnose.h"
 #include "scene/nested_surfaces.h"
 #include "scene/prepared_surface.h"

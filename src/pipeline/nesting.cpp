@@ -15,7 +15,7 @@
 #include "mesh/areas.h"
 #include "mesh/union_find.h"
 #include "mesh/validity.h"
-#include "pipeline/threads.h"
+#include "run/thread_limit.h"
 
 namespace unsnarl {
 namespace {

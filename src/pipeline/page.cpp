@@ -11,8 +11,8 @@
 #include "contact/intersection_segments.h"
 #include "io/parse_json.h"
 #include "mesh/validity.h"
-#include "pipeline/threads.h"
 #include "render/page.h"
+#include "run/thread_limit.h"
 #include "scene/prepared_surface.h"
 #include "unsnarl/document.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "pipeline/threads.h"
+#include "run/thread_limit.h"
 #include "scene/prepared_surface.h"
 
 namespace unsnarl {

@@ -15,9 +15,9 @@
 #include <utility>
 
 #include "mesh/areas.h"
-#include "pipeline/calling_thread.h"
 #include "pipeline/frame_motion.h"
-#include "pipeline/threads.h"
+#include "run/calling_thread.h"
+#include "run/thread_limit.h"
 #include "scene/face_pairs.h"
 #include "scene/rounding.h"
 #include "unsnarl/sequence.h"

@@ -15,6 +15,7 @@ from pathlib import Path
 # What each layer may include besides itself and the public headers. Keep in step with src/CMakeLists.txt.
 BELOW = {
     "geometry": [],
+    "run": ["geometry"],
     "mesh": ["geometry"],
     "contact": ["geometry", "mesh"],
     "energy": ["geometry", "mesh", "contact"],
@@ -26,9 +27,9 @@ BELOW = {
     "recover": ["geometry", "mesh", "contact", "energy", "optimize", "scene"],
     "untangle": ["geometry", "mesh", "contact", "energy", "optimize", "scene", "recover"],
     "report": ["geometry", "mesh", "contact", "energy", "io", "scene", "untangle"],
-    "pipeline": ["geometry", "mesh", "contact", "energy", "optimize", "io", "render", "scene", "rigid", "recover",
+    "pipeline": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render", "scene", "rigid", "recover",
                  "untangle", "report"],
-    "applications": ["geometry", "mesh", "contact", "energy", "optimize", "io", "render"],
+    "applications": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render"],
     "samples": ["geometry", "mesh"],
 }
 # They use the library as its users do.

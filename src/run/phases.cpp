@@ -1,4 +1,4 @@
-#include "pipeline/phases.h"
+#include "run/phases.h"
 
 #include <algorithm>
 #include <string>

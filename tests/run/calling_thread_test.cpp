@@ -1,4 +1,4 @@
-#include "pipeline/calling_thread.h"
+#include "run/calling_thread.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "pipeline/limits.h"
+#include "run/limits.h"
 
-#include "report/process_usage.h"
+#include "run/process_usage.h"
 
 namespace unsnarl {
 

@@ -15,7 +15,7 @@ class Limits {
   /// Time counts from here on.
   Limits(const RepairOptions& options, const Context& context) : options_(options), context_(context) {}
 
-  /// Once it says so, it stays.
+  /// True from the first time a limit was reached.
   bool reached();
   std::function<bool()> stopper() {
     return [this] { return reached(); };

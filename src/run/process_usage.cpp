@@ -1,4 +1,4 @@
-#include "report/process_usage.h"
+#include "run/process_usage.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "report/process_usage.h"
+#include "run/process_usage.h"
 
 namespace unsnarl {
 
