@@ -7,8 +7,8 @@
 #include "mesh/validity.h"
 #include "run/thread_limit.h"
 #include "scene/face_pairs.h"
+#include "scene/output_format.h"
 #include "scene/prepared_surface.h"
-#include "scene/rounding.h"
 
 namespace unsnarl {
 

@@ -19,7 +19,7 @@
 #include "run/calling_thread.h"
 #include "run/thread_limit.h"
 #include "scene/face_pairs.h"
-#include "scene/rounding.h"
+#include "scene/output_format.h"
 #include "unsnarl/sequence.h"
 
 namespace unsnarl {

@@ -15,26 +15,22 @@ namespace {
 
 class Explanation {
  public:
-  Explanation(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options, Status limit,
-              const AttemptLog& attempts, const Positions& x)
-      : prepared_(prepared), diagnosis_(diagnosis), options_(options), limit_(limit), attempts_(attempts), x_(x) {}
+  Explanation(const PreparedSurface& prepared, const Ending& ending)
+      : prepared_(prepared), ending_(ending), attempts_(ending.attempts) {}
 
   LeftReason reason(const IntersectingPair& pair) const {
-    if (const auto obstruction = obstruction_of(prepared_, diagnosis_.components, diagnosis_.fixed, pair))
-      return reason_of(*obstruction);
-    if (options_.each_component && are_of_two_components(diagnosis_.components, pair))
-      return LeftReason::between_components;
-    if (options_.goal == Goal::disjoint && pair.kind != PairClass::disjoint) return LeftReason::goal;
+    const Triangle &a = prepared_.triangles()[pair.a], &b = prepared_.triangles()[pair.b];
+    if (const auto reason = ending_.policy.reason_to_leave(a, b, pair.kind)) return *reason;
     if (!meets_at(attempts_.solved, pair)) {
       if (differs_by_rounding(pair)) return LeftReason::rounding;
       return any_vertex(pair, [&](Index v) { return attempts_.is_too_far[v] != 0; }) ? LeftReason::displacement
                                                                                      : LeftReason::taken_back;
     }
-    if (all_vertices(pair, [&](Index v) { return attempts_.is_too_far[v] || is_fixed(v); }))
+    if (all_vertices(pair, [&](Index v) { return attempts_.is_too_far[v] || ending_.held[v]; }))
       return LeftReason::displacement;
     const bool is_cut_short = furthest_strategy(pair) < last_strategy() ||
                               any_vertex(pair, [&](Index v) { return attempts_.is_cut_short[v] != 0; });
-    return is_cut_short ? reason_of(limit_) : LeftReason::unresolved;
+    return is_cut_short ? reason_of(ending_.limit) : LeftReason::unresolved;
   }
 
   /// Number of the last strategy tried on the pair; -1: none.
@@ -46,16 +42,6 @@ class Explanation {
   }
 
  private:
-  static LeftReason reason_of(Obstruction::Kind kind) {
-    switch (kind) {
-      case Obstruction::Kind::closed_non_orientable: return LeftReason::closed_non_orientable;
-      case Obstruction::Kind::duplicate_faces: return LeftReason::duplicate_faces;
-      case Obstruction::Kind::fixed_faces: return LeftReason::fixed_faces;
-      case Obstruction::Kind::between_components: return LeftReason::between_components;
-      case Obstruction::Kind::rigid_faces: return LeftReason::rigid_faces;
-    }
-    return LeftReason::unresolved;
-  }
   /// `status`: the limit that ended the work, or any other.
   static LeftReason reason_of(Status status) {
     if (status == Status::time_limit) return LeftReason::time_limit;
@@ -64,7 +50,6 @@ class Explanation {
     return LeftReason::unresolved;
   }
 
-  bool is_fixed(Index v) const { return !diagnosis_.fixed.empty() && diagnosis_.fixed[v]; }
   template <class Condition>
   bool any_vertex(const IntersectingPair& pair, Condition&& condition) const {
     const Triangle &a = prepared_.triangles()[pair.a], &b = prepared_.triangles()[pair.b];
@@ -83,32 +68,35 @@ class Explanation {
     constexpr double float32_unit = std::numeric_limits<float>::epsilon();
     return all_vertices(pair, [&](Index v) {
       for (int k = 0; k < 3; ++k)
-        if (std::abs(x_(k, v) - attempts_.solved(k, v)) > float32_unit * std::abs(x_(k, v))) return false;
+        if (std::abs(ending_.x(k, v) - attempts_.solved(k, v)) > float32_unit * std::abs(ending_.x(k, v))) return false;
       return true;
     });
   }
 
   const PreparedSurface& prepared_;
-  const Diagnosis& diagnosis_;
-  const RepairOptions& options_;
-  Status limit_;
+  const Ending& ending_;
   const AttemptLog& attempts_;
-  const Positions& x_;
 };
 
 }  // namespace
 
-void explain_left_pairs(const PreparedSurface& prepared, const Diagnosis& diagnosis, const RepairOptions& options,
-                        Status limit, const AttemptLog& attempts, const Acceptance& acceptance,
-                        const Acceptance::Pairs& left, const Positions& x, RepairReport& report) {
+std::optional<LeftReason> reason_to_leave_faces(const SurfaceView& surface, const PreparedSurface& prepared,
+                                                const Components& components, const PairPolicy& policy,
+                                                const IntersectingPair& pair) {
+  const auto component_of = [&](Index f) { return component_of_face(surface, prepared.weld_map, components, f); };
+  return policy.reason_to_leave(component_of(pair.a), component_of(pair.b), pair.kind);
+}
+
+void explain_left_pairs(const SurfaceView& surface, const PreparedSurface& prepared, const Ending& ending,
+                        const PairCensus::Pairs& left, RepairReport& report) {
   struct Why {
     LeftReason reason;
     int strategy;
   };
-  const Explanation explanation(prepared, diagnosis, options, limit, attempts, x);
+  const Explanation explanation(prepared, ending);
   const std::vector<Index>& polygon = prepared.triangulation.polygon;
-  std::map<std::pair<Index, Index>, Why>
-      why;  // of two faces: the first reason that holds for a pair of their triangles
+  // Of two faces: the first reason that holds for a pair of their triangles.
+  std::map<std::pair<Index, Index>, Why> why;
   for (const IntersectingPair& pair : left.triangles) {
     const Why own = {explanation.reason(pair), explanation.furthest_strategy(pair)};
     auto& of_faces = why.try_emplace(std::minmax(polygon[pair.a], polygon[pair.b]), own).first->second;
@@ -116,9 +104,11 @@ void explain_left_pairs(const PreparedSurface& prepared, const Diagnosis& diagno
   }
   for (const IntersectingPair& pair : left.of_faces) {
     const auto found = why.find({pair.a, pair.b});
-    const Why reason = found != why.end()
-                           ? found->second
-                           : Why{acceptance.tolerance_by_other_cuts(pair).value_or(LeftReason::other_diagonal), -1};
+    const auto by_other_cuts = [&] {
+      return reason_to_leave_faces(surface, prepared, ending.components, ending.policy, pair)
+          .value_or(LeftReason::other_diagonal);
+    };
+    const Why reason = found != why.end() ? found->second : Why{by_other_cuts(), -1};
     ++report.left_by_reason[static_cast<std::size_t>(reason.reason)];
     const bool names_strategy = reason.reason == LeftReason::unresolved && reason.strategy >= 0;
     report.left.push_back(

@@ -133,7 +133,7 @@ class Film {
 
 std::vector<RecordedFrame> recorded_frames(const Recorder& recorder, const SurfaceView& surface,
                                            const PreparedSurface& prepared, std::span<const double> result,
-                                           Acceptance& acceptance) {
+                                           PairCensus& census) {
   if (recorder.options().frames == 0) return {};
   const Positions& input = recorder.input();
   const Positions end = prepared.gather(result);
@@ -173,7 +173,7 @@ std::vector<RecordedFrame> recorded_frames(const Recorder& recorder, const Surfa
       out.displacements.insert(out.displacements.end(), displacement.begin(), displacement.end());
     }
     const bool is_result = &frame == &shot.back();
-    const Acceptance::Pairs pairs = acceptance.pairs_at(is_result ? end : x);
+    const PairCensus::Pairs pairs = census.at(is_result ? end : x);
     out.pairs = pairs.faces.total();
     for (const IntersectingPair& pair : pairs.of_faces)
       out.intersecting.insert(out.intersecting.end(), {pair.a, pair.b});

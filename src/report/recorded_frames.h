@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "report/acceptance.h"
+#include "scene/pair_census.h"
 #include "scene/prepared_surface.h"
 #include "scene/recorder.h"
 #include "unsnarl/recording.h"
@@ -14,6 +14,6 @@ namespace unsnarl {
 /// input). Empty where none were asked for.
 std::vector<RecordedFrame> recorded_frames(const Recorder& recorder, const SurfaceView& surface,
                                            const PreparedSurface& prepared, std::span<const double> result,
-                                           Acceptance& acceptance);
+                                           PairCensus& census);
 
 }  // namespace unsnarl

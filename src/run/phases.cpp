@@ -6,6 +6,7 @@
 namespace unsnarl {
 
 void Phases::start(std::string_view phase) {
+  if (phase == phase_) return;
   end();
   phase_ = phase;
   clock_ = StageClock();

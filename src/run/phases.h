@@ -16,7 +16,7 @@ class Phases {
   /// `stages`: gets what has ended.
   Phases(const Context& context, std::vector<StageReport>& stages) : context_(context), stages_(stages) {}
 
-  /// Ends the one before. `phase` must be a literal.
+  /// Ends the one before, unless it is the same. `phase` must be a literal.
   void start(std::string_view phase);
   void end();
   /// Reports progress to Context::on_progress. `fraction` in [0, 1]; displacements are those of the farthest vertex of

@@ -1,6 +1,7 @@
 #include "scene/diagnose.h"
 
-#include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,18 +10,6 @@
 
 namespace unsnarl {
 namespace {
-
-/// The span of a triangle's fixed vertices, as a triangle that uses some of them twice; none: nothing is fixed.
-std::optional<Triangle> fixed_part(const Triangle& t, std::span<const std::uint8_t> fixed) {
-  std::optional<Triangle> part;
-  int count = 0;
-  for (Index v : t) {
-    if (fixed.empty() || !fixed[v]) continue;
-    if (!part) part = Triangle{v, v, v};
-    std::fill(part->begin() + count++, part->end(), v);
-  }
-  return part;
-}
 
 /// `faces`: of triangles on the same three vertices, each face once.
 std::string message_of_duplicates(std::span<const std::int32_t> faces) {
@@ -32,25 +21,59 @@ std::string message_of_duplicates(std::span<const std::int32_t> faces) {
   return "faces " + list + " lie on the same three vertices: moving vertices cannot separate them";
 }
 
+/// Faces that intersect in what is held of them, and the rigid parts of the latter; with repetitions.
+struct ObstructedFaces {
+  std::vector<std::int32_t> fixed, rigid;
+  std::vector<Index> parts;
+};
+
+void name_components_without_embedding(const PreparedSurface& prepared, Diagnosis& diagnosis) {
+  for (const Component& component : diagnosis.components.list) {
+    if (!component.obstructed()) continue;
+    const Index face = prepared.triangulation.polygon[component.first_triangle];
+    diagnosis.obstructions.push_back(
+        {Obstruction::Kind::closed_non_orientable,
+         {face},
+         "the component of face " + std::to_string(face) + " (" + std::to_string(component.triangles) +
+             " triangles) is closed and non-orientable: no such surface can be embedded in space"});
+  }
+}
+
+void name_duplicates(const PreparedSurface& prepared, Diagnosis& diagnosis) {
+  if (diagnosis.topology.duplicate_faces == 0) return;
+  for (const std::vector<Index>& group : duplicate_triangles(prepared.triangles())) {
+    Obstruction obstruction{Obstruction::Kind::duplicate_faces, {}, {}};
+    for (const Index t : group) obstruction.faces.push_back(prepared.triangulation.polygon[t]);
+    sort_unique(obstruction.faces);
+    obstruction.message = message_of_duplicates(obstruction.faces);
+    diagnosis.obstructions.push_back(std::move(obstruction));
+  }
+}
+
+void name_held_faces(const PairPolicy& policy, ObstructedFaces obstructed, Diagnosis& diagnosis) {
+  sort_unique(obstructed.fixed);
+  sort_unique(obstructed.rigid);
+  sort_unique(obstructed.parts);
+  const std::string fixed = std::to_string(obstructed.fixed.size()), rigid = std::to_string(obstructed.rigid.size());
+  if (!obstructed.fixed.empty())
+    diagnosis.obstructions.push_back({Obstruction::Kind::fixed_faces, std::move(obstructed.fixed),
+                                      fixed + " faces intersect each other in what is fixed of them"});
+  if (obstructed.rigid.empty()) return;
+  std::string names;
+  for (const Index part : obstructed.parts) names += (names.empty() ? "" : ", ") + policy.rigid_parts().name(part);
+  diagnosis.obstructions.push_back(
+      {Obstruction::Kind::rigid_faces, std::move(obstructed.rigid),
+       rigid + " faces of rigid parts intersect others of the same part (" + names + "), which moves as it is"});
+}
+
+void name_obstructions(const PreparedSurface& prepared, const PairPolicy& policy, ObstructedFaces obstructed,
+                       Diagnosis& diagnosis) {
+  name_components_without_embedding(prepared, diagnosis);
+  name_duplicates(prepared, diagnosis);
+  name_held_faces(policy, std::move(obstructed), diagnosis);
+}
+
 }  // namespace
-
-bool fixed_parts_meet(const Positions& rest, std::span<const std::uint8_t> fixed, const Triangle& first,
-                      const Triangle& second) {
-  const std::optional<Triangle> a = fixed_part(first, fixed), b = fixed_part(second, fixed);
-  PairClass kind;
-  return a && b && intersects(rest, *a, *b, kind);
-}
-
-std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared, const Components& components,
-                                                std::span<const std::uint8_t> fixed, const IntersectingPair& pair) {
-  if (!are_of_two_components(components, pair) &&
-      components.list[components.component_of_triangle[pair.a]].obstructed())
-    return Obstruction::Kind::closed_non_orientable;
-  if (pair.kind == PairClass::duplicate) return Obstruction::Kind::duplicate_faces;
-  if (fixed_parts_meet(prepared.rest, fixed, prepared.triangles()[pair.a], prepared.triangles()[pair.b]))
-    return Obstruction::Kind::fixed_faces;
-  return std::nullopt;
-}
 
 Diagnosis diagnose_topology(const SurfaceView& surface, const PreparedSurface& prepared) {
   Diagnosis result;
@@ -62,53 +85,30 @@ Diagnosis diagnose_topology(const SurfaceView& surface, const PreparedSurface& p
   return result;
 }
 
-void diagnose_intersections(const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
-                            IntersectionFinder& finder, Diagnosis& diagnosis, const std::function<bool()>& stop) {
-  const std::span<const Triangle> triangles = prepared.triangles();
-  const std::vector<Index>& polygon = prepared.triangulation.polygon;
+void diagnose_intersections(const PreparedSurface& prepared, const PairPolicy& policy, IntersectionFinder& finder,
+                            Diagnosis& diagnosis, const std::function<bool()>& stop) {
   diagnosis.pairs = finder.find(prepared.rest, stop);
-
-  diagnosis.fixed.assign(fixed.begin(), fixed.end());
-
-  for (Index c = 0; c < diagnosis.components.count(); ++c) {
-    const Component& component = diagnosis.components.list[c];
-    if (!component.obstructed()) continue;
-    const Index face = polygon[component.first_triangle];
-    diagnosis.obstructions.push_back(
-        {Obstruction::Kind::closed_non_orientable,
-         {face},
-         "the component of face " + std::to_string(face) + " (" + std::to_string(component.triangles) +
-             " triangles) is closed and non-orientable: no such surface can be embedded in space"});
-  }
-  std::vector<std::int32_t> fixed_faces;
-  std::vector<std::vector<Index>> duplicates;
-  if (diagnosis.topology.duplicate_faces > 0) duplicates = duplicate_triangles(triangles);
-  for (const std::vector<Index>& group : duplicates) {
-    Obstruction obstruction{Obstruction::Kind::duplicate_faces, {}, {}};
-    for (Index t : group) obstruction.faces.push_back(polygon[t]);
-    sort_unique(obstruction.faces);
-    obstruction.message = message_of_duplicates(obstruction.faces);
-    diagnosis.obstructions.push_back(std::move(obstruction));
-  }
+  ObstructedFaces obstructed;
   for (const IntersectingPair& pair : diagnosis.pairs) {
-    const std::optional<Obstruction::Kind> kind = obstruction_of(prepared, diagnosis.components, fixed, pair);
-    if (!kind) continue;
+    const Triangle &a = prepared.triangles()[pair.a], &b = prepared.triangles()[pair.b];
+    const std::optional<LeftReason> reason = policy.reason_to_leave(a, b, pair.kind);
+    if (!reason || !is_obstruction(*reason)) continue;
     diagnosis.obstructed.push_back(pair);
-    if (*kind == Obstruction::Kind::fixed_faces)
-      fixed_faces.insert(fixed_faces.end(), {polygon[pair.a], polygon[pair.b]});
+    const std::array<Index, 2> faces = {prepared.triangulation.polygon[pair.a], prepared.triangulation.polygon[pair.b]};
+    if (*reason == LeftReason::fixed_faces) obstructed.fixed.insert(obstructed.fixed.end(), faces.begin(), faces.end());
+    if (*reason != LeftReason::rigid_faces) continue;
+    obstructed.rigid.insert(obstructed.rigid.end(), faces.begin(), faces.end());
+    obstructed.parts.push_back(policy.rigid_part_that_meets_itself(a, b));
   }
-  if (!fixed_faces.empty()) {
-    sort_unique(fixed_faces);
-    const std::string count = std::to_string(fixed_faces.size());
-    diagnosis.obstructions.push_back({Obstruction::Kind::fixed_faces, std::move(fixed_faces),
-                                      count + " faces intersect each other in what is fixed of them"});
-  }
+  name_obstructions(prepared, policy, std::move(obstructed), diagnosis);
 }
 
 Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
                    IntersectionFinder& finder, const std::function<bool()>& stop) {
   Diagnosis result = diagnose_topology(surface, prepared);
-  diagnose_intersections(prepared, fixed, finder, result, stop);
+  PairPolicy policy(result.components, Goal::all, false);
+  policy.hold(fixed, prepared.rest);
+  diagnose_intersections(prepared, policy, finder, result, stop);
   return result;
 }
 

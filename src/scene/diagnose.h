@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "contact/intersection_finder.h"
+#include "scene/pair_policy.h"
 #include "scene/prepared_surface.h"
 #include "unsnarl/repair.h"
 
@@ -20,30 +20,21 @@ struct Diagnosis {
   std::vector<IntersectingPair> pairs;  ///< of triangles, sorted
   std::vector<Obstruction> obstructions;
   std::vector<IntersectingPair> obstructed;  ///< those pairs that no motion can resolve; a subset of `pairs`, sorted
-  std::vector<std::uint8_t> fixed;           ///< one flag a welded vertex; empty: none
 };
 
 inline bool are_of_two_components(const Components& components, const IntersectingPair& pair) {
   return components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b];
 }
 
-/// Whether what is fixed of two triangles (edges, vertices) meets, so that no motion of the others parts them.
-bool fixed_parts_meet(const Positions& rest, std::span<const std::uint8_t> fixed, const Triangle& first,
-                      const Triangle& second);
-
-/// The obstruction because of which no motion separates two intersecting triangles, if there is one.
-std::optional<Obstruction::Kind> obstruction_of(const PreparedSurface& prepared, const Components& components,
-                                                std::span<const std::uint8_t> fixed, const IntersectingPair& pair);
-
 /// Topology, components and edges of a surface, without what intersects.
 Diagnosis diagnose_topology(const SurfaceView& surface, const PreparedSurface& prepared);
 
-/// Adds what intersects at prepared.rest to a diagnose_topology(), and what of it nothing resolves. `fixed`: one flag a
-/// welded vertex; empty: none. `finder`: of the prepared triangles. Throws WorkStopped soon after `stop` says so.
-void diagnose_intersections(const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
-                            IntersectionFinder& finder, Diagnosis& diagnosis, const std::function<bool()>& stop = {});
+/// Adds what intersects at prepared.rest to a diagnose_topology(), and what of it no motion resolves. `policy`: of
+/// these components. `finder`: of the prepared triangles. Throws WorkStopped soon after `stop` says so.
+void diagnose_intersections(const PreparedSurface& prepared, const PairPolicy& policy, IntersectionFinder& finder,
+                            Diagnosis& diagnosis, const std::function<bool()>& stop = {});
 
-/// Both. Arguments as above.
+/// Both, where all pairs count. `fixed`: one flag a welded vertex; empty: none. Arguments as above.
 Diagnosis diagnose(const SurfaceView& surface, const PreparedSurface& prepared, std::span<const std::uint8_t> fixed,
                    IntersectionFinder& finder, const std::function<bool()>& stop = {});
 

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "contact/intersection_finder.h"
-#include "scene/rounding.h"
+#include "scene/output_format.h"
 
 namespace unsnarl {
 
@@ -17,6 +18,11 @@ class Finders {
   /// this.
   Finders(std::span<const Triangle> triangles, const Scale& scale, VertexGroups groups = {})
       : as_is(triangles, groups), scale_(scale) {}
+
+  /// They find pairs of these triangles. Takes as long as a look at all of them.
+  bool are_of(std::span<const Triangle> triangles) const {
+    return std::equal(triangles.begin(), triangles.end(), as_is.triangles().begin(), as_is.triangles().end());
+  }
 
   /// Takes over that nothing intersects at x, nor once x is rounded to float32 if `rounded_too`.
   void start_without_pairs(const Positions& x, bool rounded_too) {

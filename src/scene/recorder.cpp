@@ -55,6 +55,7 @@ std::vector<RegionHistory> Recorder::history() const {
   std::vector<RegionHistory> history;
   for (const auto& stage : stages_)
     for (const Track& track : stage->tracks) {
+      if (track.region == no_region) continue;
       history.push_back({stage->phase, track.strategy, track.region, track.iterations, {}});
       if (track.bandwidths.empty()) continue;
       std::vector<double>& all = history.back().bandwidths;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,7 +25,9 @@ class Recorder {
   Trajectory new_trajectory() const { return Trajectory(options_.frames > 0 ? trajectory_budget : 0); }
 
   void begin_stage(std::string phase);
-  /// Adds the trajectory that led these vertices of the scene to their positions in x.
+  /// Adds the trajectory that led these vertices of the scene to their positions in x. `region`: its number in the
+  /// report, or no_region for what the history leaves out.
+  static constexpr std::size_t no_region = std::numeric_limits<std::size_t>::max();
   void add(Trajectory trajectory, std::string strategy, std::size_t region, std::span<const Index> vertices,
            const Positions& x);
 

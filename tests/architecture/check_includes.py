@@ -26,7 +26,7 @@ BELOW = {
     "rigid": ["geometry", "mesh", "contact"],
     "recover": ["geometry", "mesh", "contact", "energy", "optimize", "scene"],
     "untangle": ["geometry", "mesh", "contact", "energy", "optimize", "scene", "recover"],
-    "report": ["geometry", "mesh", "contact", "energy", "io", "scene", "untangle"],
+    "report": ["geometry", "mesh", "contact", "energy", "io", "scene", "rigid", "untangle"],
     "pipeline": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render", "scene", "rigid", "recover",
                  "untangle", "report"],
     "applications": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render"],

@@ -1,5 +1,5 @@
 // The statuses that the positions reached by a repair get.
-#include "report/acceptance.h"
+#include "pipeline/conclude.h"
 
 #include <gtest/gtest.h>
 
@@ -22,14 +22,13 @@ class GoalTest : public ::testing::Test {
     RepairOptions options;
     options.goal = goal;
     const SurfaceView surface{fan_with_crossing, fan_corners};
-    const PreparedSurface prepared = prepare(surface, options.find);
-    Finders finders(prepared.triangles(), prepared.scale);
-    const Diagnosis diagnosis =
-        diagnose(surface, prepared, std::vector<std::uint8_t>(prepared.weld_map.count, 0), finders.as_is);
-    EXPECT_EQ(diagnosis.pairs.size(), 1u);
-    Acceptance acceptance(surface, prepared, diagnosis, options, finders);
-    const Positions x = prepared.gather(positions);
-    return acceptance.status(acceptance.pairs_at(x), x);
+    RepairTask task(surface, options, nullptr);
+    Finders finders(task.prepared.triangles(), task.prepared.scale);
+    task.diagnose(finders.as_is, {});
+    EXPECT_EQ(task.diagnosis.pairs.size(), 1u);
+    PairCensus census(surface, task.prepared, options.find, finders, task.diagnosis.pairs);
+    const Positions x = task.prepared.gather(positions);
+    return unsnarl::status_at(task, census, census.at(x), x);
   }
 };
 
@@ -43,27 +42,27 @@ TEST_F(GoalTest, a_new_pair_of_faces_that_share_a_vertex_counts_for_all_only) {
 }
 
 // Once a corner of the quad lies across its diagonal, a program that reads it splits it along the other one.
-TEST(AcceptanceOfPolygons, what_meets_as_a_reader_splits_them_counts) {
+TEST(ConcludeOfPolygons, what_meets_as_a_reader_splits_them_counts) {
   const std::vector<std::int32_t> corners = {0, 1, 2, 3, 4, 5, 6}, offsets = {0, 4, 7};
   std::vector<double> input = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.9, 0.4, -1, 0.9, 0.4, 1, 0.95, 0.4, 1};
   const SurfaceView surface{input, corners, offsets};
   const RepairOptions options;
-  const PreparedSurface prepared = prepare(surface, options.find);
-  Finders finders(prepared.triangles(), prepared.scale);
-  const Diagnosis diagnosis = diagnose(surface, prepared, {}, finders.as_is);
-  Acceptance acceptance(surface, prepared, diagnosis, options, finders);
+  RepairTask task(surface, options, nullptr);
+  Finders finders(task.prepared.triangles(), task.prepared.scale);
+  task.diagnose(finders.as_is, {});
+  PairCensus census(surface, task.prepared, options.find, finders, task.diagnosis.pairs);
 
   std::vector<double> moved = input;
   std::copy_n(std::array{0.6, 0.4, 0.2}.begin(), 3, moved.begin() + 9);
   for (const auto& [tip, status] : {std::pair{0.03, Status::no_progress}, std::pair{0.1, Status::embedded}}) {
     moved[14] = tip;
-    const Positions x = prepared.gather(moved);
-    const Acceptance::Pairs pairs = acceptance.pairs_at(x);
+    const Positions x = task.prepared.gather(moved);
+    const PairCensus::Pairs pairs = census.at(x);
     EXPECT_TRUE(pairs.triangles.empty()) << "the input's split alone says embedded";
     EXPECT_EQ(pairs.by_other_cuts.size(), status == Status::embedded ? 0u : 1u);
     EXPECT_EQ(pairs.faces.total(), pairs.by_other_cuts.size());
-    EXPECT_EQ(acceptance.status(pairs, x), status);
-    EXPECT_EQ(acceptance.is_embedded_in_float32(x), status == Status::embedded);
+    EXPECT_EQ(status_at(task, census, pairs, x), status);
+    EXPECT_EQ(census.is_embedded_in_float32(x), status == Status::embedded);
   }
 }
 

@@ -1,5 +1,5 @@
 // Parts that move as bodies, judged by CGAL.
-#include "pipeline/rigid_repair.h"
+#include "pipeline/rigid_stage.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/gap.h"
+#include "scene/output_format.h"
 
 #include <gtest/gtest.h>
 

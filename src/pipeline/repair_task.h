@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "run/limits.h"
+#include "run/phases.h"
+#include "scene/diagnose.h"
+#include "scene/nested_surfaces.h"
+#include "scene/pair_policy.h"
+#include "scene/prepared_surface.h"
+#include "unsnarl/nesting.h"
+#include "unsnarl/repair.h"
+
+namespace unsnarl {
+
+/// What a repair is asked for, and what is known of its surface before any work. Nothing of it changes afterwards.
+struct RepairTask {
+  /// Prepares the surface; nothing that intersects is known yet. `nesting`: null for none. Throws std::invalid_argument
+  /// where the surface or the options make no sense. The arguments must outlive it.
+  RepairTask(const SurfaceView& surface, const RepairOptions& options, const Nesting* nesting);
+  /// The same of a surface that is prepared already, whose vertices have moved since.
+  RepairTask(const SurfaceView& surface, const RepairOptions& options, const PreparedSurface& prepared,
+             const Diagnosis& topology);
+  RepairTask(const RepairTask&) = delete;  // the policy refers to the diagnosis
+  RepairTask& operator=(const RepairTask&) = delete;
+
+  /// Finds what intersects in the input. `finder`: of the prepared triangles. Throws WorkStopped soon after `stop` says
+  /// so.
+  void diagnose(IntersectionFinder& finder, const std::function<bool()>& stop);
+
+  const SurfaceView surface;
+  const RepairOptions& options;
+  const PreparedSurface prepared;
+  Diagnosis diagnosis;
+  const double diagonal;  ///< of the input's bounding box, at the scale of the prepared positions
+  PairPolicy policy;
+  std::optional<NestedSurfaces> nested;  ///< none: it does not matter which surface is inside which
+};
+
+/// Whom the stages of a repair ask when to end, and tell how far they are.
+struct RunControl {
+  Limits& limits;
+  Phases& phases;
+};
+
+}  // namespace unsnarl

@@ -1,0 +1,262 @@
+#include "pipeline/untangle_stage.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "contact/blocking_pairs.h"
+#include "pipeline/restore_to_rest.h"
+#include "recover/recover.h"
+#include "recover/recover_regions.h"
+#include "untangle/conflict_regions.h"
+#include "untangle/escalation.h"
+#include "untangle/strategies.h"
+#include "untangle/untangle_whole.h"
+
+namespace unsnarl {
+namespace {
+
+/// Rounding, repair of what rounding brought, and again.
+constexpr int rounding_rounds = 4;
+
+/// Shares of the progress that is reported: what has been done when recovery begins, and when it has ended.
+constexpr double untangled_fraction = 0.6, recovered_fraction = 0.97;
+
+/// pairs_now: how many triangles' pairs there are with what is being tried; not given: `left` is all.
+void report_progress(const RepairTask& task, const RunControl& control, const RepairState& state, double fraction,
+                     std::span<const IntersectingPair> left, std::optional<double> pairs_now = {}) {
+  // Reports and summaries count faces. A scene of triangles along both diagonals knows no faces.
+  const std::vector<Index>& face_of = state.scene.face_of;
+  std::size_t pairs_left = face_of.empty() ? left.size() : pairs_of_faces(face_of, left).size();
+  if (pairs_now && !left.empty()) {
+    const double share = std::max(0.0, *pairs_now) / static_cast<double>(left.size());
+    pairs_left = static_cast<std::size_t>(std::lround(static_cast<double>(pairs_left) * share));
+  }
+  control.phases.report(fraction, pairs_left, state.scene.x, task.prepared.rest, task.diagonal);
+}
+
+double most_motion(const RepairTask& task) {
+  return task.options.max_displacement_rel * task.diagonal;
+}
+
+void recover_patch(const RunControl& control, const RepairState& state, Patch& patch) {
+  RecoverOptions options;
+  options.min_gap =
+      state.format.wanted_gap(state.scene, {patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
+  recover(patch, options, control.limits.stopper());
+}
+
+bool is_within(const Patch& patch, const Positions& rest, double limit) {
+  for (Index v = 0; v < patch.free_count; ++v)
+    if ((patch.x.col(v) - rest.col(patch.vertices[v])).norm() > limit) return false;
+  return true;
+}
+
+/// `is_exceeded`: set where a candidate goes too far; both must outlive the options.
+EscalationOptions escalation_options(const RepairTask& task, const RunControl& control, RepairState& state,
+                                     std::atomic<bool>& is_exceeded) {
+  EscalationOptions options;
+  options.tiers = default_tiers();
+  options.left_out = task.options.without_strategies;
+  if (task.nested) options.left_out.emplace_back("placement");  // it begins at rest, where the surfaces cross
+  options.stop = control.limits.stopper();
+  options.recorder = &state.recorder;
+  options.first_region = state.regions.size();
+  options.attempts = &state.attempts;
+  if (task.options.recover) options.recover = [&](Patch& patch) { recover_patch(control, state, patch); };
+  if (task.options.max_displacement_rel > 0)
+    options.accept = [&](Patch& patch) {
+      if (is_within(patch, state.scene.rest, most_motion(task))) return true;
+      if (task.options.recover) recover_patch(control, state, patch);
+      if (task.options.recover && is_within(patch, state.scene.rest, most_motion(task))) return true;
+      is_exceeded = true;
+      return false;
+    };
+  options.on_progress = [&](const EscalationProgress& progress) {
+    const double all = static_cast<double>(std::max<std::size_t>(1, state.pairs_at_rest.size()));
+    report_progress(task, control, state, untangled_fraction * (1 - std::min(1.0, progress.work_left / all)),
+                    progress.left, progress.pairs_now);
+  };
+  return options;
+}
+
+/// Untangles the scene. Pairs that rounding brought (in rounds after the first) separate only where they are given a
+/// gap; where float32 is optional, only local strategies try. Returns the pairs that are left; none: it was given up.
+std::optional<std::vector<IntersectingPair>> untangle(const RepairTask& task, const RunControl& control,
+                                                      SceneIndex& index, RepairState& state, bool is_first) {
+  std::atomic<bool> is_exceeded{false};
+  EscalationOptions options = escalation_options(task, control, state, is_exceeded);
+  const bool may_fail = !is_first && state.format.may_give_up_float32();
+  if (!is_first)
+    options.min_gap = [&](std::span<const Index> vertices) { return state.format.wanted_gap(state.scene, vertices); };
+  if (may_fail) options.tiers = local_tiers();
+  EscalationResult result = task.options.paper
+                                ? untangle_whole(state.scene, index, state.ignored, *task.options.paper, options)
+                                : escalate(state.scene, index, state.ignored, options);
+  state.displacement_is_exceeded |= is_exceeded;
+  if (may_fail && !result.left.empty()) return std::nullopt;
+  for (std::size_t k = 0; k < result.moved.size(); ++k)
+    state.moved.push_back({std::move(result.moved[k]), result.depths[k], state.regions.size() + k});
+  state.regions.insert(state.regions.end(), result.regions.begin(), result.regions.end());
+  return std::move(result.left);
+}
+
+/// Recovers what moved since the last time. `left`: pairs of triangles that could not be untangled.
+void recover_moved(const RepairTask& task, const RunControl& control, std::span<const IntersectingPair> left,
+                   SceneIndex& index, RepairState& state) {
+  std::vector<std::vector<Index>> sets;
+  for (std::size_t k = state.recovered; k < state.moved.size(); ++k) sets.push_back(state.moved[k].vertices);
+  RecoverRegionsOptions options;
+  if (task.options.paper) options.recover = RecoverOptions::paper();
+  options.min_gap = [&](std::span<const Index> vertices) { return state.format.wanted_gap(state.scene, vertices); };
+  options.stop = control.limits.stopper();
+  options.on_progress = [&](double share) {
+    report_progress(task, control, state, untangled_fraction + (recovered_fraction - untangled_fraction) * share, left);
+  };
+  const double gap = recover_regions(state.scene, index, merge_overlapping(std::move(sets), state.scene.vertex_count()),
+                                     options, state.recorder);
+  state.smallest_gap = std::min(state.smallest_gap, gap);
+}
+
+/// Says of the regions of what moved since the last recovery how deep they were and how far they went.
+void measure_regions(const RepairTask& task, RepairState& state) {
+  if (!(task.diagonal > 0)) return;
+  for (std::size_t k = state.recovered; k < state.moved.size(); ++k) {
+    RegionReport& region = state.regions[state.moved[k].region];
+    region.depth_rel = state.moved[k].depth / task.diagonal;
+    for (const Index v : state.moved[k].vertices) {
+      const double displacement_rel = (state.scene.x.col(v) - state.scene.rest.col(v)).norm() / task.diagonal;
+      if (!(displacement_rel > region.displacement_rel)) continue;
+      region.displacement_rel = displacement_rel;
+      region.farthest_vertex = task.prepared.weld_map.first[v];
+    }
+  }
+}
+
+bool has_moved(const Scene& scene, Index t, const Positions& x) {
+  const auto moved = [&](Index v) { return x.col(v) != scene.rest.col(v); };
+  return std::any_of(scene.triangles[t].begin(), scene.triangles[t].end(), moved);
+}
+
+/// Pairs that exist only after rounding everything to float32, where float32 has to hold: everywhere if asked for, else
+/// where something was repaired.
+std::vector<IntersectingPair> float32_conflicts(const RepairTask& task, Finders& finders, const RepairState& state) {
+  if (!state.format.float32()) return {};
+  const Scene& scene = state.scene;
+  std::vector<IntersectingPair> conflicts = blocking_pairs(finders.find_rounded(scene.x), state.ignored);
+  std::erase_if(conflicts, [&](const IntersectingPair& pair) {
+    const auto reason = state.policy.reason_to_leave(scene.triangles[pair.a], scene.triangles[pair.b], pair.kind);
+    return (reason && is_obstruction(*reason)) ||
+           (!task.options.precision && !has_moved(scene, pair.a, scene.x) && !has_moved(scene, pair.b, scene.x));
+  });
+  return conflicts;
+}
+
+/// Components that are left as they are until the rounds end.
+class StuckComponents {
+ public:
+  StuckComponents(const RepairTask& task, const RepairState& state)
+      : task_(task), state_(state), is_stuck_(task.diagnosis.components.count(), 0) {}
+  void add(const IntersectingPair& pair) {
+    for (const Index t : {pair.a, pair.b}) is_stuck_[state_.component_of(task_, t)] = 1;
+  }
+  bool have(const IntersectingPair& pair) const {
+    return is_stuck_[state_.component_of(task_, pair.a)] || is_stuck_[state_.component_of(task_, pair.b)];
+  }
+
+ private:
+  const RepairTask& task_;
+  const RepairState& state_;
+  std::vector<std::uint8_t> is_stuck_;
+};
+
+/// Ignores what intersects on components that are stuck, so that the others go on without them.
+void ignore_stuck(Finders& finders, const StuckComponents& stuck, RepairState& state) {
+  std::vector<IntersectingPair> left = blocking_pairs(finders.as_is.find(state.scene.x), state.ignored);
+  std::erase_if(left, [&](const IntersectingPair& pair) { return !stuck.have(pair); });
+  state.ignored.insert(state.ignored.end(), left.begin(), left.end());
+  std::sort(state.ignored.begin(), state.ignored.end());
+}
+
+/// Moves what is free of these triangles to where float32 has it, so that the next round sees their conflict.
+void move_to_float32(std::span<const IntersectingPair> conflicts, const Scale& scale, Scene& scene) {
+  const Positions rounded = rounded_to_float32(scene.x, scale);
+  for (const IntersectingPair& pair : conflicts)
+    for (const Index t : {pair.a, pair.b})
+      for (const Index v : scene.triangles[t])
+        if (!scene.fixed[v]) scene.x.col(v) = rounded.col(v);
+}
+
+struct Rounds {
+  bool is_resolved = false;
+  std::optional<RepairState::Checkpoint> before_rounding;  // the last state without pairs, but of what is stuck
+};
+
+/// Untangles, recovers and rounds until nothing intersects after rounding.
+Rounds work_in_rounds(const RepairTask& task, const RunControl& control, Finders& finders, RepairState& state) {
+  Rounds result;
+  SceneIndex index(state.scene, finders.as_is);
+  StuckComponents stuck(task, state);
+  for (int round = 0; round < rounding_rounds && !control.limits.reached(); ++round) {
+    control.phases.start("untangle");
+    const auto left = untangle(task, control, index, state, round == 0);
+    if (!left) break;
+    if (task.options.recover) {
+      control.phases.start("recover");
+      report_progress(task, control, state, untangled_fraction, *left);
+      recover_moved(task, control, *left, index, state);
+    }
+    measure_regions(task, state);
+    state.recovered = state.moved.size();
+    control.phases.start("certify");
+    report_progress(task, control, state, recovered_fraction, *left);
+    state.attempts.solved = state.scene.x;
+    result.before_rounding = state.checkpoint();
+    if (state.format.may_give_up_float32() && !fits_float32(state.scene.x, task.prepared.scale)) break;
+    state.scene.x = state.format.as_written(state.scene.x);
+    for (const IntersectingPair& pair : *left) stuck.add(pair);
+    if (!left->empty()) ignore_stuck(finders, stuck, state);
+    std::vector<IntersectingPair> conflicts = float32_conflicts(task, finders, state);
+    std::erase_if(conflicts, [&](const IntersectingPair& pair) { return stuck.have(pair); });
+    result.is_resolved = conflicts.empty() && is_resolved(task, finders, state);
+    if (result.is_resolved) break;
+    move_to_float32(conflicts, task.prepared.scale, state.scene);
+  }
+  return result;
+}
+
+}  // namespace
+
+bool has_work(const RepairTask& task, Finders& finders, const RepairState& state) {
+  if (state.ignored.size() != state.pairs_at_rest.size()) return true;
+  return task.options.precision && !float32_conflicts(task, finders, state).empty();
+}
+
+void untangle_stage(const RepairTask& task, const RunControl& control, Finders& finders, RepairState& state) {
+  assert(finders.are_of(state.scene.triangles));
+  const std::vector<IntersectingPair> ignored = state.ignored;
+  const Rounds rounds = work_in_rounds(task, control, finders, state);
+  state.ignored = ignored;
+  if (rounds.is_resolved || !rounds.before_rounding || !state.format.may_give_up_float32()) return;
+  state.format.give_up_float32();
+  state.restore(*rounds.before_rounding);
+  state.scene.x = state.format.as_written(state.scene.x);
+}
+
+void keep_within_displacement(const RepairTask& task, IntersectionFinder& finder, RepairState& state) {
+  if (!(task.options.max_displacement_rel > 0)) return;
+  const Positions before = state.scene.x;
+  std::vector<std::vector<Index>> sets;
+  for (const RepairState::Moved& moved : state.moved) sets.push_back(moved.vertices);
+  sets = merge_overlapping(std::move(sets), state.scene.vertex_count());
+  if (!restore_what_is_too_far(state.scene, sets, most_motion(task), state.pairs_at_rest, finder)) return;
+  state.displacement_is_exceeded = true;
+  for (Index v = 0; v < state.scene.vertex_count(); ++v)
+    if (state.scene.x.col(v) != before.col(v)) state.attempts.is_too_far[v] = 1;
+}
+
+}  // namespace unsnarl
