@@ -3,22 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
+#include <optional>
 #include <vector>
 
 #include "mesh/areas.h"
+#include "rigid/free_place.h"
 
 namespace unsnarl {
 namespace {
 
-/// Share of a body's diagonal that the first try of each motion goes; the next ones go `growth` times as far.
-constexpr double first_step = 1e-3, growth = 1.6;
-/// Between the last place of a motion that is not free and the first that is: to 1 % of the motion.
-constexpr int bisections = 6;
-/// A body goes this share of its motion beyond the first free place, if it is free there too.
+/// Clearance: share of its motion by which a body goes beyond the first free place.
 constexpr double margin = 0.01;
-/// Contacts of a body whose normals are tried as directions.
-constexpr std::size_t most_contacts = 16;
 /// A rotation turns by a right angle at most: chord / radius.
 constexpr double largest_chord = 1.4142135623730951;
 
@@ -54,14 +49,10 @@ std::vector<BodyMotion> motions_of(const Bodies& bodies, const Body& body, std::
     if (radius > 0)
       for (const double sign : {1.0, -1.0}) motions.push_back({.axis = sign * axis, .radius = radius});
   };
-  for (int i = -1; i <= 1; ++i)
-    for (int j = -1; j <= 1; ++j)
-      for (int k = -1; k <= 1; ++k)
-        if (std::tie(i, j, k) > std::tuple(0, 0, 0)) translate(Vec3(i, j, k));
+  for (const Vec3& direction : lattice_directions()) translate(direction);
   for (int k = 0; k < 3; ++k) rotate(Vec3::Unit(k));
-  const std::size_t stride = contacts.size() / most_contacts + 1;
-  for (std::size_t k = 0; k < contacts.size(); k += stride)
-    for (Index t : {contacts[k].a, contacts[k].b}) {
+  for (const IntersectingPair& pair : some_contacts(contacts))
+    for (Index t : {pair.a, pair.b}) {
       const Triangle& corners = bodies.triangles()[t];
       const Vec3 normal = area_vector(bodies.x(), corners);
       const Vec3 middle = (bodies.x().col(corners[0]) + bodies.x().col(corners[1]) + bodies.x().col(corners[2])) / 3;
@@ -92,52 +83,28 @@ class BodyPlacement {
   }
 
  private:
-  bool stopped() const { return options_.stop && options_.stop(); }
-
+  /// A free place that is too far is none.
   bool is_free_at(Body& body, const BodyMotion& motion, double distance) {
     motion.apply(body, distance);
     bodies_.move(body);
-    return bodies_.is_free(body);
+    if (!bodies_.is_free(body)) return false;
+    const bool is_near = bodies_.largest_displacement(body) <= options_.most_motion;
+    is_too_far_ |= !is_near;
+    return is_near;
   }
 
   bool place(Body& body) {
     const std::vector<IntersectingPair> contacts = bodies_.contacts_of(body);
     if (contacts.empty()) return true;
     const std::vector<BodyMotion> motions = motions_of(bodies_, body, contacts);
-    // All motions go step by step side by side: the first step at which one is free is within `growth` of the best.
-    double blocked = 0, least = std::numeric_limits<double>::infinity();
-    Body best = body;
-    for (double distance = first_step * body.diagonal; blocked < body.diagonal && !std::isfinite(least);) {
-      for (const BodyMotion& motion : motions) {
-        if (stopped()) break;
-        if (distance > motion.longest(body.diagonal) || !is_free_at(body, motion, distance)) continue;
-        if (bodies_.largest_displacement(body) > options_.most_motion) {
-          is_too_far_ = true;
-          continue;
-        }
-        double free = distance, not_free = blocked;
-        for (int k = 0; k < bisections; ++k) {
-          const double middle = 0.5 * (free + not_free);
-          (is_free_at(body, motion, middle) ? free : not_free) = middle;
-        }
-        if (!(free < least)) continue;
-        least = free;
-        if (!is_free_at(body, motion, (1 + margin) * free) || bodies_.largest_displacement(body) > options_.most_motion)
-          motion.apply(body, free);
-        best = body;
-      }
-      if (stopped()) break;
-      blocked = distance;
-      distance = std::min(growth * distance, body.diagonal);
-    }
-    body = best;
-    if (!std::isfinite(least)) {
-      body.rotation = Eigen::Matrix3d::Identity();
-      body.centre = body.rest_centre;
-    }
+    std::vector<MotionFamily> families;
+    for (const BodyMotion& motion : motions) families.push_back({.last = motion.longest(body.diagonal)});
+    const auto is_free = [&](std::size_t k, double distance) { return is_free_at(body, motions[k], distance); };
+    const std::optional<FreePlace> found = nearest_free_place(families, is_free, margin, options_.stop);
+    motions[found ? found->family : 0].apply(body, found ? found->parameter : 0);
     bodies_.move(body);
     bodies_.settle(body);
-    return std::isfinite(least);
+    return found.has_value();
   }
 
   Bodies& bodies_;

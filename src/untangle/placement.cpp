@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
-#include <tuple>
+#include <optional>
 
 #include "contact/blocking_pairs.h"
 #include "contact/bvh.h"
@@ -13,24 +12,18 @@
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
 #include "mesh/union_find.h"
+#include "rigid/free_place.h"
 #include "untangle/shared_constants.h"
 
 namespace unsnarl {
 namespace {
 
-// Values without a measurement beside them: no others were tried.
-
-/// The first try of a motion goes by this share of the component's diagonal, and each next one `growth` times as far.
-constexpr double first_step = 1e-3;  // without unit
-constexpr double growth = 1.6;       // without unit
-/// Bisections between the last motion that is not free and the first that is. With 5, wigs end up to a fifth farther.
-constexpr int bisections = 6;
-/// A component goes farther than the first free place by this share of the motion, and shrinks so far at most that this
-/// leaves it short of the point.
-constexpr double margin = 0.05;  // without unit
-/// So many intersecting pairs are tried for their normals as directions, and as many own vertices as points to shrink to.
-/// With 24 vertices a wig ends 6 % farther, all others of 66 meshes as close.
-constexpr std::size_t most_tries = 16;
+/// Clearance: share of its motion by which a component goes beyond the first free place; it shrinks to this share at
+/// least.
+constexpr double margin = 0.05;
+/// Number of a component's own vertices that it shrinks toward, at most about. With 24 a wig ends 6 % farther, all
+/// others of 66 meshes as close.
+constexpr std::size_t most_centres = 16;
 
 /// A component of the patch that may be placed.
 struct Component {
@@ -145,22 +138,23 @@ class Placement {
       motions.push_back({.direction = d / length});
       motions.push_back({.direction = -d / length});
     };
-    const std::size_t stride = contacts.size() / most_tries + 1;
-    for (std::size_t k = 0; k < contacts.size(); k += stride) {
-      add_both_ways(area_vector(x_, patch_.triangles[contacts[k].a]));
-      add_both_ways(area_vector(x_, patch_.triangles[contacts[k].b]));
+    for (const IntersectingPair& pair : some_contacts(contacts)) {
+      add_both_ways(area_vector(x_, patch_.triangles[pair.a]));
+      add_both_ways(area_vector(x_, patch_.triangles[pair.b]));
     }
-    for (int i = -1; i <= 1; ++i)
-      for (int j = -1; j <= 1; ++j)
-        for (int k = -1; k <= 1; ++k)
-          if (std::tie(i, j, k) > std::tuple(0, 0, 0)) add_both_ways(Vec3(i, j, k));
+    for (const Vec3& direction : lattice_directions()) add_both_ways(direction);
     Vec3 middle = Vec3::Zero();
     for (Index v : component.vertices) middle += x_.col(v);
     motions.push_back({.centre = middle / static_cast<double>(component.vertices.size())});
-    const std::size_t step = component.vertices.size() / most_tries + 1;
+    const std::size_t step = component.vertices.size() / most_centres + 1;
     for (std::size_t k = 0; k < component.vertices.size(); k += step)
       motions.push_back({.centre = x_.col(component.vertices[k])});
     return motions;
+  }
+
+  static MotionFamily family_of(const Motion& motion, const Positions& from, double diagonal) {
+    if (motion.is_translation()) return {.last = diagonal};
+    return {.last = 1 - margin, .rate = std::sqrt((from.colwise() - motion.centre).colwise().squaredNorm().mean())};
   }
 
   void move(const Component& component, const Positions& from, const Motion& motion, double parameter) {
@@ -168,7 +162,7 @@ class Placement {
       x_.col(component.vertices[k]) = motion.apply(from.col(static_cast<Index>(k)), parameter);
   }
 
-  /// Unless it intersects itself there.
+  /// Moves the component back to rest if it does not intersect itself there.
   void go_back_to_rest(const Component& component) {
     for (Index v : component.vertices) x_.col(v) = patch_.rest.col(v);
     update_boxes(component);
@@ -199,44 +193,20 @@ class Placement {
     Positions from(3, static_cast<Index>(component.vertices.size()));
     for (std::size_t k = 0; k < component.vertices.size(); ++k)
       from.col(static_cast<Index>(k)) = x_.col(component.vertices[k]);
-    Positions best = from;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Motion& motion : motions_of(component, contacts)) {
-      if (stopped()) break;
-      // Root mean square of the displacement at parameter 1.
-      const double rate =
-          motion.is_translation() ? 1 : std::sqrt((from.colwise() - motion.centre).colwise().squaredNorm().mean());
-      if (!(rate > 0)) continue;
-      const double last = motion.is_translation() ? component.diagonal : 1 - margin;
-      double blocked = 0, parameter = first_step * last;
-      bool free = false;
-      while (parameter * rate < least) {
-        move(component, from, motion, parameter);
-        free = is_free(component);
-        if (free || parameter == last) break;
-        blocked = parameter;
-        parameter = std::min(growth * parameter, last);
-      }
-      if (!free) continue;
-      for (int k = 0; k < bisections; ++k) {
-        const double middle = 0.5 * (blocked + parameter);
-        move(component, from, motion, middle);
-        (is_free(component) ? parameter : blocked) = middle;
-      }
-      for (const double share : {1 + margin, 1.0}) {
-        move(component, from, motion, share * parameter);
-        if (is_free(component)) break;
-      }
-      if (!(parameter * rate < least)) continue;
-      least = parameter * rate;
-      for (std::size_t k = 0; k < component.vertices.size(); ++k)
-        best.col(static_cast<Index>(k)) = x_.col(component.vertices[k]);
-    }
-    const bool found = std::isfinite(least);
-    for (std::size_t k = 0; k < component.vertices.size(); ++k)
-      x_.col(component.vertices[k]) = found ? best.col(static_cast<Index>(k)) : patch_.x.col(component.vertices[k]);
+    const std::vector<Motion> motions = motions_of(component, contacts);
+    std::vector<MotionFamily> families;
+    for (const Motion& motion : motions) families.push_back(family_of(motion, from, component.diagonal));
+    const auto is_free_at = [&](std::size_t k, double parameter) {
+      move(component, from, motions[k], parameter);
+      return is_free(component);
+    };
+    const std::optional<FreePlace> found = nearest_free_place(families, is_free_at, margin, stop_);
+    if (found)
+      move(component, from, motions[found->family], found->parameter);
+    else
+      for (const Index v : component.vertices) x_.col(v) = patch_.x.col(v);
     update_boxes(component);
-    return found;
+    return found.has_value();
   }
 
   Patch& patch_;
@@ -261,8 +231,7 @@ std::vector<Index> vertices_of_tied_components(const Scene& scene, const Connect
   const auto part_of = [&](Index t) { return parts.of_vertex[scene.triangles[t][0]]; };
   UnionFind tied(parts.count);
   bool is_between = false;
-  for (const IntersectingPair& pair : region.pairs)
-    is_between |= part_of(pair.a) != part_of(pair.b);
+  for (const IntersectingPair& pair : region.pairs) is_between |= part_of(pair.a) != part_of(pair.b);
   if (!is_between) return {};
   for (const auto pairs : {std::span<const IntersectingPair>(region.pairs), initial_pairs})
     for (const IntersectingPair& pair : pairs) tied.unite(part_of(pair.a), part_of(pair.b));

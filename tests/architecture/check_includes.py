@@ -25,7 +25,7 @@ BELOW = {
     "scene": ["geometry", "mesh", "contact"],
     "rigid": ["geometry", "mesh", "contact"],
     "recover": ["geometry", "mesh", "contact", "energy", "optimize", "scene"],
-    "untangle": ["geometry", "mesh", "contact", "energy", "optimize", "scene", "recover"],
+    "untangle": ["geometry", "mesh", "contact", "energy", "optimize", "scene", "rigid", "recover"],
     "report": ["geometry", "mesh", "contact", "energy", "io", "scene", "rigid", "untangle"],
     "pipeline": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render", "scene", "rigid", "recover",
                  "untangle", "report"],
