@@ -194,7 +194,7 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
   add_mesh_options(command, options);
   command.footer(std::string("Classes of pairs:\n"
                              "  disjoint    the faces share no vertex\n"
-                             "  one_vertex  they share one vertex and also intersect elsewhere\n"
+                             "  one_vertex  they share one vertex, and meet elsewhere too\n"
                              "  folded      they share an edge and overlap\n"
                              "  duplicate   they have the same three vertices\n"
                              "  degenerate  one of them has no area\n\n"

@@ -52,6 +52,12 @@ std::string explain_missing_value(const CLI::App& command, const std::string& na
   return fmt::format("{0} needs a value: {0} {1}", usual, type);
 }
 
+/// "-o" for "--output", if there is such an option.
+std::string as_written(const CLI::App& command, const std::string& name) {
+  const CLI::Option* const option = command.get_option_no_throw(name);
+  return option == nullptr ? name : usual_name(*option);
+}
+
 /// "-o DIR" for "--output".
 std::string as_typed(const CLI::App& command, const std::string& name) {
   const CLI::Option* const option = command.get_option_no_throw(name);
@@ -64,7 +70,7 @@ std::string explain_fault(const CLI::App& command, const CLI::ParseError& error)
   const std::string fault = error.what(), kind = error.get_name();
   const std::string name = fault.substr(0, fault.find_first_of(": "));
   if (kind == "ValidationError")
-    return fmt::format("{} {}", name, fault.substr(std::min(fault.size(), name.size() + 2)));
+    return fmt::format("{} {}", as_written(command, name), fault.substr(std::min(fault.size(), name.size() + 2)));
   if (kind == "ArgumentMismatch") return explain_missing_value(command, name);
   if (kind == "RequiredError") return fmt::format("'unsnarl {}' needs {}", command.get_name(), as_typed(command, name));
   if (kind == "RequiresError") return fmt::format("{} needs {}", name, fault.substr(fault.rfind(' ') + 1));

@@ -49,7 +49,7 @@ TEST_F(PartsHeld, NamedPartsStayWhereTheyAre) {
                  "--fix-group: there is no group 'anker'; there are: 'anchor heavy', 'swimmer'");
   expect_refusal({"fix", in, "-o", out, "--only-object", "bird"}, 2, "--only-object: there is no object 'bird'");
   expect_refusal({"fix", in, "-o", out, "--fix-component", "2"}, 2, "the mesh has 2");
-  expect_refusal({"fix", in, "-o", out, "--fix-file", "in.obj"}, 2, "--fix-file tells several files apart");
+  expect_refusal({"fix", in, "-o", out, "--fix-file", "in.obj"}, 2, "--fix-file needs several input files");
   // Several times, and everything: nothing is left that could move.
   const Outcome all = run({"fix", in, "-o", out, "--fix-group", "anchor", "--fix-group", "swimmer"});
   EXPECT_EQ(all.exit_code, 7) << all.err;

@@ -112,8 +112,7 @@ BatchMesh mesh_of_line(const std::string& line, const std::string& place) {
   } else if (!stays_inside(name)) {
     mesh.fault = fmt::format("{}: '{}' cannot be the name of a result; use a relative path without '..'", place, name);
   } else if (!format_from_extension(name)) {
-    mesh.fault = fmt::format("{}: the extension of '{}' is not one of a supported format: {}", place, name,
-                             format_names(" or "));
+    mesh.fault = fmt::format("{}: '{}' has no extension of a supported format: {}", place, name, format_names(" or "));
   }
   if (name.empty()) mesh.name = place;
   return mesh;
