@@ -26,7 +26,7 @@ def first_sentence(text):
 
 def bash(pages):
     own = pages[None]
-    commands = [entry.names[0] for entry in own.groups["Subcommands"]]
+    commands = [entry.names[0] for entry in own.groups["Commands"]]
     yield NOTE
     yield "_unsnarl() {"
     yield "  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= options= part"
@@ -74,7 +74,7 @@ def zsh(pages):
             return f"'{often}{names[0]}[{described(entry.meaning)}]{value}'"
         return f"'({' '.join(names)})'{{{','.join(names)}}}'[{described(entry.meaning)}]{value}'"
 
-    commands = pages[None].groups["Subcommands"]
+    commands = pages[None].groups["Commands"]
     yield "#compdef unsnarl"
     yield NOTE
     yield "_unsnarl() {"
@@ -112,7 +112,7 @@ def fish(pages):
             words.append("-r -F" if FILE.match(entry.value) else "-x")
         return " ".join([*words, "-d", quoted(first_sentence(entry.meaning))])
 
-    commands = pages[None].groups["Subcommands"]
+    commands = pages[None].groups["Commands"]
     yield NOTE
     for entry in options_of(pages[None]):
         yield f"complete -c unsnarl -n __fish_use_subcommand {option(entry)}"

@@ -5,9 +5,7 @@ import subprocess
 from dataclasses import dataclass, field
 
 HEADING = re.compile(r"^(\S.*):$")
-# Two blanks before the meaning; one where what stands before it fills its column.
-ENTRY = re.compile(r"^  (\S.*?)(?:(?:  +|(?:(?<=\.\.\.)|(?<=Needs: --paper)) (?=[A-Z][a-z])(?!Needs|Excludes))(\S.*))?$")
-NEEDS = re.compile(r" (Excludes|Needs): .*$")
+ENTRY = re.compile(r"^  (\S.*?)(?:  +(\S.*))?$")
 
 
 @dataclass
@@ -33,7 +31,7 @@ def help_text(program, command=None):
 
 
 def entry_of(head):
-    words = NEEDS.sub("", head).removesuffix(" REQUIRED").removesuffix(" TEXT").split(" ", 1)
+    words = head.split(" ", 1)
     return Entry(words[0].split(","), words[1] if len(words) > 1 else "", "")
 
 
@@ -63,5 +61,5 @@ def parse(text):
 def read(program):
     """{None: the program's own help, "fix": ..., ...} for every command that the program has."""
     own = parse(help_text(program))
-    commands = [entry.names[0] for entry in own.groups["Subcommands"]]
+    commands = [entry.names[0] for entry in own.groups["Commands"]]
     return {None: own, **{command: parse(help_text(program, command)) for command in commands}}

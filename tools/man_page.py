@@ -37,10 +37,9 @@ def note(lines):
 
 
 def exit_status(notes):
-    """'Exit codes: 0 embedded (...), 1 ...' as a list."""
-    text = " ".join(next(lines for lines in notes if lines[0].startswith("Exit codes:")))
-    codes = re.split(r", (?=\d+ )", text.split(". ")[0].removeprefix("Exit codes: ").rstrip("."))
-    for code, meaning in (item.split(" ", 1) for item in codes):
+    """'Exit codes:' and a line for each."""
+    lines = next(lines for lines in notes if lines[0] == "Exit codes:")
+    for code, meaning in (line.split(maxsplit=1) for line in lines[1:]):
         yield f".TP\n{bold(code)}\n{escaped(meaning)}"
 
 

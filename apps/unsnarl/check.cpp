@@ -155,7 +155,7 @@ CheckLimits limits_of(const CheckOptions& options) {
 }
 
 int checked(const CheckOptions& options, Interruption& interruption) {
-  if (options.pairs == standard_stream) throw UsageError("--pairs needs a file of its own");
+  if (options.pairs == standard_stream) throw UsageError("--pairs needs a file name, not '-'");
   const MemoryGuard memory_guard(options.memory_limit_mb);
   ProgressDisplay display("auto", options.quiet);
   display.begin("read");
@@ -183,26 +183,30 @@ int checked(const CheckOptions& options, Interruption& interruption) {
 }  // namespace
 
 void add_check_options(CLI::App& command, CheckOptions& options) {
-  add_mesh_options(command, options);
-  command.add_flag("--json", options.json, "Print the findings as JSON, with every place");
-  command.add_option("--pairs", options.pairs, "Write all intersecting pairs: 0-based ids of both faces, class")
+  add_inputs(command, options);
+  command.add_flag("--json", options.json, "Print the result as JSON, with every place where faces intersect");
+  command
+      .add_option("--pairs", options.pairs,
+                  "Write all intersecting pairs of faces: the ids of both, counted from 0, and the class")
       ->type_name("FILE.csv");
   add_time_limit(command, options.time_limit_s);
   add_memory_limit(command, options.memory_limit_mb);
-  command.footer(
-      "Classes of pairs:\n"
-      "  disjoint    the faces share no vertex\n"
-      "  one_vertex  they share one vertex and meet elsewhere too\n"
-      "  folded      they share an edge and overlap\n"
-      "  duplicate   they have the same three vertices\n"
-      "  degenerate  one of them has no area\n\n"
-      "Examples:\n"
-      "  unsnarl check hand.obj\n"
-      "  unsnarl check brain.surf skull.gii skin.obj          within and between three files\n"
-      "  unsnarl check hand.obj --json | jq .pairs\n"
-      "  unsnarl check - --format stl < part.stl --pairs pairs.csv\n\n"
-      "Exit codes: 0 none found, 1 found, 2 usage, 3 cannot read, 4 cannot write,\n"
-      "5 limit of time or memory, 6 interrupted, 9 the system failed (try again), 70 internal error.");
+  add_mesh_options(command, options);
+  command.footer(std::string("Classes of pairs:\n"
+                             "  disjoint    the faces share no vertex\n"
+                             "  one_vertex  they share one vertex, and meet elsewhere too\n"
+                             "  folded      they share an edge and overlap\n"
+                             "  duplicate   they have the same three vertices\n"
+                             "  degenerate  one of them has no area\n\n"
+                             "Examples:\n"
+                             "  unsnarl check hand.obj\n"
+                             "  # within and between three files\n"
+                             "  unsnarl check brain.surf skull.gii skin.obj\n"
+                             "  unsnarl check hand.obj --json | jq .pairs\n"
+                             "  unsnarl check - --format stl < part.stl --pairs pairs.csv\n\n") +
+                 exit_codes({{exit_embedded, "no self-intersections"},
+                             {exit_intersecting, "self-intersections found"},
+                             {exit_limit, "limit of time or memory reached"}}));
 }
 
 int run_check(const CheckOptions& options, Interruption& interruption) {

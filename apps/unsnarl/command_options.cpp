@@ -3,54 +3,92 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "standard_streams.h"
 #include "unsnarl/document.h"
+#include "unsnarl/exit_code.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
 namespace {
 
-/// `reaches`: whether a number is no larger than allowed, which the message says in `words` and with `most`.
-template <class Reaches>
-CLI::Validator number_in(double least, double most, const Reaches& reaches, const char* words) {
-  // CLI::Range lets NaN through, which is on no side of any bound.
+constexpr double unbounded = std::numeric_limits<double>::max();
+
+std::optional<double> number_in(const std::string& text) {
+  double number = 0;
+  if (!CLI::detail::lexical_cast(text, number) || std::isnan(number)) return std::nullopt;
+  return number;
+}
+
+/// Why this is not a number: a decimal comma, a unit, a percent sign.
+std::string fault_of_text(const std::string& text) {
+  std::string other = text;
+  std::replace(other.begin(), other.end(), ',', '.');
+  if (other != text && number_in(other))
+    return fmt::format("'{}' is not a number; use a decimal point: {}", text, other);
+  if (text.ends_with('%'))
+    if (const auto percent = number_in(text.substr(0, text.size() - 1)))
+      return fmt::format("'{}' is not a number; {} is {:.6g}", text, text, *percent / 100);
+  return fmt::format("'{}' is not a number", text);
+}
+
+/// `bound`: the fault of a number that is too large; empty: it is not.
+template <class Bound>
+CLI::Validator number_from(double least, Unit unit, const Bound& bound) {
   const auto fault = [=](const std::string& text) {
-    double number = 0;
-    if (CLI::detail::lexical_cast(text, number) && number >= least && reaches(number)) return std::string();
-    const std::string hint = text.ends_with('%') && CLI::detail::lexical_cast(text.substr(0, text.size() - 1), number)
-                                 ? fmt::format("; {} is {:.6g}", text, number / 100)
-                                 : "";
-    return most == std::numeric_limits<double>::max()
-               ? fmt::format("{} is no number from {} up{}", text, least, hint)
-               : fmt::format("{} is no number from {} {} {}{}", text, least, words, most, hint);
+    const std::optional<double> number = number_in(text);
+    const std::string words = !number           ? fault_of_text(text)
+                              : *number < least ? fmt::format("'{}' is less than {}", text, least)
+                                                : bound(text, *number);
+    return words.empty() ? std::string() : fmt::format("{}; {}", unit.words, words);
   };
   return CLI::Validator(fault, "");
+}
+
+/// "'a', 'b' or 'c'".
+std::string quoted(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += fmt::format("{}'{}'", k == 0 ? "" : k + 1 == words.size() ? " or " : ", ", words[k]);
+  return text;
 }
 
 }  // namespace
 
 CLI::Validator one_of(std::vector<std::string> words) {
-  return CLI::IsMember(std::move(words)).description("");
+  const auto fault = [words = std::move(words)](const std::string& text) {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+    return fmt::format("must be {}, not '{}'", quoted(words), text);
+  };
+  return CLI::Validator(fault, "");
 }
-CLI::Validator number_within(double least, double most) {
-  return number_in(
-      least, most, [=](double number) { return number <= most; }, "to");
+CLI::Validator number_within(double least, double most, Unit unit) {
+  return number_from(least, unit, [most](const std::string& text, double number) {
+    if (number <= most) return std::string();
+    return most == unbounded ? fmt::format("'{}' is infinite", text) : fmt::format("'{}' is more than {}", text, most);
+  });
 }
-CLI::Validator number_below(double least, double bound) {
-  return number_in(
-      least, bound, [=](double number) { return number < bound; }, "to less than");
+CLI::Validator number_below(double least, double bound, Unit unit) {
+  return number_from(least, unit, [bound](const std::string& text, double number) {
+    return number < bound ? std::string() : fmt::format("'{}' is not less than {}", text, bound);
+  });
 }
-CLI::Validator not_negative() {
-  return number_within(0, std::numeric_limits<double>::max());
+CLI::Validator not_negative(Unit unit) {
+  return number_within(0, unbounded, unit);
 }
 CLI::Validator whole_number_within(long least, long most) {
   const auto fault = [least, most](const std::string& text) {
     long number = 0;
     if (CLI::detail::lexical_cast(text, number) && number >= least && number <= most) return std::string();
-    return fmt::format("{} is no whole number from {} to {}", text, least, most);
+    return most == std::numeric_limits<std::int32_t>::max()
+               ? fmt::format("must be a whole number, {} or more, not '{}'", least, text)
+               : fmt::format("must be a whole number from {} to {}, not '{}'", least, most, text);
   };
   return CLI::Validator(fault, "");
 }
@@ -63,22 +101,34 @@ CLI::Validator file_named(std::vector<std::string> extensions, bool folders, con
     std::string extension = CLI::detail::to_lower(std::filesystem::path(path).extension().string());
     extension.erase(0, 1);
     if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return std::string();
-    return fmt::format("{}: name it *.{}{}", path, fmt::join(extensions, " or *."),
+    return fmt::format("must be named *.{}, not '{}'{}", fmt::join(extensions, " or *."), path,
                        advice.empty() ? "" : fmt::format("; {}", advice));
   };
   return CLI::Validator(fault, "");
 }
 
-void add_time_limit(CLI::App& command, double& seconds, const std::string& group) {
-  command.add_option("--time-limit", seconds, "Stop after this many seconds; 0: none")
-      ->check(not_negative())
-      ->type_name("S")
+std::string exit_codes(std::map<int, std::string> own) {
+  own.merge(std::map<int, std::string>{{exit_usage, "usage error"},
+                                       {exit_invalid_input, "cannot read the input"},
+                                       {exit_cannot_write, "cannot write the output"},
+                                       {exit_cancelled, "interrupted"},
+                                       {exit_system_error, "the system failed; the same command may succeed later"},
+                                       {exit_internal_error, "internal error: a bug in unsnarl"}});
+  std::string text = "Exit codes:";
+  for (const auto& [code, meaning] : own) text += fmt::format("\n  {:<4}{}", code, meaning);
+  return text;
+}
+
+void add_time_limit(CLI::App& command, double& limit, const std::string& group) {
+  command.add_option("--time-limit", limit, "Stop after this many seconds. 0: no limit")
+      ->check(not_negative(unit::seconds))
+      ->type_name("SECONDS")
       ->group(group);
 }
 
-void add_memory_limit(CLI::App& command, double& megabytes, const std::string& group) {
-  command.add_option("--memory-limit", megabytes, "Stop before the program holds more than this many MB; 0: none")
-      ->check(not_negative())
+void add_memory_limit(CLI::App& command, double& limit, const std::string& group) {
+  command.add_option("--memory-limit", limit, "Stop before the program uses more than this many MB. 0: no limit")
+      ->check(not_negative(unit::megabytes))
       ->type_name("MB")
       ->group(group);
 }
@@ -86,53 +136,64 @@ void add_memory_limit(CLI::App& command, double& megabytes, const std::string& g
 void add_progress(CLI::App& command, std::string& progress, const std::string& group) {
   command
       .add_option("--progress", progress,
-                  "On standard error: one line that changes, or if it is no terminal a line each 30 seconds\n"
-                  "('auto', default); JSON lines; or 'none'")
+                  "Progress on standard error. 'auto' (default): one line that is updated on a terminal, else a line "
+                  "every 30 seconds. 'json': JSON lines. 'none': no progress")
       ->check(one_of({"auto", "json", "none"}))
       ->type_name("auto|json|none")
       ->group(group);
 }
 
 void add_quiet(CLI::App& command, bool& quiet, const std::string& group) {
-  command.add_flag("--quiet,-q", quiet, "Say nothing but errors")->group(group);
+  command.add_flag("--quiet,-q", quiet, "Print errors only")->group(group);
 }
 
-void add_mesh_options(CLI::App& command, MeshOptions& options, const std::string& input) {
+void add_inputs(CLI::App& command, MeshOptions& options, const std::string& input) {
   command.add_option("IN", options.inputs, input + ": " + format_names(" or ") + "; '-' for standard input")
       ->required();
-  command
-      .add_option("--format", options.format, "Format of the mesh, where its name does not tell; of several, of each")
-      ->type_name("FORMAT");
-  command
-      .add_option("--goal", options.goal,
-                  "What counts as a self-intersection: 'all' (default), pairs of faces that meet anywhere\n"
-                  "but where they are joined; or only the 'disjoint' ones of these, which share no vertex")
-      ->check(one_of({"all", "disjoint"}))
-      ->type_name("all|disjoint");
-  command
-      .add_option("--weld", options.weld,
-                  "Which vertices at equal positions count as one: 'seams', ends of open edges that coincide\n"
-                  "(default: texture seams, corners in STL), 'all', or 'none'. The file keeps them apart anyway")
-      ->check(one_of({"none", "seams", "all"}))
-      ->type_name("none|seams|all");
-  command
-      .add_option("--weld-tolerance", options.weld_tolerance,
-                  "How far apart positions may be to count as equal, in the units of the mesh")
-      ->check(not_negative())
-      ->type_name("LENGTH");
-  command.add_flag("--both-diagonals", options.both_diagonals,
-                   "Programs that read the file may split quads along either diagonal: faces intersect where they do\n"
-                   "for any choice. Else a quad is split from its first corner (or its second, if that folds)");
-  command.add_option("--threads", options.threads, "Threads to use; 0: as many as the machine has")
+}
+
+void add_mesh_options(CLI::App& command, MeshOptions& options) {
+  command.add_option("--threads", options.threads, "Number of threads. 0: all processors")
       ->check(whole_number_within(0, 1024))
       ->type_name("N");
   add_quiet(command, options.quiet);
+  const std::string reading = options_of_reading;
+  command
+      .add_option("--format", options.format,
+                  "File format, if the name does not show it (with several files: of all of them)")
+      ->type_name("FORMAT")
+      ->group(reading);
+  command
+      .add_option("--goal", options.goal,
+                  "Which self-intersections count. 'all' (default): two faces that touch anywhere except at the "
+                  "vertices and edges that they share. 'disjoint': only faces that share no vertex")
+      ->check(one_of({"all", "disjoint"}))
+      ->type_name("all|disjoint")
+      ->group(reading);
+  command
+      .add_option("--weld", options.weld,
+                  "Treat vertices at the same position as one: only along UV seams and STL corners ('seams', default), "
+                  "'all', or 'none'. The file itself is never merged")
+      ->check(one_of({"none", "seams", "all"}))
+      ->type_name("none|seams|all")
+      ->group(reading);
+  command
+      .add_option("--weld-tolerance", options.weld_tolerance,
+                  "Largest distance between positions that count as the same, in the units of the file (default 0)")
+      ->check(not_negative(unit::units_of_file))
+      ->type_name("LENGTH")
+      ->group(reading);
+  command
+      .add_flag("--both-diagonals", options.both_diagonals,
+                "Test both ways to split a quad into triangles: the result holds whichever way another program splits "
+                "it. Default: split from the first corner (from the second if the first would fold)")
+      ->group(reading);
   command.final_callback([&options] { options.require_effect(); });
 }
 
 void MeshOptions::require_effect() const {
   if (weld == "none" && weld_tolerance > 0)
-    throw UsageError("--weld-tolerance does nothing with --weld none; leave one of the two out");
+    throw UsageError("--weld-tolerance has no effect with --weld none; leave one of the two out");
 }
 
 FindOptions MeshOptions::find() const {

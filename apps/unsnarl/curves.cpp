@@ -4,7 +4,9 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -35,7 +37,7 @@ CurveDocument read_curves(const CurvesOptions& options) {
       throw FileError(options.input + ": name it *.svg or *.json, or add --format");
     return CurveDocument::read(options.input, options.flatten, format);
   }
-  if (!format) throw UsageError("standard input has no extension to tell its format by: add --format svg or json");
+  if (!format) throw UsageError("the format of standard input is unknown; add --format svg or --format json");
   return CurveDocument::parse(read_bytes(standard_stream), *format, options.flatten);
 }
 
@@ -54,9 +56,9 @@ std::vector<Curve> curves_to_move(const CurveDocument& document, const std::vect
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
     if (!found && error == std::errc{} && end == wanted.data() + wanted.size() && number < curves.size()) hold(number);
     if (!found)
-      throw UsageError(
-          fmt::format("--fix {}: no curve has this id or name; give one of the file, or a number from 0 to {}", wanted,
-                      curves.empty() ? 0 : curves.size() - 1));
+      throw UsageError(fmt::format(
+          "--fix {}: no curve has this id or name; use an id or name from the file, or a number from 0 to {}", wanted,
+          curves.empty() ? 0 : curves.size() - 1));
   }
   return curves;
 }
@@ -100,7 +102,7 @@ class Curves {
     context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
     interruption_.set_handler([&] {
       context.cancel();
-      if (!options_.quiet) tell("\nstopping; once more to end at once\n");
+      if (!options_.quiet) tell("\nstopping; press Control-C again to end at once\n");
     });
     try {
       result_ = untangle_curves(input, wanted, &context);
@@ -125,7 +127,7 @@ class Curves {
  private:
   void check_outputs() const {
     if (options_.output.empty() && options_.integrand.empty())
-      throw UsageError("where should the result go? Give -o OUT ('-' for standard output)");
+      throw UsageError("-o OUT is missing: the file to write the result to, or '-' for standard output");
     const std::optional<CurveFormat> format =
         is_stream(options_.output) ? std::nullopt : curve_format_from_extension(options_.output);
     if (format && *format != document_.format())
@@ -157,16 +159,16 @@ class Curves {
   void require_kept(const std::string& bytes) const {
     const std::string faults = curve_file_faults(document_, bytes, result_);
     if (!faults.empty())
-      throw WriteError(
-          fmt::format("{}: nothing was written: after rounding to the numbers of this file, {}. Where elements have "
-                      "transforms, apply them to the coordinates first",
-                      options_.output, faults));
+      throw WriteError(fmt::format(
+          "{}: no file written: after rounding to the numbers of this file, {}. If elements have transforms, "
+          "apply them to the coordinates first",
+          options_.output, faults));
   }
 
   void write_integrand(const std::vector<Curve>& curves) {
     if (options_.integrand_curve < 0 || static_cast<std::size_t>(options_.integrand_curve) >= curves.size())
-      throw UsageError(fmt::format("--integrand-curve {}: the file has {}, counted from 0", options_.integrand_curve,
-                                   count_of(curves.size(), "curve")));
+      throw UsageError(fmt::format("--integrand-curve {}: the file has {}; curves are counted from 0",
+                                   options_.integrand_curve, count_of(curves.size(), "curve")));
     write_file(options_.integrand, curve_integrand_png(curves[options_.integrand_curve], options_.bandwidth),
                interruption_);
   }
@@ -192,24 +194,26 @@ class Curves {
     std::string text = fmt::format("{}: {}, {}\n", visible_text(options_.input),
                                    count_of(result_.curves.size(), "curve"), count_of(r.points, "point"));
     if (r.crossings_before == 0) {
-      text += "nothing crosses; the file stays as it is\n";
+      text += "no crossings; the file stays as it is\n";
     } else {
       text += fmt::format("{}: {} before, {} after\n", to_string(result_.status),
                           count_of(r.crossings_before, "crossing"), r.crossings_after);
       const auto length = [&](double rel, const char* of = "") {
         return fmt::format("{:.2g} %{} ({:.2g})", 100 * rel, of, rel * r.diagonal);
       };
-      text += fmt::format("points moved {} on average, {} at most\nthey are {} from the input's drawing, {} at most\n",
-                          length(r.displacement_mean_rel, " of the diagonal"), length(r.displacement_max_rel),
-                          length(r.distance_mean_rel), length(r.distance_max_rel));
+      text += fmt::format(
+          "points moved {} on average, {} at most\ndistance from the drawing of the input: {} on average, {} at most\n",
+          length(r.displacement_mean_rel, " of the diagonal"), length(r.displacement_max_rel),
+          length(r.distance_mean_rel), length(r.distance_max_rel));
     }
     for (std::size_t k = 0; k < std::min(r.fixed.size(), most_places); ++k)
-      text += fmt::format("obstruction: {} cross and must not move\n", place_of(result_.curves, r.fixed[k]));
+      text +=
+          fmt::format("cannot be repaired: {} cross, and both must stay fixed\n", place_of(result_.curves, r.fixed[k]));
     if (r.fixed.empty())
       for (std::size_t k = 0; k < std::min(r.left.size(), most_places); ++k)
-        text += fmt::format("left: {}\n", place_of(result_.curves, r.left[k]));
+        text += fmt::format("still crossing: {}\n", place_of(result_.curves, r.left[k]));
     text += is_written ? fmt::format("wrote {}, {:.2f} s\n", visible_text(options_.output), r.seconds)
-                       : "nothing was written; --keep-partial writes what was reached\n";
+                       : "no file written; --keep-partial writes the incomplete result\n";
     tell(text);
   }
 
@@ -223,85 +227,88 @@ class Curves {
 }  // namespace
 
 void add_curves_options(CLI::App& command, CurvesOptions& options) {
-  command.add_option("IN", options.input, "File of curves: *.svg or *.json; '-' for standard input")->required();
-  command.add_option("-o,--output", options.output, "Where the untangled curves go; '-' for standard output")
+  command.add_option("IN", options.input, "File with curves: *.svg or *.json; '-' for standard input")->required();
+  command.add_option("-o,--output", options.output, "File to write the result to; '-' for standard output")
       ->type_name("OUT");
-  command.add_option("--format", options.format, "svg or json, where the name does not tell")
+  command.add_option("--format", options.format, "File format, if the name does not show it")
       ->check(one_of({"svg", "json"}))
       ->type_name("svg|json");
   command.add_flag("--keep-partial", options.keep_partial,
-                   "Write the result also where crossings are left or a limit was reached");
-  const CLI::Validator fraction = number_within(1e-12, 0.1);
+                   "Write the result even if crossings are left or a limit was reached");
+  const CLI::Validator fraction = number_within(1e-12, 0.1, unit::share_of_diagonal);
   command
       .add_option("--flatten", options.flatten,
-                  "How far flattened Béziers and arcs may be from the true curve, as a fraction of the\n"
-                  "bounding-box diagonal (default 0.0001)")
+                  "Largest distance between a Bézier curve or arc and the polyline that replaces it, as a fraction of "
+                  "the bounding-box diagonal (default 0.0001)")
       ->check(fraction)
-      ->type_name("X");
+      ->type_name("NUMBER");
   command
       .add_option("--gap", options.gap,
-                  "Distance to keep where a crossing was opened, as a fraction of the diagonal (default 0.004)")
+                  "Distance between curves where a crossing was removed, as a fraction of the diagonal (default 0.004)")
       ->check(fraction)
-      ->type_name("X");
+      ->type_name("NUMBER");
   command
       .add_option("--junction", options.junction,
-                  "How near an open curve must end to another one to end on it, and stay there, as a fraction\n"
-                  "of the diagonal (default 1e-9); flattened curves add what they are flattened by")
-      ->check(number_within(0, 0.1))
-      ->type_name("X");
+                  "An open curve that ends this near to another one ends on it, and stays there: a fraction of the "
+                  "diagonal (default 1e-9), to which flattened curves add --flatten")
+      ->check(number_within(0, 0.1, unit::share_of_diagonal))
+      ->type_name("NUMBER");
   const std::string what = "What may move";
   command
       .add_option("--fix", options.fix,
-                  "Do not move the curves of this id (SVG) or name (JSON), or the one of this number, counted\n"
-                  "from 0; may be repeated")
+                  "Keep fixed the curves of this id (SVG) or name (JSON), or the curve of this number, counted from 0. "
+                  "May be repeated")
       ->type_name("ID")
       ->allow_extra_args(false)
       ->group(what);
-  command.add_flag("--fix-ends", options.fix_ends, "Do not move the ends of open curves")->group(what);
-  const std::string limits = "Limits";
-  add_time_limit(command, options.time_limit_s, limits);
-  const std::string shown = "What is shown";
-  command.add_option("--report", options.report, "Write a JSON report: counts, displacement, what is left")
+  command.add_flag("--fix-ends", options.fix_ends, "Keep the ends of open curves fixed")->group(what);
+  add_time_limit(command, options.time_limit_s);
+  add_quiet(command, options.quiet);
+  const std::string shown = outputs_to_look_at;
+  command
+      .add_option("--report", options.report,
+                  "Write a JSON report: number of crossings, how far points moved, what is left")
       ->type_name("FILE")
       ->group(shown);
-  command.add_option("--picture", options.picture, "Write a picture, before and after, crossings in red")
+  command.add_option("--picture", options.picture, "Write a picture of the curves before and after, crossings in red")
       ->check(file_named({"svg"}))
       ->type_name("FILE.svg")
       ->group(shown);
   command
       .add_option("--integrand", options.integrand,
-                  "Write a picture of the self-contact energy's integrand over pairs of points of one curve\n"
-                  "(the paper's Fig. 4); needs no -o")
+                  "Write a picture of the integrand of the self-contact energy over pairs of points of one curve (the "
+                  "paper's Fig. 4). Works without -o")
       ->check(file_named({"png"}))
       ->type_name("FILE.png")
-      ->group(shown);
+      ->group(research_options);
   command
       .add_option("--integrand-curve", options.integrand_curve,
-                  "The curve that the integrand is of, counted from 0 (default 0)")
+                  "With --integrand: number of the curve, counted from 0 (default 0)")
+      ->check(whole_number_within(0, std::numeric_limits<std::int32_t>::max()))
       ->type_name("N")
-      ->group(shown);
+      ->group(research_options);
   command
       .add_option("--bandwidth", options.bandwidth,
-                  "Bandwidth of the energy, as a fraction of the diagonal (default 0.05)")
-      ->check(number_within(1e-6, 10.0))
-      ->type_name("X")
-      ->group(shown);
+                  "With --integrand: bandwidth of the energy, as a fraction of the diagonal (default 0.05)")
+      ->check(number_within(1e-6, 10.0, unit::share_of_diagonal))
+      ->type_name("NUMBER")
+      ->group(research_options);
   add_progress(command, options.progress, shown);
-  add_quiet(command, options.quiet, shown);
   command
-      .add_flag("--no-recover", options.no_recover, "Stop once nothing crosses, without opening and smoothing anything")
-      ->group("For research");
+      .add_flag("--no-recover", options.no_recover, "Stop when no crossing is left, without opening gaps and smoothing")
+      ->group(research_options);
   command.footer(
-      "Examples:\n"
-      "  unsnarl curves drawing.svg -o out.svg --picture compare.svg\n"
-      "  unsnarl curves map.svg -o out.svg --fix coast --fix-ends\n"
-      "  unsnarl sample curve_star -o star.json && unsnarl curves star.json -o out.json --integrand map.png\n\n"
-      "JSON: {\"curves\": [{\"points\": [[x, y], ...], \"closed\": true, \"fixed\": [point, ...], \"name\": "
-      "\"...\"}]};\n"
-      "only \"points\" is needed.\n\n"
-      "Exit codes: 0 no crossings, 1 crossings left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
-      "6 interrupted, 7 all resolved but crossings of segments that must not move,\n"
-      "9 the system failed (try again), 70 internal error.");
+      std::string(
+          "Examples:\n"
+          "  unsnarl curves drawing.svg -o out.svg --picture compare.svg\n"
+          "  unsnarl curves map.svg -o out.svg --fix coast --fix-ends\n"
+          "  unsnarl sample curve_star -o star.json && unsnarl curves star.json -o out.json --integrand map.png\n\n"
+          "JSON: {\"curves\": [{\"points\": [[x, y], ...], \"closed\": true, \"fixed\": [point, ...], \"name\": "
+          "\"...\"}]}; only \"points\" is needed.\n\n") +
+      exit_codes({{exit_embedded, "no crossings"},
+                  {exit_intersecting, "crossings are left"},
+                  {exit_limit, "time limit reached"},
+                  {exit_obstructed, "only crossings of segments that must stay fixed are left"}}));
 }
 
 int run_curves(const CurvesOptions& options, Interruption& interruption) {

@@ -51,9 +51,9 @@ void FilePlaces::claim(const fs::path& path, const File& file) {
     const auto other = files_.find(identity);
     if (other == files_.end() || !(other->second.is_written || file.is_written)) continue;
     if (path == standard_stream)
-      throw UsageError(
-          fmt::format("{} and {} both go to standard output; give one of them a file", other->second.what, file.what));
-    throw UsageError(fmt::format("{} and {} are the same ({}); {}", other->second.what, file.what, path.string(),
+      throw UsageError(fmt::format("{} and {} both go to standard output; write one of them to a file",
+                                   other->second.what, file.what));
+    throw UsageError(fmt::format("{} and {} are the same file ({}); {}", other->second.what, file.what, path.string(),
                                  file.is_written ? file.advice : other->second.advice));
   }
   for (const std::string& identity : identities) files_.emplace(identity, file);

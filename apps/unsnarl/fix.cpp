@@ -43,17 +43,17 @@ bool is_there(const fs::path& path) {
 std::string checked_output(const FixOptions& options) {
   scene_names(options.inputs);  // throws where two are the same
   if (options.is_scene() && options.in_place)
-    throw UsageError("--in-place takes one file; of several, give -o FOLDER for all of them");
+    throw UsageError("--in-place works with one file; for several files use -o FOLDER");
   if (options.is_scene() && is_stream(options.output))
-    throw UsageError(fmt::format("-o {}: several files need a folder to go to", options.output));
+    throw UsageError(fmt::format("-o {}: with several input files, -o needs a folder", options.output));
   if (options.in_place) {
-    if (!options.output.empty()) throw UsageError("--in-place and -o exclude each other: give one of them");
+    if (!options.output.empty()) throw UsageError("--in-place and -o exclude each other; leave one of the two out");
     if (options.inputs[0] == standard_stream) throw UsageError("--in-place needs a file, not standard input");
   } else if (options.output.empty()) {
     const std::string wanted = options.inputs.back();
     const bool is_result = options.inputs.size() == 2 && !is_there(wanted);
-    throw UsageError("where should the result go? Give -o OUT ('-' for standard output), or --in-place" +
-                     (is_result ? fmt::format("; for {0}: unsnarl fix {1} -o {0}", wanted, options.inputs[0]) : ""));
+    throw UsageError("-o OUT is missing: the file to write the result to ('-' for standard output); or use --in-place" +
+                     (is_result ? fmt::format(". For {0}: unsnarl fix {1} -o {0}", wanted, options.inputs[0]) : ""));
   }
   return options.in_place ? options.inputs[0] : options.output;
 }
@@ -73,7 +73,7 @@ FilePlaces checked_places(const FixOptions& options) {
   places.reads("--fix-vertices", options.fix_vertices);
   for (std::size_t i = 0; i < options.inputs.size(); ++i)
     places.writes(options.in_place ? "the input" : "-o", target_of(options, i),
-                  options.is_scene() ? "name another folder" : "use --in-place to overwrite the input");
+                  options.is_scene() ? "use another folder" : "use --in-place to overwrite the input");
   places.writes("--report", options.report);
   places.writes("--highlight", options.highlight);
   if (picture_kind(options.picture) != PictureKind::folder) places.writes("--picture", options.picture);
@@ -125,16 +125,16 @@ std::string broken_promise(const RepairResult& result, const RepairOptions& opti
       read_back.positions.size() != input.positions.size())
     return "its faces are not those of the input";
   const Certificate certificate = certifier.certify(read_back.positions);
-  if (!certificate.seams_closed) return "a seam of the input is open in it";
+  if (!certificate.seams_closed) return "a seam that was closed in the input is open";
   const PairCounts &after = certificate.pairs, &before = result.report.before;
   const std::size_t disjoint = after[PairClass::disjoint];
   const bool all = options.goal == Goal::all;
   if (result.status == Status::embedded && (all ? after.total() : disjoint) > 0)
-    return fmt::format("{} pairs of faces intersect in it", all ? after.total() : disjoint);
+    return fmt::format("{} pairs of faces intersect", all ? after.total() : disjoint);
   if (result.status == Status::embedded && all && !certificate.embedded())
     return fmt::format("{} faces have lost their area", certificate.new_zero_area_faces);
   if (disjoint > before[PairClass::disjoint] || (all && after.total() > before.total()))
-    return fmt::format("more pairs of faces intersect in it than in the input: {} against {}", after.total(),
+    return fmt::format("more pairs of faces intersect than in the input: {} instead of {}", after.total(),
                        before.total());
   return {};
 }
@@ -164,8 +164,7 @@ class Fix {
     files_.faces = surface().view().face_count();
     files_.notes = scene_.notes();
     if (options.recompute_normals && !scene_.recompute_normals())
-      files_.notes.push_back(fmt::format("--recompute-normals: there are no vertex normals in {} that could be updated",
-                                         names_of(scene_)));
+      files_.notes.push_back(fmt::format("--recompute-normals: {} has no vertex normals to update", names_of(scene_)));
     for (const std::string& doubt : wanted_nesting_.doubts) files_.notes.push_back("--nested: " + doubt);
     files_.before_repair.push_back(clock_.stage("read"));
   }
@@ -183,7 +182,7 @@ class Fix {
     context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
     interruption_.set_handler([&] {
       context.cancel();
-      if (!options_.quiet) tell("\nstopping; once more to end at once\n");
+      if (!options_.quiet) tell("\nstopping; press Control-C again to end at once\n");
     });
     display_.begin("diagnose");
     result_ = nesting_.chains.empty() ? repair(surface(), repair_options_, &context)
@@ -274,7 +273,8 @@ class Fix {
       const bool streams = is_stream(output_);
       const std::vector<fs::path> names = external_files(document, streams ? fs::path() : name_giver(i));
       if (streams && !names.empty())
-        throw UsageError("this file keeps its numbers in other files, which cannot go to a stream; give -o FILE");
+        throw UsageError(
+            "this file keeps its numbers in other files, so the result cannot go to standard output; use -o FILE");
       if (names.empty()) continue;
       const fs::path main = main_place(i);
       const std::vector<fs::path> replaced = options_.in_place ? names : external_files(main, document.format());
@@ -284,8 +284,8 @@ class Fix {
         const fs::path place = main.parent_path() / name;
         if (is_there(place) && std::find(replaced.begin(), replaced.end(), name) == replaced.end())
           throw UsageError(
-              fmt::format("{} is there already and would be overwritten by the external file of this name; write "
-                          "the result to another folder",
+              fmt::format("{} exists and would be overwritten by a file of the same name that belongs to the "
+                          "result; write the result to another folder",
                           place.string()));
       }
     }
@@ -355,8 +355,7 @@ class Fix {
   void verify(const Surface& written) {
     const std::string broken = broken_promise(result_, repair_options_, surface(), written, certifier());
     if (!broken.empty())
-      throw std::logic_error(
-          fmt::format("the file written does not hold what was certified: {}. It was removed", broken));
+      throw std::logic_error(fmt::format("the written file was removed, because reading it back shows: {}", broken));
     if (options_.is_scene() || !nesting_.chains.empty()) written_ = written.positions;
   }
 

@@ -10,6 +10,7 @@
 #include "mesh_input.h"
 #include "paper_options.h"
 #include "pictures.h"
+#include "unsnarl/exit_code.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -32,7 +33,7 @@ std::vector<std::uint8_t> faces_named(const Parts& parts, const std::string& pre
   };
   if (!parts.files.empty() && scene.files().size() == 1)
     throw UsageError(
-        fmt::format("{0}file tells several files apart; of one, name parts with {0}object and its like", prefix));
+        fmt::format("{0}file needs several input files; in one file, name parts with {0}object or {0}group", prefix));
   add("group", {.groups = parts.groups});
   add("object", {.objects = parts.objects});
   add("material", {.materials = parts.materials});
@@ -66,8 +67,8 @@ void set_rigid_parts(const FixOptions& options, const SceneDocument& scene, Repa
   const SurfaceView surface = scene.surface();
   if (!options.rigid.empty() && options.each)
     throw UsageError(
-        "--each repairs every component as if it were alone, --rigid moves parts among the others; leave "
-        "one of the two out");
+        "--each repairs every connected piece as if it were alone, --rigid moves parts among the others; leave one of "
+        "the two out");
   const auto add = [&](const std::string& name, const Parts& parts) {
     const auto flags = vertices_of_faces(surface, faces_named(parts, "--rigid-", options, scene));
     result.rigid.resize(flags.size(), -1);
@@ -81,10 +82,10 @@ void set_rigid_parts(const FixOptions& options, const SceneDocument& scene, Repa
                         "one of them out",
                         result.rigid_names[result.rigid[v]], name, v));
       if (!result.fixed.empty() && result.fixed[v])
-        throw UsageError(
-            fmt::format("--rigid: '{}' is held, at vertex {} at least, by --fix-... or --only-..., and "
-                        "cannot move as a body; leave one of the two out",
-                        name, v));
+        throw UsageError(fmt::format(
+            "--rigid: '{}' cannot move as a rigid body: --fix-... or --only-... keeps its vertex {} fixed; leave "
+            "one of the two out",
+            name, v));
       result.rigid[v] = part;
     }
   };
@@ -97,173 +98,214 @@ void set_rigid_parts(const FixOptions& options, const SceneDocument& scene, Repa
 }
 
 void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const std::string& what,
-               const std::string& group, const std::string& shortcut = "") {
+               const std::string& end, const std::string& group, const std::string& shortcut = "") {
   const auto named = [&](const std::string& name, auto& list, const std::string& of, const char* type) {
     // One value each time: more would swallow the name of the input.
     const bool has_shortcut = !shortcut.empty() && name == "object";
-    return command.add_option((has_shortcut ? shortcut + "," : "") + prefix + name, list, what + of)
+    return command
+        .add_option((has_shortcut ? shortcut + "," : "") + prefix + name, list, what + of + end + ". May be repeated")
         ->type_name(type)
         ->group(group)
         ->allow_extra_args(false);
   };
-  named("group", parts.groups,
-        "faces of this group (OBJ g, glTF mesh, Gmsh physical group, Abaqus ELSET); may be repeated", "NAME");
+  named("group", parts.groups, "the faces of this group (OBJ g, glTF mesh, Gmsh physical group, Abaqus ELSET)", "NAME");
   named("object", parts.objects,
-        "faces of this object (OBJ o, STL solid, glTF node, Gmsh entity, Abaqus part, 3MF object); may be repeated",
-        "NAME");
-  named("material", parts.materials, "faces of this material; may be repeated", "NAME");
-  named("component", parts.components, "component of this number, as 'unsnarl check' lists them; may be repeated", "N")
+        "the faces of this object (OBJ o, STL solid, glTF node, Gmsh entity, Abaqus part, 3MF object)", "NAME");
+  named("material", parts.materials, "the faces of this material", "NAME");
+  named("component", parts.components, "the connected piece of this number in the list of 'unsnarl check'", "N")
       ->check(whole_number_within(0, std::numeric_limits<std::int32_t>::max()));
-  named("file", parts.files, "file of this name, of several; may be repeated", "NAME");
+  named("file", parts.files, "the input file of this name", "NAME");
 }
 
-}  // namespace
-
-void add_fix_options(CLI::App& command, FixOptions& options) {
-  add_mesh_options(command, options);
-  command.final_callback([&command, &options] {
-    options.require_effect();
-    if (options.absolute && command.count("--max-displacement") + command.count("--min-gap") == 0)
-      throw UsageError("--absolute is about --max-displacement and --min-gap; give one of them, or leave it out");
-  });
+/// Where the result goes, how far vertices may move, limits.
+void add_usual_options(CLI::App& command, FixOptions& options) {
   command
       .add_option("-o,--output", options.output,
-                  "Where the repaired mesh goes; '-' for standard output. Of several files: the folder where they\n"
-                  "go under their names, all or none")
+                  "File to write the repaired mesh to; '-' for standard output. With several input files: a folder. "
+                  "Names stay the same; either all files are written or none")
       ->type_name("OUT");
   command.add_flag("--in-place", options.in_place, "Overwrite IN with the repaired mesh");
-  CLI::Option* const keep_partial = command.add_flag(
-      "--keep-partial", options.keep_partial,
-      "Write the result to OUT also where self-intersections are left or a limit was reached. Default:\n"
-      "it goes to OUT.partial.EXT beside it, and OUT is not written");
-  command.add_flag("--no-partial", options.no_partial, "Write no OUT.partial.EXT")->excludes(keep_partial);
-  command.add_flag(
-      "--recompute-normals", options.recompute_normals,
-      "Turn stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved; else they stay as\n"
-      "they are. Facet normals in STL always follow");
-  const std::string frames = "Sequences";
-  CLI::Option* const sequence =
-      command
-          .add_flag(
-              "--sequence", options.sequence,
-              "IN are the frames of a moving mesh: numbered files of the same faces, or patterns of them in\n"
-              "quotes; or a mesh and a point cache (PC2, MDD). Corrections go on smoothly in time. They go to the\n"
-              "folder of -o; a call that was interrupted goes on from there")
-          ->group(frames);
-  command.add_option("--frames", options.frames, "Only these, counted from 0, LAST excluded; either may be left out")
-      ->type_name("FIRST:LAST")
-      ->needs(sequence)
-      ->group(frames);
-  const std::string what = "What may move";
-  command
-      .add_option("--fix-vertices", options.fix_vertices, "File with the 0-based ids of vertices that must not move")
-      ->type_name("FILE")
-      ->group(what);
-  add_parts(command, "--fix-", options.fix, "Do not move the ", what);
-  command.add_flag("--fix-boundary", options.fix_boundary, "Do not move vertices on a boundary")->group(what);
-  CLI::Option* each =
-      command.add_flag("--each", options.each,
-                       "Repair every component as if it were alone. Where two run through each other they may go on\n"
-                       "doing so: this is reported as 'obstructed' (exit code 7), and the result is written");
-  command.add_flag("--together", options.together, "Repair the scene: components too are separated (default)")
-      ->excludes(each)
-      ->group(what);
-  each->group(what);
-  add_parts(command, "--only-", options.only, "Leave all as it is but the ", what);
-  command
-      .add_option("--nested", options.nested,
-                  "Which surfaces lie inside which: names of files, or of one file's objects, from the innermost out.\n"
-                  "Where two cross, the inner one goes in and the outer one out, also where the other way is shorter.\n"
-                  "All but the first have to be closed; may be repeated")
-      ->type_name("NAME,NAME,...")
-      ->group(what)
-      ->allow_extra_args(false);
-  add_parts(command, "--rigid-", options.rigid, "Turn and shift as one body, never deform, the ", what, "--rigid");
   command
       .add_option("--max-displacement", options.max_displacement,
-                  "How far any vertex may move, as a fraction of the bounding-box diagonal; 0: any distance.\n"
-                  "Intersections that this cannot resolve are left")
-      ->check(not_negative())
-      ->type_name("X")
-      ->group(what);
+                  "Largest distance that a vertex may move, as a fraction of the bounding-box diagonal. Intersections "
+                  "that need more are left. 0 (default): no limit")
+      ->check(not_negative(unit::share_or_length))
+      ->type_name("NUMBER");
   command
       .add_option("--min-gap", options.min_gap,
-                  "Wanted gap between sheets that are moved apart, of one component or two, as a fraction of the\n"
-                  "diagonal; 0: just enough to be safe")
-      ->check(not_negative())
-      ->type_name("X")
-      ->group(what);
+                  "Distance to keep between surfaces, as a fraction of the bounding-box diagonal. 0 (default): where "
+                  "they had to be moved apart, as little as is safe")
+      ->check(not_negative(unit::share_or_length))
+      ->type_name("NUMBER");
+  command.add_flag("--absolute", options.absolute,
+                   "--max-displacement and --min-gap are lengths in the units of the file");
+  CLI::Option* const keep_partial = command.add_flag(
+      "--keep-partial", options.keep_partial,
+      "Write the result to OUT even if self-intersections are left or a limit was reached. Default: such a result goes "
+      "to OUT.partial.EXT beside it, and OUT is not written");
+  command.add_flag("--no-partial", options.no_partial, "Do not write OUT.partial.EXT")->excludes(keep_partial);
+  add_time_limit(command, options.time_limit_s);
+  add_memory_limit(command, options.memory_limit_mb);
+}
+
+void add_outputs_to_look_at(CLI::App& command, FixOptions& options) {
+  const std::string shown = outputs_to_look_at;
   command
-      .add_flag("--absolute", options.absolute, "--max-displacement and --min-gap are lengths in the units of the mesh")
-      ->group(what);
-  command
-      .add_option("--min-dihedral", options.min_dihedral_deg,
-                  "Open two faces at an edge that are folded together closer than this angle, as programs that\n"
-                  "mesh volumes ask for (TetGen: 0.1); 0: leave them. In degrees, less than 90")
-      ->check(number_below(0, 90))
-      ->type_name("DEG")
-      ->group(what);
-  command
-      .add_option("--precision", options.precision,
-                  "Number format in which the result must hold: 'float32' as most programs read it, 'float64',\n"
-                  "or 'auto' (default): float32 where the coordinates allow it")
-      ->check(one_of({"auto", "float32", "float64"}))
-      ->type_name("auto|float32|float64");
-  const std::string limits = "Limits";
-  add_time_limit(command, options.time_limit_s, limits);
-  add_memory_limit(command, options.memory_limit_mb, limits);
-  const std::string shown = "What is shown";
-  command.add_option("--report", options.report, "Write a JSON report: counts, displacement, regions, seconds, ...")
+      .add_option("--report", options.report,
+                  "Write a JSON report: number of intersections, how far vertices moved, what is left and why")
       ->type_name("FILE")
       ->group(shown);
   command
       .add_option("--picture", options.picture,
-                  "Write a picture, before and after, intersecting faces in red; FILE.gif or a folder (of PNG):\n"
-                  "an animation of the repair")
+                  "Write a picture of the mesh before and after, intersecting faces in red. FILE.gif or a folder (for "
+                  "PNG files): an animation of the repair")
       ->check(file_named({"png", "gif"}, true,
                          "or give a folder for pictures of an animation, which 'ffmpeg -i FOLDER/%04d.png OUT.mp4' "
                          "makes a video of"))
       ->type_name("FILE.png")
       ->group(shown);
-  command.add_option("--picture-width", options.picture_width, "Width of that picture; 1600 by default")
+  command.add_option("--picture-width", options.picture_width, "Width of the picture in pixels (default 1600)")
       ->check(whole_number_within(128, 16384))
       ->type_name("PIXELS")
       ->group(shown);
-  command.add_option("--view", options.view, "Write a page to look at: before, after, displacement (see unsnarl view)")
+  command
+      .add_option("--view", options.view,
+                  "Write a page for a browser that shows the mesh before and after (see 'unsnarl view')")
       ->check(file_named({"html", "htm"}))
       ->type_name("PAGE.html")
       ->group(shown);
-  command.add_option("--record", options.record, "Write how it went as JSON: iterations, the surface on the way")
+  command
+      .add_option("--record", options.record,
+                  "Write the steps of the repair as JSON: iterations, and the positions along the way")
       ->type_name("FILE.json")
       ->group(shown);
   command
       .add_option("--highlight", options.highlight,
-                  "Write a PLY in which intersecting faces are coloured, with the displacement of each vertex")
+                  "Write a PLY file with intersecting faces coloured and the distance that each vertex moved")
       ->check(file_named({"ply"}))
       ->type_name("FILE.ply")
       ->group(shown);
   add_progress(command, options.progress, shown);
-  const std::string research = "For research";
-  command.add_flag("--paper", options.paper, "Repair as the paper does it, instead of region by region")
-      ->group(research);
-  command.add_flag("--no-recover", options.no_recover, "Stop after untangling, without moving back toward the input")
-      ->group(research);
+}
+
+void add_what_may_move(CLI::App& command, FixOptions& options) {
+  const std::string what = "What may move";
+  command
+      .add_option("--fix-vertices", options.fix_vertices,
+                  "Keep these vertices fixed: a file of vertex ids, counted from 0")
+      ->type_name("FILE")
+      ->group(what);
+  command.add_flag("--fix-boundary", options.fix_boundary, "Keep all boundary vertices fixed")->group(what);
+  add_parts(command, "--fix-", options.fix, "Keep fixed ", "", what);
+  add_parts(command, "--only-", options.only, "Move only ", "; all else stays fixed", what);
+  add_parts(command, "--rigid-", options.rigid, "Move as a rigid body (turned and shifted, never deformed) ", "", what,
+            "--rigid");
+  CLI::Option* const each =
+      command
+          .add_flag("--each", options.each,
+                    "Repair every connected piece as if it were alone. Pieces that intersect each other stay so; this "
+                    "is reported as 'obstructed' (exit code 7), and the result is written")
+          ->group(what);
+  command
+      .add_flag("--together", options.together, "Also separate connected pieces that intersect each other (default)")
+      ->excludes(each)
+      ->group(what);
+  command
+      .add_option(
+          "--nested", options.nested,
+          "Which surfaces lie inside which, from the innermost outwards: names of input files, or of objects in "
+          "one file. Where two of them intersect, the inner one moves inwards and the outer one outwards. All "
+          "but the first must be closed. May be repeated")
+      ->type_name("INNER,OUTER,..")
+      ->group(what)
+      ->allow_extra_args(false);
+}
+
+void add_quality_of_result(CLI::App& command, FixOptions& options) {
+  const std::string quality = "What the result must be like";
+  command
+      .add_option(
+          "--min-dihedral", options.min_dihedral_deg,
+          "Unfold neighbouring faces that meet at less than this angle (degrees, below 90). Tetrahedral meshers "
+          "need it: 0.1 for TetGen. 0 (default): off")
+      ->check(number_below(0, 90, unit::degrees))
+      ->type_name("DEGREES")
+      ->group(quality);
+  command
+      .add_option("--precision", options.precision,
+                  "Precision in which the result has no self-intersections: 'float32', as most programs read it, "
+                  "'float64', or 'auto' (default): float32 where the coordinates allow it")
+      ->check(one_of({"auto", "float32", "float64"}))
+      ->type_name("auto|float32|float64")
+      ->group(quality);
+  command
+      .add_flag("--recompute-normals", options.recompute_normals,
+                "Update stored vertex normals (OBJ vn, PLY nx ny nz, glTF) where faces moved. Default: they stay as "
+                "they are. STL facet normals are always updated")
+      ->group(quality);
+}
+
+void add_sequence_options(CLI::App& command, FixOptions& options) {
+  const std::string frames = "Sequences";
+  CLI::Option* const sequence =
+      command
+          .add_flag("--sequence", options.sequence,
+                    "IN are the frames of a moving mesh: numbered files with the same faces, or patterns of them in "
+                    "quotes; or a mesh and a point cache (PC2, MDD). The motion stays smooth from frame to frame. The "
+                    "frames are written to the folder given with -o. Run the same command again to continue after an "
+                    "interruption")
+          ->group(frames);
+  command
+      .add_option("--frames", options.frames,
+                  "With --sequence: only these frames, counted from 0, without LAST. Either may be left out")
+      ->type_name("FIRST:LAST")
+      ->needs(sequence)
+      ->group(frames);
+}
+
+}  // namespace
+
+void add_fix_options(CLI::App& command, FixOptions& options) {
+  add_inputs(command, options);
+  add_usual_options(command, options);
+  add_mesh_options(command, options);
+  command.final_callback([&command, &options] {
+    options.require_effect();
+    if (options.absolute && command.count("--max-displacement") + command.count("--min-gap") == 0)
+      throw UsageError(
+          "--absolute has an effect only with --max-displacement or --min-gap; add one of them, or leave "
+          "--absolute out");
+  });
+  add_outputs_to_look_at(command, options);
+  add_what_may_move(command, options);
+  add_quality_of_result(command, options);
+  add_sequence_options(command, options);
+  command
+      .add_flag("--no-recover", options.no_recover,
+                "Stop when the intersections are removed, without moving back toward the input")
+      ->group(research_options);
+  command.add_flag("--paper", options.paper, "Use the method of the paper on the whole mesh")->group(research_options);
   add_paper_options(command, options.paper_options);
   command.footer(
-      "Examples:\n"
-      "  unsnarl fix hand.obj -o hand_fixed.obj\n"
-      "  unsnarl fix scan.ply -o fixed.ply --picture fixed.png --report fixed.json\n"
-      "  unsnarl fix body.glb --in-place --max-displacement 0.01 --fix-vertices seam.txt\n"
-      "  unsnarl fix scene.obj -o out.obj --fix-group anchor --fix-boundary\n"
-      "  unsnarl fix brain.surf skull.gii skin.obj -o fixed --fix-file skin.obj     three files, one scene\n"
-      "  unsnarl fix inner.off outer.off skin.off -o fixed --nested inner.off,outer.off,skin.off\n"
-      "  unsnarl fix --sequence 'dance/*.obj' -o fixed                              frames of a moving mesh\n\n"
-      "Exit codes: 0 embedded, 1 self-intersections left, 2 usage, 3 cannot read, 4 cannot write, 5 limit reached,\n"
-      "6 interrupted, 7 all repaired but what no allowed motion can resolve (--nested: or a surface lies wrong),\n"
-      "9 the system failed (try again), 70 internal error.\n"
-      "With --only-... and --each, 0 still means that nothing in the whole file intersects; where only what they "
-      "leave\n"
-      "out does, the result is written and the exit code is 7.");
+      std::string("Examples:\n"
+                  "  unsnarl fix hand.obj -o hand_fixed.obj\n"
+                  "  unsnarl fix scan.ply -o fixed.ply --picture fixed.png --report fixed.json\n"
+                  "  unsnarl fix body.glb --in-place --max-displacement 0.01\n"
+                  "  unsnarl fix scene.obj -o out.obj --fix-group anchor --fix-boundary\n"
+                  "  # several files that form one scene\n"
+                  "  unsnarl fix brain.surf skull.gii skin.obj -o fixed --fix-file skin.obj\n"
+                  "  unsnarl fix inner.off outer.off -o fixed --nested inner.off,outer.off\n"
+                  "  # the frames of a moving mesh\n"
+                  "  unsnarl fix --sequence 'dance/*.obj' -o fixed\n\n") +
+      exit_codes({{exit_embedded, "embedded: no self-intersections"},
+                  {exit_intersecting, "self-intersections are left"},
+                  {exit_limit, "limit of time, memory or displacement reached"},
+                  {exit_obstructed,
+                   "everything was repaired that can be repaired with these options;\n      or with --nested: a "
+                   "surface is on the wrong side"}}) +
+      "\n\n"
+      "With --only-... and --each, 0 still means that the whole file has no self-intersections. If only the parts that "
+      "these options leave out still intersect, the result is written and the exit code is 7.");
 }
 
 WantedNesting nesting_wanted(const FixOptions& options, const SceneDocument& scene) {
@@ -271,8 +313,7 @@ WantedNesting nesting_wanted(const FixOptions& options, const SceneDocument& sce
   Nesting& nesting = wanted.nesting;
   if (options.nested.empty()) return wanted;
   if (options.each || options.paper || !options.rigid.empty())
-    throw UsageError(
-        "--nested goes neither with --each nor with --rigid and its like, nor with --paper; leave one out");
+    throw UsageError("--nested cannot be combined with --each, --paper, --rigid or --rigid-...; leave one of them out");
   const SurfaceView surface = scene.surface();
   nesting.surface_of_vertex.assign(surface.vertex_count(), -1);
   const auto number_of = [&](const std::string& name) {
@@ -285,8 +326,9 @@ WantedNesting nesting_wanted(const FixOptions& options, const SceneDocument& sce
     for (std::size_t v = 0; v < flags.size(); ++v) {
       if (!flags[v]) continue;
       if (nesting.surface_of_vertex[v] >= 0)
-        throw UsageError(fmt::format("--nested: '{}' and '{}' have vertex {} in common; name surfaces apart",
-                                     nesting.names[nesting.surface_of_vertex[v]], name, v));
+        throw UsageError(
+            fmt::format("--nested: '{}' and '{}' have vertex {} in common; name surfaces that share no vertex",
+                        nesting.names[nesting.surface_of_vertex[v]], name, v));
       nesting.surface_of_vertex[v] = number;
     }
     nesting.names.push_back(name);
@@ -315,8 +357,9 @@ RepairOptions repair_options(const FixOptions& options, const SceneDocument& sce
   if (options.precision == "float64") result.precision = Precision::float64;
   if (const auto file = scene.float32_file()) {
     if (result.precision == Precision::float64)
-      throw UsageError(fmt::format("--precision float64: {}: this {} file stores 32-bit numbers; leave the option out",
-                                   scene.files()[*file].name, to_string(scene.document(*file).format())));
+      throw UsageError(
+          fmt::format("--precision float64: {} is a {} file, which stores 32-bit numbers; leave the option out",
+                      scene.files()[*file].name, to_string(scene.document(*file).format())));
     result.precision = Precision::float32;
   }
   const double diagonal = diagonal_of(scene.surface());

@@ -32,14 +32,14 @@ std::string_view explanation(Status status, Goal goal) {
   switch (status) {
     case Status::embedded:
       return goal == Goal::all ? "embedded: no self-intersection is left"
-                               : "no faces that share no vertex intersect any more";
+                               : "no intersections are left between faces that share no vertex";
     case Status::reduced: return "reduced: some self-intersections are left";
     case Status::no_progress: return "no progress: nothing better than the input was found";
-    case Status::obstructed: return "obstructed: no allowed motion resolves the pairs that are left";
+    case Status::obstructed: return "obstructed: with these options the remaining intersections cannot be removed";
     case Status::time_limit: return "stopped at the time limit";
     case Status::memory_limit: return "stopped at the memory limit";
     case Status::displacement_exceeded:
-      return "displacement exceeded: what is left needs a vertex to move farther than allowed";
+      return "displacement exceeded: the remaining intersections need a vertex to move farther than allowed";
     case Status::cancelled: return "interrupted";
   }
   return "unknown status";
@@ -47,20 +47,22 @@ std::string_view explanation(Status status, Goal goal) {
 
 std::string_view why(LeftReason reason) {
   switch (reason) {
-    case LeftReason::closed_non_orientable: return "of a closed non-orientable component, which has no embedding";
-    case LeftReason::duplicate_faces: return "on the same three vertices";
-    case LeftReason::fixed_faces: return "in what is fixed of them";
-    case LeftReason::between_components: return "between components, which --each leaves";
-    case LeftReason::goal: return "of faces that share a vertex, which --goal disjoint leaves";
-    case LeftReason::rounding: return "separated by less than the digits of the file can tell apart";
-    case LeftReason::displacement: return "that separate only where a vertex moves farther than allowed";
-    case LeftReason::taken_back: return "that separate only at the cost of more pairs elsewhere";
-    case LeftReason::time_limit: return "not yet resolved at the time limit";
-    case LeftReason::memory_limit: return "not yet resolved at the memory limit";
-    case LeftReason::cancelled: return "not yet resolved when interrupted";
-    case LeftReason::unresolved: return "that no strategy separated";
-    case LeftReason::other_diagonal: return "where polygons are split along other diagonals than in the input";
-    case LeftReason::rigid_faces: return "within a rigid part";
+    case LeftReason::closed_non_orientable:
+      return "on a closed non-orientable component (like a Klein bottle), which always intersects itself";
+    case LeftReason::duplicate_faces: return "between faces on the same three vertices";
+    case LeftReason::fixed_faces: return "inside parts that you told unsnarl to keep fixed";
+    case LeftReason::between_components: return "between components, which --each does not separate";
+    case LeftReason::goal: return "between faces that share a vertex, which --goal disjoint ignores";
+    case LeftReason::rounding: return "need a gap too small for the digits of the file";
+    case LeftReason::displacement: return "need a vertex to move farther than --max-displacement allows";
+    case LeftReason::taken_back: return "can be removed only by creating more intersections elsewhere";
+    case LeftReason::time_limit: return "were not repaired before the time limit";
+    case LeftReason::memory_limit: return "were not repaired before the memory limit";
+    case LeftReason::cancelled: return "were not repaired before the interruption";
+    case LeftReason::unresolved: return "could not be removed";
+    case LeftReason::other_diagonal:
+      return "appear only where polygons are split along other diagonals than in the input";
+    case LeftReason::rigid_faces: return "inside a rigid part";
     case LeftReason::count: break;
   }
   return "for an unknown reason";
@@ -68,45 +70,46 @@ std::string_view why(LeftReason reason) {
 
 std::string_view float32_remark(const RepairResult& result, const RepairOptions& options) {
   if (result.report.float32_embedded || result.report.after.total() > 0) return "";
-  if (result.status == Status::embedded) return " (in double precision; readers that round to 32 bits may see some)";
+  if (result.status == Status::embedded)
+    return " (in double precision; programs that use 32-bit numbers may find some)";
   return options.precision == Precision::float32 ? " (in 32 bits, as asked for; none in double precision)" : "";
 }
 
 std::string fate_of_output(const RepairResult& result, const ReportFiles& files) {
   if (files.output == standard_stream) return "written to standard output";
   if (!files.output.empty()) return "wrote " + files.output;
-  if (result.status == Status::obstructed) return "nothing written, since nothing else was to be repaired";
-  if (result.status == Status::no_progress) return "nothing written, since nothing better than the input was found";
-  return "nothing written; --keep-partial writes what was reached";
+  if (result.status == Status::obstructed) return "no file written: there was nothing else to repair";
+  if (result.status == Status::no_progress) return "no file written: nothing better than the input was found";
+  return "no file written; --keep-partial writes the incomplete result";
 }
 
-/// "7.6 % of the diagonal (0.19)": a length, in brackets in the units of the file. `of` follows the sign.
+/// "0.19 (7.6 % of the diagonal)": a length in the units of the file. `of` follows the percent sign.
 std::string length_in_words(double rel, double diagonal, std::string_view of = " of the diagonal") {
-  return fmt::format("{:.2g} %{} ({:.2g})", 100 * rel, of, rel * diagonal);
+  return fmt::format("{:.2g} ({:.2g} %{})", rel * diagonal, 100 * rel, of);
 }
 
-/// Diagonals from rest beyond which a region is named: repairs that move farther than 1 % are rejected by programs that
-/// mesh volumes.
+/// Displacement, in diagonals, beyond which a region is named: programs that mesh volumes reject larger ones.
 constexpr double far_rel = 0.01;
 constexpr std::size_t most_far_regions = 3;  // lines
 
-/// The regions that had to go farthest, each where and why.
+/// The regions with the largest displacements: where, and how deep the surfaces overlapped there.
 std::vector<std::string> far_regions(const RepairReport& report) {
   std::vector<RegionReport> regions;
   for (const RegionReport& region : report.regions)
     if (region.displacement_rel > far_rel) regions.push_back(region);
   std::stable_sort(regions.begin(), regions.end(),
                    [](const auto& a, const auto& b) { return a.displacement_rel > b.displacement_rel; });
-  // Regions that went on from one another have the same farthest vertex.
+  // A region that continues another one has the same farthest vertex.
   std::vector<std::string> lines;
   std::vector<std::int32_t> named;
   for (const RegionReport& region : regions) {
     if (lines.size() == most_far_regions) break;
     if (std::find(named.begin(), named.end(), region.farthest_vertex) != named.end()) continue;
     named.push_back(region.farthest_vertex);
-    lines.push_back(fmt::format("far: {} at vertex {}, out of a tangle {} deep",
+    lines.push_back(fmt::format("{}: {} at vertex {}, where the surfaces overlapped by {:.2g}",
+                                lines.empty() ? "largest move" : "next largest move",
                                 length_in_words(region.displacement_rel, report.diagonal), region.farthest_vertex,
-                                length_in_words(region.depth_rel, report.diagonal, "")));
+                                region.depth_rel * report.diagonal));
   }
   return lines;
 }
@@ -134,11 +137,13 @@ std::string nested_in_words(const NestedPair& pair) {
                                   pair.is_nested ? "lies inside" : "does not lie inside", pair.outer, pair.wrong_before,
                                   pair.wrong_after);
   if (pair.apart.size() == 1)
-    words += fmt::format("; a component, at vertex {}, is there as a whole: it crosses nothing and is not moved",
-                         pair.apart[0]);
+    words += fmt::format(
+        "; one component (at vertex {}) is entirely on the wrong side: it intersects nothing and is "
+        "not moved",
+        pair.apart[0]);
   if (pair.apart.size() > 1)
     words += fmt::format(
-        "; {} components, the first at vertex {}, are there as a whole: they cross nothing and are not "
+        "; {} components (the first at vertex {}) are entirely on the wrong side: they intersect nothing and are not "
         "moved",
         pair.apart.size(), pair.apart[0]);
   return words;
@@ -153,7 +158,7 @@ std::string rigid_part_in_words(const RigidPartReport& part, double diagonal) {
 std::string dihedral_in_words(const Clearance& clearance, double wanted_deg) {
   const std::string angle = fmt::format("  smallest dihedral angle: {:.3g} degrees", clearance.dihedral_deg);
   if (clearance.dihedral_deg >= wanted_deg) return angle;
-  return angle + fmt::format(", less than asked for, between faces {} and {}", clearance.dihedral_faces[0],
+  return angle + fmt::format(", smaller than --min-dihedral, between faces {} and {}", clearance.dihedral_faces[0],
                              clearance.dihedral_faces[1]);
 }
 
@@ -167,7 +172,7 @@ std::vector<std::string> obstructions_in_words(std::span<const Obstruction> obst
   for (const auto& [kind, of_kind] : count)
     if (of_kind > most_of_a_kind)
       words.push_back(
-          fmt::format("{} more like these ({}); --report lists all", of_kind - most_of_a_kind, to_string(kind)));
+          fmt::format("{} more of this kind ({}); --report lists all", of_kind - most_of_a_kind, to_string(kind)));
   return words;
 }
 
@@ -201,11 +206,11 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   if (options.min_dihedral_deg > 0 && files.clearance_after)
     line(dihedral_in_words(*files.clearance_after, options.min_dihedral_deg));
   if (result.status == Status::displacement_exceeded && r.displacement_lower_bound_rel > options.max_displacement_rel)
-    line(fmt::format("  needed at least: {}, half the depth of the deepest overlap",
+    line(fmt::format("  any repair has to move some vertex by at least {}",
                      length_in_words(r.displacement_lower_bound_rel, r.diagonal)));
-  for (const std::string& words : obstructions_in_words(r.obstructions)) line("  cannot be resolved: " + words);
+  for (const std::string& words : obstructions_in_words(r.obstructions)) line("  not repaired: " + words);
   const bool is_as_asked = outcome(result.status, files.nested) == to_string(result.status);
-  line(fmt::format("  {}{}{}; {:.2f} s, {:.0f} MB", is_as_asked ? "" : "not nested as asked; ",
+  line(fmt::format("  {}{}{}; {:.2f} s, {:.0f} MB", is_as_asked ? "" : "not nested as asked with --nested; ",
                    explanation(result.status, options.goal), float32_remark(result, options), files.whole.seconds,
                    files.whole.peak_memory_mb));
   if (files.partial.empty()) line("  " + fate_of_output(result, files));

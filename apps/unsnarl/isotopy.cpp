@@ -84,40 +84,39 @@ std::string correspondence_json(const IsotopyCommandOptions& options, const Isot
 }  // namespace
 
 void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
-  command.add_option("START", options.start, "Closed curves: *.svg or *.json")->required();
-  command.add_option("END", options.end, "As many closed curves; curve k of START becomes curve k of END")->required();
-  command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")
+  command.add_option("START", options.start, "File with closed curves: *.svg or *.json")->required();
+  command.add_option("END", options.end, "File with as many closed curves; curve k of START becomes curve k of END")
+      ->required();
+  command.add_option("-o,--output", options.folder, "Folder for the results; it must be new or empty")
       ->required()
       ->type_name("DIR");
   command
       .add_option("--points", options.points,
-                  "Points of every curve on the way; 0: as many as the longer of both has, 200 at least")
+                  "Points of every curve during the motion. 0: as many as START or END has, but at least 200")
       ->check(whole_number_within(0, 100000))
       ->type_name("N");
-  command.add_option("--frames", options.frames, "SVG files, evenly in time, 2 to 10000 (default 25)")
+  command.add_option("--frames", options.frames, "Number of SVG files, evenly spaced in time (2 to 10000, default 25)")
       ->check(whole_number_within(2, 10000))
       ->type_name("N");
-  command.add_flag("--reverse", options.reverse, "Take curves of END backwards where they run around the other way");
+  command.add_flag("--reverse", options.reverse, "Reverse curves of END that have the other orientation");
   command
       .add_option("--flatten", options.flatten,
-                  "How far flattened Béziers and arcs may be from the true curve, as a fraction of the\n"
-                  "bounding-box diagonal (default 0.0001)")
-      ->check(number_within(1e-12, 0.1))
-      ->type_name("X");
+                  "Largest distance between a Bézier curve or arc and the polyline that replaces it, as a fraction of "
+                  "the bounding-box diagonal (default 0.0001)")
+      ->check(number_within(1e-12, 0.1, unit::share_of_diagonal))
+      ->type_name("NUMBER");
   add_time_limit(command, options.time_limit_s);
   add_progress(command, options.progress);
   add_quiet(command, options.quiet);
-  command.footer(
-      "Written into DIR:\n"
-      "  surface.obj          the annuli that the curves sweep; z is time\n"
-      "  animation.svg        the curves move from START to END and back\n"
-      "  frame_0000.svg ...   the curves, evenly in time: cuts of the surface\n"
-      "  correspondence.json  rings, and where their points lie on START and END\n\n"
-      "Examples:\n"
-      "  unsnarl isotopy spiral.svg square.svg -o way\n"
-      "  unsnarl isotopy letters.svg dots.json -o way --frames 100\n\n"
-      "Exit codes: 0 a certified isotopy, 2 usage, 3 cannot read, 4 cannot write, 5 time limit, 6 interrupted,\n"
-      "9 the system failed (try again), 70 internal error.");
+  command.footer(std::string("Written into DIR:\n"
+                             "  surface.obj          the surface that the curves sweep; z is time\n"
+                             "  animation.svg        the curves move from START to END and back\n"
+                             "  frame_0000.svg ...   the curves at evenly spaced times\n"
+                             "  correspondence.json  rings, and where their points lie on START and END\n\n"
+                             "Examples:\n"
+                             "  unsnarl isotopy spiral.svg square.svg -o way\n"
+                             "  unsnarl isotopy letters.svg dots.json -o way --frames 100\n\n") +
+                 exit_codes({{exit_embedded, "a certified isotopy"}, {exit_limit, "time limit reached"}}));
 }
 
 int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption) {
@@ -144,7 +143,7 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
   interruption.set_handler(nullptr);
   display.clear();
   if (made.status != Status::embedded) {
-    if (!options.quiet) tell(fmt::format("{}: nothing was written\n", to_string(made.status)));
+    if (!options.quiet) tell(fmt::format("{}: no file written\n", to_string(made.status)));
     return exit_code_of(made.status);
   }
 
@@ -164,11 +163,11 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
   outputs.add(path("correspondence.json"), correspondence_json(options, made));
   outputs.commit();
   if (!options.quiet)
-    tell(
-        fmt::format("{} curve{}, {} rings, {} faces, no two intersect: at every time the curves are simple and apart\n"
-                    "wrote {}, {:.1f} s\n",
-                    start.size(), start.size() == 1 ? "" : "s", made.rings.size(), made.surface.view().face_count(),
-                    visible_text(options.folder), made.seconds));
+    tell(fmt::format(
+        "{} curve{}, {} rings, {} faces; no two faces intersect, so at every time no curve crosses itself or another\n"
+        "wrote {}, {:.1f} s\n",
+        start.size(), start.size() == 1 ? "" : "s", made.rings.size(), made.surface.view().face_count(),
+        visible_text(options.folder), made.seconds));
   return exit_embedded;
 }
 

@@ -32,8 +32,8 @@ KnotMethod method_named(const std::string& name) {
 
 std::string as_text(const KnotIsotopyFindings& f) {
   std::string text;
-  if (!f.ends_kept) text += "its first and last ring are not the two knots\n";
-  if (f.meeting_triangles > 0) text += fmt::format("{} pairs of its triangles in R^4 meet\n", f.meeting_triangles);
+  if (!f.ends_kept) text += "the first and last ring are not the two knots\n";
+  if (f.meeting_triangles > 0) text += fmt::format("{} pairs of triangles in R^4 intersect\n", f.meeting_triangles);
   if (f.unproven_motions > 0)
     text +=
         fmt::format("between {} pairs of rings the moving polygon is not proven to be simple\n", f.unproven_motions);
@@ -75,52 +75,56 @@ int check_file(const KnotIsotopyCommandOptions& options, const Link& start, cons
 void add_knot_isotopy_options(CLI::App& command, KnotIsotopyCommandOptions& options) {
   command
       .add_option("START", options.start,
-                  "A knot: points 'x y z', one a line; or a planar diagram code; or a braid, 'braid 2: 1 1 1'.\n"
-                  "'-' for standard input")
+                  "File with a knot: points 'x y z', one per line; or a planar diagram code; or a braid, 'braid 2: 1 1 "
+                  "1'. '-' for standard input")
       ->required();
-  command.add_option("END", options.end, "A knot")->required();
-  command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")->type_name("DIR");
+  command.add_option("END", options.end, "File with the other knot")->required();
+  command.add_option("-o,--output", options.folder, "Folder for the results; it must be new or empty")
+      ->type_name("DIR");
   command
-      .add_option("--method", options.method,
-                  "relax: let both knots repel themselves until they come to rest, and join the shapes; direct:\n"
-                  "untangle the cylinder of straight ways between them in R^4; default auto: the one, then the other")
+      .add_option(
+          "--method", options.method,
+          "relax: both knots repel themselves until they stop moving, and the two shapes are joined. direct: the "
+          "cylinder of straight lines between the knots is untangled in R^4. auto (default): first relax, then "
+          "direct")
       ->check(one_of({"auto", "direct", "relax"}))
-      ->type_name("METHOD");
+      ->type_name("auto|direct|relax");
   command
       .add_option("--points", options.points,
-                  "Points of the knot on the way, 16 to 2000; 0: as many as the knot with more of them has, 200\n"
-                  "at least")
+                  "Points of the knot during the motion (16 to 2000). 0: as many as START or END has, but at least 200")
       ->check(whole_number_within(0, 2000))
       ->type_name("N");
-  command.add_option("--frames", options.frames, "Files of points, evenly in time, 2 to 1000 (default 25)")
+  command
+      .add_option("--frames", options.frames,
+                  "Number of files with points, evenly spaced in time (2 to 1000, default 25)")
       ->check(whole_number_within(2, 1000))
       ->type_name("N");
   add_time_limit(command, options.time_limit_s);
-  command.add_option("--check", options.check, "Instead of looking for an isotopy, certify this one")
-      ->type_name("ISOTOPY.json");
+  command.add_option("--check", options.check, "Certify this isotopy instead of making one")->type_name("ISOTOPY.json");
   command
-      .add_option("--report", options.report,
-                  "Write a JSON report: what was certified, or where it stopped, with the double points")
+      .add_option("--report", options.report, "Write a JSON report: what was certified, or where the search stopped")
       ->type_name("FILE");
   add_progress(command, options.progress);
   add_quiet(command, options.quiet);
   command.footer(
-      "Written into DIR:\n"
-      "  isotopy.json        the rings of the cylinder in R^4: times and points\n"
-      "  animation.gif       a tube around the knot on its way\n"
-      "  picture.png         the same at five times\n"
-      "  frame_0000.xyz ...  the knot, evenly in time: cuts of the cylinder\n\n"
-      "Examples:\n"
-      "  unsnarl sample knot_goeritz -o goeritz.xyz && unsnarl sample knot_circle -o circle.xyz\n"
-      "  unsnarl knot-isotopy goeritz.xyz circle.xyz -o way\n"
-      "  unsnarl knot-isotopy goeritz.xyz circle.xyz --check way/isotopy.json\n\n"
-      "Exit codes: 0 a certified isotopy, 1 none found (--check: not all holds), 2 usage, 3 cannot read,\n"
-      "4 cannot write, 5 time limit, 6 interrupted, 9 the system failed (try again), 70 internal error.");
+      std::string("Written into DIR:\n"
+                  "  isotopy.json        the rings of the cylinder in R^4: times and points\n"
+                  "  animation.gif       a tube around the moving knot\n"
+                  "  picture.png         the knot at five times\n"
+                  "  frame_0000.xyz ...  the knot at evenly spaced times\n\n"
+                  "Examples:\n"
+                  "  unsnarl sample knot_goeritz -o goeritz.xyz && unsnarl sample knot_circle -o circle.xyz\n"
+                  "  unsnarl knot-isotopy goeritz.xyz circle.xyz -o way\n"
+                  "  unsnarl knot-isotopy goeritz.xyz circle.xyz --check way/isotopy.json\n\n") +
+      exit_codes({{exit_embedded, "a certified isotopy"},
+                  {exit_intersecting, "none found (--check: not certified)"},
+                  {exit_limit, "time limit reached"}}));
 }
 
 int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& interruption) {
   if (options.folder.empty() == options.check.empty())
-    throw UsageError("say where the isotopy goes, -o DIR, or which one to certify, --check ISOTOPY.json");
+    throw UsageError(
+        "'unsnarl knot-isotopy' needs -o DIR, to make an isotopy, or --check ISOTOPY.json, to certify one");
   FilePlaces places;
   places.reads("START", options.start);
   places.reads("END", options.end);
@@ -152,10 +156,10 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
     if (!options.report.empty()) write_file(options.report, knot_isotopy_json(made, {}), interruption);
     if (!options.quiet) {
       if (made.status == Status::no_progress)
-        tell(fmt::format("no isotopy was found, which does not prove that there is none\n{}\n", made.found));
+        tell(fmt::format("no isotopy was found; this does not prove that there is none\n{}\n", made.found));
       const auto& points = made.left_double_points.empty() ? made.straight_double_points : made.left_double_points;
       if (!points.empty()) tell("double points of the cylinder between the knots:\n" + as_text(points));
-      tell(fmt::format("{}: nothing was written\n", to_string(made.status)));
+      tell(fmt::format("{}: no file written\n", to_string(made.status)));
     }
     return exit_code_of(made.status);
   }
@@ -180,10 +184,10 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
   outputs.commit();
   if (!options.quiet)
     tell(
-        fmt::format("{}{}\n{} rings of {} points; no two triangles of the cylinder in R^4 meet, so that the knot is "
-                    "simple at\nevery time; the same holds for points that move straight from ring to ring\n"
+        fmt::format("{}{}\n{} rings of {} points; no two triangles of the cylinder in R^4 intersect, so at every time "
+                    "the knot\ndoes not meet itself; the same holds for points that move straight from ring to ring\n"
                     "wrote {}, {:.1f} s\n",
-                    made.found, made.reversed ? "; END is run along backwards" : "", made.rings.size(),
+                    made.found, made.reversed ? "; END was reversed" : "", made.rings.size(),
                     made.rings[1].points.size() / 3, visible_text(options.folder), made.seconds));
   return exit_embedded;
 }

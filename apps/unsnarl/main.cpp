@@ -6,6 +6,7 @@
 #include <array>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include "check.h"
 #include "curves.h"
 #include "fix.h"
+#include "help_layout.h"
 #include "interruption.h"
 #include "isotopy.h"
 #include "knot_isotopy.h"
@@ -46,15 +48,16 @@ ExitCode complain(ExitCode code, std::string_view what) {
 int run(int argc, char** argv) {
   Interruption interruption;
   CLI::App program(
-      "Takes a surface mesh that runs through itself and gives back the same mesh (same vertices, faces, texture\n"
-      "coordinates, everything), moved as little as possible, with no self-intersection left. Certified exactly.",
+      "Removes self-intersections from surface meshes. Only vertex positions change, and as little as possible; faces, "
+      "texture coordinates and everything else in the file stay the same. The written file is read back and checked "
+      "with exact arithmetic.",
       "unsnarl");
   bool as_json = false;
-  program.add_flag("--json", as_json, "With --version: as JSON, with the versions of all libraries inside");
+  program.add_flag("--json", as_json, "With --version: print JSON, with the versions of all libraries");
   const auto versions = [&] { return as_json ? version_json() : std::string("unsnarl ") + version; };
   program.set_version_flag("--version,-V", versions);
   program.require_subcommand(1);
-  program.get_formatter()->column_width(34);
+  program.formatter(std::make_shared<HelpLayout>());
   FixOptions fix;
   BatchOptions batch;
   CheckOptions check;
@@ -66,21 +69,21 @@ int run(int argc, char** argv) {
   KnotIsotopyCommandOptions knot_isotopy;
   RoutesCommandOptions routes;
   CLI::App* const fix_command = program.add_subcommand("fix", "Repair a mesh");
-  CLI::App* const batch_command = program.add_subcommand("batch", "Repair many meshes, each in a process of its own");
+  CLI::App* const batch_command = program.add_subcommand("batch", "Repair many meshes, each in its own process");
   CLI::App* const check_command = program.add_subcommand("check", "Count and locate the self-intersections of a mesh");
-  CLI::App* const view_command = program.add_subcommand("view", "Write a page to look at a mesh, before and after");
-  CLI::App* const sample_command =
-      program.add_subcommand("sample", "Make a self-intersecting surface, or a curve, to play with");
+  CLI::App* const view_command =
+      program.add_subcommand("view", "Write a page for a browser that shows a mesh, before and after");
+  CLI::App* const sample_command = program.add_subcommand("sample", "Make a test surface, curve, knot or plan");
   CLI::App* const curves_command =
-      program.add_subcommand("curves", "Move curves in the plane until none crosses itself or another: SVG or JSON");
-  CLI::App* const isotopy_command =
-      program.add_subcommand("isotopy", "Move closed curves in the plane to others without ever crossing: SVG or JSON");
+      program.add_subcommand("curves", "Remove the crossings of curves in the plane (SVG or JSON)");
+  CLI::App* const isotopy_command = program.add_subcommand(
+      "isotopy", "Move closed curves in the plane to other curves without crossing (SVG or JSON)");
   CLI::App* const seifert_command =
-      program.add_subcommand("seifert", "Span a knot or link by an oriented surface without self-intersections");
+      program.add_subcommand("seifert", "Make a surface without self-intersections whose boundary is a knot or link");
   CLI::App* const knot_isotopy_command =
-      program.add_subcommand("knot-isotopy", "Move a knot in space to another one without ever passing through itself");
+      program.add_subcommand("knot-isotopy", "Move a knot in space to another one without passing through itself");
   CLI::App* const routes_command =
-      program.add_subcommand("routes", "Find ways in space that keep clear of each other and of obstacles");
+      program.add_subcommand("routes", "Plan routes in space that keep a distance from each other and from obstacles");
   add_fix_options(*fix_command, fix);
   add_batch_options(*batch_command, batch);
   add_check_options(*check_command, check);
@@ -93,15 +96,18 @@ int run(int argc, char** argv) {
   add_routes_options(*routes_command, routes);
   for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
     command->set_version_flag("--version", versions)->group("");  // the same for all, so not listed again
-  program.footer(
-      "Examples:\n"
-      "  unsnarl check hand.obj                              does it intersect itself, and where?\n"
-      "  unsnarl fix hand.obj -o hand_fixed.obj              repair it\n"
-      "  unsnarl fix hand.obj -o out.obj --picture out.png   and look at it\n\n"
-      "Exit codes: 0 embedded (check: nothing found), 1 self-intersections left (check: found), 2 usage,\n"
-      "3 cannot read, 4 cannot write, 5 limit of time, memory or displacement, 6 interrupted,\n"
-      "7 all repaired but what no motion can resolve, 9 the system failed (try again), 70 internal error.\n"
-      "'unsnarl fix --help' explains the options.");
+  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) command->group("Commands");
+  program.footer(std::string("Examples:\n"
+                             "  # count and locate the self-intersections\n"
+                             "  unsnarl check hand.obj\n"
+                             "  # repair the mesh, and draw a picture of it before and after\n"
+                             "  unsnarl fix hand.obj -o hand_fixed.obj --picture hand.png\n\n") +
+                 exit_codes({{exit_embedded, "embedded: no self-intersections (check: none found)"},
+                             {exit_intersecting, "self-intersections are left (check: found)"},
+                             {exit_limit, "limit of time, memory or displacement reached"},
+                             {exit_obstructed, "everything was repaired that can be repaired with these options"}}) +
+                 "\n\n"
+                 "'unsnarl COMMAND --help' explains the options of a command.");
   const std::vector<std::string> words = with_usual_spelling({argv + 1, argv + argc});
   try {
     program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
@@ -130,11 +136,9 @@ ExitCode complain_of_memory(std::string_view what) {
   const double limit_mb = MemoryGuard::limit_mb();
   std::array<char, 256> text;
   const auto end =
-      limit_mb > 0
-          ? fmt::format_to_n(
-                text.data(), text.size(),
-                "unsnarl: {} MB are not enough to read, examine and write this mesh; raise --memory-limit\n", limit_mb)
-          : fmt::format_to_n(text.data(), text.size(), "unsnarl: {}\n", what);
+      limit_mb > 0 ? fmt::format_to_n(text.data(), text.size(),
+                                      "unsnarl: {} MB are not enough for this mesh; raise --memory-limit\n", limit_mb)
+                   : fmt::format_to_n(text.data(), text.size(), "unsnarl: {}\n", what);
   draw({text.data(), std::min(end.size, text.size())});
   return limit_mb > 0 ? exit_limit : exit_system_error;
 }

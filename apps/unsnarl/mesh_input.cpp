@@ -13,14 +13,13 @@ namespace unsnarl::app {
 std::optional<Format> format_from_name(const std::string& name) {
   if (name.empty()) return {};
   const std::optional<Format> format = format_from_extension(name);
-  if (!format) throw UsageError(fmt::format("--format {}: no such format; choose {}", name, format_names(" or ")));
+  if (!format) throw UsageError(fmt::format("--format must be {1}, not '{0}'", name, format_names(" or ")));
   return format;
 }
 
 Document read_mesh(const std::string& path, const std::optional<Format>& format) {
   if (path != standard_stream) return Document::read(path, format);
-  if (!format)
-    throw UsageError("standard input has no extension to tell its format by: add --format obj (or off, ...)");
+  if (!format) throw UsageError("the format of standard input is unknown; add --format, as in --format obj");
   return Document::parse(read_bytes(standard_stream), *format);
 }
 
@@ -28,13 +27,13 @@ std::vector<std::string> scene_names(const std::vector<std::string>& paths) {
   std::vector<std::string> names;
   for (const std::string& path : paths) {
     if (path == standard_stream && paths.size() > 1)
-      throw UsageError("standard input ('-') can be read alone only; the files of a scene need names");
+      throw UsageError("'-' (standard input) must be the only input; the files of a scene need names");
     names.push_back(std::filesystem::path(path).filename().string());
     for (std::size_t i = 0; i + 1 < names.size(); ++i)
       if (names[i] == names.back())
         throw UsageError(
-            fmt::format("{} and {} have the same name, by which the files of a scene are told apart and "
-                        "written back; rename one",
+            fmt::format("{} and {} have the same name, but the files of a scene are identified and written by "
+                        "name; rename one of them",
                         paths[i], path));
   }
   return names;
@@ -97,7 +96,8 @@ std::vector<std::uint8_t> read_vertex_flags(const std::string& path, std::size_t
       std::size_t id = 0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
       if (error != std::errc{} || end != word.data() + word.size())
-        throw FileError(fmt::format("{}:{}: '{}' is no vertex id; give whole numbers from 0", path, number, word));
+        throw FileError(
+            fmt::format("{}:{}: '{}' is not a vertex id; ids are whole numbers from 0", path, number, word));
       if (id >= vertex_count)
         throw FileError(fmt::format("{}:{}: there is no vertex {}; the mesh has {} vertices, counted from 0", path,
                                     number, id, vertex_count));

@@ -25,7 +25,7 @@ void prepare_picture_folder(const std::string& path, const std::string& option) 
   const bool is_empty = fs::is_empty(path, error);
   if (error) throw_write_error(path + ": cannot list this folder", error.value());
   if (!is_empty)
-    throw UsageError(fmt::format("{} {}: this folder is not empty; name another, or empty it first", option, path));
+    throw UsageError(fmt::format("{} {}: this folder is not empty; use another one, or empty it first", option, path));
 }
 
 void add_animation(const std::string& path, const SurfaceView& surface, std::span<const SceneFile> files,

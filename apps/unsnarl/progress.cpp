@@ -23,7 +23,7 @@ constexpr std::chrono::seconds log_interval_of_progress{30};
 ProgressStyle progress_style(const std::string& name, bool quiet) {
   if (name == "json") return ProgressStyle::json;
   if (name == "none") return ProgressStyle::none;
-  if (name != "auto") throw UsageError("--progress " + name + ": choose auto, json or none");
+  if (name != "auto") throw UsageError("--progress must be 'auto', 'json' or 'none', not '" + name + "'");
   if (quiet) return ProgressStyle::none;
   return ::isatty(STDERR_FILENO) ? ProgressStyle::line : ProgressStyle::log;
 }

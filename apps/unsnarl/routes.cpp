@@ -30,7 +30,7 @@ std::string as_text(const RoutePlan& plan, const RouteFindings& f) {
     return clearance < RouteFindings::measured_up_to ? fmt::format("{:.5f}", clearance)
                                                      : fmt::format("{} or more", RouteFindings::measured_up_to);
   };
-  std::string text = "distances / those needed, at least: ";
+  std::string text = "smallest distance / required distance: ";
   std::vector<std::string> parts;
   if (plan.agents.size() > 1)
     parts.push_back(measured(f.clearance) + (plan.timed ? " between agents at every time" : " between routes"));
@@ -49,8 +49,8 @@ int check_file(const RoutesCommandOptions& options, const RoutePlan& plan) {
   if (!options.quiet)
     tell(as_text(plan, found) + route_faults(plan, found) +
          (!found.hold() ? ""
-          : plan.timed  ? "the agents keep clear of each other at every time\n"
-                        : "the routes keep clear of each other\n"));
+          : plan.timed  ? "the agents keep their distance at every time\n"
+                        : "the routes keep their distance from each other\n"));
   return found.hold() ? exit_embedded : exit_intersecting;
 }
 
@@ -111,17 +111,17 @@ int tell_failure(const RoutesCommandOptions& options, const RoutePlan& plan, con
   if (options.quiet) return exit_code_of(made.status);
   for (const std::string& message : made.messages) tell(message + "\n");
   if (made.status == Status::no_progress && made.messages.empty())
-    tell("no routes were found that keep clear of each other; of the best:\n" + route_faults(plan, made.found));
-  tell(fmt::format("{}: nothing was written\n", to_string(made.status)));
+    tell("no routes were found that keep their distance; the best ones:\n" + route_faults(plan, made.found));
+  tell(fmt::format("{}: no file written\n", to_string(made.status)));
   return exit_code_of(made.status);
 }
 
 int tell_broken_tubes(const RoutesCommandOptions& options) {
   if (!options.quiet)
-    tell(
-        fmt::format("the routes keep clear, but faces of the tubes around them meet: are radii close to what double "
-                    "precision tells apart?\n{}: nothing was written\n",
-                    to_string(Status::no_progress)));
+    tell(fmt::format(
+        "the routes keep their distance, but faces of the tubes around them intersect; the radii may be too "
+        "small for double precision\n{}: no file written\n",
+        to_string(Status::no_progress)));
   return exit_code_of(Status::no_progress);
 }
 
@@ -150,7 +150,7 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
   const std::vector<IntersectingPair> left = pairs_of_tubes(plan, after);
   if (!left.empty()) {
     if (!options.quiet)
-      tell(fmt::format("{}: {} pairs of faces still intersect; nothing was written\n", to_string(repaired.status),
+      tell(fmt::format("{}: {} pairs of faces still intersect; no file written\n", to_string(repaired.status),
                        left.size()));
     return repaired.status == Status::embedded ? exit_intersecting : exit_code_of(repaired.status);
   }
@@ -161,8 +161,8 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
   outputs.commit();
   if (!options.quiet)
     tell(
-        fmt::format("{} free tubes, no two faces intersect; they are no longer round, so that the agents' distances\n"
-                    "are not certified\nwrote {}\n",
+        fmt::format("{} free tubes, no two faces intersect; they are no longer round, so the distances between\n"
+                    "agents are not certified\nwrote {}\n",
                     plan.agents.size(), visible_text(options.folder)));
   return exit_embedded;
 }
@@ -172,49 +172,50 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
 void add_routes_options(CLI::App& command, RoutesCommandOptions& options) {
   command
       .add_option("PLAN", options.plan,
-                  "A plan: *.json with agents (name, radius, start, goal, waypoints), obstacles (file,\n"
-                  "hollow), and \"timed\": true where agents only keep clear of each other at the same time;\n"
-                  "'-' for standard input")
+                  "Plan (JSON): agents (name, radius, start, goal, waypoints) and obstacles (file, hollow). With "
+                  "\"timed\": true, agents only have to keep their distance at the same time. '-' for standard input")
       ->required();
-  command.add_option("-o,--output", options.folder, "Folder for the results, new or empty")->type_name("DIR");
+  command.add_option("-o,--output", options.folder, "Folder for the results; it must be new or empty")
+      ->type_name("DIR");
   command
       .add_option("--spacing", options.spacing,
-                  "Distance of the points of a route / the agent's radius, 0.1 to 2 (default 0.5)")
-      ->check(number_within(0.1, 2))
-      ->type_name("X");
-  command.add_option("--sides", options.sides, "Corners of the tubes' rings, 3 to 256 (default 16)")
+                  "Distance between the points of a route, in radii of the agent (0.1 to 2, default 0.5)")
+      ->check(number_within(0.1, 2, unit::none))
+      ->type_name("NUMBER");
+  command.add_option("--sides", options.sides, "Number of corners around a tube (3 to 256, default 16)")
       ->check(whole_number_within(3, 256))
       ->type_name("N");
   command.add_flag("--free-tubes", options.free_tubes,
-                   "As the paper does: straight tubes as surfaces, untangled; they do not stay tubes");
+                   "Untangle straight tubes as surfaces, as in the paper. They do not stay round, so distances are not "
+                   "certified");
   add_time_limit(command, options.time_limit_s);
-  command.add_option("--check", options.check, "Instead of making routes, certify these")->type_name("ROUTES.json");
+  command.add_option("--check", options.check, "Certify these routes instead of making some")->type_name("ROUTES.json");
   add_progress(command, options.progress);
   add_quiet(command, options.quiet);
-  command.footer(
-      "Written into DIR:\n"
-      "  routes.json    points, lengths and what was certified of each agent's route\n"
-      "  tubes.obj      what the agents pass through, a component and group each\n"
-      "  animation.svg  the agents on their way\n"
-      "  picture.png    the ways that were asked for, and the routes\n"
-      "With --free-tubes only tubes.obj and picture.png.\n\n"
-      "Examples:\n"
-      "  unsnarl sample routes_star_6 -o plan.json && unsnarl routes plan.json -o out\n"
-      "  unsnarl routes plan.json --check out/routes.json\n\n"
-      "Exit codes: 0 certified routes, 1 none found (--check: not all holds), 2 usage, 3 cannot read,\n"
-      "4 cannot write, 5 time limit, 6 interrupted, 7 an obstruction that no routes can mend,\n"
-      "9 the system failed (try again), 70 internal error.");
+  command.footer(std::string("Written into DIR:\n"
+                             "  routes.json    points and lengths of the routes, and what was certified\n"
+                             "  tubes.obj      the tubes that the agents move through, one group each\n"
+                             "  animation.svg  the moving agents\n"
+                             "  picture.png    the straight ways and the routes\n"
+                             "With --free-tubes only tubes.obj and picture.png.\n\n"
+                             "Examples:\n"
+                             "  unsnarl sample routes_star_6 -o plan.json && unsnarl routes plan.json -o out\n"
+                             "  unsnarl routes plan.json --check out/routes.json\n\n") +
+                 exit_codes({{exit_embedded, "certified routes"},
+                             {exit_intersecting, "none found (--check: not certified)"},
+                             {exit_limit, "time limit reached"},
+                             {exit_obstructed, "no routes can exist for this plan"}}));
 }
 
 int run_routes(const RoutesCommandOptions& options, Interruption& interruption) {
   if (options.folder.empty() == options.check.empty())
-    throw UsageError("say where the routes go, -o DIR, or which ones to certify, --check ROUTES.json");
+    throw UsageError("'unsnarl routes' needs -o DIR, to make routes, or --check ROUTES.json, to certify some");
   const RoutePlan plan = parse_file(options.plan, [&](const std::string& bytes) {
     return parse_route_plan(bytes, options.plan == standard_stream ? fs::path() : fs::path(options.plan).parent_path());
   });
   if (!options.check.empty()) return check_file(options, plan);
   if (options.free_tubes && plan.timed)
-    throw UsageError("--free-tubes knows no time: take it or \"timed\" out of the plan");
+    throw UsageError("--free-tubes does not work with \"timed\": true; leave one of the two out");
   prepare_picture_folder(options.folder, "-o");
 
   ProgressDisplay display(options.progress, options.quiet);
@@ -251,7 +252,7 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
     tell(fmt::format("{} route{}, certified as written:\n{}{}wrote {}, {:.1f} s\n", made.routes.size(),
                      made.routes.size() == 1 ? "" : "s", as_text(plan, made.found),
                      plan.obstacles.empty() ? ""
-                                            : fmt::format("length / that of the agent's route alone: mean {:.3f}\n",
+                                            : fmt::format("length / length of the agent's route alone: mean {:.3f}\n",
                                                           made.mean_alone_ratio()),
                      visible_text(options.folder), made.seconds));
   return exit_embedded;

@@ -78,7 +78,7 @@ std::vector<std::string> all_names() {
 void require_known(const std::string& name) {
   const std::vector<std::string> names = all_names();
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  throw UsageError(fmt::format("there is no sample '{}'{}; 'unsnarl sample --list' names them all", name,
+  throw UsageError(fmt::format("there is no sample '{}'.{} 'unsnarl sample --list' names all samples", name,
                                did_you_mean(name, names)));
 }
 
@@ -144,7 +144,7 @@ std::map<std::string, double> parsed(const std::vector<std::string>& assignments
     const bool well_formed = equals != std::string::npos && equals > 0;
     const auto [stop, error] = std::from_chars(well_formed ? text.data() + equals + 1 : end, end, value);
     if (!well_formed || error != std::errc{} || stop != end)
-      throw UsageError(fmt::format("--set {}: give NAME=NUMBER", text));
+      throw UsageError(fmt::format("--set needs NAME=NUMBER, as in seed=4, not '{}'", text));
     values[text.substr(0, equals)] = value;
   }
   return values;
@@ -152,8 +152,10 @@ std::map<std::string, double> parsed(const std::vector<std::string>& assignments
 
 /// For samples that are written in one format and have no parameters. `kind`: what they are. Throws UsageError.
 void require_plain(const SampleOptions& options, const char* kind, const std::string& format) {
-  if (!options.parameters.empty()) throw UsageError(fmt::format("--set: {} have no parameters", kind));
-  if (options.resolution > 0) throw UsageError(fmt::format("--resolution: {} have none", kind));
+  if (!options.parameters.empty())
+    throw UsageError(fmt::format("--set: {} have no parameters; leave the option out", kind));
+  if (options.resolution > 0)
+    throw UsageError(fmt::format("--resolution: {} have no resolution; leave the option out", kind));
   if (!options.format.empty() && CLI::detail::to_lower(options.format) != format)
     throw UsageError(fmt::format("--format {}: {} are written as {}", options.format, kind, format));
   if (options.format.empty() && options.output != standard_stream &&
@@ -167,15 +169,16 @@ std::string curve_file(const SampleOptions& options, std::string_view kind) {
       curve_format_from_extension(options.format.empty() ? options.output : options.format);
   if (!format && options.output == standard_stream && options.format.empty()) format = CurveFormat::json;
   if (!format) throw UsageError(options.output + ": name it *.svg or *.json, or add --format");
-  if (options.resolution > 0) throw UsageError("--resolution: a curve has the parameters seed and points");
+  if (options.resolution > 0) throw UsageError("--resolution: curves have no resolution; use --set points=N");
   double seed = curve_seed, points = curve_points;
   for (const auto& [name, value] : parsed(options.parameters)) {
     if (name != "seed" && name != "points")
-      throw UsageError(fmt::format("--set {}: a curve has the parameters seed and points", name));
+      throw UsageError(fmt::format("--set {}: curves have the parameters seed and points only", name));
     (name == "seed" ? seed : points) = value;
   }
-  if (!(seed >= 0 && seed <= 1e15)) throw UsageError(fmt::format("--set seed={}: give 0 to 1e15", seed));
-  if (!(points >= 8 && points <= 100000)) throw UsageError(fmt::format("--set points={}: give 8 to 100000", points));
+  if (!(seed >= 0 && seed <= 1e15)) throw UsageError(fmt::format("--set seed={}: seed must be from 0 to 1e15", seed));
+  if (!(points >= 8 && points <= 100000))
+    throw UsageError(fmt::format("--set points={}: points must be from 8 to 100000", points));
   const Curve curve = random_closed_curve(kind, static_cast<std::uint64_t>(seed), static_cast<int>(points));
   std::string list;
   double low_x = curve.points[0], low_y = curve.points[1], high_x = low_x, high_y = low_y;
@@ -199,27 +202,24 @@ std::string curve_file(const SampleOptions& options, std::string_view kind) {
 void add_sample_options(CLI::App& command, SampleOptions& options) {
   command.add_option(
       "NAME", options.name,
-      "Which one; see --list. For 'unsnarl curves', a random closed curve: curve_waves, curve_walk,\n"
-      "curve_star, curve_noise, curve_spiral or curve_chaos. For 'unsnarl seifert', a knot: knot_3_1 to\n"
-      "knot_10_165, and links. For 'unsnarl knot-isotopy', an unknot: knot_circle, knot_kinks_1 to\n"
-      "knot_kinks_6, knot_goeritz, ... For 'unsnarl routes', a plan: routes_star_6, routes_star_20,\n"
-      "routes_star_50, routes_ring, routes_maze or routes_door");
+      "Name of the sample; --list shows all. Surfaces for 'unsnarl fix'; random closed curves for 'unsnarl curves' "
+      "(curve_star, ...); knots and links for 'unsnarl seifert' (knot_3_1 to knot_10_165); unknots for 'unsnarl "
+      "knot-isotopy' (knot_circle, knot_goeritz, ...); plans for 'unsnarl routes' (routes_star_6, ...)");
   command
       .add_option(
           "-o,--output", options.output,
-          "Where it goes: *.obj, *.off, *.ply or *.glb (curves: *.json or *.svg; knots: *.xyz; plans: *.json);\n"
+          "File to write to: *.obj, *.off, *.ply or *.glb (curves: *.json or *.svg; knots: *.xyz; plans: *.json); "
           "'-' for standard output")
       ->type_name("OUT");
+  command.add_option("--format", options.format, "File format, if the name does not show it")->type_name("FORMAT");
   command
-      .add_option("--format", options.format,
-                  "obj, off, ply or glb (curves: json or svg; knots: xyz; plans: json), where the name does not tell")
-      ->type_name("FORMAT");
-  command
-      .add_option("--resolution", options.resolution, "Sampling steps along the longest direction; 0: the sample's own")
+      .add_option("--resolution", options.resolution,
+                  "Number of steps along the longest direction. 0: that of the sample")
       ->check(whole_number_within(0, 2000))
       ->type_name("N");
-  command.add_option("--set", options.parameters, "Change a parameter; may be repeated")->type_name("NAME=VALUE");
-  command.add_flag("--list", options.list, "List all samples; with NAME: describe that one and its parameters");
+  command.add_option("--set", options.parameters, "Change a parameter of the sample. May be repeated")
+      ->type_name("NAME=VALUE");
+  command.add_flag("--list", options.list, "List all samples. With NAME: describe it and its parameters");
   command.footer(
       "Examples:\n"
       "  unsnarl sample --list\n"
@@ -234,8 +234,9 @@ int run_sample(const SampleOptions& options, Interruption& interruption) {
     write_to_stream(standard_stream, options.name.empty() ? list_of_samples() : description_of(options.name));
     return exit_embedded;
   }
-  if (options.name.empty()) throw UsageError("which sample? 'unsnarl sample --list' names them all");
-  if (options.output.empty()) throw UsageError("where should it go? Give -o OUT ('-' for standard output)");
+  if (options.name.empty())
+    throw UsageError("'unsnarl sample' needs the name of a sample; 'unsnarl sample --list' names all samples");
+  if (options.output.empty()) throw UsageError("-o OUT is missing: the file to write to, or '-' for standard output");
   if (const std::string_view kind = kind_of_curve(options.name); !kind.empty()) {
     write_file(options.output, curve_file(options, kind), interruption);
     return exit_embedded;

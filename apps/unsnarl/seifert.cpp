@@ -71,8 +71,8 @@ int tell_failure(const SeifertCommandOptions& options, std::string why) {
   while (why.ends_with('\n')) why.pop_back();
   if (!options.quiet)
     tell(
-        fmt::format("{}: no surface was found that holds: {}. Are strands too close to each other for double "
-                    "precision? Move them apart\n{}: nothing was written\n",
+        fmt::format("{}: no surface could be certified: {}. Strands may be too close to each other for double "
+                    "precision; move them apart\n{}: no file written\n",
                     visible_text(options.input), why, to_string(Status::no_progress)));
   return exit_code_of(Status::no_progress);
 }
@@ -81,58 +81,64 @@ int tell_failure(const SeifertCommandOptions& options, std::string why) {
 
 void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
   command
-      .add_option("IN", options.input,
-                  "A knot or link: points 'x y z', one a line, an empty line between components; or a planar\n"
-                  "diagram code, 'X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]'; or a braid, 'braid 2: 1 1 1'. '-' for\n"
-                  "standard input")
+      .add_option(
+          "IN", options.input,
+          "File with a knot or link: points 'x y z', one per line, an empty line between components; or a planar "
+          "diagram code, 'X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]'; or a braid, 'braid 2: 1 1 1'. '-' for standard "
+          "input")
       ->required();
-  command.add_option("-o,--output", options.output, "Where the surface goes: *.obj, *.off or *.ply")->type_name("OUT");
-  command.add_option("--format", options.format, "obj, off or ply, where the name does not tell")
-      ->check(one_of({"obj", "off", "ply"}))
-      ->type_name("FORMAT");
   command
-      .add_option("--edge", options.edge,
-                  "Edge length inside the surface, as a fraction of the diagonal; 0: that of the link, within\n"
-                  "1/45 and 1/20 of the diagonal; else 0.001 at least")
-      ->check(number_within(0, 0.5))
-      ->type_name("X");
+      .add_option("-o,--output", options.output,
+                  "File to write the surface to: *.obj, *.off or *.ply; '-' for standard output")
+      ->type_name("OUT");
+  command.add_option("--format", options.format, "File format, if the name does not show it")
+      ->check(one_of({"obj", "off", "ply"}))
+      ->type_name("obj|off|ply");
+  command
+      .add_option(
+          "--edge", options.edge,
+          "Edge length inside the surface, as a fraction of the diagonal (0.001 to 0.5). 0 (default): that of the "
+          "link, between 1/45 and 1/20 of the diagonal")
+      ->check(number_within(0, 0.5, unit::share_of_diagonal))
+      ->type_name("NUMBER");
   command
       .add_option("--views", options.views,
-                  "From how many sides to look for the simplest diagram, 3 to 10000 (default 60)")
+                  "Number of directions tried for the simplest diagram (3 to 10000, default 60)")
       ->check(whole_number_within(3, 10000))
       ->type_name("N");
   command
       .add_option("--handles", options.handles,
-                  "Add so many handles, 0 to 100, each of which raises the genus by one (default 0)")
+                  "Number of handles to add (0 to 100, default 0); each raises the genus by one")
       ->check(whole_number_within(0, 100))
       ->type_name("N");
-  command.add_flag("--no-fair", options.no_fair, "Leave the surface as Seifert's algorithm builds it");
-  command.add_option("--time-limit", options.time_limit_s, "Stop fairing after this many seconds; 0: none")
-      ->check(not_negative())
-      ->type_name("S");
-  command.add_option("--check", options.check, "Instead of making a surface, certify this one")->type_name("MESH");
-  const std::string shown = "What is shown";
+  command.add_flag("--no-fair", options.no_fair,
+                   "Do not smooth the surface; leave it as Seifert's algorithm builds it");
+  command.add_option("--time-limit", options.time_limit_s, "Stop smoothing after this many seconds. 0: no limit")
+      ->check(not_negative(unit::seconds))
+      ->type_name("SECONDS");
+  add_quiet(command, options.quiet);
+  command.add_option("--check", options.check, "Certify this surface instead of making one")->type_name("MESH");
+  const std::string shown = outputs_to_look_at;
   command.add_option("--report", options.report, "Write a JSON report: what was certified")
       ->type_name("FILE")
       ->group(shown);
-  command.add_option("--picture", options.picture, "Write a picture: as it was built, and the result")
+  command.add_option("--picture", options.picture, "Write a picture of the surface before and after smoothing")
       ->check(file_named({"png"}))
       ->type_name("FILE.png")
       ->group(shown);
   add_progress(command, options.progress, shown);
-  add_quiet(command, options.quiet, shown);
   command.footer(
-      "Examples:\n"
-      "  unsnarl sample knot_4_1 -o knot.xyz && unsnarl seifert knot.xyz -o surface.obj --picture surface.png\n"
-      "  echo 'braid 3: 1 -2 1 -2 1 -2' | unsnarl seifert - -o borromean.obj\n"
-      "  unsnarl seifert knot.xyz --check surface.obj\n\n"
-      "Exit codes: 0 a certified surface, 1 none found (--check: not all holds), 2 usage, 3 cannot read,\n"
-      "4 cannot write, 6 interrupted, 9 the system failed (try again), 70 internal error.");
+      std::string("Examples:\n"
+                  "  unsnarl sample knot_4_1 -o knot.xyz\n"
+                  "  unsnarl seifert knot.xyz -o surface.obj --picture surface.png\n"
+                  "  echo 'braid 3: 1 -2 1 -2 1 -2' | unsnarl seifert - -o borromean.obj\n"
+                  "  unsnarl seifert knot.xyz --check surface.obj\n\n") +
+      exit_codes({{exit_embedded, "a certified surface"}, {exit_intersecting, "none found (--check: not certified)"}}));
 }
 
 int run_seifert(const SeifertCommandOptions& options, Interruption& interruption) {
   if (options.output.empty() == options.check.empty())
-    throw UsageError("say where the surface goes, -o OUT, or which one to certify, --check MESH");
+    throw UsageError("'unsnarl seifert' needs -o OUT, to make a surface, or --check MESH, to certify one");
   FilePlaces places;
   places.reads("the input", options.input);
   places.writes("-o", options.output);
@@ -171,7 +177,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     try {
       found = check_seifert_surface(document.surface(), link, options.views, options.handles);
     } catch (const std::invalid_argument& e) {
-      throw FileError(fmt::format("{}: {}; nothing was written", options.input, e.what()));
+      throw FileError(fmt::format("{}: {}; no file written", options.input, e.what()));
     }
     return found.hold();
   };
@@ -219,7 +225,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
                      result.surface.view().face_count()));
     tell(as_text(found, options.handles));
     if (!result.message.empty()) tell(result.message + "\n");
-    if (result.status == Status::time_limit) tell("fairing was stopped by the time limit\n");
+    if (result.status == Status::time_limit) tell("smoothing was stopped by the time limit\n");
     tell(fmt::format("wrote {}, {:.1f} s\n", visible_text(options.output), result.seconds));
   }
   return exit_embedded;

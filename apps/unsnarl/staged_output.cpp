@@ -69,7 +69,7 @@ OutputFolder::OutputFolder(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) {
     if (error) throw_write_error(path.string() + ": cannot make this folder", error.value());
-    throw WriteError(path.string() + ": is no folder");
+    throw WriteError(path.string() + ": not a folder");
   }
   made_ = std::move(missing);
 }

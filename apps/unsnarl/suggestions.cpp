@@ -40,7 +40,7 @@ std::string nearest_word(std::string_view given, const std::vector<std::string>&
 
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& known) {
   const std::string word = nearest_word(given, known);
-  return word.empty() ? "" : fmt::format("; did you mean {}?", word);
+  return word.empty() ? "" : fmt::format(" Did you mean {}?", word);
 }
 
 }  // namespace unsnarl::app

@@ -10,7 +10,7 @@ namespace unsnarl::app {
 /// added or swapped with a neighbour. Empty: none is so near.
 std::string nearest_word(std::string_view given, const std::vector<std::string>& known);
 
-/// "; did you mean X?" with that word, or nothing.
+/// " Did you mean X?" with that word, or nothing.
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& known);
 
 }  // namespace unsnarl::app

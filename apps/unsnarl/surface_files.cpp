@@ -94,7 +94,7 @@ std::string surface_file(const SurfaceView& surface, Format format, const std::s
       append_faces(text, surface);
       return text;
     default:
-      throw UsageError(fmt::format("a new {} file cannot be made; choose obj, off, ply or glb", to_string(format)));
+      throw UsageError(fmt::format("unsnarl cannot make a new {} file; use obj, off, ply or glb", to_string(format)));
   }
 }
 

@@ -34,7 +34,7 @@ std::string read_report(const std::string& path) {
     throw FileError(path + ": this is not a report of 'unsnarl fix'");
   if (const auto schema = report.value("schema_version", nlohmann::json()); schema != report_schema_version)
     throw FileError(
-        fmt::format("{}: this report has schema version {}, this program reads {}; write it anew with "
+        fmt::format("{}: this report has schema version {}, but this program reads version {}; write it again with "
                     "'unsnarl fix --report'",
                     path, schema.dump(), report_schema_version));
   return text;
@@ -68,9 +68,9 @@ SceneDocument read_repaired(const Meshes& meshes, const SceneDocument& input, co
     const Surface &before = input.document(i).surface(), &after = repaired.document(i).surface();
     if (after.corners != before.corners || after.offsets != before.offsets ||
         after.positions.size() != before.positions.size())
-      throw FileError(fmt::format("{}: its faces are not those of {}; OUT must be a repaired version of IN{}",
-                                  meshes.repaired[i], meshes.inputs[i],
-                                  meshes.inputs.size() == 1 ? " (of two files of a scene, add --scene)" : ""));
+      throw FileError(fmt::format(
+          "{}: its faces are not those of {}; OUT must be a repaired version of IN{}", meshes.repaired[i],
+          meshes.inputs[i], meshes.inputs.size() == 1 ? " (if these are two files of a scene, add --scene)" : ""));
   }
   return repaired;
 }
@@ -78,31 +78,33 @@ SceneDocument read_repaired(const Meshes& meshes, const SceneDocument& input, co
 }  // namespace
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
-  add_mesh_options(command, options,
-                   "Mesh file, or several that are one scene; then OUT, the repaired mesh, or the folder with the\n"
-                   "repaired files; leave it out to look at IN alone. Formats");
-  command.add_flag("--scene", options.scene, "Two files are two of a scene, not IN and OUT");
-  command.add_option("-o,--output", options.output, "Where the page goes; '-' for standard output")
+  add_inputs(
+      command, options,
+      "Mesh file, or several files that form one scene; then, if it was repaired, the repaired file or the folder "
+      "with the repaired files");
+  command.add_option("-o,--output", options.output, "File to write the page to; '-' for standard output")
       ->check(file_named({"html", "htm"}))
       ->type_name("PAGE.html")
       ->required();
-  command.add_option("--report", options.report, "The JSON report of the repair, to be shown beside the meshes")
+  command.add_option("--report", options.report, "JSON report of the repair, to be shown beside the mesh")
       ->type_name("FILE");
-  command.footer(
-      "The page is one file that any browser of today opens from the disk, without a network.\n\n"
-      "Examples:\n"
-      "  unsnarl view hand.obj -o hand.html\n"
-      "  unsnarl view hand.obj hand_fixed.obj -o hand.html\n"
-      "  unsnarl view brain.surf skull.gii skin.obj fixed -o head.html     a scene; its repaired files in fixed/\n"
-      "  unsnarl fix hand.obj -o hand_fixed.obj --view hand.html     repairs and shows in one go\n\n"
-      "Exit codes: 0 written, 2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 9 the system failed (try again),\n"
-      "70 internal error.");
+  command.add_flag("--scene", options.scene, "Two files are a scene, not a mesh before and after");
+  add_mesh_options(command, options);
+  command.footer(std::string("The page is one file. Any current browser opens it from the disk, without a network.\n\n"
+                             "Examples:\n"
+                             "  unsnarl view hand.obj -o hand.html\n"
+                             "  unsnarl view hand.obj hand_fixed.obj -o hand.html\n"
+                             "  # a scene; its repaired files are in fixed/\n"
+                             "  unsnarl view brain.surf skull.gii skin.obj fixed -o head.html\n"
+                             "  # repair and write the page in one call\n"
+                             "  unsnarl fix hand.obj -o hand_fixed.obj --view hand.html\n\n") +
+                 exit_codes({{exit_embedded, "written"}}));
 }
 
 int run_view(const ViewOptions& options, Interruption& interruption) {
   const Meshes meshes = sorted_out(options);
   if (std::count(options.inputs.begin(), options.inputs.end(), standard_stream) > 1)
-    throw UsageError("IN and OUT cannot both come from standard input");
+    throw UsageError("only one of the files can be '-', standard input");
   FilePlaces places;
   places.reads("--report", options.report);
   places.writes("-o", options.output);

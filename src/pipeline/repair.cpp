@@ -41,7 +41,7 @@ void check_gap(const RepairTask& task, const RepairState& state) {
   const double side = mean_equilateral_side(task.prepared.rest, task.prepared.triangles());
   if (gap > widest_gap_in_sides * side)
     throw GapTooWide(
-        fmt::format("a gap of {:.3g}, {:.3g} % of the diagonal, is {:.3g} times as wide as the faces; {:.3g} is the "
+        fmt::format("a gap of {:.3g} ({:.3g} % of the diagonal) is {:.3g} times as wide as the faces; {:.3g} is the "
                     "most. Gaps are "
                     "shares of the diagonal unless said to be absolute",
                     gap, 100 * task.options.min_gap_rel, gap / side, widest_gap_in_sides * side));

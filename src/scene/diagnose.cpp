@@ -57,7 +57,7 @@ void name_held_faces(const PairPolicy& policy, ObstructedFaces obstructed, Diagn
   const std::string fixed = std::to_string(obstructed.fixed.size()), rigid = std::to_string(obstructed.rigid.size());
   if (!obstructed.fixed.empty())
     diagnosis.obstructions.push_back({Obstruction::Kind::fixed_faces, std::move(obstructed.fixed),
-                                      fixed + " faces intersect each other in what is fixed of them"});
+                                      fixed + " faces intersect inside parts that you told unsnarl to keep fixed"});
   if (obstructed.rigid.empty()) return;
   std::string names;
   for (const Index part : obstructed.parts) names += (names.empty() ? "" : ", ") + policy.rigid_parts().name(part);

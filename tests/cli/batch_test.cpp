@@ -191,10 +191,10 @@ TEST_F(BatchCli, ABadLineOfAListIsARow) {
   EXPECT_TRUE(contains(outcome.err, "note: ../x.obj: ")) << outcome.err;
   const std::string table = contents(out + "/results.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
-  for (const char* const words :
-       {"list.txt:2: '../x.obj' is no name of a result", "list.txt:3: the extension of 'notes.txt' tells no format",
-        "list.txt:4: there is no path of a mesh before the tab", "other.obj would both be written to b.obj",
-        "and to a folder of that name"})
+  for (const char* const words : {"list.txt:2: '../x.obj' cannot be the name of a result",
+                                  "list.txt:3: 'notes.txt' has no extension of a supported format",
+                                  "list.txt:4: there is no path of a mesh before the tab",
+                                  "other.obj would both be written to b.obj", "and to a folder of that name"})
     EXPECT_TRUE(contains(table, words)) << words << '\n' << table;
   EXPECT_TRUE(fs::exists(out + "/fixed/b.obj"));
   EXPECT_EQ(results().at("../x.obj")["status"], "invalid_input");
@@ -224,8 +224,8 @@ TEST_F(BatchCli, FilesOfOtherFormatsAreCounted) {
   mesh("readme", "text");
   const Outcome outcome = batch();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_TRUE(
-      contains(outcome.err, "formats are not read: 2 *.fbx (such as a/model.fbx), 1 without an extension (readme)"))
+  EXPECT_TRUE(contains(outcome.err,
+                       "formats are not supported: 2 *.fbx (such as a/model.fbx), 1 without an extension (readme)"))
       << outcome.err;
 }
 

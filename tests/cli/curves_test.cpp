@@ -75,7 +75,7 @@ TEST_F(Curves, FixedCurvesThatCrossExitWith7) {
         "{\"closed\": true, \"points\": [[20, 0], [29, 9], [29, 0], [20, 9]]}]}");
   const Outcome outcome = run({"curves", json, "-o", result, "--fix", "a", "--fix", "1"});
   EXPECT_EQ(outcome.exit_code, 7) << outcome.err;
-  EXPECT_TRUE(contains(outcome.err, "obstruction: segment 0 of curve 0 'a' and segment 0 of curve 1 cross"));
+  EXPECT_TRUE(contains(outcome.err, "cannot be repaired: segment 0 of curve 0 'a' and segment 0 of curve 1 cross"));
   EXPECT_EQ(crossings_of(json), 2U);
   EXPECT_EQ(crossings_of(result), 1U);
 }
@@ -85,7 +85,7 @@ TEST_F(Curves, LeftCrossingsExitWith1AndWriteNothing) {
   write(json, "{\"curves\": [{\"points\": [[0, 0], [9, 9]]}, {\"points\": [[0, 9], [4, 6], [9, 0]]}]}");
   const Outcome outcome = run({"curves", json, "-o", result, "--fix-ends"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_TRUE(contains(outcome.err, "left: segment 0 of curve 0"));
+  EXPECT_TRUE(contains(outcome.err, "still crossing: segment 0 of curve 0"));
   EXPECT_FALSE(fs::exists(result));
   EXPECT_EQ(run({"curves", json, "-o", result, "--fix-ends", "--keep-partial"}).exit_code, 1);
   EXPECT_TRUE(fs::exists(result));

@@ -41,16 +41,16 @@ TEST_F(FilePlaces, ABufferBesideTheResultBelongsToIt) {
   fs::create_directory(folder / "out");
   const std::string first = folder / "out/one.gltf";
   ASSERT_EQ(run({"fix", one, "-o", first}).exit_code, 0);
-  expect_refusal({"fix", two, "-o", folder / "out/two.gltf"}, "scene.bin is there already");
+  expect_refusal({"fix", two, "-o", folder / "out/two.gltf"}, "scene.bin exists and would be overwritten");
   EXPECT_EQ(run({"fix", one, "-o", first}).exit_code, 0);  // its own is replaced
   EXPECT_EQ(run({"fix", two, "-o", first}).exit_code, 0);
   write(folder / "out/one.gltf", "precious, no glTF");
-  expect_refusal({"fix", one, "-o", first}, "scene.bin is there already");
+  expect_refusal({"fix", one, "-o", first}, "scene.bin exists and would be overwritten");
 
   fs::create_directory(folder / "scene");
   write(folder / "scene/scene.bin", "precious");
   write(folder / "far.obj", "v 90 0 0\nv 91 0 0\nv 90 1 0\nf 1 2 3\n");
-  expect_refusal({"fix", two, folder / "far.obj", "-o", folder / "scene"}, "scene.bin is there already");
+  expect_refusal({"fix", two, folder / "far.obj", "-o", folder / "scene"}, "scene.bin exists and would be overwritten");
   expect_refusal({"fix", two, "-o", folder / "two/two.gltf"}, "an external file of the input");
   expect_refusal({"fix", two, "-o", folder / "two.gltf", "--report", folder / "scene.bin"},
                  "--report and an external file of");
@@ -88,7 +88,7 @@ TEST_F(FilePlaces, AGiftiGetsExternalFilesOfItsOwn) {
   ASSERT_EQ(run({"fix", one, "-o", fixed}).exit_code, 0);  // its own is replaced
   repaired();
   write(folder / "new.gii.data", "precious");
-  expect_refusal({"fix", one, "-o", folder / "new.gii"}, "new.gii.data is there already");
+  expect_refusal({"fix", one, "-o", folder / "new.gii"}, "new.gii.data exists and would be overwritten");
   write(folder / "x.gii", gifti("y.gii.data"));
   write(folder / "y.gii.data", points);
   expect_refusal({"fix", folder / "x.gii", "-o", folder / "y.gii"}, "an external file of the input");
@@ -96,7 +96,7 @@ TEST_F(FilePlaces, AGiftiGetsExternalFilesOfItsOwn) {
                  "an external file of the input");
   expect_refusal({"fix", one, "-o", folder / "o.gii", "--report", folder / "o.gii.data"},
                  "an external file of one.gii");
-  expect_refusal({"fix", one, "-o", "-"}, "cannot go to a stream");
+  expect_refusal({"fix", one, "-o", "-"}, "cannot go to standard output");
 
   // Two that share a file are taken apart, and repaired as one scene.
   ASSERT_EQ(run({"fix", one, two, "-o", folder / "scene"}).exit_code, 0);
@@ -131,7 +131,7 @@ TEST_F(FilePlaces, NoCommandOverwritesWhatItReads) {
   write(in, tetrahedron(0));
   write(ids, "0\n");
   expect_refusal({"fix", in, "-o", out, "--fix-vertices", ids, "--report", ids}, "--fix-vertices and --report");
-  expect_refusal({"fix", in, "-o", "-", "--report", "-"}, "-o and --report both go to standard output; give one of");
+  expect_refusal({"fix", in, "-o", "-", "--report", "-"}, "-o and --report both go to standard output; write one of");
   expect_refusal({"check", in, "--pairs", folder / "./in.obj"}, "the input and --pairs");
 
   const std::string knot = folder / "knot.obj";  // whatever its name

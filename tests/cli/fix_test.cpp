@@ -126,7 +126,7 @@ TEST_F(Fix, TheFirstObstructionsOfAKindAreNamed) {
   EXPECT_EQ(outcome.exit_code, 7);
   EXPECT_NE(outcome.err.find("faces 8, 9 lie on the same three vertices"), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find("faces 10, 11"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("cannot be resolved: 2 more like these (duplicate_faces)"), std::string::npos);
+  EXPECT_NE(outcome.err.find("not repaired: 2 more of this kind (duplicate_faces)"), std::string::npos);
 }
 
 TEST_F(Fix, Float32ThatIsAskedForIsBinding) {

@@ -49,11 +49,11 @@ TEST_F(PartsHeld, NamedPartsStayWhereTheyAre) {
                  "--fix-group: there is no group 'anker'; there are: 'anchor heavy', 'swimmer'");
   expect_refusal({"fix", in, "-o", out, "--only-object", "bird"}, 2, "--only-object: there is no object 'bird'");
   expect_refusal({"fix", in, "-o", out, "--fix-component", "2"}, 2, "the mesh has 2");
-  expect_refusal({"fix", in, "-o", out, "--fix-file", "in.obj"}, 2, "--fix-file tells several files apart");
+  expect_refusal({"fix", in, "-o", out, "--fix-file", "in.obj"}, 2, "--fix-file needs several input files");
   // Several times, and everything: nothing is left that could move.
   const Outcome all = run({"fix", in, "-o", out, "--fix-group", "anchor", "--fix-group", "swimmer"});
   EXPECT_EQ(all.exit_code, 7) << all.err;
-  EXPECT_NE(all.err.find("in what is fixed of them"), std::string::npos) << all.err;
+  EXPECT_NE(all.err.find("inside parts that you told unsnarl to keep fixed"), std::string::npos) << all.err;
   EXPECT_FALSE(fs::exists(out));
   // Closed bodies have no boundary to hold.
   EXPECT_EQ(run({"fix", in, "-o", out, "--fix-boundary"}).exit_code, 0);
@@ -108,7 +108,7 @@ TEST_F(PartsHeld, WhatLiesOutsideOfARegionIsLeftAndSaid) {
   ASSERT_EQ(json["left"]["pairs"].size(), json["after"]["total"]);
   EXPECT_EQ(json["left"]["pairs"][0]["reason"], "fixed_faces");
   EXPECT_GE(json["left"]["pairs"][0]["faces"][0], 8);
-  EXPECT_NE(outcome.err.find("in what is fixed of them"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("inside parts that you told unsnarl to keep fixed"), std::string::npos) << outcome.err;
 }
 
 TEST_F(PartsHeld, EachComponentByItself) {

@@ -63,7 +63,7 @@ TEST_F(Report, AnInputThatIsRefusedHasOneToo) {
 
 TEST_F(Report, NotesAreThoseThatWerePrinted) {
   const std::string in = file("in.obj", crossing), report = folder / "r.json";
-  const std::string note = "--recompute-normals: there are no vertex normals in in.obj that could be updated";
+  const std::string note = "--recompute-normals: in.obj has no vertex normals to update";
   const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--recompute-normals", "--report", report});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(contains(outcome.err, "note: " + note + "\n")) << outcome.err;

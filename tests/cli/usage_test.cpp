@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "cli/program_test.h"
 
@@ -44,18 +45,26 @@ TEST_F(Usage, VersionsOfAllLibraries) {
 TEST_F(Usage, UsageErrorsExitWith2) {
   const std::string in = file("in.obj", clean_cube);
   expect_refusal({}, 2, "");
-  expect_refusal({"mend"}, 2, "fix, batch, check, view, sample, curves, isotopy, seifert, knot-isotopy or routes");
-  expect_refusal({"fxi", in}, 2, "there is no command 'fxi'; did you mean fix?");
+  expect_refusal({"mend"}, 2, "fix, batch, check, view, sample, curves, isotopy, seifert, knot-isotopy, routes");
+  expect_refusal({"fxi", in}, 2, "Unknown command 'fxi'. Did you mean fix? Commands: fix, ");
+  expect_refusal({"version"}, 2, "Unknown command 'version'. Did you mean --version?");
   expect_refusal({in}, 2, "'unsnarl check " + in + "'");
-  expect_refusal({"fix", in, "-o", folder / "o.obj", "--max-displacment", "1"}, 2, "did you mean --max-displacement?");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--max-displacment", "1"}, 2, "Did you mean --max-displacement?");
   expect_refusal({"fix", in, folder / "o.obj"}, 2, "unsnarl fix " + in + " -o " + (folder / "o.obj"));
   expect_refusal({"fix"}, 2, "IN");
   expect_refusal({"fix", in}, 2, "-o");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--frobnicate"}, 2, "frobnicate");
   expect_refusal({"batch", in, "-o", folder / "o", "--max-displacement", "1"}, 2,
-                 "'unsnarl batch' has no option --max-displacement; options of 'unsnarl fix' go after '--'");
+                 "'unsnarl batch' has no option --max-displacement. Options of 'unsnarl fix' go after '--'.");
   expect_refusal({"batch", in, "--", "--max-displacement", "1"}, 2, "-o");
-  expect_refusal({"fix", in, "-o", folder / "o.obj", "--goal", "some"}, 2, "goal");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--goal", "al"}, 2,
+                 "--goal must be 'all' or 'disjoint', not 'al'");
+  expect_refusal({"fix", in, "-o"}, 2, "-o needs a file name, as in -o out.obj");
+  expect_refusal({"isotopy", in, in, "-o"}, 2, "-o needs the name of a folder");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--goal"}, 2, "--goal needs a value: --goal all|disjoint");
+  expect_refusal({"view", in}, 2, "'unsnarl view' needs -o PAGE.html");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--frames", "0:2"}, 2, "--frames needs --sequence");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--each", "--together"}, 2, "exclude each other");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--time-limit", "-1"}, 2, "time-limit");
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--in-place"}, 2, "--in-place");
   expect_refusal({"fix", in, "-o", folder / "o.stl"}, 2, "keeps the format");
@@ -65,7 +74,7 @@ TEST_F(Usage, UsageErrorsExitWith2) {
   expect_refusal({"fix", in, "-o", folder / "o.obj", "--report", folder / "o.obj"}, 2, "the same");
   expect_refusal({"fix", "-", "-o", folder / "o.obj"}, 2, "--format");
   expect_refusal({"fix", "-", "--in-place", "--format", "obj"}, 2, "--in-place");
-  expect_refusal({"fix", in, "-o", folder / "o.obj", "--format", "doc"}, 2, "doc");
+  expect_refusal({"fix", in, "-o", folder / "o.obj", "--format", "doc"}, 2, "--format must be obj, off, ");
   expect_refusal({"sample"}, 2, "--list");
   expect_refusal({"sample", "no_such_thing", "-o", folder / "o.obj"}, 2, "no_such_thing");
   expect_refusal({"sample", "book", "-o", folder / "o.gltf"}, 2, "gltf");
@@ -83,10 +92,10 @@ TEST_F(Usage, HelpAndVersionAreFoundHoweverAskedFor) {
 TEST_F(Usage, FilesAreNamedByWhatIsWrittenToThem) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
   for (const char* name : {"x.jpg", "x.mp4", "x"})
-    expect_refusal({"fix", in, "-o", out, "--picture", folder / name}, 2, "name it *.png or *.gif");
-  expect_refusal({"fix", in, "-o", out, "--view", folder / "x.png"}, 2, "name it *.html");
-  expect_refusal({"fix", in, "-o", out, "--highlight", folder / "x.obj"}, 2, "name it *.ply");
-  expect_refusal({"view", in, "-o", folder / "x.png"}, 2, "name it *.html");
+    expect_refusal({"fix", in, "-o", out, "--picture", folder / name}, 2, "must be named *.png or *.gif");
+  expect_refusal({"fix", in, "-o", out, "--view", folder / "x.png"}, 2, "must be named *.html");
+  expect_refusal({"fix", in, "-o", out, "--highlight", folder / "x.obj"}, 2, "must be named *.ply");
+  expect_refusal({"view", in, "-o", folder / "x.png"}, 2, "must be named *.html");
   expect_refusal({"sample", "book", "-o", folder / "x.vtk"}, 2, "vtk");
   expect_refusal({"fix", in, "-o", folder / "x.vtk"}, 2, "keeps the format");
 }
@@ -99,23 +108,78 @@ TEST_F(Usage, WhatIsNoNumberInTheRangeIsRefused) {
     for (const char* value : {"nan", "-1"})
       expect_refusal({"fix", in, "-o", folder / "out.obj", option, value}, 2, option);
   expect_refusal({"fix", in, "-o", folder / "out.obj", "--max-displacement", "1%"}, 2,
-                 "1% is no number from 0 up; 1% is 0.01");
+                 "'1%' is not a number; 1% is 0.01");
   expect_refusal({"fix", in, "-o", folder / "out.obj", "--min-dihedral", "90"}, 2,
-                 "90 is no number from 0 to less than 90");
-  expect_refusal({"fix", in, "-o", folder / "out.obj", "--threads", "-3"}, 2, "-3 is no whole number from 0 to 1024");
+                 "--min-dihedral is in degrees, as in 0.1; '90' is not less than 90");
+  expect_refusal({"fix", in, "-o", folder / "out.obj", "--threads", "-3"}, 2,
+                 "--threads must be a whole number from 0 to 1024, not '-3'");
   for (const char* option : {"--fix-component", "--only-component", "--rigid-component"})
     for (const char* value : {"x", "1.5", "-1"})
       expect_refusal({"fix", in, "-o", folder / "out.obj", option, value}, 2,
-                     option + (": " + std::string(value)) + " is no whole number from 0 to 2147483647");
+                     option + (" must be a whole number, 0 or more, not '" + std::string(value)) + "'");
+}
+
+TEST_F(Usage, NumbersHaveTheUnitThatTheMessageNames) {
+  const std::string in = file("in.obj", crossing);
+  struct Case {
+    const char *option, *value, *words;
+  };
+  for (const auto& [option, value, words] :
+       {Case{"--time-limit", "1h", "--time-limit is in seconds, as in 3600; '1h' is not a number"},
+        {"--time-limit", "-1", "--time-limit is in seconds, as in 3600; '-1' is less than 0"},
+        {"--time-limit", "inf", "'inf' is infinite"},
+        {"--memory-limit", "4G", "--memory-limit is in MB, as in 4000; '4G' is not a number"},
+        {"--max-displacement", "0,1", "'0,1' is not a number; use a decimal point: 0.1"},
+        {"--min-gap", "1mm", "with --absolute, a length in the units of the file; '1mm' is not a number"},
+        {"--weld-tolerance", "1e-3m", "is a length in the units of the file"}}) {
+    const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", option, value});
+    EXPECT_EQ(outcome.exit_code, 2) << option;
+    EXPECT_TRUE(contains(outcome.err, words)) << outcome.err;
+  }
+  expect_refusal({"batch", in, "-o", folder / "b", "--time-limit", "2min"}, 2, "--time-limit is in seconds");
+  expect_refusal({"check", in, "--memory-limit", "1GB"}, 2, "--memory-limit is in MB");
+}
+
+/// Lines of help that are not to be copied: those of examples and lists begin with two blanks and stay whole.
+std::size_t longest_line(const std::string& help) {
+  std::size_t longest = 0;
+  std::istringstream lines(help.substr(0, help.find("Classes of pairs:")));
+  for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+  return longest;
+}
+
+TEST_F(Usage, HelpIsAsWideAsTheTerminal) {
+  const auto help_with = [&](const char* columns) {
+    return run({"check", "--help"}, {.in_child = [=] { ::setenv("COLUMNS", columns, 1); }}).out;
+  };
+  EXPECT_LE(longest_line(help_with("60")), 60u);
+  EXPECT_GT(longest_line(help_with("90")), 80u);
+  EXPECT_LE(longest_line(help_with("90")), 90u);
+  EXPECT_LE(longest_line(help_with("500")), 100u);
+  for (const char* unknown : {"", "0", "wide"}) EXPECT_LE(longest_line(help_with(unknown)), 80u) << unknown;
+  EXPECT_NE(help_with("60").find("unsnarl check - --format stl < part.stl --pairs pairs.csv\n"), std::string::npos);
+}
+
+TEST_F(Usage, UsualOptionsComeFirstAndThoseOfResearchLast) {
+  const std::string help = run({"fix", "--help"}).out;
+  std::vector<std::size_t> places;
+  for (const char* const words :
+       {"--output", "--max-displacement", "--report", "--fix-group", "--no-recover", "--paper "})
+    places.push_back(help.find(words));
+  places.push_back(help.find("--paper-bandwidth"));
+  EXPECT_TRUE(std::is_sorted(places.begin(), places.end()));
+  EXPECT_NE(places.back(), std::string::npos);
+  EXPECT_EQ(help.find("\n\n\n"), std::string::npos);
 }
 
 TEST_F(Usage, OptionsThatDoNothingBesideTheOthersAreRefused) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
-  expect_refusal({"fix", in, "-o", out, "--absolute"}, 2, "--absolute is about --max-displacement and --min-gap");
+  expect_refusal({"fix", in, "-o", out, "--absolute"}, 2,
+                 "--absolute has an effect only with --max-displacement or --min-gap");
   for (const std::vector<std::string>& call : {std::vector<std::string>{"fix", in, "-o", out}, {"check", in}}) {
     std::vector<std::string> words = call;
     words.insert(words.end(), {"--weld-tolerance", "0.5", "--weld", "none"});
-    expect_refusal(words, 2, "--weld-tolerance does nothing with --weld none");
+    expect_refusal(words, 2, "--weld-tolerance has no effect with --weld none");
   }
 }
 

@@ -42,7 +42,7 @@ def help_text(command=None):
 
 def commands():
     """The commands of the program."""
-    return re.findall(r"^  ([\w-]+)", help_text().split("Subcommands:")[1].split("\n\n")[0], re.M)
+    return re.findall(r"^  ([\w-]+)", help_text().split("Commands:")[1].split("\n\n")[0], re.M)
 
 
 def options(help):

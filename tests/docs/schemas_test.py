@@ -116,8 +116,8 @@ class Schemas(unittest.TestCase):
 class Changelog(unittest.TestCase):
     def test_it_begins_with_the_version_of_the_program(self):
         version = subprocess.run([pages.PROGRAM, "--version"], capture_output=True, text=True).stdout.split()[1]
-        released = re.findall(r"^## \[(\d[^\]]*)\] - \d{4}-\d\d-\d\d$", (pages.PROJECT / "CHANGELOG.md").read_text(), re.M)
-        self.assertEqual(released[0], version)
+        versions = re.findall(r"^## \[(\d[^\]]*)\] - ", (pages.PROJECT / "CHANGELOG.md").read_text(), re.M)
+        self.assertEqual(versions[0], version)
 
 
 if __name__ == "__main__":

@@ -49,7 +49,7 @@ FixOptions parsed_fix_options(const std::vector<std::string>& words) {
   try {
     command.parse(reversed);
   } catch (const CLI::ParseError& e) {
-    throw UsageError(fmt::format("after '--' go options of 'unsnarl fix' only: {}", e.what()));
+    throw UsageError(fmt::format("only options of 'unsnarl fix' may follow '--': {}", e.what()));
   }
   const auto refuse = [](bool given, const char* name, const char* instead) {
     if (given) throw UsageError(fmt::format("{} after '--': {}", name, instead));
@@ -60,10 +60,10 @@ FixOptions parsed_fix_options(const std::vector<std::string>& words) {
                                    {"--view", &options.view},
                                    {"--record", &options.record},
                                    {"--highlight", &options.highlight}})
-    refuse(!path->empty(), name, "all meshes would write to one file; run 'unsnarl fix' for the mesh in question");
-  refuse(options.time_limit_s > 0, "--time-limit", "give it before '--'");
-  refuse(options.memory_limit_mb > 0, "--memory-limit", "give it before '--'");
-  refuse(options.threads > 0, "--threads", "give it before '--'");
+    refuse(!path->empty(), name, "all meshes would write to the same file; run 'unsnarl fix' for a single mesh");
+  refuse(options.time_limit_s > 0, "--time-limit", "write it before '--'");
+  refuse(options.memory_limit_mb > 0, "--memory-limit", "write it before '--'");
+  refuse(options.threads > 0, "--threads", "write it before '--'");
   return options;
 }
 
@@ -126,7 +126,7 @@ class Batch {
     if (!options_.quiet) {
       for (const auto& [status, count] : counts) tell(fmt::format("{:>8} {}\n", count, status));
       tell(is_whole ? fmt::format("see {}\n", visible_text((folder_.root / "index.html").string()))
-                    : "when all parts are done: the same command with --summary\n");
+                    : "when all parts are done, run the same command with --summary\n");
     }
     return counts.size() == 1 && counts.contains(std::string(to_string(Status::embedded))) ? exit_embedded
                                                                                            : exit_intersecting;
@@ -163,7 +163,7 @@ class Batch {
       others[most_lines] = fmt::format("{} more kinds", others.size() - most_lines);
       others.resize(most_lines + 1);
     }
-    tell(fmt::format("note: left out, since their formats are not read: {}\n", fmt::join(others, ", ")));
+    tell(fmt::format("note: skipped, because these formats are not supported: {}\n", fmt::join(others, ", ")));
   }
 
   std::string key_of(const BatchMesh& mesh, const std::string& content) const {
@@ -200,13 +200,13 @@ class Batch {
   /// Works off all meshes of the shard. Sets error_.
   void work() {
     journal_.open(shard_.name(), [this] {
-      if (!options_.quiet) tell("waiting: another 'unsnarl batch' is at work on this part\n");
+      if (!options_.quiet) tell("waiting: another 'unsnarl batch' is working on this part\n");
     });
     std::error_code ignored;
     fs::remove_all(folder_.work(shard_), ignored);  // of a run that was killed
     interruption_.set_handler([this] {
       workers_.stop_all();
-      if (!options_.quiet) tell("\nstopping; what is done is kept, and the same command goes on\n");
+      if (!options_.quiet) tell("\nstopping; results so far are kept; run the same command again to continue\n");
     });
     for (std::size_t i = 0; i < mine_.size(); ++i) todo_.push_back(i);
     // The largest first: at the end no single one keeps the others waiting.
@@ -295,7 +295,8 @@ class Batch {
       record = {
           {"mesh", as_utf8(mesh.name)},
           {"status", status_ended_the_batch},
-          {"message", fmt::format("the batch ended {} times while it was worked on; --retry tries again", unexplained)},
+          {"message",
+           fmt::format("the batch was killed {} times while this mesh was repaired; --retry tries again", unexplained)},
           {"run", Record::object()}};
     } else {
       journal_.started(key);
@@ -450,58 +451,65 @@ class Batch {
 void add_batch_options(CLI::App& command, BatchOptions& options) {
   command
       .add_option("LIST|FOLDER", options.input,
-                  "A folder, searched for meshes with its subfolders, or a file with the path of a mesh a line (and,\n"
-                  "after a tab, the name of its result); '-' reads that list from standard input")
+                  "Folder with meshes (also in its subfolders), or a text file with the path of one mesh per line and, "
+                  "after a tab, the name of its result if it differs. '-': the list comes from standard input")
       ->required();
   command.add_option("OPTIONS_OF_FIX", options.fix_options,
-                     "After '--': options for 'unsnarl fix', the same for every mesh");
+                     "After '--': options of 'unsnarl fix', used for every mesh");
   command.add_option("-o,--output", options.output, "Folder for the results")->type_name("OUTDIR")->required();
-  command.add_option("--jobs,-j", options.jobs, "Meshes to repair at a time; 0: as many as there are processors")
-      ->check(whole_number_within(0, 1024))
-      ->type_name("N");
-  command.add_option("--threads", options.threads, "Threads for each mesh; 0: the processors divided by --jobs")
+  command
+      .add_option("--jobs,-j", options.jobs,
+                  "Number of meshes to repair at the same time. 0 (default): as many as there are processors")
       ->check(whole_number_within(0, 1024))
       ->type_name("N");
   command
-      .add_option("--shard", options.shard,
-                  "Only part I of N, 0 <= I < N: the meshes I, I + N, ... by name. In a Slurm array its task, unless\n"
-                  "given; all may write to one OUTDIR at a time")
+      .add_option("--threads", options.threads,
+                  "Number of threads for each mesh. 0 (default): the processors divided by --jobs")
+      ->check(whole_number_within(0, 1024))
+      ->type_name("N");
+  command
+      .add_option(
+          "--shard", options.shard,
+          "Repair only part I of N (I from 0 to N-1): every N-th mesh by name. Several parts may run at the same "
+          "time with the same OUTDIR. Default in a Slurm array: the task")
       ->type_name("I/N");
-  command.add_flag("--summary", options.summary,
-                   "Repair nothing: write the summary of what is there. Without parts it is written at the end anyway");
-  command.add_flag("--thumbnails", options.thumbnails, "Draw each mesh before and after, for the page of the summary");
-  command.add_flag("--retry", options.retry, "Try again what has not ended embedded or obstructed");
+  command.add_flag(
+      "--summary", options.summary,
+      "Only write the summary of what is done. Needed with --shard; else the summary is written at the end");
+  command.add_flag("--thumbnails", options.thumbnails, "Draw each mesh before and after for the summary page");
+  command.add_flag("--retry", options.retry, "Repair again the meshes that did not end as embedded or obstructed");
   const std::string limits = "Limits for each mesh";
-  command.add_option("--time-limit", options.time_limit_s, "Seconds; 0: none; 3600 by default")
-      ->check(not_negative())
-      ->type_name("S")
+  command
+      .add_option("--time-limit", options.time_limit_s,
+                  "Stop a mesh after this many seconds (default 3600). 0: no limit")
+      ->check(not_negative(unit::seconds))
+      ->type_name("SECONDS")
       ->group(limits);
   command
       .add_option("--memory-limit", options.memory_limit_mb,
-                  "Memory; by default nine tenths of what there is, divided by --jobs")
-      ->check(not_negative())
+                  "Stop a mesh before it uses more than this many MB (default: 90 % of the memory, divided by --jobs)")
+      ->check(not_negative(unit::megabytes))
       ->type_name("MB")
       ->group(limits);
   command
       .add_option("--attempts", options.attempts,
-                  "How often a mesh is tried whose worker is killed or dies, or with which the batch itself does;\n"
-                  "1 to 100, 3 by default")
+                  "How often a mesh is tried if its process dies, or the whole batch with it (1 to 100, default 3)")
       ->check(whole_number_within(1, 100))
       ->type_name("N")
       ->group(limits);
-  command.add_option("--worker", options.worker, "Program to run as 'unsnarl fix' is run; this one by default")
-      ->type_name("PROGRAM");
+  command.add_option("--worker", options.worker, "Program to run instead of this 'unsnarl'")->type_name("PROGRAM");
   add_quiet(command, options.quiet);
-  command.footer(
-      "Examples:\n"
-      "  unsnarl batch scans -o repaired\n"
-      "  unsnarl batch list.txt -o repaired --jobs 8 --thumbnails -- --max-displacement 0.01\n"
-      "  unsnarl batch scans -o repaired --shard 3/100       one part of a hundred, on one machine of many\n"
-      "  unsnarl batch scans -o repaired --summary           when all parts are done\n\n"
-      "What is done is not done again: the same command goes on after an interruption, a crash or a power cut.\n\n"
-      "Exit codes: 0 all embedded, 1 all have been worked on but not all are embedded (results.csv says why),\n"
-      "2 usage, 3 cannot read, 4 cannot write, 6 interrupted, 9 the system failed (try again),\n"
-      "70 internal error.");
+  command.footer(std::string("Examples:\n"
+                             "  unsnarl batch scans -o repaired\n"
+                             "  unsnarl batch list.txt -o repaired --jobs 8 --thumbnails -- --max-displacement 0.01\n"
+                             "  # one of a hundred parts, each on its own machine; then the summary\n"
+                             "  unsnarl batch scans -o repaired --shard 3/100\n"
+                             "  unsnarl batch scans -o repaired --summary\n\n"
+                             "Run the same command again to continue after an interruption, a crash or a power cut: "
+                             "meshes that are done are "
+                             "skipped.\n\n") +
+                 exit_codes({{exit_embedded, "all meshes are embedded (no self-intersections)"},
+                             {exit_intersecting, "all were tried, but not all are embedded; results.csv says why"}}));
 }
 
 int run_batch(const BatchOptions& options, Interruption& interruption) {

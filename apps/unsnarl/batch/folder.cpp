@@ -34,8 +34,8 @@ void BatchFolder::prepare() const {
        {"fixed", "reports", "thumbnails", "work", "results.jsonl", "results.csv", "index.html"})
     if (fs::exists(root / name, error) && !has_records(journal()))
       throw UsageError(
-          fmt::format("{}: '{}' in it was not written by 'unsnarl batch', which would replace it; name "
-                      "another folder",
+          fmt::format("{}: it holds '{}', which was not written by 'unsnarl batch' and would be replaced; use another "
+                      "folder",
                       root.string(), name));
   fs::create_directories(journal(), error);
   if (error) throw_write_error(journal().string() + ": cannot make this folder", error.value());

@@ -110,10 +110,9 @@ BatchMesh mesh_of_line(const std::string& line, const std::string& place) {
   if (path.empty()) {
     mesh.fault = place + ": there is no path of a mesh before the tab";
   } else if (!stays_inside(name)) {
-    mesh.fault = fmt::format("{}: '{}' is no name of a result; give a relative path without '..'", place, name);
+    mesh.fault = fmt::format("{}: '{}' cannot be the name of a result; use a relative path without '..'", place, name);
   } else if (!format_from_extension(name)) {
-    mesh.fault = fmt::format("{}: the extension of '{}' tells no format that is read; choose {}", place, name,
-                             format_names(" or "));
+    mesh.fault = fmt::format("{}: '{}' has no extension of a supported format: {}", place, name, format_names(" or "));
   }
   if (name.empty()) mesh.name = place;
   return mesh;
@@ -146,7 +145,7 @@ void keep_places_apart(std::vector<BatchMesh>& meshes) {
       by_place.emplace(BatchFolder::mesh(kept.back().name), &kept.back());
     } else {
       kept.back().fault =
-          fmt::format("{} and {} would both be written to {}; give one another name, after a tab in the list",
+          fmt::format("{} and {} would both be written to {}; give one of them another name, after a tab in the list",
                       same->second->path.string(), kept.back().path.string(), kept.back().name);
     }
   }
@@ -155,8 +154,9 @@ void keep_places_apart(std::vector<BatchMesh>& meshes) {
          folder = folder.parent_path())
       if (const auto file = by_place.find(folder); file != by_place.end())
         mesh.fault = fmt::format(
-            "{} and {} would be written to {} and to a folder of that name; give one another name, after a tab in the "
-            "list",
+            "{} and {} would be written to {} and to a folder of that name; give one of them another name, after a tab "
+            "in "
+            "the list",
             file->second->path.string(), mesh.path.string(), file->second->name);
   meshes = std::move(kept);
 }
@@ -178,10 +178,10 @@ Shard shard_of_slurm_task() {
   const std::size_t step = std::max<std::size_t>(1, variable("SLURM_ARRAY_TASK_STEP").value_or(1));
   const bool is_even = *id >= first && (*id - first) % step == 0;
   if (!is_even || (*id - first) / step >= *count)
-    throw UsageError(
-        fmt::format("task {} of a Slurm array of {} tasks that are not evenly numbered: say which part "
-                    "is meant with --shard I/N (0/1: all; what is done already is not done again)",
-                    *id, *count));
+    throw UsageError(fmt::format(
+        "task {} of a Slurm array of {} tasks whose numbers are not evenly spaced; say with --shard I/N which "
+        "part to repair (0/1: all; meshes that are done are skipped)",
+        *id, *count));
   return {(*id - first) / step, *count};
 }
 
@@ -216,13 +216,16 @@ BatchInputs batch_inputs(const std::string& list_or_folder, const fs::path& resu
     inputs = FolderSearch(list_or_folder, results).run();
   } else {
     if (const auto format = format_from_extension(list_or_folder))
-      throw UsageError(fmt::format(
-          "{} is a mesh; give a folder of meshes or a list of their paths, or use 'unsnarl fix'", list_or_folder));
+      throw UsageError(
+          fmt::format("{} is a mesh; 'unsnarl batch' needs a folder of meshes or a list of their paths; for one mesh "
+                      "use 'unsnarl fix'",
+                      list_or_folder));
     inputs.meshes = meshes_of_list(
         std::istringstream(read_bytes(list_or_folder, "; give a folder of meshes, or a file with a path a line")),
         list_or_folder);
   }
-  if (inputs.meshes.empty()) throw FileError(fmt::format("{}: no mesh in it ({})", list_or_folder, format_names(", ")));
+  if (inputs.meshes.empty())
+    throw FileError(fmt::format("{}: no mesh found in it (supported: {})", list_or_folder, format_names(", ")));
   std::stable_sort(inputs.meshes.begin(), inputs.meshes.end(),
                    [](const BatchMesh& a, const BatchMesh& b) { return a.name < b.name; });
   keep_places_apart(inputs.meshes);
@@ -237,7 +240,7 @@ Shard shard_from(const std::string& text) {
   const auto index = whole_number(text.substr(0, slash).c_str());
   const auto count = slash == std::string::npos ? std::nullopt : whole_number(text.substr(slash + 1).c_str());
   if (!index || !count || *index >= *count)
-    throw UsageError(fmt::format("--shard {}: give I/N, the part and their number, from 0/N to N-1/N", text));
+    throw UsageError(fmt::format("--shard must be I/N, as in 0/4, with I from 0 to N-1, not '{}'", text));
   return {*index, *count};
 }
 

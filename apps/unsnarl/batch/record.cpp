@@ -57,7 +57,7 @@ std::string status_of(const WorkerEnd& end, const Record& report) {
 }
 
 std::string message_of(const WorkerEnd& end, const std::filesystem::path& standard_error) {
-  if (end.timed_out) return "killed, since it did not stop at the time limit by itself";
+  if (end.timed_out) return "killed, because it did not stop at the time limit";
   if (end.exit_code < 0)
     return fmt::format("its process was killed by signal {} ({})", -end.exit_code, ::strsignal(-end.exit_code));
   if (end.exit_code == exit_cancelled) return "its process was interrupted";

@@ -65,8 +65,7 @@ std::vector<long long> frame_numbers(const std::vector<std::string>& paths) {
   std::vector<std::vector<long long>> all;
   for (const std::string& path : paths) {
     all.push_back(numbers_in(path));
-    if (all.back().empty())
-      throw UsageError(fmt::format("{}: there is no number in this name that says which frame it is", path));
+    if (all.back().empty()) throw UsageError(fmt::format("{}: the name has no frame number", path));
   }
   const auto ends_alike = [&](const std::vector<long long>& numbers) {
     return numbers.size() > 1 && numbers.size() == all[0].size() && numbers.back() == all[0].back();
@@ -92,7 +91,7 @@ std::vector<std::string> sorted_frames(const std::vector<std::string>& patterns)
   for (std::size_t t = 1; t < paths.size(); ++t) {
     const long long step = numbers[1] - numbers[0], here = numbers[t] - numbers[t - 1];
     if (here == 0)
-      throw UsageError(fmt::format("{} and {} are the same frame, {}", paths[t - 1], paths[t], numbers[t]));
+      throw UsageError(fmt::format("{} and {} have the same frame number, {}", paths[t - 1], paths[t], numbers[t]));
     if (here != step)
       throw UsageError(
           fmt::format("the numbers of the frames go up by {}, but by {} from {} to {}: is a frame missing, "
@@ -118,7 +117,7 @@ class NumberedFiles : public SequenceFiles {
         interruption_(interruption),
         first_(read_scene({paths_[0]}, format)) {
     if (!external_files(first_.document(0)).empty())
-      throw UsageError(paths_[0] + ": this file keeps its numbers in other files; give frames of one file each");
+      throw UsageError(paths_[0] + ": this file keeps its numbers in other files; each frame must be a single file");
   }
 
   std::size_t count() const override { return paths_.size(); }
@@ -129,7 +128,7 @@ class NumberedFiles : public SequenceFiles {
   void claim(FilePlaces& places) const override {
     for (const std::string& path : paths_) places.reads("one of the frames", path);
     for (std::size_t t = 0; t < paths_.size(); ++t)
-      places.writes("a repaired frame", target(t), "it would be overwritten: name another folder");
+      places.writes("a repaired frame", target(t), "it would be overwritten; use another folder");
   }
 
   std::string content_hash(std::size_t t) override {
@@ -175,7 +174,7 @@ class NumberedFiles : public SequenceFiles {
   std::vector<double> write_to(const fs::path& place, std::size_t t, std::span<const double> positions, bool float32) {
     const std::vector<OutputFile> files = document(t).patched(positions, float32, place.filename());
     if (files.size() > 1)
-      throw UsageError(names_[t] + ": this file keeps its numbers in other files; give frames of one file each");
+      throw UsageError(names_[t] + ": this file keeps its numbers in other files; each frame must be a single file");
     StagedOutput output(interruption_);
     const Document written = Document::read(output.add(place, files), first_.document(0).format());
     require_same_faces(written, t);
@@ -246,7 +245,7 @@ class CacheFrames : public SequenceFiles {
   void claim(FilePlaces& places) const override {
     for (const std::string& input : inputs_) places.reads("one of the frames", input);
     for (const fs::path& place : {target_, part_})
-      places.writes("the repaired cache", place, "it would be overwritten: name another folder");
+      places.writes("the repaired cache", place, "it would be overwritten; use another folder");
   }
 
   std::string content_hash(std::size_t t) override {

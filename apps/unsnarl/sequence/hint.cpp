@@ -51,8 +51,9 @@ std::string sequence_hint(const FixOptions& options, const SceneDocument& scene)
                                 ? fmt::format("{}", fmt::join(frames, " "))
                                 : fmt::format("{} {} ... {}", frames[0], frames[1], frames.back());
   return fmt::format(
-      "{} of these files have the same faces. If they are the frames of one moving mesh, stop this, and repair them as "
-      "a sequence, which is hundreds of times faster: unsnarl fix --sequence {} -o {}",
+      "{} of these files have the same faces. If they are frames of a moving mesh, stop this command and repair them "
+      "as "
+      "a sequence, which is much faster: unsnarl fix --sequence {} -o {}",
       frames.size(), names, options.output);
 }
 

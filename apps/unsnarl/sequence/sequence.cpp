@@ -38,20 +38,21 @@ constexpr int report_version = 1;  // raised when a key is renamed, removed or c
 /// The folder of the outputs. Throws UsageError.
 const std::string& checked_folder(const FixOptions& options) {
   const auto refuse = [](bool given, const char* option) {
-    if (given) throw UsageError(fmt::format("--sequence has no {}; repair single frames to see that", option));
+    if (given) throw UsageError(fmt::format("{} does not work with --sequence; repair a single frame instead", option));
   };
   if (options.in_place || options.output.empty() || is_stream(options.output))
-    throw UsageError("--sequence needs -o FOLDER, where the frames go under their names");
+    throw UsageError("--sequence needs -o FOLDER; the frames are written there under their names");
   refuse(!options.picture.empty(), "--picture");
   refuse(!options.view.empty(), "--view");
   refuse(!options.record.empty(), "--record");
   refuse(!options.highlight.empty(), "--highlight");
   if (!options.nested.empty())
-    throw UsageError("--sequence has no --nested: its frames are one mesh, not several files; repair single frames");
+    throw UsageError(
+        "--nested does not work with --sequence, whose files are frames of one mesh; repair single frames");
   if (!options.rigid.empty())
     throw UsageError(
-        "--sequence has no --rigid: a part that moves as a body from frame to frame is not known; repair "
-        "single frames, or hold the part with --fix-object and the like");
+        "--rigid does not work with --sequence; repair single frames, or keep the part fixed with --fix-object or "
+        "--fix-group");
   return options.output;
 }
 
@@ -61,16 +62,18 @@ std::pair<std::size_t, std::size_t> range_of(const std::string& text, std::size_
     std::size_t value = otherwise;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (!word.empty() && (error != std::errc{} || end != word.data() + word.size()))
-      throw UsageError(fmt::format("--frames {}: give FIRST:LAST, whole numbers from 0, LAST excluded", text));
+      throw UsageError(fmt::format("--frames must be FIRST:LAST, whole numbers from 0, as in 0:24, not '{}'", text));
     return value;
   };
   if (text.empty()) return {0, count};
   const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) throw UsageError(fmt::format("--frames {}: give FIRST:LAST, as in 0:24", text));
+  if (colon == std::string::npos)
+    throw UsageError(fmt::format("--frames must be FIRST:LAST, as in 0:24, not '{}'", text));
   const std::size_t first = number(std::string_view(text).substr(0, colon), 0);
   const std::size_t last = number(std::string_view(text).substr(colon + 1), count);
   if (first >= last || last > count)
-    throw UsageError(fmt::format("--frames {}: there are {} frames, counted from 0, LAST excluded", text, count));
+    throw UsageError(
+        fmt::format("--frames {}: the sequence has {} frames; FIRST counts from 0, LAST is not included", text, count));
   return {first, last};
 }
 
@@ -134,7 +137,7 @@ class SequenceRun {
     context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
     interruption_.set_handler([&] {
       context.cancel();
-      if (!options_.quiet) tell("\nstopping; the frames that are done stay, and the same call goes on from there\n");
+      if (!options_.quiet) tell("\nstopping; finished frames are kept; run the same command again to continue\n");
     });
     display_.count("frames", sequence_.last - sequence_.first);
     display_.begin("frames");
@@ -222,7 +225,7 @@ class SequenceRun {
     const bool float32_digits = result.report.precision == Precision::float32;
     // The certificate is about these positions, bit for bit.
     if (files_->write(t, result.positions, float32_digits) != result.positions)
-      throw std::logic_error(files_->name(t) + ": the file written does not hold what was certified");
+      throw std::logic_error(files_->name(t) + ": the written file is not what was certified");
     done_[t] = frame_json(result.report);
     unrecorded_.push_back(t);
     if (unrecorded_.size() >= files_->frames_between_flushes()) flush();
@@ -236,8 +239,8 @@ class SequenceRun {
     if (is_kept)
       partial_[t] = files_->write_partial(t, result.positions, result.report.precision == Precision::float32);
     display_.say("{}: {}; {}", files_->name(t), to_string(result.report.status),
-                 is_kept ? fmt::format("what was reached goes to {}", partial_[t])
-                         : "not written: --keep-partial writes what was reached");
+                 is_kept ? fmt::format("the incomplete result goes to {}", partial_[t])
+                         : "no file written; --keep-partial writes the incomplete result");
   }
 
   /// Records all frames that have been written.
@@ -397,16 +400,19 @@ void SequenceRun::summarise() {
   display_.say("  intersecting pairs after:  {}", sum.pairs_after == 0 ? "none" : std::to_string(sum.pairs_after));
   if (sum.frames > 0)
     display_.say(
-        "  moved {:.3g} % of the vertices, by {:.2g} % of the diagonal ({:.2g}) at most, {:.2g} % ({:.2g}) on average",
-        100 * (1 - sum.untouched_mean), 100 * sum.displacement_max, sum.max_length, 100 * sum.displacement_mean,
-        sum.mean_length);
+        "  moved {:.3g} % of the vertices, by {:.2g} ({:.2g} % of the diagonal) at most, {:.2g} ({:.2g} %) on average",
+        100 * (1 - sum.untouched_mean), sum.max_length, 100 * sum.displacement_max, sum.mean_length,
+        100 * sum.displacement_mean);
   if (sum.displacement_max > 0)
-    display_.say("  farthest: {}, by {:.2g} % of the diagonal", files_->name(sum.farthest), 100 * sum.displacement_max);
+    display_.say("  largest move: in {}, by {:.2g} % of the diagonal", files_->name(sum.farthest),
+                 100 * sum.displacement_max);
   if (!sum.unsmoothed.empty())
-    display_.say("  not smoothed, but as a repair of the frame alone left it: {}", names_of_frames(sum.unsmoothed));
+    display_.say("  not smoothed in time (repaired as single frames): {}", names_of_frames(sum.unsmoothed));
   if (sum.jitter_frames > 0)
     display_.say(
-        "  jitter: {:.2g} % of the diagonal at most, {:.2g} % on average; repaired one by one {:.2g} % and {:.2g} %",
+        "  flicker from frame to frame: {:.2g} % of the diagonal at most, {:.2g} % on average; without smoothing "
+        "{:.2g} % "
+        "and {:.2g} %",
         100 * sum.jitter.max_rel, 100 * sum.jitter.mean_rel, 100 * sum.alone.max_rel, 100 * sum.alone.mean_rel);
   display_.say("  {} of {} frame{} written; {:.1f} s, {:.0f} MB", sum.frames, frames, s(frames), whole.seconds,
                whole.peak_memory_mb);
