@@ -45,29 +45,6 @@ std::string_view explanation(Status status, Goal goal) {
   return "unknown status";
 }
 
-std::string_view why(LeftReason reason) {
-  switch (reason) {
-    case LeftReason::closed_non_orientable:
-      return "on a closed non-orientable component (like a Klein bottle), which always intersects itself";
-    case LeftReason::duplicate_faces: return "between faces on the same three vertices";
-    case LeftReason::fixed_faces: return "inside parts that you told unsnarl to keep fixed";
-    case LeftReason::between_components: return "between components, which --each does not separate";
-    case LeftReason::goal: return "between faces that share a vertex, which --goal disjoint ignores";
-    case LeftReason::rounding: return "need a gap too small for the digits of the file";
-    case LeftReason::displacement: return "need a vertex to move farther than --max-displacement allows";
-    case LeftReason::taken_back: return "can be removed only by creating more intersections elsewhere";
-    case LeftReason::time_limit: return "were not repaired before the time limit";
-    case LeftReason::memory_limit: return "were not repaired before the memory limit";
-    case LeftReason::cancelled: return "were not repaired before the interruption";
-    case LeftReason::unresolved: return "could not be removed";
-    case LeftReason::other_diagonal:
-      return "appear only where polygons are split along other diagonals than in the input";
-    case LeftReason::rigid_faces: return "inside a rigid part";
-    case LeftReason::count: break;
-  }
-  return "for an unknown reason";
-}
-
 std::string_view float32_remark(const RepairResult& result, const RepairOptions& options) {
   if (result.report.float32_embedded || result.report.after.total() > 0) return "";
   if (result.status == Status::embedded)
@@ -195,7 +172,7 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   line(fmt::format("  intersecting pairs after:  {}", in_words(r.after)));
   for (const std::string& words : by_file(files.scene, r.diagonal)) line("    " + words);
   for (std::size_t i = 0; i < left_reason_count; ++i)
-    if (r.left_by_reason[i] > 0) line(fmt::format("    {} {}", r.left_by_reason[i], why(static_cast<LeftReason>(i))));
+    if (r.left_by_reason[i] > 0) line(fmt::format("    {} {}", r.left_by_reason[i], describe(static_cast<LeftReason>(i))));
   if (r.untouched_share < 1)
     line(fmt::format("  moved {:.3g} % of the vertices, by {} at most, {} on average", 100 * (1 - r.untouched_share),
                      length_in_words(r.displacement_max_rel, r.diagonal),

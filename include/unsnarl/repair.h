@@ -46,15 +46,10 @@ class Context {
 };
 
 struct RepairOptions {
+  // What everybody uses.
+
   FindOptions find;  ///< welding, threads
   Goal goal = Goal::all;
-  /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it and a way to it
-  /// is found, else float64. Where float32 is set and the result does not hold in it, or a coordinate is beyond its
-  /// range, the status is not embedded.
-  std::optional<Precision> precision;
-  /// The positions that a reader of the file to be written will see, given those to be written and whether float32
-  /// digits are enough. Unset: rounded to `precision`. The result is certified as it returns them.
-  std::function<std::vector<double>(std::span<const double> positions, bool float32)> as_written;
   /// One flag a vertex, nonzero: must not move, nor the vertices welded to it. Empty: all may move.
   std::vector<std::uint8_t> fixed;
   /// One number a vertex: the rigid part that it belongs to, with the vertices welded to it, counted from 0; -1: none.
@@ -75,12 +70,24 @@ struct RepairOptions {
   /// MB (10^6 bytes) of resident memory, looked at all the time; 0: none. To be sure that it is never passed, limit
   /// the process too: an allocation that fails ends the work with Status::memory_limit and what was reached.
   double memory_limit_mb = 0;
+
+  // What programs use that write files or show how it went.
+
+  /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it and a way to it
+  /// is found, else float64. Where float32 is set and the result does not hold in it, or a coordinate is beyond its
+  /// range, the status is not embedded.
+  std::optional<Precision> precision;
+  /// The positions that a reader of the file to be written will see, given those to be written and whether float32
+  /// digits are enough. Unset: rounded to `precision`. The result is certified as it returns them.
+  std::function<std::vector<double>(std::span<const double> positions, bool float32)> as_written;
   RecordOptions record;  ///< what to note on the way; nothing unless asked for
-  bool recover = true;   ///< false: stop after untangling (for research)
-  /// Untangles and recovers as the paper does, instead of region by region (for research). Unset: region by region.
+
+  // What research uses.
+
+  bool recover = true;  ///< false: stop after untangling
+  /// Untangles and recovers as the paper does, instead of region by region. Unset: region by region.
   std::optional<PaperOptions> paper;
-  /// Names of strategies (RegionReport::strategy) to do without (for research: what each is worth). Unknown ones are an
-  /// error.
+  /// Names of strategies (RegionReport::strategy) to do without: what each is worth. Unknown ones are an error.
   std::vector<std::string> without_strategies;
 };
 

@@ -15,13 +15,13 @@ namespace unsnarl {
 
 /// How a repair ended. Only `embedded` promises a surface without self-intersections.
 enum class Status : std::uint8_t {
-  embedded,      ///< no two faces meet anywhere but in the hull of the vertices they share
-  reduced,       ///< fewer intersecting pairs than the input, but not none
-  no_progress,   ///< nothing better than the input was found; positions are the input's
-  obstructed,    ///< everything else repaired; only the listed obstructions remain
-  time_limit,    ///< stopped by RepairOptions::time_limit_s
-  /// Stopped by RepairOptions::memory_limit_mb, or an allocation failed. What is left is counted; where that is nothing,
-  /// vertices may lie farther from the input than they need.
+  embedded,     ///< no two faces meet anywhere but in the hull of the vertices they share
+  reduced,      ///< fewer intersecting pairs than the input, but not none
+  no_progress,  ///< nothing better than the input was found; positions are the input's
+  obstructed,   ///< everything else repaired; only the listed obstructions remain
+  time_limit,   ///< stopped by RepairOptions::time_limit_s
+  /// Stopped by RepairOptions::memory_limit_mb, or an allocation failed. What is left is counted; where that is
+  /// nothing, vertices may lie farther from the input than they need.
   memory_limit,
   /// Some self-intersections are left, since resolving them moves a vertex too far; or a vertex of the result is
   /// farther away than allowed, also where no self-intersection is left.
@@ -120,7 +120,10 @@ enum class LeftReason : std::uint8_t {
   count,        ///< no reason: how many there are; a new one comes before it
 };
 inline constexpr auto left_reason_count = static_cast<std::size_t>(LeftReason::count);
+/// Its name in reports.
 std::string_view to_string(LeftReason reason);
+/// What comes after "5 intersections ", for a person; names options as the command line does.
+std::string_view describe(LeftReason reason);
 
 /// Two faces that intersect in the result, a <= b.
 struct LeftPair {

@@ -29,27 +29,6 @@ std::string_view to_string(Obstruction::Kind kind) {
   return "unknown";
 }
 
-std::string_view to_string(LeftReason reason) {
-  switch (reason) {
-    case LeftReason::closed_non_orientable: return "closed_non_orientable";
-    case LeftReason::duplicate_faces: return "duplicate_faces";
-    case LeftReason::fixed_faces: return "fixed_faces";
-    case LeftReason::between_components: return "between_components";
-    case LeftReason::goal: return "goal";
-    case LeftReason::rounding: return "rounding";
-    case LeftReason::displacement: return "displacement";
-    case LeftReason::taken_back: return "taken_back";
-    case LeftReason::time_limit: return "time_limit";
-    case LeftReason::memory_limit: return "memory_limit";
-    case LeftReason::cancelled: return "cancelled";
-    case LeftReason::unresolved: return "unresolved";
-    case LeftReason::other_diagonal: return "other_diagonal";
-    case LeftReason::rigid_faces: return "rigid_faces";
-    case LeftReason::count: break;
-  }
-  return "unknown";
-}
-
 std::string_view to_string(Precision precision) {
   return precision == Precision::float32 ? "float32" : "float64";
 }

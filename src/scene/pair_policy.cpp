@@ -1,12 +1,46 @@
 #include "scene/pair_policy.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "contact/intersection_finder.h"
 
 namespace unsnarl {
 namespace {
+
+struct ReasonWords {
+  LeftReason reason;
+  std::string_view name;         // in reports
+  std::string_view description;  // what follows "5 intersections"
+};
+
+/// All reasons, in the order of enum LeftReason.
+constexpr auto reasons = std::to_array<ReasonWords>({
+    {LeftReason::closed_non_orientable, "closed_non_orientable",
+     "on a closed non-orientable component (like a Klein bottle), which always intersects itself"},
+    {LeftReason::duplicate_faces, "duplicate_faces", "between faces on the same three vertices"},
+    {LeftReason::fixed_faces, "fixed_faces", "inside parts that you told unsnarl to keep fixed"},
+    {LeftReason::between_components, "between_components", "between components, which --each does not separate"},
+    {LeftReason::goal, "goal", "between faces that share a vertex, which --goal disjoint ignores"},
+    {LeftReason::rounding, "rounding", "need a gap too small for the digits of the file"},
+    {LeftReason::displacement, "displacement", "need a vertex to move farther than --max-displacement allows"},
+    {LeftReason::taken_back, "taken_back", "can be removed only by creating more intersections elsewhere"},
+    {LeftReason::time_limit, "time_limit", "were not repaired before the time limit"},
+    {LeftReason::memory_limit, "memory_limit", "were not repaired before the memory limit"},
+    {LeftReason::cancelled, "cancelled", "were not repaired before the interruption"},
+    {LeftReason::unresolved, "unresolved", "could not be removed"},
+    {LeftReason::other_diagonal, "other_diagonal",
+     "appear only where polygons are split along other diagonals than in the input"},
+    {LeftReason::rigid_faces, "rigid_faces", "inside a rigid part"},
+});
+static_assert(reasons.size() == left_reason_count);
+static_assert([] {
+  for (std::size_t i = 0; i < reasons.size(); ++i)
+    if (static_cast<std::size_t>(reasons[i].reason) != i) return false;
+  return true;
+}());
 
 /// The span of those of a triangle's vertices that are held, as a triangle that uses some of them twice; none: no
 /// vertex is.
@@ -30,6 +64,13 @@ bool what_is_held_meets(const Positions& x, const Triangle& a, const Triangle& b
 }
 
 }  // namespace
+
+std::string_view to_string(LeftReason reason) {
+  return reasons.at(static_cast<std::size_t>(reason)).name;
+}
+std::string_view describe(LeftReason reason) {
+  return reasons.at(static_cast<std::size_t>(reason)).description;
+}
 
 std::string RigidParts::name(Index part) const {
   const auto p = static_cast<std::size_t>(part);
