@@ -5,10 +5,10 @@ set(CPACK_PACKAGE_CONTACT "the unsnarl authors")
 set(CPACK_PACKAGE_HOMEPAGE_URL "${PROJECT_HOMEPAGE_URL}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "removes self-intersections from surface meshes")
 set(CPACK_DEBIAN_UNSNARL_DESCRIPTION
-"Takes a surface mesh that runs through itself and gives back the same mesh,
-moved as little as possible, with no self-intersection left: same vertices,
-faces and attributes, certified by exact arithmetic on the file that was
-written. Holds the program and the library for C.")
+"Moves the vertices of a surface mesh as little as possible until it has no
+self-intersections. Faces and attributes stay the same. The written file is
+read back and checked with exact arithmetic. Contains the program and the
+library for C.")
 set(CPACK_DEBIAN_UNSNARL_DEV_DESCRIPTION
 "The libraries of unsnarl for programs in C++ (static) and C (shared):
 headers, examples, and files for find_package of CMake and for pkg-config.")

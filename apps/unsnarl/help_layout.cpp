@@ -87,10 +87,10 @@ std::string HelpLayout::make_description(const CLI::App* app) const {
 
 std::string HelpLayout::make_usage(const CLI::App* app, std::string name) const {
   std::string usage = "Usage: " + name + (app->get_subcommands({}).empty() ? " [OPTIONS]" : " [OPTIONS] COMMAND");
-  for (const CLI::Option* option : app->get_options([](const CLI::Option* any) { return any->get_positional(); }))
-    usage += " " + make_option_usage(option);
   for (const CLI::Option* option : app->get_options())
     if (option->nonpositional() && option->get_required()) usage += " " + with_value(*option);
+  for (const CLI::Option* option : app->get_options([](const CLI::Option* any) { return any->get_positional(); }))
+    usage += " " + make_option_usage(option);
   return usage + "\n";
 }
 

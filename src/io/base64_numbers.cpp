@@ -12,7 +12,7 @@ Base64Numbers::Base64Numbers(std::string_view file, ByteRange range, bool is_com
                              const std::string& where)
     : range_(range) {
   std::optional<std::string> decoded = base64_decoded(without_space(file.substr(range.begin, range.size)));
-  if (!decoded) throw FileError(where + " holds characters that are no base64; the file is damaged");
+  if (!decoded) throw FileError(where + " holds characters that are not base64; the file is damaged");
   if (is_compressed) {
     compression_ = is_gzip(*decoded) ? Compression::gzip : Compression::zlib;
     decoded = inflated(*decoded, size);

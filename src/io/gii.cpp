@@ -85,10 +85,10 @@ class GiftiParser {
     }
     require_points_apart();
     if (points.empty() || triangles.empty()) {
-      xml_.fail(
-          xml_.root(),
-          fmt::format("the file has no DataArray of {}; it is no surface. Give the file of the surface it belongs to",
-                      points.empty() ? "NIFTI_INTENT_POINTSET" : "NIFTI_INTENT_TRIANGLE"));
+      xml_.fail(xml_.root(),
+                fmt::format(
+                    "the file has no DataArray of {}; it is not a surface. Give the file of the surface it belongs to",
+                    points.empty() ? "NIFTI_INTENT_POINTSET" : "NIFTI_INTENT_TRIANGLE"));
     }
     if (points.size() != triangles.size()) {
       xml_.fail(triangles.back().element,
@@ -237,7 +237,7 @@ class GiftiParser {
     result.by_columns = element.attribute("ArrayIndexingOrder").value() == std::string_view("ColumnMajorOrder");
     const std::string_view type_name = element.attribute("DataType").value();
     const std::optional<NumberType> type = number_type(type_name, gii_types);
-    if (!type) fail("DataType is no type of GIFTI");
+    if (!type) fail("DataType is not a type of GIFTI");
     numbers.type = *type;
     const bool is_big = element.attribute("Endian").value() == std::string_view("BigEndian");
     numbers.order = is_big ? std::endian::big : std::endian::little;

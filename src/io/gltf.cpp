@@ -25,7 +25,7 @@ class GltfParser {
   explicit GltfParser(GltfFile& file) : file_(file), root_(file.json->root()) {}
 
   void parse(const std::filesystem::path& folder) {
-    if (!root_.is_object()) throw FileError("the JSON text is no object; check that it is a glTF file");
+    if (!root_.is_object()) throw FileError("the JSON text is not an object; check that it is a glTF file");
     const std::string version = root_["asset"]["version"].string();
     if (!version.starts_with("2")) {
       throw FileError(version.empty()
@@ -269,7 +269,7 @@ class GltfParser {
   }
   static std::size_t accessor_number(const Value& value, const std::string& where) {
     const std::optional<std::size_t> result = value.index();
-    if (!result) throw FileError(where + ": 'indices' is no accessor; the file is damaged");
+    if (!result) throw FileError(where + ": 'indices' is not an accessor; the file is damaged");
     return *result;
   }
 

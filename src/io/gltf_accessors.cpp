@@ -20,7 +20,7 @@ std::size_t member_index(const Value& of, const char* key, std::size_t otherwise
   const Value value = of[key];
   if (!value) return otherwise;
   const std::optional<std::size_t> result = value.index();
-  if (!result) throw FileError(fmt::format("{}: '{}' is no whole number; the file is damaged", where, key));
+  if (!result) throw FileError(fmt::format("{}: '{}' is not a whole number; the file is damaged", where, key));
   return *result;
 }
 

@@ -57,7 +57,7 @@ std::vector<std::size_t> ids(const JsonText::Value& array) {
   std::vector<std::size_t> result;
   for (const JsonText::Value& element : array.elements()) {
     const std::optional<std::size_t> id = element.index();
-    if (!id) throw FileError("a list of nodes holds something that is no node number; the file is damaged");
+    if (!id) throw FileError("a list of nodes holds something that is not a node number; the file is damaged");
     result.push_back(*id);
   }
   return result;

@@ -44,7 +44,7 @@ class ObjParser {
       } else if (keyword == "usemtl") {
         materials_.start(text_.rest_of_line(), faces_.count());
       } else {
-        if (!is_text(keyword)) text_.fail("this is not text, so it is no OBJ file; check the format", start);
+        if (!is_text(keyword)) text_.fail("this is not text, so it is not an OBJ file; check the format", start);
         text_.next_line();
       }
     }

@@ -96,7 +96,7 @@ void require_place_beside(const fs::path& target, const fs::path& name) {
                     place.string()));
   const fs::path folder = existing_folder_of(place);
   if (!fs::is_directory(folder, ignored))
-    throw WriteError(fmt::format("{}: {} is no folder", place.string(), folder.string()));
+    throw WriteError(fmt::format("{}: {} is not a folder", place.string(), folder.string()));
   if (!leads_into(folder_of(target), folder))
     throw WriteError(fmt::format("{}: {} leads out of the folder of the result; write to another folder",
                                  place.string(), folder.string()));

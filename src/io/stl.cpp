@@ -71,7 +71,7 @@ class BinaryStlFile final : public StlFile {
     if (count > (bytes.size() - header_size) / facet_size) {
       throw FileError(
           fmt::format("the header promises {} facets, but the file ends within facet {} (counting from 1) at byte "
-                      "{}; it is cut short or no STL file",
+                      "{}; it is cut short or not an STL file",
                       count, (bytes.size() - header_size) / facet_size + 1, bytes.size()));
     }
     if (count > std::numeric_limits<std::int32_t>::max() / 3) {
@@ -80,7 +80,7 @@ class BinaryStlFile final : public StlFile {
     const std::size_t extra = bytes.size() - header_size - count * facet_size;
     if (count == 0 && extra >= facet_size) {
       throw FileError(fmt::format(
-          "the header promises no facets, but {} bytes follow it; the file is damaged or no STL file", extra));
+          "the header promises no facets, but {} bytes follow it; the file is damaged or not an STL file", extra));
     }
     if (extra > 0) notes.push_back(fmt::format("{} bytes after the last facet are kept as they are.", extra));
     surface.positions.resize(9 * count);

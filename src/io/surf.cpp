@@ -44,7 +44,7 @@ class SurfParser {
     const std::size_t end = bytes_.find("\n\n", magic_size);
     const std::size_t first = bytes_.find('\n', magic_size);
     if (first == std::string_view::npos)
-      throw FileError("byte 3: the comment of the file does not end; it is cut short or no FreeSurfer surface");
+      throw FileError("byte 3: the comment of the file does not end; it is cut short or not a FreeSurfer surface");
     const std::size_t counts = end == first ? end + 2 : first + 1;
     need(counts, 2, 4, "numbers of vertices and faces");
     const auto vertices = load<std::uint32_t>(bytes_.data() + counts, std::endian::big);

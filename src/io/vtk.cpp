@@ -105,7 +105,7 @@ class VtkParser {
     text_.skip_space();
     const std::string name = lower_case(text_.peek());
     const std::optional<NumberType> known = number_type(name, vtk_types);
-    if (!known) text_.fail(fmt::format("{} is no type of numbers that is read", in_quotes(name)));
+    if (!known) text_.fail(fmt::format("{} is not a supported number type", in_quotes(name)));
     text_.token();
     return *known;
   }

@@ -123,7 +123,7 @@ class CompressedBlocks final : public EncodedNumbers {
       throw FileError("it ends too early; the file is cut short");
     const std::string_view stored = text.substr(at, length);
     std::optional<std::string> result = is_base64_ ? base64_decoded(stored) : std::string(stored);
-    if (!result || result->size() < size) throw FileError("it holds characters that are no base64");
+    if (!result || result->size() < size) throw FileError("it holds characters that are not base64");
     result->resize(size);
     return *result;
   }

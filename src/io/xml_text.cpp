@@ -34,8 +34,9 @@ XmlText::XmlText(std::string_view text, const char* root, std::string_view endin
       document_.load_buffer_inplace(buffer_.data(), buffer_.size(), pugi::parse_cdata, pugi::encoding_utf8);
   if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   if (!result) {
-    fail(std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)), text.size()),
-         fmt::format("this is no XML ({}); the file is cut short, damaged or of another format", result.description()));
+    fail(
+        std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)), text.size()),
+        fmt::format("this is not XML ({}); the file is cut short, damaged or of another format", result.description()));
   }
   if (const std::optional<std::size_t> place = too_deep_element(document_))
     fail(std::min(*place, text.size()),

@@ -62,8 +62,8 @@ std::pair<ZipHandle, ZipSource> opened(std::string_view bytes, bool is_written) 
   ZipHandle archive(zip_open_from_source(source.get(), is_written ? 0 : ZIP_RDONLY, error.get()));
   if (!archive) {
     zip_source_free(source.get());
-    throw FileError(
-        fmt::format("this is no ZIP archive ({}); the file is cut short, damaged or of another format", error.text()));
+    throw FileError(fmt::format("this is not a ZIP archive ({}); the file is cut short, damaged or of another format",
+                                error.text()));
   }
   return {std::move(archive), std::move(source)};
 }

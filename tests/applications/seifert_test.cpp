@@ -70,7 +70,7 @@ TEST(ParseLink, PlanarDiagramsKeepTheirHandedness) {
 TEST(ParseLink, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(link_refusal("").find("nothing in it"), std::string::npos);
   EXPECT_EQ(link_refusal("0 0 0\n1 0\n"), "line 2: 2 numbers; a point has three, 'x y z'");
-  EXPECT_NE(link_refusal("0 0 0\n1 x 0\n").find("line 2: 'x 0' is no coordinate"), std::string::npos);
+  EXPECT_NE(link_refusal("0 0 0\n1 x 0\n").find("line 2: 'x 0' is not a coordinate"), std::string::npos);
   EXPECT_NE(link_refusal("0 0 0\n1 0 0\n").find("component 0 has 2 points"), std::string::npos);
   EXPECT_NE(link_refusal("0 0 0\n1 0 0\n1 0 0\n0 1 0\n").find("points 1 and 2 of component 0 are one"),
             std::string::npos);
@@ -81,7 +81,7 @@ TEST(ParseLink, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(link_refusal("X[1,1,2,2]").find("nugatory"), std::string::npos);
   EXPECT_NE(link_refusal("braid 3: 1 3").find("generator 2 of the braid is 3"), std::string::npos);
   EXPECT_NE(link_refusal("braid 2: -2147483648").find("generator 1 of the braid is -2147483648"), std::string::npos);
-  EXPECT_NE(link_refusal("braid three: 1").find("is no whole number"), std::string::npos);
+  EXPECT_NE(link_refusal("braid three: 1").find("is not a whole number"), std::string::npos);
 }
 
 TEST(SeifertSurface, KnotsAndLinksAreSpanned) {

@@ -187,7 +187,7 @@ TEST_F(FilePlaces, ABufferInASubfolderGetsOneBesideTheResult) {
   fs::create_directories(folder / "third");
   write(folder / "second/data", "precious");
   fs::create_directory_symlink(folder / "out", folder / "third/data");
-  expect_refusal({"fix", in, "-o", folder / "second/g.gltf"}, "is no folder", 4);
+  expect_refusal({"fix", in, "-o", folder / "second/g.gltf"}, "not a folder", 4);
   expect_refusal({"fix", in, "-o", folder / "third/g.gltf"}, "leads out of the folder", 4);
 }
 

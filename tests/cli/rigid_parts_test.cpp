@@ -80,11 +80,14 @@ TEST_F(RigidParts, FilesOfASceneAndPartsOfAGlb) {
 TEST_F(RigidParts, WhatMakesNoSenseIsRefused) {
   const std::string in = file("in.obj", named_crossing()), out = folder / "out.obj";
   expect_refusal({"fix", in, "-o", out, "--rigid", "bird"}, 2, "there is no object 'bird'; there are: 'rock', 'fish'");
-  expect_refusal({"fix", in, "-o", out, "--rigid", "fish", "--fix-object", "fish"}, 2, "'fish' is held");
-  expect_refusal({"fix", in, "-o", out, "--rigid", "fish", "--only-object", "rock"}, 2, "'fish' is held");
+  expect_refusal({"fix", in, "-o", out, "--rigid", "fish", "--fix-object", "fish"}, 2,
+                 "'fish' cannot move as a rigid body");
+  expect_refusal({"fix", in, "-o", out, "--rigid", "fish", "--only-object", "rock"}, 2,
+                 "'fish' cannot move as a rigid body");
   expect_refusal({"fix", in, "-o", out, "--rigid", "fish", "--rigid-component", "1"}, 2, "vertex 4 in common");
   expect_refusal({"fix", in, "-o", out, "--rigid", "fish", "--each"}, 2, "--each");
-  expect_refusal({"fix", "--sequence", in, "-o", folder / "frames", "--rigid", "fish"}, 2, "--sequence has no --rigid");
+  expect_refusal({"fix", "--sequence", in, "-o", folder / "frames", "--rigid", "fish"}, 2,
+                 "--rigid does not work with --sequence");
 }
 
 TEST_F(RigidParts, WhatIntersectsWithinOneIsNamed) {
@@ -93,7 +96,7 @@ TEST_F(RigidParts, WhatIntersectsWithinOneIsNamed) {
   const std::string together = file("one.obj", "o all\n" + crossing);
   const Outcome outcome = run({"fix", together, "-o", out, "--rigid", "all", "--report", folder / "r.json"});
   EXPECT_EQ(outcome.exit_code, 7) << outcome.err;
-  EXPECT_NE(outcome.err.find("within a rigid part"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("inside a rigid part"), std::string::npos) << outcome.err;
   EXPECT_FALSE(fs::exists(out));
   const auto json = nlohmann::json::parse(contents(folder / "r.json"));
   EXPECT_EQ(json["obstructions"][0]["kind"], "rigid_faces");

@@ -66,7 +66,7 @@ TEST(RoutesCommand, ErrorsAndObstructions) {
   const std::string timed = R"({"timed": true, "agents": [{"radius": 1, "start": [0, 0, 0], "goal": [9, 0, 0]}]})";
   const Outcome free_in_time = run({"routes", "-", "-o", folder / "out", "--free-tubes"}, {.input = timed});
   EXPECT_EQ(free_in_time.exit_code, 2);
-  EXPECT_TRUE(contains(free_in_time.err, "--free-tubes knows no time"));
+  EXPECT_TRUE(contains(free_in_time.err, "--free-tubes does not work with \"timed\""));
   EXPECT_EQ(run({"routes", folder / "none.json", "-o", folder / "out"}).exit_code, 3);
   EXPECT_EQ(run({"sample", "routes_maze", "-o", folder / "maze.json"}).exit_code, 0);
   EXPECT_EQ(run({"routes", folder / "maze.json", "-o", folder / "out", "--time-limit", "0.05"}).exit_code, 5);

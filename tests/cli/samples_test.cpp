@@ -40,10 +40,10 @@ TEST_F(Samples, UnknownOnesAreNamedBeforeAllElse) {
                                     {"routes_rings", "routes_ring"}})
     for (const char* output : {"s.obj", "s.xyz"})
       expect_refusal({"sample", name, "-o", folder / output}, 2,
-                     "there is no sample '" + std::string(name) + "'; did you mean " + meant +
-                         "?; 'unsnarl sample --list' names them all");
-  expect_refusal({"sample", "nope", "-o", folder / "s.obj"}, 2, "there is no sample 'nope'; 'unsnarl sample --list'");
-  expect_refusal({"sample", "nope", "--list"}, 2, "there is no sample 'nope'; 'unsnarl sample --list'");
+                     "there is no sample '" + std::string(name) + "'. Did you mean " + meant +
+                         "? 'unsnarl sample --list' names all samples");
+  expect_refusal({"sample", "nope", "-o", folder / "s.obj"}, 2, "there is no sample 'nope'. 'unsnarl sample --list'");
+  expect_refusal({"sample", "nope", "--list"}, 2, "there is no sample 'nope'. 'unsnarl sample --list'");
 }
 
 TEST_F(Samples, KnotsAndPlansHaveOneFormatAndNothingToSet) {
@@ -52,7 +52,7 @@ TEST_F(Samples, KnotsAndPlansHaveOneFormatAndNothingToSet) {
   expect_refusal({"sample", "routes_ring", "-o", folder / "r.obj"}, 2, "r.obj: name it *.json, or add --format json");
   expect_refusal({"sample", "knot_3_1", "-o", folder / "k.xyz", "--resolution", "9"}, 2, "--resolution: knots");
   expect_refusal({"sample", "routes_ring", "-o", folder / "r.json", "--resolution", "9"}, 2, "--resolution: plans");
-  expect_refusal({"sample", "curve_star", "-o", folder / "c.svg", "--resolution", "9"}, 2, "--resolution: a curve has");
+  expect_refusal({"sample", "curve_star", "-o", folder / "c.svg", "--resolution", "9"}, 2, "--resolution: curves have");
   EXPECT_EQ(run({"sample", "knot_3_1", "-o", folder / "k", "--format", "xyz"}).exit_code, 0);
   EXPECT_EQ(run({"sample", "knot_3_1", "-o", "-"}).out, contents(folder / "k"));
 }

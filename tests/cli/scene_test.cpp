@@ -107,7 +107,8 @@ TEST_F(SceneFiles, TheInnerFileGoesIn) {
   EXPECT_NE(beside.err.find("c.off does not lie inside a.obj: 4 vertices on the wrong side before, 4 after"),
             std::string::npos)
       << beside.err;
-  EXPECT_NE(beside.err.find("4 after; a component, at vertex 8, is there as a whole"), std::string::npos) << beside.err;
+  EXPECT_NE(beside.err.find("4 after; one component (at vertex 8) is entirely on the wrong side"), std::string::npos)
+      << beside.err;
   EXPECT_NE(beside.err.find("not nested as asked"), std::string::npos) << beside.err;
   const Json left = Json::parse(contents(report));
   EXPECT_EQ(left["status"], "not_nested");
@@ -161,7 +162,7 @@ TEST_F(SceneFiles, AllAppearOrNone) {
   fs::create_directories(out + "/b.ply");  // cannot be replaced
   expect_refusal({"fix", a, b, "-o", out}, 4, "is a folder");
   fs::remove(out + "/b.ply");
-  expect_refusal({"fix", a, b, "-o", out, "--fix-file", "a.obj", "--fix-file", "b.ply"}, 7, "nothing written");
+  expect_refusal({"fix", a, b, "-o", out, "--fix-file", "a.obj", "--fix-file", "b.ply"}, 7, "no file written");
 }
 
 TEST_F(SceneFiles, LinksInTheFolderAreReplaced) {
@@ -178,7 +179,7 @@ TEST_F(SceneFiles, WhatMakesNoSenseIsRefused) {
   write(folder / "other/a.obj", large);
   expect_refusal({"fix", a, folder / "other/a.obj", "-o", out}, 2, "same name");
   expect_refusal({"fix", a, a, "-o", out}, 2, "same name");
-  expect_refusal({"fix", a, b, "-o", folder.string()}, 2, "name another folder");
+  expect_refusal({"fix", a, b, "-o", folder.string()}, 2, "use another folder");
   expect_refusal({"fix", a, b, "--in-place"}, 2, "one file");
   expect_refusal({"fix", a, b, "-o", "-"}, 2, "folder");
   expect_refusal({"fix", a, "-", "-o", out, "--format", "obj"}, 2, "standard input");

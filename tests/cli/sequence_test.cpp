@@ -250,7 +250,7 @@ TEST_F(Sequence, TheNumberThatChangesSaysWhichFrameItIs) {
   fs::rename(folder / "lod/f2_lod0.obj", folder / "lod/f7_lod0.obj");
   expect_refusal(call, 2, "is a frame missing");
   fs::rename(folder / "lod/f7_lod0.obj", folder / "lod/f01_lod0.obj");
-  expect_refusal(call, 2, "are the same frame");
+  expect_refusal(call, 2, "have the same frame number");
 }
 
 TEST_F(Sequence, WhatMakesNoSenseIsRefused) {
@@ -260,7 +260,7 @@ TEST_F(Sequence, WhatMakesNoSenseIsRefused) {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   };
-  expect_refusal(with({"--frames", "4:4"}), 2, "there are 10 frames");
+  expect_refusal(with({"--frames", "4:4"}), 2, "the sequence has 10 frames");
   expect_refusal(with({"--frames", "4"}), 2, "FIRST:LAST");
   expect_refusal(with({"--frames", "a:4"}), 2, "FIRST:LAST");
   expect_refusal(with({"--picture", folder / "p.png"}), 2, "--picture");
@@ -269,7 +269,7 @@ TEST_F(Sequence, WhatMakesNoSenseIsRefused) {
   expect_refusal({"fix", path(0), "-o", folder / "o.obj", "--frames", "0:1"}, 2, "--sequence");
   expect_refusal({"fix", "--sequence", pattern, "-o", folder / "in"}, 2, "would be overwritten");
   expect_refusal({"fix", "--sequence", folder / "in/*.ply", "-o", out}, 3, "no such file");
-  expect_refusal({"fix", "--sequence", path(0), "-o", out}, 2, "no sequence");
+  expect_refusal({"fix", "--sequence", path(0), "-o", out}, 2, "one frame is not a sequence");
   write(folder / "morph.glb", "glTF");
   expect_refusal({"fix", "--sequence", folder / "morph.glb", "-o", out}, 2, "morph targets");
   expect_refusal({"fix", "--sequence", folder / "none.pc2", "-o", out}, 2, "with its mesh");
@@ -350,10 +350,10 @@ TEST_F(Sequence, TheSummaryNamesTheWorstFrameAndThoseThatAreNotSmoothed) {
     if (frame["untouched_share"] < 1 && !frame["is_smoothed"])
       unsmoothed += (unsmoothed.empty() ? "" : ", ") + frame["name"].get<std::string>();
   }
-  EXPECT_TRUE(contains(outcome.err, fmt::format("farthest: {}, by ", farthest["name"].get<std::string>())))
+  EXPECT_TRUE(contains(outcome.err, fmt::format("largest move: in {}, by ", farthest["name"].get<std::string>())))
       << outcome.err;
   EXPECT_FALSE(unsmoothed.empty());
-  EXPECT_TRUE(contains(outcome.err, "not smoothed, but as a repair of the frame alone left it: " + unsmoothed + "\n"))
+  EXPECT_TRUE(contains(outcome.err, "not smoothed in time (repaired as single frames): " + unsmoothed + "\n"))
       << outcome.err;
 }
 

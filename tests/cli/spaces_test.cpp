@@ -56,7 +56,7 @@ TEST(IsotopyCommand, ACurveMovesToAnother) {
   write(folder / "b.json", "{\"curves\": [{\"points\": [[0, 0], [9, 0], [9, 1], [1, 1], [1, 9], [0, 9], [0, 0]]}]}");
   const Outcome made = run({"isotopy", folder / "a.svg", folder / "b.json", "-o", folder / "way", "--frames", "3"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_TRUE(contains(made.err, "at every time the curves are simple"));
+  EXPECT_TRUE(contains(made.err, "at every time no curve crosses itself or another"));
   EXPECT_EQ(folder.names(), (std::set<std::string>{"a.svg", "b.json", "way", "way/animation.svg",
                                                    "way/correspondence.json", "way/frame_0000.svg",
                                                    "way/frame_0001.svg", "way/frame_0002.svg", "way/surface.obj"}));
@@ -91,7 +91,7 @@ TEST(KnotIsotopyCommand, AnUnknotMovesToACircle) {
   const Outcome made =
       run({"knot-isotopy", knot, circle, "-o", way, "--frames", "3", "--report", folder / "report.json"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_TRUE(contains(made.err, "no two triangles of the cylinder in R^4 meet"));
+  EXPECT_TRUE(contains(made.err, "no two triangles of the cylinder in R^4 intersect"));
   EXPECT_EQ(folder.names(), (std::set<std::string>{"knot.xyz", "circle.xyz", "report.json", "way", "way/isotopy.json",
                                                    "way/animation.gif", "way/picture.png", "way/frame_0000.xyz",
                                                    "way/frame_0001.xyz", "way/frame_0002.xyz"}));
@@ -140,7 +140,7 @@ TEST(KnotIsotopyCommand, BadInputIsNamed) {
   refuse("0 0 0\n1 0 0\n1 0 0\n0 2 0\n", "points 1 and 2 of component 0 are one");
   refuse("0 0 0\n1 0 0\n", "has 2 points");
   refuse("0 0 0\n1 0\n", "line 2: 2 numbers");
-  refuse("0 0 0\n1 0 x\n", "line 2: 'x' is no coordinate");
+  refuse("0 0 0\n1 0 x\n", "line 2: 'x' is not a coordinate");
   refuse("", "nothing in it");
   refuse("braid 2: 1 1\n", "has 2 components");
   write(folder / "isotopy.json", "{\"rings\": [{\"time\": 0}]}");

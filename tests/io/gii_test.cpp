@@ -180,9 +180,9 @@ TEST(Gii, MissingVerticesStayAndSoDoTheirFaces) {
 
 TEST(Gii, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("", Format::gii, "empty");
-  EXPECT_PARSE_ERROR("v 0 0 0\n", Format::gii, "line 1: this is no XML");
+  EXPECT_PARSE_ERROR("v 0 0 0\n", Format::gii, "line 1: this is not XML");
   EXPECT_PARSE_ERROR("<Mesh/>", Format::gii, "line 1: the root element is <Mesh>, but <GIFTI> should be here");
-  EXPECT_PARSE_ERROR(ascii.substr(0, 700), Format::gii, "this is no XML");
+  EXPECT_PARSE_ERROR(ascii.substr(0, 700), Format::gii, "this is not XML");
   EXPECT_PARSE_ERROR(gifti(""), Format::gii, "no DataArray of NIFTI_INTENT_POINTSET");
   EXPECT_PARSE_ERROR(gifti(data_array("POINTSET", "FLOAT32", 4, "ASCII", points_text)), Format::gii,
                      "no DataArray of NIFTI_INTENT_TRIANGLE");
@@ -194,7 +194,7 @@ TEST(Gii, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(replaced(ascii, "Dim0=\"4\"", "Dim0=\"four\""), Format::gii, "line 4: 'four' in attribute Dim0");
   EXPECT_PARSE_ERROR(replaced(ascii, "Dim0=\"4\"", "Dim0=\"400000000000\""), Format::gii, "cannot be in a file of");
   EXPECT_PARSE_ERROR(replaced(ascii, "Dim1=\"3\"", "Dim1=\"2\""), Format::gii, "Dim1 3");
-  EXPECT_PARSE_ERROR(replaced(ascii, "FLOAT32", "FLOAT33"), Format::gii, "DataType is no type of GIFTI");
+  EXPECT_PARSE_ERROR(replaced(ascii, "FLOAT32", "FLOAT33"), Format::gii, "DataType is not a type of GIFTI");
   EXPECT_PARSE_ERROR(replaced(ascii, "FLOAT32", "INT32"), Format::gii, "points should be floating-point numbers");
   EXPECT_PARSE_ERROR(replaced(ascii, "4.25", "inf"), Format::gii,
                      "line 13: coordinate 'inf' of vertex 3 is not finite");
@@ -204,7 +204,7 @@ TEST(Gii, ErrorsSayWhatAndWhere) {
   const std::string zipped = binary("GZipBase64Binary", little);
   EXPECT_PARSE_ERROR(replaced(zipped, "Dim0=\"4\"", "Dim0=\"5\""), Format::gii,
                      "line 9: DataArray 1 (NIFTI_INTENT_POINTSET) cannot be decompressed to 60 bytes");
-  EXPECT_PARSE_ERROR(replaced(zipped, "<Data>", "<Data>!"), Format::gii, "no base64");
+  EXPECT_PARSE_ERROR(replaced(zipped, "<Data>", "<Data>!"), Format::gii, "not base64");
   EXPECT_PARSE_ERROR(replaced(binary("Base64Binary", little), "Dim0=\"4\"", "Dim0=\"5\""), Format::gii,
                      "should hold 15 numbers of 4 bytes, but has 48 bytes");
 }

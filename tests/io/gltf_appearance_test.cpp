@@ -134,7 +134,7 @@ TEST(GltfAppearance, WhatCannotBeShownIsSaid) {
   expect_note([](auto& f) { f.image = png_bytes(60000, 60000); }, "100 million are the most");
   expect_note([](auto& f) { f.images = R"([{"bufferView":77}])"; }, "neither a uri nor a bufferView");
   expect_note([](auto& f) { f.images = R"([{}])"; }, "neither a uri nor a bufferView");
-  expect_note([](auto& f) { f.images = R"([{"bufferView":-1}])"; }, "no whole number");
+  expect_note([](auto& f) { f.images = R"([{"bufferView":-1}])"; }, "not a whole number");
   expect_note([](auto& f) { f.images = R"([{"uri":"../skin.png"}])"; }, "not in the folder");
   expect_note([](auto& f) { f.images = R"([{"uri":"http://example.com/skin.png"}])"; }, "left out");
   expect_note([](auto& f) { f.images = R"([{"uri":"data:image/png;base64,!"}])"; }, "not valid base64");

@@ -79,10 +79,10 @@ TEST(Threemf, OnlyTheMovedCoordinateOfTheModelChanges) {
 TEST(Threemf, ErrorsSayWhatAndWhere) {
   const auto error = [](const std::string& model) { return parse_error(package(model), Format::threemf); };
   EXPECT_PARSE_ERROR("", Format::threemf, "empty");
-  EXPECT_PARSE_ERROR("v 0 0 0\n", Format::threemf, "this is no ZIP archive");
-  EXPECT_PARSE_ERROR(package(plain).substr(0, 300), Format::threemf, "this is no ZIP archive");
+  EXPECT_PARSE_ERROR("v 0 0 0\n", Format::threemf, "this is not a ZIP archive");
+  EXPECT_PARSE_ERROR(package(plain).substr(0, 300), Format::threemf, "this is not a ZIP archive");
   EXPECT_PARSE_ERROR(zip_of({{"a", "b"}}, true), Format::threemf, "the archive has no '3D/3dmodel.model'");
-  EXPECT_PRED2(message_contains, error("<model"), "3D/my.model, line 1: this is no XML");
+  EXPECT_PRED2(message_contains, error("<model"), "3D/my.model, line 1: this is not XML");
   EXPECT_PRED2(message_contains, error(replaced(plain, "4.25", "x")),
                "3D/my.model, line 6: coordinate 'x' of vertex 3 is not a number");
   EXPECT_PRED2(message_contains, error(replaced(plain, " 4.25 ", "1 2")), "more than a number as 'z'");

@@ -86,7 +86,8 @@ TEST(Vtk, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(replaced(ascii, "POINTS 4", "POINTS 50"), Format::vtk, "POINTS should hold 150 numbers");
   EXPECT_PARSE_ERROR(replaced(ascii, "POINTS 4", "POINTS 4000000000000"), Format::vtk, "cannot be in this file");
   EXPECT_PARSE_ERROR(replaced(ascii, "POINTS 4", "POINTS x"), Format::vtk, "line 5: 'x' where the number of points");
-  EXPECT_PARSE_ERROR(replaced(ascii, "float", "quaternion"), Format::vtk, "'quaternion' is no type");
+  EXPECT_PARSE_ERROR(replaced(ascii, "float", "quaternion"), Format::vtk,
+                     "'quaternion' is not a supported number type");
   EXPECT_PARSE_ERROR(replaced(ascii, "4.25", "nan"), Format::vtk, "line 8: coordinate 'nan' of vertex 3 is not finite");
   EXPECT_PARSE_ERROR(replaced(ascii, "4 0 1 3 2", "4 0 1 3 4"), Format::vtk, "cell 1 (counting from 0) uses vertex 4");
   EXPECT_PARSE_ERROR(replaced(ascii, "4 0 1 3 2", "5 0 1 3 2"), Format::vtk,

@@ -195,7 +195,7 @@ TEST(Vtp, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(replaced(raw, "offset=\"120\"", "offset=\"8\""), Format::vtp, "two arrays share their data");
   const std::string zipped = file_of<float>({"appended", "raw", true});
   EXPECT_PARSE_ERROR(zipped.substr(0, zipped.size() - 60), Format::vtp, "line ");
-  EXPECT_PARSE_ERROR(replaced(file_of<float>({"binary"}), "  MAAAA", "  M!AAA"), Format::vtp, "no base64");
+  EXPECT_PARSE_ERROR(replaced(file_of<float>({"binary"}), "  MAAAA", "  M!AAA"), Format::vtp, "not base64");
 }
 
 TEST(Vtp, SurvivesDamage) {

@@ -384,7 +384,7 @@ std::unique_ptr<SequenceFiles> open_sequence(const std::vector<std::string>& inp
     throw UsageError(paths[0] + (own == Format::gltf || own == Format::glb
                                      ? ": morph targets and skins of one glTF are not read as frames; export a mesh a "
                                        "frame (OBJ, PLY, GLB), or a mesh and a point cache (PC2, MDD)"
-                                     : ": one frame is no sequence; leave --sequence out, or give more files or a "
+                                     : ": one frame is not a sequence; leave --sequence out, or give more files or a "
                                        "pattern"));
   }
   return std::make_unique<NumberedFiles>(std::move(paths), format, folder, recompute_normals, interruption);

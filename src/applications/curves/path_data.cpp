@@ -247,7 +247,7 @@ Affine parse_transform(std::string_view text) {
       step.linear(1, 0) = std::tan(n[0] * degree);
     } else {
       throw FileError(
-          fmt::format("'{}' with {} numbers is no transform that is known (matrix, translate, scale, rotate, skewX, "
+          fmt::format("'{}' with {} numbers is not a known transform (matrix, translate, scale, rotate, skewX, "
                       "skewY)",
                       name, n.size()));
     }
@@ -291,7 +291,7 @@ std::vector<Subpath> parse_path_data(std::string_view text, double tolerance) {
         result.back().begin = begin;
       }
       if (!draw(kind, relative, reader, pen, result.back(), tolerance))
-        throw FileError(fmt::format("'{}' at character {} is no command of path data", command, begin));
+        throw FileError(fmt::format("'{}' at character {} is not a command of path data", command, begin));
     }
     needs_subpath = kind == 'Z';
     pen.last = kind;

@@ -210,7 +210,7 @@ class SvgParser {
         ++skipped_[fmt::format("{} in %", name)];
       } else if (is_shape(name)) {
         if (!transform.is_invertible())
-          throw FileError("its transforms flatten the plane; there is no way back to its coordinates");
+          throw FileError("its transforms flatten the plane, so its coordinates cannot be computed");
         add_shape(node, std::string(name), transform);
       }
     } catch (const FileError& e) {

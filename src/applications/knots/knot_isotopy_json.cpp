@@ -17,24 +17,24 @@ using Json = nlohmann::ordered_json;
 }
 
 const Json& member(const Json& value, const std::string& place, const char* key) {
-  if (!value.is_object()) refuse(place, "this is no object");
+  if (!value.is_object()) refuse(place, "this is not an object");
   const auto found = value.find(key);
   if (found == value.end()) refuse(place, fmt::format("\"{}\" is missing", key));
   return *found;
 }
 
 const Json& list(const Json& value, const std::string& place) {
-  if (!value.is_array()) refuse(place, "this is no list");
+  if (!value.is_array()) refuse(place, "this is not a list");
   return value;
 }
 
 double number(const Json& value, const std::string& place) {
-  if (!value.is_number()) refuse(place, "this is no number");
+  if (!value.is_number()) refuse(place, "this is not a number");
   return value.get<double>();
 }
 
 int whole_number(const Json& value, const std::string& place) {
-  if (!value.is_number_integer()) refuse(place, "this is no whole number");
+  if (!value.is_number_integer()) refuse(place, "this is not a whole number");
   const auto wide = value.get<std::int64_t>();
   if (wide < 0 || wide > std::numeric_limits<std::int32_t>::max())
     refuse(place, fmt::format("{} is out of range", wide));

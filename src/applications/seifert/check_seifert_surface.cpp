@@ -150,7 +150,7 @@ SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& li
 std::string seifert_faults(const SeifertFindings& f) {
   std::string text;
   if (f.intersecting_pairs > 0) text += fmt::format("{} pairs of faces intersect\n", f.intersecting_pairs);
-  if (!f.oriented) text += "it is no oriented manifold with boundary\n";
+  if (!f.oriented) text += "it is not an oriented manifold with boundary\n";
   if (f.oriented && !f.spans_link) text += "its boundary is not the link\n";
   if (f.closed_components > 0) text += fmt::format("{} of its components have no boundary\n", f.closed_components);
   if (f.oriented && f.euler_characteristic != f.expected_euler_characteristic)

@@ -50,7 +50,7 @@ std::vector<int> integers_of(const std::vector<Line>& lines, std::string_view le
       const auto [after, error] = std::from_chars(at, end, value);
       if (error != std::errc{})
         throw FileError(
-            fmt::format("line {}: '{}' is no whole number", line.number,
+            fmt::format("line {}: '{}' is not a whole number", line.number,
                         std::string_view(at, static_cast<std::size_t>(std::min<std::ptrdiff_t>(end - at, 20)))));
       numbers.push_back(value);
       at = after;
@@ -123,7 +123,7 @@ Link read_points(const std::vector<Line>& lines) {
       if (error != std::errc{} || !std::isfinite(value) ||
           (after != end && *after != ' ' && *after != '\t' && *after != ','))
         throw FileError(
-            fmt::format("line {}: '{}' is no coordinate; a point is written 'x y z'", line.number,
+            fmt::format("line {}: '{}' is not a coordinate; a point is written 'x y z'", line.number,
                         std::string_view(at, static_cast<std::size_t>(std::min<std::ptrdiff_t>(end - at, 20)))));
       points.push_back(value);
       at = after;
