@@ -301,6 +301,9 @@ weld_tolerance, both_diagonals, each_component, threads, recover, paper, progres
     _check_places(path, output, in_place)
     document = Document(path, format)
     target = Path(document.paths[0] if output is None else output)
+    if document.is_scene and len(document.paths) == 1:
+        target.mkdir(parents=True, exist_ok=True)
+        output = target / document.names[0]
     options = options_of(
         goal=goal,
         precision=precision,

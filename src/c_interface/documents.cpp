@@ -56,8 +56,8 @@ FilesToRepair writable_files(const unsnarl_document& input, const fs::path& plac
   std::error_code error;
   if (files.is_scene() && !fs::is_directory(place, error))
     throw WriteError(place.string() + ": there is no such folder; several files need one to go to", ENOENT);
-  check_places(files);
   require_writable(files);
+  check_places(files);
   return files;
 }
 

@@ -241,8 +241,8 @@ RepairedFiles repair_files(FilesToRepair files, RepairFileOptions options, Conte
   // A folder that is missing or must not be written to is found now rather than after the work.
   std::optional<OutputFolder> made;
   if (files.is_scene()) made.emplace(files.output);
-  check_places(files, options.no_partial);
   require_writable(files);
+  check_places(files, options.no_partial);
 
   RepairResult result = repaired(files.scene->surface(), options, context);
   StagedFiles staged;
