@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "cancellable_work.h"
 #include "file_places.h"
 #include "fix_summary.h"
 #include "memory_guard.h"
@@ -141,15 +142,10 @@ RepairResult repaired(const FixOptions& options, const SurfaceView& surface, con
                       ProgressDisplay& display, Interruption& interruption) {
   Context context;
   context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
-  interruption.set_handler([&] {
-    context.cancel();
-    if (!options.quiet) tell("\nstopping; once more to end at once\n");
-  });
+  const CancelledByInterruption cancelled(interruption, context, options.quiet);
   display.begin("diagnose");
-  RepairResult result = wanted.nesting.chains.empty() ? repair(surface, wanted.repair, &context)
-                                                      : repair_nested(surface, wanted.nesting, wanted.repair, &context);
-  interruption.set_handler(nullptr);
-  return result;
+  return wanted.nesting.chains.empty() ? repair(surface, wanted.repair, &context)
+                                       : repair_nested(surface, wanted.nesting, wanted.repair, &context);
 }
 
 /// Shows that outputs are written, unless one goes to standard output, which may be the same terminal.
