@@ -1,10 +1,8 @@
 // Repairs a file and keeps all else that it holds: example_mesh_file IN OUT
-#include <unsnarl/document.h>
-#include <unsnarl/repair.h>
+#include <unsnarl/repair_file.h>
 
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <string>
 
 int main(int argc, char** argv) {
@@ -13,24 +11,15 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const unsnarl::Document document = unsnarl::Document::read(argv[1]);
-    for (const std::string& note : document.notes()) std::printf("note: %s\n", note.c_str());
+    unsnarl::RepairFileOptions options;
+    options.repair.max_displacement_rel = 0.5;  // of the diagonal of the bounding box
 
-    // What the file will hold is what has to be embedded: the repair asks the document how positions will be read back.
-    unsnarl::RepairOptions options;
-    options.as_written = [&](std::span<const double> positions, bool float32) {
-      return document.as_written(positions, float32);
-    };
-    if (document.stores_float32()) options.precision = unsnarl::Precision::float32;
-
-    const unsnarl::RepairResult result = unsnarl::repair(document.surface(), options);
-    std::printf("%s\n", std::string(to_string(result.status)).c_str());
-    if (result.status != unsnarl::Status::embedded) return 1;
-
-    const std::filesystem::path target = argv[2];
-    const bool float32_digits = result.report.precision == unsnarl::Precision::float32;
-    for (const unsnarl::OutputFile& file : document.patched(result.positions, float32_digits, target.filename()))
-      unsnarl::write_atomically(file.name.empty() ? target : target.parent_path() / file.name, file.bytes);
+    // What is written beside OUT is read back and certified before it becomes OUT.
+    const unsnarl::RepairedFiles done = unsnarl::repair_file(argv[1], argv[2], options);
+    for (const std::string& note : done.report.notes) std::printf("note: %s\n", note.c_str());
+    std::printf("%s\n", std::string(to_string(done.result.status)).c_str());
+    for (const std::filesystem::path& place : done.partial) std::printf("best so far: %s\n", place.c_str());
+    return done.result.status == unsnarl::Status::embedded ? 0 : 1;
   } catch (const std::exception& error) {  // FileError, WriteError: the message says what, where and what to do
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -159,7 +159,7 @@ int checked(const CheckOptions& options, Interruption& interruption) {
   const MemoryGuard memory_guard(options.memory_limit_mb);
   ProgressDisplay display("auto", options.quiet);
   display.begin("read");
-  const SceneDocument scene = read_scene(options.inputs, format_from_name(options.format));
+  const SceneDocument scene = read_inputs(options.inputs, format_from_name(options.format));
   FilePlaces places;
   claim_inputs(places, "the input", options.inputs, scene);
   places.writes("--pairs", options.pairs);

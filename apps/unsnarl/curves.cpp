@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cancellable_work.h"
 #include "command_options.h"
 #include "file_places.h"
 #include "input_bytes.h"
@@ -98,18 +99,8 @@ class Curves {
     wanted.fix_ends = options_.fix_ends;
     wanted.recover = !options_.no_recover;
     wanted.time_limit_s = options_.time_limit_s;
-    Context context;
-    context.on_progress = [&](const Context::Progress& progress) { display_.show(progress); };
-    interruption_.set_handler([&] {
-      context.cancel();
-      if (!options_.quiet) tell("\nstopping; press Control-C again to end at once\n");
-    });
-    try {
-      result_ = untangle_curves(input, wanted, &context);
-    } catch (const std::invalid_argument& e) {
-      throw FileError(fmt::format("{}: {}", options_.input, e.what()));
-    }
-    interruption_.set_handler(nullptr);
+    result_ = cancellable(display_, options_.quiet, interruption_, options_.input,
+                          [&](Context* context) { return untangle_curves(input, wanted, context); });
     display_.clear();
 
     const bool any_moved = result_.report.moved_points + result_.report.inserted_points > 0;

@@ -75,8 +75,8 @@ bool FilePlaces::has(const fs::path& path) const {
 
 void FilePlaces::require_writable(Interruption& interruption) const {
   StagedOutput outputs(interruption);
-  for (const fs::path& path : outputs_) outputs.open(path);
-  for (const auto& [main, names] : beside_) outputs.open_beside(main, names);
+  for (const fs::path& path : outputs_) outputs.files().open(path);
+  for (const auto& [main, names] : beside_) outputs.files().open_beside(main, names);
 }
 
 }  // namespace unsnarl::app

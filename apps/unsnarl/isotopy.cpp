@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cancellable_work.h"
 #include "command_options.h"
 #include "pictures.h"
-#include "progress.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
@@ -127,21 +127,12 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
       if (signed_area(start[c]) * signed_area(end[c]) < 0) run_backwards(end[c]);
   prepare_picture_folder(options.folder, "-o");
 
-  ProgressDisplay display(options.progress, options.quiet);
-  Context context;
-  context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
-  interruption.set_handler([&] { context.cancel(); });
   IsotopyOptions wanted;
   wanted.points = options.points;
   wanted.time_limit_s = options.time_limit_s;
-  Isotopy made;
-  try {
-    made = planar_isotopy(start, end, wanted, &context);
-  } catch (const std::invalid_argument& e) {
-    throw FileError(fmt::format("{}, {}: {}", options.start, options.end, e.what()));
-  }
-  interruption.set_handler(nullptr);
-  display.clear();
+  const Isotopy made =
+      cancellable(options.progress, options.quiet, interruption, fmt::format("{}, {}", options.start, options.end),
+                  [&](Context* context) { return planar_isotopy(start, end, wanted, context); });
   if (made.status != Status::embedded) {
     if (!options.quiet) tell(fmt::format("{}: no file written\n", to_string(made.status)));
     return exit_code_of(made.status);

@@ -4,12 +4,12 @@
 
 #include <filesystem>
 
+#include "cancellable_work.h"
 #include "command_options.h"
 #include "file_places.h"
 #include "input_bytes.h"
 #include "mesh_input.h"
 #include "pictures.h"
-#include "progress.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
@@ -136,22 +136,13 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
   const OutputFolder folder(options.folder);  // is gone again where nothing is written into it
   prepare_picture_folder(options.folder, "-o");
 
-  ProgressDisplay display(options.progress, options.quiet);
-  Context context;
-  context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
-  interruption.set_handler([&] { context.cancel(); });
   KnotIsotopyOptions wanted;
   wanted.points = options.points;
   wanted.method = method_named(options.method);
   wanted.time_limit_s = options.time_limit_s;
-  KnotIsotopy made;
-  try {
-    made = knot_isotopy(start, end, wanted, &context);
-  } catch (const std::invalid_argument& e) {
-    throw FileError(fmt::format("{}, {}: {}", options.start, options.end, e.what()));
-  }
-  interruption.set_handler(nullptr);
-  display.clear();
+  const KnotIsotopy made =
+      cancellable(options.progress, options.quiet, interruption, fmt::format("{}, {}", options.start, options.end),
+                  [&](Context* context) { return knot_isotopy(start, end, wanted, context); });
   if (made.status != Status::embedded) {
     if (!options.report.empty()) write_file(options.report, knot_isotopy_json(made, {}), interruption);
     if (!options.quiet) {

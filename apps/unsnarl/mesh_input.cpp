@@ -39,39 +39,11 @@ std::vector<std::string> scene_names(const std::vector<std::string>& paths) {
   return names;
 }
 
-SceneDocument read_scene(const std::vector<std::string>& paths, const std::optional<Format>& format) {
+SceneDocument read_inputs(const std::vector<std::string>& paths, const std::optional<Format>& format) {
   std::vector<std::string> names = scene_names(paths);
   std::vector<Document> documents;
   for (const std::string& path : paths) documents.push_back(read_mesh(path, format));
   return {std::move(documents), std::move(names)};
-}
-
-namespace {
-
-/// Formats whose files may name others that hold numbers.
-bool may_have_external_files(Format format) {
-  return format == Format::gltf || format == Format::glb || format == Format::gii;
-}
-
-}  // namespace
-
-std::vector<std::filesystem::path> external_files(const Document& document, const std::filesystem::path& main_name,
-                                                  const std::string& infix) {
-  std::vector<std::filesystem::path> names;
-  if (!may_have_external_files(document.format())) return names;
-  const std::vector<OutputFile> files = document.patched(document.surface().positions, true, main_name, infix);
-  for (std::size_t i = 1; i < files.size(); ++i) names.push_back(files[i].name);
-  return names;
-}
-
-std::vector<std::filesystem::path> external_files(const std::filesystem::path& path, Format format) {
-  std::error_code ignored;
-  if (!may_have_external_files(format) || !std::filesystem::is_regular_file(path, ignored)) return {};
-  try {
-    return external_files(Document::read(path, format));
-  } catch (const FileError&) {
-    return {};
-  }
 }
 
 void claim_input(FilePlaces& places, const std::string& what, const std::string& path, const Document& document) {

@@ -24,14 +24,7 @@ Document read_mesh(const std::string& path, const std::optional<Format>& format)
 std::vector<std::string> scene_names(const std::vector<std::string>& paths);
 
 /// Reads meshes that are one scene. One may come from standard input alone. Throws FileError, UsageError.
-SceneDocument read_scene(const std::vector<std::string>& paths, const std::optional<Format>& format);
-
-/// Names of the files beside a glTF or a GIFTI in which its numbers are, relative to its folder. With `main_name`,
-/// those of a result of this name, with this infix, see Document::patched.
-std::vector<std::filesystem::path> external_files(const Document& document, const std::filesystem::path& main_name = {},
-                                                  const std::string& infix = {});
-/// The same of what is at `path`; empty where that is no mesh.
-std::vector<std::filesystem::path> external_files(const std::filesystem::path& path, Format format);
+SceneDocument read_inputs(const std::vector<std::string>& paths, const std::optional<Format>& format);
 
 /// Names all files of a mesh as inputs. Throws UsageError where one of them is an output.
 void claim_input(FilePlaces& places, const std::string& what, const std::string& path, const Document& document);

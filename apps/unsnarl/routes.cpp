@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cancellable_work.h"
 #include "command_options.h"
 #include "input_bytes.h"
 #include "mesh_input.h"
 #include "pictures.h"
-#include "progress.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
@@ -127,7 +127,7 @@ int tell_broken_tubes(const RoutesCommandOptions& options) {
 
 /// The paper's own way: surfaces of straight tubes, untangled as any surface is; only their ends stay.
 int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, const RoutesResult& made,
-                   Context& context, Interruption& interruption) {
+                   Interruption& interruption) {
   std::vector<SceneFile> parts;
   const Surface tubes = route_tubes(plan, made.asked, options.sides, &parts);
   Surface scene = with_obstacles(plan, tubes);
@@ -144,7 +144,8 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
     for (std::size_t k = 0; k < ends; ++k)
       wanted.fixed[parts[i].first_vertex + k] = wanted.fixed[parts[i].first_vertex + parts[i].vertices - 1 - k] = 1;
   }
-  const RepairResult repaired = repair(scene, wanted, &context);
+  const RepairResult repaired = cancellable(options.progress, options.quiet, interruption, options.plan,
+                                            [&](Context* context) { return repair(scene, wanted, context); });
   Surface after = tubes;
   std::copy_n(repaired.positions.begin(), after.positions.size(), after.positions.begin());
   const std::vector<IntersectingPair> left = pairs_of_tubes(plan, after);
@@ -218,23 +219,14 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
     throw UsageError("--free-tubes does not work with \"timed\": true; leave one of the two out");
   prepare_picture_folder(options.folder, "-o");
 
-  ProgressDisplay display(options.progress, options.quiet);
-  Context context;
-  context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
-  interruption.set_handler([&] { context.cancel(); });
   RouteOptions wanted;
   wanted.spacing = options.spacing;
   wanted.time_limit_s = options.time_limit_s;
   wanted.ways_only = options.free_tubes;
-  const RoutesResult made = plan_routes(plan, wanted, &context);
-  if (options.free_tubes && !made.asked.empty()) {
-    const int exit_code = run_free_tubes(options, plan, made, context, interruption);
-    display.clear();
-    return exit_code;
-  }
-  display.clear();
+  const RoutesResult made = cancellable(options.progress, options.quiet, interruption, options.plan,
+                                        [&](Context* context) { return plan_routes(plan, wanted, context); });
+  if (options.free_tubes && !made.asked.empty()) return run_free_tubes(options, plan, made, interruption);
   if (made.status != Status::embedded) return tell_failure(options, plan, made);
-  interruption.set_handler(nullptr);
 
   const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
   std::vector<SceneFile> parts;

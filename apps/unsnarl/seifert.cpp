@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cancellable_work.h"
 #include "command_options.h"
 #include "file_places.h"
 #include "input_bytes.h"
 #include "mesh_input.h"
-#include "progress.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "surface_files.h"
@@ -152,22 +152,18 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     throw UsageError(options.output + ": name it *.obj, *.off or *.ply, or add --format");
   places.require_writable(interruption);
 
-  ProgressDisplay display(options.progress, options.quiet);
-  Context context;
-  context.on_progress = [&](const Context::Progress& progress) { display.show(progress); };
   SeifertOptions wanted;
   wanted.edge_rel = options.edge;
   wanted.views = options.views;
   wanted.fair = !options.no_fair;
   wanted.handles = options.handles;
   wanted.time_limit_s = options.time_limit_s;
-  SeifertResult result;
-  try {
-    result = seifert_surface(link, wanted, &context);
-  } catch (const std::invalid_argument& e) {
-    throw FileError(fmt::format("{}: {}", options.input, e.what()));
+  const SeifertResult result = cancellable(options.progress, options.quiet, interruption, options.input,
+                                           [&](Context* context) { return seifert_surface(link, wanted, context); });
+  if (result.status == Status::cancelled) {
+    if (!options.quiet) tell(fmt::format("{}: nothing was written\n", to_string(result.status)));
+    return exit_cancelled;
   }
-  display.clear();
   if (result.status == Status::no_progress) return tell_failure(options, result.message);
 
   const std::string bytes =

@@ -63,7 +63,7 @@ Meshes sorted_out(const ViewOptions& options) {
 }
 
 SceneDocument read_repaired(const Meshes& meshes, const SceneDocument& input, const std::optional<Format>& format) {
-  SceneDocument repaired = read_scene(meshes.repaired, format);
+  SceneDocument repaired = read_inputs(meshes.repaired, format);
   for (std::size_t i = 0; i < meshes.inputs.size(); ++i) {
     const Surface &before = input.document(i).surface(), &after = repaired.document(i).surface();
     if (after.corners != before.corners || after.offsets != before.offsets ||
@@ -111,7 +111,7 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
   const std::optional<Format> format = format_from_name(options.format);
   ProgressDisplay display("auto", options.quiet);
   display.begin("read");
-  const SceneDocument scene = read_scene(meshes.inputs, format);
+  const SceneDocument scene = read_inputs(meshes.inputs, format);
   claim_inputs(places, "the input", meshes.inputs, scene);
   PageSource source;
   source.input_name = scene_name(meshes.inputs);

@@ -112,6 +112,13 @@ class Document {
   std::optional<FileStamp> read_from_;  // empty: it was parsed from bytes
 };
 
+/// Names of the files beside a glTF or a GIFTI in which its numbers are, relative to its folder. With `main_name`,
+/// those of a result of this name, with this infix, see Document::patched.
+std::vector<std::filesystem::path> external_files(const Document& document, const std::filesystem::path& main_name = {},
+                                                  const std::string& infix = {});
+/// The same of what is at `path`; empty where that is no mesh.
+std::vector<std::filesystem::path> external_files(const std::filesystem::path& path, Format format);
+
 /// Writes to a temporary file in the folder of `path`, flushes it to the disk, renames it: either the old file or the
 /// whole new one is there, never a part. Keeps the permissions of an existing target and respects its write protection;
 /// follows a symbolic link; writes straight into devices and pipes. Throws WriteError, SystemError, and then

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -25,8 +26,12 @@ bool can_be_replaced(const std::filesystem::path& place);
 class StagedFiles {
  public:
   enum class Links : std::uint8_t { followed, replaced };
+  /// Runs a step in which the temporary folders (see folders()) change or their files move into place. A program that
+  /// signals may end holds them off meanwhile.
+  using Guard = std::function<void(const StagedFiles& files, const std::function<void()>& step)>;
 
-  StagedFiles();
+  /// guard: unset: steps are simply run.
+  explicit StagedFiles(Guard guard = {});
   /// Removes the temporary folders.
   ~StagedFiles();
   StagedFiles(const StagedFiles&) = delete;
@@ -53,6 +58,7 @@ class StagedFiles {
 
   /// The temporary folders, all to be removed whatever happens.
   std::vector<std::filesystem::path> folders() const;
+  const Guard& guard() const { return guard_; }
 
  private:
   struct File {
@@ -60,6 +66,10 @@ class StagedFiles {
     std::optional<FileStamp> replaces;
   };
   class Moves;
+  void guarded(const std::function<void()>& step) const;
+  void make_folder(const std::filesystem::path& target, const std::filesystem::path& folder);
+  void remove_folders();
+  void move_into_place();
   void prepare() const;
   const File* changed_file() const;
   std::string where_old_files_are() const;
@@ -70,10 +80,24 @@ class StagedFiles {
   /// work has ended for lack of memory.
   static constexpr std::size_t reserve_size = std::size_t{1} << 16;
 
+  Guard guard_;
   std::unique_ptr<char[]> reserve_;
   std::map<std::filesystem::path, std::filesystem::path> folders_;  // by the folder of the targets
   std::vector<File> files_;
   bool is_kept_ = false;  // the folders hold old files that could not be put back
+};
+
+/// A folder for outputs, made where it is missing. What was made is removed again if nothing came to lie in it.
+class OutputFolder {
+ public:
+  /// Throws WriteError where it cannot be made, or is no folder.
+  explicit OutputFolder(const std::filesystem::path& path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
 }  // namespace unsnarl

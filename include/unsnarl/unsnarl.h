@@ -175,6 +175,10 @@ typedef struct unsnarl_options {
 
   /* unsnarl_seifert_surface, unsnarl_check_seifert_surface */
   int32_t handles; /* added to the surface, each of which raises its genus by one, [0, 100]. Default 0 */
+
+  /* unsnarl_document_repair */
+  int32_t keep_partial; /* write an unfinished result to its place. Default 0 */
+  int32_t no_partial;   /* do not keep an unfinished result beside its place. Default 0 */
 } unsnarl_options;
 
 /* Sets all options to their defaults. size: sizeof(unsnarl_options). */
@@ -334,22 +338,40 @@ UNSNARL_EXPORT int unsnarl_document_faces(const unsnarl_document* document, cons
 /* From now on unsnarl_document_write turns stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved.
  * *is_any: 0: there are none that could be updated. */
 UNSNARL_EXPORT int unsnarl_document_recompute_normals(unsnarl_document* document, int32_t* is_any);
+/* From file to certified file, as `unsnarl fix` does it: repairs the document's mesh, writes the result to a temporary
+ * folder beside path, reads it back, certifies it as it was read back, and puts it in place. The old files or the whole
+ * new ones are there at any time, never a part.
+ *
+ * path: the file, which gets the format of the input; of several files the folder where all go under their names, made
+ * where it is missing; NULL: the input is overwritten (not of several files). surface: of unsnarl_document_surface, with
+ * what must not move, is rigid or nested. An embedded result is written, and one that is obstructed, where it is not the
+ * input; any other goes beside path where it is better than the input, in out.partial.obj for out.obj (unless
+ * options->no_partial; with options->keep_partial to path). Places are checked before the work. A file to be overwritten
+ * that somebody has changed since it was read is left as it is, the result is kept beside it, and the error says so.
+ *
+ * Array and report as of unsnarl_repair; the report's "output" tells what was written. See unsnarl_document_partial. */
+UNSNARL_EXPORT int unsnarl_document_repair(unsnarl_document* document, const unsnarl_surface* surface, const char* path,
+                                           const unsnarl_options* options, unsnarl_context* context,
+                                           unsnarl_result** result);
+
+/* The same in two steps, for programs that decide in between: unsnarl_repair of the document's surface, then these. */
+
 /* Whether unsnarl_document_write may write there, to be asked before a repair: the format is that of the file, the
- * folder exists, nothing is write-protected, and no other part of the input would be overwritten. */
+ * folder exists, nothing is write-protected, and nothing else would be overwritten. */
 UNSNARL_EXPORT int unsnarl_document_check_output(const unsnarl_document* document, const char* path);
-/* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was. They are read
- * back bit for bit before anything is in place. path may be that of the file that was read; where somebody has changed
- * that since, it is left as it is, the result is written as of unsnarl_document_write_partial, and the error says so.
- * The old files or the whole new ones are there, never a part. Of several files path is the folder where all go under
- * their names. */
+/* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was. It is read back
+ * and certified to hold what the status says before anything is in place. path may be that of the file that was read;
+ * where somebody has changed that since, it is left as it is, the result is written as of
+ * unsnarl_document_write_partial, and the error says so. The old files or the whole new ones are there, never a part. Of
+ * several files path is the folder where all go under their names. */
 UNSNARL_EXPORT int unsnarl_document_write(const unsnarl_document* document, const unsnarl_result* repaired,
                                           const char* path);
 /* Keeps what an unfinished repair has reached beside path, which is left as it is: in out.partial.obj for out.obj, with
  * buffers of such names for a glTF. Of several files path is the folder; each is kept under such a name. */
 UNSNARL_EXPORT int unsnarl_document_write_partial(unsnarl_document* document, const unsnarl_result* repaired,
                                                   const char* path);
-/* The path that this has written file number `file` of the document to (0 where it is one file); NULL: it has not. It is
- * the document's, until the next call. */
+/* The path that unsnarl_document_write_partial or unsnarl_document_repair has kept an unfinished result of file number
+ * `file` in (0 where it is one file); NULL: it has not. It is the document's, until the next call. */
 UNSNARL_EXPORT const char* unsnarl_document_partial(const unsnarl_document* document, size_t file);
 UNSNARL_EXPORT void unsnarl_document_free(unsnarl_document* document);
 

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arguments import Surface
-from ._call import Outcome, call
-from ._library import SurfaceStruct, check as check_code, library
+from ._call import Outcome, call, call_and_wait
+from ._library import OptionsStruct, SurfaceStruct, check as check_code, library
 from ._options import options_of
+from ._progress import OnProgress
 from ._scenes import Scene
 from ._types import Format, Names, Numbers, PathLike, Paths
 
@@ -79,17 +80,15 @@ class Document:
         check_code(library.unsnarl_document_recompute_normals(self.handle, ctypes.byref(is_any)))
         return bool(is_any.value)
 
-    def check_output(self, path: PathLike) -> None:
-        check_code(library.unsnarl_document_check_output(self.handle, os.fsencode(path)))
+    def repair(self, path: Optional[PathLike], options: OptionsStruct, progress: OnProgress) -> Outcome:
+        """Repairs, certifies what is written and puts it in place. path: None: the input is overwritten."""
+        place = None if path is None else os.fsencode(path)
+        return call_and_wait("document_repair", self.handle, self.struct, place, options, progress=progress)
 
-    def write(self, repaired: Outcome, path: PathLike) -> None:
-        check_code(library.unsnarl_document_write(self.handle, repaired._handle, os.fsencode(path)))
-
-    def write_partial(self, repaired: Outcome, path: PathLike) -> list[Path]:
-        """Beside `path`, or of several files in this folder; returns the paths of the files."""
-        check_code(library.unsnarl_document_write_partial(self.handle, repaired._handle, os.fsencode(path)))
+    def partial(self) -> list[Path]:
+        """The files that repair() has kept an unfinished result in; empty: none."""
         places = (library.unsnarl_document_partial(self.handle, i) for i in range(len(self.paths)))
-        return [Path(os.fsdecode(place)) for place in places]
+        return [Path(os.fsdecode(place)) for place in places if place is not None]
 
 
 class Parts(NamedTuple):

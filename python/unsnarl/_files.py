@@ -12,7 +12,7 @@ from typing import Any, Literal, Optional, Union, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._call import call, call_and_wait
+from ._call import call
 from ._documents import Document, NamedParts, Parts
 from ._intersections import Intersections
 from ._library import pair_kinds
@@ -301,6 +301,9 @@ weld_tolerance, both_diagonals, each_component, threads, recover, paper, progres
     _check_places(path, output, in_place)
     document = Document(path, format)
     target = Path(document.paths[0] if output is None else output)
+    if document.is_scene and len(document.paths) == 1:
+        target.mkdir(parents=True, exist_ok=True)
+        output = target / document.names[0]
     options = options_of(
         goal=goal,
         precision=precision,
@@ -316,6 +319,8 @@ weld_tolerance, both_diagonals, each_component, threads, recover, paper, progres
         each_component=each_component,
         threads=threads,
         recover=recover,
+        keep_partial=keep_partial,
+        no_partial=no_partial,
         **paper_options(paper),
     )
     scene = document.scene()
@@ -325,38 +330,24 @@ weld_tolerance, both_diagonals, each_component, threads, recover, paper, progres
     document.struct.lend(fixed=flags | own_flags if own_flags.size > 0 else flags)
     _lend_rigid(document, scene, named, rigid, rigid_parts, flags)
     _lend_nested(document, scene, named, nested)
-    with _OutputFolder(target if document.is_scene else None) as folder:
-        document.check_output(target)
-        if recompute_normals and not document.recompute_normals():
-            log_notes([f"recompute_normals: there are no vertex normals in {', '.join(document.names)} to update"])
-        repaired = call_and_wait("repair", document.struct, options, progress=progress)
-        log(repaired)
-        V = repaired.array("positions")
-        is_changed = not np.array_equal(V.ravel(), scene.surface.positions)
-        is_written = repaired.status == "embedded" or (repaired.status == "obstructed" and is_changed) or keep_partial
-        partial: list[Path] = []
-        if is_written:
-            document.write(repaired, target)
-            folder.keep()
-        elif is_changed and not no_partial and repaired.status not in ("obstructed", "no_progress"):
-            partial = document.write_partial(repaired, target)
-            folder.keep()
+    if recompute_normals and not document.recompute_normals():
+        log_notes([f"recompute_normals: there are no vertex normals in {', '.join(document.names)} to update"])
+    repaired = document.repair(output, options, progress)
+    log(repaired)
+    V = repaired.array("positions")
     report = repaired.report
-    report["output"] = {
-        "written": is_written,
-        "path": os.fspath(target) if is_written else None,
-        "partial": [os.fspath(path) for path in partial],
-    }
-    for entry in report.get("files", []):
-        entry["output"] = os.fspath(target / entry["name"]) if is_written else None
-    moved = scene.split(V) if document.is_scene else V
-    written = target if is_written else None
-    sizes = scene.mesh_sizes if document.is_scene else None
-    kept: Union[Path, list[Path], None] = None
-    if partial:
-        kept = partial if document.is_scene else partial[0]
+    partial = document.partial()
     return Result(
-        moved, repaired.status, report, None, written, scene.surface, V, sizes, _document=document, partial=kept
+        scene.split(V) if document.is_scene else V,
+        repaired.status,
+        report,
+        None,
+        target if report["output"]["written"] else None,
+        scene.surface,
+        V,
+        scene.mesh_sizes if document.is_scene else None,
+        _document=document,
+        partial=None if not partial else partial if document.is_scene else partial[0],
     )
 
 
@@ -370,30 +361,6 @@ def _check_places(path: Union[PathLike, Paths], output: Optional[PathLike], in_p
         return
     if os.path.exists(path) and os.path.exists(output) and os.path.samefile(path, output):
         raise ValueError(f"{os.fspath(output)!r} is the input; give another name, or in_place=True to overwrite it")
-
-
-class _OutputFolder:
-    """Makes a folder where it is missing, and removes what it made unless that is kept."""
-
-    def __init__(self, folder: Optional[Path]):
-        self._folder, self._made = folder, []  # type: tuple[Optional[Path], list[Path]]
-
-    def __enter__(self) -> _OutputFolder:
-        if self._folder is not None:
-            missing = [at for at in (self._folder, *self._folder.parents) if not at.exists()]
-            self._folder.mkdir(parents=True, exist_ok=True)
-            self._made = missing
-        return self
-
-    def keep(self) -> None:
-        self._made = []
-
-    def __exit__(self, *_: Any) -> None:
-        for folder in self._made:
-            try:
-                folder.rmdir()
-            except OSError:  # it holds something by now
-                return
 
 
 def _lend_rigid(document: Document, scene: Scene, named: NamedParts, rigid: Any, parts: Parts, fixed: Any) -> None:

@@ -113,6 +113,8 @@ class OptionsStruct(_Struct):
         ("paper_iterations", c_int32),
         ("spacing", c_double),
         ("handles", c_int32),
+        ("keep_partial", c_int32),
+        ("no_partial", c_int32),
     ]
 
 
@@ -160,9 +162,6 @@ _SIGNATURES = {
     "document_surface": ([c_void_p, c_void_p], c_int),
     "document_report": ([c_void_p], c_char_p),
     "document_recompute_normals": ([c_void_p, POINTER(c_int32)], c_int),
-    "document_check_output": ([c_void_p, c_char_p], c_int),
-    "document_write": ([c_void_p, c_void_p, c_char_p], c_int),
-    "document_write_partial": ([c_void_p, c_void_p, c_char_p], c_int),
     "document_partial": ([c_void_p, c_size_t], c_char_p),
     "document_free": ([c_void_p], None),
 }

@@ -116,6 +116,9 @@ unsnarl_options default_options() {
   options.paper_iterations = paper.max_iterations;
   options.spacing = RouteOptions().spacing;
   options.handles = seifert.handles;
+  const RepairFileOptions files;
+  options.keep_partial = files.keep_partial;
+  options.no_partial = files.no_partial;
   return options;
 }
 
@@ -207,18 +210,7 @@ RepairOptions repair_options(const unsnarl_options& options, const unsnarl_surfa
   if (surface.rigid != nullptr) repair.rigid.assign(surface.rigid, surface.rigid + surface.vertex_count);
   if (surface.rigid_names != nullptr)
     repair.rigid_names.assign(surface.rigid_names, surface.rigid_names + surface.rigid_name_count);
-  if (surface.document != nullptr) {
-    const SceneDocument& scene = surface.document->scene;
-    if (const auto file = scene.float32_file()) {
-      if (repair.precision == Precision::float64)
-        throw std::invalid_argument("precision is 'float64', but " + scene.files()[*file].name +
-                                    " stores 32-bit numbers");
-      repair.precision = Precision::float32;
-    }
-    repair.as_written = [&scene](std::span<const double> positions, bool float32) {
-      return scene.as_written(positions, float32);
-    };
-  }
+  if (surface.document != nullptr) fit_to_files(*surface.document->scene, repair);
   return repair;
 }
 
@@ -231,7 +223,7 @@ SurfaceView view_of(const unsnarl_surface& surface) {
 std::vector<SceneFile> meshes_of(const unsnarl_surface& surface) {
   if (surface.document != nullptr && surface.mesh_count > 0 &&
       surface.mesh_sizes == surface.document->mesh_sizes.data())
-    return surface.document->scene.files();
+    return surface.document->scene->files();
   std::vector<SceneFile> meshes;
   std::size_t vertices = 0, faces = 0;
   for (std::size_t i = 0; i < surface.mesh_count; ++i) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "unsnarl/repair.h"
+#include "unsnarl/repair_file.h"
 #include "unsnarl/scene_document.h"
 #include "unsnarl/unsnarl.h"
 
@@ -20,8 +22,8 @@ struct unsnarl_context {
 
 struct unsnarl_document {
   std::vector<std::filesystem::path> paths;
-  unsnarl::SceneDocument scene;         // of one file or several
-  std::vector<std::size_t> mesh_sizes;  // as unsnarl_surface has them; empty: it is one
+  std::shared_ptr<unsnarl::SceneDocument> scene;  // of one file or several
+  std::vector<std::size_t> mesh_sizes;            // as unsnarl_surface has them; empty: it is one
   std::string report;
   std::vector<std::string> partial;  // places of unsnarl_document_write_partial, one a file; empty: nothing was written
 };
@@ -34,5 +36,10 @@ struct unsnarl_result {
 
   std::string status, report;
   std::map<std::string, Array, std::less<>> arrays;
-  std::optional<unsnarl::Precision> precision;  // of a repair
+  /// Of a repair: what files with its positions, which are among the arrays, are certified for.
+  struct Repaired {
+    unsnarl::RepairResult result;
+    unsnarl::RepairFileOptions options;
+  };
+  std::optional<Repaired> repaired;
 };

@@ -12,7 +12,7 @@ std::vector<SceneFile> files_of(const unsnarl_surface& surface, const std::strin
   std::vector<SceneFile> files = meshes_of(surface);
   if (files.empty() && surface.document) {
     const SurfaceView view = view_of(surface);
-    files.push_back({name, 0, view.vertex_count(), 0, view.face_count(), surface.document->scene.document(0).up()});
+    files.push_back({name, 0, view.vertex_count(), 0, view.face_count(), surface.document->scene->document(0).up()});
   }
   return files;
 }
@@ -20,7 +20,7 @@ std::vector<SceneFile> files_of(const unsnarl_surface& surface, const std::strin
 /// The names of the files that are shown.
 std::string page_title(const unsnarl_document& document) {
   std::string title;
-  for (const SceneFile& file : document.scene.files()) title += (title.empty() ? "" : ", ") + file.name;
+  for (const SceneFile& file : document.scene->files()) title += (title.empty() ? "" : ", ") + file.name;
   return title;
 }
 
@@ -37,7 +37,7 @@ unsnarl_result page(const unsnarl_surface& surface, const unsnarl_page_content& 
   const std::vector<SceneFile> files = files_of(surface, source.input_name);
   source.files = files;
   Appearance appearance;
-  if (surface.document) appearance = surface.document->scene.appearance();
+  if (surface.document) appearance = surface.document->scene->appearance();
   source.appearance = &appearance;
   source.find = options.find;
   source.goal = options.goal;

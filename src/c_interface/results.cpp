@@ -2,7 +2,19 @@
 
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 namespace unsnarl::c_interface {
+
+unsnarl_result result_of_repair(RepairResult repaired, RepairFileOptions options, const ReportFiles& files) {
+  unsnarl_result result;
+  result.status = outcome(repaired.status, files.nested);
+  result.report = report_json(repaired, options.repair, files);
+  result.arrays["positions"] = {std::move(repaired.positions), 3};
+  options.repair.as_written = {};
+  result.repaired.emplace(std::move(repaired), std::move(options));
+  return result;
+}
 
 void add_polylines(unsnarl_result& result, const std::vector<std::vector<double>>& polylines, std::size_t dimension) {
   std::vector<double> points;

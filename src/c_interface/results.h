@@ -7,6 +7,7 @@
 
 #include "errors.h"
 #include "handles.h"
+#include "unsnarl/repair_file.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl::c_interface {
@@ -27,6 +28,8 @@ int hand_out(unsnarl_result** result, const Make& make) noexcept {
   });
 }
 
+/// Status, report and "positions" of a repair. `options` may refer to a document, of which nothing is kept.
+unsnarl_result result_of_repair(RepairResult repaired, RepairFileOptions options, const ReportFiles& files);
 /// Adds "points" and "offsets": polylines of points of so many numbers each.
 void add_polylines(unsnarl_result& result, const std::vector<std::vector<double>>& polylines, std::size_t dimension);
 /// Adds "positions" and "corners".

@@ -30,7 +30,7 @@ Json by_kind(const PairCounts& counts) {
 /// The report's entries on files: of the one that was read, or of each of several.
 void describe_document(const unsnarl_surface& given, ReportFiles& files) {
   if (given.document == nullptr) return;
-  const SceneDocument& scene = given.document->scene;
+  const SceneDocument& scene = *given.document->scene;
   files.notes = scene.notes();
   files.parts = named_parts(scene.surface(), scene.face_labels());
   if (scene.files().size() > 1) return;
@@ -43,7 +43,7 @@ void describe_scene_files(const unsnarl_surface& given, SceneReport& report) {
   if (given.document == nullptr || report.files.size() != given.document->paths.size()) return;
   for (std::size_t i = 0; i < report.files.size(); ++i) {
     report.files[i].input = given.document->paths[i].string();
-    report.files[i].format = to_string(given.document->scene.document(i).format());
+    report.files[i].format = to_string(given.document->scene->document(i).format());
   }
 }
 
@@ -113,12 +113,9 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
                               ? files.clearance_before
                               : measure_clearance(surface, written, options.find, repaired.report.after.total() == 0);
   files.whole = clock.stage("repair");
-  unsnarl_result result;
-  result.status = outcome(repaired.status, files.nested);
-  result.report = report_json(repaired, options, files);
-  result.precision = repaired.report.precision;
-  result.arrays["positions"] = {std::move(repaired.positions), 3};
-  return result;
+  RepairFileOptions asked;
+  asked.repair = options;
+  return result_of_repair(std::move(repaired), std::move(asked), files);
 }
 
 Json json_of(const std::optional<Jitter>& jitter) {

@@ -188,15 +188,25 @@ class StagedFiles::Moves {
   std::size_t failed_ = 0;
 };
 
-StagedFiles::StagedFiles() : reserve_(new char[reserve_size]) {}
+StagedFiles::StagedFiles(Guard guard) : guard_(std::move(guard)), reserve_(new char[reserve_size]) {}
 
 StagedFiles::~StagedFiles() {
   reserve_.reset();
+  guarded([this] { remove_folders(); });
+}
+
+void StagedFiles::guarded(const std::function<void()>& step) const {
+  if (guard_) return guard_(*this, step);
+  step();
+}
+
+void StagedFiles::remove_folders() {
   std::error_code ignored;
   for (const fs::path& folder : folders()) {
     fs::remove_all(folder, ignored);
     if (ignored) remove_known_files(folder);
   }
+  folders_.clear();
 }
 
 /// Without listing folders, for which there may be no descriptor left.
@@ -212,7 +222,10 @@ void StagedFiles::open(const fs::path& target, Links links) {
   const fs::path place = links == Links::followed ? with_links_followed(target) : target;
   require_replaceable(place);
   const fs::path folder = folder_of(place);
-  if (folders_.contains(folder)) return;
+  if (!folders_.contains(folder)) guarded([&] { make_folder(target, folder); });
+}
+
+void StagedFiles::make_folder(const fs::path& target, const fs::path& folder) {
   std::string pattern = (folder / ".unsnarl-XXXXXX").string();
   const auto entry = folders_.emplace(folder, fs::path()).first;
   if (::mkdtemp(pattern.data()) == nullptr) {
@@ -281,6 +294,10 @@ void StagedFiles::prepare() const {
 }
 
 void StagedFiles::commit() {
+  guarded([this] { move_into_place(); });
+}
+
+void StagedFiles::move_into_place() {
   prepare();
   Moves moves(files_);
   const auto all = [&](auto step) {
@@ -309,6 +326,26 @@ std::string StagedFiles::where_old_files_are() const {
   for (const auto& [folder, staging] : folders_)
     folders += (folders.empty() ? "" : ", ") + (staging / old_folder).string();
   return fmt::format(" (not all old files could be put back: those that are missing are in {})", folders);
+}
+
+OutputFolder::OutputFolder(const fs::path& path) {
+  std::error_code error;
+  std::vector<fs::path> missing;
+  for (fs::path at = fs::absolute(path, error).lexically_normal(); !fs::exists(at, error) && at.has_relative_path();
+       at = at.parent_path())
+    if (at.has_filename()) missing.push_back(at);
+  fs::create_directories(path, error);
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) {
+    if (error) throw_write_error(path.string() + ": cannot make this folder", error.value());
+    throw WriteError(path.string() + ": not a folder");
+  }
+  made_ = std::move(missing);
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  for (const fs::path& folder : made_) fs::remove(folder, ignored);  // leaves what holds anything
 }
 
 }  // namespace unsnarl

@@ -8,10 +8,9 @@ bool Limits::reached() {
   if (reason_ == none) {
     if (context_.is_cancelled())
       reason_ = static_cast<int>(Status::cancelled);
-    else if (options_.time_limit_s > 0 &&
-             std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_limit_s)
+    else if (limits_.time_s > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() > limits_.time_s)
       reason_ = static_cast<int>(Status::time_limit);
-    else if (options_.memory_limit_mb > 0 && resident_memory_mb() > options_.memory_limit_mb)
+    else if (limits_.memory_mb > 0 && resident_memory_mb() > limits_.memory_mb)
       reason_ = static_cast<int>(Status::memory_limit);
   }
   return reason_ != none;

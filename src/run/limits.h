@@ -8,12 +8,20 @@
 
 namespace unsnarl {
 
-/// Watches what ends a repair early: cancellation, the limits of time and of memory. Safe from any thread. What it is
-/// given must outlive it.
+/// 0: no limit.
+struct RunLimits {
+  double time_s = 0;     ///< wall-clock seconds
+  double memory_mb = 0;  ///< MB (10^6 bytes) of resident memory of the process
+};
+
+/// Watches what ends a run early: cancellation, the limits of time and of memory. Safe from any thread. The
+/// context must outlive it.
 class Limits {
  public:
   /// Time counts from here on.
-  Limits(const RepairOptions& options, const Context& context) : options_(options), context_(context) {}
+  Limits(const RunLimits& limits, const Context& context) : limits_(limits), context_(context) {}
+  Limits(const RepairOptions& options, const Context& context)
+      : Limits(RunLimits{options.time_limit_s, options.memory_limit_mb}, context) {}
 
   /// True from the first time a limit was reached.
   bool reached();
@@ -36,7 +44,7 @@ class Limits {
   using Clock = std::chrono::steady_clock;
   static constexpr int none = -1;
 
-  const RepairOptions& options_;
+  const RunLimits limits_;
   const Context& context_;
   Clock::time_point begin_ = Clock::now();
   std::atomic<int> reason_{none};  // a Status

@@ -551,6 +551,55 @@ static void reads_and_writes_files(const char* folder) {
   CHECK(strlen(unsnarl_version()) >= 5);
 }
 
+static void repairs_files(const char* folder) {
+  char in[4096], out[4096];
+  unsnarl_document* document = NULL;
+  unsnarl_surface surface = {.size = sizeof surface}, other = {.size = sizeof other};
+  unsnarl_options options;
+  unsnarl_result* result = NULL;
+  uint8_t fixed[6] = {1, 1, 1, 1, 1, 1};
+
+  snprintf(in, sizeof in, "%s/c_repair_in.obj", folder);
+  snprintf(out, sizeof out, "%s/c_repair_out.obj", folder);
+  write_text(in, "# kept\nv 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 2\nv 2 1 2\nf 1 2 3\nf 4 5 6\n");
+  remove(out);
+  CHECK(unsnarl_document_read(in, NULL, &document) == UNSNARL_OK);
+  CHECK(unsnarl_document_surface(document, &surface) == UNSNARL_OK);
+  CHECK(unsnarl_options_init(&options, sizeof options) == UNSNARL_OK);
+  CHECK(options.keep_partial == 0 && options.no_partial == 0);
+  CHECK(unsnarl_document_repair(document, &other, out, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(unsnarl_document_repair(document, &surface, "/no/such/folder/a.obj", NULL, NULL, &result) ==
+        UNSNARL_CANNOT_WRITE);
+
+  surface.fixed = fixed;
+  CHECK(unsnarl_document_repair(document, &surface, out, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "obstructed") == 0);
+  CHECK(says(unsnarl_result_report(result), "\"written\": false"));
+  unsnarl_result_free(result);
+  CHECK(remove(out) != 0 && unsnarl_document_partial(document, 0) == NULL);
+
+  surface.fixed = NULL;
+  CHECK(unsnarl_document_repair(document, &surface, out, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  CHECK(says(unsnarl_result_report(result), "\"written\": true"));
+  unsnarl_result_free(result);
+  unsnarl_document_free(document);
+  CHECK(unsnarl_document_read(out, NULL, &document) == UNSNARL_OK);
+  CHECK(unsnarl_document_surface(document, &surface) == UNSNARL_OK);
+  CHECK(pairs_of(&surface) == 0);
+  unsnarl_document_free(document);
+
+  CHECK(unsnarl_document_read(in, NULL, &document) == UNSNARL_OK);
+  CHECK(unsnarl_document_surface(document, &surface) == UNSNARL_OK);
+  CHECK(unsnarl_document_repair(document, &surface, NULL, NULL, NULL, &result) == UNSNARL_OK);
+  unsnarl_result_free(result);
+  unsnarl_document_free(document);
+  CHECK(unsnarl_document_read(in, NULL, &document) == UNSNARL_OK);
+  CHECK(unsnarl_document_surface(document, &surface) == UNSNARL_OK);
+  CHECK(pairs_of(&surface) == 0);
+  unsnarl_document_free(document);
+}
+
 /* Faces of a part by its name, a character each: "10" the first of two. */
 static const char* faces_of(const unsnarl_document* document, const char* kind, const char* name) {
   static char text[8];
@@ -660,6 +709,7 @@ int main(int count, char** arguments) {
   spans_links();
   moves_knots();
   reads_and_writes_files(arguments[1]);
+  repairs_files(arguments[1]);
   knows_what_files_name(arguments[1]);
   repairs_scenes_of_files(arguments[1]);
   makes_samples();

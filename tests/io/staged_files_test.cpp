@@ -51,6 +51,23 @@ TEST_F(StagedFilesTest, LeaveNothingUnlessCommitted) {
   EXPECT_EQ(entries(), 0u);
 }
 
+TEST_F(StagedFilesTest, TellTheirGuardOfEveryTemporaryFolder) {
+  std::vector<std::size_t> before, after;
+  const StagedFiles::Guard guard = [&](const StagedFiles& files, const std::function<void()>& step) {
+    before.push_back(files.folders().size());
+    step();
+    after.push_back(files.folders().size());
+  };
+  {
+    StagedFiles staged(guard);
+    staged.add(folder.path() / "x.gii", three);
+    staged.commit();
+  }
+  // Made, moved from, removed.
+  EXPECT_EQ(before, (std::vector<std::size_t>{0, 1, 1}));
+  EXPECT_EQ(after, (std::vector<std::size_t>{1, 1, 0}));
+}
+
 TEST_F(StagedFilesTest, LeaveAllAsTheyWereWhereOneCannotBeReplaced) {
   const fs::path main = folder.write("x.gii", "old"), last = folder.write("deeper/b.bin", "old b");
   {

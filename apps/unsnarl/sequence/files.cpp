@@ -16,6 +16,7 @@
 #include "mesh_input.h"
 #include "staged_output.h"
 #include "unsnarl/point_cache.h"
+#include "unsnarl/repair_file.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -115,7 +116,7 @@ class NumberedFiles : public SequenceFiles {
         folder_(folder),
         recompute_normals_(recompute_normals),
         interruption_(interruption),
-        first_(read_scene({paths_[0]}, format)) {
+        first_(read_inputs({paths_[0]}, format)) {
     if (!external_files(first_.document(0)).empty())
       throw UsageError(paths_[0] + ": this file keeps its numbers in other files; each frame must be a single file");
   }
@@ -172,11 +173,10 @@ class NumberedFiles : public SequenceFiles {
   fs::path target(std::size_t t) const { return folder_ / names_[t]; }
 
   std::vector<double> write_to(const fs::path& place, std::size_t t, std::span<const double> positions, bool float32) {
-    const std::vector<OutputFile> files = document(t).patched(positions, float32, place.filename());
-    if (files.size() > 1)
+    if (!external_files(document(t)).empty())
       throw UsageError(names_[t] + ": this file keeps its numbers in other files; each frame must be a single file");
     StagedOutput output(interruption_);
-    const Document written = Document::read(output.add(place, files), first_.document(0).format());
+    const Document written = stage_document(document(t), positions, float32, place, output.files());
     require_same_faces(written, t);
     output.commit();
     const std::lock_guard lock(mutex_);
@@ -224,7 +224,7 @@ class CacheFrames : public SequenceFiles {
   CacheFrames(const std::string& mesh, const std::string& cache, std::optional<Format> format,
               const std::string& folder, Interruption& interruption)
       : interruption_(interruption),
-        mesh_(read_scene({mesh}, format)),
+        mesh_(read_inputs({mesh}, format)),
         name_(fs::path(cache).filename().string()),
         target_(fs::path(folder) / name_),
         part_(fs::path(folder) / (name_ + ".part")),

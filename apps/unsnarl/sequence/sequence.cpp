@@ -166,7 +166,7 @@ class SequenceRun {
     places.writes("the record of what is done", record);
     places.writes("--report", options_.report);
     for (const fs::path& place : {record, fs::path(options_.report)})
-      if (!place.empty() && !is_stream(place.string())) StagedOutput(interruption_).open(place);
+      if (!place.empty() && !is_stream(place.string())) StagedOutput(interruption_).files().open(place);
   }
 
   /// Checks all frames that matter before any work.

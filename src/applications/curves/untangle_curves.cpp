@@ -9,6 +9,7 @@
 #include "applications/curves/repel_curves.h"
 #include "applications/curves/shrink_curves.h"
 #include "applications/curves/switch_crossings.h"
+#include "run/run_control.h"
 
 namespace unsnarl {
 namespace {
@@ -53,7 +54,7 @@ std::vector<double> distances_from_drawing(const CurveNet& net, const Points2& x
 class CurveUntangling {
  public:
   CurveUntangling(std::span<const Curve> input, const CurveOptions& options, Context* context)
-      : options_(options), context_(context), start_(Clock::now()) {
+      : options_(options), control_(context, {.time_s = options.time_limit_s}) {
     result_.curves.assign(input.begin(), input.end());
   }
 
@@ -74,7 +75,7 @@ class CurveUntangling {
     CurveState state{net_.rest, net_.rest, std::vector<std::uint8_t>(net_.vertex_count(), 0)};
     if (before.size() > report.fixed.size()) untangle(state, before.size());
     finish(state);
-    report.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    report.seconds = control_.seconds();
     return std::move(result_);
   }
 
@@ -86,22 +87,13 @@ class CurveUntangling {
     return true;
   }
 
-  bool is_stopped() {
-    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    if (context_ != nullptr && context_->is_cancelled()) stopped_ = Status::cancelled;
-    if (options_.time_limit_s > 0 && seconds > options_.time_limit_s && stopped_ == Status::embedded)
-      stopped_ = Status::time_limit;
-    return stopped_ != Status::embedded;
-  }
-
   void show(double fraction, std::string_view phase, std::size_t left, const CurveState& state) {
-    if (context_ == nullptr || !context_->on_progress) return;
-    fraction_ = std::max(fraction_, fraction);
+    if (!control_.is_told()) return;
     const auto now = Clock::now();
     if (fraction > 0 && std::chrono::duration<double>(now - shown_).count() < 0.2) return;
     shown_ = now;
     const double moved = (state.x - net_.rest).colwise().norm().maxCoeff();
-    context_->on_progress({fraction_, phase, left, net_.diagonal > 0 ? moved / net_.diagonal : 0});
+    control_.tell(fraction, phase, left, net_.diagonal > 0 ? moved / net_.diagonal : 0);
   }
 
   void untangle(CurveState& state, std::size_t before) {
@@ -111,12 +103,12 @@ class CurveUntangling {
     const auto stop = [&](std::size_t left) {
       if (left > 0) seen = left;
       show(0.5 * (1 - static_cast<double>(seen) / before), "untangle", seen, state);
-      return is_stopped() || (left > 0 && left <= obstructions);
+      return control_.stopped() || (left > 0 && left <= obstructions);
     };
     std::vector<SegmentPair> left = switch_crossings(net_, state, switching_, stop);
-    if (left.size() > obstructions && !is_stopped())
-      left = repel_curves(net_, state, repelling_, [&] { return is_stopped(); });
-    if (left.size() > obstructions && !is_stopped()) left = shrink_curves(net_, state, shrinking_);
+    if (left.size() > obstructions && !control_.stopped())
+      left = repel_curves(net_, state, repelling_, [&] { return control_.stopped(); });
+    if (left.size() > obstructions && !control_.stopped()) left = shrink_curves(net_, state, shrinking_);
     if (left.size() > before) {
       state = {net_.rest, net_.rest, std::vector<std::uint8_t>(net_.vertex_count(), 0)};
       return;
@@ -125,7 +117,7 @@ class CurveUntangling {
     int step = 0;
     recover_curves(net_, state, options_.gap_rel * net_.diagonal, recovering_, [&] {
       show(0.5 + 0.5 * step++ / recovering_.max_steps, "recover", 0, state);
-      return is_stopped();
+      return control_.stopped();
     });
     snap(state);
   }
@@ -154,12 +146,11 @@ class CurveUntangling {
     report.crossings_after = left.size();
     if (left.empty()) {
       result_.status = Status::embedded;
-    } else if (left.size() == report.fixed.size() && stopped_ == Status::embedded) {
-      result_.status = Status::obstructed;
-    } else if (stopped_ != Status::embedded) {
-      result_.status = stopped_;
+    } else if (left.size() == report.fixed.size()) {
+      result_.status = control_.status_or(Status::obstructed);
     } else {
-      result_.status = left.size() < report.crossings_before ? Status::reduced : Status::no_progress;
+      result_.status =
+          control_.status_or(left.size() < report.crossings_before ? Status::reduced : Status::no_progress);
     }
     const std::vector<double> distance = distances_from_drawing(net_, state.x);
     double total = 0;
@@ -180,12 +171,10 @@ class CurveUntangling {
   }
 
   const CurveOptions& options_;
-  Context* context_;
-  Clock::time_point start_, shown_;
+  RunControl control_;
+  Clock::time_point shown_;
   CurveResult result_;
   CurveNet net_;
-  Status stopped_ = Status::embedded;
-  double fraction_ = 0;
   SwitchOptions switching_;
   RepelOptions repelling_;
   ShrinkOptions shrinking_;

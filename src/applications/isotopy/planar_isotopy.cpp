@@ -10,8 +10,8 @@
 #include "applications/isotopy/rings.h"
 #include "applications/isotopy/round_curves.h"
 #include "geometry/sort_unique.h"
+#include "run/run_control.h"
 #include "unsnarl/isotopy.h"
-#include "unsnarl/stage_clock.h"
 
 namespace unsnarl {
 namespace {
@@ -271,7 +271,7 @@ std::vector<std::vector<Vec2>> ways(const std::vector<Disc>& from, const std::ve
 class Making {
  public:
   Making(std::span<const Curve> start, std::span<const Curve> end, const IsotopyOptions& options, Context* context)
-      : start_(start), end_(end), options_(options), context_(context) {}
+      : start_(start), end_(end), options_(options), control_(context, {.time_s = options.time_limit_s}) {}
 
   Isotopy run() {
     std::vector<double> directions;
@@ -285,9 +285,9 @@ class Making {
     made_.height = diagonal_of(all);
     Side from, to;
     const auto stop = [&] { return is_stopped(); };
-    report(0, "shorten");
+    control_.tell(0, "shorten");
     if (!make_round(start_, made_.points, false, stop, from)) return given_up();
-    report(0.3, "shorten");
+    control_.tell(0.3, "shorten");
     if (!make_round(end_, made_.points, true, stop, to)) return given_up();
     renumber(to, from.discs, directions);
     made_.on_start = from.places;
@@ -296,7 +296,7 @@ class Making {
     std::vector<Polygons> states = std::move(from.states);
     join(from.discs, to.discs, directions, states);
     states.insert(states.end(), to.states.rbegin(), to.states.rend());
-    report(0.6, "thin out");
+    control_.tell(0.6, "thin out");
     std::vector<std::size_t> kept = thin_out(states, made_.height, false, stop);
     if (kept.empty()) return given_up();
     bool is_refined = true;
@@ -304,27 +304,21 @@ class Making {
       build(from, to, states, kept);
       is_refined = refine_where_strips_meet(kept);
     }
-    made_.seconds = clock_.stage("").seconds;
+    made_.seconds = control_.seconds();
     return std::move(made_);
   }
 
  private:
   bool is_stopped() {
-    if (context_ && context_->is_cancelled()) made_.status = Status::cancelled;
-    if (options_.time_limit_s > 0 && clock_.stage("").seconds >= options_.time_limit_s)
-      made_.status = Status::time_limit;
+    if (control_.stopped()) made_.status = control_.status_or(made_.status);
     return made_.status != Status::no_progress;
   }
   Isotopy given_up() {
     Isotopy nothing;
     nothing.status = made_.status;
-    nothing.seconds = clock_.stage("").seconds;
+    nothing.seconds = control_.seconds();
     return nothing;
   }
-  void report(double fraction, std::string_view phase) {
-    if (context_ && context_->on_progress) context_->on_progress({.fraction = fraction, .phase = phase});
-  }
-
   /// Discs to discs: several shrink first, so that they pass each other.
   void join(std::vector<Disc> from, const std::vector<Disc>& to, std::span<const double> directions,
             std::vector<Polygons>& states) const {
@@ -406,8 +400,7 @@ class Making {
 
   std::span<const Curve> start_, end_;
   const IsotopyOptions& options_;
-  Context* context_;
-  StageClock clock_;
+  RunControl control_;
   Isotopy made_;
   std::vector<std::int32_t> first_face_;  // of each strip
 };

@@ -14,7 +14,7 @@
 #include "applications/knots/relax_knot.h"
 #include "applications/knots/untangle_cylinder.h"
 #include "geometry/splitmix.h"
-#include "unsnarl/stage_clock.h"
+#include "run/run_control.h"
 
 namespace unsnarl {
 namespace {
@@ -84,7 +84,7 @@ Positions shaken(const Positions& x, std::uint64_t seed) {
 class Making {
  public:
   Making(const Link& start, const Link& end, const KnotIsotopyOptions& options, Context* context)
-      : start_link_(start), end_link_(end), options_(options), context_(context) {}
+      : start_link_(start), end_link_(end), options_(options), control_(context, {.time_s = options.time_limit_s}) {}
 
   KnotIsotopy run() {
     scale();
@@ -100,26 +100,16 @@ class Making {
     const bool everything = options_.method == KnotMethod::automatic;
     if (is_open() && (everything || options_.method == KnotMethod::relax)) relax();
     if (is_open() && (everything || options_.method == KnotMethod::direct)) direct();
-    if (made_.status != Status::embedded && stopped()) {
-      made_.status = cancelled_ ? Status::cancelled : Status::time_limit;
+    if (made_.status != Status::embedded && control_.stopped()) {
+      made_.status = control_.status_or(made_.status);
       made_.found = "stopped";
     }
     if (made_.status != Status::embedded) made_.rings.clear();
-    made_.seconds = clock_.stage("").seconds;
+    made_.seconds = control_.seconds();
     return std::move(made_);
   }
 
  private:
-  bool stopped() {
-    cancelled_ = cancelled_ || (context_ != nullptr && context_->is_cancelled());
-    out_of_time_ = out_of_time_ || (options_.time_limit_s > 0 && clock_.stage("").seconds > options_.time_limit_s);
-    return cancelled_ || out_of_time_;
-  }
-  void tell(double fraction, std::string_view phase) {
-    fraction_ = std::max(fraction_, fraction);
-    if (context_ != nullptr && context_->on_progress) context_->on_progress({fraction_, phase, 0, 0});
-  }
-
   void scale() {
     std::array<Positions, 2> both{points_of(start_link_.components[0]), points_of(end_link_.components[0])};
     unit_ = exact_unit(both);
@@ -134,7 +124,7 @@ class Making {
           fmt::format("the {}: two edges are nearer to each other than rounding can tell; move them apart", side));
   }
 
-  bool is_open() { return made_.status != Status::embedded && !stopped(); }
+  bool is_open() { return made_.status != Status::embedded && !control_.stopped(); }
 
   /// The end's points, in the order in which they are nearest to the start's.
   Alignment straight_order() const {
@@ -154,11 +144,11 @@ class Making {
     const Alignment order = straight_order();
     UntangledCylinder cylinder =
         untangle_cylinder(start_.points, reordered(end_.points, order.first, false), [&](double fraction) {
-          tell(0.7 + 0.2 * fraction, "untangle");
-          return stopped();
+          control_.tell(0.7 + 0.2 * fraction, "untangle");
+          return control_.stopped();
         });
     made_.left_double_points = in_units(cylinder.left);
-    if (stopped()) return;
+    if (control_.stopped()) return;
     if (cylinder.left.empty() && finish(std::move(cylinder.rings), order)) {
       made_.found = fmt::format("{} double points of the straight cylinder were untangled in R^4",
                                 made_.straight_double_points.size());
@@ -184,13 +174,13 @@ class Making {
     double steps = 0;
     RelaxedKnot more = relax_knot(knot.states.back(), options, [&] {
       steps += 1;
-      tell(begin + (end - begin) * steps / (steps + 100), phase);  // 100: a usual number
-      return stopped();
+      control_.tell(begin + (end - begin) * steps / (steps + 100), phase);  // 100: a usual number
+      return control_.stopped();
     });
     knot.states.insert(knot.states.end(), more.states.begin() + 1, more.states.end());
     knot.energy = more.energy;
     knot.at_rest = more.at_rest;
-    return !stopped();
+    return !control_.stopped();
   }
 
   void relax() {
@@ -216,7 +206,7 @@ class Making {
                                   to.energy);
         return;
       }
-      if (stopped()) return;
+      if (control_.stopped()) return;
     }
     made_.found = fmt::format(
         "{}, with energies {:.2f} and {:.2f}, and no straight way joins their shapes: these may be different knots, or "
@@ -229,7 +219,7 @@ class Making {
     const Positions &x = from.states.back(), &y = to.states.back();
     for (const bool backwards : {false, true})
       for (const Alignment& alignment : alignments(x, y, backwards, most_alignments)) {
-        if (stopped()) return false;
+        if (control_.stopped()) return false;
         if (!is_proven_way(x, alignment.applied(reordered(y, alignment.first, backwards)))) continue;
         std::vector<Positions> path = from.states;
         // The end's shape turns back from where it fits the start's to where it came to rest.
@@ -250,10 +240,10 @@ class Making {
   /// From the start's dense polygon to the end's, in the order of the alignment. False: it is no isotopy, or not
   /// proven.
   bool finish(std::vector<Positions> path, const Alignment& alignment) {
-    tell(0.9, "thin out");
-    path = thinned_path(std::move(path), [&] { return stopped(); });
+    control_.tell(0.9, "thin out");
+    path = thinned_path(std::move(path), [&] { return control_.stopped(); });
     if (path.empty()) return false;
-    tell(0.98, "certify");
+    control_.tell(0.98, "certify");
     const auto n = static_cast<Index>(start_.points.cols());
     const auto m = static_cast<Index>(end_exact_.cols());
     const Positions last = reordered(end_exact_, 0, alignment.backwards);
@@ -292,14 +282,12 @@ class Making {
 
   const Link &start_link_, &end_link_;
   const KnotIsotopyOptions& options_;
-  Context* context_;
-  StageClock clock_;
+  RunControl control_;
   double unit_ = 1;
   Positions start_exact_, end_exact_;
   DensePolygon start_, end_;
   KnotIsotopy made_;
   double fraction_ = 0;
-  bool cancelled_ = false, out_of_time_ = false;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "applications/routes/route_energy.h"
 #include "applications/routes/way_finder.h"
 #include "optimize/lbfgs.h"
-#include "unsnarl/stage_clock.h"
+#include "run/run_control.h"
 
 namespace unsnarl {
 namespace {
@@ -44,40 +44,31 @@ constexpr double margin = 1e-6;
 class Planning {
  public:
   Planning(const RoutePlan& plan, const RouteOptions& options, Context* context)
-      : plan_(plan), options_(options), context_(context), triangles_(plan) {}
+      : plan_(plan), options_(options), control_(context, {.time_s = options.time_limit_s}), triangles_(plan) {}
 
   RoutesResult run() {
     made_.messages = route_obstructions(plan_);
     if (!made_.messages.empty()) return ended(Status::obstructed);
-    if (!find_ways()) return ended(made_.messages.empty() ? stopped_ : Status::no_progress);
+    if (!find_ways())
+      return ended(made_.messages.empty() ? control_.status_or(Status::no_progress) : Status::no_progress);
     if (options_.ways_only) {
       const RouteChains chains = sample_chains(plan_, ways_, options_.spacing, true);
       made_.asked = chains.routes(chains.x);
       return ended(Status::no_progress);
     }
-    for (std::size_t k = 0; k < pushed_aside.size() && !is_stopped(); ++k) {
+    for (std::size_t k = 0; k < pushed_aside.size() && !control_.stopped(); ++k) {
       part(pushed_aside[k], static_cast<double>(k) / pushed_aside.size(), 1 << k);
       if (made_.found.hold()) return ended(Status::embedded);
     }
-    return ended(is_stopped() ? stopped_ : Status::no_progress);
+    return ended(control_.stopped() ? control_.status_or(Status::no_progress) : Status::no_progress);
   }
 
  private:
-  bool is_stopped() {
-    if (context_ && context_->is_cancelled()) stopped_ = Status::cancelled;
-    if (options_.time_limit_s > 0 && clock_.stage("").seconds >= options_.time_limit_s) stopped_ = Status::time_limit;
-    return stopped_ != Status::no_progress;
-  }
   RoutesResult ended(Status status) {
     made_.status = status;
-    made_.seconds = clock_.stage("").seconds;
+    made_.seconds = control_.seconds();
     return std::move(made_);
   }
-  void report(double fraction, std::string_view phase) {
-    done_ = std::max(done_, fraction);
-    if (context_ && context_->on_progress) context_->on_progress({.fraction = done_, .phase = phase});
-  }
-
   /// Straight, or past the obstacles; spread: later agents rather keep away from the ways of earlier ones.
   std::vector<Legs> ways(std::optional<WayFinder>& finder, bool spread) {
     double widest = 0;
@@ -86,7 +77,7 @@ class Planning {
     for (const RouteAgent& agent : plan_.agents) {
       Legs& legs = found.emplace_back();
       const std::vector<Vec3> places = places_of(agent);
-      for (std::size_t k = 0; k + 1 < places.size() && !is_stopped(); ++k) {
+      for (std::size_t k = 0; k + 1 < places.size() && !control_.stopped(); ++k) {
         std::optional<std::vector<Vec3>> way;
         if (!finder) way = {places[k], places[k + 1]};
         for (std::size_t d = 0; d < way_distances.size() && !way; ++d)
@@ -108,13 +99,13 @@ class Planning {
   }
 
   bool find_ways() {
-    report(0, "find ways");
+    control_.tell(0, "find ways");
     std::optional<WayFinder> finder;
     if (!triangles_.empty()) finder.emplace(plan_, triangles_);
     shortest_ways_ = ways(finder, false);
     if (!made_.messages.empty()) return false;
     ways_ = finder && !plan_.timed ? ways(finder, true) : shortest_ways_;
-    return !is_stopped();
+    return !control_.stopped();
   }
 
   /// The middles of legs aside, each its own way: directions by the golden angle.
@@ -149,7 +140,7 @@ class Planning {
 
   /// Minimises for some steps, or until it settles.
   void minimise(RouteEnergy& energy, Eigen::VectorXd& x, int steps, double radius) {
-    if (is_stopped()) return;
+    if (control_.stopped()) return;
     energy.factorise(x);
     LbfgsOptions options;
     options.max_iterations = steps;
@@ -164,8 +155,8 @@ class Planning {
                        state.forget = true;
                      }
                      const std::size_t n = values.size();
-                     return is_stopped() || (n > settled_steps && values[n - 1 - settled_steps] - values[n - 1] <
-                                                                      settled * std::abs(values[n - 1]));
+                     return control_.stopped() || (n > settled_steps && values[n - 1 - settled_steps] - values[n - 1] <
+                                                                            settled * std::abs(values[n - 1]));
                    });
   }
 
@@ -189,7 +180,7 @@ class Planning {
   /// One try; `before`: part of all work that is done; `longer`: factor of the steps it may take.
   void part(double by, double before, int longer) {
     const auto tell = [&](double fraction, std::string_view phase) {
-      report(before + fraction / pushed_aside.size(), phase);
+      control_.tell(before + fraction / pushed_aside.size(), phase);
     };
     RouteChains chains = sample_chains(plan_, ways_, options_.spacing, true);
     if (made_.alone_length.empty()) measure_alone();
@@ -222,7 +213,7 @@ class Planning {
       const RouteMargins margins = energy.margins(x);
       return margins.contact >= 1 + margin && margins.turn <= 1 - margin;
     };
-    for (int round = 0; round < most_rounds && !is_stopped(); ++round) {
+    for (int round = 0; round < most_rounds && !control_.stopped(); ++round) {
       tell(0.4 + 0.4 * round / most_rounds, "part");
       minimise(energy, x, longer * parting_steps, chains.least_radius);
       if (is_apart()) break;
@@ -249,10 +240,7 @@ class Planning {
 
   const RoutePlan& plan_;
   const RouteOptions& options_;
-  Context* context_;
-  StageClock clock_;
-  Status stopped_ = Status::no_progress;
-  double done_ = 0;
+  RunControl control_;
   ObstacleTriangles triangles_;
   std::vector<Legs> shortest_ways_, ways_;
   RoutesResult made_;

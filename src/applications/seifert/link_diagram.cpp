@@ -222,10 +222,11 @@ std::optional<LinkDiagram> diagram_of(const Link& link, const Eigen::Matrix3d& f
   return diagram;
 }
 
-std::optional<LinkDiagram> best_diagram(const Link& link, int directions) {
+std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const std::function<bool()>& stop) {
   std::optional<LinkDiagram> best;
   double best_room = 0;
   for (const Eigen::Matrix3d& frame : views(directions)) {
+    if (best && stop && stop()) break;
     std::optional<LinkDiagram> diagram = diagram_of(link, frame);
     if (!diagram) continue;
     double room = std::numeric_limits<double>::infinity();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -51,7 +52,8 @@ std::optional<LinkDiagram> diagram_of(const Link& link, const Eigen::Matrix3d& f
 
 /// The view, of `directions` many, whose surface is connected and of largest Euler characteristic; the roomiest of
 /// those. The coordinate axes are the first three. None where no view is generic.
-std::optional<LinkDiagram> best_diagram(const Link& link, int directions);
+/// stop: asked after each view; true: the best of those seen is enough, once there is one.
+std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const std::function<bool()>& stop = {});
 
 /// The Alexander polynomial, all variables equal, by Fox calculus on the Wirtinger presentation; without units.
 Polynomial alexander_polynomial(const LinkDiagram& diagram);

@@ -6,9 +6,9 @@
 #include "applications/seifert/fair_surface.h"
 #include "applications/seifert/link_diagram.h"
 #include "geometry/box.h"
+#include "run/run_control.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/seifert.h"
-#include "unsnarl/stage_clock.h"
 
 namespace unsnarl {
 namespace {
@@ -82,9 +82,9 @@ std::size_t intersecting_pairs(const SpanningMesh& mesh) {
 SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, Context* context) {
   check(options);
   check_link(link);
-  StageClock clock;
+  RunControl control(context, {.time_s = options.time_limit_s});
   SeifertResult result;
-  const std::optional<LinkDiagram> diagram = best_diagram(link, options.views);
+  const std::optional<LinkDiagram> diagram = best_diagram(link, options.views, [&] { return control.stopped(); });
   if (!diagram)
     throw std::invalid_argument("no view of the link tells its strands apart; are some closer than rounding?");
   result.crossings = diagram->crossings.size();
@@ -100,16 +100,10 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
     return without_surface(std::move(result), fmt::format("{} pairs of its faces intersect", pairs));
   SpanningMesh mesh = start;
   if (options.fair) {
-    const auto progress = [&](double fraction) {
-      if (context && context->on_progress) context->on_progress({.fraction = fraction, .phase = "fair"});
-    };
-    const auto goes_on = [&] {
-      if (context && context->is_cancelled()) result.status = Status::cancelled;
-      if (options.time_limit_s > 0 && clock.stage("").seconds >= options.time_limit_s)
-        result.status = Status::time_limit;
-      return result.status == Status::embedded;
-    };
+    const auto progress = [&](double fraction) { control.tell(fraction, "fair"); };
+    const auto goes_on = [&] { return !control.stopped(); };
     mesh = fair(std::move(mesh), static_cast<Index>(link.point_count()), edge, {}, progress, goes_on);
+    result.status = control.status_or(Status::embedded);
   }
   const auto faults = [&](const SpanningMesh& made) {
     return seifert_faults(check_seifert_surface(surface_of(made), link, options.views, options.handles));
@@ -126,7 +120,7 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
   if (!wrong.empty()) return without_surface(std::move(result), wrong);
   result.surface = surface_of(mesh);
   result.area = area_of(mesh);
-  result.seconds = clock.stage("").seconds;
+  result.seconds = control.seconds();
   return result;
 }
 
