@@ -20,10 +20,9 @@ struct RecoverResult {
 /// Moves the free vertices of an embedded patch back toward rest, as near as contact allows, without ever leaving the
 /// embedded set (paper §3.4, eq. 12; barrier and step filter after Incremental Potential Contact).
 ///
-/// Steps: gaps are opened; Newton steps move all free vertices; vertices that can reach rest snap there; Newton steps
-/// move the others on; vertices snap again.
-/// \pre patch.x has no intersecting pair with an active triangle, in any class. Pairs that are there nevertheless are
-/// tolerated, and none is added.
+/// In order: gaps are opened; Newton steps move all free vertices; vertices that can reach rest snap there; flipped
+/// faces are turned over; Newton steps move the others on; vertices snap again. \pre patch.x has no intersecting pair
+/// with an active triangle, in any class. Pairs that are there nevertheless are tolerated, and none is added.
 /// Guarantees:
 /// - No new intersecting pair.
 /// - No step flips a face against its rest shape. Faces that were flipped before are pulled back.

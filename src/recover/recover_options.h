@@ -27,8 +27,8 @@ struct ObjectiveOptions {
   double flip_weight = 0.3;  ///< Weight of the penalty of flipped faces (unit: contact forces)
   /// Share of ARAP's Hessian with the rotations held; the rest is Gauss-Newton, in [0, 1] (no unit)
   double rotation_damping = 0.1;
-  /// Artificial time step of the paper's variant: each step also pays |x - x_last|^2 / (2 time_step), in the Hessian
-  /// alone; infinite: none (unit: mass)
+  /// Artificial time step of the paper's variant: each step also pays |x - x_last|^2 / (2 time_step) per mass, in the
+  /// Hessian alone; infinite: none (no unit)
   double time_step = std::numeric_limits<double>::infinity();
 };
 
@@ -69,8 +69,8 @@ struct RecoverOptions {
   bool snaps = true;           ///< vertices near their rest positions may go straight there
   double snap_distance = 0.1;  ///< A vertex this near to its rest position may go straight there (unit: h)
 
-  // After the first stage, rounds of steps around flipped faces with a heavier penalty turn these over again; the
-  // stages after it, with a narrower barrier, no longer do.
+  // After the first stage, while the barrier is wide, rounds of steps around flipped faces turn these over by a heavier
+  // penalty. The stages after the rounds do not flip them again.
   int unflip_rounds = 3;     ///< Rounds of turning flipped faces over, at most; 0: none (unit: rounds)
   double unflip_factor = 5;  ///< The penalty of flipped faces grows by this from round to round (no unit)
   /// `stop_decrease` is divided by this in these rounds: a few faces are a small part of the energy (no unit)
