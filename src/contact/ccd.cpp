@@ -102,7 +102,8 @@ double largest_step(std::span<const SeparatedStencil> stencils, const Positions&
 
 int filter_displacements(std::span<const SeparatedStencil> stencils, const Positions& x, Positions& p,
                          OnCollision on_collision, const CcdOptions& options) {
-  // Shortened displacements may collide anew. After this many sweeps whoever still collides stays where it is.
+  /// Shortened displacements may collide anew; after this many sweeps the vertices that still collide stay in place
+  /// (unit: sweeps)
   constexpr int sweeps_of_shortening = 8;
   std::vector<std::uint8_t> changed(static_cast<std::size_t>(x.cols()), 1);
   std::vector<std::uint8_t> changing(changed.size(), 0);

@@ -12,16 +12,17 @@
 namespace unsnarl {
 namespace {
 
-/// What rounding may add to a length relative to it, with much to spare.
+/// Rounding changes a length by less than this, with a wide reserve (unit: share of the length)
 constexpr double length_rounding = 1e-9;
-/// Cross products shorter than this are not made unit vectors: their squares may underflow.
+/// Shorter cross products are not made unit vectors, since their squares may underflow (unit: squared length)
 constexpr double least_normal = 1e-140;
 
-/// Pairs of triangles that are gathered before the next look at the clock: a tenth of a second.
+/// Pairs of triangles that are gathered between two looks at the clock, about a tenth of a second (unit: pairs)
 constexpr std::uint32_t candidates_between_looks = 1 << 15;
-constexpr Index primitives_a_task = 1024;  // triangles or edges
+/// A task of a parallel loop has this many triangles or edges (unit: primitives)
+constexpr Index primitives_a_task = 1024;
 
-/// What is passed along an axis by points that start at `at` and move by up to `motion`.
+/// Interval along an axis that a point covers which starts at `at` and moves by `motion`.
 struct Interval {
   double lo, hi;
   Interval(double at, double motion) : lo(at + std::min(0.0, motion)), hi(at + std::max(0.0, motion)) {}
@@ -35,8 +36,8 @@ double gap(const Interval& a, const Interval& b) {
   return std::max(a.lo - b.hi, b.lo - a.hi);
 }
 
-/// Whether two edges stay farther apart than `length` along the normal of both while their vertices go along p, by
-/// more than rounding may feign.
+/// Whether two edges stay farther apart than `length` along their common normal while their vertices move by p, beyond
+/// doubt from rounding.
 bool stay_apart_along_normal(double length, const Positions& x, const Positions& p, const Edge& e, const Edge& g) {
   const Vec3 u = x.col(e[1]) - x.col(e[0]), v = x.col(g[1]) - x.col(g[0]), r = x.col(e[0]) - x.col(g[0]);
   const Vec3 n = u.cross(v);
@@ -46,12 +47,14 @@ bool stay_apart_along_normal(double length, const Positions& x, const Positions&
   second.extend({0, n.dot(p.col(g[1]))});
   const double apart = gap(first, second);
   // (a + b)^2 <= (1 + s) a^2 + (1 + 1/s) b^2 for the length along the normal a and the rounding b, s = 1/1000.
+  constexpr double length_factor = 1.001;   ///< 1 + s (fixed by s)
+  constexpr double rounding_factor = 1001;  ///< 1 + 1/s (fixed by s)
   const double u2 = u.squaredNorm(), v2 = v.squaredNorm();
   const double p2 = std::max(
       {p.col(e[0]).squaredNorm(), p.col(e[1]).squaredNorm(), p.col(g[0]).squaredNorm(), p.col(g[1]).squaredNorm()});
   const double extent2 = 4 * (u2 + v2 + r.squaredNorm() + 4 * p2);
   const double error2 = length_rounding * length_rounding * extent2 * u2 * v2;
-  return apart > 0 && apart * apart > 1.001 * length * length * n.squaredNorm() + 1001 * error2;
+  return apart > 0 && apart * apart > length_factor * length * length * n.squaredNorm() + rounding_factor * error2;
 }
 
 /// Bit 3 k + l: corner k of a is corner l of b.
@@ -61,7 +64,7 @@ unsigned equal_corners(const FourIndices& a, const FourIndices& b) {
   return equal;
 }
 
-/// By the corners that two triangles share, what else they do.
+/// For the corners that two triangles share: the edges with a common end, and the shared corners.
 struct Shared {
   std::uint16_t edges = 0;     // bit 3 k + l: edge k of a has an end in common with edge l of b
   std::uint8_t corners_a = 0;  // bit k: corner k of a is one of b
@@ -168,7 +171,7 @@ void ContactCandidates::update_triangle(const Positions& x, double radius, const
 void ContactCandidates::gather(const Positions& x, double radius, const MotionBounds& bounds,
                                std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils,
                                const std::function<bool()>& stop) {
-  // What stands still needs no looking at, however much of it there is: only pairs with a moving triangle are visited.
+  // Only pairs with a moving triangle are visited, so that the cost does not grow with what stands still.
   const Index triangle_count = static_cast<Index>(triangles_.size());
   moving_.resize(triangles_.size());
   for_chunks(triangle_count, primitives_a_task, [&](Index begin, Index end) {
@@ -237,7 +240,7 @@ void ContactCandidates::gather_pair(const Positions& x, double radius, const Mot
     for_bits(near, [&](int k) {
       const Index v = triangles_[t][k];
       if (!moves[v] && !moving_[other]) return;
-      // Stays farther from the plane than that: no need of the distance.
+      // Farther from the plane than the radius: the distance is not needed.
       const double reach = radius + (bounds.around[v] + slab.around);
       const Vec3 to = x.col(v) - x.col(f[0]);
       const Interval range(slab.normal.dot(to), slab.normal.dot(bounds.along.col(v)));

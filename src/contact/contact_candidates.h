@@ -15,9 +15,10 @@ namespace unsnarl {
 
 struct NearStencil {
   Stencil stencil;
-  double distance = 0;            ///< of its primitives
+  double distance = 0;            ///< between its primitives
   Vec3 direction = Vec3::Zero();  ///< of the shortest way (Closest::direction)
-  double least_distance = 0;  ///< that they keep within their bounds, at least: least_distance() along the shortest way
+  /// Lower bound of the distance while vertices keep to their bounds: least_distance() along `direction`.
+  double least_distance = 0;
   friend bool operator==(const NearStencil& s, const NearStencil& t) = default;
 };
 
@@ -29,15 +30,14 @@ class ContactCandidates {
   /// The triangles may include obstacles; vertices without a triangle take part in nothing. The span must outlive this.
   ContactCandidates(std::span<const Triangle> triangles, Index vertex_count);
 
-  /// All stencils with at least one vertex v with moves[v] != 0 whose primitives may come `radius` close while every
-  /// vertex keeps to its bounds, and few others: only some whose least_distance is that small. `moves` has one entry a
-  /// vertex. Parallel; the order is a function of the arguments, and of those of the first call, alone. Throws
-  /// WorkStopped soon after `stop` says so.
+  /// All stencils with a vertex v with moves[v] != 0 whose primitives may come closer than `radius` while every vertex
+  /// keeps to its bounds, and a few more. `moves` has one entry a vertex. Parallel; the order depends only on the
+  /// arguments, and on those of the first call. Throws WorkStopped soon after `stop` says so.
   void gather(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
               std::vector<NearStencil>& stencils, const std::function<bool()>& stop = {});
 
-  /// The same for the stencils with at least one of some `vertices`, after x and the bounds of these alone have changed
-  /// since the last gathering; at a cost that follows their number. Each once.
+  /// The same for the stencils with one of `vertices`, after only the positions and bounds of these have changed since
+  /// the last gathering. The cost grows with their number. Lists each stencil once.
   void gather_around(std::span<const Index> vertices, const Positions& x, double radius, const MotionBounds& bounds,
                      std::vector<NearStencil>& stencils, const std::function<bool()>& stop = {});
 
@@ -48,7 +48,7 @@ class ContactCandidates {
   const IndexLists& triangles_of_vertex() const { return triangles_of_vertex_; }
 
  private:
-  /// Takes over where triangle t may be.
+  /// Updates where triangle t may be.
   void update_triangle(const Positions& x, double radius, const MotionBounds& bounds, Index t);
   void gather_active(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
                      std::vector<NearStencil>& stencils, const std::function<bool()>& stop);
@@ -60,13 +60,13 @@ class ContactCandidates {
   IndexLists triangles_of_vertex_;
   IndexLists around_vertex_;  // the corners of the triangles at each vertex, itself among them; ascending
   IndexLists around_edge_;    // the same of each edge
-  // Every vertex and edge is looked after by its first triangle, so that a stencil is listed once.
+  // Every vertex and edge belongs to its first triangle, so that a stencil is listed once.
   std::vector<std::uint8_t> owned_corners_;  // bit k: corner k; bit 3 + k: edge k of the triangle
   std::vector<std::uint8_t> moving_;         // per triangle: has a vertex that is gathered around
   std::vector<std::uint8_t> around_;         // per vertex: gather_around() it
   std::vector<Box> boxes_;
   std::vector<FourIndices> corners_;  // of the triangles; the last is -1
-  // As of the last gathering:
+  // Of the last gathering:
   struct Slab {
     Vec3 normal;        // of the triangle, unit or zero
     double lo, hi;      // where its corners may be along it, from the first one

@@ -7,13 +7,13 @@
 namespace unsnarl {
 namespace {
 
-// Squared sine of the smallest angle for which the closed formulas for interiors are trusted alone; below it the
-// boundaries are tried as well and the nearest point found wins. Costs nothing on ordinary meshes.
+/// Squared sine of the angle below which boundaries are tried besides the closed formula for interiors, and the nearest
+/// point found wins (no unit)
 constexpr double degenerate_sin2 = 1e-10;
 
-// Squared sine above which rounding does not blur on which sides the nearest point of lines or planes lies: only
-// boundaries that it lies beyond are tried. (A convex function's minimum in a convex set lies on a side that faces its
-// minimum.)
+/// Squared sine of the angle above which only the boundaries that the nearest point of lines or planes lies beyond are
+/// tried: rounding does not blur the side. A convex function's minimum in a convex set lies on a side that faces its
+/// minimum (no unit)
 constexpr double safe_sin2 = 1e-4;
 
 /// Nearest points before the square root is taken.

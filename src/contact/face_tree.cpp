@@ -9,19 +9,20 @@
 namespace unsnarl {
 namespace {
 
-/// Boxes are turned only where that shrinks their total surface to less than this share: turning costs a product a
-/// vertex and pays off for bundles of needles (1/40 on an extruded shape with 22 million pairs of boxes).
+/// Boxes are turned where that shrinks their total surface below this share, as for bundles of needles; turned boxes
+/// cost a product for each vertex (no unit)
 constexpr double worth_turning = 0.25;
-constexpr Index grain = 4096;  // triangles a task
+/// A box of turned positions is enlarged by this, since products are rounded (unit: largest coordinate)
+constexpr double turned_reserve = 4e-15;
+constexpr Index grain = 4096;  ///< A task of a parallel loop has this many triangles (unit: triangles)
 
 double half_surface(const Box& box) {
   const Vec3 d = box.hi - box.lo;
   return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
-/// Products are rounded: some units in the last place keep the box around what was turned.
 Box with_reserve(const Box& box) {
-  return box.inflated(4e-15 * std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff()));
+  return box.inflated(turned_reserve * std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff()));
 }
 
 Box turned_box(const Eigen::Matrix3d& frame, const Positions& x, const Triangle& t) {

@@ -22,8 +22,8 @@ class FaceTree {
 
   /// Takes over the positions; every box is inflated by `margin`.
   void update(const Positions& x, double margin = 0);
-  /// The same where only these triangles (ids, each once) have moved since, and without margin then and now: at a cost
-  /// that follows their number. Not at first.
+  /// The same if only these triangles (ids, each once) have moved since the last call, and neither call has a margin.
+  /// The cost grows with their number. Precondition: there was such a call.
   void update(const Positions& x, std::span<const Index> moved);
 
   /// From now on all pairs with an active triangle are visited, as at first.
@@ -31,8 +31,7 @@ class FaceTree {
   /// From now on only pairs with one of these triangles (ids, each once) are visited.
   void set_only_active(std::span<const Index> active) { bvh_.set_only_active(active); }
 
-  /// Calls visit(Index) once for every triangle whose box overlaps one around `box`: for all that reach into `box`, and
-  /// for some that only come near.
+  /// Calls visit(Index) once for every triangle that reaches into `box`, and for some that are only near it.
   template <class Visit>
   void query(const Box& box, Visit&& visit) const {
     bvh_.query(in_frame(box), visit);

@@ -13,14 +13,14 @@
 namespace unsnarl {
 namespace {
 
-/// Share of the triangles, or of the active ones, below which those that moved are worth telling apart.
+/// Triangles that moved are looked up one by one where they are fewer than this share of all, or of the active ones (no
+/// unit)
 constexpr double few_moved = 0.25;
-/// A surface that has moved as a whole so many times will go on to do so.
+/// A surface that moved as a whole this many times is expected to do so again (unit: times)
 constexpr int seldom = 2;
-/// Pairs that visit() hands over at once, in each task of the tree: 12 kB.
+/// A task of the tree hands over pairs in blocks of this size (unit: pairs)
 constexpr std::size_t pairs_a_block = 1024;
-/// Pairs of overlapping boxes between two looks at the clock: a tenth of a second where all are decided. Surfaces of
-/// ten thousand faces have fewer.
+/// Pairs of overlapping boxes that are decided between two looks at the clock, about a tenth of a second (unit: pairs)
 constexpr std::uint32_t pairs_between_looks = 1 << 18;
 
 bool is_few(std::size_t count, std::size_t of) {
@@ -31,8 +31,8 @@ TrianglePoints rotated(const Positions& x, const Triangle& t, int first) {
   return {x.col(t[first]), x.col(t[(first + 1) % 3]), x.col(t[(first + 2) % 3])};
 }
 
-/// Whether two triangles share a vertex of an unfolded fan: nothing is left to decide. Without branches, since most
-/// pairs of a check come here, in no order.
+/// Whether two triangles share a vertex of an unfolded fan, so that they do not intersect. Without branches: most pairs
+/// of a check come here, in no order, so that branches would be mispredicted.
 bool share_an_unfolded_fan(const VertexFans& fans, const Triangle& a, const Triangle& b) {
   bool share = false;
   for (Index v : a) share |= ((v == b[0]) | (v == b[1]) | (v == b[2])) & fans.is_unfolded(v);
@@ -42,7 +42,7 @@ bool share_an_unfolded_fan(const VertexFans& fans, const Triangle& a, const Tria
 }  // namespace
 
 bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairClass& kind) {
-  // Of the millions of pairs of a check nearly all share one vertex or none: those are told by one look each.
+  // Nearly all pairs of a check share one vertex or none; these cases are decided first.
   unsigned equal = 0;  // bit 3 k + l: corner k of a is corner l of b
   for (unsigned k = 0; k < 3; ++k)
     for (unsigned l = 0; l < 3; ++l) equal |= static_cast<unsigned>(a[k] == b[l]) << (3 * k + l);
@@ -51,7 +51,7 @@ bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairCl
   if (equal == 0) {
     kind = PairClass::disjoint;
     meeting = triangles_meet(rotated(x, a, 0), rotated(x, b, 0));
-  } else if ((equal & (equal - 1)) == 0) {  // a single bit, without the call that counting bits is on older processors
+  } else if ((equal & (equal - 1)) == 0) {  // a single bit; counting bits is a call on older processors
     const int bit = std::countr_zero(equal), corner_a = bit / 3, corner_b = bit % 3;
     shared[corner_a] = corner_b;
     kind = PairClass::one_vertex;

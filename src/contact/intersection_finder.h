@@ -16,9 +16,8 @@ namespace unsnarl {
 /// Exact class of the pair of triangles (a, b), or nothing where they meet only in the hull of the vertices they share.
 bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairClass& kind);
 
-/// Knows where the triangles of a set are while their vertices move: which of them intersect, and which are near a
-/// place. The tree is built once; where few triangles move, the cost follows their number, but for a look at every
-/// vertex and triangle.
+/// Finds which triangles of a set intersect, and which are near a place, while their vertices move. The tree is built
+/// once. If few triangles move, the cost grows with their number, apart from one pass over all vertices and triangles.
 class IntersectionFinder {
  public:
   /// Pairs of two triangles >= active_count are skipped (obstacles among themselves), and those of two groups. The
@@ -26,14 +25,14 @@ class IntersectionFinder {
   explicit IntersectionFinder(std::span<const Triangle> triangles, VertexGroups groups = {});
   IntersectionFinder(std::span<const Triangle> triangles, Index active_count, VertexGroups groups = {});
 
-  /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates, anew for what has moved since the last
-  /// time. Same result at any thread count. Throws WorkStopped soon after `stop` says so.
+  /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates; only triangles that moved since the last
+  /// call are tested again. Same result at any thread count. Throws WorkStopped soon after `stop` says so.
   std::vector<IntersectingPair> find(const Positions& x, const std::function<bool()>& stop = {});
 
-  /// Takes part of visit().
+  /// What visit() calls.
   struct PairVisitor {
-    std::function<bool(const IntersectingPair&)> keep;            ///< of those that intersect; empty: all
-    std::function<void(std::span<const IntersectingPair>)> take;  ///< a block of those kept
+    std::function<bool(const IntersectingPair&)> keep;  ///< whether to take an intersecting pair; empty: take all
+    std::function<void(std::span<const IntersectingPair>)> take;  ///< gets a block of pairs
     std::function<bool()> stop;                                   ///< may be empty
   };
   /// The same pairs in blocks and in no order, so that memory does not follow their number; none is remembered. `keep`
@@ -74,14 +73,14 @@ class IntersectionFinder {
     std::vector<std::uint8_t> is_in_;
   };
 
-  /// Every call that changes something begins and ends with these. Where an exception came between them, nothing of
-  /// what is here can be trusted: the next call begins anew.
+  /// Every call that changes the state begins and ends with these. If an exception came between them, the next call
+  /// discards the state and starts again.
   void begin_change();
   void end_change() { is_changing_ = false; }
-  /// Takes over the positions, but for the tree.
+  /// Takes over the positions; the tree is left as it is.
   void note(const Positions& x);
   void update_tree();
-  /// Those pairs that the tree visits, but for those that skip(i, j) is true of.
+  /// The intersecting ones of the pairs that the tree visits, without those for which skip(i, j) is true.
   template <class Skip>
   std::vector<IntersectingPair> decide(const std::function<bool()>& stop, Skip&& skip) const;
   /// Calls found(task, pair) for those that intersect.
@@ -96,14 +95,14 @@ class IntersectionFinder {
   bool is_changing_ = false;
   FaceTree tree_;
   Some outside_tree_;                          // triangles that have moved since it was updated
-  Positions x_;                                // now
+  Positions x_;                                // the present positions
   std::vector<IntersectingPair> pairs_;        // as they were last decided
-  bool is_all_undecided_ = true;               // since then; or:
-  Some undecided_;                             // triangles that have moved since then
-  bool has_only_undecided_active_ = false;     // and not all active triangles
-  int decided_as_a_whole_ = 0;                 // so many times
-  std::optional<VertexFans> fans_;             // from the first of them on, or else in moving_
-  std::optional<MovingIntersections> moving_;  // for more of these
+  bool is_all_undecided_ = true;               // all pairs have to be decided again; otherwise
+  Some undecided_;                             // the pairs of these triangles have to be
+  bool has_only_undecided_active_ = false;     // the tree's active triangles are the undecided ones
+  int decided_as_a_whole_ = 0;                 // how many times all pairs were decided
+  std::optional<VertexFans> fans_;             // set when all pairs are decided for the first time
+  std::optional<MovingIntersections> moving_;  // takes the fans over when that happens often
 };
 
 }  // namespace unsnarl

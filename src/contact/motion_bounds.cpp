@@ -7,7 +7,7 @@
 namespace unsnarl {
 namespace {
 
-/// What rounding may add to a projection, relative to the lengths projected, with much to spare.
+/// Rounding changes a projection by less than this, with a wide reserve (unit: share of the projected lengths)
 constexpr double projection_rounding = 1e-14;
 
 }  // namespace

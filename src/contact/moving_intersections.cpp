@@ -25,7 +25,7 @@ void MovingIntersections::add_joined(const Positions& x, Index begin, Index end,
     for (std::size_t j = 1; j < at.size(); ++j)
       for (std::size_t i = 0; i < j && at[i] < active_count_; ++i) {
         const Triangle &a = triangles_[at[i]], &b = triangles_[at[j]];
-        // What shares two vertices is decided by either's fan, or else at the first of them.
+        // A pair that shares two vertices is decided by the fan of either, or else at the first of them.
         if (!near_.overlap(at[i], at[j])) continue;
         const bool elsewhere = std::any_of(
             a.begin(), a.end(), [&](Index u) { return u != v && has_corner(b, u) && (u < v || fans_.is_unfolded(u)); });

@@ -9,13 +9,16 @@
 namespace unsnarl {
 namespace {
 
+/// A task of a parallel loop has this many triangles (unit: triangles)
 constexpr Index triangles_a_task = 2048;
-// Room around a box: for so many motions like the last, within these shares of the mean diagonal of the boxes. Who is
-// faster still would leave it at once and gets none.
+/// A box is enlarged to hold its triangle for this many motions like the last one (unit: motions)
 constexpr double motions = 12;
+/// A box is enlarged by at least this much (unit: mean diagonal of the boxes)
 constexpr double least_room = 0.03;
+/// A box is enlarged by at most this much; a triangle that moves farther in one motion gets no room, since it would
+/// leave the box at once (unit: mean diagonal of the boxes)
 constexpr double most_room = 0.4;
-/// Share of the triangles up to which those that left their boxes are looked up one by one.
+/// Triangles that left their boxes are looked up one by one up to this share of all (no unit)
 constexpr double few_left = 0.2;
 
 bool contains(const Box& outer, const Box& inner) {

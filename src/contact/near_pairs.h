@@ -11,9 +11,9 @@
 
 namespace unsnarl {
 
-/// Lists the pairs of triangles near each other, but for those that share a vertex, on a surface that moves a little at
-/// a time. Every triangle's box has some room around it, by how fast it moves; only the pairs of those that have left
-/// theirs are looked for anew.
+/// Lists the pairs of triangles that are near each other and share no vertex, on a surface that moves a little at a
+/// time. Every triangle's box is enlarged according to its speed; only triangles that left their enlarged boxes are
+/// looked up again.
 class NearPairs {
  public:
   using Pair = std::array<Index, 2>;  // ascending
@@ -23,11 +23,11 @@ class NearPairs {
   NearPairs(std::span<const Triangle> triangles, Index active_count, VertexGroups groups = {})
       : triangles_(triangles), active_count_(active_count), groups_(groups) {}
 
-  /// Takes over the positions: from now on all pairs are listed whose boxes overlap, each once, and others a little
-  /// farther apart. The order is a function of all positions up to now.
+  /// Takes over the positions. The list then holds every pair whose boxes overlap, each once, and some pairs that are a
+  /// little farther apart. Its order depends on all positions so far.
   void update(const Positions& x);
   std::span<const Pair> pairs() const { return pairs_; }
-  /// Whether the boxes of two triangles overlap at the positions; of a few that do not too.
+  /// Whether the boxes of two triangles overlap at the positions. May be true for a few that do not.
   bool overlap(Index a, Index b) const { return rounded_[a].overlaps(rounded_[b]); }
 
  private:
@@ -39,10 +39,10 @@ class NearPairs {
   Index active_count_;
   VertexGroups groups_;
   double length_ = 0;                // mean diagonal of the boxes
-  std::vector<Box> boxes_, padded_;  // now; with room, when their triangle last left it
-  std::vector<RoundedBox> rounded_;  // as they are now
+  std::vector<Box> boxes_, padded_;  // at the positions; enlarged, as of when the triangle last left it
+  std::vector<RoundedBox> rounded_;  // the boxes at the positions
   std::vector<std::uint8_t> left_;   // per triangle: has left its box
-  Bvh bvh_;                          // of the roomy ones
+  Bvh bvh_;                          // over the enlarged boxes
   std::vector<Pair> pairs_;
 };
 

@@ -22,9 +22,9 @@ double gap_along(const Positions& x, const Triangle& s, const Triangle& t, const
   return std::max(t_least - s_most, s_least - t_most);
 }
 
-/// True: the projections onto some line are at least so far apart, and so are the triangles. The lines are that of
-/// their centres, the normals, and those in either plane across an edge: long needles side by side are far apart along
-/// one of them, while their boxes overlap.
+/// Whether the projections of the triangles onto some line are at least this far apart, so that the triangles are too.
+/// The lines tried: through both centres, the normals, and in either plane across each edge. Long needles side by side
+/// are separated by one of these although their boxes overlap.
 bool are_apart(const Positions& x, const Triangle& s, const Triangle& t, double distance) {
   const Vec3 centres = x.col(t[0]) + x.col(t[1]) + x.col(t[2]) - x.col(s[0]) - x.col(s[1]) - x.col(s[2]);
   if (gap_along(x, s, t, centres.normalized()) >= distance) return true;
@@ -57,8 +57,8 @@ double squared_distance(const Box& a, const Box& b) {
   return (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(0).squaredNorm();
 }
 
-/// Branch and bound in a tree of boxes: pairs of nodes that are farther from each other than the nearest pair so far,
-/// or hold one group alone, are not entered.
+/// Branch and bound in a tree of boxes: pairs of nodes that are farther apart than the nearest pair so far, or that
+/// hold only one group, are skipped.
 class Search {
  public:
   Search(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group)
@@ -75,7 +75,8 @@ class Search {
   const SmallestGap& nearest() const { return nearest_; }
 
  private:
-  static constexpr Index leaf_size = 4;  // triangles
+  /// A leaf of the tree holds at most this many triangles (unit: triangles)
+  static constexpr Index leaf_size = 4;
   struct Node {
     Box box;
     Index begin, end;   // order_[begin, end) is below it

@@ -20,7 +20,7 @@ struct SmallestGap {
 SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group = {});
 
 /// The pairs of triangles (the smaller number first, sorted) that share no vertex and are less than `distance` apart.
-/// Whether those that intersect are among them is not said.
+/// Pairs that intersect may or may not be among them.
 std::vector<std::array<Index, 2>> pairs_closer_than(std::span<const Triangle> triangles, const Positions& x,
                                                     double distance);
 

@@ -9,8 +9,11 @@
 namespace unsnarl {
 namespace {
 
+/// A task of a parallel loop has this many vertices (unit: vertices)
 constexpr Index vertices_a_task = 1024;
-constexpr std::size_t most_triangles = 16;  // of a fan: ordering them costs their square
+/// Larger fans are decided pair by pair: ordering a fan costs the square of its size (unit: triangles)
+constexpr std::size_t most_triangles = 16;
+/// Marks a vertex along whose axes its fan is folded; axes are 0, 1, 2 (fixed by three dimensions)
 constexpr std::uint8_t no_axis = 3;
 
 /// Appends the neighbours of v in the order of the triangles around it; nothing where these are no single fan.

@@ -8,11 +8,10 @@
 
 namespace unsnarl {
 
-/// The triangles around each vertex, and which of these fans are unfolded: seen along a coordinate axis, their
-/// triangles follow one another around the vertex, none turned over or without area, within one turn. Two triangles of
-/// an unfolded fan meet in the hull of the vertices they share alone: their shadows lie in sectors around the vertex
-/// that meet in no more than a ray, above which each has only its own edge. Decided exactly, at a fraction of what a
-/// test of every pair costs.
+/// The triangles around each vertex (its fan), and which fans are unfolded: seen along a coordinate axis, the triangles
+/// follow one another around the vertex within one turn, and none is turned over or without area. Two triangles of an
+/// unfolded fan meet only in the hull of the vertices they share, since their projections lie in sectors around the
+/// vertex that share at most a ray. Decided exactly, much faster than by testing every pair.
 class VertexFans {
  public:
   /// Fans of the vertices of the triangles [0, active_count). Those that are no single fan of consistent orientation,

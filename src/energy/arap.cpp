@@ -17,9 +17,14 @@ Eigen::Matrix3d from_quaternion(const Eigen::Vector4d& q) {  // w x y z, unit
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 
-// Below this product of the largest eigenvalue's gaps to the others the closed form is left for a decomposition.
+/// Newton's method for the largest eigenvalue ends with a step shorter than this; |S| is scaled to 1 (no unit)
+constexpr double root_tolerance = 1e-14;
+constexpr int most_root_steps = 30;  ///< Steps of that method, at most (unit: steps)
+/// The closed form is used where the product of the largest eigenvalue's gaps to the others is above this, a
+/// decomposition elsewhere; |S| is scaled to 1 (no unit)
 constexpr double safe_gap = 1e-5;
-constexpr Index parallel_threshold = 2000;  // vertices; some 0.3 us each
+/// Fewer vertices are handled by one thread, since starting tasks costs more than it saves (unit: vertices)
+constexpr Index parallel_threshold = 2000;
 
 }  // namespace
 
@@ -38,20 +43,22 @@ Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& s) {
       yz - zy, xx - yy - zz, xy + yx, zx + xz,   //
       zx - xz, xy + yx, yy - xx - zz, yz + zy,   //
       xy - yx, zx + xz, yz + zy, zz - xx - yy;
+  /// The sum of three singular values with sum of squares 1 is at most sqrt(3) (fixed by algebra)
+  constexpr double largest_root = 1.7320508075688774;
   // det(K - l I) = l^4 + c2 l^2 + c1 l + c0 with |S|_F = 1.
   const double c2 = -2;
   const double c1 = -8 * inverse * inverse * inverse * s.determinant();
   const double c0 = k.determinant();
-  double l = 1.7320508075688774;  // the sum of three singular values with sum of squares 1 is at most sqrt(3)
+  double l = largest_root;
   double slope = 0;
   bool converged = false;
-  for (int i = 0; i < 30 && !converged; ++i) {
+  for (int i = 0; i < most_root_steps && !converged; ++i) {
     const double ll = l * l;
     slope = 4 * ll * l + 2 * c2 * l + c1;
     if (slope <= 0) break;
     const double step = (((ll + c2) * l + c1) * l + c0) / slope;
     l -= step;
-    converged = std::abs(step) < 1e-14;
+    converged = std::abs(step) < root_tolerance;
   }
   // The slope at the root is the product of the gaps to the other eigenvalues.
   if (converged && slope > safe_gap) {

@@ -14,10 +14,11 @@ namespace unsnarl {
 /// Laplacian with these weights. Scales as length squared.
 class Arap {
  public:
-  static constexpr double edge_weight = 0.57735026918962573;  ///< w: the cotangent of the equilateral triangle
+  /// Weight w of an edge in an equilateral triangle, the cotangent of its angle (fixed by geometry)
+  static constexpr double edge_weight = 0.57735026918962573;
 
-  /// Edges are those of `triangles`. Vertices from `free_count` on stand still in unseen surroundings: their rotation
-  /// is the identity, whatever their few neighbours here do.
+  /// Edges are those of `triangles`. Vertices from `free_count` on do not move, and not all of their neighbours are
+  /// known: their rotation is the identity.
   Arap(std::span<const Triangle> triangles, const Positions& rest, Index free_count);
 
   /// Returns weight * E and adds weight * its gradient (all vertices; the caller drops what is fixed).

@@ -5,8 +5,8 @@
 namespace unsnarl {
 namespace {
 
-// Below this ratio of the singular values of the fitted matrix, only its longer axis says where to turn: the triangle
-// is a segment, at rest or now.
+/// Below this ratio of the singular values of the fitted matrix the triangle is a segment, now or at rest, and only its
+/// longer axis says where to turn (no unit)
 constexpr double rank_one_ratio = 1e-12;
 
 }  // namespace

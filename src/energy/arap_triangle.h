@@ -19,6 +19,7 @@ namespace unsnarl {
 /// length squared. An ElementEnergy (energy_sum.h).
 class ArapTriangle {
  public:
+  /// Weight of an edge in an equilateral triangle, the cotangent of its angle (fixed by geometry)
   static constexpr double edge_weight = 0.57735026918962576;
 
   ArapTriangle() = default;

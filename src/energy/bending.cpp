@@ -60,7 +60,7 @@ double bending_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3&
 
 Bending::Bending(const Positions& rest, const Positions& start, std::span<const BendingHinge> hinges,
                  const Options& options) {
-  constexpr double turn = 2 * std::numbers::pi;
+  constexpr double turn = 2 * std::numbers::pi;  ///< A full turn in radians (fixed by geometry)
   for (const BendingHinge& hinge : hinges) {
     const Vec3 x0 = rest.col(hinge[0]), x1 = rest.col(hinge[1]), x2 = rest.col(hinge[2]), x3 = rest.col(hinge[3]);
     const double length = (x1 - x0).norm();

@@ -35,9 +35,11 @@ double bending_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3&
 class Bending {
  public:
   struct Options {
-    double edge_length = 1;      ///< h, a length
-    double stiffness_cap = 4.6;  ///< without unit; the ratio 3 |e|^2 / A_e over (height / h)^2 of equilateral triangles
-    double sliver = 1e-3;        ///< share of h
+    /// The length h that makes stiffnesses and slivers relative (unit: length)
+    double edge_length = 1;
+    /// Stiffness of a hinge, at most: the ratio 3 |e|^2 / A_e over (height / h)^2 of equilateral triangles (no unit)
+    double stiffness_cap = 4.6;
+    double sliver = 1e-3;  ///< Hinges with a lower height weigh nothing (unit: h)
   };
   Bending() = default;
   Bending(const Positions& rest, const Positions& start, std::span<const BendingHinge> hinges, const Options& options);

@@ -104,7 +104,8 @@ class EnergySum {
   }
 
  private:
-  static constexpr Index chunk = 1024;  // elements a task
+  /// A task of a parallel loop has this many elements (unit: elements)
+  static constexpr Index chunk = 1024;
   static constexpr std::size_t count = sizeof...(Energies);
   static constexpr std::size_t most_parts = ScatteredSum::most_parts;
 

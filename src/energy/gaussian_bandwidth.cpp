@@ -7,6 +7,11 @@
 namespace unsnarl {
 namespace {
 
+/// A fixed point is a maximum where the energy is lower at this ratio above and below it (no unit)
+constexpr double neighbour_ratio = 1.001;
+/// Maxima are one and the same where they differ by less than this share (no unit)
+constexpr double same_maximum = 1e-4;
+
 struct Range {
   double least = std::numeric_limits<double>::infinity();  // positive squared distance
   double largest = 0;
@@ -73,13 +78,13 @@ std::vector<GlobalBandwidth> global_bandwidths(std::span<const BandwidthPair> pa
     const double epsilon = std::sqrt(squared);
     const double energy = global_contact_energy(pairs, epsilon, options.exponent);
     if (!std::isfinite(energy)) continue;
-    // A start can sit on a minimum; neighbours tell.
-    if (!clamped && (global_contact_energy(pairs, epsilon * 1.001, options.exponent) > energy ||
-                     global_contact_energy(pairs, epsilon / 1.001, options.exponent) > energy)) {
+    // A fixed point may also be a minimum.
+    if (!clamped && (global_contact_energy(pairs, epsilon * neighbour_ratio, options.exponent) > energy ||
+                     global_contact_energy(pairs, epsilon / neighbour_ratio, options.exponent) > energy)) {
       continue;
     }
     const bool known = std::any_of(maxima.begin(), maxima.end(), [&](const GlobalBandwidth& m) {
-      return std::abs(m.epsilon - epsilon) <= 1e-4 * epsilon;
+      return std::abs(m.epsilon - epsilon) <= same_maximum * epsilon;
     });
     if (!known) maxima.push_back({epsilon, energy, clamped});
   }

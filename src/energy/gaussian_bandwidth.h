@@ -15,13 +15,16 @@ struct BandwidthPair {
 };
 
 struct BandwidthOptions {
-  double exponent = 2;       ///< p
-  double damping = 0.25;     ///< theta of the damped Jacobi iteration (paper §3.1.5)
-  int max_iterations = 400;  ///< (1 - theta)^400 < 1e-49: what has not settled by then oscillates
-  double tolerance = 1e-10;  ///< relative change of eps^2 at which a fixed point counts as reached
-  double smallest = 0;       ///< length: bandwidths are kept within [smallest, largest]
-  double largest = 0;        ///< length; 0: the largest distance among the pairs
-  int starts = 9;  ///< of the global iteration, evenly spaced in log eps between the least and largest distance
+  double exponent = 2;    ///< The exponent p of the bandwidth in the energy (no unit)
+  double damping = 0.25;  ///< Theta of the damped Jacobi iteration, paper §3.1.5 (no unit)
+  /// Iterations of the local model, at most; a bandwidth that has not settled by then oscillates (unit: iterations)
+  int max_iterations = 400;
+  /// A fixed point is reached where eps^2 changes by less than this share (no unit)
+  double tolerance = 1e-10;
+  double smallest = 0;  ///< length: bandwidths are kept within [smallest, largest]
+  double largest = 0;   ///< length; 0: the largest distance among the pairs
+  /// Starts of the global iteration, evenly spaced in log eps between the least and largest distance (unit: starts)
+  int starts = 9;
 };
 
 /// E_G for one global bandwidth: sum of a_ij eps^-p exp(-r_ij^2 / eps^2).

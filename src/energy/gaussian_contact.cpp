@@ -6,6 +6,8 @@
 namespace unsnarl {
 namespace {
 
+constexpr double largest_cell = 4e18;  ///< Numbers of cells stay below 2^62 (fixed by int64)
+
 /// Sorts pairs of numbers below n: by the first ones as it deals them out, by the few second ones of each.
 void sort_pairs(Index n, std::vector<std::array<Index, 2>>& pairs) {
   std::vector<std::size_t> begin(static_cast<std::size_t>(n) + 1, 0);
@@ -34,7 +36,8 @@ std::vector<std::array<Index, 2>> pairs_within(const Eigen::Matrix<double, Dim, 
   std::vector<std::pair<Cell, Index>> sorted(n);
   for (Index i = 0; i < n; ++i) {
     for (int d = 0; d < Dim; ++d) {
-      sorted[i].first[d] = static_cast<std::int64_t>(std::min(std::floor((x(d, i) - origin[d]) / cutoff), 4e18));
+      sorted[i].first[d] =
+          static_cast<std::int64_t>(std::min(std::floor((x(d, i) - origin[d]) / cutoff), largest_cell));
     }
     sorted[i].second = i;
   }

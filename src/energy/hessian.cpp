@@ -7,21 +7,22 @@
 namespace unsnarl {
 namespace {
 
-constexpr Index chunk = 1024;  // unknowns or terms a task
+/// A task of a parallel loop has this many unknowns or terms (unit: unknowns or terms)
+constexpr Index chunk = 1024;
 
-/// Share of its trace that is added to a block, so that it has an inverse to working precision: stiff contacts and
-/// collapsed faces leave only one direction of it.
+/// Added to the diagonal of a block to make it invertible in working precision, where stiff contacts and collapsed
+/// faces leave only one direction of it (unit: trace of the block)
 constexpr double regularisation = 1e-12;
 
 // The three edge vectors e_k = v_(k+1) - v_k sum to zero, so their squares are those of two orthonormal combinations:
 // a = (e_0 - e_1) / sqrt 2 = (2 v_1 - v_0 - v_2) / sqrt 2,  b = (e_0 + e_1 - 2 e_2) / sqrt 6 = 3 (v_2 - v_0) / sqrt 6.
-constexpr double combine_a = std::numbers::sqrt2 / 2;
-constexpr double combine_b = 1.2247448713915890;  // 3 / sqrt 6
+constexpr double combine_a = std::numbers::sqrt2 / 2;  ///< 1 / sqrt 2, the factor of a (fixed by algebra)
+constexpr double combine_b = 1.2247448713915890;       ///< 3 / sqrt 6, the factor of b (fixed by algebra)
 constexpr double coefficient_a[3] = {-combine_a, 2 * combine_a, -combine_a};
 constexpr double coefficient_b[3] = {-combine_b, 0, combine_b};
 
-/// Through its Cholesky factor: positive definite whatever the block's condition. (With cofactors it was not, around
-/// collapsed faces, and no step was taken at all.)
+/// By its Cholesky factor, so that the inverse is positive definite whatever the block's condition; cofactors do not
+/// guarantee that around collapsed faces.
 Eigen::Matrix3d inverse_of(Eigen::Matrix3d block) {
   block.diagonal().array() += regularisation * block.trace();
   const Eigen::LLT<Eigen::Matrix3d> factor(block);

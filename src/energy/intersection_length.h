@@ -7,9 +7,9 @@
 
 namespace unsnarl {
 
-/// The length of the curves along which triangles cross: what one could minimise instead of the penetration depth. Here
-/// to show why it is not used (Minarčík, Liu, Crane, Li: Untangling Surfaces via Shape and Mesh Repulsion, §3.2): it
-/// measures how large a contact is, not how far away the next state without it.
+/// The length of the curves along which triangles cross, an alternative to the penetration depth. It is here to show
+/// why it is not used (Minarčík, Liu, Crane, Li: Untangling Surfaces via Shape and Mesh Repulsion, §3.2): it measures
+/// the size of a contact, not the distance to a state without it.
 ///
 /// Sums over the pairs that share no vertex and cross along a segment with two ends inside edge and face; returns
 /// weight * the sum and adds weight * its gradient. Not continuous: a curve that reaches the end of a sheet vanishes.

@@ -25,8 +25,8 @@ inline double barrier_second_derivative(double y) {
   return y >= 1 ? 0 : -2 * std::log(y) - 4 * q + q * q;
 }
 
-/// Factor that switches edge-edge terms off smoothly where the edges become parallel and their distance has a kink
-/// (IPC, eq. 24): m(c) = 2 c/eps - (c/eps)^2 for c = |u x v|^2 below eps, else 1.
+/// Factor that switches edge-edge terms off smoothly where the edges become parallel, since their distance is not
+/// smooth there (IPC, eq. 24): m(c) = 2 c/eps - (c/eps)^2 for c = |u x v|^2 below eps, else 1.
 inline double mollifier(double c, double threshold) {
   if (c >= threshold) return 1;
   const double r = c / threshold;
@@ -36,9 +36,12 @@ inline double mollifier_derivative(double c, double threshold) {
   return c >= threshold ? 0 : 2 * (1 - c / threshold) / threshold;
 }
 
-/// The threshold for two edges that have these squared lengths at rest: a squared sine of 1e-3 (IPC).
+/// Edges whose squared sine is below this count as nearly parallel (IPC) (no unit)
+inline constexpr double mollifier_squared_sine = 1e-3;
+
+/// The threshold for two edges that have these squared lengths at rest.
 inline double mollifier_threshold(double squared_u, double squared_v) {
-  return 1e-3 * squared_u * squared_v;
+  return mollifier_squared_sine * squared_u * squared_v;
 }
 
 /// A stencil in the barrier. The ratio is y = (distance - separation) / (activation - separation).

@@ -11,12 +11,12 @@
 namespace unsnarl {
 namespace {
 
-// |e_A x e_B|^2 below this, relative to |e_A|^2 |e_B|^2: parallel edges span no normal.
+/// Edges are parallel, and span no normal, where the squared sine between them is below this (no unit)
 constexpr double parallel_squared_sine = 1e-16;
-// Foot points may lie outside their features when a margin is active on separated faces, and nearly parallel lines put
-// them arbitrarily far away; bounded so that one pair cannot fling its vertices.
+/// A foot point lies beyond its feature by this at most, so that nearly parallel lines cannot fling their vertices
+/// (unit: barycentric coordinates)
 constexpr double max_extrapolation = 1.0;
-// Pairs a task evaluates: 0.1 to 0.5 ms of work.
+/// A task of a parallel loop has this many pairs (unit: pairs)
 constexpr std::size_t chunk_size = 4096;
 
 enum class Kind { face_a, face_b, edge_edge, in_plane_a, in_plane_b };
@@ -98,7 +98,7 @@ struct Plane {
   Vec3 edge_b(int j) const { return b[j + 1 == size_b ? 0 : j + 1] - b[j]; }
 };
 
-inline constexpr std::uint8_t no_hint = 255;
+inline constexpr std::uint8_t no_hint = 255;  ///< Marks a pair without a hint (fixed by the type)
 
 // Whether candidate k alone shows the two apart by the margin; computes no other normal. Gives the depth there.
 bool still_separated(std::span<const Vec3> a, std::span<const Vec3> b, double margin, int k, double& depth) {

@@ -59,11 +59,14 @@ Penetration fold_penetration(const Vec3& u, const Vec3& v, const Vec3& p, const 
                              double max_slope, int flat_side = 1);
 
 struct MinkowskiOptions {
-  double margin = 0;         ///< length, >= 0: penalised until the faces are this far apart
-  double vertex_trim = 0.1;  ///< fraction of the height: 0.1 took 52, 18 and 6 one-vertex crossings to 0
-  double fold_slope = 0.25;  ///< rise over run at which a fold counts as open; thin triangles need less than the margin
-  bool one_vertex = true;    ///< penalise pairs that share one vertex
-  bool folded = true;        ///< penalise pairs that share an edge
+  double margin = 0;  ///< length, >= 0: penalised until the faces are this far apart
+  /// Faces that share a vertex are trimmed there by this share of their height (no unit)
+  double vertex_trim = 0.1;
+  /// A fold counts as open at this slope, rise over run, where the margin would need more, as in thin triangles (no
+  /// unit)
+  double fold_slope = 0.25;
+  bool one_vertex = true;  ///< penalise pairs that share one vertex
+  bool folded = true;      ///< penalise pairs that share an edge
 };
 
 /// E_M (paper eq. (10)): the sum of max(0, depth) over a list of pairs of triangles, each by the rule for the number of

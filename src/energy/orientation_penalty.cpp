@@ -96,6 +96,7 @@ bool OrientationPenalty::project(const Positions& x, std::span<const Index> whic
 
 bool OrientationPenalty::filter(const Positions& x, std::span<const Index> which, double share, double factor,
                                 Positions& p) const {
+  /// Rounds in which steps of flipping faces are multiplied by the factor, before they are set to zero (unit: rounds)
   constexpr int rounds = 30;
   const auto flips = [&](Index t) {
     const Kept& kept = triangles_[t];

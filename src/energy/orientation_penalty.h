@@ -18,14 +18,15 @@ namespace unsnarl {
 ///   E = sum_t w_t / 2 max(0, 1 - c_t / activation)^2,   w_t = the smallest altitude at rest,
 ///
 /// and linear in c_t below c_t = -linear: needles at rest that have become wide would outweigh everything else.
-/// Finite, so that triangles that are flipped already can unflip; filter() keeps the others from flipping. (A barrier
-/// in its place let single faces that are nearly flipped shorten everyone's steps.) Triangles without area at rest have
-/// no term. Scales as length. An ElementEnergy (energy_sum.h).
+/// Finite, so that flipped triangles can unflip; filter() keeps the others from flipping. (A barrier would let single
+/// faces that are nearly flipped shorten the steps of all vertices.) Triangles without area at rest have no term.
+/// Scales as length. An ElementEnergy (energy_sum.h).
 class OrientationPenalty {
  public:
   struct Options {
-    double activation = 0.2;  ///< c at which the penalty sets in; without unit, in (0, 1)
-    /// Without unit. 1 leaves 24 % more faces flipped on 59 meshes, 30 and 300 the same.
+    double activation = 0.2;  ///< The penalty sets in where c is below this, in (0, 1) (no unit)
+    /// The penalty is linear where c is below minus this, so that needles that became wide do not outweigh everything
+    /// else (no unit)
     double linear = 30;
   };
   OrientationPenalty() = default;
@@ -34,20 +35,20 @@ class OrientationPenalty {
   Index size() const { return static_cast<Index>(triangles_.size()); }
   const Triangle& vertices(Index t) const { return triangles_[t].corners; }
   double value(const Positions& x, Index t) const;
-  /// The Hessian is its Gauss-Newton part, a multiple of the gradient of c_t squared. (Where the energy is linear, that
-  /// of the parabola that has its slope there and its minimum at `activation`.)
+  /// The Hessian is its Gauss-Newton part, a multiple of the gradient of c_t squared. Where the energy is linear, it is
+  /// that of the parabola with the same slope and the minimum at `activation`.
   double linearise(const Positions& x, Index t, double weight, Positions& gradient, HessianTerms& hessian) const;
 
   /// Whether triangle t has area at rest and is flipped at x.
   bool is_flipped(const Positions& x, Index t) const;
   /// One sweep over those triangles of `which` that are not flipped at x and would keep less than `share` of their c:
-  /// changes the displacements p of their corners that move by the shortest way, to first order, that lets them keep
-  /// it. Returns whether there were any.
+  /// changes the displacements p of their moving corners as little, to first order, as lets them keep it. Returns
+  /// whether there were any.
   bool project(const Positions& x, std::span<const Index> which, double share, std::span<const std::uint8_t> moves,
                Positions& p) const;
-  /// Scales the displacements p of the corners of those triangles of `which` (ascending) that are not flipped at x and
-  /// would keep less than `share` of their c by `factor`, in [0, 1), until none does; the last ones stay where they
-  /// are. Returns whether there were any.
+  /// Multiplies the displacements p at the corners of those triangles of `which` (ascending) that are not flipped at x
+  /// and would keep less than `share` of their c by `factor`, in [0, 1), until there are none. After some rounds the
+  /// factor is 0. Returns whether there were any.
   bool filter(const Positions& x, std::span<const Index> which, double share, double factor, Positions& p) const;
 
  private:

@@ -8,7 +8,7 @@
 namespace unsnarl {
 namespace {
 
-/// Height of a polygon's corners above its mean plane that still counts as flat, in diameters.
+/// A polygon is flat where its corners are no higher than this above its mean plane (unit: diameters of the polygon)
 constexpr double flat = 0.05;
 
 /// The corners around triangles that are joined along edges, none of which has three; empty where they have no single

@@ -13,7 +13,7 @@ namespace unsnarl {
 /// §3.2, eq. (10), "General polygonal faces"): the sum of max(0, depth) over pairs that share no vertex.
 class PolygonPenalty {
  public:
-  /// Corners in order around, three or more; polygons that bend on the way are taken as their convex hulls.
+  /// Corners in order around, three or more; polygons that stop being flat are replaced by their convex hulls.
   explicit PolygonPenalty(std::vector<std::vector<Index>> polygons) : polygons_(std::move(polygons)) {}
 
   /// Candidate pairs, a != b: at least those whose boxes overlap.
@@ -27,9 +27,9 @@ class PolygonPenalty {
   std::vector<std::vector<Index>> polygons_;
 };
 
-/// The faces of a surface as convex polygons: triangles of the same face (`face_of`, one entry a triangle) joined where
-/// together they are convex and flat within a twentieth of their size, else each for itself. In the order of their
-/// first triangles.
+/// The faces of a surface as convex polygons: the triangles of a face (`face_of`, one entry a triangle) are joined if
+/// together they are convex and flat within a twentieth of their size; otherwise each is a polygon. In the order of
+/// their first triangles.
 std::vector<std::vector<Index>> convex_faces(std::span<const Triangle> triangles, std::span<const Index> face_of,
                                              const Positions& x);
 

@@ -9,9 +9,13 @@
 
 namespace unsnarl {
 
+/// Mass of vertices whose triangles have no area (unit: mean mass)
+inline constexpr double mass_floor_rel = 1e-3;
+
 /// A third of the area of the triangles at each vertex: the mass of a vertex in energies over the surface.
 /// Vertices whose triangles have no area get `floor_rel` times the mean mass, so that something pulls them too.
-std::vector<double> vertex_areas(const Positions& x, std::span<const Triangle> triangles, double floor_rel = 1e-3);
+std::vector<double> vertex_areas(const Positions& x, std::span<const Triangle> triangles,
+                                 double floor_rel = mass_floor_rel);
 
 /// E = 1/2 sum_v m_v |x_v - rest_v|^2 over the vertices [0, mass.size()) (the quadratic penalty of paper §3.4).
 /// With m an area it scales as length to the fourth power. An ElementEnergy (energy_sum.h).

@@ -43,6 +43,7 @@ double sum_in_chunks(Index count, Index chunk, Sum&& sum) {
 /// Adds up 3-vectors that many indices contribute to: elements scatter to their vertices. Keeps its workspace.
 class ScatteredSum {
  public:
+  /// Parts of a sum that are added up at the same time, at most (unit: parts)
   static constexpr Index most_parts = 8;
 
   /// `add(begin, end, columns)` adds the contributions of [begin, end) to the columns; their sum is added to `out`.
@@ -68,8 +69,7 @@ class ScatteredSum {
     oneapi::tbb::parallel_for(Index{0}, (n + columns_a_task - 1) / columns_a_task, [&](Index task) {
       const Index first = task * columns_a_task;
       const Index width = std::min(columns_a_task, n - first);
-      for (Index part = 0; part < parts; ++part)
-        out.middleCols(first, width) += part_[part].middleCols(first, width);
+      for (Index part = 0; part < parts; ++part) out.middleCols(first, width) += part_[part].middleCols(first, width);
     });
   }
 

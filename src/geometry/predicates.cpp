@@ -21,8 +21,9 @@ TwoTerms two_difference(double a, double b) {
 }
 
 TwoTerms two_product(double a, double b) {
-  auto split = [](double v) {  // Dekker
-    const double c = 134217729.0 * v, high = c - (c - v);
+  auto split = [](double v) {               // Dekker
+    constexpr double splitter = 134217729;  ///< 2^27 + 1 halves the digits of a double (fixed by float64)
+    const double c = splitter * v, high = c - (c - v);
     return TwoTerms{high, v - high};
   };
   const double value = a * b;
@@ -68,7 +69,9 @@ Sign orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
     }
   }
   // Products of three must neither overflow nor lose their last bits to underflow: 3 * 53 bits below the product.
-  if (smallest < 1e-80 || largest > 1e90) return orient3d_by_kernel(a, b, c, d);
+  constexpr double least_factor = 1e-80;   ///< the bits of a product of three of these are kept (fixed by float64)
+  constexpr double largest_factor = 1e90;  ///< a product of three of these is finite (fixed by float64)
+  if (smallest < least_factor || largest > largest_factor) return orient3d_by_kernel(a, b, c, d);
   Expansion<32> det;
   auto add_products = [&](double p, double q, double r) {  // + p q r
     const TwoTerms pq = two_product(p, q);

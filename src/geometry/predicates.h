@@ -17,11 +17,16 @@ Sign orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 Sign orient3d_by_kernel(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 Sign orient2d_exact(double ax, double ay, double bx, double by, double cx, double cy);
 
-inline constexpr double half_ulp = 1.1102230246251565e-16;  // 2^-53
+/// Half a unit in the last place of 1, 2^-53 (fixed by float64)
+inline constexpr double half_ulp = 1.1102230246251565e-16;
+/// Relative error of orient3d in floating point, from Shewchuk's paper (fixed by float64)
 inline constexpr double orient3d_bound = (7.0 + 56.0 * half_ulp) * half_ulp;
+/// Relative error of orient2d in floating point, from Shewchuk's paper (fixed by float64)
 inline constexpr double orient2d_bound = (3.0 + 16.0 * half_ulp) * half_ulp;
-inline constexpr double underflow_guard = 1e-280;  // below it products may underflow and the bounds do not hold
-// An underflowing product loses less than this; in orient3d it is then multiplied by a difference along z.
+/// Products below this may underflow, and the error bounds do not hold (fixed by float64)
+inline constexpr double underflow_guard = 1e-280;
+/// An underflowing product loses less than this; in orient3d it is then multiplied by a difference along z (fixed by
+/// float64)
 inline constexpr double lost_to_underflow = 1e-300;
 inline Sign sign_of(double value) {
   return (value > 0) - (value < 0);

@@ -12,8 +12,8 @@ namespace unsnarl {
 /// exact; scaling out is exact unless double has no such number.
 class Scale {
  public:
-  /// Numbers from 2^-100 to 2^100 are taken as they are: products of eight lengths do not overflow, and repairs were
-  /// measured to give the same bytes from 2^-100 to 2^124.
+  /// Coordinates from 2^-largest_exponent to 2^largest_exponent are taken as they are: products of eight lengths do not
+  /// overflow (unit: binary exponent)
   static constexpr int largest_exponent = 100;
 
   Scale() = default;

@@ -16,7 +16,8 @@
 namespace unsnarl {
 namespace {
 
-/// Notes on images that are listed one by one: a file may name hundreds that are all missing.
+/// Notes on images that are listed one by one; more are counted, since a file may name hundreds that are missing (unit:
+/// notes)
 constexpr std::size_t most_appearance_notes = 8;
 
 /// Notes quote names of the file.

@@ -287,9 +287,10 @@ class GiftiParser {
     }
   }
 
-  /// More than deflate can pack.
+  /// A file that declares more numbers than this for each of its bytes is refused: deflate cannot pack them (fixed by
+  /// deflate)
   static constexpr std::size_t largest_numbers_per_byte = 1100;
-  /// More than the format allows (6).
+  /// An array of more dimensions is refused; the format allows 6 (fixed by the format)
   static constexpr std::size_t most_dimensions = 16;
   static constexpr std::size_t largest = std::numeric_limits<std::size_t>::max();
   GiftiFile& file_;

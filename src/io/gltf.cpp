@@ -52,7 +52,8 @@ class GltfParser {
   }
 
  private:
-  static constexpr std::array<double, 3> world_up = {0, 1, 0};  // glTF 2.0, section 3.4
+  /// The direction that is up, glTF 2.0, section 3.4 (fixed by the format)
+  static constexpr std::array<double, 3> world_up = {0, 1, 0};
 
   struct Primitive {
     std::size_t mesh = 0, number = 0, mode = triangles;

@@ -12,6 +12,7 @@ namespace {
 using Value = JsonText::Value;
 
 enum ComponentType : std::size_t { unsigned_byte = 5121, unsigned_short = 5123, unsigned_int = 5125, single = 5126 };
+/// A larger stride of a buffer view is refused (unit: bytes)
 constexpr std::size_t largest_stride = 1u << 20;
 
 }  // namespace

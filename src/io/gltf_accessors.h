@@ -24,7 +24,10 @@ struct AccessorLayout {
 /// where an accessor is missing, of another kind, unsupported, or reaches beyond its buffer.
 class GltfAccessors {
  public:
-  static constexpr std::size_t position_size = 3 * sizeof(float), matrix_size = 16 * sizeof(float);
+  /// Size of a position, three floats (fixed by the format, in bytes)
+  static constexpr std::size_t position_size = 3 * sizeof(float);
+  /// Size of a matrix, 16 floats (fixed by the format, in bytes)
+  static constexpr std::size_t matrix_size = 16 * sizeof(float);
 
   GltfAccessors() = default;
   /// `root` and `buffers` have to outlive this.

@@ -20,7 +20,7 @@ using Value = JsonText::Value;
 /// glTF 2.0, section 5.26; any other value repeats.
 enum SamplerWrap : std::size_t { clamp_to_edge = 33071, mirrored_repeat = 33648 };
 
-/// The points of blended materials that are mostly seen through are holes.
+/// Points of blended materials that are less opaque than this are holes (unit: alpha)
 constexpr float cutoff_of_blended = 0.5f;
 
 double number(const Value& value, double otherwise) {
@@ -33,8 +33,13 @@ double element(const Value& array, std::size_t i, double otherwise) {
 
 /// From linear light (IEC 61966-2-1).
 float to_srgb(double linear) {
+  constexpr double linear_up_to = 0.0031308;  ///< Darker values are multiplied by the slope (fixed by sRGB)
+  constexpr double slope = 12.92;             ///< Slope of the linear part (fixed by sRGB)
+  constexpr double gamma = 2.4;               ///< Exponent of the curved part (fixed by sRGB)
+  constexpr double offset = 0.055;            ///< Offset of the curved part (fixed by sRGB)
+  constexpr double factor = 1.055;            ///< Factor of the curved part (fixed by sRGB)
   const double x = std::isfinite(linear) ? std::clamp(linear, 0.0, 1.0) : 1.0;
-  return static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
+  return static_cast<float>(x <= linear_up_to ? slope * x : factor * std::pow(x, 1 / gamma) - offset);
 }
 
 /// The transform of texture coordinates that a texture info asks for (KHR_texture_transform): uv -> offset +

@@ -15,7 +15,10 @@ namespace unsnarl {
 namespace {
 
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
-constexpr std::size_t glb_header_size = 12, chunk_header_size = 8;
+/// Size of the header of a GLB file (fixed by the format, in bytes)
+constexpr std::size_t glb_header_size = 12;
+/// Size of the header of a chunk (fixed by the format, in bytes)
+constexpr std::size_t chunk_header_size = 8;
 
 std::uint32_t word(std::string_view bytes, std::size_t at) {
   return load<std::uint32_t>(bytes.data() + at, std::endian::little);

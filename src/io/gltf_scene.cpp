@@ -11,8 +11,8 @@
 namespace unsnarl {
 namespace {
 
-/// A placement counts as flat where the volume that its axes span is smaller than this share of a box with edges of
-/// their lengths: mapping back would lose ten of the sixteen digits of a double, more than float32 can spare.
+/// A placement counts as flat where its axes span less volume than this: mapping back would lose ten of the sixteen
+/// digits of a double, more than float32 can spare (unit: volume of a box with edges of the axes' lengths)
 constexpr double smallest_volume_share = 1e-10;
 
 /// The skin of a mesh whose node names it by something that is no number.

@@ -32,8 +32,10 @@ std::int32_t ImageCollector::add(const std::string& name, const Take& take) {
 
 void ImageCollector::require_room(std::uintmax_t bytes) const {
   if (bytes <= room_) return;
-  throw FileError(fmt::format("{:.1f} MB; all images together may have {:.0f} MB", 1e-6 * static_cast<double>(bytes),
-                              1e-6 * static_cast<double>(whole_room_)));
+  constexpr double megabytes_a_byte = 1e-6;  ///< Megabytes of a byte (fixed by SI units)
+  throw FileError(fmt::format("{:.1f} MB; all images together may have {:.0f} MB",
+                              megabytes_a_byte * static_cast<double>(bytes),
+                              megabytes_a_byte * static_cast<double>(whole_room_)));
 }
 
 std::string ImageCollector::read_beside(const std::filesystem::path& folder, const std::filesystem::path& name) const {

@@ -250,7 +250,8 @@ std::optional<double> JsonText::Value::number() const {
 
 std::optional<std::size_t> JsonText::Value::index() const {
   const std::optional<double> value = number();
-  constexpr double largest = 9007199254740992.0;  // 2^53
+  /// Larger whole numbers are not exact, 2^53 (fixed by float64)
+  constexpr double largest = 9007199254740992.0;
   if (!value || *value < 0 || *value > largest || *value != std::floor(*value)) return std::nullopt;
   return static_cast<std::size_t>(*value);
 }

@@ -47,9 +47,7 @@ class MeshFile {
   bool recompute_normals = false;  ///< patched() updates stored vertex normals too
 };
 
-/// Reads a regular file whole. Throws FileError (missing, a folder, a pipe, unreadable), SystemError.
-/// `check_start` is called with the first bytes (all, or at least `checked_start`) before the others are read, which
-/// may be gigabytes; what it throws ends the reading.
+/// The first bytes of a file, by which its format is told, are at least this many, or all (unit: bytes)
 inline constexpr std::size_t checked_start = 4096;
 struct FileRead {
   std::string bytes;

@@ -21,7 +21,9 @@ enum Element : std::int64_t { line = 1, triangle = 2, quadrangle = 3 };
 /// Nodes of an element by its type, 0 for unknown types (manual, section "Node ordering").
 constexpr auto nodes_of_type = std::to_array<std::uint8_t>(
     {0, 2, 3, 4, 4, 8, 6, 5, 3, 6, 9, 10, 27, 18, 14, 1, 8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5, 6, 20, 35, 56});
+/// Element types of curved faces (fixed by the format)
 constexpr std::array<std::int64_t, 9> curved_faces = {9, 10, 16, 20, 21, 22, 23, 24, 25};
+/// Element types of solids with straight edges (fixed by the format)
 constexpr std::array<std::int64_t, 4> linear_solids = {4, 5, 6, 7};
 
 /// Reads the numbers of a section, as text or in binary.
@@ -262,6 +264,7 @@ class MshParser {
     source_.text().skip_space();
     if (!source_.text().integer(stated) || stated < 0) source_.text().fail("the number of nodes should be here");
     source_.text().next_line();
+    /// Size of a vertex, its number and three coordinates (fixed by the format, in bytes)
     constexpr std::size_t record = sizeof(std::int32_t) + 3 * sizeof(double);
     const std::size_t least = is_binary ? record : 8;
     if (static_cast<std::uint64_t>(stated) > (source_.text().remaining() + 1) / least)

@@ -11,7 +11,7 @@
 namespace unsnarl {
 namespace {
 
-/// Whole numbers below it are exact in a double.
+/// Whole numbers below it are exact, 2^53 (fixed by float64)
 constexpr double largest_exact = 9007199254740992;
 
 /// Calls use(T{}) with the C++ type of the stored numbers.

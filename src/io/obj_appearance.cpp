@@ -16,7 +16,7 @@
 namespace unsnarl {
 namespace {
 
-/// Bytes of an MTL file; real ones have kilobytes.
+/// A larger MTL file is not read; real ones have kilobytes (unit: bytes)
 constexpr std::uintmax_t most_mtl_bytes = 16'000'000;
 
 float finite_or_zero(double x) {

@@ -19,6 +19,8 @@
 namespace unsnarl {
 namespace {
 
+constexpr double largest_whole = 1e15;  ///< Whole numbers up to this are exact (fixed by float64)
+
 class PlyFile final : public MeshFile {
  public:
   std::vector<OutputFile> patched(std::span<const double> positions, bool float32_digits) const override {
@@ -143,7 +145,8 @@ class AsciiSource {
     std::int64_t value = 0;
     if (text_.integer(value)) return value;
     double number = 0;  // some write 3.0
-    if (text_.number(number) == TextScanner::Number::ok && number == std::floor(number) && std::abs(number) < 1e15) {
+    if (text_.number(number) == TextScanner::Number::ok && number == std::floor(number) &&
+        std::abs(number) < largest_whole) {
       return static_cast<std::int64_t>(number);
     }
     text_.fail(fmt::format("{} where a whole number should be", in_quotes(text_.peek())));
@@ -193,7 +196,7 @@ class BinarySource {
   }
   std::int64_t whole_number(PlyScalar type) {
     const double result = value(type);
-    if (!(std::abs(result) < 1e15) || result != std::floor(result)) {
+    if (!(std::abs(result) < largest_whole) || result != std::floor(result)) {
       at_ -= size_of(type);
       fail("a number that is not whole where a whole number should be");
     }

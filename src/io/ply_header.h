@@ -12,6 +12,7 @@ namespace unsnarl {
 
 enum class PlyScalar : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 constexpr std::size_t size_of(PlyScalar type) {
+  /// Sizes of the types of numbers, in the order of PlyScalar (fixed by the format, in bytes)
   constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
   return sizes[static_cast<std::size_t>(type)];
 }

@@ -14,7 +14,11 @@ namespace unsnarl {
 namespace {
 
 constexpr std::string_view pc2_signature("POINTCACHE2\0", 12);
-constexpr std::size_t pc2_header = 32, mdd_header = 8;  // bytes; MDD: before the times
+/// Size of the header of a PC2 file (fixed by the format, in bytes)
+constexpr std::size_t pc2_header = 32;
+/// Size of the header of an MDD file, before its times (fixed by the format, in bytes)
+constexpr std::size_t mdd_header = 8;
+/// Version of the format that PC2 files name (fixed by the format)
 constexpr std::uint32_t pc2_version = 1;
 
 std::endian order_of(PointCacheFormat format) {

@@ -15,8 +15,8 @@
 namespace unsnarl {
 namespace {
 
-/// Extents this many times apart are those of metres beside millimetres rather than of parts of one thing: the surface
-/// in millimetres may be three times smaller than the other one.
+/// Extents this many times apart are taken for metres beside millimetres; a surface in millimetres may be three times
+/// smaller than the other one (no unit)
 constexpr double suspicious_extent_ratio = 300;
 
 double extent_of(std::span<const double> positions) {
@@ -26,7 +26,8 @@ double extent_of(std::span<const double> positions) {
   return positions.empty() ? 0 : box.diagonal();
 }
 
-/// Steps of 32-bit floats within an extent that are too few to move anything by less than what it is apart.
+/// A warning is given where an extent has fewer steps of 32-bit floats: they are too coarse to move anything by less
+/// than its distance from others (unit: steps of float32)
 constexpr double fewest_steps = 3000;
 
 /// 32-bit numbers are far apart far from the origin. Empty: nothing to say.

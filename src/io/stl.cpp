@@ -49,7 +49,11 @@ class StlFile : public MeshFile {
 
 class BinaryStlFile final : public StlFile {
  public:
-  static constexpr std::size_t header_size = 84, facet_size = 50, normal_size = 12;
+  /// Size of the header of a binary STL file and the number of facets (fixed by the format, in bytes)
+  static constexpr std::size_t header_size = 84;
+  static constexpr std::size_t facet_size = 50;  ///< Size of a facet (fixed by the format, in bytes)
+  /// Size of a facet's normal (fixed by the format, in bytes)
+  static constexpr std::size_t normal_size = 12;
 
   /// Does this look like binary STL? A header that starts with "solid" says nothing: many binary files have one.
   static bool matches(std::string_view bytes) {

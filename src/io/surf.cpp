@@ -102,6 +102,7 @@ class SurfParser {
     if (!wrong.empty()) throw FileError(fmt::format("byte {}: face {} (counting from 0) {}", begin, id, wrong));
   }
 
+  /// Size of the number that the file begins with (fixed by the format, in bytes)
   static constexpr std::size_t magic_size = 3;
   PointFile& file_;
   std::string_view bytes_;

@@ -208,7 +208,8 @@ class ThreemfParser {
     file_.surface.positions.insert(file_.surface.positions.end(), world.begin(), world.end());
   }
 
-  /// Objects shown, each time counted; keeps components that double at every level from taking for ever.
+  /// Objects that a model may show, each time counted: components that double at every level would take for ever (unit:
+  /// objects)
   static constexpr std::size_t largest_shows = 1000000;
   ThreemfFile& file_;
   XmlText xml_;

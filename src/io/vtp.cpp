@@ -394,7 +394,8 @@ class VtpParser {
                                     used_[i].begin));
   }
 
-  /// More than deflate can pack.
+  /// A file that declares more numbers than this for each of its bytes is refused: deflate cannot pack them (fixed by
+  /// deflate)
   static constexpr std::size_t largest_numbers_per_byte = 1100;
   VtpFile& file_;
   std::string_view bytes_;

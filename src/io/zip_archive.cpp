@@ -22,14 +22,15 @@ using ZipSource = std::unique_ptr<zip_source_t, ZipDiscard>;
 
 namespace {
 
-/// Deflate makes nothing smaller than this (zlib's Technical Details, "Maximum Compression Factor").
+/// Deflate makes nothing smaller than this; zlib's Technical Details, "Maximum Compression Factor" (fixed by deflate)
 constexpr std::uint64_t largest_ratio = 1032;
-/// An entry that unpacks to more than so many bytes, and to more than so many times its size, is made to fill the
-/// memory: models shrink to a third to a twentieth.
+/// An entry that unpacks to at most this many bytes is unpacked whatever its ratio (unit: bytes)
 constexpr std::uint64_t harmless_size = 64'000'000;
+/// A larger entry that unpacks to more than this many times its size is made to fill the memory: models shrink to a
+/// third to a twentieth (no unit)
 constexpr std::uint64_t largest_honest_ratio = 200;
-/// Level of compression, 0 to 9: zlib's default. With libzip's own, 9, to repair a model of a million triangles takes
-/// 18 s instead of 7, for 1.5 % less room.
+/// Level of compression, zlib's default: higher levels take much longer for little less room (unit: zlib levels, 0 to
+/// 9)
 constexpr zip_uint32_t level = 6;
 
 class Error {

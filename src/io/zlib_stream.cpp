@@ -9,9 +9,12 @@
 namespace unsnarl {
 namespace {
 
-/// Deflate makes nothing smaller than this (zlib's Technical Details, "Maximum Compression Factor").
+/// Deflate makes nothing smaller than this; zlib's Technical Details, "Maximum Compression Factor" (fixed by deflate)
 constexpr std::size_t largest_zlib_ratio = 1032;
-constexpr int any_wrapper = MAX_WBITS + 32, gzip_wrapper = MAX_WBITS + 16;
+/// Window bits that ask zlib to detect the wrapper (fixed by zlib)
+constexpr int any_wrapper = MAX_WBITS + 32;
+/// Window bits that ask zlib for a gzip wrapper (fixed by zlib)
+constexpr int gzip_wrapper = MAX_WBITS + 16;
 
 /// Gives the stream as many bytes as its counters can count.
 void offer(z_stream& z, std::string_view& input, char*& output, std::size_t& room) {

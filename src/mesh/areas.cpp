@@ -64,7 +64,8 @@ double mean_least_altitude(const Positions& x, std::span<const Triangle> triangl
 }
 
 double mean_equilateral_side(const Positions& x, std::span<const Triangle> triangles) {
-  constexpr double side_per_root_area = 1.5196713713031853;  // 2 / 3^(1/4)
+  /// 2 / 3^(1/4): side of an equilateral triangle over the root of its area (fixed by geometry)
+  constexpr double side_per_root_area = 1.5196713713031853;
   double sum = 0;
   for (const Triangle& t : triangles) sum += std::sqrt(triangle_area(x, t));
   return triangles.empty() ? 0 : side_per_root_area * sum / static_cast<double>(triangles.size());

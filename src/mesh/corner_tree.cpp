@@ -9,7 +9,9 @@
 namespace unsnarl {
 namespace {
 
-constexpr double rounding = 64 * 0x1p-53;  // relative: a dozen operations here, and as many in turn()
+/// Relative rounding error of a dozen operations here and as many in turn() (fixed by float64)
+constexpr double rounding = 64 * 0x1p-53;
+/// Absolute error that covers products which underflow (fixed by float64)
 constexpr double underflow_guard = 1e-280;
 
 /// What a linear function is at most in a box, and how far rounding may put that off.

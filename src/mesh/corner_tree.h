@@ -28,6 +28,7 @@ class CornerTree {
   Index find_inside(const Vec3& normal, Index a, Index b, Index c) const;
 
  private:
+  /// A leaf of the tree holds this many places (unit: places)
   static constexpr Index slots_in_leaf = 16;
   struct Node {
     Box box;

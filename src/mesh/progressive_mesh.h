@@ -12,23 +12,28 @@ namespace unsnarl {
 /// Rank of vertices that ProgressiveMesh never removes.
 constexpr std::uint8_t rank_that_stays = std::numeric_limits<std::uint8_t>::max();
 
+/// Least quality of a new triangle in CoarsenOptions::any_shape() (no unit)
+constexpr double any_shape_quality = 0.02;
+/// Vertices with more neighbours stay in CoarsenOptions::any_shape() (unit: neighbours)
+constexpr std::size_t any_shape_valence = 40;
+
 /// Which vertices ProgressiveMesh::coarsen() may remove.
 struct CoarsenOptions {
   /// Least quality of a new triangle, 4 sqrt(3) area / sum of squared sides: 1 if it is equilateral, 0.15 if one side
-  /// is a twelfth of the others. Where the removed triangles are worse, they are the measure.
+  /// is a twelfth of the others. Where the removed triangles are worse, they are the measure (no unit)
   double least_quality = 0.15;
-  /// Least cosine between the normals of a new triangle and of the star that it replaces: 70 degrees.
+  /// Least cosine between the normals of a new triangle and of the star that it replaces, of 70 degrees (no unit)
   double least_cosine = 0.34;
-  /// Largest distance of the vertex from the triangles that replace its star, in mean edges there.
+  /// Largest distance of the vertex from the triangles that replace its star (unit: mean edges of the star)
   double largest_offset = 0.35;
-  std::size_t largest_valence = 16;  ///< vertices with more neighbours stay
+  std::size_t largest_valence = 16;  ///< Vertices with more neighbours stay (unit: neighbours)
   /// Vertices of this rank and above stay, whatever their shape.
   std::uint8_t least_kept_rank = rank_that_stays;
 
   /// For a handful of faces in the end: whatever keeps the topology, but for triangles that have next to no area and
   /// for vertices of this rank and above.
   static CoarsenOptions any_shape(std::uint8_t least_kept_rank = rank_that_stays) {
-    return {0.02, -1, std::numeric_limits<double>::infinity(), 40, least_kept_rank};
+    return {any_shape_quality, -1, std::numeric_limits<double>::infinity(), any_shape_valence, least_kept_rank};
   }
 };
 

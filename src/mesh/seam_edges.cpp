@@ -7,10 +7,10 @@
 namespace unsnarl {
 namespace {
 
-/// More edges than this at one place are ambiguous without a search for a pairing, which is exponential: no two-sheet
-/// seam has so many.
+/// More edges at one place are left unpaired: they are ambiguous without an exponential search, and no seam of two
+/// sheets has so many (unit: edges)
 constexpr std::size_t max_edges_to_pair = 8;
-/// Rounds of letting grown shells settle edges; each is linear. Two or three suffice for files of touching solids.
+/// Rounds in which grown shells settle edges, at most; each is linear (unit: rounds)
 constexpr int max_rounds = 32;
 
 /// With ends of different position classes.

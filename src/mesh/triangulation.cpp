@@ -12,7 +12,7 @@
 namespace unsnarl {
 namespace {
 
-/// Polygons cut by one task; the tasks do not depend on the number of threads.
+/// A task triangulates this many polygons, whatever the number of threads (unit: polygons)
 constexpr std::size_t polygons_in_block = 8192;
 
 /// Cuts polygons one after another, keeping its memory.

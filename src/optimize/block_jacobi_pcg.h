@@ -12,7 +12,8 @@
 namespace unsnarl {
 
 struct PcgOptions {
-  double relative_tolerance = 1e-2;  ///< of the preconditioned residual, against the right-hand side's
+  /// Ends where the preconditioned residual is below this (unit: share of the right-hand side's)
+  double relative_tolerance = 1e-2;
   int max_iterations = std::numeric_limits<int>::max();
 };
 
@@ -20,9 +21,9 @@ struct PcgOptions {
 /// 3 x 3 blocks on the diagonal (of their diagonals only: the classical Jacobi preconditioner). Keeps its workspace.
 class BlockJacobiPcg {
  public:
-  /// Solves A x = b from x = 0; `apply(v, result)` sets result = A v. Returns the number of iterations. Where a
-  /// direction of non-positive curvature turns up, the solution so far is returned (b itself, preconditioned, at the
-  /// first iteration): a descent direction in any case.
+  /// Solves A x = b from x = 0; `apply(v, result)` sets result = A v. Returns the number of iterations. At a direction
+  /// of non-positive curvature it ends with the solution so far (in the first iteration: the preconditioned b), which
+  /// is a descent direction in any case.
   template <class Apply>
   int solve(Apply&& apply, std::span<const Eigen::Matrix3d> inverse_blocks, const Eigen::Matrix3Xd& b,
             Eigen::Matrix3Xd& x, const PcgOptions& options) {
@@ -56,7 +57,8 @@ class BlockJacobiPcg {
   }
 
  private:
-  static constexpr Index chunk = 2048;  // columns a task
+  /// A task of a parallel loop has this many columns (unit: columns)
+  static constexpr Index chunk = 2048;
 
   /// Goes alpha along p_, preconditions the residual there and returns its square in that metric.
   double step(std::span<const Eigen::Matrix3d> inverse_blocks, double alpha, Eigen::Matrix3Xd& x) {

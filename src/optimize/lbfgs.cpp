@@ -6,9 +6,11 @@
 namespace unsnarl {
 namespace {
 
-// s.y below this fraction of |s||y| is rounding, or negative curvature: no use as a metric.
+/// A step is not remembered where s.y is below this share of |s||y|: that is rounding or negative curvature, useless as
+/// a metric (no unit)
 constexpr double least_curvature = 1e-12;
-// cos of the angle between -gradient and the direction (in the plain inner product) below which memory is dropped.
+/// Memory is dropped where the cosine between -gradient and the direction, in the plain inner product, is below this
+/// (no unit)
 constexpr double least_descent = 1e-14;
 
 }  // namespace

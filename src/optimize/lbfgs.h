@@ -16,6 +16,7 @@ class Lbfgs {
   /// Applies an approximation of the inverse Hessian, symmetric positive definite: out = H0 v.
   using Metric = std::function<void(const Eigen::VectorXd& v, Eigen::VectorXd& out)>;
 
+  /// Steps that are kept unless the caller says otherwise (unit: steps)
   static constexpr int default_memory = 8;
 
   /// Without a metric, H0 is the identity scaled by s.y / y.y of the latest step.
@@ -24,8 +25,8 @@ class Lbfgs {
   /// d = -H gradient. Falls back to d = -H0 gradient, and forgets all steps, where that is not a descent direction.
   void direction(const Eigen::VectorXd& gradient, Eigen::VectorXd& d);
   /// The step that was taken and the change of the gradient along it. A step without positive curvature is not
-  /// remembered, and the older ones are forgotten: they describe a valley that was left, and without a Wolfe condition
-  /// their short steps would go on for ever (Rosenbrock from the usual start: 674 iterations instead of 41).
+  /// remembered, and older ones are forgotten: without a Wolfe condition they would keep steps short for many
+  /// iterations.
   void remember(const Eigen::VectorXd& step, const Eigen::VectorXd& gradient_change);
   void clear() { steps_.clear(); }
   int size() const { return static_cast<int>(steps_.size()); }
@@ -41,11 +42,12 @@ class Lbfgs {
 };
 
 struct LbfgsOptions {
-  int memory = 8;  ///< steps kept
-  int max_iterations = 1000;
+  int memory = 8;                 ///< Steps that are kept (unit: steps)
+  int max_iterations = 1000;      ///< Iterations of one call, at most (unit: iterations)
   double gradient_tolerance = 0;  ///< stop when |gradient| is no larger
   LineSearchOptions line_search;
-  int block = 3;  ///< entries of x that belong together (one vertex)
+  /// Entries of x that belong together and move by max_motion at most, such as one vertex (unit: entries)
+  int block = 3;
   /// Length: no block moves farther in one step. Infinite: no cap.
   double max_motion = std::numeric_limits<double>::infinity();
 };
@@ -59,8 +61,8 @@ struct LbfgsResult {
   double value = 0;
 };
 
-/// What the callback sees after every step. It may change what the objective means; then it sets `objective_changed`,
-/// and the value and gradient are taken anew. `forget` drops the remembered steps.
+/// What the callback sees after every step. If it changes the objective, it sets `objective_changed`, and value and
+/// gradient are evaluated again. `forget` drops the remembered steps.
 struct LbfgsIteration {
   int iteration = 0;
   double value = 0;

@@ -9,10 +9,12 @@ namespace unsnarl {
 using Objective = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)>;
 
 struct LineSearchOptions {
-  double sufficient_decrease = 1e-4;  ///< Armijo's beta_0 (paper §3.5.1)
-  double shrink = 0.5;                ///< factor between trials
-  double first_step = 1;              ///< alpha of the first trial
-  double smallest_step = 1e-10;       ///< the search ends below this alpha (paper §3.5.1)
+  /// Armijo's beta_0 (paper §3.5.1): the decrease is at least this share of what the slope promises (no unit)
+  double sufficient_decrease = 1e-4;
+  double shrink = 0.5;    ///< A trial's step is this share of the one before (no unit)
+  double first_step = 1;  ///< Factor alpha of the direction in the first trial (no unit)
+  /// The search ends below this alpha, without a step (paper §3.5.1) (no unit)
+  double smallest_step = 1e-10;
   /// For objectives that are not smooth: the search ends below this alpha too, but *takes* that step. 0: never.
   double accept_step = 0;
   /// Asked before each trial but the first; true ends the search without a step.

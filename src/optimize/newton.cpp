@@ -20,7 +20,7 @@ Search search_line(NewtonProblem& problem, const NewtonOptions& options, const E
     const double next = problem.value(trial);
     if (!std::isfinite(next)) return Search::blocked;
     const auto decreases = [&] { return slope < 0 && next <= value + options.sufficient_decrease * slope; };
-    // limit() may have refined the function.
+    // limit() may have changed the function.
     if (halving == 0 && !decreases()) value = problem.value(Eigen::Matrix3Xd::Zero(3, step.cols()));
     if (decreases()) {
       problem.accept(trial);

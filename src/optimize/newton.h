@@ -22,29 +22,30 @@ class NewtonProblem {
   /// Inverses of the Hessian's 3 x 3 blocks on the diagonal, or of the diagonals of these.
   virtual void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const = 0;
 
-  /// Shortens a Newton step to where the model can be trusted, before the line search. May refine the function where
-  /// the step leads, so that its value at the current point grows.
+  /// Shortens a Newton step to where the model can be trusted, before the line search. May add terms to the function
+  /// that matter along the step, so that its value at the current point grows.
   virtual void limit(Eigen::Matrix3Xd& step) = 0;
   /// Shortens a trial step, unknown by unknown, to what the constraints allow.
   virtual void filter(Eigen::Matrix3Xd& step) = 0;
   /// The value at the current point plus a step; infinite where a constraint is violated.
   virtual double value(const Eigen::Matrix3Xd& step) = 0;
   virtual void accept(const Eigen::Matrix3Xd& step) = 0;
-  /// After an infinite value: removes the unknowns that cannot move. False: there are none. The problem then starts
-  /// anew from the current point.
+  /// Called after an infinite value: removes the unknowns that cannot move, and the problem starts again from the
+  /// current point. Returns false if there are none.
   virtual bool remove_blocked() = 0;
 };
 
 struct NewtonOptions {
-  int max_steps = 100;
-  double sufficient_decrease = 1e-4;  ///< of Armijo's condition (paper §3.5.1)
-  int max_halvings = 40;              ///< of a step in the line search: 1e-12 of it
+  int max_steps = 100;  ///< Newton steps of one call, at most (unit: steps)
+  /// Armijo's condition (paper §3.5.1): the decrease is at least this share of what the slope promises (no unit)
+  double sufficient_decrease = 1e-4;
+  int max_halvings = 40;  ///< The line search halves a step this many times at most (unit: halvings)
   PcgOptions solver;
   bool scalar_jacobi = false;  ///< precondition by the diagonal of the Hessian alone, not by its blocks
-  /// Stops when the value fell by less than the share `decrease` in `window` steps ...
+  /// Ends when the value fell by less than this share in `window` steps (no unit)
   double decrease = 0;
-  int window = 1;
-  double motion = 0;  ///< ... or when the Newton step moves no unknown farther than this, a length
+  int window = 1;     ///< Steps over which the decrease of the value is measured (unit: steps)
+  double motion = 0;  ///< Ends when a Newton step moves no unknown farther (unit: length)
 };
 
 struct NewtonResult {

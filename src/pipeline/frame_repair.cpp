@@ -14,11 +14,12 @@
 namespace unsnarl {
 namespace {
 
-/// Binomial weights of the frames around one, nearest first: repeated averages of three (1/4, 1/2, 1/4).
+/// Weights of the frames around one, the frame itself first: the binomial weights of repeated averages of three, 1/4,
+/// 1/2, 1/4 (no unit)
 constexpr std::array<double, sequence_reach + 1> weights = {70.0 / 256, 56.0 / 256, 28.0 / 256, 8.0 / 256, 1.0 / 256};
 
-/// Corrections below this share of the diagonal are not spread to other times: they would touch vertices without being
-/// seen.
+/// Smaller corrections are not spread to other frames, since they would change vertices without being seen (unit:
+/// bounding-box diagonal)
 constexpr double least_correction_rel = 3e-5;
 
 /// The distance of each vertex between two positions of the same surface, at this scale.

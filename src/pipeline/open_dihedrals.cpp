@@ -12,13 +12,11 @@
 namespace unsnarl {
 namespace {
 
-/// Ratio of angles: hinges are opened this much farther than asked for, so that rounding and neighbours leave enough.
-/// Not measured against other values.
+/// Hinges are opened to this multiple of the wanted angle, so that rounding and neighbours leave enough (no unit)
 constexpr double reserve = 1.05;
-/// Rounds at most; a fold that opens at all takes two to ten, fans of needles some forty.
-constexpr int most_rounds = 100;
-/// A vertex moves in one round by no more than this share of the least height of a face at it: angles are far from
-/// linear in longer steps. Not measured against other values.
+constexpr int most_rounds = 100;  ///< Rounds of opening hinges, at most (unit: rounds)
+/// Longest motion of a vertex in one round; angles are far from linear in longer steps (unit: least height of a face at
+/// the vertex)
 constexpr double most_of_height = 0.25;
 
 /// Gradient of the angle at a hinge by its corners a, b, c, d: the third corners move across their faces, and the edge
@@ -44,12 +42,14 @@ struct Way {
   std::array<bool, 4> moves;  // a, b, c, d
   double share;
 };
+/// The last way turns a hinge by this share of what is missing (no unit)
+constexpr double small_share = 0.1;
 constexpr std::array<Way, 6> ways = {{{{true, true, true, true}, 1},
                                       {{false, false, true, true}, 1},
                                       {{false, false, true, false}, 1},
                                       {{false, false, false, true}, 1},
                                       {{true, true, false, false}, 1},
-                                      {{true, true, true, true}, 0.1}}};
+                                      {{true, true, true, true}, small_share}}};
 
 class Opening {
  public:

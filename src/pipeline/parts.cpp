@@ -32,6 +32,7 @@ bool is_named(const std::string& label, const std::string& name) {
   return false;
 }
 
+/// A message lists this many names of parts, at most (unit: names)
 constexpr std::size_t names_in_message = 40;
 
 std::string list_of_names(std::span<const FaceLabels> labels, const KindNames& kinds) {

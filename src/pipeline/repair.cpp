@@ -30,8 +30,8 @@
 namespace unsnarl {
 namespace {
 
-/// The widest gap, in mean sides of the faces (mean_equilateral_side): the pairs of faces that have to keep it, and
-/// with them memory, grow with its square.
+/// The widest gap that may be asked for: the pairs of faces that have to keep it, and with them memory, grow with its
+/// square (unit: mean_equilateral_side of the faces)
 constexpr double widest_gap_in_sides = 8;
 
 /// Throws GapTooWide where a gap is to be opened that is too wide for the faces.

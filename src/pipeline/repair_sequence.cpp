@@ -19,7 +19,8 @@
 namespace unsnarl {
 namespace {
 
-/// Frames that are under way at once, by thread.
+/// Frames that are under way at once: enough that no thread waits for long, but they are held in memory with the frames
+/// around them, and lost where a call is cut off (unit: frames a thread)
 constexpr std::size_t frames_by_thread = 2;
 
 std::size_t threads_of_arena() {

@@ -10,9 +10,9 @@
 namespace unsnarl {
 namespace {
 
-/// Most times that polygons are cut anew by where their vertices are.
+/// Polygons are triangulated anew by their present positions this many times, at most (unit: times)
 constexpr int most_cuts = 64;
-/// Number of cuts, from the first on, that are worked on together with the input's.
+/// Triangulations, from the first on, that are worked on together with the input's, at most (unit: triangulations)
 constexpr int most_cuts_at_once = 12;
 
 std::vector<Triangulation> cuts_of_input(const RepairTask& task) {

@@ -20,11 +20,13 @@
 namespace unsnarl {
 namespace {
 
-/// Rounding, repair of what rounding brought, and again.
+/// Rounds of rounding and of repairing what rounding brought, at most (unit: rounds)
 constexpr int rounding_rounds = 4;
 
-/// Shares of the progress that is reported: what has been done when recovery begins, and when it has ended.
-constexpr double untangled_fraction = 0.6, recovered_fraction = 0.97;
+/// Share of the progress reported when recovery begins (no unit)
+constexpr double untangled_fraction = 0.6;
+/// Share of the progress reported when recovery ends (no unit)
+constexpr double recovered_fraction = 0.97;
 
 /// pairs_now: how many triangles' pairs there are with what is being tried; not given: `left` is all.
 void report_progress(const RepairTask& task, const RunControl& control, const RepairState& state, double fraction,

@@ -9,9 +9,9 @@
 namespace unsnarl {
 namespace {
 
-/// A list holds while each vertex stays within this of the step it was about to make where the list was gathered. As
-/// wide as the step, where that is short and most are: nine deep meshes take 5 % longer.
-constexpr double list_margin = 0.02;  // h
+/// A list of contacts holds while each vertex stays within this of the step it was about to make when the list was
+/// gathered (unit: h)
+constexpr double list_margin = 0.02;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void ContactList::follow(const Positions& x, const Positions& p, const MovingVer
     travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
     travel_[v] = p.col(v).norm();
   }
-  MotionBounds way;  // each vertex may stop anywhere on it
+  MotionBounds way;  // a vertex may stop at any point of its step
   way.reset(static_cast<Index>(x.cols()));
   way.along = p;
   gather_in_chunks(

@@ -10,8 +10,8 @@
 
 namespace unsnarl {
 
-/// The contact stencils that may matter to a solver on its way, gathered anew only around vertices that have gone too
-/// far since. h: the patch's edge length. The rules must outlive this.
+/// The contact stencils that a solver may meet on its way. They are gathered again only around vertices that moved too
+/// far since the last time. h: the patch's edge length. The rules must outlive this.
 class ContactList {
  public:
   ContactList(ContactRules& rules, double h) : rules_(rules), h_(h) {}
@@ -34,10 +34,10 @@ class ContactList {
   double h_;
   double activation_ = 0;
   std::vector<ContactRule> list_;
-  Positions gathered_at_;  // where each vertex was when the list was last gathered around it ...
-  MotionBounds bounds_;    // ... and where the list allows it to be
+  Positions gathered_at_;  // where each vertex was when the list was last gathered around it
+  MotionBounds bounds_;    // where the list allows each vertex to be
   std::vector<Index> leaving_;
-  std::vector<double> travelled_, travel_;  // per vertex: since it was gathered, in the coming step
+  std::vector<double> travelled_, travel_;  // per vertex: length of its way since gathered_at_; of the coming step
   std::vector<SeparatedStencil> in_the_way_;
 };
 

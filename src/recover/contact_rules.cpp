@@ -11,8 +11,7 @@
 namespace unsnarl {
 namespace {
 
-/// The barrier sets in at this many separations at least. Without unit. With 2, crossing tubes and linked rings end a
-/// fifth farther with a wanted gap of a hundredth; without a wanted gap nothing changes.
+/// The barrier sets in at this distance at least, so that it has a width (unit: separations of the stencil)
 constexpr double least_activation = 1.5;
 
 /// Corner k of a triangle against the opposite edge.
@@ -20,7 +19,7 @@ Stencil altitude_of(const Triangle& f, int k) {
   return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
 }
 
-/// Appends what is in `from`, which holds anything afterwards.
+/// Moves the rules of `from` to the end of `to`; `from` is unspecified afterwards.
 void take_over(std::vector<ContactRule>& from, std::vector<ContactRule>& to) {
   if (to.empty())
     to.swap(from);
@@ -134,7 +133,7 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   rule.reach = std::max(options_.reach_share * rule.rest_distance, options_.reach_gaps * options_.min_gap);
   if (rule.neighbours) {
     if (rule.rest_distance <= options_.roundoff) return false;
-    separation = std::min(separation, options_.rest_share * rule.rest_distance);
+    separation = std::min(separation, options_.kept_rest_share * rule.rest_distance);
     rule.reach = options_.reach_share * rule.rest_distance;
   } else if (!neighbours && conflict) {
     rule.reach = std::numeric_limits<double>::infinity();
@@ -161,8 +160,8 @@ void ContactRules::add_altitudes(const Positions& from, const Positions& x, cons
       ContactRule rule;
       const Stencil s = altitude_of(f, k);
       rule.rest_distance = rest_altitudes_[t][k];
-      if (rule.rest_distance <= options_.roundoff) continue;  // without area at rest: it may stay so
-      rule.reach = options_.rest_share * rule.rest_distance;
+      if (rule.rest_distance <= options_.roundoff) continue;  // no area at rest: it needs none
+      rule.reach = options_.altitude_share * rule.rest_distance;
       const Closest at = closest(s, from);
       rule.distance = at.distance;
       rule.direction = at.direction;

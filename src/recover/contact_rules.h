@@ -18,49 +18,54 @@ struct ContactRule {
   BarrierStencil stencil;
   double reach = 0;  ///< the activation distance never exceeds this
   double rest_distance = 0;
-  double distance = 0;            ///< where its vertices' bounds start
+  double distance = 0;            ///< at the positions where its vertices' bounds start
   Vec3 direction = Vec3::Zero();  ///< of the shortest way there (Closest::direction)
   bool closed = false;            ///< closer than it should be
-  bool neighbours = false;        ///< of one sheet, of which min_gap is not asked
-  bool own_altitude = false;      ///< a corner of a face against the opposite edge: keeps the face from being squeezed
+  bool neighbours = false;        ///< near along the surface: min_gap is not asked of them
+  bool own_altitude = false;      ///< corner of a face against the opposite edge: keeps the face from being squeezed
 };
 
 struct ContactRuleOptions {
   double min_gap = 0;  ///< wanted distance, a length
-  /// In min_gap: primitives up to this far apart along the edges at rest are neighbours. In a grid of squares cut in
-  /// two, what is min_gap apart is up to 1.41 apart along the edges. Other values were not tried.
+  /// Primitives up to this far apart along the edges at rest are neighbours. More than 1.41: in a grid of squares cut
+  /// in two, points at a distance of 1 are up to 1.41 apart along the edges (unit: min_gap)
   double joined_gaps = 2;
-  /// Share of the rest distance that neighbours keep at least where it is below min_gap, and of its rest altitude below
-  /// which a face's own barrier sets in.
-  double rest_share = 0.25;
-  /// The barrier reaches this share of the rest distance: below 1, so that a rest shape without contact has no energy.
+  /// Neighbours keep at least this share of their rest distance, where that is less than min_gap (no unit)
+  double kept_rest_share = 0.25;
+  /// A face's own barrier, which keeps it from being squeezed, sets in below this share of its rest altitude (no unit)
+  double altitude_share = 0.25;
+  /// The barrier reaches this share of the rest distance: below 1, so that a rest shape without contact has no energy
+  /// (no unit)
   double reach_share = 0.5;
-  double reach_gaps = barrier_gaps;  ///< and at least this many min_gap for what is no neighbour
-  double roundoff = 0;               ///< length below which computed distances mean nothing
-  std::function<bool()> stop;        ///< asked while rules are gathered, which true ends by WorkStopped; may be empty
+  /// The barrier of primitives that are no neighbours reaches at least this far (unit: min_gap)
+  double reach_gaps = barrier_gaps;
+  double roundoff = 0;         ///< length below which computed distances mean nothing
+  std::function<bool()> stop;  ///< asked while rules are gathered; true: WorkStopped is thrown. May be empty
 };
 
 /// Gathers the close stencils of a patch with their rules.
 ///
-/// The separation is min_gap. Neighbours (primitives of triangles that share a vertex, or that are two min_gap apart
-/// along the edges at rest) that are closer at rest need only keep a share of their rest distance, unless their
-/// triangles intersect each other at rest. A stencil without distance at rest whose triangles do not intersect there
-/// (around zero-area faces) has no rule. None has to keep more than half its present distance: what was shrunk grows
-/// again where its faces are smaller than min_gap, and what ends too close is opened last. (Keeping all of min_gap from
-/// where it is reached, soft parts wound around an anchor end 1.6 times as far, stretched to 15 times their length.)
+/// Separation of a stencil:
+/// - min_gap, in general.
+/// - Neighbours (primitives of triangles that share a vertex, or that are at most joined_gaps min_gap apart along the
+///   edges at rest) keep at least a share of their rest distance if that is less, unless their triangles intersect each
+///   other at rest.
+/// - No stencil has to keep more than half its present distance: faces that were shrunk below min_gap can grow again,
+///   and stencils that end too close are opened last.
+/// A stencil without distance at rest whose triangles do not intersect there (around zero-area faces) has no rule.
 class ContactRules {
  public:
   /// pairs: those of triangles that intersect at rest. The patch must outlive this.
   ContactRules(const Patch& patch, std::span<const IntersectingPair> pairs, const ContactRuleOptions& options);
 
-  /// Rules for all stencils with a moving vertex that are, or may come while every vertex keeps to its bounds, closer
-  /// than `activation` and their reach (own altitudes: than their reach): that is their activation distance, unless it
-  /// is too close to their separation.
+  /// Rules for all stencils with a moving vertex that may be closer than their activation distance while every vertex
+  /// keeps to its bounds. That distance is `activation` or the stencil's reach, whichever is less (own altitudes: the
+  /// reach), but never too close to the separation.
   void gather(const Positions& x, double activation, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
               std::vector<ContactRule>& rules);
 
-  /// Replaces the rules of stencils with one of some `vertices`, after these were given new bounds that start at x; at
-  /// a cost that follows their number. `from`: where each vertex's bounds start; activation as before.
+  /// Gathers the rules of stencils at `vertices` again, after these vertices got new bounds that start at x. The cost
+  /// grows with their number. `from`: where each vertex's bounds start; activation as before.
   void gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x, double activation,
                      const MotionBounds& bounds, std::vector<ContactRule>& rules);
 
@@ -83,10 +88,10 @@ class ContactRules {
 
   const Patch& patch_;
   std::vector<Edge> pairs_;                // ascending, as are the triangles of each
-  std::vector<std::uint8_t> in_conflict_;  // per triangle: of a pair
+  std::vector<std::uint8_t> in_conflict_;  // per triangle: it intersects another one at rest
   ContactRuleOptions options_;
   ContactCandidates candidates_;
-  std::vector<std::uint8_t> vertex_in_conflict_, edge_in_conflict_;  // some triangle there is
+  std::vector<std::uint8_t> vertex_in_conflict_, edge_in_conflict_;  // one flag each: a triangle there is in conflict
   IndexLists joined_;  // per vertex: those within joined_gaps along the edges, ascending; empty lists where none is
   std::vector<std::array<double, 3>> rest_altitudes_;  // of the active triangles; 0 where corners are equal
   std::vector<NearStencil> stencils_;

@@ -14,7 +14,7 @@ std::vector<IntersectingPair> EmbeddingGuard::new_pairs(const Positions& x) {
 }
 
 Index EmbeddingGuard::roll_back(Positions& x, const Positions& safe) {
-  // Each round takes back the offenders' vertices, until none is left that could be.
+  // Each round takes back the vertices of newly intersecting faces, until there are none that can be taken back.
   Index count = 0;
   for (;;) {
     const std::vector<IntersectingPair> pairs = new_pairs(x);

@@ -23,14 +23,14 @@ class Objective {
   /// h: the patch's edge length. The patch must outlive this.
   Objective(const Patch& patch, const EdgeTable& edges, const ObjectiveOptions& options, double h);
 
-  /// From now on sums run over the elements with a moving vertex.
+  /// Restricts the sums to elements with a moving vertex, until the next call.
   void restrict_to(MovingVertices moving);
   const MovingVertices& moving() const { return moving_; }
   /// Triangles with a moving vertex.
   std::span<const Index> triangles() const { return sum_.part<ArapTriangle>().elements; }
   const OrientationPenalty& orientation() const { return sum_.part<OrientationPenalty>().energy; }
 
-  /// The contacts that may be active where the objective is evaluated next.
+  /// The contacts of the objective; it must hold all that may be active at the positions evaluated next.
   std::vector<BarrierStencil>& contacts() { return sum_.part<IpcBarrier>().energy.stencils; }
 
   /// Multiplies the weight of the penalty of flipped faces, against that of the options.

@@ -10,10 +10,10 @@
 namespace unsnarl {
 namespace {
 
-/// A vertex moves in one round by this many times the least gap at it, at most: farther off, what touches at 1e-10
-/// meets elsewhere than to first order. With 4, 10, 100 times, 5, 2 and 2 gaps stay closed on 108k faces of a warped
-/// torus, 31 without.
+/// Longest motion of a vertex in one round: beyond it, a linear model no longer says where nearly touching primitives
+/// meet (unit: smallest gap at the vertex)
 constexpr double most_growth = 10;
+constexpr int opening_sweeps = 10;  ///< Sweeps over the gaps in one round, at most (unit: sweeps)
 
 /// The distance wanted for a stencil.
 double target_of(const ContactRule& rule, double target, double min_gap) {
@@ -33,8 +33,8 @@ Vec3 exact_direction(const Stencil& s, const Positions& x) {
   return (side / length) * n;
 }
 
-/// A gap that is to be `missing` wider (negative: may be so much narrower), to first order: it widens by the sum of
-/// weights[i] * direction . p_i.
+/// A gap that must become `missing` wider (negative: it may become narrower by that). To first order, displacements p
+/// widen it by the sum of weights[i] * direction . p_i.
 struct Widening {
   Stencil stencil;
   Vec3 direction;  // of length 1
@@ -58,7 +58,7 @@ Widening widening_of(const ContactRule& rule, double missing, const Positions& x
   return result;
 }
 
-/// Changes the displacements of a gap's vertices by the shortest way that leaves it wide enough. False: it was.
+/// Changes the displacements of a gap's vertices as little as makes it wide enough. Returns false if it was already.
 bool widen(const Widening& gap, Positions& p) {
   double change = 0;
   for (int i = 0; i < gap.stencil.size(); ++i) change += gap.weights[i] * gap.direction.dot(p.col(gap.stencil.v[i]));
@@ -105,7 +105,7 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
     }
     p.setZero();
     bool changed = true;
-    for (int sweep = 0; changed && sweep < projection_sweeps; ++sweep) {
+    for (int sweep = 0; changed && sweep < opening_sweeps; ++sweep) {
       changed = false;
       end_long_work_if(options.stop, gaps.size());
       for (const Widening& gap : gaps) changed |= widen(gap, p);
@@ -115,10 +115,10 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
       }
       changed |= oriented.project(x, moves, p);
     }
-    // One factor for all: a face that is squeezed to a needle flips where its corners are shortened by different ones.
+    // All displacements are shortened by one factor: with several, a face that is squeezed to a needle may flip.
     const double longest = std::sqrt(p.colwise().squaredNorm().maxCoeff());
     if (longest > options.step_cap) p *= options.step_cap / longest;
-    // Distances of the order of round-off tell CCD nothing; there the exact guard checks.
+    // CCD cannot use distances of the order of round-off; the exact guard checks these.
     bool doubtful = false;
     filter.clear();
     for (Index v = 0; v < x.cols(); ++v) length[v] = p.col(v).norm();

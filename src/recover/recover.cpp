@@ -16,9 +16,13 @@
 namespace unsnarl {
 namespace {
 
-/// Units in the last place of the largest coordinate below which a computed distance means nothing, and no gap can be
-/// asked for.
+/// A computed distance below this means nothing, and no smaller gap can be asked for (unit: units in the last place of
+/// the largest coordinate)
 constexpr double roundoff_ulps = 1024;
+/// The stages with a contact region free this many rings around the vertices that are not at rest (unit: rings)
+constexpr int contact_rings = 2;
+/// Steps against flipped faces free this many rings around the faces' corners (unit: rings)
+constexpr int unflip_rings = 2;
 
 double edge_length_of(const Patch& patch) {
   const std::span<const Triangle> active(patch.triangles.data(), static_cast<std::size_t>(patch.active_count));
@@ -31,8 +35,8 @@ double roundoff_of(const Patch& patch) {
   return roundoff_ulps * (std::numeric_limits<double>::epsilon() * largest);
 }
 
-/// Most edges, those without length aside, are shorter than what can be told apart beside the largest coordinate:
-/// everything there touches all else.
+/// Whether most edges that have a length are shorter than round-off at the largest coordinate, so that distances mean
+/// nothing.
 bool is_below_roundoff(const Patch& patch) {
   std::vector<double> lengths;
   for (Index t = 0; t < patch.active_count; ++t)
@@ -60,31 +64,31 @@ ContactRules contact_rules_of(const Patch& patch, const RecoverOptions& recovery
 class Recovery {
  public:
   Recovery(Patch& patch, const RecoverOptions& options, const std::function<bool()>& stop);
-  /// Where it is stopped on the way, the patch is where it was last seen to be embedded.
+  /// If it is stopped on the way, the patch gets the last state that the exact guard found embedded.
   RecoverResult run();
 
  private:
   void work();
   /// Per vertex: whether it is free.
   std::vector<std::uint8_t> everything() const;
-  /// Free vertices among `front` and in so many rings around those.
+  /// One flag a vertex: it is free and among `front` or within `rings` rings around these.
   std::vector<std::uint8_t> rings_around(std::vector<Index> front, int rings) const;
-  /// The free vertices that are not at rest, and some rings around them.
+  /// One flag a vertex: it is free and not at rest, or within contact_rings around such vertices.
   std::vector<std::uint8_t> contact_region() const;
-  /// Newton steps until the energy falls by less than the share `decrease`, `most` at most. Returns how many.
+  /// Takes Newton steps until the energy falls by less than the share `decrease`, at most `most`. Returns their number.
   int step(const std::vector<std::uint8_t>& moves, double activation, int most, double decrease);
-  /// Steps of these vertices, as many as are left.
+  /// Takes Newton steps with these vertices, at most as many as max_steps leaves.
   void stage(const std::vector<std::uint8_t>& moves, double activation);
-  /// The least distance at which barriers may set in, and to which gaps are opened, where they have this share of h.
+  /// Least activation distance of a barrier, and least distance to which gaps are opened, for this share of h.
   double above_min_gap(double share_of_h) const {
     const double min_gap = rules_.options().min_gap;
     return std::min(options_.least_gaps * min_gap, min_gap + share_of_h * h_);
   }
-  /// Opens gaps to `target`, or to what the barrier needs where that is more; exactly checked.
+  /// Opens gaps to `target`, or to what the barrier needs if that is more; ends at an exactly checked state.
   void open(double target);
   /// Active faces that are flipped.
   std::vector<Index> flipped_faces() const;
-  /// Rounds of steps around flipped faces with an ever heavier penalty of these, each kept where it leaves fewer.
+  /// Turns flipped faces over: rounds of steps around them with a heavier penalty each, kept if fewer are left.
   void unflip(double activation);
   void snap(std::span<const std::uint8_t> moves);
   void measure_gap(double radius);
@@ -149,7 +153,7 @@ std::vector<std::uint8_t> Recovery::contact_region() const {
   std::vector<Index> elsewhere;
   for (Index v = 0; v < patch_.free_count; ++v)
     if (patch_.x.col(v) != patch_.rest.col(v)) elsewhere.push_back(v);
-  return rings_around(std::move(elsewhere), recovery_rings);
+  return rings_around(std::move(elsewhere), contact_rings);
 }
 
 std::vector<Index> Recovery::flipped_faces() const {
@@ -162,7 +166,7 @@ std::vector<Index> Recovery::flipped_faces() const {
 int Recovery::step(const std::vector<std::uint8_t>& moves, double activation, int most, double decrease) {
   NewtonOptions newton;
   newton.motion = options_.stop_activation * activation;
-  if (!problem_.start(moves, activation, newton.motion, options_.stop_window)) return 0;
+  if (!problem_.start(moves, activation, newton.motion, options_.stationary_steps)) return 0;
   newton.max_steps = most;
   newton.solver = options_.solver;
   newton.scalar_jacobi = options_.scalar_jacobi;
@@ -189,7 +193,7 @@ void Recovery::open(double target) {
   OpenGapsOptions open;
   open.target = std::max(target, above_min_gap(options_.last_activation));
   open.max_rounds = options_.open_rounds;
-  // Stencils are gathered as far around as two steps may go. Five targets end as close, but took up to 9 GB, not 2.
+  // Stencils are gathered as far around as two steps may go: with a longer cap they are many, and take much memory.
   open.step_cap = std::min(open.target, options_.step.cap * h_);
   open.stop = stop_;
   open_gaps(patch_.x, rules_, orientation_of_all(), guard_, everything(), open);
@@ -205,9 +209,8 @@ void Recovery::unflip(double activation) {
     for (Index t : flipped) corners.insert(corners.end(), patch_.triangles[t].begin(), patch_.triangles[t].end());
     const Positions before = patch_.x;
     objective_.scale_flip_penalty(factor);
-    // A few faces are a small part of the energy.
-    const double decrease = options_.stop_decrease / options_.unflip_factor;
-    step(rings_around(std::move(corners), recovery_rings), activation, options_.max_steps, decrease);
+    const double decrease = options_.stop_decrease / options_.unflip_persistence;
+    step(rings_around(std::move(corners), unflip_rings), activation, options_.max_steps, decrease);
     objective_.scale_flip_penalty(1);
     std::vector<Index> left = flipped_faces();
     if (left.size() < flipped.size())
@@ -221,7 +224,7 @@ void Recovery::unflip(double activation) {
 void Recovery::snap(std::span<const std::uint8_t> moves) {
   guard_.roll_back(patch_.x, safe_);
   if (options_.snaps)
-    snap_to_rest(patch_.x, patch_.rest, options_.activation * h_, rules_, orientation_of_all(), guard_, moves);
+    snap_to_rest(patch_.x, patch_.rest, options_.snap_distance * h_, rules_, orientation_of_all(), guard_, moves);
   safe_ = patch_.x;
 }
 
@@ -280,7 +283,7 @@ void Recovery::work() {
 
   measure_gap(last_activation);
   if (result_.closed > 0 && !result_.stopped) {
-    open(0);  // where all has room now
+    open(0);  // vertices have room now that others have moved back
     measure_gap(last_activation);
   }
 }
@@ -293,13 +296,14 @@ RecoverOptions RecoverOptions::paper() {
   options.has_last_stage = false;
   options.stop_decrease = 0;
   options.stop_window = 1;
+  options.stationary_steps = 1;
   options.stop_activation = 0;
   options.solver = {1e-6, 2000};
   options.scalar_jacobi = true;
   options.step.shorten_all = true;
   options.step.kept_distance = CcdOptions{}.slack;
   options.objective.time_step = 1;
-  // The default's additions.
+  // The default adds these to the paper.
   options.objective.flip_weight = 0;
   options.step.kept_area = -std::numeric_limits<double>::infinity();
   options.step.cap = std::numeric_limits<double>::infinity();
@@ -313,7 +317,7 @@ RecoverResult recover(Patch& patch, const RecoverOptions& options, const std::fu
   if (patch.free_count == 0 || is_below_roundoff(patch)) return {};
   try {
     return Recovery(patch, options, stop).run();
-  } catch (const WorkStopped&) {  // before it began
+  } catch (const WorkStopped&) {  // before the first step
     RecoverResult result;
     result.stopped = true;
     return result;

@@ -19,19 +19,20 @@ struct RecoverResult {
 
 /// Moves the free vertices of an embedded patch back toward rest, as near as contact allows, without ever leaving the
 /// embedded set (paper §3.4, eq. 12; barrier and step filter after Incremental Potential Contact).
-/// Measured on one core of a loaded machine: 20 to 60 ms for 100 to 200 free vertices, 0.3 s for 400 with a deep
-/// tangle, 2 s for a component of 28k vertices.
 ///
-/// Opens gaps, takes a few steps, snaps to rest what can reach it, steps on with the others, snaps again.
-/// \pre patch.x has no intersecting pair with an active triangle, in any class. Pairs that are there are tolerated and
-/// never become more.
-/// Guarantees: no new pair; no face flips against its rest shape in a step, unless filter_step does not settle (not
-/// seen so far), and those that were flipped are pulled back; in a step a stencil keeps `min_gap` or half its distance,
-/// whichever is less, and those that end closer than min_gap are opened, unless they are hemmed in (neighbours that are
-/// closer at rest need a share of their rest distance only); free vertices that can reach their rest
-/// positions are bit-exactly there; what is closer than round-off to something stays where it is while others step, and
-/// so does all where most edges are shorter than that; the same bytes at any number of threads. `stop` is asked once a
-/// step; what was reached by then is kept.
+/// In order: gaps are opened; Newton steps move all free vertices; vertices that can reach rest snap there; flipped
+/// faces are turned over; Newton steps move the others on; vertices snap again. \pre patch.x has no intersecting pair
+/// with an active triangle, in any class. Pairs that are there nevertheless are tolerated, and none is added.
+/// Guarantees:
+/// - No new intersecting pair.
+/// - No step flips a face against its rest shape. Faces that were flipped before are pulled back.
+/// - A step leaves a stencil min_gap or half its distance, whichever is less. Stencils that end closer than min_gap are
+///   opened as far as there is room. Neighbours that are closer at rest need only a share of their rest distance.
+/// - Free vertices that can reach their rest positions are bit-exactly there.
+/// - Vertices that are closer to something than round-off do not move while others step. Where most edges are shorter
+///   than that, no vertex moves.
+/// - The same bytes at any number of threads.
+/// `stop` is asked once a step; true ends the recovery at the state reached so far.
 RecoverResult recover(Patch& patch, const RecoverOptions& options = {}, const std::function<bool()>& stop = {});
 
 }  // namespace unsnarl

@@ -11,6 +11,13 @@
 #include "scene/patch_progress.h"
 
 namespace unsnarl {
+namespace {
+
+/// Faces this near to a region are obstacles of its recovery (unit: mean edges of the region's faces)
+constexpr int obstacle_reach = 2;
+
+}  // namespace
+
 double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::vector<Index>>& regions,
                        const RecoverRegionsOptions& options, Recorder& recorder) {
   index.update();
@@ -21,14 +28,14 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
     for (Index v : regions[r])
       for (Index t : scene.triangles_of_vertex[v]) faces.push_back(scene.triangles[t]);
     edge_length[r] = mean_edge_length(scene.rest, faces);
-    boxes[r] = patch_box(scene, regions[r], recovery_rings * edge_length[r]);
+    boxes[r] = patch_box(scene, regions[r], obstacle_reach * edge_length[r]);
   }
   std::vector<Patch> patches(regions.size());
   std::vector<Trajectory> trajectories(regions.size(), recorder.new_trajectory());
   recorder.begin_stage("recover");
   double smallest = std::numeric_limits<double>::infinity();
   std::vector<PatchProgress> progress(regions.size());
-  // The work on a region is taken to be as much as it has vertices.
+  // Progress assumes that the work on a region is proportional to its vertices.
   const std::function<void()> report = [&] {
     if (!options.on_progress) return;
     double all = 0, done = 0;
@@ -44,7 +51,7 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
       boxes,
       [&](std::size_t r) {
         if (options.stop()) return;
-        patches[r] = cut_patch(scene, index, regions[r], recovery_rings * edge_length[r]);
+        patches[r] = cut_patch(scene, index, regions[r], obstacle_reach * edge_length[r]);
         patches[r].edge_length = edge_length[r];
         if (recorder.is_on()) patches[r].trajectory = &trajectories[r];
         RecoverOptions recovery = options.recover;

@@ -8,6 +8,12 @@
 #include "scene/trajectory.h"
 
 namespace unsnarl {
+namespace {
+
+/// Sweeps over the faces when a step is projected so that it flips none, at most (unit: sweeps)
+constexpr int slide_sweeps = 10;
+
+}  // namespace
 
 RecoveryProblem::RecoveryProblem(Patch& patch, ContactRules& rules, const IndexLists& neighbours, Objective& objective,
                                  const StepOptions& options, double h, std::size_t tolerated_pairs)
@@ -88,7 +94,7 @@ void RecoveryProblem::note_iteration() {
   IterationRecord iteration = objective_.terms();
   iteration.pairs = tolerated_pairs_;
   for (const BarrierStencil& s : objective_.contacts()) {
-    if (s.stencil.kind == StencilKind::vertex_edge) continue;  // keeps the shape of a single face
+    if (s.stencil.kind == StencilKind::vertex_edge) continue;  // it holds a single face, not two parts
     const double distance = std::sqrt(squared_distance(s.stencil, patch_.x));
     if (distance < s.activation) iteration.min_gap = std::fmin(iteration.min_gap, distance);
   }
@@ -159,11 +165,11 @@ void RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
     }
   }
   const std::vector<double> longest = longest_of(step);
-  // Before the contacts are gathered: what slides may meet others there.
+  // Faces slide before the contacts are gathered, since sliding may lead to other contacts.
   slide_along_flips(step);
   contacts_.follow(patch_.x, displacement_, moving());
   if (!limited) return;
-  // Parts that go farther than the cap stop as a whole where one of their vertices would collide.
+  // A part that goes farther than the cap stops as a whole where one of its vertices would collide.
   std::vector<double> time(parts, 1);
   for (const SeparatedStencil& s : contacts_.in_the_way()) {
     const Index first = part_of(s.stencil.v[0]), last = part_of(s.stencil.v[s.stencil.size() - 1]);
@@ -185,7 +191,7 @@ OrientedFaces RecoveryProblem::oriented() const {
 
 void RecoveryProblem::slide_along_flips(Eigen::Matrix3Xd& step) {
   spread(step);
-  for (int sweep = 0; sweep < projection_sweeps; ++sweep)
+  for (int sweep = 0; sweep < slide_sweeps; ++sweep)
     if (!oriented().project(patch_.x, moving().moves, displacement_)) break;
   collect(step);
 }

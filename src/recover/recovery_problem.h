@@ -13,17 +13,17 @@
 namespace unsnarl {
 
 /// The objective of the recovery over the vertices that move, for Newton's method. Trial steps are filtered by
-/// continuous collision detection, vertex by vertex: what would collide goes as far as that allows, the rest all the
-/// way.
+/// continuous collision detection, vertex by vertex: vertices that would collide go as far as is safe, the others all
+/// the way.
 class RecoveryProblem final : public NewtonProblem {
  public:
   /// h: the patch's edge length. tolerated_pairs: for the trajectory. All must outlive this.
   RecoveryProblem(Patch& patch, ContactRules& rules, const IndexLists& neighbours, Objective& objective,
                   const StepOptions& options, double h, std::size_t tolerated_pairs);
 
-  /// From now on these vertices move, but those that are so close to something that round-off hides it, against
-  /// barriers that set in at `activation`. Vertices that so many Newton steps in a row move by less than the length
-  /// `stationary` are held. False: none is left.
+  /// Begins a stage: these vertices move against barriers that set in at `activation`, except those that are closer to
+  /// something than round-off. Vertices that `stationary_steps` Newton steps in a row move by less than the length
+  /// `stationary` are held. Returns false if no vertex is left to move.
   bool start(std::vector<std::uint8_t> moves, double activation, double stationary, int stationary_steps);
   const MovingVertices& moving() const { return objective_.moving(); }
 
@@ -33,27 +33,27 @@ class RecoveryProblem final : public NewtonProblem {
   void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const override {
     hessian_.inverse_blocks(diagonal_only, blocks);
   }
-  /// Caps the motion of each connected part of the moving vertices by itself. Where nothing touches a part, its
-  /// translation is not capped: it goes as far as nothing is in the way of the part as a whole. Faces that would flip
-  /// slide along where they can; the contacts that all this may meet are gathered.
+  /// Caps the motion of each connected part of the moving vertices. The translation of a part that nothing touches is
+  /// not capped: the part goes as a whole until something is in its way. Faces that would flip slide along instead, as
+  /// far as possible. Gathers the contacts that the capped step may meet.
   void limit(Eigen::Matrix3Xd& step) override;
   void filter(Eigen::Matrix3Xd& step) override;
   double value(const Eigen::Matrix3Xd& step) override;
   void accept(const Eigen::Matrix3Xd& step) override;
-  /// Holds the vertices that collide at the last trial: they had no room left where the contacts were gathered.
+  /// Holds the vertices that collide at the last trial, whose gaps were used up when the contacts were gathered.
   bool remove_blocked() override;
 
  private:
   void set_moving(std::vector<std::uint8_t> moves);
-  /// Holds what is stationary, once it is much.
+  /// Holds stationary vertices, once they are many.
   void hold_stationary();
   bool hold(std::span<const Stencil> stencils);
   void note_iteration();
-  /// Displacements of all vertices, in displacement_.
+  /// Writes a step to displacement_, which has a column for every vertex.
   Positions& spread(const Eigen::Matrix3Xd& step);
-  /// Back from displacement_.
+  /// Reads a step back from displacement_.
   void collect(Eigen::Matrix3Xd& step) const;
-  /// Changes the step where faces would flip, by the shortest ways along which they do not, as far as sweeps get.
+  /// Changes the step as little as keeps faces from flipping, as far as slide_sweeps sweeps get.
   void slide_along_flips(Eigen::Matrix3Xd& step);
   /// Per part: whether a contact with something else is active.
   std::vector<std::uint8_t> touched_parts();
@@ -69,7 +69,7 @@ class RecoveryProblem final : public NewtonProblem {
   ContactList contacts_;
   double activation_ = 0, stationary_ = 0;
   int stationary_steps_ = 0;
-  std::vector<int> small_steps_;  // per vertex: so many Newton steps in a row were shorter than stationary_
+  std::vector<int> small_steps_;  // per vertex: number of Newton steps in a row that were shorter than stationary_
   Index part_count_ = 0;
   std::vector<Index> part_;  // of each unknown
   Hessian hessian_;

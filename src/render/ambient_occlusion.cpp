@@ -10,7 +10,7 @@ namespace {
 /// One direction of the blur: neighbours count as far as they lie near the pixel's tangent plane.
 void blur(std::span<const Eigen::Vector3f> points, std::span<const Eigen::Vector3f> normals, int width, int height,
           int dx, int dy, float plane_distance, std::span<const float> in, std::span<float> out) {
-  constexpr int reach = 4;
+  constexpr int reach = 4;  ///< The blur takes in neighbours up to this far away (unit: pixels)
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;

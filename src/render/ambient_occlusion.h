@@ -8,9 +8,9 @@
 namespace unsnarl {
 
 struct AmbientOcclusionOptions {
-  double radius_pixels = 40;  ///< how far occluders are looked for
-  double strength = 1.1;      ///< 0: none
-  int samples = 14;           ///< a pixel
+  double radius_pixels = 40;  ///< Occluders are looked for up to this far away (unit: pixels)
+  double strength = 1.1;      ///< Factor of the occlusion; 0: none (no unit)
+  int samples = 14;           ///< Samples that are taken for a pixel (unit: samples)
 };
 
 /// How much of the sky each pixel sees, in [0, 1], from what is in front of it on the screen: the estimator of

@@ -22,13 +22,14 @@ namespace {
 constexpr Colour red = {0.80, 0.16, 0.14}, pale_red = {0.93, 0.83, 0.82};
 constexpr Colour blue = {0.20, 0.38, 0.66}, pale_blue = {0.78, 0.83, 0.90};
 
-/// Largest side of a magnified part, in heights of the view: it is magnified three times at least.
+/// Largest side of a magnified part, which is magnified three times at least (unit: heights of the view)
 constexpr double largest_animated_window = 0.28;
-/// In heights of the view: red faces that do not all fit are magnified where six of their edges are shorter.
+/// Red faces that do not all fit are magnified where six of their edges are shorter than this (unit: heights of the
+/// view)
 constexpr double small_window = 0.1;
-/// Most frames to show; of more, every second one is left out: each takes up to 100 kB of a GIF.
+/// Frames that are shown, at most; of more, every second one is left out (unit: frames)
 constexpr std::size_t most_shown = 50;
-/// Least motion, in diagonals: a frame in which no vertex has moved farther since the last one shown is left out ...
+/// A frame in which no vertex moved farther since the last one shown is left out (unit: bounding-box diagonal)
 constexpr double least_motion_rel = 5e-4;
 
 void check(const SurfaceView& surface, std::span<const RecordedFrame> frames, const AnimationOptions& options) {

@@ -11,7 +11,7 @@
 namespace unsnarl {
 namespace {
 
-/// Share of all red faces below which a part is left as it is: of 1,000 pairs a dozen here and there says nothing.
+/// A part with fewer of the red faces is not magnified (unit: share of all red faces)
 constexpr double least_share = 0.05;
 
 using Point = std::array<double, 2>;

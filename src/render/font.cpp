@@ -8,10 +8,12 @@
 namespace unsnarl {
 namespace {
 
-constexpr int rows = 9, columns = 5;  // seven above the baseline, two below
-constexpr double gap = 1.3;           // between letters, in dots
-constexpr double space = 3;           // width of a blank, in dots
-constexpr double cap_height = 7;      // in dots
+/// Rows of a letter: seven above the baseline, two below (fixed by the font, in dots)
+constexpr int rows = 9;
+constexpr int columns = 5;        ///< Columns of a letter (fixed by the font, in dots)
+constexpr double gap = 1.3;       ///< Room between two letters (unit: dots)
+constexpr double space = 3;       ///< Width of a blank (unit: dots)
+constexpr double cap_height = 7;  ///< Height of a capital letter (unit: dots)
 
 using Glyph = std::array<std::uint8_t, rows>;
 
@@ -129,7 +131,7 @@ double text_width(std::string_view text, double size) {
 
 void draw_text(Image& image, std::string_view text, double x, double y, double size, const Colour& colour,
                double x_end) {
-  constexpr double pen = 0.47;  // half the width of a stroke, in dots
+  constexpr double pen = 0.47;  ///< Half the width of a stroke (unit: dots)
   const double scale = size / cap_height;
   const int right = static_cast<int>(std::min<double>(image.width, x_end));
   for (char letter : text) {

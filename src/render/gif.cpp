@@ -15,8 +15,10 @@
 namespace unsnarl {
 namespace {
 
+/// Colours of the palette, the transparent one among them (fixed by the format)
 constexpr int colour_count = 256;
-constexpr std::uint8_t unchanged = colour_count - 1;  // transparent: what was there before shows through
+/// The transparent colour, where the frame before shows through (fixed by the format)
+constexpr std::uint8_t unchanged = colour_count - 1;
 
 struct PixelRange {
   int left, top, right, bottom;  // right and bottom are outside

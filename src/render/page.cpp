@@ -15,7 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Raised whenever an older page could not be read any more; page and data are written together.
+/// Version of the data of a page, raised when older pages can no longer read it; page and data are written together
+/// (fixed by the page)
 constexpr int page_schema_version = 1;
 constexpr std::string_view place_for_data = "<!--unsnarl-data-->";
 

@@ -22,7 +22,7 @@ class Palette {
   std::uint8_t nearest(const std::uint8_t* pixel) const { return nearest_[bin_of(pixel)]; }
 
  private:
-  static constexpr int bits = 6;  // of each channel that are told apart
+  static constexpr int bits = 6;  ///< Bits of each channel that are told apart (unit: bits)
   static std::size_t bin_of(const std::uint8_t* pixel) {
     return (std::size_t{pixel[0]} >> (8 - bits)) << (2 * bits) | (std::size_t{pixel[1]} >> (8 - bits)) << bits |
            std::size_t{pixel[2]} >> (8 - bits);

@@ -16,13 +16,15 @@
 namespace unsnarl {
 namespace {
 
-/// Largest side of a magnified part, in heights of the picture: it is magnified 1.5 times at least.
+/// Largest side of a magnified part, which is magnified 1.5 times at least (unit: heights of the picture)
 constexpr double largest_window = 0.24;
-/// Magnified parts, at most: one corner is left to the surface.
+/// Magnified parts, at most: one corner is left to the surface (unit: parts)
 constexpr std::size_t most_windows = 3;
-/// Share of an inset that may hide something; the first one may hide more where it magnifies much.
+/// An inset hides at most this much of the surface, unless it is the first and magnifies much (unit: share of the
+/// inset)
 constexpr double most_hidden = 0.03;
-/// Times that the first inset magnifies where it may hide any part: what is red is then too small to be seen well.
+/// The first inset may hide any part where it magnifies this many times: what is red is then too small to be seen well
+/// (no unit)
 constexpr double much_magnified = 2;
 
 struct Panel {

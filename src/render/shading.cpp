@@ -26,8 +26,8 @@ const std::array<FileColours, 6> file_colours = {{
     {{0.55F, 0.42F, 0.30F}, {0.55F, 0.48F, 0.42F}},
 }};
 
-/// Pixels: red faces that are narrower on the screen are drawn so wide. Of one pixel, a row of conflicts on a mesh of
-/// half a million faces is a dotted, pale line.
+/// Red faces that are narrower on the screen are drawn this wide, so that a row of them on a fine mesh shows as a line
+/// (unit: pixels)
 constexpr double least_red_width = 2;
 
 struct Material {

@@ -7,9 +7,10 @@
 namespace unsnarl {
 
 struct ShadingOptions {
-  int samples = 2;            ///< per pixel and direction, [1, 4]
-  double wireframe_from = 7;  ///< median edge in pixels from which edges are drawn
-  double xray = 0.5;          ///< share of red over what hides a red face
+  int samples = 2;  ///< Samples for a pixel in each direction, in [1, 4] (unit: samples)
+  /// Edges are drawn where the median one is at least this long (unit: pixels)
+  double wireframe_from = 7;
+  double xray = 0.5;  ///< Share of red that is drawn over what hides a red face (no unit)
 };
 
 /// The surface seen by the camera, on white: light from the upper left and from the right, front sides bluish and back

@@ -10,7 +10,7 @@ namespace {
 
 using Track = Recorder::Stage::Track;
 
-/// Displacements that all frames together may take, bytes.
+/// Memory for the displacements of all frames together (unit: bytes)
 constexpr std::size_t frame_budget = std::size_t{512} << 20;
 
 /// As RecordedFrame, of the vertices of the scene.

@@ -82,11 +82,11 @@ bool Bodies::is_obstacle_to(const Body& body, Index u) const {
 }
 
 bool Bodies::is_free(const Body& body) const {
-  // Squares of coordinates beyond 2^500 overflow.
+  // Positions are not finite if squares of coordinates beyond 2^500 overflowed on the way.
   for (Index v : body.vertices)
     if (!x_.col(v).allFinite()) return false;
   const auto count = static_cast<Index>(body.triangles.size());
-  // A place near one that is not free is most often not free because of the same triangle.
+  // The triangle that made the last place not free is tested first: it often does so at places nearby too.
   const Index first = last_hit_ < count ? last_hit_ : 0;
   for (Index k = 0; k < count; ++k) {
     const Index i = (first + k) % count, t = body.triangles[i];

@@ -11,56 +11,57 @@
 
 namespace unsnarl {
 
-/// A part that moves as one body. A vertex at p in the input is at rotation (p - rest_centre) + centre.
+/// A part that moves as one body: a vertex at p in the input is at rotation (p - rest_centre) + centre.
 struct Body {
   std::vector<Index> vertices;   ///< ascending
-  std::vector<Index> triangles;  ///< those of which all vertices are its own, ascending
-  bool avoids_soft = false;      ///< it must not intersect soft triangles either
+  std::vector<Index> triangles;  ///< those with all vertices in the body, ascending
+  bool avoids_soft = false;      ///< soft triangles are obstacles to it too
   double area = 0;               ///< of the triangles, in the input
   double diagonal = 0;           ///< of the bounding box, in the input
   Vec3 rest_centre = Vec3::Zero();
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  ///< sum of q q^T over the vertices, q from rest_centre
 
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Vec3 centre = Vec3::Zero();  ///< where the mean of the vertices is
-  bool is_placed = true;       ///< at a place where it intersects nothing that it must not
+  Vec3 centre = Vec3::Zero();  ///< present mean of the vertices
+  bool is_placed = true;       ///< it intersects nothing that it must not intersect
 
   bool is_at_rest() const { return centre == rest_centre && rotation == Eigen::Matrix3d::Identity(); }
   /// Sum of the squared displacements of the vertices.
   double squared_displacement() const;
 };
 
-/// Bodies among each other and among what does not move, on the triangles of one surface.
+/// The bodies of one surface, and its triangles that do not move, as obstacles to each other.
 class Bodies {
  public:
-  /// body_of: of each vertex, or -1. fixed, of the vertices: triangles of fixed vertices alone are obstacles to all
-  /// bodies; other triangles without a vertex of a body are soft, obstacles to bodies that avoid_soft() is said of.
-  /// `triangles` must outlive this.
+  /// body_of: the body of each vertex, or -1. fixed: one flag a vertex. Triangles with only fixed vertices are
+  /// obstacles to all bodies. Other triangles without a vertex of a body are soft: obstacles to bodies with
+  /// avoids_soft. `triangles` must outlive this.
   Bodies(const Positions& rest, std::span<const Triangle> triangles, std::span<const Index> body_of, Index count,
          std::span<const std::uint8_t> fixed);
 
   std::span<Body> list() { return bodies_; }
   std::span<const Body> list() const { return bodies_; }
   const Positions& rest() const { return rest_; }
-  /// The present positions of all vertices; those of no body are at rest.
+  /// The present positions of all vertices; vertices of no body are at rest.
   const Positions& x() const { return x_; }
   std::span<const Triangle> triangles() const { return triangles_; }
 
   void avoid_soft(Index body) { bodies_[body].avoids_soft = true; }
 
-  /// Puts a body where its rotation and centre say. `settle` before others look for it there.
+  /// Moves a body to its rotation and centre. Call settle() before other bodies are tested against it.
   void move(const Body& body);
   void settle(const Body& body);
-  /// Largest displacement of a vertex of it.
+  /// Largest displacement of a vertex of the body.
   double largest_displacement(const Body& body) const;
 
-  /// Whether the body intersects nothing that it must not: obstacles, and bodies that are present.
+  /// Whether the body intersects no obstacle and no present body.
   bool is_free(const Body& body) const;
   std::vector<IntersectingPair> contacts_of(const Body& body) const;
   /// Whether other bodies have to keep clear of this one.
   void set_present(Index body, bool present) { is_present_[body] = present; }
 
-  /// Calls visit(t, u) for triangles t of the body and u that it must not intersect whose boxes come `reach` close.
+  /// Calls visit(t, u) for triangles t of the body and triangles u that it must not intersect, if their boxes are
+  /// within `reach` of each other.
   template <class Visit>
   void near_triangles(const Body& body, double reach, Visit&& visit) const {
     for (Index t : body.triangles)
@@ -68,24 +69,29 @@ class Bodies {
         if (is_obstacle_to(body, u)) visit(t, u);
       });
   }
-  /// The body of a triangle; negative: what it is instead.
+  /// The body of a triangle, or `obstacle`, `soft` or `mixed`.
   Index owner_of_triangle(Index t) const { return owner_[t]; }
-  /// The body of a vertex; -1: it is of none.
+  /// The body of a vertex; -1: none.
   Index body_of_vertex(Index v) const { return body_of_[v]; }
 
  private:
-  static constexpr Index obstacle = -1, soft = -2, mixed = -3;  // owners that are no bodies; mixed: of several
+  /// Owner of triangles that do not move (fixed by the numbering of bodies from 0)
+  static constexpr Index obstacle = -1;
+  /// Owner of triangles that move but belong to no body (fixed by the numbering of bodies from 0)
+  static constexpr Index soft = -2;
+  /// Owner of triangles whose corners have several owners (fixed by the numbering of bodies from 0)
+  static constexpr Index mixed = -3;
   bool is_obstacle_to(const Body& body, Index u) const;
 
   Positions rest_, x_;
   std::span<const Triangle> triangles_;
   std::vector<Body> bodies_;
   std::vector<Index> body_of_;  // of each vertex
-  std::vector<Index> owner_;    // of each triangle: its body, or what it is instead
+  std::vector<Index> owner_;    // of each triangle: its body, or obstacle, soft or mixed
   std::vector<std::uint8_t> is_present_;
   std::vector<Box> boxes_;
   Bvh tree_;
-  mutable Index last_hit_ = 0;  // position in a body's list of the triangle that was last found to intersect
+  mutable Index last_hit_ = 0;  // position in a body's list of triangles of the one that was last found to intersect
 };
 
 }  // namespace unsnarl

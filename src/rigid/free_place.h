@@ -13,7 +13,7 @@
 
 namespace unsnarl {
 
-// The search for the nearest place at which a body, or a component that may shrink too, intersects nothing.
+// Search for the nearest place where a body, or a component that may also shrink, intersects nothing.
 
 /// A one-parameter family of motions; at 0 nothing moves.
 struct MotionFamily {
@@ -27,20 +27,20 @@ struct FreePlace {
 };
 
 struct FreePlaceConstants {
-  /// Share of MotionFamily::last of the first try.
+  /// Parameter of the first try (unit: share of MotionFamily::last)
   static constexpr double first_step = 1e-3;
-  /// Ratio of the parameters of a try and of the one before.
+  /// The parameter grows by this factor from one try to the next (no unit)
   static constexpr double growth = 1.6;
-  /// Bisections between the last try that is not free and the first that is.
+  /// Bisections between the last try that is not free and the first that is (unit: bisections)
   static constexpr int bisections = 6;
-  /// Number of contacts whose normals are tried as directions, at most about.
+  /// About this many contacts, at most, whose normals are tried as directions (unit: contacts)
   static constexpr std::size_t most_contacts = 16;
 };
 
-/// The free place that is reached with the least root mean square of the displacement, of the first ones in each
-/// family; none: there is none. `is_free(family, parameter)`: asked in any order.
-/// `margin`: clearance; a motion goes on beyond the first free place by this share of itself, if it is free there too.
-/// `stop`: true: leave it at what was found; may be empty.
+/// Of the first free place in each family, the one with the least root mean square displacement; nothing if no family
+/// has one. `is_free(family, parameter)`: called in any order.
+/// `margin`: clearance; a motion goes beyond the first free place by this share of itself if it is free there too.
+/// `stop`: true ends the search with the best place so far; may be empty.
 template <class IsFree>
 std::optional<FreePlace> nearest_free_place(std::span<const MotionFamily> families, IsFree&& is_free, double margin,
                                             const std::function<bool()>& stop) {
@@ -71,10 +71,10 @@ std::optional<FreePlace> nearest_free_place(std::span<const MotionFamily> famili
   return best;
 }
 
-/// One of every two opposite directions to the 26 neighbours of a cell; not normalised.
+/// The directions to the 26 neighbours of a cell, one of every two opposite ones; not normalised.
 std::vector<Vec3> lattice_directions();
 
-/// Pairs spread over the list, about FreePlaceConstants::most_contacts of them at most.
+/// Pairs spread evenly over the list, at most about FreePlaceConstants::most_contacts.
 std::vector<IntersectingPair> some_contacts(std::span<const IntersectingPair> contacts);
 
 }  // namespace unsnarl

@@ -12,16 +12,16 @@
 namespace unsnarl {
 namespace {
 
-/// Clearance: share of its motion by which a body goes beyond the first free place.
+/// Clearance: a body goes beyond the first free place by this share of its motion (no unit)
 constexpr double margin = 0.01;
-/// A rotation turns by a right angle at most: chord / radius.
+/// Chord of the largest rotation, a right angle (fixed by geometry, in radii)
 constexpr double largest_chord = 1.4142135623730951;
 
-/// A family of motions by the root mean square of the displacement of the vertices, a length.
+/// A family of motions; the parameter is the root mean square displacement of the vertices, a length.
 struct BodyMotion {
   Vec3 direction = Vec3::Zero();  // of a translation, or:
   Vec3 axis = Vec3::Zero();       // of a rotation about the centre,
-  double radius = 0;  // for which this is the root mean square of the distance of the vertices from the axis
+  double radius = 0;              // root mean square distance of the vertices from the axis
 
   double longest(double diagonal) const { return radius > 0 ? std::min(diagonal, largest_chord * radius) : diagonal; }
   void apply(Body& body, double distance) const {
@@ -76,7 +76,7 @@ class BodyPlacement {
     std::for_each(in_conflict, order.end(), [&](Index b) { bodies_.set_present(b, false); });
     for (auto b = in_conflict; b != order.end(); ++b) {
       list[*b].is_placed = place(list[*b]);
-      // One that stays where it intersects something is no obstacle: nothing could be free of it and of that.
+      // A body that still intersects something is no obstacle: nothing could be clear of both.
       if (list[*b].is_placed) bodies_.set_present(*b, true);
     }
     return is_too_far_;

@@ -17,23 +17,27 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;  // translation, then rotation vector in radians
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// A step moves no vertex farther than this share of the largest displacement: at first, and at most. The number of
-/// contacts within reach of a step grows with its square, so that steps are longer only where that is worth it.
-constexpr double first_reach = 0.02, largest_reach = 0.1;
-constexpr double reach_growth = 1.5, reach_cut = 0.5;
-/// It is at its end where steps are shorter than this share of the largest displacement at the start, or bring less
-/// than this share of the sum of squares.
-constexpr double least_reach = 1e-4, least_gain = 1e-4;
-/// Contacts are aimed at so much more than the wanted gap, as a share of the largest displacement at the start: room
-/// for what linearisation leaves out, so that steps along a contact need not be tiny. It costs this share of the
-/// motion.
+/// Longest motion of a vertex in the first step (unit: largest displacement at the start)
+constexpr double first_reach = 0.02;
+/// Longest motion of a vertex in any step; the number of contacts within reach grows with its square (unit: largest
+/// displacement at the start)
+constexpr double largest_reach = 0.1;
+/// The reach grows by this factor after a step that is kept (no unit)
+constexpr double reach_growth = 1.5;
+constexpr double reach_cut = 0.5;  ///< The reach is this share of a step that was not kept (no unit)
+/// The way back ends where steps are shorter than this (unit: largest displacement at the start)
+constexpr double least_reach = 1e-4;
+/// The way back ends where a step lowers the sum of squared displacements by less than this share (no unit)
+constexpr double least_gain = 1e-4;
+/// Contacts are aimed at this much above the wanted gap: room for what linearisation leaves out, so that steps along a
+/// contact need not be tiny (unit: largest displacement at the start)
 constexpr double contact_share = 1e-3;
-/// Steps at most, so that it ends where contacts let it creep.
+/// Steps of the way back, at most, where contacts let it creep (unit: steps)
 constexpr int most_steps = 200;
-/// Sweeps over the contacts of a step, and the change of a force, relative to the largest, at which they end.
-constexpr int most_sweeps = 200;
+constexpr int most_sweeps = 200;  ///< Sweeps over the contacts of a step, at most (unit: sweeps)
+/// Sweeps end where no force changes by more than this (unit: largest force)
 constexpr double sweep_tolerance = 1e-6;
-/// Moment of inertia that is added, as a share of its trace, where the vertices lie on a line.
+/// Moment of inertia that is added where the vertices lie on a line (unit: trace of the moments)
 constexpr double least_moment = 1e-9;
 
 /// A distance that must not fall below `gap`, linearised: distance + sum of gradient . step over its bodies.
@@ -46,7 +50,7 @@ struct BodyContact {
 class BodyRecovery {
  public:
   BodyRecovery(Bodies& bodies, const RecoverBodiesOptions& options) : bodies_(bodies), options_(options) {
-    // Vertices have edges from themselves to themselves here. What is met as a body and as an obstacle counts twice.
+    // A vertex is listed as an edge from itself to itself. What has two owners is listed once for each.
     std::vector<std::array<Index, 5>> entries;  // edge, owner, triangle, bit
     for (Index t = 0; t < static_cast<Index>(bodies.triangles().size()); ++t)
       for (Index k = 0; k < 3; ++k) {
@@ -122,14 +126,14 @@ class BodyRecovery {
     return lack;
   }
 
-  /// Distances that steps of this length could bring below the gap.
+  /// The contacts that steps of this length could bring below the gap.
   std::vector<BodyContact> contacts_within(double reach) const {
     const double radius = contact_gap_ + 2 * reach;
     std::vector<Stencil> stencils;
     for (const Body& body : bodies_.list()) {
       if (!body.is_placed) continue;
       bodies_.near_triangles(body, radius, [&](Index t, Index u) {
-        // A pair of two bodies is met from both sides.
+        // A pair of two bodies is visited from both sides.
         if (bodies_.owner_of_triangle(u) < 0 || t < u) add_stencils(t, u, stencils);
       });
     }
@@ -265,8 +269,8 @@ class BodyRecovery {
 
   Bodies& bodies_;
   const RecoverBodiesOptions& options_;
-  std::vector<std::uint8_t> owned_;  // of each triangle one bit a corner, then one an edge
-  double contact_gap_ = 0;           // that contacts are aimed at
+  std::vector<std::uint8_t> owned_;  // per triangle: bit k: it is the first at its corner k; bit 3 + k: at its edge k
+  double contact_gap_ = 0;           // gap that contacts are aimed at, a length
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace unsnarl {
 
 double RigidMotion::degrees() const {
-  // By the sine and the cosine: each alone loses half of its digits near 0 or 180 degrees.
+  // From sine and cosine: either alone loses half of its digits near 0 or 180 degrees.
   const Vec3 axis(rotation(2, 1) - rotation(1, 2), rotation(0, 2) - rotation(2, 0), rotation(1, 0) - rotation(0, 1));
   return std::atan2(axis.norm(), rotation.trace() - 1) * 180 / std::numbers::pi;
 }

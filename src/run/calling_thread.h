@@ -13,8 +13,8 @@
 
 namespace unsnarl {
 
-/// Threads of the pipeline sleep so long at most before they look again; they are woken by each other. A wait without
-/// end is another symbol of libstdc++ since GCC 12, which distributions with glibc 2.34 do not have.
+/// Threads of the pipeline look again after this time even if nobody wakes them. A wait without end needs a symbol of
+/// libstdc++ that GCC 12 introduced and distributions with glibc 2.34 lack (unit: h)
 inline constexpr std::chrono::hours longest_wait{1};
 
 /// Work that calls back from any of its threads, and a caller who is to be called in its own thread alone: the work

@@ -12,7 +12,7 @@
 
 namespace unsnarl {
 
-/// The input's properties, before any work.
+/// Properties of the input, before the repair.
 struct Diagnosis {
   Topology topology;
   Components components;
@@ -26,11 +26,11 @@ inline bool are_of_two_components(const Components& components, const Intersecti
   return components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b];
 }
 
-/// Topology, components and edges of a surface, without what intersects.
+/// Topology, components and edges of a surface, without intersections.
 Diagnosis diagnose_topology(const SurfaceView& surface, const PreparedSurface& prepared);
 
-/// Adds what intersects at prepared.rest to a diagnose_topology(), and what of it no motion resolves. `policy`: of
-/// these components. `finder`: of the prepared triangles. Throws WorkStopped soon after `stop` says so.
+/// Adds the pairs that intersect at prepared.rest to a diagnose_topology(), and which of them no motion resolves.
+/// `policy`: of these components. `finder`: of the prepared triangles. Throws WorkStopped soon after `stop` says so.
 void diagnose_intersections(const PreparedSurface& prepared, const PairPolicy& policy, IntersectionFinder& finder,
                             Diagnosis& diagnosis, const std::function<bool()>& stop = {});
 

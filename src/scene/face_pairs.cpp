@@ -9,8 +9,8 @@
 namespace unsnarl {
 namespace {
 
-/// Pairs of pieces of two faces: so few are decided again to tell which stands for the faces. Two quads along both
-/// diagonals have 16.
+/// Two faces with at most this many pairs of pieces have all of these decided to find the one that stands for the
+/// faces; two quads cut along both diagonals have 16 (unit: pairs)
 constexpr std::size_t few_piece_pairs = 64;
 
 template <class T>

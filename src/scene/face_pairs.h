@@ -9,17 +9,17 @@
 
 namespace unsnarl {
 
-/// Finds the intersecting pairs of the faces of a surface: of the triangles that they are split into, and where both
-/// diagonals of quads count, along either diagonal. The surface must outlive it.
+/// Finds the intersecting pairs of the faces of a surface, by the triangles that they are split into. If both diagonals
+/// of quads count, a quad is split along either. The surface must outlive it.
 class FacePairFinder {
  public:
   explicit FacePairFinder(const PreparedSurface& surface);
 
   /// Pairs of faces, sorted, each once, in the class of its first occurrence.
   std::vector<IntersectingPair> find(const Positions& x);
-  /// The same pairs in blocks and in no order, so that memory does not follow their number, but for those of polygons
-  /// with many corners, which come last. `take` is called by one thread at a time. Throws WorkStopped soon after `stop`
-  /// says so.
+  /// The same pairs in blocks and in no order, so that memory does not grow with their number. (Pairs of polygons with
+  /// many corners are kept and come last.) `take` is called by one thread at a time. Throws WorkStopped soon after
+  /// `stop` says so.
   void visit(const Positions& x, const std::function<bool()>& stop,
              const std::function<void(std::span<const IntersectingPair>)>& take);
 

@@ -10,8 +10,8 @@
 
 namespace unsnarl {
 
-/// One finder for the positions as they are and one for those rounded to float32: a finder that alternated between the
-/// two would decide everything anew every time.
+/// One finder for the positions as they are, and one for those rounded to float32: a single finder that alternates
+/// between the two would decide all pairs again at every call.
 class Finders {
  public:
   /// `scale`: of the positions. The triangles, and the groups whose triangles pass through each other, must outlive
@@ -24,7 +24,7 @@ class Finders {
     return std::equal(triangles.begin(), triangles.end(), as_is.triangles().begin(), as_is.triangles().end());
   }
 
-  /// Takes over that nothing intersects at x, nor once x is rounded to float32 if `rounded_too`.
+  /// States that nothing intersects at x, nor once x is rounded to float32 if `rounded_too`.
   void start_without_pairs(const Positions& x, bool rounded_too) {
     as_is.start_from(x, {});
     if (!rounded_too) return;
@@ -35,7 +35,7 @@ class Finders {
   IntersectionFinder as_is;
   /// The pairs at these positions once they are rounded to float32.
   std::vector<IntersectingPair> find_rounded(const Positions& x) {
-    // A copy saves building a tree, and deciding again whatever float32 holds as it is.
+    // A copy of the first finder: the tree need not be built again, nor pairs decided that float32 does not move.
     if (!rounded_) rounded_ = as_is;
     return rounded_->find(rounded_to_float32(x, scale_));
   }

@@ -12,10 +12,10 @@
 
 namespace unsnarl {
 
-/// Runs work on items that may disturb each other where their boxes overlap: in batches of items that do not, each
-/// batch in parallel by `work(i)`, followed by `finish(i)` for its items in order on the calling thread. Of two items
-/// that overlap the earlier one is finished before the later begins; so the result is that of one after the other, at
-/// any thread count.
+/// Runs work on items that may disturb each other if their boxes overlap. Items go into batches without overlaps. Each
+/// batch runs `work(i)` in parallel, then `finish(i)` for its items in order on the calling thread. Of two items that
+/// overlap, the earlier one is finished before the later one begins, so that the result is that of one after the other
+/// at any thread count.
 template <class Work, class Finish>
 void run_in_batches(std::span<const Box> boxes, Work&& work, Finish&& finish) {
   const std::size_t n = boxes.size();

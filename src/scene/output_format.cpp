@@ -10,11 +10,11 @@
 namespace unsnarl {
 namespace {
 
-/// The gap wanted between surfaces, in units in the last place of the format: rounding moves each of the two by half a
-/// unit in every coordinate, which is less than two units of distance; the rest is reserve.
+/// Gap wanted between surfaces. Rounding moves each of the two by half a unit in every coordinate, less than two units
+/// of distance; the rest is reserve (unit: units in the last place of the format)
 constexpr double gap_units = 8;
-/// float32 is asked for only where the gap that it needs is at most this share of the faces' mean altitude; else
-/// coordinates are too coarse for them.
+/// float32 is asked for only where the gap that it needs is at most this, so that its coordinates are fine enough for
+/// the faces (unit: mean altitude of the faces)
 constexpr double largest_gap_of_altitude = 0.02;
 
 /// Distance between neighbouring float32 numbers at the largest coordinate; infinite beyond float32.
@@ -90,7 +90,7 @@ std::vector<double> OutputFormat::written(const Positions& x) const {
 }
 
 Positions OutputFormat::as_written(const Positions& x) const {
-  // At another scale than the file's, double rounds too where it runs out of small numbers.
+  // Scaling back to the file's numbers is exact unless they become subnormal; a scale of one changes nothing.
   const bool is_exact = !options_->as_written && !float32_ && prepared_->scale.is_one();
   return is_exact ? x : prepared_->gather(written(x));
 }

@@ -27,11 +27,10 @@ void round_changed_to_float32(std::span<const double> input, std::span<double> n
 /// format. By these vertices alone, so that distant parts change nothing.
 double gap_of_format(const Scene& scene, std::span<const Index> vertices, bool float32, const Scale& scale);
 
-/// Is float32 fine enough for the scene? By the conflicts alone: parts far away that have none change nothing.
+/// Is float32 fine enough for the scene? Only the conflicts count, so that distant parts without any change nothing.
 bool float32_can_hold(const Scene& scene, std::span<const IntersectingPair> pairs, const Scale& scale);
 
-/// What is asked of the result's numbers: their digits, and the gap between surfaces. What it is made of must outlive
-/// it.
+/// What is asked of the result's numbers: their digits, and the gap between surfaces. Its arguments must outlive it.
 class OutputFormat {
  public:
   OutputFormat(const SurfaceView& surface, const PreparedSurface& prepared, const RepairOptions& options);
@@ -41,9 +40,9 @@ class OutputFormat {
   void choose(const Scene& scene, std::span<const IntersectingPair> pairs);
   /// The result is to hold in float32.
   bool float32() const { return float32_; }
-  /// Nobody asked for float32: where no way is found to hold in it, float64 will do.
+  /// float32 is optional: if no repair holds in it, the result is written in float64.
   bool may_give_up_float32() const { return float32_ && is_optional_; }
-  /// From now on float64 is what is asked for.
+  /// Asks for float64 from now on.
   void give_up_float32() { float32_ = is_optional_ = false; }
 
   /// The numbers of the file that will be written for x, as a reader sees them: 3 a vertex of the file.

@@ -11,8 +11,9 @@
 
 namespace unsnarl {
 
-/// Counts the intersecting pairs of a surface at positions reached by a repair, as its file will be read: polygons
-/// count as the input is cut and as a program cuts them that reads the result. Its arguments must outlive it.
+/// Counts the intersecting pairs of a surface at positions reached by a repair, as its file will be read: with polygons
+/// triangulated as in the input, and as a program that reads the result triangulates them. Its arguments must outlive
+/// it.
 class PairCensus {
  public:
   struct Pairs {

@@ -16,7 +16,7 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
   sort_unique(patch.faces);
   patch.active_count = static_cast<Index>(patch.faces.size());
 
-  // One query for all triangles, then a test against each: a query for each would find the same obstacles repeatedly.
+  // One query for all triangles, then a test against each: separate queries would find the same obstacles again.
   std::vector<Box> boxes;
   Box all;
   for (Index t : patch.faces) {

@@ -26,18 +26,18 @@ struct Patch {
   std::vector<Index> vertices;       ///< patch vertex -> vertex of the whole, ascending within the free and the fixed
   std::vector<Index> faces;          ///< patch triangle -> triangle of the whole, ascending within active and obstacles
   double edge_length = 0;            ///< h: mean edge of the intersecting faces at rest (or of all active ones)
-  Trajectory* trajectory = nullptr;  ///< where solvers note their iterations; none: nowhere. Not owned
-  PatchProgress* progress = nullptr;  ///< where they say how far they are; likewise
+  Trajectory* trajectory = nullptr;  ///< where solvers record their iterations, or null; not owned
+  PatchProgress* progress = nullptr;  ///< where solvers report their progress, or null; not owned
 };
 
 /// Cuts out the patch with these free vertices (ascending, none fixed). Obstacles: all triangles within `reach` (a
 /// length) of the box of an active triangle. `edge_length` is left to the caller.
 Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach);
 
-/// Box of everything cut_patch could take in with this reach.
+/// Box of everything that cut_patch could include with this reach.
 Box patch_box(const Scene& scene, std::span<const Index> free_vertices, double reach);
 
-/// Takes the free vertices' positions over into the scene; none where one is not finite (squares of coordinates beyond
+/// Copies the free vertices' positions into the scene; copies none if one is not finite (squares of coordinates beyond
 /// 2^500 overflow).
 void paste_patch(const Patch& patch, Scene& scene, SceneIndex& index);
 

@@ -11,15 +11,15 @@ namespace unsnarl {
 
 /// How far the work on a patch has got, for display alone: its solver writes it, another thread may read it.
 struct PatchProgress {
-  std::size_t pairs_before = 0;       ///< intersecting pairs that are to be resolved
-  std::atomic<std::size_t> pairs{0};  ///< those that are there now
+  std::size_t pairs_before = 0;       ///< intersecting pairs to resolve
+  std::atomic<std::size_t> pairs{0};  ///< intersecting pairs that are left
   std::atomic<double> done{0};        ///< share of the work that is done, as far as that can be foreseen, in [0, 1]
 
   void begin(std::size_t before) {
     pairs_before = before;
     set_pairs(before);
   }
-  /// For solvers that cannot foresee more than what is left.
+  /// For solvers that only know what is left.
   void set_pairs(std::size_t now) {
     const double all = static_cast<double>(std::max<std::size_t>(1, pairs_before));
     pairs = now;
@@ -27,8 +27,8 @@ struct PatchProgress {
   }
 };
 
-/// Reports progress while solvers are at work, which all ask whether to stop: now and then, from the thread that
-/// happens to ask, and one report at a time.
+/// Reports progress while solvers work, at intervals: from whichever solver thread asks whether to stop, one report at
+/// a time.
 class ProgressReporter {
  public:
   /// `report` may be empty. Both must outlive the reporter.
@@ -49,12 +49,12 @@ class ProgressReporter {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Between two reports: looks smooth, and costs less than a thousandth on meshes of a million vertices.
+  /// Time between two reports of progress (unit: ms)
   static constexpr std::chrono::milliseconds interval{200};
 
   const std::function<void()>& report_;
   const std::function<bool()>& stop_;
-  std::mutex mutex_;  // of the report and of when the last one was
+  std::mutex mutex_;  // guards the report and the time of the last one
   Clock::time_point reported_ = Clock::now();
 };
 

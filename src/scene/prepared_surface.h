@@ -16,7 +16,7 @@
 namespace unsnarl {
 
 /// Everything that is decided once, from the input, and holds for every later state of it. Positions are scaled by a
-/// power of two where the input's are so large or small that products of lengths would over- or underflow.
+/// power of two if those of the input are so large or small that products of lengths would over- or underflow.
 struct PreparedSurface {
   WeldMap weld_map;
   Triangulation triangulation;
@@ -29,7 +29,7 @@ struct PreparedSurface {
   Positions gather(std::span<const double> positions) const { return gather(positions, scale); }
   /// The same at another scale.
   Positions gather(std::span<const double> positions, const Scale& other) const;
-  /// The input's positions, with those of the welded vertices that differ from rest put in their place.
+  /// The input's positions, where welded vertices that differ from rest replace the vertices of the file.
   std::vector<double> scatter(std::span<const double> input, const Positions& x) const;
   /// Diagonal of the bounding box of the file's vertices at these positions, at this scale.
   double diagonal_of(std::span<const double> positions) const;
@@ -40,8 +40,8 @@ struct PreparedSurface {
 /// Throws std::invalid_argument where the surface makes no sense (see require_valid), or an option is out of range.
 PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options);
 
-/// The surface as a program that reads it at other positions (3 n doubles) sees it: welded as it was, but its polygons
-/// cut by where their corners lie now. Nothing where that is the same cut. `options`: as it was prepared with.
+/// The surface as a program sees it that reads it at other positions (3 n doubles): welded as before, but with polygons
+/// triangulated by the new positions. Nothing if that is the same triangulation. `options`: those it was prepared with.
 std::optional<PreparedSurface> cut_anew(const SurfaceView& surface, const PreparedSurface& prepared,
                                         const FindOptions& options, std::span<const double> positions);
 

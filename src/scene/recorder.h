@@ -49,15 +49,17 @@ class Recorder {
   /// Positions at the start.
   const Positions& input() const { return input_; }
   const RecordOptions& options() const { return options_; }
-  /// Forgets what came after.
+  /// Goes back to stages that were taken earlier.
   void restore(Stages stages) { stages_ = std::move(stages); }
 
   /// Bandwidths are those of the scene's vertices.
   std::vector<RegionHistory> history() const;
 
  private:
-  static constexpr std::size_t trajectory_budget = std::size_t{256} << 20;  // bytes of one region's states ...
-  static constexpr std::size_t total_budget = std::size_t{512} << 20;       // ... of all together
+  /// Memory for the states of one region's trajectory (unit: bytes)
+  static constexpr std::size_t trajectory_budget = std::size_t{256} << 20;
+  /// Memory for the states of all trajectories together (unit: bytes)
+  static constexpr std::size_t total_budget = std::size_t{512} << 20;
 
   void thin_out();
 
@@ -65,7 +67,7 @@ class Recorder {
   Positions input_;
   Stages stages_;
   std::size_t bytes_ = 0;  // of all states, forgotten ones included
-  int stride_ = 1;         // only every so many-th iteration of a track is kept, and its end
+  int stride_ = 1;         // every stride-th iteration of a track is kept, and its end
 };
 
 }  // namespace unsnarl

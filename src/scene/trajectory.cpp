@@ -33,6 +33,7 @@ void Trajectory::end_at_fewest_pairs() {
                                        [](const auto& a, const auto& b) { return a.pairs < b.pairs; });
   if (fewest == iterations.end()) return;
   rewind({static_cast<std::size_t>(fewest - iterations.begin()) + 1, {}});
+  /// States are thinned out while there are more (unit: states)
   constexpr std::size_t many_states = 16;
   while (states.size() > many_states) thin_out();
 }

@@ -19,10 +19,10 @@ class Trajectory {
     std::size_t bytes() const { return sizeof(double) * static_cast<std::size_t>(x.size()); }
   };
 
-  /// state_budget: bytes that the states may take; where they are more, every second one is left out. 0: no states.
+  /// state_budget: bytes that the states may take; beyond it, every second state is dropped. 0: no states.
   explicit Trajectory(std::size_t state_budget = 0) : state_budget_(state_budget) {}
 
-  /// The record's step is measured here.
+  /// Measures the step of the record too.
   void add(const Patch& patch, const Positions& x, IterationRecord record);
 
   /// How far a trajectory had got.
@@ -33,8 +33,8 @@ class Trajectory {
   Mark mark() const { return {iterations.size(), last_}; }
   /// Forgets what came after the mark.
   void rewind(Mark mark);
-  /// Forgets what came after the iteration with the fewest pairs (the first of these), and states where there are many:
-  /// for tries that failed, of which something may still be taken.
+  /// Drops everything after the first iteration with the fewest pairs, and some states if there are many. For failed
+  /// tries, of which a part may still be used.
   void end_at_fewest_pairs();
 
   std::vector<IterationRecord> iterations;

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "mesh/areas.h"
-#include "recover/step_filter.h"
 
 namespace unsnarl {
 namespace {
@@ -11,6 +10,8 @@ namespace {
 /// Share of the area vector at rest that is kept. Without unit. With 0.2, three of 31 meshes end 1.3 to 2.5 times
 /// as far.
 constexpr double least_share = 0.1;
+/// Sweeps over the faces in one projection, at most (unit: sweeps)
+constexpr int guard_sweeps = 10;
 
 }  // namespace
 
@@ -26,7 +27,7 @@ FlipGuard::FlipGuard(const Patch& patch, std::span<const std::uint8_t> may_turn)
 }
 
 bool FlipGuard::project(Positions& x) const {
-  for (int sweep = 0; sweep < projection_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < guard_sweeps; ++sweep) {
     bool pushed = false;
     for (const Kept& kept : kept_) {
       const Triangle& t = kept.corners;

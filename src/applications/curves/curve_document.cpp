@@ -12,12 +12,17 @@
 namespace unsnarl {
 namespace {
 
-/// Moved coordinates are rounded to this part of the diagonal: far below any gap, and short in a text.
+/// Moved coordinates are rounded to multiples of about this: far below any gap, and short in a text (unit: bounding-box
+/// diagonal)
 constexpr double written_rel = 1e-9;
 
+/// Largest tolerance of flattening curves that may be asked for (unit: bounding-box diagonal)
+constexpr double largest_flatten_rel = 0.1;
+
 void check_flattening(double flatten_rel) {
-  if (!(flatten_rel > 0 && flatten_rel <= 0.1))
-    throw std::invalid_argument(fmt::format("flatten_rel is {}; give a number in (0, 0.1]", flatten_rel));
+  if (!(flatten_rel > 0 && flatten_rel <= largest_flatten_rel))
+    throw std::invalid_argument(
+        fmt::format("flatten_rel is {}; give a number in (0, {}]", flatten_rel, largest_flatten_rel));
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 namespace unsnarl {
 namespace {
 
-/// How far the written points of one joint may be apart / diagonal: transforms of elements are inverted in doubles.
+/// Written points of one joint may be this far apart, since transforms of elements are inverted in doubles (unit:
+/// bounding-box diagonal)
 constexpr double joint_apart_rel = 1e-8;
 
 std::string faults_of(const std::vector<Curve>& written, const CurveResult& result) {

@@ -14,9 +14,11 @@
 namespace unsnarl {
 namespace {
 
-/// Lengths are squared, and squares multiplied: coordinates stay below the first, diagonals above the second, so that
-/// nothing overflows or vanishes.
-constexpr double largest_coordinate = 1e70, least_diagonal = 1e-70;
+/// Larger coordinates are refused: lengths are squared and squares multiplied, which must not overflow (unit: length)
+constexpr double largest_coordinate = 1e70;
+/// A smaller bounding-box diagonal is refused: lengths are squared and squares multiplied, which must not vanish (unit:
+/// length)
+constexpr double least_diagonal = 1e-70;
 
 Vec2 point(const Curve& curve, std::size_t k) {
   return {curve.points[2 * k], curve.points[2 * k + 1]};
@@ -37,7 +39,7 @@ struct CurvePoint {
 /// Adds a point to every segment that an end of an open curve lies on. Returns how many.
 std::size_t insert_junctions(std::vector<Curve>& curves, double distance) {
   std::size_t inserted = 0;
-  // Numbers of points change on the way; an end is told by its curve and side.
+  // An end is identified by its curve and side, since inserting points changes their numbers.
   for (std::size_t c = 0; c < curves.size(); ++c) {
     if (curves[c].closed) continue;
     for (const bool last : {false, true}) {
@@ -50,7 +52,7 @@ std::size_t insert_junctions(std::vector<Curve>& curves, double distance) {
         std::size_t segment = curve.size();
         const std::size_t n = curve.size(), segments = curve.closed ? n : n - 1;
         for (std::size_t k = 0; k < segments; ++k) {
-          // The end's own segment and the one beside it are near it anyway.
+          // The end's own segment and the one beside it do not count.
           if (other == c && (last ? k + 2 >= segments : k < 2)) continue;
           const Vec2 a = point(curve, k), b = point(curve, (k + 1) % n);
           const double t = nearest_fraction(end, a, b);
@@ -77,7 +79,7 @@ std::size_t point_at_end(const std::vector<Curve>& curves, std::size_t c, std::s
   double nearest = reach;
   std::size_t found = n;
   for (std::size_t k = 0; k < n; ++k) {
-    // The next point of its own curve may be nearer than the tolerance; only the other end is an end.
+    // On the end's own curve only the other end counts: neighbouring points may be nearer than the tolerance.
     if (other == c && (k == end || (k != 0 && k + 1 != n && (end == 0 ? k < 3 : k + 4 > n)))) continue;
     const double d = (point(curves[other], k) - point(curves[c], end)).norm();
     if (d > nearest || (d == nearest && found != n)) continue;
@@ -186,7 +188,7 @@ std::vector<CurveJoint> join_ends(std::vector<Curve>& curves, double distance, s
   inserted += insert_junctions(curves, distance);
   std::vector<CurveJoint> joints;
   for (const std::vector<CurvePoint>& group : points_to_join(curves, distance)) {
-    // A point that must not move decides where the joint is.
+    // A fixed point decides where the joint is.
     const auto held = std::find_if(group.begin(), group.end(),
                                    [&](const CurvePoint& at) { return is_fixed(curves[at.curve], at.point); });
     const CurvePoint& leader = held != group.end() ? *held : group.front();

@@ -69,9 +69,9 @@ struct ArcLengths {
 /// Throws std::invalid_argument, naming curve and point, for what untangle_curves refuses.
 void check_curves(std::span<const Curve> curves);
 
-/// Adds a point to curves where an open one ends on a segment, and finds what is joined: an end of an open curve, and
-/// whatever point is within `distance` (plus the curve's tolerance) of it. Joined points take the same position; what
-/// would leave a segment without length is not joined. Returns the joints; adds the number of points inserted.
+/// Adds a point to a curve where an open one ends on a segment, and finds the joints: an end of an open curve, and
+/// every point within `distance` (plus the curve's tolerance) of it. Joined points take the same position, unless that
+/// would leave a segment without length. Returns the joints; adds the number of points inserted.
 std::vector<CurveJoint> join_ends(std::vector<Curve>& curves, double distance, std::size_t& inserted);
 
 /// The joints whose points are at one position, bit for bit; one that is in several places becomes several, or none.

@@ -11,9 +11,9 @@
 namespace unsnarl {
 namespace {
 
-constexpr double page = 800;   // units of one half of the picture
-constexpr double margin = 40;  // around the curves
-constexpr double stroke = 1.6;
+constexpr double page = 800;    ///< Side of one half of the picture (unit: SVG units)
+constexpr double margin = 40;   ///< Margin around the curves (unit: SVG units)
+constexpr double stroke = 1.6;  ///< Width of the lines (unit: SVG units)
 // Colour-blind safe, dark enough on white; the first alone where there is one curve.
 constexpr std::array<const char*, 6> colours = {"#1f4e79", "#b5651d", "#2e7d4f", "#7b3f8c", "#8a6d00", "#555555"};
 
@@ -78,6 +78,7 @@ std::string label(const char* when, std::size_t crossings) {
 
 /// Dark blue over green to yellow, for t in [0, 1]; lightness grows with t.
 std::array<std::uint8_t, 3> heat(double t) {
+  /// Colours that the scale runs through, dark blue over green to yellow (unit: 8-bit RGB)
   constexpr std::array<std::array<double, 3>, 5> stops = {
       {{14, 10, 46}, {59, 42, 122}, {32, 120, 140}, {110, 190, 90}, {253, 231, 37}}};
   const double s = std::clamp(t, 0.0, 1.0) * (stops.size() - 1);

@@ -10,10 +10,8 @@
 namespace unsnarl {
 namespace {
 
-/// Beyond it a curve is cut no finer: 1e-4 of a drawing needs some 200 pieces for a circle around it.
-constexpr double most_pieces = 10000;
-/// Pieces of a curve that is only measured: a circle of so many is 2 % too small at most.
-constexpr double rough_pieces = 16;
+constexpr double most_pieces = 10000;  ///< A curve is cut into this many pieces at most (unit: pieces)
+constexpr double rough_pieces = 16;    ///< Pieces of a curve that is only measured (unit: pieces)
 
 class Reader {
  public:
@@ -229,7 +227,7 @@ Affine parse_transform(std::string_view text) {
       throw FileError(fmt::format("the transform at character {} cannot be read; give NAME(NUMBERS)", begin));
     reader.take();
     Affine step;
-    constexpr double degree = std::numbers::pi / 180;
+    constexpr double degree = std::numbers::pi / 180;  ///< A degree in radians (fixed by geometry)
     if (name == "matrix" && n.size() == 6) {
       step.linear << n[0], n[2], n[1], n[3];
       step.offset << n[4], n[5];

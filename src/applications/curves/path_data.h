@@ -23,7 +23,8 @@ struct Affine {
   bool is_invertible() const {
     if (!linear.allFinite() || !offset.allFinite()) return false;
     const Vec2 scales = linear.jacobiSvd().singularValues();
-    return scales[1] > 1e-8 * scales[0];
+    constexpr double half_of_digits = 1e-8;  ///< Ratio of scales that costs half of the digits (fixed by float64)
+    return scales[1] > half_of_digits * scales[0];
   }
 };
 

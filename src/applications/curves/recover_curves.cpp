@@ -15,8 +15,8 @@ namespace {
 struct Contact {
   Index vertex = 0, a = 0, b = 0;
   double activation = 0;  ///< length at which the barrier sets in
-  bool tight = false;     ///< closer than the barrier can bear: it sets in later, and grows with the gap
-  double distance = 0;    ///< of both, when it was found
+  bool tight = false;     ///< too close for the barrier, which sets in later and grows with the gap
+  double distance = 0;    ///< of the two, when the contact was found
 };
 
 struct Nearest {
@@ -150,7 +150,8 @@ class Recovery {
     }
   }
 
-  /// Beside each other along the curve, vertices are closer than the gap by nature.
+  /// Length at which the barrier of a contact sets in: the gap, or less for points that are near each other along a
+  /// curve.
   double activation(const Contact& contact) const {
     const double to_a = along_.between(contact.vertex, contact.a), to_b = along_.between(contact.vertex, contact.b);
     if (std::isinf(std::max(to_a, to_b)) || std::min(to_a, to_b) > options_.beside_gaps * gap_) return gap_;
@@ -205,7 +206,7 @@ class Recovery {
     hessian_.setFromTriplets(terms_.begin(), terms_.end());
   }
 
-  /// Moves every vertex as far as is safe, and all less far until the value falls. Returns the largest motion.
+  /// Moves every vertex as far as is safe, then shortens all motions until the value falls. Returns the largest motion.
   double take(const Points2& wanted_move, double wanted) {
     const double largest = std::min(wanted, options_.largest_step * net_.diagonal);
     const double radius = gap_ + largest / options_.safe_part;
@@ -218,7 +219,7 @@ class Recovery {
     Points2 move = wanted_move;
     for (Index v = 0; v < net_.vertex_count(); ++v)
       if (const double length = move.col(v).norm(); length > bound[v]) move.col(v) *= bound[v] / length;
-    // Most are for the bounds alone: the barrier does not set in for them wherever this step ends.
+    // Most contacts only bound the step: the barrier does not set in for them wherever this step ends.
     std::erase_if(near, [&](const Contact& contact) {
       const double of_segment = std::max(move.col(contact.a).norm(), move.col(contact.b).norm());
       return contact.distance > gap_ + move.col(contact.vertex).norm() + of_segment;
@@ -246,7 +247,7 @@ class Recovery {
   Eigen::SparseMatrix<double> elastic_, hessian_;  // of the Hessian the lower half
   std::vector<Eigen::Triplet<double>> elastic_terms_, terms_;
   std::vector<Contact> contacts_;
-  int small_ = 0;  // steps in a row that moved next to nothing
+  int small_ = 0;  // number of small steps in a row
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ class Repulsion {
       if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;
       const SegmentPenetration p = segment_penetration(x.col(a[0]), x.col(a[1]), x.col(b[0]), x.col(b[1]));
       if (!(p.depth > 0)) return;
-      // A little deeper than it is, so that what only just touches is pushed on.
+      // Counts as a little deeper, so that segments that just touch are pushed apart.
       value += p.depth + options_.overshoot * edge_;
       for (int k = 0; k < 2; ++k) {
         g.col(a[k]) -= p.weight_a[k] * p.normal;

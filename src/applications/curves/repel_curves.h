@@ -18,27 +18,35 @@ struct SegmentPenetration {
 SegmentPenetration segment_penetration(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1);
 
 struct RepelOptions {
-  int max_iterations = 200;  ///< of L-BFGS
-  double gaussian = 1;       ///< weight of the Gaussian energy, against the penalty over the mean edge length
-  double elastic = 0.05;     ///< weight of the change of edges: keeps them from being drawn out
-  double step_rel = 0.01;    ///< largest motion of a vertex in an iteration / diagonal
-  Index most_points = 3000;  ///< beyond it the Gaussian sum over all pairs is left out: it needs 4.5 million
-  /// Bandwidth of the Gaussian energy: at least so many mean edges, at most a part of the diagonal; looked for from so
-  /// many starts, by pairs of points closer than `seen_rel` of the diagonal.
-  double least_bandwidth = 2, most_bandwidth_rel = 0.05, seen_rel = 0.1;
-  int starts = 5;
-  double overshoot = 0.05;     ///< mean edges that segments count as deeper than they are, so as not to end touching
-  double least_edge = 0.01;    ///< mean edges: shorter ones resist change no harder than one of this length
-  double nearest_samples = 3;  ///< mean edges along the curve within which the weight of a pair is zero
+  int max_iterations = 200;  ///< Iterations of L-BFGS, at most (unit: iterations)
+  /// Weight of the Gaussian energy (unit: weight of the penalty over the mean edge length)
+  double gaussian = 1;
+  /// Weight of the change of edges, which keeps them from being drawn out (no unit)
+  double elastic = 0.05;
+  double step_rel = 0.01;  ///< Longest motion of a vertex in an iteration (unit: bounding-box diagonal)
+  /// With more points the Gaussian energy is left out, since it sums over all pairs (unit: points)
+  Index most_points = 3000;
+  double least_bandwidth = 2;  ///< Bandwidth of the Gaussian energy, at least (unit: mean edges)
+  /// Bandwidth of the Gaussian energy, at most (unit: bounding-box diagonal)
+  double most_bandwidth_rel = 0.05;
+  /// The bandwidth is looked for by pairs of points closer than this (unit: bounding-box diagonal)
+  double seen_rel = 0.1;
+  int starts = 5;  ///< Starts from which the bandwidth is looked for (unit: starts)
+  /// Segments count as this much deeper than they are, so that they do not end touching (unit: mean edges)
+  double overshoot = 0.05;
+  /// Shorter edges resist change no harder than one of this length (unit: mean edges)
+  double least_edge = 0.01;
+  /// The weight of a pair is zero where its points are no farther apart along the curve (unit: mean edges)
+  double nearest_samples = 3;
 };
 
 /// The pairs of vertices of the Gaussian self-contact energy of curves (paper eq. (1)): weight w(s, t) ds dt, with w
 /// the distance along the curve over its largest value, 1 for points of different curves.
 std::vector<GaussianContact<2>::Pair> contact_pairs(const CurveNet& net, double nearest);
 
-/// Minimises Gaussian self-contact energy + segment penalty + elastic energy from state.x until nothing crosses: for
-/// what cannot be switched because its points are fixed or joined. The result is kept only where fewer segments meet.
-/// Returns the crossings left.
+/// Minimises Gaussian self-contact energy + segment penalty + elastic energy from state.x until nothing crosses. For
+/// crossings that cannot be switched because points are fixed or joined. The result is kept only if fewer segments
+/// meet. Returns the crossings that are left.
 std::vector<SegmentPair> repel_curves(const CurveNet& net, CurveState& state, const RepelOptions& options,
                                       const std::function<bool()>& stop);
 

@@ -9,8 +9,8 @@
 
 namespace unsnarl {
 
-/// Boxes around runs of consecutive segments, as a binary tree over their order along the curves: neighbours in it are
-/// neighbours in the plane, so that it needs no sorting and is refitted in one pass.
+/// Boxes around runs of consecutive segments, as a binary tree over their order along the curves. Neighbours along a
+/// curve are near in the plane, so that the tree needs no sorting and is refitted in one pass.
 class SegmentTree {
  public:
   explicit SegmentTree(const CurveNet& net) : net_(&net) {
@@ -48,7 +48,7 @@ class SegmentTree {
   }
 
  private:
-  static constexpr Index run = 4;  // segments in a leaf
+  static constexpr Index run = 4;  ///< A leaf of the tree holds this many segments (unit: segments)
 
   struct Box {
     Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;

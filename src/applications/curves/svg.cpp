@@ -20,8 +20,9 @@
 namespace unsnarl {
 namespace {
 
-/// Subpaths are closed over a gap of this part of their largest coordinate: relative commands do not come back exactly,
-/// thousands of them add up so many roundings.
+constexpr double least_scale = 1e-300;  ///< Divisors are kept above this, so that none is zero (fixed by float64)
+/// Subpaths are closed over a gap of at most this: relative commands do not come back exactly, and thousands of them
+/// add up as many roundings (unit: largest coordinate of the subpath)
 constexpr double closing_gap = 1e-12;
 
 std::size_t line_of(std::string_view text, std::size_t offset) {
@@ -252,7 +253,7 @@ class SvgParser {
                 .data = {},
                 .transform = transform,
                 .pieces = {}};
-    const double tolerance = flatten_ / std::max(transform.scale(), 1e-300);
+    const double tolerance = flatten_ / std::max(transform.scale(), least_scale);
     std::vector<Subpath> paths;
     if (kind == "path") {
       shape.data = node.attribute("d").value();

@@ -13,7 +13,9 @@ namespace {
 
 using Path = std::vector<Vec2>;
 
-constexpr double largest_fraction = 1 - 0x1p-20;  // of a segment; positions on curves of 2^32 segments tell it apart
+/// A crossing lies before this share of its segment, so that positions on curves of 2^32 segments tell it from the next
+/// one (fixed by float64)
+constexpr double largest_fraction = 1 - 0x1p-20;
 
 /// A run of vertices of a chain, from slot `begin` on, around the end of a closed one.
 struct Run {
@@ -76,7 +78,8 @@ Path spread(const Path& path, Index m, bool to_the_end = false) {
   return result;
 }
 
-/// Length of the path times its distance from the polyline through `way`, about: each of its points against the whole.
+/// Approximately the length of the path times its distance from the polyline through `way`; each point of the path is
+/// compared with the whole polyline.
 double lost_area(const Path& path, const Path& way) {
   if (way.size() + 2 >= path.size()) return 0;
   double area = 0;
@@ -105,7 +108,7 @@ Path straight(const Vec2& from, const Vec2& to, Index m) {
   return result;
 }
 
-/// A number in [-1, 1) that depends on nothing but its arguments.
+/// A pseudo-random number in [-1, 1), a function of its arguments.
 double noise(std::uint64_t vertex, std::uint64_t axis, std::uint64_t round) {
   return 2 * splitmix_number((vertex * 2 + axis) * splitmix_step + round * 0xD1B54A32D192ED03ULL) - 1;
 }
@@ -222,7 +225,7 @@ class Switcher {
     return any;
   }
 
-  /// Segments that only touch cannot be switched; after a small push they cross or do not.
+  /// Moves segments that only touch a little, so that they cross or do not: touching ones cannot be switched.
   std::vector<SegmentPair> move_apart_what_touches() {
     std::vector<SegmentPair> pairs = find_meetings(net_, tree_, state_.x);
     if (!is_inset_) {
@@ -254,7 +257,7 @@ class Switcher {
     return pairs;
   }
 
-  /// Gaps of a few units in the last place are no gaps: recovery could not open them, nor a file hold them.
+  /// Widens gaps of a few units in the last place, which recovery could not open and a file could not hold.
   bool move_apart_what_nearly_touches() {
     const double least = options_.least_gap_rel * net_.diagonal;
     std::vector<std::uint8_t> moves = vertices_closer_than(net_, tree_, state_.x, least);
@@ -272,7 +275,8 @@ class Switcher {
     return true;
   }
 
-  /// Long runs are looked at where crossings are few, or where short ones are of no help: they cost more anyway.
+  /// Passes in which moves may change ever more vertices, until one removes a crossing. Begins with as many as are
+  /// affordable. Returns false if none did.
   bool pass_with_growing_reach(const std::vector<SegmentPair>& pairs) {
     const Index most = net_.vertex_count();
     const double affordable = options_.affordable_vertices / static_cast<double>(pairs.size());
@@ -284,7 +288,7 @@ class Switcher {
     }
   }
 
-  /// Makes the cheap moves that do not get in each other's way. False: none took a crossing away.
+  /// Makes the cheap moves that do not affect each other. Returns false if none removed a crossing.
   bool pass(const std::vector<SegmentPair>& pairs) {
     std::vector<Move> moves = candidates(pairs);
     std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.cost < b.cost; });
@@ -296,8 +300,8 @@ class Switcher {
       if (move.cost > most) break;
       if (is_touched(move.a) || is_touched(move.b)) continue;
       const double limit = options_.cost_range * std::max(move.cost, least_cost());
-      // Coarse segments can meet others after a turn. It makes the curve shorter all the same, so that this ends; a
-      // far more costly move instead would not be worth it.
+      // A turn of coarse segments that was refused, since they meet others afterwards, is made nevertheless before far
+      // more costly moves. It shortens the curve, so that this ends.
       if (!any && refused != nullptr && move.cost > options_.cost_range * std::max(refused->cost, least_cost()))
         return make(*refused, true);
       if (!make(move)) {
@@ -311,7 +315,7 @@ class Switcher {
     }
     return any || (refused != nullptr && make(*refused, true));
   }
-  /// Cheaper moves are not told apart.
+  /// Cost below which moves count as equally cheap.
   double least_cost() const {
     return options_.least_motion_rel * net_.diagonal * net_.diagonal / std::max(Index{1}, net_.vertex_count());
   }
@@ -585,7 +589,7 @@ class Switcher {
     }
   }
 
-  /// False, and nothing has changed: it would take no crossing away. `forced`: it is made all the same.
+  /// Makes a move. Returns false and changes nothing if it would remove no crossing; `forced`: it is made nevertheless.
   bool make(const Move& move, bool forced = false) {
     const std::size_t before = count_meetings(changed_segments(move, false));
     const Content old_a = content_of(move.a), old_b = content_of(move.b);
@@ -603,8 +607,8 @@ class Switcher {
     return false;
   }
 
-  /// Turns loops, whatever it costs, until no curve properly crosses itself or only pinned loops do. False: no loop was
-  /// turned.
+  /// Turns loops at any cost until no curve properly crosses itself, except at pinned loops. Returns false if no loop
+  /// was turned.
   bool turn_all(const std::function<bool(std::size_t)>& stop) {
     bool any = false;
     for (bool changed = true; changed;) {

@@ -16,14 +16,26 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Points this near to where they are pulled to are put there / diagonal: a four-hundredth of the default gap.
+/// Points this near to where they are pulled to are put there, a four-hundredth of the default gap (unit: bounding-box
+/// diagonal)
 constexpr double snap_rel = 1e-5;
 
+/// Largest gap that may be asked for (unit: bounding-box diagonal)
+constexpr double largest_gap_rel = 0.1;
+/// Largest size of a junction that may be asked for (unit: bounding-box diagonal)
+constexpr double largest_junction_rel = 0.1;
+/// Half the side of the first box in which the nearest point of the drawing is looked for, at most (unit: bounding-box
+/// diagonal)
+constexpr double first_reach_rel = 1e-3;
+constexpr double report_every_s = 0.2;  ///< Time between two reports of progress, at least (unit: s)
+
 void check_options(const CurveOptions& options) {
-  if (!(options.gap_rel > 0 && options.gap_rel <= 0.1))
-    throw std::invalid_argument(fmt::format("gap_rel is {}; give a number in (0, 0.1]", options.gap_rel));
-  if (!(options.junction_rel >= 0 && options.junction_rel <= 0.1))
-    throw std::invalid_argument(fmt::format("junction_rel is {}; give a number in [0, 0.1]", options.junction_rel));
+  if (!(options.gap_rel > 0 && options.gap_rel <= largest_gap_rel))
+    throw std::invalid_argument(
+        fmt::format("gap_rel is {}; give a number in (0, {}]", options.gap_rel, largest_gap_rel));
+  if (!(options.junction_rel >= 0 && options.junction_rel <= largest_junction_rel))
+    throw std::invalid_argument(
+        fmt::format("junction_rel is {}; give a number in [0, {}]", options.junction_rel, largest_junction_rel));
   if (!(options.time_limit_s >= 0))
     throw std::invalid_argument(fmt::format("time_limit_s is {}; give a number from 0 on", options.time_limit_s));
 }
@@ -37,8 +49,8 @@ std::vector<double> distances_from_drawing(const CurveNet& net, const Points2& x
     const Vec2 p = x.col(v);
     double nearest = (p - net.rest.col(v)).norm();
     if (nearest == 0) continue;
-    // Growing boxes: what is nearer than the box reaches is the nearest.
-    for (double reach = std::min(nearest, 1e-3 * net.diagonal);; reach *= 2) {
+    // Boxes grow until the nearest point found is within the box.
+    for (double reach = std::min(nearest, first_reach_rel * net.diagonal);; reach *= 2) {
       const Vec2 r = Vec2::Constant(reach);
       tree.near(p - r, p + r, [&](Index s) {
         const Vec2 a = net.rest.col(net.segments[s][0]), b = net.rest.col(net.segments[s][1]);
@@ -90,7 +102,7 @@ class CurveUntangling {
   void show(double fraction, std::string_view phase, std::size_t left, const CurveState& state) {
     if (!control_.is_told()) return;
     const auto now = Clock::now();
-    if (fraction > 0 && std::chrono::duration<double>(now - shown_).count() < 0.2) return;
+    if (fraction > 0 && std::chrono::duration<double>(now - shown_).count() < report_every_s) return;
     shown_ = now;
     const double moved = (state.x - net_.rest).colwise().norm().maxCoeff();
     control_.tell(fraction, phase, left, net_.diagonal > 0 ? moved / net_.diagonal : 0);
@@ -122,8 +134,8 @@ class CurveUntangling {
     snap(state);
   }
 
-  /// Points that have moved next to nothing go back all the way, so that the numbers of the input are kept; not where
-  /// that would close a gap.
+  /// Puts points that moved by less than snap_rel back to their targets, so that the numbers of the input are kept,
+  /// except where that would close a gap.
   void snap(CurveState& state) const {
     const Points2 recovered = state.x;
     const std::size_t left = find_meetings(net_, state.x).size();

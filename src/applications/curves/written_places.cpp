@@ -11,8 +11,8 @@ namespace {
 
 using WrittenPlace = std::array<double, 2>;
 
-/// Neighbouring doubles, to either side, among which a coordinate is looked for that is read as wanted: a rotation
-/// reaches a given position from about one of them.
+/// A coordinate that is read as wanted is looked for among this many neighbouring doubles to either side: a rotation
+/// reaches a given position from about one of them (unit: units in the last place)
 constexpr int neighbours_looked_at = 3;
 
 WrittenPlace place_at(const Curve& curve, std::size_t k) {
@@ -48,8 +48,11 @@ bool is_same(const Affine& a, const Affine& b) {
   return a.linear == b.linear && a.offset == b.offset;
 }
 
+/// Divisors are kept above this, so that none is zero (fixed by float64)
+constexpr double least_transform_scale = 1e-300;
+
 double rounding_within(const Affine& transform, double rounding) {
-  return rounding / std::max(transform.scale(), 1e-300);
+  return rounding / std::max(transform.scale(), least_transform_scale);
 }
 
 }  // namespace

@@ -11,9 +11,8 @@
 
 namespace unsnarl {
 
-/// The positions at which the points of moved curves are written. Points at one position are one (a joint), so that one
-/// decision is made for all of them: coordinates that a point of the file has kept stay as they are, the others are
-/// rounded.
+/// The positions at which the points of moved curves are written. Points at the same position (a joint) are written at
+/// the same position: coordinates that a point of the file has kept stay as they are, the others are rounded.
 class WrittenPlaces {
  public:
   /// own: the curves of the file; moved: as many, with points moved or inserted. rounding: a length; 0: all digits.
@@ -36,8 +35,8 @@ class TransformedPlaces {
 
   /// A point of this position is to be written in an element of this transform. All of them, before the first local().
   void expect(const Vec2& moved, const Affine& transform);
-  /// Its coordinates in the element. Those of one position are read as one wherever doubles of all elements can say so:
-  /// the certificate of the written file tells where they cannot.
+  /// Its coordinates in the element. Points of one position are read back at one position wherever doubles of all
+  /// elements allow it; the check of the written file finds where they do not.
   Vec2 local(const Vec2& moved, const Affine& transform);
 
  private:

@@ -9,16 +9,16 @@
 namespace unsnarl {
 namespace {
 
-constexpr double margin = 0.05;      // around the curves / the longer side
-constexpr double stroke = 0.004;     // / the longer side
-constexpr double seconds_a_way = 4;  // from start to end
+constexpr double margin = 0.05;      ///< Margin around the curves (unit: the longer side)
+constexpr double stroke = 0.004;     ///< Width of the lines (unit: the longer side)
+constexpr double seconds_a_way = 4;  ///< Time of an animation from start to end (unit: s)
 
 struct Bounds {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
 };
 
-/// Significant digits of coordinates in pictures, and those that give every double back.
-constexpr int short_digits = 6, all_digits = 17;
+constexpr int short_digits = 6;  ///< Significant digits of coordinates in pictures (unit: digits)
+constexpr int all_digits = 17;   ///< Significant digits that give every double back (fixed by float64)
 
 std::string opening(const Isotopy& isotopy, int digits = short_digits) {
   Bounds b;

@@ -16,16 +16,21 @@
 namespace unsnarl {
 namespace {
 
-constexpr int least_points = 200;  ///< fewer make coarse spirals of what turns
-constexpr double turn = 2 * std::numbers::pi;
-/// Discs that change places keep this part of their smallest distance on the way as radius: a third of each, a third
-/// between.
+/// Points of a curve unless the caller says otherwise, at least: fewer make coarse spirals of what turns (unit: points)
+constexpr int least_points = 200;
+constexpr double turn = 2 * std::numbers::pi;  ///< A full turn in radians (fixed by geometry)
+/// Discs that change places have at most this radius: a third for each, a third between (unit: their smallest distance
+/// on the way)
 constexpr double disc_of_distance = 1.0 / 3;
-/// Ways around that are tried for discs that would meet.
+/// Ways around that are tried for discs that would meet (unit: ways)
 constexpr int most_detours = 1000;
-/// Distance of discs on the way, below which a way around is looked for / diagonal.
+/// A way around is looked for where discs come closer on the way (unit: bounding-box diagonal)
 constexpr double least_way_rel = 1e-3;
-/// The least that the time of a slab grows by / the mean of all.
+constexpr double start_fraction = 0.3;  ///< Share of the progress when the start is round (no unit)
+constexpr double end_fraction = 0.6;    ///< Share of the progress when the end is round too (no unit)
+/// The motion of all slabs together counts as this much at least (unit: bounding-box diagonal)
+constexpr double least_effort_rel = 1e-6;
+/// The time of a slab grows by this at least (unit: mean of all slabs)
 constexpr double least_time = 0.2;
 
 Vec2 point(const Curve& curve, std::size_t k) {
@@ -243,8 +248,13 @@ double smallest_distance(const std::vector<Vec2>& from, const std::vector<Vec2>&
   return least;
 }
 
-/// Middles on the way from one side to the other: straight where that keeps them apart, else around a place each, drawn
-/// from a sequence of low discrepancy, whichever keeps them farthest apart.
+/// Inverse of the plastic number, which makes a sequence of low discrepancy (fixed by algebra)
+constexpr double plastic_ratio = 0.7548776662;
+constexpr double first_shift = 0.37;   ///< Shift of the sequence's first coordinate from disc to disc (no unit)
+constexpr double second_shift = 0.61;  ///< Shift of the sequence's second coordinate from disc to disc (no unit)
+
+/// Ways of the discs' middles from one side to the other: straight if that keeps them apart; else by way of one place
+/// each, from a sequence of low discrepancy, the try that keeps them farthest apart.
 std::vector<std::vector<Vec2>> ways(const std::vector<Disc>& from, const std::vector<Disc>& to, double diagonal) {
   std::vector<Vec2> a, b;
   for (const Disc& disc : from) a.push_back(disc.middle);
@@ -255,8 +265,8 @@ std::vector<std::vector<Vec2>> ways(const std::vector<Disc>& from, const std::ve
   for (int k = 1; k <= most_detours; ++k) {
     std::vector<Vec2> way;
     for (std::size_t c = 0; c < a.size(); ++c) {
-      const double s = std::fmod((k + 0.37 * static_cast<double>(c)) * std::numbers::phi, 1),
-                   t = std::fmod(k * 0.7548776662 + 0.61 * static_cast<double>(c), 1);
+      const double s = std::fmod((k + first_shift * static_cast<double>(c)) * std::numbers::phi, 1),
+                   t = std::fmod(k * plastic_ratio + second_shift * static_cast<double>(c), 1);
       way.push_back(0.5 * (a[c] + b[c]) + diagonal * Vec2(s - 0.5, t - 0.5));
     }
     const double distance = std::min(smallest_distance(a, way), smallest_distance(way, b));
@@ -287,7 +297,7 @@ class Making {
     const auto stop = [&] { return is_stopped(); };
     control_.tell(0, "shorten");
     if (!make_round(start_, made_.points, false, stop, from)) return given_up();
-    control_.tell(0.3, "shorten");
+    control_.tell(start_fraction, "shorten");
     if (!make_round(end_, made_.points, true, stop, to)) return given_up();
     renumber(to, from.discs, directions);
     made_.on_start = from.places;
@@ -296,7 +306,7 @@ class Making {
     std::vector<Polygons> states = std::move(from.states);
     join(from.discs, to.discs, directions, states);
     states.insert(states.end(), to.states.rbegin(), to.states.rend());
-    control_.tell(0.6, "thin out");
+    control_.tell(end_fraction, "thin out");
     std::vector<std::size_t> kept = thin_out(states, made_.height, false, stop);
     if (kept.empty()) return given_up();
     bool is_refined = true;
@@ -319,7 +329,7 @@ class Making {
     nothing.seconds = control_.seconds();
     return nothing;
   }
-  /// Discs to discs: several shrink first, so that they pass each other.
+  /// Moves discs to discs; several discs shrink first, so that they can pass each other.
   void join(std::vector<Disc> from, const std::vector<Disc>& to, std::span<const double> directions,
             std::vector<Polygons>& states) const {
     if (from.size() == 1) return;
@@ -338,8 +348,8 @@ class Making {
     }
   }
 
-  /// Looks at the whole surface: where triangles of a strip meet, the state halfway is kept too. False: nothing meets,
-  /// or there is none to keep.
+  /// Checks the whole surface: where triangles of a strip meet, the state halfway is kept too. Returns false if nothing
+  /// meets, or if there is no state to keep.
   bool refine_where_strips_meet(std::vector<std::size_t>& kept) {
     FindOptions find;
     find.weld = Weld::none;
@@ -373,7 +383,7 @@ class Making {
           most = std::max(most, std::sqrt(((*rings[k])[c] - (*rings[k - 1])[c]).colwise().squaredNorm().maxCoeff()));
       effort.push_back(effort.back() + most);
     }
-    const double mean = std::max(effort.back(), made_.height * 1e-6) / static_cast<double>(rings.size());
+    const double mean = std::max(effort.back(), least_effort_rel * made_.height) / static_cast<double>(rings.size());
     const double sum = effort.back() + least_time * mean * static_cast<double>(rings.size() - 1);
     made_.rings.clear();
     made_.surface = {};

@@ -82,7 +82,7 @@ std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double hei
     const auto fits = [&](std::size_t step) {
       return strips_are_embedded(rings[backwards ? at + step : at], rings[backwards ? at : at + step], height);
     };
-    // Steps change little from one to the next: begin with the last one.
+    // The search begins with the last step, since steps change little.
     std::size_t good = 1, bad = most + 1;
     for (std::size_t step = std::min(last_step, most); good < most && step > good; step = std::min(2 * good, most)) {
       if (fits(step)) {
@@ -92,7 +92,7 @@ std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double hei
         break;
       }
     }
-    while (bad - good > 1 + good / 8) {  // an eighth more is not worth the search
+    while (bad - good > 1 + good / 8) {  // ends within an eighth of the longest step
       const std::size_t middle = (good + bad) / 2;
       (fits(middle) ? good : bad) = middle;
     }

@@ -28,10 +28,10 @@ std::vector<Rung> rungs_of(const Isotopy& isotopy, std::size_t ring, std::size_t
 /// The triangles of a strip, appended to the corners. `lower`, `upper`: the first vertices of both polygons.
 void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::vector<std::int32_t>& corners);
 
-/// The subsequence of rings that greedy long steps leave, the first and the last among them: from every ring as far as
-/// the strips to a later one are embedded, found by doubling and halving. Those between neighbours are taken to be.
-/// `backwards`: later rings are the lower ones, which decides how quads are cut. `stop`: true: give up; what is
-/// returned is then empty.
+/// A subsequence of the rings, with the first and the last: from each ring the next one is as late as the strips to it
+/// are embedded, found by doubling and halving. Strips between neighbouring rings are assumed to be embedded.
+/// `backwards`: later rings are the lower ones, which decides how quads are cut. `stop`: true ends it; the result is
+/// then empty.
 std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height, bool backwards,
                                   const std::function<bool()>& stop);
 

@@ -9,16 +9,14 @@
 namespace unsnarl {
 namespace {
 
-/// The step of time grows by this factor after each step, and is halved up to so often where a vertex would go too far.
-constexpr double longer = 1.2;
+constexpr double longer = 1.2;  ///< The step of time grows by this factor after each step (no unit)
+/// The step of time is halved this many times at most where a vertex would go too far (unit: halvings)
 constexpr int most_halvings = 40;
-/// Part of what a vertex may move that the flow uses; the rest is for points to slide.
+/// The flow uses this share of what a vertex may move; the rest is for points to slide (no unit)
 constexpr double flow_part = 0.6;
-/// Distances are looked for up to this many mean edges.
-constexpr double looked_for = 4;
-/// States after which they are to be thinned out.
-constexpr std::size_t states_between = 400;
-/// Curves that wait shrink down to this / diagonal.
+constexpr double looked_for = 4;             ///< Distances are looked for up to this (unit: mean edges)
+constexpr std::size_t states_between = 400;  ///< States after which they are thinned out (unit: states)
+/// Curves that wait shrink down to this (unit: bounding-box diagonal)
 constexpr double least_size_rel = 1e-2;
 
 double cross(const Vec2& a, const Vec2& b) {
@@ -76,7 +74,8 @@ class Flow {
   const Points2& step() {
     tree_.refit(x_);
     measure_distances();
-    // What holds single vertices back bends the flow to one that may end in a thin doubled line: rather take less time.
+    // The step of time is halved until no vertex goes too far. Holding back single vertices instead could end the flow
+    // in a thin doubled line.
     Points2 to;
     for (int k = 0; k < most_halvings; ++k, time_step_ *= 0.5) {
       to = x_;
@@ -127,8 +126,8 @@ class Flow {
     for (Index k = 0; k < n; ++k) to.col(chain.vertices[k]) = right.col(k);
   }
 
-  /// Lets points slide along the polygon towards equal distances, by what the flow leaves of the bounds. Those that the
-  /// flow itself brings about come too late for tips, in which it heaps up points.
+  /// Lets points slide along the polygon toward equal distances, within what the flow leaves of the bounds. The flow's
+  /// own spreading is too slow at tips, where it gathers points.
   void spread(const CurveNet::Chain& chain, Points2& to) const {
     const Index n = chain.size();
     std::vector<double> arc(n + 1, 0);

@@ -8,22 +8,21 @@
 namespace unsnarl {
 
 struct RoundOptions {
-  /// A vertex moves by at most this part of its distance to the nearest segment, and of its segments' to the nearest
+  /// A vertex moves by at most this share of its distance to the nearest segment, and of its segments' to the nearest
   /// vertex. Two moves and the bend of a triangulated quad, a quarter of two moves, stay below the distance: at most
-  /// 1/3.
+  /// 1/3 (no unit)
   double move_of_distance = 0.3;
-  /// 4 pi area / length^2 from which on a convex curve counts as round; of a circle it is 1.
+  /// A convex curve counts as round from this value of 4 pi area / length^2 on; a circle has 1 (no unit)
   double roundness = 0.9;
-  /// Steps after which it is given up. A spiral of eight turns and 960 points ends before.
+  /// Steps after which the caller is told that the curves do not become round (unit: steps)
   int most_steps = 200000;
-  /// Curves that wait for others shrink by this factor a step, down to a hundredth of the diagonal, so that they are in
-  /// no one's way.
+  /// Curves that wait for others shrink by this factor in each step, so that they are in no one's way (no unit)
   double shrinking = 0.98;
 };
 
-/// Shortens the closed curves of a net, which are simple and disjoint, until each is convex and round: their states on
-/// the way, from x on. Empty: stopped, or given up. `compact` is called now and then, to take states out but for the
-/// first and the last.
+/// Shortens the closed curves of a net, which are simple and disjoint, until each is convex and round. Returns their
+/// states on the way, from x on; empty: stopped, or given up. `compact` is called at intervals to remove states between
+/// the first and the last.
 ///
 /// Each step is one of the curve shortening flow, which makes any simple curve round (M. A. Grayson 1987), in the
 /// parametrisation of K. Deckelnick and G. Dziuk, "On the approximation of the curve shortening flow", 1995, that

@@ -22,8 +22,9 @@ struct Alignment {
 /// The points of a polygon in another order: first, first + 1, ... or first, first - 1, ...
 Positions reordered(const Positions& x, Index first, bool backwards);
 
-/// Alignments of y to x, which has as many points, that are best among those that begin nearby; nearest first, `most`
-/// at most. `backwards`: of y run along the other way. Closed form (W. Kabsch, 1976) for every first point.
+/// Alignments of y to x, which has as many points, that are better than those with a neighbouring first point; nearest
+/// first, at most `most`. `backwards`: y is passed in the other direction. Closed form (W. Kabsch, 1976) for every
+/// first point.
 std::vector<Alignment> alignments(const Positions& x, const Positions& y, bool backwards, std::size_t most);
 
 /// The first point of y for which the squares of the distances from point k of x to point first + k of y have the

@@ -29,6 +29,9 @@ void check_pieces(const char* name, const std::vector<int>& pieces, std::size_t 
     refuse(fmt::format("the sum of {} is {}, but the rings between have {} points", name, sum, points));
 }
 
+/// Larger coordinates are refused, so that products of several are finite (unit: length)
+constexpr double largest_ring_coordinate = 1e70;
+
 void check_rings(const KnotIsotopy& isotopy) {
   const std::size_t count = isotopy.rings.size();
   if (count < 4) refuse(fmt::format("there are {} rings; an isotopy has four or more", count));
@@ -36,7 +39,8 @@ void check_rings(const KnotIsotopy& isotopy) {
     const KnotRing& ring = isotopy.rings[k];
     if (ring.points.size() < 9 || ring.points.size() % 3 != 0)
       refuse(fmt::format("ring {} has {} numbers; give three for each of three points or more", k, ring.points.size()));
-    if (!std::all_of(ring.points.begin(), ring.points.end(), [](double v) { return std::abs(v) <= 1e70; }))
+    if (!std::all_of(ring.points.begin(), ring.points.end(),
+                     [](double v) { return std::abs(v) <= largest_ring_coordinate; }))
       refuse(fmt::format("ring {} has a coordinate that is not finite or beyond 1e70", k));
     if (!(ring.time >= 0 && ring.time <= 1) || (k > 0 && !(ring.time > isotopy.rings[k - 1].time)))
       refuse(fmt::format("the time of ring {} is {}; times ascend from 0 to 1", k, ring.time));

@@ -8,11 +8,12 @@
 namespace unsnarl {
 namespace {
 
-/// Vertices of a ring repel those of as many rings above and below too.
+/// Vertices of a ring repel those of this many rings above and below too (unit: rings)
 constexpr int rings_near = 1;
-/// Points fewer edges than this apart along the ring neither repel nor are penalised: they are neighbours.
+/// Points fewer edges than this apart along the ring neither repel nor are penalised (unit: edges)
 constexpr Index neighbours = 3;
-/// |x|^2 / that of the largest difference of corners below which triangles count as running through each other.
+/// Triangles count as running through each other where |x|^2 is below this (unit: that of the largest difference of
+/// corners)
 constexpr double touching = 1e-20;
 
 /// Orthogonal to u, v and w, as long as the volume that they span.

@@ -32,13 +32,11 @@ class CylinderEnergy {
  public:
   explicit CylinderEnergy(std::vector<Positions> rings);
 
-  /// Weights without unit, but for the ranges, in mean edges. Of 61 double points of five pairs of knots 8 were left
-  /// with these; 13 without the Gaussian, 12 with ten times of it, 10 with a membrane of 0.01, 12 with a margin of 1.
-  double epsilon = 4;  ///< range of the Gaussian
-  double gaussian = 0.05;
-  double margin = 0.5;  ///< distance of triangles below which they are penalised
-  double penalty = 1;
-  double membrane = 0.05;
+  double epsilon = 4;      ///< Range of the Gaussian (unit: mean edges)
+  double gaussian = 0.05;  ///< Weight of the Gaussian energy (no unit)
+  double margin = 0.5;     ///< Triangles that are nearer are penalised (unit: mean edges)
+  double penalty = 1;      ///< Weight of the penalty of triangles (no unit)
+  double membrane = 0.05;  ///< Weight of the changes of edges (no unit)
 
   /// 3 numbers a vertex of the rings between.
   Eigen::Index size() const { return 3 * n_ * (static_cast<Eigen::Index>(rest_.size()) - 2); }

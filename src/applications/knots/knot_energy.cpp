@@ -10,7 +10,7 @@
 namespace unsnarl {
 namespace {
 
-static_assert(KnotEnergy::beta == 4.5, "powers are written as square roots");
+static_assert(2 * KnotEnergy::beta == 9, "powers are written as square roots");
 
 struct Edges {
   explicit Edges(const Positions& x) : n(static_cast<Index>(x.cols())), e(3, n), m(3, n), length(n) {
@@ -28,7 +28,7 @@ struct Edges {
   double total = 0;
 };
 
-/// Edges with fewer between them are kept apart by what bends cost.
+/// Edges with fewer between them are kept apart by what bends cost, not by the barrier (unit: edges)
 constexpr Index barrier_from = 4;
 
 bool touch(Index i, Index j, Index n) {

@@ -14,17 +14,16 @@ namespace unsnarl {
 /// not matter; plus evenness * (n sum l^2 / length^2 - 1), which is 0 where all edges are equally long.
 class KnotEnergy {
  public:
-  /// Between 4, where knots can be pulled tight without an end, and 5, where it is infinite for polygons as they get
-  /// finer.
+  /// Exponent of the energy, between 4, where knots can be pulled tight without an end, and 5, where it is infinite for
+  /// polygons as they get finer (no unit)
   static constexpr double beta = 4.5;
-  /// Keeps edges alike, so that none gets longer than the distance between strands, which would slip through between
-  /// middles. With 10, a figure-eight of 96 points did, its longest edge forty times the shortest; with 30000, six
-  /// kinks were not undone after 400 steps of plain descent, which took 160 with 3000.
+  /// Weight of the evenness of edges: if one gets longer than the distance between strands, these slip through between
+  /// middles; a larger weight slows descent (no unit)
   double evenness = 1000;
-  /// Edges with three others between them, at least, that are nearer than this part of the mean edge length are kept
-  /// apart by a barrier, of this weight: middles do not see what ends do. Without it, an unknot with six kinks got
-  /// stuck with strands that almost touch; a tenth or ten times the weight need as many steps.
-  double barrier_reach = 1, barrier_weight = 100;
+  /// Edges with at least three others between them that are nearer than this are kept apart by a barrier, since the
+  /// energy of middles does not see their ends (unit: mean edge length)
+  double barrier_reach = 1;
+  double barrier_weight = 100;  ///< Weight of that barrier (no unit)
 
   double operator()(const Positions& x) const;
   /// The gradient is written, one column a vertex.

@@ -19,18 +19,30 @@
 namespace unsnarl {
 namespace {
 
-constexpr int least_points = 200;  ///< unless it is said; coarser ones let strands come nearer than edges are long
-constexpr int fewest_points = 16, most_points = 2000;
-/// Places where the shapes at rest are laid on each other, of each direction. A knot's symmetries give a few that are
-/// equally good.
+/// Points of a knot unless the caller says otherwise, at least: coarser ones let strands come nearer than edges are
+/// long (unit: points)
+constexpr int least_points = 200;
+constexpr int fewest_points = 16;  ///< Fewest points that the caller may ask for (unit: points)
+constexpr int most_points = 2000;  ///< Most points that a knot may have (unit: points)
+/// Places where the shapes at rest are laid on each other, for each direction: a knot's symmetries give a few that are
+/// equally good (unit: places)
 constexpr std::size_t most_alignments = 6;
-/// Times that both are brought to rest: shapes that balance on a ridge fall to one side when they are shaken.
+/// Times that both knots are brought to rest: shapes that balance on a ridge fall to one side when they are shaken
+/// (unit: rounds)
 constexpr int most_rounds = 3;
-/// How far a shake moves points / root mean square of their distances from the centre.
+/// A shake moves points by this (unit: root mean square of their distances from the centre)
 constexpr double shake_rel = 0.05;
-constexpr int shake_waves = 5;         ///< of the longest waves along the knot, in which it is shaken
-constexpr double rotation_step = 0.5;  ///< radian, from ring to ring before they are thinned out
-/// The least that the time grows by from ring to ring / the mean of all.
+/// A knot is shaken in this many of the longest waves along it (unit: waves)
+constexpr int shake_waves = 5;
+/// Rotation from ring to ring before they are thinned out, at most (unit: radian)
+constexpr double rotation_step = 0.5;
+constexpr double relaxing_share = 0.7;    ///< Share of the progress that bringing knots to rest takes (no unit)
+constexpr double untangling_share = 0.2;  ///< Share of the progress that untangling takes (no unit)
+constexpr double thinning_from = 0.9;     ///< Share of the progress when rings are thinned out (no unit)
+constexpr double certifying_from = 0.98;  ///< Share of the progress when the result is certified (no unit)
+/// The motion of all rings together counts as this much at least (unit: root mean square distance from the centre)
+constexpr double least_effort_rel = 1e-6;
+/// The time grows by this from ring to ring, at least (unit: mean of all rings)
 constexpr double least_time = 0.2;
 
 void check_options(const Link& start, const Link& end, const KnotIsotopyOptions& options) {
@@ -61,7 +73,7 @@ double spread(const Positions& x) {
   return std::sqrt((x.colwise() - Vec3(x.rowwise().mean())).squaredNorm() / static_cast<double>(x.cols()));
 }
 
-/// Long waves along the polygon, as far as they are proven to be an isotopy.
+/// The polygon shaken by long waves, as far as that is proven to be an isotopy.
 Positions shaken(const Positions& x, std::uint64_t seed) {
   const auto n = static_cast<Index>(x.cols());
   std::uint64_t state = seed << 32;
@@ -144,7 +156,7 @@ class Making {
     const Alignment order = straight_order();
     UntangledCylinder cylinder =
         untangle_cylinder(start_.points, reordered(end_.points, order.first, false), [&](double fraction) {
-          control_.tell(0.7 + 0.2 * fraction, "untangle");
+          control_.tell(relaxing_share + untangling_share * fraction, "untangle");
           return control_.stopped();
         });
     made_.left_double_points = in_units(cylinder.left);
@@ -167,14 +179,14 @@ class Making {
     return points;
   }
 
-  /// Goes on with a knot from its last state. False: stopped.
+  /// Relaxes a knot from its last state on. Returns false if it was stopped.
   bool to_rest(RelaxedKnot& knot, double gradient_rel, double begin, double end, std::string_view phase) {
     RelaxOptions options;
     options.gradient_rel = gradient_rel;
     double steps = 0;
     RelaxedKnot more = relax_knot(knot.states.back(), options, [&] {
       steps += 1;
-      control_.tell(begin + (end - begin) * steps / (steps + 100), phase);  // 100: a usual number
+      control_.tell(begin + (end - begin) * steps / (steps + 100), phase);  // about 100 states are usual
       return control_.stopped();
     });
     knot.states.insert(knot.states.end(), more.states.begin() + 1, more.states.end());
@@ -190,7 +202,7 @@ class Making {
     to.states.push_back(end_.points);
     RelaxOptions options;
     for (int round = 0; round < most_rounds; ++round) {
-      const double begin = 0.7 * round / most_rounds, half = 0.35 / most_rounds;
+      const double begin = relaxing_share * round / most_rounds, half = 0.5 * relaxing_share / most_rounds;
       if (round > 0) {
         from.states.push_back(shaken(from.states.back(), 2 * round));
         to.states.push_back(shaken(to.states.back(), 2 * round + 1));
@@ -237,13 +249,13 @@ class Making {
     return false;
   }
 
-  /// From the start's dense polygon to the end's, in the order of the alignment. False: it is no isotopy, or not
-  /// proven.
+  /// Completes the path from the start's dense polygon to the end's, in the order of the alignment. Returns false if it
+  /// is no isotopy, or not proven to be one.
   bool finish(std::vector<Positions> path, const Alignment& alignment) {
-    control_.tell(0.9, "thin out");
+    control_.tell(thinning_from, "thin out");
     path = thinned_path(std::move(path), [&] { return control_.stopped(); });
     if (path.empty()) return false;
-    control_.tell(0.98, "certify");
+    control_.tell(certifying_from, "certify");
     const auto n = static_cast<Index>(start_.points.cols());
     const auto m = static_cast<Index>(end_exact_.cols());
     const Positions last = reordered(end_exact_, 0, alignment.backwards);
@@ -262,7 +274,7 @@ class Making {
                                             ? std::sqrt((path[k] - path[k - 1]).colwise().squaredNorm().maxCoeff())
                                             : 0));
     const double intervals = static_cast<double>(path.size() - 1);
-    const double mean = std::max(effort.back(), spread(start_exact_) * 1e-6) / intervals;
+    const double mean = std::max(effort.back(), least_effort_rel * spread(start_exact_)) / intervals;
     const double sum = effort.back() + least_time * mean * intervals;
     made_.rings.clear();
     for (std::size_t k = 0; k < path.size(); ++k) {

@@ -10,7 +10,7 @@
 namespace unsnarl {
 namespace {
 
-/// Halvings of a step that is not proven. A step that was proven with its quads cut the other way needs one or two.
+/// A step that is not proven is halved this many times, at most (unit: halvings)
 constexpr int most_halvings = 6;
 
 /// Appends states after `from` that lead to `to`. False: no proof was found.
@@ -79,7 +79,7 @@ std::vector<Positions> thinned_path(std::vector<Positions> states, const std::fu
     if (stop()) return {};
     const std::size_t most = states.size() - 1 - at;
     const auto fits = [&](std::size_t step) { return is_proven_way(states[at], states[at + step]); };
-    // Steps change little from one to the next: begin with the last one.
+    // The search begins with the last step, since steps change little.
     std::size_t good = 0, bad = most + 1;
     for (std::size_t step = std::min(last_step, most); step > good; step = std::min(2 * good, most)) {
       if (!fits(step)) {
@@ -88,7 +88,7 @@ std::vector<Positions> thinned_path(std::vector<Positions> states, const std::fu
       }
       good = step;
     }
-    while (bad - good > 1 + good / 8) {  // an eighth more is not worth the search
+    while (bad - good > 1 + good / 8) {  // ends within an eighth of the longest step
       const std::size_t middle = (good + bad) / 2;
       (fits(middle) ? good : bad) = middle;
     }

@@ -26,9 +26,9 @@ struct DensePolygon {
 };
 DensePolygon densified(const Positions& polygon, Index n);
 
-/// The states of a polygon that moves straight from one to the next: the subsequence that greedy long steps leave, each
-/// of which is proven (is_proven_way), the first and the last among them; where a step from one to the next is not,
-/// states halfway are put in. Empty: stopped, or that did not help either.
+/// Thins out the states of a polygon that moves straight from one to the next: greedy long steps, each of them proven
+/// (is_proven_way), from the first state to the last. Where even a step to the next state is not proven, states halfway
+/// are inserted. Empty: stopped, or that did not help.
 std::vector<Positions> thinned_path(std::vector<Positions> states, const std::function<bool()>& stop);
 
 }  // namespace unsnarl

@@ -19,11 +19,13 @@
 namespace unsnarl {
 namespace {
 
-constexpr double tube_radius = 0.012;  ///< / diagonal of all rings
-/// Radius / distance between strands, at most, so that tubes rarely run into each other.
+/// Radius of the tube that is drawn (unit: bounding-box diagonal of all rings)
+constexpr double tube_radius = 0.012;
+/// Radius of the tube, at most, so that tubes rarely run into each other (unit: distance between strands)
 constexpr double tube_of_distance = 0.45;
-constexpr int tube_sides = 10;
-constexpr double gif_frame_s = 0.06, gif_end_s = 1;  ///< a frame is shown this long, the first and the last longer
+constexpr int tube_sides = 10;        ///< Sides of a tube that is drawn (unit: sides)
+constexpr double gif_frame_s = 0.06;  ///< A frame is shown this long (unit: s)
+constexpr double gif_end_s = 1;       ///< The first and the last frame are shown this long (unit: s)
 
 /// The points of the knot on its way, as many at all times: those of the rings, straight between them.
 Positions points_at(const KnotIsotopy& isotopy, double time) {
@@ -112,7 +114,8 @@ Image frame_of(const KnotIsotopy& isotopy, double time, double radius, const Cam
 
 std::string knot_isotopy_gif(const KnotIsotopy& isotopy, int frames) {
   if (frames < 2 || frames > 1000) throw std::invalid_argument(fmt::format("frames is {}; give 2 to 1000", frames));
-  constexpr int width = 480, height = 400;
+  constexpr int width = 480;   ///< Width of a picture (unit: pixels)
+  constexpr int height = 400;  ///< Height of a picture (unit: pixels)
   const Film film = film_of(isotopy);
   const Camera camera = three_quarter_view(film.corners, double(width) / height, 0.04);
   std::vector<Image> images;
@@ -126,7 +129,9 @@ std::string knot_isotopy_gif(const KnotIsotopy& isotopy, int frames) {
 
 std::string knot_isotopy_png(const KnotIsotopy& isotopy, int count) {
   if (count < 2 || count > 12) throw std::invalid_argument(fmt::format("count is {}; give 2 to 12", count));
-  constexpr int width = 400, height = 400, bar = 40;
+  constexpr int width = 400;   ///< Width of a picture (unit: pixels)
+  constexpr int height = 400;  ///< Height of a picture (unit: pixels)
+  constexpr int bar = 40;      ///< Height of the line of text (unit: pixels)
   const Film film = film_of(isotopy);
   Image image(width * count, height + bar);
   for (int k = 0; k < count; ++k) {

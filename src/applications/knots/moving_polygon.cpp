@@ -9,10 +9,10 @@
 namespace unsnarl {
 namespace {
 
-/// Halvings of the time until it is given up: a millionth of the way.
+/// The time is halved this many times before it is given up, to a millionth of the way (unit: halvings)
 constexpr int most_time_halvings = 20;
-/// Error of a point between two others, of a difference of two such, and of its product with a normal, / the largest
-/// coordinate and the length of the normal: a dozen roundings.
+/// Error of a point between two others, of a difference of two such, and of its product with a normal, relative to the
+/// largest coordinate and the length of the normal: a dozen roundings (fixed by float64)
 constexpr double rounding = 32 * detail::half_ulp;
 
 class MovingPolygon {

@@ -29,9 +29,11 @@ VectorMap as_vector(const Positions& x) {
   return {x.data(), x.size()};
 }
 
-constexpr double armijo = 1e-4;    // part of the decrease that the slope promises, as usual
-constexpr double shortest = 1e-9;  // step where rounding is all that is left of a decrease
-constexpr int memory = 8;          // steps that L-BFGS keeps, as elsewhere
+/// Armijo's condition: the decrease is at least this share of what the slope promises (no unit)
+constexpr double armijo = 1e-4;
+/// Shorter steps end the search: rounding is all that is left of a decrease (no unit)
+constexpr double shortest = 1e-9;
+constexpr int memory = 8;  ///< Steps that L-BFGS keeps (unit: steps)
 
 }  // namespace
 

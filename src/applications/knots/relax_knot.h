@@ -8,12 +8,10 @@
 namespace unsnarl {
 
 struct RelaxOptions {
-  /// It has come to rest where the gradient, as long as KnotMetric measures it, is below this part of the energy's
-  /// square root. Trefoils from a braid of two strands, of three, and of a planar diagram then have the same energy to
-  /// five digits.
+  /// A knot is at rest where the gradient, as long as KnotMetric measures it, is below this (unit: square root of the
+  /// energy)
   double gradient_rel = 3e-4;
-  /// Steps after which it is left as it is. Ochiai's second unknot, of 45 crossings, needs 121.
-  int most_steps = 1000;
+  int most_steps = 1000;  ///< Steps after which a knot is left as it is (unit: steps)
 };
 
 struct RelaxedKnot {
@@ -25,7 +23,7 @@ struct RelaxedKnot {
 };
 
 /// Lets a knot repel itself (KnotEnergy) until it comes to rest, without ever passing through itself: L-BFGS with the
-/// metric as its first Hessian. Its length stays. Alone, the metric took ten times the steps. stop: true: give up.
+/// metric as its first Hessian. Its length stays. stop: true: give up.
 RelaxedKnot relax_knot(Positions x, const RelaxOptions& options, const std::function<bool()>& stop);
 
 /// Both proofs that the straight way from one polygon to another of as many points is an isotopy.

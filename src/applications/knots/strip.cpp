@@ -57,7 +57,7 @@ Triangle4 corners_of(const StripTriangle& t, const Positions& lower, const Posit
 std::vector<StripPair> meeting_pairs(const Positions& lower, const Positions& upper,
                                      std::span<const StripTriangle> strip, std::size_t most) {
   const auto m = static_cast<Index>(lower.cols()), n = static_cast<Index>(upper.cols());
-  // Any height will do; about the length of the edges, hyperplanes between triangles are easiest to find.
+  // The height is arbitrary; with about the length of the edges, separating hyperplanes are easiest to find.
   double length = 0;
   for (Index k = 0; k < m; ++k) length = std::max(length, (lower.col((k + 1) % m) - lower.col(k)).norm());
   const double height = length > 0 ? std::exp2(std::round(std::log2(length))) : 1;

@@ -14,8 +14,8 @@ namespace {
 using Rational = boost::multiprecision::cpp_rational;
 using ExactVec4 = std::array<Rational, 4>;
 
-/// Error of a product of a difference with a number, summed over four coordinates, / the sum of magnitudes: each
-/// term rounds twice, the sum three times.
+/// Error of a product of a difference with a number, summed over four coordinates, relative to the sum of magnitudes:
+/// each term rounds twice, the sum three times (fixed by float64)
 constexpr double sum_of_products_bound = 8 * detail::half_ulp;
 
 /// x . coefficients + constant.
@@ -149,13 +149,16 @@ Vec4 nearest_to_origin(const std::array<Vec4, 9>& points, int count, std::array<
     if (points[k].squaredNorm() < points[corral[0]].squaredNorm()) corral[0] = k;
   weight[0] = 1;
   Vec4 x = points[corral[0]];
-  constexpr int most_rounds = 50;  // a corral does not come twice but for rounding; nine points have few
+  constexpr double rounding_of_x = 1e-12;  ///< Relative error of |x|^2, with a reserve (fixed by float64)
+  constexpr double no_weight = 1e-14;      ///< A corner leaves the corral where its weight falls to this (no unit)
+  /// Rounds, at most: without rounding a corral does not come twice, and nine points have few (unit: rounds)
+  constexpr int most_rounds = 50;
   for (int round = 0; round < most_rounds; ++round) {
     int next = 0;
     for (int k = 1; k < count; ++k)
       if (points[k].dot(x) < points[next].dot(x)) next = k;
     const double xx = x.squaredNorm();
-    if (points[next].dot(x) >= xx * (1 - 1e-12) || xx == 0 || size == 5) break;  // 1e-12: rounding of x
+    if (points[next].dot(x) >= xx * (1 - rounding_of_x) || xx == 0 || size == 5) break;
     if (std::find(corral.begin(), corral.begin() + size, next) != corral.begin() + size) break;
     corral[size] = next;
     weight[size++] = 0;
@@ -178,7 +181,7 @@ Vec4 nearest_to_origin(const std::array<Vec4, 9>& points, int count, std::array<
       int kept = 0;
       for (int i = 0; i < size; ++i) {
         const double moved = weight[i] + part * (w[i] - weight[i]);
-        if (part < 1 && !dropped && w[i] <= 0 && moved <= 1e-14) {
+        if (part < 1 && !dropped && w[i] <= 0 && moved <= no_weight) {
           dropped = true;
           continue;
         }

@@ -8,11 +8,12 @@
 namespace unsnarl {
 namespace {
 
-constexpr int ring_count = 13;  ///< both ends among them
-/// Ranges of the Gaussian, mean edges, one after the other.
+constexpr int ring_count = 13;  ///< Rings of the cylinder, both ends among them (unit: rings)
+/// Ranges of the Gaussian, one after the other (unit: mean edges)
 constexpr std::array<double, 3> ranges = {8, 4, 2};
-constexpr int iterations = 40;  ///< with each range, at most
-constexpr int look_every = 10;  ///< iterations after which double points are counted
+constexpr int iterations = 40;  ///< Iterations with each range, at most (unit: iterations)
+/// Double points are counted after this many iterations (unit: iterations)
+constexpr int look_every = 10;
 
 }  // namespace
 

@@ -12,12 +12,19 @@
 namespace unsnarl {
 namespace {
 
-/// The sixth power of the first is finite; the square of the second, and of what is left of it by rounding, is not
-/// zero.
-constexpr double largest_coordinate = 1e70, least_radius = 1e-70;
-/// A thousand times what is rounded off a point / its largest coordinate: rings of smaller radii would lose their
-/// shape.
+/// Larger coordinates and radii are refused, so that their sixth power is finite (unit: length)
+constexpr double largest_coordinate = 1e70;
+/// Smaller radii are refused, so that their square, and that of what rounding leaves of them, is not zero (unit:
+/// length)
+constexpr double least_radius = 1e-70;
+/// Smaller radii are refused: rings would lose their shape to rounding, of which this is a thousand times (unit:
+/// largest coordinate)
 constexpr double least_radius_rel = 1e-12;
+
+/// Boxes are enlarged by this, twice what rounding could take away from a sum of two radii (unit: radius)
+constexpr double radius_reserve = 1e-12;
+/// Boxes are enlarged by this, a few roundings of a point (unit: coordinate)
+constexpr double coordinate_reserve = 1e-15;
 
 void check_point(const RoutePoint& p, const std::string& place) {
   for (const double c : p)
@@ -135,8 +142,8 @@ void add_obstructions_of_agents(const RoutePlan& plan, std::vector<std::string>&
   std::vector<int> agent;
   for (std::size_t i = 0; i < plan.agents.size(); ++i)
     for (Place& place : named_places(plan.agents[i])) {
-      // Twice what rounding could take away from a sum of two radii.
-      const Vec3 reach = Vec3::Constant(plan.agents[i].radius * (1 + 1e-12)) + 1e-15 * place.at.cwiseAbs();
+      const Vec3 reach =
+          Vec3::Constant(plan.agents[i].radius * (1 + radius_reserve)) + coordinate_reserve * place.at.cwiseAbs();
       boxes.push_back({place.at - reach, place.at + reach});
       places.push_back(std::move(place));
       agent.push_back(static_cast<int>(i));
@@ -173,15 +180,17 @@ void add_obstructions_of_obstacles(const RoutePlan& plan, std::vector<std::strin
       double distance = agent.radius;
       Box box;
       box.extend(place.at);
-      triangles.near(box.inflated(agent.radius * (1 + 1e-12) + 1e-15 * place.at.cwiseAbs().maxCoeff()), [&](Index t) {
-        const std::array<Vec3, 3>& c = triangles.corners(t);
-        const Closest closest = closest_vertex_face(place.at, c[0], c[1], c[2]);
-        const std::array<Vec3, 1> point{place.at};
-        if (closest.distance <= distance && proven_clearance(point, c, closest.direction, agent.radius, 0) < 1) {
-          distance = closest.distance;
-          nearest = triangles.obstacle(t);
-        }
-      });
+      triangles.near(
+          box.inflated(agent.radius * (1 + radius_reserve) + coordinate_reserve * place.at.cwiseAbs().maxCoeff()),
+          [&](Index t) {
+            const std::array<Vec3, 3>& c = triangles.corners(t);
+            const Closest closest = closest_vertex_face(place.at, c[0], c[1], c[2]);
+            const std::array<Vec3, 1> point{place.at};
+            if (closest.distance <= distance && proven_clearance(point, c, closest.direction, agent.radius, 0) < 1) {
+              distance = closest.distance;
+              nearest = triangles.obstacle(t);
+            }
+          });
       if (nearest >= 0) {
         found.push_back(fmt::format("{} is {:.6g} from the obstacle '{}', nearer than its radius of {:.6g}", place.name,
                                     distance, plan.obstacles[nearest].name, agent.radius));

@@ -12,9 +12,12 @@
 namespace unsnarl {
 namespace {
 
-/// Boxes are this much larger than they need be, so that what is left out is apart whatever was rounded.
+/// Larger coordinates are refused, so that products of three are finite (unit: length)
+constexpr double largest_finite = 1e90;
+/// Boxes are enlarged by this, so that what is left out is apart whatever was rounded (unit: reach of the box, and its
+/// largest coordinate)
 constexpr double rounding_room = 1e-12;
-/// Taken off the arc length from which segments of one route count, so that rounding leaves none out.
+/// Taken off the arc from which segments of one route count, so that rounding leaves none out (unit: radian)
 constexpr double arc_rounding = 1e-9;
 
 struct Segments {
@@ -147,7 +150,7 @@ RouteFindings check_routes(const RoutePlan& plan, std::span<const Route> routes)
                       agent.name, points.size(), plan.agents[0].name, routes[0].points.size()));
     for (std::size_t k = 0; k < points.size(); ++k)
       for (const double c : points[k])
-        if (!(std::abs(c) <= 1e90))
+        if (!(std::abs(c) <= largest_finite))
           throw std::invalid_argument(fmt::format("point {} of the route of '{}' is not finite", k, agent.name));
     found.places_kept = found.places_kept && goes_through_places(agent, routes[i]);
     for (std::size_t k = 1; k + 1 < points.size(); ++k) {

@@ -13,32 +13,40 @@
 namespace unsnarl {
 namespace {
 
-/// Distances from obstacles / radius at which ways are looked for, the widest first.
+/// Distances from obstacles at which ways are looked for, the widest first (unit: radii)
 constexpr std::array<double, 3> way_distances = {1.05, 1.01, 1.001};
-/// How far the middle of each leg is pushed aside before anything else, so that no two routes cross or lie on each
-/// other; / radius, one a try.
+/// The middle of each leg is first pushed aside by this, one a try, so that no two routes cross or lie on each other
+/// (unit: radii)
 constexpr std::array<double, 3> pushed_aside = {0.3, 2, 6};
-/// Parts of the radii that tubes swell to, step by step: thin ones find a way past each other.
+/// A leg is pushed aside as far as no obstacle is in the way, halved down to this (unit: share of pushed_aside)
+constexpr double least_aside = 0.01;
+constexpr double swelling_share = 0.4;    ///< Share of a try's progress that swelling takes (no unit)
+constexpr double parting_share = 0.4;     ///< Share of a try's progress that parting takes (no unit)
+constexpr double tightening_from = 0.8;   ///< Share of a try's progress when routes are pulled tight (no unit)
+constexpr double certifying_from = 0.98;  ///< Share of a try's progress when they are certified (no unit)
+/// Radii that tubes swell to, step by step: thin ones find a way past each other (unit: share of the radius)
 constexpr std::array<double, 6> swelling = {0.1, 0.2, 0.35, 0.55, 0.8, 1};
-constexpr int swelling_steps = 25;
-constexpr int parting_steps = 50;
-/// Weights of what must not be grow by this factor until nothing is violated, this often at most.
+constexpr int swelling_steps = 25;  ///< Steps at each of these radii (unit: steps)
+constexpr int parting_steps = 50;   ///< Steps in each round of parting routes (unit: steps)
+/// Weights of violations grow by this factor from round to round until nothing is violated (no unit)
 constexpr double harder = 4;
-constexpr int most_rounds = 9;
-/// Weight of contacts and turns to begin with: small, as what begins with hard pushes has kinks to be undone. 50 agents
-/// took 10 s from 0.005 and 24 s from 0.02; routes of 20 agents were 2 % longer from 1.
+constexpr int most_rounds = 9;  ///< Rounds of parting routes, at most (unit: rounds)
+/// Weight of contacts and turns at the beginning: small, since hard pushes at the start make kinks that take long to
+/// undo (no unit)
 constexpr double first_weight = 0.005;
-/// Weights of barriers while routes are pulled tight.
+/// Weights of barriers while routes are pulled tight (no unit)
 constexpr std::array<double, 2> barrier_weights = {0.1, 0.01};
-constexpr int tightening_steps = 100;
-constexpr int alone_steps = 100;
+constexpr int tightening_steps = 100;  ///< Steps at each of these weights (unit: steps)
+constexpr int alone_steps = 100;       ///< Steps of pulling the route of an agent alone tight (unit: steps)
+/// The preconditioner is factorised anew after this many steps (unit: steps)
 constexpr int steps_a_factorisation = 5;
-/// Steps end where the energy falls by less than this part in so many steps.
+/// Steps end where the energy falls by less than this share in `settled_steps` (no unit)
 constexpr double settled = 1e-5;
+/// Steps over which the decrease of the energy is measured (unit: steps)
 constexpr int settled_steps = 10;
-/// No vertex moves by more in one step / radius of the smallest agent.
+/// Longest motion of a vertex in one step (unit: radius of the smallest agent)
 constexpr double most_motion = 2;
-/// What is left above the needed distance, and below the tightest turn, when barriers begin.
+/// Left above the needed distance, and below the tightest turn, when barriers begin (unit: share of either)
 constexpr double margin = 1e-6;
 
 class Planning {
@@ -69,7 +77,7 @@ class Planning {
     made_.seconds = control_.seconds();
     return std::move(made_);
   }
-  /// Straight, or past the obstacles; spread: later agents rather keep away from the ways of earlier ones.
+  /// Ways straight or past the obstacles; spread: later agents avoid the ways of earlier ones.
   std::vector<Legs> ways(std::optional<WayFinder>& finder, bool spread) {
     double widest = 0;
     for (const RouteAgent& agent : plan_.agents) widest = std::max(widest, agent.radius);
@@ -108,7 +116,7 @@ class Planning {
     return !control_.stopped();
   }
 
-  /// The middles of legs aside, each its own way: directions by the golden angle.
+  /// Pushes the middle of each leg aside, each in a direction of its own, by the golden angle.
   Positions aside(const RouteChains& chains, double by) const {
     Positions x = chains.x;
     Index leg = 0;
@@ -119,10 +127,10 @@ class Planning {
         const Vec3 along = (chains.x.col(last) - chains.x.col(first)).normalized();
         const Vec3 e = along.unitOrthogonal(), f = along.cross(e);
         const double angle = 2 * std::numbers::pi * std::fmod(leg * std::numbers::phi, 1);
-        // Not all by the same: lines through one centre with equal offsets would touch one ball and cross on it.
+        // Offsets differ: lines through one centre with equal offsets would touch one ball and cross on it.
         const double amount = by * chain.radius * (0.5 + std::fmod(leg * std::numbers::sqrt2, 1));
         const Vec3 offset = amount * (std::cos(angle) * e + std::sin(angle) * f);
-        for (double part = 1; part > 0.01; part /= 2) {  // as far as no obstacle is in the way
+        for (double part = 1; part > least_aside; part /= 2) {
           Positions moved = chains.x;
           bool is_clear = true;
           for (Index v = first + 1; v < last; ++v)
@@ -138,7 +146,7 @@ class Planning {
     return x;
   }
 
-  /// Minimises for some steps, or until it settles.
+  /// Minimises for `steps` steps, or until the energy settles.
   void minimise(RouteEnergy& energy, Eigen::VectorXd& x, int steps, double radius) {
     if (control_.stopped()) return;
     energy.factorise(x);
@@ -189,14 +197,14 @@ class Planning {
       RouteEnergy energy(chains, triangles_);
       energy.settings.contact = first_weight;
       for (const double part : swelling) {
-        tell(0.4 * part, "swell");
+        tell(swelling_share * part, "swell");
         energy.settings.swelling = part;
         energy.forget_neighbours();
         minimise(energy, x, longer * swelling_steps, chains.least_radius);
       }
     }
-    // Routes have become longer: their vertices are spread evenly once more. Obstacles may forbid the new corners, and
-    // in time it would change who is where when.
+    // Routes have become longer, so their vertices are spread evenly again, unless obstacles forbid the new corners.
+    // With timed routes that would change where agents are at which time.
     const std::vector<Legs> legs = chains.legs(columns(x));
     RouteChains even = sample_chains(plan_, legs, options_.spacing, false);
     RouteEnergy probe(even, triangles_);
@@ -214,7 +222,7 @@ class Planning {
       return margins.contact >= 1 + margin && margins.turn <= 1 - margin;
     };
     for (int round = 0; round < most_rounds && !control_.stopped(); ++round) {
-      tell(0.4 + 0.4 * round / most_rounds, "part");
+      tell(swelling_share + parting_share * round / most_rounds, "part");
       minimise(energy, x, longer * parting_steps, chains.least_radius);
       if (is_apart()) break;
       energy.settings.contact *= harder;
@@ -223,12 +231,12 @@ class Planning {
     if (is_apart()) {
       energy.settings.strict = true;
       for (const double weight : barrier_weights) {
-        tell(0.8, "tighten");
+        tell(tightening_from, "tighten");
         energy.settings.contact = energy.settings.turn = weight;
         minimise(energy, x, tightening_steps, chains.least_radius);
       }
     }
-    tell(0.98, "certify");
+    tell(certifying_from, "certify");
     const std::vector<Route> routes = chains.routes(columns(x));
     RouteFindings found = check_routes(plan_, routes);
     if (made_.found.length.empty() || found.hold() || found.clearance > made_.found.clearance) {

@@ -16,7 +16,7 @@ namespace {
 using Rational = boost::multiprecision::cpp_rational;
 using ExactVec = std::array<Rational, 3>;
 
-/// Relative, for a handful of operations that each round once.
+/// Relative error of a handful of operations that each round once (fixed by float64)
 constexpr double few_roundings = 16 * detail::half_ulp;
 
 ExactVec exact(const Vec3& v) {

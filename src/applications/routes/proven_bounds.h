@@ -6,7 +6,7 @@
 
 namespace unsnarl {
 
-/// Bounds that hold for the coordinates as they are, whatever is rounded on the way to them.
+/// Bounds that hold for the given coordinates whatever rounding errors their computation has.
 
 /// A lower bound of the distance of the convex hulls of a and b, / (r + s): the gap of two planes across `direction`
 /// (any; best from b's closest point to a's) with nothing of either between them. At least 1 where that is so by exact

@@ -11,9 +11,10 @@
 namespace unsnarl {
 namespace {
 
-constexpr double width = 800, height = 600;  // pixels
-constexpr double seconds = 8;
-constexpr std::size_t most_faces = 5000;  ///< of obstacles that are drawn; 0.3 MB
+constexpr double width = 800;             ///< Width of the picture (unit: pixels)
+constexpr double height = 600;            ///< Height of the picture (unit: pixels)
+constexpr double seconds = 8;             ///< Time of the animation (unit: s)
+constexpr std::size_t most_faces = 5000;  ///< Faces of obstacles that are drawn, at most (unit: faces)
 
 /// Colours that differ from each other, by the golden ratio.
 std::string colour(std::size_t k) {

@@ -6,9 +6,12 @@
 namespace unsnarl {
 namespace {
 
-constexpr double most_segments = 3000;        ///< of a route; a long thin one has wider spacing
-constexpr double most_segments_of_all = 2e5;  ///< the same of all routes
-constexpr double least_segments_a_leg = 4;    ///< fewer could not bend
+/// Segments of a route, at most; a long thin one has wider spacing (unit: segments)
+constexpr double most_segments = 3000;
+/// Segments of all routes together, at most (unit: segments)
+constexpr double most_segments_of_all = 2e5;
+/// Segments of a leg, at least: fewer could not bend (unit: segments)
+constexpr double least_segments_a_leg = 4;
 
 double length_of(std::span<const Vec3> polyline) {
   double length = 0;

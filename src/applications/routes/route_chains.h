@@ -33,9 +33,9 @@ struct RouteChains {
   std::vector<Legs> legs(const Positions& at) const;
 };
 
-/// One route an agent, through its legs. spacing: of vertices / radius; wider where a route would have too many.
-/// keep_corners: the points of the legs are vertices, so that nothing is cut off; else all are evenly spaced. In time
-/// all routes have as many vertices as the one that needs most.
+/// One route for each agent, through its legs. spacing: of vertices, in radii; wider where a route would have too many.
+/// keep_corners: the points of the legs are vertices, so that no corner is cut; else all vertices are evenly spaced.
+/// Timed routes all have as many vertices as the one that needs most.
 RouteChains sample_chains(const RoutePlan& plan, std::span<const Legs> routes, double spacing, bool keep_corners);
 
 /// Other routes through the same places, with as many points on each leg.

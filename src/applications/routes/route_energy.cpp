@@ -12,10 +12,12 @@ namespace unsnarl {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Index pairs_a_task = 512;
-/// Cosine from which on a corner counts as folded over: only its stiffness opens it.
+constexpr Index pairs_a_task = 512;  ///< A task of a parallel loop has this many pairs (unit: pairs)
+/// Segments that cross are parallel where the sine between them is below this (no unit)
+constexpr double parallel_sine = 1e-9;
+/// A corner counts as folded over where its cosine is below this: only its stiffness opens it (no unit)
 constexpr double folded = -0.9;
-/// Segments of a route see each other from this part of half a turn of the smallest circle on.
+/// Segments of a route see each other from this arc on (unit: half a turn of the smallest circle)
 constexpr double half_turns = 0.98;
 
 /// 2 r tan(angle / 2) / the shorter edge at b, with its gradients. Zero gradients where it is straight or folded.
@@ -89,7 +91,7 @@ Closest RouteEnergy::closest_pair(const Points& x, const Pair& pair) const {
     // Segments that cross are pushed apart across both.
     const Vec3 e = x.col(a + 1) - x.col(a), f = x.col(b + 1) - x.col(b);
     const Vec3 across = e.cross(f);
-    closest.direction = across.norm() > 1e-9 * e.norm() * f.norm() ? across.normalized() : e.unitOrthogonal();
+    closest.direction = across.norm() > parallel_sine * e.norm() * f.norm() ? across.normalized() : e.unitOrthogonal();
   }
   return closest;
 }
@@ -292,6 +294,7 @@ void RouteEnergy::factorise(const Eigen::VectorXd& flat) {
       add(v, v + 1, -1 / h);
       add(v + 1, v, -1 / h);
     }
+    /// Weights of a second difference (fixed by algebra)
     constexpr std::array<double, 3> second = {1, -2, 1};
     for (Index v = chain.first + 1; v < chain.last(); ++v) {
       const Turn turn = turn_at(x.col(v - 1), x.col(v), x.col(v + 1), chain.radius);
@@ -311,7 +314,7 @@ void RouteEnergy::factorise(const Eigen::VectorXd& flat) {
     const double stiff = weight_of(pair) * push.curvature / (gap * gap);
     const Index a = chains_.segment_vertex[pair.a], b = chains_.segment_vertex[pair.b];
     const std::array<Index, 4> vertices = {a, a + 1, b, b + 1};
-    // Both sides may move together. Without contacts in the matrix, 20 agents took four times as long.
+    // Both sides may move together. Without contacts in the matrix, many more steps are needed.
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) add(vertices[i], vertices[j], stiff * closest.weights[i] * closest.weights[j]);
   }

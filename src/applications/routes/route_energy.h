@@ -11,20 +11,18 @@
 namespace unsnarl {
 
 struct RouteEnergySettings {
-  /// Stiffness of a route against bending / (tension radius^2). A free corner then turns no tighter than the radius:
-  /// under the tension T, a rod of stiffness B that is folded over has a radius of at least sqrt(B / 4 T).
+  /// Stiffness of a route against bending. A free corner then turns no tighter than the radius: under the tension T, a
+  /// rod of stiffness B that is folded over has a radius of at least sqrt(B / 4 T) (unit: tension radius^2)
   double stiffness = 4;
-  double swelling = 1;  ///< tubes have this part of their radius, (0, 1]
-  /// Distance from which tubes push each other away / needed distance, beyond 1. 50 agents took 23 s of a processor
-  /// with 0.02, 10 s with 0.05, 9 s with 0.1.
+  double swelling = 1;  ///< Tubes have this share of their radius, in (0, 1] (no unit)
+  /// Tubes push each other away from this far beyond the needed distance on (unit: needed distance)
   double cushion = 0.05;
   double contact = 0;  ///< weight of tubes that push each other; 0: they may overlap
-  double turn = 1;     ///< weight against turns that are too tight
+  double turn = 1;     ///< Weight against turns that are too tight (no unit)
   /// Distances needed and tightest turns are never passed (the start must keep them); otherwise, passing them costs.
   bool strict = false;
-  double obstacle = 0.05;  ///< weight of obstacles, whose distance is never passed
-  /// Turns count from this part of the tightest one on.
-  double turn_from = 0.85;
+  double obstacle = 0.05;   ///< Weight of obstacles, whose distance is never passed (no unit)
+  double turn_from = 0.85;  ///< Turns count from this on (unit: the tightest one allowed)
 };
 
 /// How near routes are to what is not allowed.

@@ -11,9 +11,11 @@
 namespace unsnarl {
 namespace {
 
-/// Vertices lie within the tubes by this part of the radius, or of their largest coordinate where that is more, so that
-/// rounding them does not take them out.
-constexpr double inside_of_radius = 1e-9, inside_of_coordinate = 1e-15;
+/// Vertices lie within the tubes by this, so that rounding them does not take them out (unit: radius)
+constexpr double inside_of_radius = 1e-9;
+/// Vertices lie within the tubes by this at least, so that rounding them does not take them out (unit: largest
+/// coordinate)
+constexpr double inside_of_coordinate = 1e-15;
 
 /// One tube: rings of points around centres, closed by a point at each end.
 class Tube {

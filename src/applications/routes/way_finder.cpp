@@ -10,14 +10,20 @@
 namespace unsnarl {
 namespace {
 
-constexpr double cell_of_radius = 1;  ///< of the smallest agent: two cells fit into what it passes
-constexpr double most_nodes = 4e6;    ///< 40 MB; beyond, cells are larger
-constexpr double room_in_radii = 8;   ///< around everything, of the largest agent
-/// Each earlier way nearby makes a step longer by this part: a free gap beside is worth a detour.
+/// Width of a cell, at least: two cells fit into what the smallest agent passes (unit: radius of the smallest agent)
+constexpr double cell_of_radius = 1;
+/// Nodes of the grid, at most; beyond, cells are larger (unit: nodes)
+constexpr double most_nodes = 4e6;
+constexpr double cell_growth = 1.1;  ///< Cells grow by this factor until there are few enough (no unit)
+/// Reserve for the rounding of distances that are kept as floats (unit: distance)
+constexpr double distance_reserve = 1e-6;
+constexpr double room_in_radii = 8;  ///< Room around everything (unit: radius of the largest agent)
+/// Each earlier way nearby makes a step longer by this share: a free gap beside is worth a detour (no unit)
 constexpr double crowding = 1;
-constexpr int nodes_around_a_place = 3;  ///< cells to each side that a place is joined to the grid in
+/// A place is joined to the grid within this many cells to each side (unit: cells)
+constexpr int nodes_around_a_place = 3;
 
-/// Steps to the neighbours of a node have numbers up to this one; the one in the middle goes nowhere.
+/// Marks a node without a step; steps to its neighbours have numbers below (fixed by three dimensions)
 constexpr std::uint8_t no_step = 27;
 
 std::array<Index, 3> direction_of(std::uint8_t step) {
@@ -43,7 +49,7 @@ WayFinder::WayFinder(const RoutePlan& plan, const ObstacleTriangles& triangles) 
     for (int k = 0; k < 3; ++k) nodes *= std::floor(extent[k] / cell_) + 2;
     return nodes;
   };
-  while (count() > most_nodes) cell_ *= 1.1;
+  while (count() > most_nodes) cell_ *= cell_growth;
   for (int k = 0; k < 3; ++k) size_[k] = static_cast<Index>(extent[k] / cell_) + 2;
   far_ = 2 * most + 2 * cell_;
   const auto nodes = static_cast<std::size_t>(count());
@@ -81,9 +87,10 @@ double WayFinder::distance_of(Node node) {
 bool WayFinder::is_clear(Node a, Node b, double distance) {
   const double da = distance_of(a), db = distance_of(b);
   if (std::min(da, db) < distance) return false;
-  // The distance changes by no more than the way that is gone.
+  // The distance changes by no more than the length of the way.
   const double length = (position(a) - position(b)).norm();
-  return 0.5 * (da + db - length) >= distance * (1 + 1e-6) || triangles_.is_clear(position(a), position(b), distance);
+  return 0.5 * (da + db - length) >= distance * (1 + distance_reserve) ||
+         triangles_.is_clear(position(a), position(b), distance);
 }
 
 std::vector<WayFinder::Node> WayFinder::nodes_around(const Vec3& p, double distance) {

@@ -13,10 +13,10 @@ class WayFinder {
  public:
   WayFinder(const RoutePlan& plan, const ObstacleTriangles& triangles);
 
-  /// From one place to another, at least `distance` from all obstacles. Places where earlier ways are, see avoid(), are
-  /// longer to go. None: there is none on the grid.
+  /// A way from one place to another, at least `distance` from all obstacles. Steps near earlier ways, see avoid(),
+  /// count as longer. Nothing if there is none on the grid.
   std::optional<std::vector<Vec3>> find(const Vec3& from, const Vec3& to, double distance);
-  /// Later ways rather stay `distance` away from this one.
+  /// Makes later ways prefer to stay `distance` away from this one.
   void avoid(std::span<const Vec3> way, double distance);
 
  private:

@@ -11,10 +11,12 @@
 namespace unsnarl {
 namespace {
 
-constexpr double first_radius = 1;     // of the innermost strand
-constexpr double radius_step = 0.5;    // between strands
-constexpr double height_step = 0.5;    // the outer ones are lower
-constexpr double crossing_rise = 0.2;  // of either strand where two cross: up, or down
+constexpr double first_radius = 1;   ///< Radius of the innermost strand (unit: length)
+constexpr double radius_step = 0.5;  ///< Distance between strands (unit: length)
+/// Each strand lies this much lower than the next inner one (unit: length)
+constexpr double height_step = 0.5;
+/// Either strand rises or sinks by this where two cross (unit: length)
+constexpr double crossing_rise = 0.2;
 
 /// Columns of generators that do not touch each other: each as early as those before it allow.
 std::vector<std::vector<int>> columns_of(int strands, std::span<const int> braid) {

@@ -11,7 +11,7 @@
 namespace unsnarl {
 namespace {
 
-/// Squares and cubes of larger ones are beyond double.
+/// Larger coordinates are refused: their squares and cubes overflow (unit: length)
 constexpr double largest_coordinate = 1e70;
 
 struct Segment {

@@ -11,14 +11,15 @@
 namespace unsnarl {
 namespace {
 
-/// The gap that is asked of two triangles is at most this part of their shortest edge, since those of one sheet are
-/// near each other.
+/// The gap that is asked of two triangles, at most, since those of one sheet are near each other (unit: their shortest
+/// edge)
 constexpr double gap_of_edge = 0.3;
-/// A fold is sharp where the normals' inner product is nearer to -1 than this: 20 degrees between the faces.
+/// A fold is sharp where one plus the inner product of the normals is below this, 20 degrees between the faces (no
+/// unit)
 constexpr double sharp_fold = 0.06;
-/// A triangle is thin whose smallest height / longest edge is below.
+/// A triangle is thin where its smallest height is below this (unit: its longest edge)
 constexpr double thin = 0.05;
-/// A flip must raise the smallest angle by this, radians; else edges flip to and fro.
+/// A flip must raise the smallest angle by this, so that edges do not flip to and fro (unit: radian)
 constexpr double angle_gain = 0.05;
 
 double shortest_edge(const TrianglePoints& t) {
@@ -39,6 +40,7 @@ double squared_distance(const TrianglePoints& a, const TrianglePoints& b) {
 /// Whether there is this much room between the triangles along the axis, whatever is rounded: the difference of two
 /// points and its product with the axis are off by a few roundings of the magnitudes that they are made of.
 bool are_separated_along(const Vec3& axis, const TrianglePoints& a, const TrianglePoints& b, double room) {
+  /// Relative error of a handful of operations that each round once (fixed by float64)
   constexpr double few_roundings = 16 * detail::half_ulp;
   const Vec3 origin = a[0], size = axis.cwiseAbs();
   double highest = 0, lowest = std::numeric_limits<double>::infinity(), magnitude = 0;

@@ -6,7 +6,7 @@
 namespace unsnarl {
 namespace {
 
-/// Cells along one axis: what a grid may take of memory, 27 MB.
+/// Cells along one axis, at most, which bounds the memory of the grid (unit: cells)
 constexpr int most_cells = 96;
 
 }  // namespace

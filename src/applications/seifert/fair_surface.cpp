@@ -6,16 +6,21 @@
 namespace unsnarl {
 namespace {
 
-/// Edges longer than this times the wanted length are split, shorter ones than that collapsed: half and double of
-/// either stay within them (M. Botsch and L. Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004).
-constexpr double split_above = 4.0 / 3, collapse_below = 0.6;
-/// Weights of the area's gradient are cotangents; of slivers they would be negative or beyond bounds.
-constexpr double least_weight = 0.05, largest_weight = 5;
-/// Vertices that want to go no farther than this are left alone / edge length.
+/// Longer edges are split. Half of them is above collapse_below: M. Botsch and L. Kobbelt, "A Remeshing Approach to
+/// Multiresolution Modeling", 2004 (unit: wanted length)
+constexpr double split_above = 4.0 / 3;
+/// Shorter edges are collapsed; double of them is below split_above (unit: wanted length)
+constexpr double collapse_below = 0.6;
+constexpr double least_sine = 1e-12;  ///< Sines in cotangents are this at least (no unit)
+/// Weight of the area's gradient at an edge, at least: cotangents of slivers may be negative (no unit)
+constexpr double least_weight = 0.05;
+/// Weight of the area's gradient at an edge, at most: cotangents of slivers have no bound (no unit)
+constexpr double largest_weight = 5;
+/// Vertices that want to go no farther are left alone (unit: wanted edge length)
 constexpr double settled = 6e-3;
-/// Part of a step to try where the whole one fails.
+/// Share of a step that is tried where the whole one fails (no unit)
 constexpr double shorter_step = 0.3;
-/// Rounds of splitting: each halves what is too long.
+/// Rounds of splitting, at most; each halves what is too long (unit: rounds)
 constexpr int most_split_rounds = 8;
 
 double length(const EmbeddedMesh& mesh, const Edge& e) {
@@ -32,7 +37,7 @@ class Pace {
   }
 
  private:
-  static constexpr int often = 64;  // steps of about 10 us
+  static constexpr int often = 64;  ///< Steps between two questions whether to go on (unit: steps)
   const std::function<bool()>& goes_on_;
   int steps_ = 0;
   bool is_over_ = false;
@@ -57,7 +62,7 @@ void remesh(EmbeddedMesh& mesh, double edge, Pace& pace) {
 
 double cotangent(const Vec3& corner, const Vec3& a, const Vec3& b) {
   const Vec3 u = a - corner, v = b - corner;
-  return u.dot(v) / std::max(u.cross(v).norm(), 1e-12 * u.norm() * v.norm());
+  return u.dot(v) / std::max(u.cross(v).norm(), least_sine * u.norm() * v.norm());
 }
 
 /// From a vertex to the middle of its neighbours: where edges are equally long, half a squared edge times the mean

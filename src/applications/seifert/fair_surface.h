@@ -7,21 +7,20 @@
 namespace unsnarl {
 
 struct FairOptions {
-  /// Edges are refined in this many levels, each half as long as the one before: on coarse meshes a sweep carries far.
+  /// Levels in which edges are refined, each half as long as the one before: on coarse meshes a sweep carries far
+  /// (unit: levels)
   int levels = 3;
-  /// Sweeps of the finest level; the one before has twice as many, and so on.
+  /// Sweeps of the finest level; the one before has twice as many, and so on (unit: sweeps)
   int sweeps = 16;
-  int sweeps_a_remeshing = 4;  ///< enough for triangles to settle in between
-  /// A step goes this far beyond the minimum along a vertex's own way, as in successive over-relaxation; more lets
-  /// coarse meshes oscillate.
+  /// Sweeps between two remeshings, enough for triangles to settle (unit: sweeps)
+  int sweeps_a_remeshing = 4;
+  /// A step goes this far toward the minimum along a vertex's own way, beyond it as in successive over-relaxation; more
+  /// lets coarse meshes oscillate (no unit)
   double over_relaxation = 1.4;
-  /// Weight of the curvature, the integral of H^2 times a squared edge of the level, against the area; H as it is with
-  /// the metric held, so that vertices move by a linear equation. Of 24 links of the table, 577 edges were folded by
-  /// more than 90 degrees without it, 356, 284, 210 and 173 with 0.25, 0.5, 1 and 2, at areas x 0.997, 0.995, 0.990 and
-  /// 0.993, in the same time. With 4 and 8 areas grow. The whole gradient, which holds thin tubes open, made no
-  /// difference on 12 of them, since it needs 8 and more, with which they are 6 % larger.
+  /// Weight of the curvature, the integral of H^2 times a squared edge of the level, against the area. H is taken with
+  /// the metric held, so that vertices move by a linear equation (no unit)
   double curvature = 2;
-  /// Gap to keep between sheets / edge length of the level. A sixth of an edge shows as two sheets in a picture.
+  /// Gap to keep between sheets, wide enough that a picture shows two (unit: edge length of the level)
   double gap_of_edge = 0.3;
 };
 

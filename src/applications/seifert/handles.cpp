@@ -10,13 +10,13 @@
 namespace unsnarl {
 namespace {
 
-/// Places in a disc that are looked at, along either axis.
+/// Places in a disc that are looked at, along either axis (unit: places)
 constexpr int places_along = 64;
-/// Radius of a hexagon / radius of the largest circle that fits there, so that neighbours stay apart.
+/// Radius of a hexagon, so that neighbours stay apart (unit: radius of the largest circle that fits there)
 constexpr double radius_of_room = 0.6;
-/// Size of the end of a handle / size of the half of the hexagon that it stands in.
+/// Size of the end of a handle (unit: size of the half of the hexagon that it stands in)
 constexpr double end_of_half = 0.5;
-/// Segments along a handle: it is as coarse as its hexagon, since fairing draws it anew.
+/// Segments along a handle: it is as coarse as its hexagon, since fairing draws it anew (unit: segments)
 constexpr int segments_of_handle = 6;
 
 double distance(const Vec2& p, const Vec2& a, const Vec2& b) {

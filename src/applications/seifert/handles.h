@@ -29,10 +29,10 @@ std::vector<HandlePlace> handle_places(std::span<const FlatDisc> discs, int coun
 /// The corners of such a hexagon; its left half is the mirror image of its right one.
 std::array<Vec2, 6> hexagon_of(const HandlePlace& place);
 
-/// Fills a hexagon of vertices by half a ring whose ends are holes in its two halves. It raises the genus by one and
-/// leaves boundaries as they are; a loop along it links nothing but one around it, so that the Alexander polynomial
-/// stays too. The ring goes as far toward `down`, of unit length, as the hexagon is wide.
-/// hexagon: as hexagon_of gives them, and in the order in which faces run around.
+/// Fills a hexagon of vertices by a handle: half a ring whose ends are holes in the hexagon's halves. It raises the
+/// genus by one and keeps the boundary. A loop along it links only a loop around it, so that the Alexander polynomial
+/// stays the same. The ring reaches as far toward `down`, of unit length, as the hexagon is wide. hexagon: as
+/// hexagon_of gives them, and in the order in which faces run around.
 void add_handle(SpanningMesh& mesh, const std::array<Index, 6>& hexagon, const Vec3& down);
 
 /// The polygon that goes around holes too, along a way to each and back: bridges run between the nearest corners that

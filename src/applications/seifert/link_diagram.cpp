@@ -12,18 +12,18 @@
 namespace unsnarl {
 namespace {
 
-/// Strands nearer than this along the axis, and crossings nearer than this to anything else in the picture, are not
-/// told apart / size of the link: a thousand times what rounding does to rotated points.
+/// Strands nearer along the axis, and crossings nearer to anything else in the picture, are not told apart: a thousand
+/// times what rounding does to rotated points (unit: size of the link)
 constexpr double least_room_rel = 1e-12;
 
-/// Of the room around a crossing in the picture, the half length of its band along both strands. Where the strand
-/// below is wound around, from 1.6 times as far on, windings around one edge stay apart: together below 1/2.
+/// Half the length of a crossing's band along both strands. Windings of the strand below, from winding_of_band times as
+/// far on, stay apart where the two together are below a half (unit: room around the crossing in the picture)
 constexpr double band_of_room = 0.3;
-/// Along a band both strands together climb by at most this part of the gap between them, so that each band stays
-/// between its strands.
+/// Both strands together climb by at most this along a band, so that each band stays between its strands (unit: gap
+/// between the strands)
 constexpr double climb_of_gap = 0.25;
-/// Windings around an edge are nested by part of their width. No less of it than this / size of the link: a hundred
-/// times what rounding does to points.
+/// Windings around an edge are nested by part of their width, of no less than this: a hundred times what rounding does
+/// to points (unit: size of the link)
 constexpr double least_nesting_rel = 1e-14;
 
 Vec3 point_of(const Link& link, Index component, Index k) {

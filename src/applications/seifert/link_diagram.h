@@ -45,13 +45,13 @@ struct LinkDiagram {
   Index euler_characteristic() const { return circles - static_cast<Index>(crossings.size()); }
 };
 
-/// None where the view along the third row of the (orthogonal) frame is not generic: three strands in one place, a
-/// vertex on an edge, strands too near each other to tell which is on top, or to keep anything built between them from
-/// rounding. Decided by exact arithmetic.
+/// Nothing if the view along the third row of the (orthogonal) frame is not generic: three strands in one place, a
+/// vertex on an edge, or strands so near each other that rounding could change which is on top, or what is built
+/// between them. Decided by exact arithmetic.
 std::optional<LinkDiagram> diagram_of(const Link& link, const Eigen::Matrix3d& frame);
 
-/// The view, of `directions` many, whose surface is connected and of largest Euler characteristic; the roomiest of
-/// those. The coordinate axes are the first three. None where no view is generic.
+/// Of `directions` views, one whose surface is connected and of largest Euler characteristic; of several, the one with
+/// most room. The coordinate axes are the first three views. Nothing if no view is generic.
 /// stop: asked after each view; true: the best of those seen is enough, once there is one.
 std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const std::function<bool()>& stop = {});
 

@@ -12,9 +12,9 @@
 namespace unsnarl {
 namespace {
 
-/// Codes and words longer than this are taken for a mistake: the surface of one has half a million triangles.
+/// Codes of more crossings and longer words are taken for a mistake (unit: crossings)
 constexpr std::size_t most_crossings = 1000;
-constexpr int most_strands = 100;
+constexpr int most_strands = 100;  ///< Braids of more strands are taken for a mistake (unit: strands)
 
 struct Line {
   std::size_t number = 0;

@@ -18,11 +18,11 @@ namespace {
 using Points2 = Eigen::Matrix2Xd;
 using Vec2 = Eigen::Vector2d;
 
-/// Points of the polygon between two nodes of the drawing.
+/// Points of the polygon between two nodes of the drawing (unit: points)
 constexpr int points_a_piece = 4;
-/// Above or below the plane where strands cross / length of the pieces there.
+/// Strands rise above or sink below the plane by this where they cross (unit: length of the pieces there)
 constexpr double rise_of_piece = 0.5;
-/// Radius of the outer polygon for each node on it: pieces come out about 1 long.
+/// Radius of the outer polygon for each node on it, so that pieces come out about 1 long (unit: length)
 constexpr double radius_a_node = 0.25;
 
 /// The diagram as a graph: crossings, and two nodes on every edge, so that no two pieces join the same nodes.
@@ -164,10 +164,9 @@ class Diagram {
                          edges_ - crossings_ + 2));
   }
 
-  /// W. T. Tutte, "How to Draw a Graph", 1963: the longest face outside, evenly around a circle; every other node in
-  /// the middle of its neighbours. A node in the middle of each face, joined to all around it, makes the graph
-  /// 3-connected, so that no two nodes fall together. All neighbours count alike but those, which count more: they keep
-  /// faces open.
+  /// W. T. Tutte, "How to Draw a Graph", 1963: the longest face is outside, evenly around a circle; every other node is
+  /// at the mean of its neighbours. An additional node in each face, joined to all nodes around it, makes the graph
+  /// 3-connected, so that no two nodes coincide. These nodes have a larger weight, which keeps faces open.
   void draw() {
     const auto outer = std::max_element(faces_.begin(), faces_.end(),
                                         [](const auto& f, const auto& g) { return f.size() < g.size(); }) -

@@ -17,12 +17,18 @@
 namespace unsnarl {
 namespace {
 
-/// Distance of a push-off / smallest height of the triangle.
+/// Distance of a push-off from its triangle (unit: smallest height of the triangle)
 constexpr double offset_of_height = 1e-3;
-/// No distance is larger than this / size of the mesh; where a large triangle has another sheet near, it is lowered to
-/// a tenth at a time, down to a hundred times what rounding does.
-constexpr double first_limit_rel = 1e-3, least_limit_rel = 1e-14;
-constexpr double grid_cells = 40;  // along the longest side
+/// Distance of any push-off at first, at most; it is lowered to a tenth where a large triangle has another sheet near
+/// (unit: size of the mesh)
+constexpr double first_limit_rel = 1e-3;
+/// That limit is lowered down to this, a hundred times what rounding does (unit: size of the mesh)
+constexpr double least_limit_rel = 1e-14;
+constexpr double grid_cells = 40;  ///< Cells along the longest side of the grid (unit: cells)
+
+constexpr double least_jitter = 0.4;  ///< Places on a face differ from face to face from this on (unit: edge)
+constexpr double jitter_range = 0.2;  ///< Places on a face differ from face to face over this range (unit: edge)
+constexpr double across_share = 0.6;  ///< A place lies at this times its jitter toward the third corner (no unit)
 
 /// A loop: faces, each joined to the next by an edge.
 struct Loop {
@@ -172,13 +178,15 @@ class PushOffs {
     return {lo, hi, size_ / grid_cells};
   }
 
-  /// Between 0.4 and 0.6, another one for each number: points of symmetric meshes, and those above and below a level
-  /// face, would lie in line.
-  static double jitter(Index id) { return 0.4 + 0.2 * splitmix_number(static_cast<std::uint64_t>(id) * splitmix_step); }
+  /// Another one for each number: points of symmetric meshes, and those above and below a level face, would lie in
+  /// line.
+  static double jitter(Index id) {
+    return least_jitter + jitter_range * splitmix_number(static_cast<std::uint64_t>(id) * splitmix_step);
+  }
   Vec3 place(Index f, Index side) const {
     const double s = jitter(4 * f + side), t = jitter(4 * f + 2 + side);
     const Vec3 middle = (1 - s) * x_[faces_[f][0]] + s * x_[faces_[f][1]];
-    return (1 - 0.6 * t) * middle + 0.6 * t * x_[faces_[f][2]];
+    return (1 - across_share * t) * middle + across_share * t * x_[faces_[f][2]];
   }
   Vec3 normal(Index f) const {
     const Triangle& t = faces_[f];

@@ -16,10 +16,10 @@ struct SeifertMatrix {
 /// Linking numbers of a basis of the loops of an embedded, connected, oriented surface with boundary: entry (i, j) is
 /// that of loop i and of loop j pushed off to the side that the faces look to.
 ///
-/// Loops run from face to face. Instead of loop i itself the one pushed off to the other side is taken, which meets
-/// loop j just as little. How far is found out: no part of a pushed loop may meet the surface, nor what joins it to its
-/// loop any other face; both by exact predicates. Linking numbers are counted from signs of crossings, likewise.
-/// Throws std::runtime_error where rounding leaves no room between sheets.
+/// Loops run from face to face. Loop i is replaced by itself pushed off to the other side, which does not meet loop j
+/// either. The distance is chosen so that a pushed loop does not meet the surface, and the strip between it and its
+/// loop meets no other face; exact predicates decide. Linking numbers are sums of signs of crossings, also exact.
+/// Throws std::runtime_error if rounding leaves no room between sheets.
 SeifertMatrix seifert_matrix(std::span<const Vec3> x, std::span<const Triangle> faces);
 
 /// det(V - t V').

@@ -13,14 +13,17 @@
 namespace unsnarl {
 namespace {
 
-/// Edge lengths are chosen within these / diagonal: about 10,000 and 1,000 triangles for a surface of a few sheets.
-constexpr double finest_edge_rel = 1.0 / 45, coarsest_edge_rel = 1.0 / 20;
-/// The least edge length that may be asked for / diagonal: some ten million triangles.
+/// Edge length that is chosen by itself, at least (unit: bounding-box diagonal)
+constexpr double finest_edge_rel = 1.0 / 45;
+/// Edge length that is chosen by itself, at most (unit: bounding-box diagonal)
+constexpr double coarsest_edge_rel = 1.0 / 20;
+/// Least edge length that may be asked for (unit: bounding-box diagonal)
 constexpr double least_edge_rel = 1e-3;
-/// Each is hung from what the ones before have left of the lowest disc; the last of so many are still far above
-/// rounding.
+/// Handles, at most: each is hung from what the ones before have left of the lowest disc, and the last must be far
+/// above rounding (unit: handles)
 constexpr int most_handles = 100;
-/// Between the discs of nested circles / edge length of the coarsest level, so that fairing has room there.
+/// Distance between the discs of nested circles, so that fairing has room there (unit: edge length of the coarsest
+/// level)
 constexpr double disc_step = 1;
 
 void check(const SeifertOptions& options) {

@@ -11,15 +11,20 @@
 namespace unsnarl {
 namespace {
 
-/// The rim of the strand below winds around it on either side of the band: it starts this much farther from the
-/// crossing.
+/// The rim of the strand below winds around it on either side of the band, from this far from the crossing on (unit:
+/// half length of the band)
 constexpr double winding_of_band = 1.6;
-/// Width of the collar / the smallest gap between the strands of a crossing, and / the smallest room beside a strand
-/// within a band: all of it stays apart from the other strand's.
+/// Width of the collar, at most, so that all of it stays apart from the other strand's (unit: smallest gap between the
+/// strands of a crossing)
 constexpr double collar_of_gap = 0.25;
-/// Corners of discs are moved by up to half of this aside / the smallest room beside a strand within a band, and / the
-/// smallest distance of a corner of the link from an edge in the picture, so that no outline comes to cross itself.
-constexpr double corner_shift = 1e-3, corner_shift_of_picture = 0.1;
+/// Width of the collar, at most (unit: smallest room beside a strand within a band)
+constexpr double collar_of_room = 0.25;
+/// Corners of discs are moved aside by up to half of this, so that no outline comes to cross itself (unit: smallest
+/// room beside a strand within a band)
+constexpr double corner_shift = 1e-3;
+/// Corners of discs are moved aside by no more than half of this (unit: smallest distance of a corner of the link from
+/// an edge in the picture)
+constexpr double corner_shift_of_picture = 0.1;
 
 /// A point of the collar's free rim, in the frame of the diagram.
 struct RimPoint {
@@ -70,7 +75,7 @@ class Construction {
     beside_ = step_;
     for (const LinkDiagram::Crossing& c : diagram_.crossings) {
       beside_ = std::min(beside_, c.beside);
-      collar = std::min({collar, collar_of_gap * c.gap, collar_of_gap * beside_});
+      collar = std::min({collar, collar_of_gap * c.gap, collar_of_room * beside_});
     }
     Index first_vertex = 0;
     for (std::size_t c = 0; c < diagram_.points.size(); ++c) {

@@ -13,7 +13,7 @@ struct SpanningMesh {
   std::vector<Triangle> faces;
 };
 
-/// Strands so close to each other that doubles do not say on which side of each other what is built around them lies.
+/// Thrown where strands are so close that in doubles the surfaces built around them cannot be told apart.
 struct NoSpanningStart : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -10,7 +10,7 @@
 namespace unsnarl {
 namespace {
 
-constexpr int circle_points = 100;
+constexpr int circle_points = 100;  ///< Points of the plain circle (unit: points)
 
 /// Planar diagram codes of unknots that no Reidemeister moves untangle without more crossings on the way, or few do.
 /// All from the Gauss codes in appendix A of B. Burton et al., "Hard diagrams of the unknot" (2021).
