@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,11 +18,9 @@
 #include "scene/patch_progress.h"
 #include "scene/trajectory.h"
 #include "untangle/conflict_regions.h"
-#include "untangle/escalation.h"
 #include "untangle/far_parts.h"
 #include "untangle/local_solver.h"
 #include "untangle/shared_constants.h"
-#include "untangle/strategies.h"
 #include "untangle/vertex_insertion.h"
 
 namespace unsnarl {
@@ -42,9 +41,10 @@ constexpr double least_motion_share = 0.1;  // without unit
 class CoarseToFine {
  public:
   /// Gives up on the way back where a mesh keeps more than `most_pairs`.
-  CoarseToFine(const Patch& patch, const Task& task, double most_pairs)
+  CoarseToFine(const Patch& patch, const Task& task, const CoarseOptions& options, double most_pairs)
       : patch_(patch),
         task_(task),
+        options_(options),
         most_pairs_(most_pairs),
         mesh_(patch.triangles, ranks_of(patch, task.tolerated)),
         x_(patch.x) {}
@@ -64,14 +64,14 @@ class CoarseToFine {
     const std::vector<IntersectingPair> pairs = index.find_pairs();
     const std::vector<IntersectingPair> tolerated = tolerated_on(level, pairs);
     const double all = static_cast<double>(blocking_pairs(pairs, tolerated).size());
-    const auto tell = [&](const EscalationProgress& now) {
+    const auto tell = [&](double pairs_now, double work_left) {
       if (!patch_.progress || !(all > 0)) return;
       const double before = static_cast<double>(patch_.progress->pairs_before);
-      patch_.progress->pairs = static_cast<std::size_t>(before * std::clamp(now.pairs_now / all, 0.0, 1.0));
-      note_done(0.5 * (1 - std::min(1.0, now.work_left / all)));
+      patch_.progress->pairs = static_cast<std::size_t>(before * std::clamp(pairs_now / all, 0.0, 1.0));
+      note_done(0.5 * (1 - std::min(1.0, work_left / all)));
     };
-    const EscalationResult untangled = untangle(level, index, tolerated, coarse_mesh_tiers(), tell);
-    for (const RegionReport& region : untangled.regions) iterations += region.iterations;
+    const Untangled untangled = task_.untangle(level.scene, index, tolerated, options_.on_coarse_mesh, tell);
+    iterations += untangled.iterations;
     if (static_cast<double>(untangled.left.size()) > few_left * all) return std::nullopt;
     recover(level, index, {});
     take_over(level);
@@ -206,18 +206,6 @@ class CoarseToFine {
     return pairs;
   }
 
-  /// Untangles a level by the other strategies. This is where the escalation is entered anew.
-  EscalationResult untangle(Level& level, SceneIndex& index, std::span<const IntersectingPair> tolerated,
-                            std::span<const Tier> tiers,
-                            const std::function<void(const EscalationProgress&)>& tell = {}) const {
-    EscalationOptions escalation;
-    escalation.stop = task_.stop;
-    escalation.tiers = tiers;
-    escalation.left_out.assign(task_.left_out.begin(), task_.left_out.end());
-    escalation.on_progress = tell;
-    return escalate(level.scene, index, tolerated, escalation);
-  }
-
   /// Recovers all that is not at rest, and some rings around it.
   void recover(Level& level, SceneIndex& index, const RecoverOptions& options) const {
     std::vector<Index> moved;
@@ -252,7 +240,8 @@ class CoarseToFine {
     const bool is_small = faces <= most_faces_of_small;
     bool is_clean = true;
     if (!blocking_pairs(pairs, tolerated).empty()) {
-      const EscalationResult untangled = untangle(level, index, tolerated, is_small ? local_tiers() : shallow_tiers());
+      const std::span<const Tier> tiers = is_small ? options_.on_small_mesh : options_.on_large_mesh;
+      const Untangled untangled = task_.untangle(level.scene, index, tolerated, tiers, {});
       if (static_cast<double>(untangled.left.size()) > most_pairs_) return false;
       is_clean = untangled.left.empty();
     }
@@ -275,7 +264,8 @@ class CoarseToFine {
       Level retried = level;
       for (const Index v : part) retried.scene.x.col(v) = retried.scene.rest.col(v);
       SceneIndex index(retried.scene);
-      if (stopped() || !untangle(retried, index, tolerated, local_tiers()).left.empty()) continue;
+      if (stopped()) continue;
+      if (!task_.untangle(retried.scene, index, tolerated, options_.on_small_mesh, {}).left.empty()) continue;
       recover(retried, index, steps);
       if (total_motion(retried.scene) < total_motion(level.scene)) level = std::move(retried);
     }
@@ -283,6 +273,7 @@ class CoarseToFine {
 
   const Patch& patch_;
   const Task& task_;
+  const CoarseOptions& options_;
   double most_pairs_;
   ProgressiveMesh mesh_;
   Positions x_;                 // of the patch's vertices; only those of the mesh as it is now mean anything
@@ -291,8 +282,9 @@ class CoarseToFine {
 
 }  // namespace
 
-CoarseResult solve_on_coarser_mesh(Patch& patch, const Task& task, double factor, CoarseMeshes meshes) {
+CoarseResult solve_on_coarser_mesh(Patch& patch, const Task& task, const CoarseOptions& options) {
   CoarseResult result;
+  const bool is_only_one = options.meshes == CoarseMeshes::one;
   IntersectionFinder finder(patch.triangles, patch.active_count);
   const auto count_pairs = [&](const Positions& x) {
     const std::size_t count = blocking_pairs(finder.find(x), task.tolerated).size();
@@ -305,13 +297,13 @@ CoarseResult solve_on_coarser_mesh(Patch& patch, const Task& task, double factor
   const double most_left = few_enough_to_keep * static_cast<double>(before);
   auto faces = static_cast<std::size_t>(patch.active_count);
   for (double wanted = static_cast<double>(faces); !(task.stop && task.stop());) {
-    wanted /= factor * factor;
-    CoarseToFine solver(patch, task, most_left);
+    wanted /= options.factor * options.factor;
+    CoarseToFine solver(patch, task, options, most_left);
     const std::size_t finer = std::exchange(faces, solver.coarsen(wanted));
     const bool is_coarsest = faces == finer;
-    if (is_coarsest && (meshes == CoarseMeshes::one || faces == static_cast<std::size_t>(patch.active_count))) break;
+    if (is_coarsest && (is_only_one || faces == static_cast<std::size_t>(patch.active_count))) break;
     bool is_solved = false;
-    if (meshes == CoarseMeshes::one)
+    if (is_only_one)
       is_solved = solver.solve(result.iterations).has_value();
     else if (is_coarsest)
       is_solved = solver.solve_from_farther_starts(result.iterations);
@@ -324,7 +316,7 @@ CoarseResult solve_on_coarser_mesh(Patch& patch, const Task& task, double factor
         best = solver.positions();
       }
     }
-    if (static_cast<double>(result.pairs_left) <= most_left || is_coarsest || meshes == CoarseMeshes::one) break;
+    if (static_cast<double>(result.pairs_left) <= most_left || is_coarsest || is_only_one) break;
   }
   if (result.pairs_left < before) patch.x = std::move(best);
   return result;

@@ -46,11 +46,11 @@ constexpr int iterations = 60, shallow_iterations = 20;  // steps
 /// tried.
 constexpr double far_reach = 20;  // h
 
-/// Directions are smoothed over as many edges as rings are free, and over one at least. With half as many where four
-/// and eight are, 28 warps end 1.03 times as far in 1.1 to 1.2 of the time, with a seventh more flipped faces.
-Strategy local(std::string name, int rings, LocalMethod method, SheetMotion motion, double step, int max_iterations,
-               std::size_t most_valence = any_valence) {
-  const LocalSettings settings = {method, motion, step, std::max(1.0, static_cast<double>(rings)), max_iterations};
+/// Directions are smoothed over as many edges as rings are free, and over one at least.
+Strategy local(std::string name, RingsOptions freed, LocalMethod method, SheetMotion motion, double step,
+               int max_iterations) {
+  const LocalSettings settings = {method, motion, step, std::max(1.0, static_cast<double>(freed.rings)),
+                                  max_iterations};
   const auto solve = [settings](Patch& patch, const Task& task) {
     LocalOptions options;
     options.few_enough = task.few_enough;
@@ -59,33 +59,30 @@ Strategy local(std::string name, int rings, LocalMethod method, SheetMotion moti
     if (settings.method == LocalMethod::shallow) options.orientation = KeepOrientation::yes;
     return solve_locally(patch, settings, task.tolerated, options, task.stop).iterations;
   };
-  return {.name = std::move(name), .rings = rings, .most_valence = most_valence, .solve = solve};
+  return {.name = std::move(name), .select = select_rings(freed), .solve = solve};
 }
 
-/// On one coarse mesh: what is not resolved there is connected beyond its surroundings, as a tube does that is inside
-/// out between two curves, and coarser meshes of these take long and hardly resolve it (layered cloth: 3 minutes).
-Strategy coarse_to_fine() {
+constexpr DepthOptions around_deep = {.rings_per_edge = rings_per_depth, .reach = deep_reach, .least = deep};
+
+/// One coarse mesh only. A region that it does not resolve is usually tied to something outside it (for instance a tube
+/// turned inside out between two curves); coarser meshes rarely help there and are slow.
+Strategy coarse_to_fine(std::string name, const DepthOptions& freed) {
   const auto solve = [](Patch& patch, const Task& task) {
-    return solve_on_coarser_mesh(patch, task, factor_per_depth * task.depth, CoarseMeshes::one).iterations;
+    return solve_on_coarser_mesh(patch, task, coarse_options(factor_per_depth * task.depth, CoarseMeshes::one))
+        .iterations;
   };
-  return {.name = "coarse_to_fine",
-          .extent = Extent::depth,
-          .rings_per_depth = rings_per_depth,
-          .reach = deep_reach,
-          .least_depth = deep,
-          .area_floor = 0,  // faces that found little space when they came back are recovered
-          .solve = solve};
+  return {.name = std::move(name), .select = select_by_depth(freed), .solve = solve};
 }
 
-/// This strategy takes what the others have left for twice as deep, and so resolves it in wider surroundings on a
-/// coarser mesh. It saves time: without it whole components take its place, and samples, posed bodies and the deepest
-/// warps end as near in 1.1 of the time, a torus of these in 57 s, not 32 (docs/experiments.md).
+Strategy deep_coarse_to_fine() {
+  return coarse_to_fine("coarse_to_fine", around_deep);
+}
+
+/// What the others have left is taken to be twice as deep, and so resolved in wider surroundings on a coarser mesh.
 Strategy wide_coarse_to_fine() {
-  Strategy wide = coarse_to_fine();
-  wide.name = "coarse_to_fine_wide";
-  wide.is_last_resort = true;
-  wide.depth_factor = wide_depths;
-  return wide;
+  DepthOptions freed = around_deep;
+  freed.factor = wide_depths;
+  return coarse_to_fine("coarse_to_fine_wide", freed);
 }
 
 /// Solves a patch on a mesh of most_faces_of_small at most, or with edges factor_of_whole times as long where that is
@@ -93,65 +90,78 @@ Strategy wide_coarse_to_fine() {
 int solve_coarsely(Patch& patch, const Task& task, CoarseMeshes meshes) {
   const double factor =
       std::max(factor_of_whole, std::sqrt(patch.active_count / static_cast<double>(most_faces_of_small)));
-  return solve_on_coarser_mesh(patch, task, factor, meshes).iterations;
+  return solve_on_coarser_mesh(patch, task, coarse_options(factor, meshes)).iterations;
 }
 
-/// This strategy resolves what is stuck in a small part of a large component there, before the whole is solved. A
-/// layered cloth of 369,000 faces with 163 pairs left takes 65 s from there; without it the whole goes so far that it
-/// stays tangled. With four times the depth it takes 67 s, with sixteen more than 172. The same cloth turned takes
-/// longer with it than without: where it fails, the whole is solved after it. Of meshes of up to 27,000 faces hardly
-/// one gets here (docs/experiments.md).
+/// Resolves what is stuck in a small part of a large component there, before the whole is solved.
 Strategy far_coarse_to_fine() {
-  Strategy far = wide_coarse_to_fine();
-  far.name = "coarse_to_fine_far";
-  far.depth_factor = far_depths;
-  far.leaves_most = true;
-  far.solve = [](Patch& patch, const Task& task) { return solve_coarsely(patch, task, CoarseMeshes::until_solved); };
-  return far;
+  DepthOptions freed = around_deep;
+  freed.factor = far_depths;
+  freed.leaves_most = true;
+  const auto solve = [](Patch& patch, const Task& task) {
+    return solve_coarsely(patch, task, CoarseMeshes::until_solved);
+  };
+  return {.name = "coarse_to_fine_far", .select = select_by_depth(freed), .solve = solve};
 }
 
 Strategy coarse_to_fine_of_whole_components(CoarseMeshes meshes) {
   return {.name = "coarse_to_fine_whole",
-          .extent = Extent::whole_components,
-          .reach = far_reach,
-          .is_last_resort = true,
-          .area_floor = 0,
+          .select = select_whole_components(far_reach),
           .solve = [meshes](Patch& patch, const Task& task) { return solve_coarsely(patch, task, meshes); }};
 }
 
+/// What goes back to rest or shrinks must not lose the area of a face on the way.
 Strategy placing() {
-  const auto solve = [](Patch& patch, const Task& task) { return place(patch, task.tolerated, task.stop); };
-  return {.name = "placement", .extent = Extent::tied_components, .reach = far_reach, .solve = solve};
+  const auto solve = [](Patch& patch, const Task& task) {
+    const Positions start = patch.x;
+    const int placed = place(patch, task.tolerated, task.stop);
+    if (has_squeezed_face(patch, start, patch.x, squeezed_area)) patch.x = start;
+    return placed;
+  };
+  return {.name = "placement", .select = select_tied_components(far_reach), .solve = solve};
 }
 
 /// Strategies that move faces hardly more than they overlap.
 Tier shallow_tier() {
-  return {
-      local("shallow-0", 0, LocalMethod::shallow, SheetMotion::slide, short_step, shallow_iterations,
-            most_valence_of_shallow),
-      local("contour-2", 2, LocalMethod::contour, SheetMotion::slide, short_step, iterations, most_valence_of_shallow),
-      local("contour-4", 4, LocalMethod::contour, SheetMotion::steeper, short_step, iterations,
-            most_valence_of_shallow)};
+  const auto rings = [](int count) { return RingsOptions{.rings = count, .most_valence = most_valence_of_shallow}; };
+  return {{local("shallow-0", rings(0), LocalMethod::shallow, SheetMotion::slide, short_step, shallow_iterations),
+           local("contour-2", rings(2), LocalMethod::contour, SheetMotion::slide, short_step, iterations),
+           local("contour-4", rings(4), LocalMethod::contour, SheetMotion::steeper, short_step, iterations)}};
 }
 
-/// Layers that are hemmed in from both sides come apart crossing by crossing: without shorten-4 layered cloth takes
-/// twice the time. Two rings tried before four bring nothing nearer (docs/experiments.md).
+/// Layers that are hemmed in from both sides come apart crossing by crossing.
 Tier layers_tier() {
-  Tier tier = {local("contour-8", 8, LocalMethod::contour, SheetMotion::offset, longest_step, iterations),
-               local("shorten-4", 4, LocalMethod::contour, SheetMotion::free, longest_step, iterations)};
-  for (Strategy& strategy : tier) strategy.reach = far_reach;
-  return tier;
+  const auto rings = [](int count) { return RingsOptions{.rings = count, .reach = far_reach}; };
+  return {{local("contour-8", rings(8), LocalMethod::contour, SheetMotion::offset, longest_step, iterations),
+           local("shorten-4", rings(4), LocalMethod::contour, SheetMotion::free, longest_step, iterations)}};
+}
+
+Tier last_resort(Strategy strategy) {
+  return {.strategies = {std::move(strategy)}, .is_last_resort = true};
 }
 
 std::vector<Tier> all_tiers(CoarseMeshes meshes) {
-  std::vector<Tier> tiers = {shallow_tier(), {placing()}, {coarse_to_fine()}, layers_tier()};
+  std::vector<Tier> tiers = {shallow_tier(), {{placing()}}, {{deep_coarse_to_fine()}}, layers_tier()};
   // On a coarse mesh, wider surroundings are soon the whole.
   if (meshes == CoarseMeshes::until_solved) {
-    tiers.push_back({wide_coarse_to_fine()});
-    tiers.push_back({far_coarse_to_fine()});
+    tiers.push_back(last_resort(wide_coarse_to_fine()));
+    tiers.push_back(last_resort(far_coarse_to_fine()));
   }
-  tiers.push_back({coarse_to_fine_of_whole_components(meshes)});
+  tiers.push_back(last_resort(coarse_to_fine_of_whole_components(meshes)));
   return tiers;
+}
+
+/// All strategies of the default, in their order.
+std::vector<std::string> all_names() {
+  std::vector<std::string> names;
+  for (const Tier& tier : default_tiers())
+    for (const Strategy& strategy : tier.strategies) names.push_back(strategy.name);
+  return names;
+}
+
+const std::vector<std::string>& names_of_strategies() {
+  static const std::vector<std::string> names = all_names();
+  return names;
 }
 
 }  // namespace
@@ -175,28 +185,26 @@ std::span<const Tier> shallow_tiers() {
   return local_tiers().first(1);
 }
 
+CoarseOptions coarse_options(double factor, CoarseMeshes meshes) {
+  return {.factor = factor,
+          .meshes = meshes,
+          .on_coarse_mesh = coarse_mesh_tiers(),
+          .on_small_mesh = local_tiers(),
+          .on_large_mesh = shallow_tiers()};
+}
+
 std::string_view strategy_name(int number) {
-  for (const Tier& tier : default_tiers()) {
-    if (number < static_cast<int>(tier.size())) return tier[static_cast<std::size_t>(number)].name;
-    number -= static_cast<int>(tier.size());
-  }
-  return {};
+  return names_of_strategies()[static_cast<std::size_t>(number)];
 }
 
 int strategy_number(std::string_view name) {
-  int number = 0;
-  for (const Tier& tier : default_tiers())
-    for (const Strategy& strategy : tier) {
-      if (strategy.name == name) return number;
-      ++number;
-    }
-  return -1;
+  const std::vector<std::string>& names = names_of_strategies();
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
 int last_strategy() {
-  int count = 0;
-  for (const Tier& tier : default_tiers()) count += static_cast<int>(tier.size());
-  return count - 1;
+  return static_cast<int>(names_of_strategies().size()) - 1;
 }
 
 }  // namespace unsnarl

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "untangle/coarse_to_fine.h"
 #include "untangle/strategy.h"
 
 namespace unsnarl {
@@ -22,6 +23,10 @@ std::span<const Tier> local_tiers();
 
 /// The first tier of local_tiers(): strategies that move faces hardly more than they overlap.
 std::span<const Tier> shallow_tiers();
+
+/// How coarse to fine goes by meshes whose edges are `factor` times as long at first, with the strategies above:
+/// coarse_mesh_tiers() on a coarse mesh, local_tiers() and on large meshes shallow_tiers() on the way back.
+CoarseOptions coarse_options(double factor, CoarseMeshes meshes);
 
 /// Name of the strategy with this number in the order of default_tiers().
 std::string_view strategy_name(int number);

@@ -8,6 +8,7 @@
 #include "mesh/areas.h"
 #include "scene/shapes.h"
 #include "untangle/conflict_regions.h"
+#include "untangle/escalation.h"
 #include "untangle/local_solver.h"
 #include "untangle/strategies.h"
 #include "untangle/tangled_shapes.h"
@@ -27,7 +28,8 @@ shapes::Shape tangled_tube(Index fine) {
 
 CoarseResult solve(Patch& patch, double factor, std::span<const IntersectingPair> tolerated,
                    const std::function<bool()>& stop, CoarseMeshes meshes = CoarseMeshes::until_solved) {
-  return solve_on_coarser_mesh(patch, {.tolerated = tolerated, .stop = stop}, factor, meshes);
+  const Task task{.tolerated = tolerated, .untangle = make_untangler(stop, {}), .stop = stop};
+  return solve_on_coarser_mesh(patch, task, coarse_options(factor, meshes));
 }
 
 std::size_t pairs_in(const Patch& patch) {
@@ -58,9 +60,9 @@ TEST(CoarseToFine, coarse_meshes_do_without_what_is_left_out) {
   const std::size_t before = pairs_in(patch);
   std::vector<std::string> all;
   for (const Tier& tier : coarse_mesh_tiers())
-    for (const Strategy& strategy : tier) all.push_back(strategy.name);
-  const std::function<bool()> never;
-  EXPECT_EQ(solve_on_coarser_mesh(patch, {.left_out = all, .stop = never}, 4, CoarseMeshes::one).pairs_left, before);
+    for (const Strategy& strategy : tier.strategies) all.push_back(strategy.name);
+  const Task task{.untangle = make_untangler({}, all)};
+  EXPECT_EQ(solve_on_coarser_mesh(patch, task, coarse_options(4, CoarseMeshes::one)).pairs_left, before);
   EXPECT_EQ(patch.x, patch.rest);
 }
 
