@@ -9,7 +9,7 @@
 
 namespace unsnarl {
 
-/// The best candidate of a tier is kept if it leaves less than this share of its region's pairs. Without unit.
+/// The best candidate of a tier is kept if it leaves less than this share of its region's pairs. Without unit. [U2]
 constexpr double kept_of_tier = 0.7;
 
 /// What becomes of a candidate.

@@ -53,7 +53,7 @@ std::vector<Box> boxes_of(const Scene& scene, std::span<const Trial> trials) {
   return boxes;
 }
 
-void settle(Trial& trial, Verdict verdict, const Scene& scene, Candidates& candidates, const Keep& keep) {
+void apply_verdict(Trial& trial, Verdict verdict, const Scene& scene, Candidates& candidates, const Keep& keep) {
   const bool is_of_use = verdict == Verdict::keep || verdict == Verdict::remember;
   if (is_of_use && !trial.is_clean()) trial.trajectory.end_at_fewest_pairs();
   if (verdict == Verdict::keep) keep(trial);
@@ -61,18 +61,18 @@ void settle(Trial& trial, Verdict verdict, const Scene& scene, Candidates& candi
   if (verdict == Verdict::wait) candidates.wait(std::move(trial), scene);
 }
 
-/// Puts candidates that went far among what they meet there, and settles what becomes of each.
+/// Puts candidates that went far among what they meet there, and decides what becomes of each.
 void compare(std::vector<Trial>& trials, const Scene& scene, const SceneIndex& index, const EscalationOptions& options,
              Candidates& candidates, const Keep& keep) {
   run_in_batches(
       boxes_of(scene, trials), [&](std::size_t i) { look_farther(trials[i], scene, index, options.recover); },
       [&](std::size_t i) {
         const Trial* rival = candidates.rival(trials[i].selection.region, scene);
-        settle(trials[i], judge_far(trials[i], rival), scene, candidates, keep);
+        apply_verdict(trials[i], judge_far(trials[i], rival), scene, candidates, keep);
       });
 }
 
-/// Runs trials, those that do not disturb each other in parallel, and settles what becomes of each candidate. `pairs`:
+/// Runs trials, those that do not disturb each other in parallel, and decides what becomes of each candidate. `pairs`:
 /// all that are left before.
 void try_candidates(std::vector<Trial>& trials, std::span<const IntersectingPair> pairs, const Scene& scene,
                     const SceneIndex& index, const EscalationOptions& options, Candidates& candidates,
@@ -95,7 +95,7 @@ void try_candidates(std::vector<Trial>& trials, std::span<const IntersectingPair
           trial.reach = std::max(trial.reach, 2 * largest_motion(trial));
           far.push_back(std::move(trial));
         } else {
-          settle(trial, verdict, scene, candidates, keep);
+          apply_verdict(trial, verdict, scene, candidates, keep);
         }
       });
   compare(far, scene, index, options, candidates, keep);

@@ -13,7 +13,6 @@
 #include "mesh/areas.h"
 #include "mesh/union_find.h"
 #include "rigid/free_place.h"
-#include "untangle/shared_constants.h"
 
 namespace unsnarl {
 namespace {
@@ -24,6 +23,9 @@ constexpr double margin = 0.05;
 /// Number of a component's own vertices that it shrinks toward, at most about. With 24 a wig ends 6 % farther, all
 /// others of 66 meshes as close.
 constexpr std::size_t most_centres = 16;
+
+/// Faces: components that have more stay at rest, since each try takes an exact test of them all.
+constexpr std::size_t most_faces = 4000;
 
 /// A component of the patch that may be placed.
 struct Component {
@@ -189,7 +191,7 @@ class Placement {
   bool place(const Component& component) {
     const std::vector<IntersectingPair> contacts = contacts_of(component);
     if (contacts.empty()) return true;
-    if (component.triangles.size() > most_faces_of_small) return false;
+    if (component.triangles.size() > most_faces) return false;
     Positions from(3, static_cast<Index>(component.vertices.size()));
     for (std::size_t k = 0; k < component.vertices.size(); ++k)
       from.col(static_cast<Index>(k)) = x_.col(component.vertices[k]);

@@ -5,46 +5,52 @@
 #include <utility>
 #include <vector>
 
-#include "untangle/coarse_to_fine.h"
-#include "untangle/local_solver.h"
+#include "untangle/coarse/coarse_to_fine.h"
+#include "untangle/local/local_solver.h"
 #include "untangle/placement.h"
-#include "untangle/shared_constants.h"
+#include "untangle/squeezed_faces.h"
 
 namespace unsnarl {
 namespace {
 
-/// Valence beyond which the first strategies hold a vertex. The needles of a CAD export met at two of 1900.
-constexpr std::size_t most_valence_of_shallow = 100;  // neighbours
+// Constants of the table. h is the mean edge length of a region's faces. Measurements: docs/experiments.md, "Constants
+// of the untangling".
 
-/// Edges: tangles at least so deep go from coarse to fine. (27k faces of a warped torus, 4 deep: nearer, in half the
-/// time. 6.6k faces, 2 deep: 0.53 % instead of 0.41.)
+/// Neighbours: the first strategies hold vertices that have more. [U4]
+constexpr std::size_t most_valence_of_shallow = 100;
+/// h: steps of strategies that move faces hardly more than they overlap. [U5]
+constexpr double short_step = 0.1;
+/// h: steps of strategies that part layers. [U6]
+constexpr double long_step = 0.3;
+/// Steps: LocalSettings::max_iterations of `shallow-0`. [U7]
+constexpr int shallow_iterations = 20;
+/// Steps: LocalSettings::max_iterations of the other local strategies. [U7]
+constexpr int iterations = 60;
+
+/// h: bound of the motion of layers. [U8]
+constexpr double reach_of_layers = 20;
+/// h: bound of the motion of components that are placed.
+constexpr double reach_of_placement = 20;
+/// h: bound of the motion of whole components.
+constexpr double reach_of_whole = 20;
+
+/// Edges: tangles at least so deep go from coarse to fine before layers are parted. [U9]
 constexpr int deep = 4;
-/// Edges freed around a tangle for each edge of its depth. Of 0.7, 1 and 1.5 the closest on three bodies; with 3
-/// seventeen deep meshes end as close in a tenth more time.
+/// Edges freed around a tangle for each edge of its depth. [U10]
 constexpr double rings_per_depth = 1.5;
-/// The coarse mesh of a deep tangle has edges longer by this factor for each edge of its depth. Without unit. On 58
-/// deep, warped and immersed surfaces 0.25, 0.35, 0.5, 1 end 2 to 9 % farther, with up to a quarter more flipped faces;
-/// 3 for all, however deep, leaves two tangled (docs/experiments.md).
+/// h: bound of the motion for each edge of a tangle's depth. [U11]
+constexpr double reach_per_depth = 2.5;
+/// `coarse_to_fine_wide` takes tangles to be so many times as deep as they are. Without unit. [U12]
+constexpr int wide_depths = 2;
+/// `coarse_to_fine_far` takes tangles to be so many times as deep as they are. Without unit. [U13]
+constexpr int far_depths = 8;
+
+/// CoarseOptions::factor for each edge of a tangle's depth. Without unit. [U14]
 constexpr double factor_per_depth = 0.7;
-/// The same for whole components and what comes close to them. With 3, 42 samples end 3 % farther and twenty punctured
-/// surfaces 12 %, but eight random warps 5 % nearer.
+/// CoarseOptions::factor of whole components and what comes close to them, at least. Without unit. [U15]
 constexpr double factor_of_whole = 1.6;
-
-/// Strategy::reach of a deep tangle for each edge of its depth. With 4, ten deep meshes end 2 % farther.
-constexpr double deep_reach = 2.5;  // h
-/// Strategy::depth_factor of what coarse to fine leaves, at first and before whole components (docs/experiments.md).
-constexpr int wide_depths = 2, far_depths = 8;  // times the depth
-
-/// LocalSettings::step of strategies that move faces hardly more than they overlap, and of those that part layers. With
-/// 0.15 for the former, thirteen deep and warped meshes end 8 % farther.
-constexpr double short_step = 0.1;  // h
-/// LocalSettings::max_iterations, and those of shallow-0: with as many, 115 meshes end as near in 1.05 of the time.
-constexpr int iterations = 60, shallow_iterations = 20;  // steps
-
-/// Strategy::reach of layers, placement and whole components. With 4 for layers, which sometimes part only far from
-/// where they were, a layered cloth of 92,000 faces is not resolved in 139 s of CPU, not 34. Other numbers were not
-/// tried.
-constexpr double far_reach = 20;  // h
+/// Faces: the first coarse mesh of these has so many at most. [U16]
+constexpr double most_faces_of_first_mesh = 4000;
 
 /// Directions are smoothed over as many edges as rings are free, and over one at least.
 Strategy local(std::string name, RingsOptions freed, LocalMethod method, SheetMotion motion, double step,
@@ -62,7 +68,7 @@ Strategy local(std::string name, RingsOptions freed, LocalMethod method, SheetMo
   return {.name = std::move(name), .select = select_rings(freed), .solve = solve};
 }
 
-constexpr DepthOptions around_deep = {.rings_per_edge = rings_per_depth, .reach = deep_reach, .least = deep};
+constexpr DepthOptions around_deep = {.rings_per_edge = rings_per_depth, .reach = reach_per_depth, .least = deep};
 
 /// One coarse mesh only. A region that it does not resolve is usually tied to something outside it (for instance a tube
 /// turned inside out between two curves); coarser meshes rarely help there and are slow.
@@ -85,11 +91,10 @@ Strategy wide_coarse_to_fine() {
   return coarse_to_fine("coarse_to_fine_wide", freed);
 }
 
-/// Solves a patch on a mesh of most_faces_of_small at most, or with edges factor_of_whole times as long where that is
+/// The first coarse mesh has most_faces_of_first_mesh at most, or edges factor_of_whole times as long if that is
 /// coarser.
 int solve_coarsely(Patch& patch, const Task& task, CoarseMeshes meshes) {
-  const double factor =
-      std::max(factor_of_whole, std::sqrt(patch.active_count / static_cast<double>(most_faces_of_small)));
+  const double factor = std::max(factor_of_whole, std::sqrt(patch.active_count / most_faces_of_first_mesh));
   return solve_on_coarser_mesh(patch, task, coarse_options(factor, meshes)).iterations;
 }
 
@@ -106,7 +111,7 @@ Strategy far_coarse_to_fine() {
 
 Strategy coarse_to_fine_of_whole_components(CoarseMeshes meshes) {
   return {.name = "coarse_to_fine_whole",
-          .select = select_whole_components(far_reach),
+          .select = select_whole_components(reach_of_whole),
           .solve = [meshes](Patch& patch, const Task& task) { return solve_coarsely(patch, task, meshes); }};
 }
 
@@ -115,10 +120,10 @@ Strategy placing() {
   const auto solve = [](Patch& patch, const Task& task) {
     const Positions start = patch.x;
     const int placed = place(patch, task.tolerated, task.stop);
-    if (has_squeezed_face(patch, start, patch.x, squeezed_area)) patch.x = start;
+    if (has_squeezed_face(patch, start, patch.x)) patch.x = start;
     return placed;
   };
-  return {.name = "placement", .select = select_tied_components(far_reach), .solve = solve};
+  return {.name = "placement", .select = select_tied_components(reach_of_placement), .solve = solve};
 }
 
 /// Strategies that move faces hardly more than they overlap.
@@ -131,9 +136,9 @@ Tier shallow_tier() {
 
 /// Layers that are hemmed in from both sides come apart crossing by crossing.
 Tier layers_tier() {
-  const auto rings = [](int count) { return RingsOptions{.rings = count, .reach = far_reach}; };
-  return {{local("contour-8", rings(8), LocalMethod::contour, SheetMotion::offset, longest_step, iterations),
-           local("shorten-4", rings(4), LocalMethod::contour, SheetMotion::free, longest_step, iterations)}};
+  const auto rings = [](int count) { return RingsOptions{.rings = count, .reach = reach_of_layers}; };
+  return {{local("contour-8", rings(8), LocalMethod::contour, SheetMotion::offset, long_step, iterations),
+           local("shorten-4", rings(4), LocalMethod::contour, SheetMotion::free, long_step, iterations)}};
 }
 
 Tier last_resort(Strategy strategy) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "untangle/coarse_to_fine.h"
+#include "untangle/coarse/coarse_to_fine.h"
 #include "untangle/strategy.h"
 
 namespace unsnarl {

@@ -1,4 +1,4 @@
-#include "untangle/flip_guard.h"
+#include "untangle/local/flip_guard.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "untangle/sheet_motion.h"
+#include "untangle/local/sheet_motion.h"
 
 #include <gtest/gtest.h>
 

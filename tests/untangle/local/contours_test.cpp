@@ -1,4 +1,4 @@
-#include "untangle/contours.h"
+#include "untangle/local/contours.h"
 
 #include <gtest/gtest.h>
 

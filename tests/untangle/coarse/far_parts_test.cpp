@@ -1,4 +1,4 @@
-#include "untangle/far_parts.h"
+#include "untangle/coarse/far_parts.h"
 
 #include <gtest/gtest.h>
 

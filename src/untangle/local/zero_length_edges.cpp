@@ -1,4 +1,4 @@
-#include "untangle/zero_length_edges.h"
+#include "untangle/local/zero_length_edges.h"
 
 #include <Eigen/SparseCholesky>
 

@@ -1,4 +1,4 @@
-#include "untangle/sheet_motion.h"
+#include "untangle/local/sheet_motion.h"
 
 #include <Eigen/Dense>
 
@@ -7,10 +7,9 @@
 namespace unsnarl {
 namespace {
 
-/// The least squares of the two offsets of a curve penalise their squares by this share of the number of crossings:
-/// then sheets that lie along each other share what parts them. With 1e-6, 39 posed bodies and wigs end 1.02, 28
-/// warps 1.10 times as far, with 0.1 1.02, 1.08; with one crossing's share of it 1.01, ten deep meshes 1.03.
-constexpr double offset_damping = 0.01;  // without unit
+/// The least squares of a curve's two offsets penalise their squares by this share of the number of crossings, without
+/// unit: sheets that lie along each other then share the motion that parts them. [U29]
+constexpr double offset_damping = 0.01;
 
 /// How the first sheet best moves against the second at a crossing.
 Vec3 steepest(const Crossing& crossing) {
@@ -71,7 +70,7 @@ std::vector<Vec3> sheet_pushes(const Contours& contours, SheetMotion motion) {
   for (std::size_t i = 0; i < pushes.size(); ++i) {
     const Index k = contours.crossings[i].contour;
     const double size = std::sqrt(squares[k] / curves[k].crossings());
-    pushes[i] = size > 0 ? Vec3(pushes[i] / size) : Vec3(0, 0, 1);  // somewhere
+    pushes[i] = size > 0 ? Vec3(pushes[i] / size) : Vec3(0, 0, 1);  // any direction will do
   }
   return pushes;
 }

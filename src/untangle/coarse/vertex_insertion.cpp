@@ -1,4 +1,4 @@
-#include "untangle/vertex_insertion.h"
+#include "untangle/coarse/vertex_insertion.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -50,8 +50,8 @@ struct Place {
 /// The places to be tried, the best first.
 struct Places {
   std::vector<Place> list;
-  /// So many, the first, leave the star room: where none is free, the vertex stays at one of these, since what crosses
-  /// a star that is hardly there is not resolved by local strategies.
+  /// The first `with_space` places leave the star room. If none is free, the vertex stays at one of them, since local
+  /// strategies do not resolve what crosses a star that is hardly there.
   std::size_t with_space = 0;
 };
 
@@ -62,13 +62,12 @@ struct States {
   const Positions& x;
 };
 
-// A vertex that comes back is tried at shares of the way from its parent to points of the fan, without unit: a half,
-// and each `closer` times the last, down to `least_share`. More shares, chosen one by one, end no nearer;
-// without the eight directions a tube that runs through itself keeps 6 to 18 pairs (docs/experiments.md).
-constexpr double closer = 0.2;        // without unit
-constexpr double least_share = 5e-4;  // without unit
-/// Below this share the new star has next to no space.
-constexpr double least_space = 0.01;  // without unit
+// A vertex that comes back is tried at shares of the way from its parent to points of the fan: a half, and each
+// `closer` times the last one, down to closest_share. [U40]
+constexpr double closer = 0.2;          ///< share of the last share, without unit
+constexpr double closest_share = 5e-4;  ///< share of the way, without unit
+/// Share of the way, without unit: the new star has space down to this.
+constexpr double least_space = 0.01;
 
 /// The places of a vertex: where the triangle of the fan carries the vertex, with its offset from there, half of it and
 /// none; points of the fan closer and closer to the parent; and eight directions in which it may leave the parent where
@@ -107,7 +106,7 @@ Places places_for(const Removal& removal, std::span<const Triangle> star, const 
   for (int corner = 0; corner < 8; ++corner)
     add(parent + near * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
   result.with_space = places.size();
-  for (; share > least_share; share *= closer) {
+  for (; share > closest_share; share *= closer) {
     add(parent + share * (on_fan - parent));
     add(parent + share * (middle - parent));
     for (const Vec3& m : middles) add(parent + share * (m - parent));
@@ -139,24 +138,24 @@ class Insertion {
         star_of_(star_of),
         start_(start),
         finder_(triangles, active_count),
-        tries_(removals.size()) {}
+        searches_(removals.size()) {}
 
   void run(Positions& x) {
-    std::vector<std::size_t> moving(tries_.size());
+    std::vector<std::size_t> moving(searches_.size());
     std::iota(moving.begin(), moving.end(), std::size_t{0});
     find_places(moving, x);
     // Those that found none try again now that all others stay where they are.
-    std::erase_if(moving, [&](std::size_t r) { return !tries_[r].failed; });
+    std::erase_if(moving, [&](std::size_t r) { return !searches_[r].failed; });
     if (!moving.empty()) find_places(moving, x);
     // The others have found their places now: some of the better ones may be free.
     for (const int place : {0, 2, 4}) offer(place, x);
   }
 
   /// Is this vertex elsewhere than at its best place?
-  bool is_displaced(std::size_t r) const { return tries_[r].at > 0; }
+  bool is_displaced(std::size_t r) const { return searches_[r].at > 0; }
 
  private:
-  struct Try {
+  struct PlaceSearch {
     int at = 0, best = 0;
     std::size_t pairs = 0, fewest = std::numeric_limits<std::size_t>::max();
     bool failed = false;  // no place is free: it stays at the one with the fewest pairs, of those with space
@@ -168,18 +167,18 @@ class Insertion {
 
   /// Pairs of the stars. Those that were there at the start, where nothing has moved, do not count.
   void count_pairs(const Positions& x) {
-    for (Try& t : tries_) t.pairs = 0;
+    for (PlaceSearch& search : searches_) search.pairs = 0;
     for (const IntersectingPair& pair : finder_.find(x)) {
       if (is_at(triangles_[pair.a], x, start_) && is_at(triangles_[pair.b], x, start_)) continue;
       for (const Index face : {pair.a, pair.b})
-        if (star_of_[face] >= 0) ++tries_[star_of_[face]].pairs;
+        if (star_of_[face] >= 0) ++searches_[star_of_[face]].pairs;
     }
   }
 
   /// Each of these vertices goes to the first of its places where its star is in no new pair; the others stay.
   void find_places(std::span<const std::size_t> moving, Positions& x) {
     for (const std::size_t r : moving) {
-      tries_[r] = {};
+      searches_[r] = {};
       put(r, 0, x);
     }
     while (advance(moving, x)) {
@@ -191,41 +190,41 @@ class Insertion {
     count_pairs(x);
     bool any = false;
     for (const std::size_t r : moving) {
-      Try& t = tries_[r];
-      if (t.failed) continue;
-      if (static_cast<std::size_t>(t.at) < places_[r].with_space && t.pairs < t.fewest) {
-        t.fewest = t.pairs;
-        t.best = t.at;
+      PlaceSearch& search = searches_[r];
+      if (search.failed) continue;
+      if (static_cast<std::size_t>(search.at) < places_[r].with_space && search.pairs < search.fewest) {
+        search.fewest = search.pairs;
+        search.best = search.at;
       }
-      if (t.pairs == 0) continue;
+      if (search.pairs == 0) continue;
       any = true;
-      t.failed = ++t.at == static_cast<int>(places_[r].list.size());
-      if (t.failed) t.at = t.best;
-      put(r, t.at, x);
+      search.failed = ++search.at == static_cast<int>(places_[r].list.size());
+      if (search.failed) search.at = search.best;
+      put(r, search.at, x);
     }
     return any;
   }
 
   /// Puts those that are at worse places at this one, and back where that brings pairs.
   void offer(int place, Positions& x) {
-    std::vector<std::uint8_t> is_trying(tries_.size(), 0);
-    for (std::size_t r = 0; r < tries_.size(); ++r) {
-      if (tries_[r].at <= place) continue;
+    std::vector<std::uint8_t> is_trying(searches_.size(), 0);
+    for (std::size_t r = 0; r < searches_.size(); ++r) {
+      if (searches_[r].at <= place) continue;
       is_trying[r] = 1;
       put(r, place, x);
     }
     for (bool any = true; any;) {
       any = false;
       count_pairs(x);
-      for (std::size_t r = 0; r < tries_.size(); ++r) {
-        if (!is_trying[r] || tries_[r].pairs == 0) continue;
+      for (std::size_t r = 0; r < searches_.size(); ++r) {
+        if (!is_trying[r] || searches_[r].pairs == 0) continue;
         any = true;
         is_trying[r] = 0;
-        put(r, tries_[r].at, x);
+        put(r, searches_[r].at, x);
       }
     }
-    for (std::size_t r = 0; r < tries_.size(); ++r)
-      if (is_trying[r]) tries_[r].at = place, tries_[r].failed = false;
+    for (std::size_t r = 0; r < searches_.size(); ++r)
+      if (is_trying[r]) searches_[r].at = place, searches_[r].failed = false;
   }
 
   std::span<const Removal> removals_;
@@ -234,7 +233,7 @@ class Insertion {
   std::span<const Index> star_of_;
   const Positions& start_;
   IntersectionFinder finder_;
-  std::vector<Try> tries_;
+  std::vector<PlaceSearch> searches_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "untangle/coarse_to_fine.h"
+#include "untangle/coarse/coarse_to_fine.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -9,7 +9,7 @@
 #include "scene/shapes.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/escalation.h"
-#include "untangle/local_solver.h"
+#include "untangle/local/local_solver.h"
 #include "untangle/strategies.h"
 #include "untangle/tangled_shapes.h"
 

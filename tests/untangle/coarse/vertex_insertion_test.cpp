@@ -1,4 +1,4 @@
-#include "untangle/vertex_insertion.h"
+#include "untangle/coarse/vertex_insertion.h"
 
 #include <gtest/gtest.h>
 

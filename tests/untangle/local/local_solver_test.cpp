@@ -1,4 +1,4 @@
-#include "untangle/local_solver.h"
+#include "untangle/local/local_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -77,12 +77,12 @@ TEST(LocalSolver, long_tries_follow_the_pairs_that_they_know) {
     patch.trajectory = &trajectory;
     LocalOptions options;
     options.patience = 1000;
-    if (!follow) options.look_distance = 0;
+    if (!follow) options.recount_distance = 0;
     const LocalResult result =
         solve_locally(patch, {LocalMethod::contour, SheetMotion::slide, 0.0005, 2, 10}, {}, options);
     ASSERT_TRUE(result.clean);
     EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
-    EXPECT_GT(result.iterations, 2 * options.despair);
+    EXPECT_GT(result.iterations, 2 * options.give_up_after);
     looks[follow] = trajectory.iterations.size();
   }
   EXPECT_LT(1.5 * static_cast<double>(looks[1]), static_cast<double>(looks[0]));
@@ -169,22 +169,6 @@ TEST(LocalSolver, tolerated_pairs_are_let_be) {
   const auto left = shapes::pairs_at(tried.x, tried.triangles);
   EXPECT_TRUE(std::all_of(left.begin(), left.end(), is_foreign));
   EXPECT_FALSE(left.empty()) << "the tolerated pairs were worked on";
-}
-
-TEST(LocalSolver, a_squeezed_face_is_one_that_lost_nearly_all_its_area) {
-  Patch patch = shapes::patch_of(shapes::bumpy_sheet(2, 0));
-  const Positions start = patch.x;
-  EXPECT_FALSE(has_squeezed_face(patch, start, start, 1));
-  Positions x = start;
-  x.col(4) = 0.999 * start.col(0) + 0.001 * start.col(4);  // the middle onto a corner
-  EXPECT_TRUE(has_squeezed_face(patch, start, x, 0.01));
-  EXPECT_FALSE(has_squeezed_face(patch, start, x, 0.0005));
-  // A face without area at the start has nothing to lose.
-  EXPECT_FALSE(has_squeezed_face(patch, x, x, 1));
-  Positions collapsed = start;
-  collapsed.col(1) = collapsed.col(0);
-  EXPECT_FALSE(has_squeezed_face(patch, collapsed, collapsed, 0.5));
-  EXPECT_TRUE(has_squeezed_face(patch, start, collapsed, 0.5));
 }
 
 TEST(LocalSolver, shrinking_keeps_the_smallest_clean_displacement) {

@@ -1,16 +1,16 @@
-#include "untangle/flip_guard.h"
+#include "untangle/local/flip_guard.h"
 
 #include <array>
 
 #include "mesh/areas.h"
-#include "recover/step_filter.h"
 
 namespace unsnarl {
 namespace {
 
-/// Share of the area vector at rest that is kept. Without unit. With 0.2, three of 31 meshes end 1.3 to 2.5 times
-/// as far.
-constexpr double least_share = 0.1;
+/// Share of its area vector at rest that a face keeps. Without unit. [U27]
+constexpr double guarded_share = 0.1;
+/// Sweeps over the faces in one projection, at most. [U28]
+constexpr int guard_sweeps = 10;
 
 }  // namespace
 
@@ -20,17 +20,17 @@ FlipGuard::FlipGuard(const Patch& patch, std::span<const std::uint8_t> may_turn)
     const Triangle& corners = patch.triangles[t];
     const Vec3 at_rest = area_vector(patch.rest, corners);
     const double size = at_rest.norm();
-    if (!(size > 0) || !(area_vector(patch.x, corners).dot(at_rest) > least_share * size * size)) continue;
+    if (!(size > 0) || !(area_vector(patch.x, corners).dot(at_rest) > guarded_share * size * size)) continue;
     kept_.push_back({corners, at_rest / size, size});
   }
 }
 
 bool FlipGuard::project(Positions& x) const {
-  for (int sweep = 0; sweep < projection_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < guard_sweeps; ++sweep) {
     bool pushed = false;
     for (const Kept& kept : kept_) {
       const Triangle& t = kept.corners;
-      const double missing = least_share * kept.size - area_vector(x, t).dot(kept.normal);
+      const double missing = guarded_share * kept.size - area_vector(x, t).dot(kept.normal);
       if (!(missing > 0)) continue;
       std::array<Vec3, 3> gradient;
       double squares = 0;
