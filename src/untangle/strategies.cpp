@@ -145,8 +145,14 @@ Tier last_resort(Strategy strategy) {
   return {.strategies = {std::move(strategy)}, .is_last_resort = true};
 }
 
+/// The table.
 std::vector<Tier> all_tiers(CoarseMeshes meshes) {
-  std::vector<Tier> tiers = {shallow_tier(), {{placing()}}, {{deep_coarse_to_fine()}}, layers_tier()};
+  std::vector<Tier> tiers = {
+      shallow_tier(),
+      {{placing()}},
+      {{deep_coarse_to_fine()}},
+      layers_tier(),
+  };
   // On a coarse mesh, wider surroundings are soon the whole.
   if (meshes == CoarseMeshes::until_solved) {
     tiers.push_back(last_resort(wide_coarse_to_fine()));
