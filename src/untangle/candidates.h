@@ -9,7 +9,8 @@
 
 namespace unsnarl {
 
-/// The best candidate of a tier is kept if it leaves less than this share of its region's pairs. Without unit. [U2]
+/// The best candidate of a tier is kept if it leaves less than this share of its region's pairs. Without unit. [E10,
+/// E131]
 constexpr double kept_of_tier = 0.7;
 
 /// What becomes of a candidate.

@@ -24,7 +24,7 @@ namespace unsnarl {
 namespace {
 
 /// Mean edges: least bandwidth. Between vertices at one place it would fall to zero, and their energy would be 0/0.
-/// [U43]
+/// [E148]
 constexpr double smallest_bandwidth = 0.01;
 
 std::vector<std::vector<Index>> faces_of(const Patch& patch, std::span<const Index> face_of) {

@@ -227,26 +227,4 @@ int place(Patch& patch, std::span<const IntersectingPair> tolerated, const std::
   return Placement(patch, tolerated, stop).run();
 }
 
-std::vector<Index> vertices_of_tied_components(const Scene& scene, const ConnectedParts& parts,
-                                               const ConflictRegion& region,
-                                               std::span<const IntersectingPair> initial_pairs) {
-  const auto part_of = [&](Index t) { return parts.of_vertex[scene.triangles[t][0]]; };
-  UnionFind tied(parts.count);
-  bool is_between = false;
-  for (const IntersectingPair& pair : region.pairs) is_between |= part_of(pair.a) != part_of(pair.b);
-  if (!is_between) return {};
-  for (const auto pairs : {std::span<const IntersectingPair>(region.pairs), initial_pairs})
-    for (const IntersectingPair& pair : pairs) tied.unite(part_of(pair.a), part_of(pair.b));
-  const Index group = tied.find(part_of(region.pairs.front().a));
-  std::vector<std::uint8_t> is_free(static_cast<std::size_t>(parts.count), 0);
-  for (std::size_t part = 0; part < is_free.size(); ++part)
-    is_free[part] = tied.find(static_cast<Index>(part)) == group;
-  for (Index v = 0; v < scene.vertex_count(); ++v)
-    if (scene.fixed[v]) is_free[parts.of_vertex[v]] = 0;
-  std::vector<Index> vertices;
-  for (Index v = 0; v < scene.vertex_count(); ++v)
-    if (is_free[parts.of_vertex[v]]) vertices.push_back(v);
-  return vertices;
-}
-
 }  // namespace unsnarl

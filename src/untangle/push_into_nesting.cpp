@@ -13,7 +13,7 @@
 namespace unsnarl {
 namespace {
 
-/// Mean edges at a vertex: margin of its first push. [U42]
+/// Mean edges at a vertex: margin of its first push. [E147]
 constexpr double nesting_margin = 0.03;
 /// Iterations: the pushes end if the number of crossing faces has not fallen in so many.
 constexpr int nesting_patience = 12;

@@ -57,6 +57,12 @@ std::vector<Selection> select_regions(
 std::vector<Index> free_vertices_of_components(const Scene& scene, const ConnectedParts& parts,
                                                std::span<const Index> vertices);
 
+/// All vertices of the components that a region ties together, by its pairs and through those that intersected at first
+/// (`initial_pairs`), ascending. Components with a fixed vertex are left out; none where the region lies within one.
+std::vector<Index> vertices_of_tied_components(const Scene& scene, const ConnectedParts& parts,
+                                               const ConflictRegion& region,
+                                               std::span<const IntersectingPair> initial_pairs);
+
 // The usual ways to select, as values of Strategy::select.
 using Select = std::function<std::vector<Selection>(const Conflicts& conflicts)>;
 
@@ -73,7 +79,7 @@ struct DepthOptions {
   double reach = 4;           ///< Selection::bound in h for each edge of the depth
   int least = 1;              ///< edges: regions less deep are left to other strategies
   /// Regions are taken to be so many times as deep as they are. Where this is more than 1, none is left to others:
-  /// those less deep than `least` count as that deep.
+  /// those less deep than `least` count as that deep. Without unit.
   int factor = 1;
   bool leaves_most = false;  ///< regions of which it would free at least half of the components are left to others
 };

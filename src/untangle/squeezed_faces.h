@@ -5,7 +5,7 @@
 namespace unsnarl {
 
 /// A face that keeps less than this share of its area is squeezed: a state with such a face is no solution. Without
-/// unit. [U3]
+/// unit. [E132]
 constexpr double squeezed_area = 1e-4;
 
 /// True where some active triangle has less than `floor` times its area at `start` (and had any).

@@ -13,43 +13,42 @@
 namespace unsnarl {
 namespace {
 
-// Constants of the table. h is the mean edge length of a region's faces. Measurements: docs/experiments.md, "Constants
-// of the untangling".
+// Constants of the table. h is the mean edge length of a region's faces. Numbers in brackets: docs/experiments.md.
 
-/// Neighbours: the first strategies hold vertices that have more. [U4]
+/// Neighbours: the first strategies hold vertices that have more. [E38]
 constexpr std::size_t most_valence_of_shallow = 100;
-/// h: steps of strategies that move faces hardly more than they overlap. [U5]
+/// h: steps of strategies that move faces hardly more than they overlap. [E19]
 constexpr double short_step = 0.1;
-/// h: steps of strategies that part layers. [U6]
+/// h: steps of strategies that part layers.
 constexpr double long_step = 0.3;
-/// Steps: LocalSettings::max_iterations of `shallow-0`. [U7]
+/// Steps: LocalSettings::max_iterations of `shallow-0`. [E23]
 constexpr int shallow_iterations = 20;
-/// Steps: LocalSettings::max_iterations of the other local strategies. [U7]
+/// Steps: LocalSettings::max_iterations of the other local strategies. [E23]
 constexpr int iterations = 60;
 
-/// h: bound of the motion of layers. [U8]
+/// h: bound of the motion of layers. [E8]
 constexpr double reach_of_layers = 20;
 /// h: bound of the motion of components that are placed.
 constexpr double reach_of_placement = 20;
 /// h: bound of the motion of whole components.
 constexpr double reach_of_whole = 20;
 
-/// Edges: tangles at least so deep go from coarse to fine before layers are parted. [U9]
+/// Edges: tangles at least so deep go from coarse to fine before layers are parted. [E133]
 constexpr int deep = 4;
-/// Edges freed around a tangle for each edge of its depth. [U10]
+/// Edges freed around a tangle for each edge of its depth. [E134]
 constexpr double rings_per_depth = 1.5;
-/// h: bound of the motion for each edge of a tangle's depth. [U11]
+/// h: bound of the motion for each edge of a tangle's depth. [E46]
 constexpr double reach_per_depth = 2.5;
-/// `coarse_to_fine_wide` takes tangles to be so many times as deep as they are. Without unit. [U12]
+/// `coarse_to_fine_wide` takes tangles to be so many times as deep as they are. Without unit. [E44, E69]
 constexpr int wide_depths = 2;
-/// `coarse_to_fine_far` takes tangles to be so many times as deep as they are. Without unit. [U13]
+/// `coarse_to_fine_far` takes tangles to be so many times as deep as they are. Without unit. [E65, E66]
 constexpr int far_depths = 8;
 
-/// CoarseOptions::factor for each edge of a tangle's depth. Without unit. [U14]
+/// CoarseOptions::factor for each edge of a tangle's depth. Without unit. [E40]
 constexpr double factor_per_depth = 0.7;
-/// CoarseOptions::factor of whole components and what comes close to them, at least. Without unit. [U15]
+/// CoarseOptions::factor of whole components and what comes close to them, at least. Without unit. [E135]
 constexpr double factor_of_whole = 1.6;
-/// Faces: the first coarse mesh of these has so many at most. [U16]
+/// Faces: the first coarse mesh of these has so many at most. [E52]
 constexpr double most_faces_of_first_mesh = 4000;
 
 /// Directions are smoothed over as many edges as rings are free, and over one at least.

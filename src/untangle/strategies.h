@@ -10,15 +10,15 @@
 
 namespace unsnarl {
 
-/// The default: what moves faces hardly more than they overlap, placement of small components, coarse to fine for deep
-/// tangles, layers crossing by crossing, coarse to fine in wider and wider surroundings, then for whole components.
+/// The default, in order: strategies that move faces hardly more than they overlap; placement of small components;
+/// coarse to fine for deep tangles; layers crossing by crossing; coarse to fine in wider and wider surroundings, and
+/// last for whole components.
 std::span<const Tier> default_tiers();
 
-/// The same for coarse meshes, but for the wider surroundings: each goes by one mesh that is coarser still, not by all
-/// of these.
+/// The default of coarse meshes: without the wider surroundings, and with one mesh that is coarser still, not several.
 std::span<const Tier> coarse_mesh_tiers();
 
-/// Those that move only what lies close to the conflict.
+/// Strategies that move only what lies close to a conflict.
 std::span<const Tier> local_tiers();
 
 /// The first tier of local_tiers(): strategies that move faces hardly more than they overlap.

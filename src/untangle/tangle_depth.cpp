@@ -13,7 +13,7 @@ namespace unsnarl {
 namespace {
 
 /// Vertices of the loop around an enclosed region for each edge of its depth that counts: a finger can leave sideways
-/// by half its loop, which has two; a disc has six. [U41]
+/// by half its loop, which has two; a disc has six. [E127]
 constexpr int loop_length_per_edge = 2;
 
 /// The pieces that the intersecting faces cut the surface into, as far as they have been reached.

@@ -17,7 +17,7 @@
 
 namespace unsnarl {
 
-/// A candidate that leaves less than this share of its region's pairs is kept at once. Without unit. [U1]
+/// A candidate that leaves less than this share of its region's pairs is kept at once. Without unit. [E4]
 constexpr double kept_at_once = 0.1;
 
 /// The counts that decide whether a candidate is kept.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Looks at the tuning constants of src/untangle and src/recover: numbers that name a default of an option or a constexpr,
-and those that stand in the code without a name. The named ones have words beside them that say what they are.
-usage: check_constants.py PROJECT_DIR [--list]
+and those that stand in the code without a name. The named ones have words beside them that say what they are; in
+src/untangle each has a sentence of its own, with its unit. usage: check_constants.py PROJECT_DIR [--list]
 
 A field `double step = 0.1;` is one; `bool` flags, the numbers 0 and 1 without meaning of their own (counters, sums),
 infinities and values that only say "none" (-1) are not. A table of numbers (a list in braces) counts each number. Of
@@ -16,11 +16,13 @@ PAPER = ("paper_untangle.cpp", "RecoverOptions RecoverOptions::paper()")
 NUMBER = re.compile(r"(?<![\w.])-?(?:\d+\.\d*(?:[eE][-+]?\d+)?|\d+(?:[eE][-+]?\d+)?)(?![\w.])")
 FIELD = re.compile(r"^\s*(?:static\s+|inline\s+)*(?:constexpr\s+)?(?:double|int|Index|std::size_t|PcgOptions|Stop|"
                    r"std::array(?:<[^;=]*>)?)\s+(\w+)\s*(?:=\s*|\{)([^;]*)\}?;(.*)$")
+UNIT = re.compile(r"without unit|\b(h|lengths?|edges?|faces|pairs|iterations|steps|sweeps|bisections|rounds|starts|"
+                  r"neighbours|vertices|sine|share of)\b", re.IGNORECASE)
 STRUCT = re.compile(r"^\s*(?:struct|class)\s+(\w+)")
 
 
 def fields(path):
-    """(line, name, numbers, has words) of every option and constexpr of a file."""
+    """(line, name, numbers, words beside it, words of its own) of every option and constexpr of a file."""
     lines = path.read_text(encoding="utf-8").splitlines()
     structs = []  # that the line is in, the innermost last
     for number, line in enumerate(lines, 1):
@@ -36,10 +38,19 @@ def fields(path):
         if not numbers:
             continue
         before = number - 2
+        own = match[3].partition("//")[2] + comment_above(lines, before)
         while before > 0 and FIELD.match(lines[before]):
             before -= 1
-        has_words = "//" in match[3] or lines[before].lstrip().startswith("//")
-        yield number, match[1], len(numbers), has_words
+        yield number, match[1], len(numbers), match[3].partition("//")[2] + comment_above(lines, before), own
+
+
+def comment_above(lines, last):
+    """The words of the comment that ends in this line."""
+    words = []
+    while last >= 0 and lines[last].lstrip().startswith("//"):
+        words.insert(0, lines[last].strip().lstrip("/< "))
+        last -= 1
+    return " ".join(words)
 
 
 def unnamed(path, named):
@@ -67,13 +78,15 @@ def main():
     for room in ("untangle", "recover"):
         for path in sorted((project / "src" / room).rglob("*.[ch]*")):
             named = set()
-            for line, name, numbers, has_words in fields(path):
+            for line, name, numbers, words, own in fields(path):
                 count += numbers
                 named.add(line)
                 if "--list" in sys.argv:
                     print(f"{path.relative_to(project)}:{line}: {name} ({numbers})")
-                if not has_words:
-                    bare.append(f"{path}:{line}: '{name}' has no words on its unit, meaning and measurement")
+                if not words:
+                    bare.append(f"{path}:{line}: '{name}' has no words on its unit and meaning")
+                elif room == "untangle" and not UNIT.search(own):
+                    bare.append(f"{path}:{line}: '{name}' has no sentence of its own with its unit ('without unit')")
             for line, numbers in unnamed(path, named):
                 count += len(numbers)
                 if "--list" in sys.argv:

@@ -177,5 +177,41 @@ TEST(Selection, tied_components_are_free_as_wholes) {
     for (const Index v : selection.free) EXPECT_GE(v, held.scene().vertex_count() / 2);
 }
 
+/// A sheet of 10 x 10 cells of side 1 at z = 0, and strips of two cells that stand in it, sunk by `depth`.
+Shape sheet_with_strips(int strips, double depth) {
+  Shape shape = shapes::grid(10, 10, false, [](double i, double j) { return Vec3(i, j, 0); });
+  for (int k = 0; k < strips; ++k)
+    shape.add(shapes::grid(2, 1, false, [](double i, double j) { return Vec3(0.4 * i, 0, j); }),
+              Vec3(1.13 + 1.9 * k, 4.37, -depth));
+  return shape;
+}
+
+TEST(TiedComponents, are_tied_by_all_the_pairs_that_there_were) {
+  const Shape shape = sheet_with_strips(3, 0.2);
+  const Scene scene = shapes::scene_of(shape);
+  const ConnectedParts parts(scene);
+  const std::vector<IntersectingPair> pairs = shapes::pairs_of(shape);
+  ConflictRegion region;
+  region.pairs = {pairs.front()};
+  const auto all = vertices_of_tied_components(scene, parts, region, pairs);
+  EXPECT_EQ(static_cast<Index>(all.size()), scene.vertex_count());
+  const auto two = vertices_of_tied_components(scene, parts, region, region.pairs);
+  EXPECT_EQ(two.size(), 121u + 6u);
+  // Within a single component there is nothing to place.
+  region.pairs = {{0, 1, PairClass::folded}};
+  EXPECT_TRUE(vertices_of_tied_components(scene, parts, region, pairs).empty());
+}
+
+TEST(TiedComponents, with_fixed_vertices_are_left_out) {
+  const Shape shape = sheet_with_strips(1, 0.2);
+  std::vector<std::uint8_t> fixed(shape.points.size(), 0);
+  fixed[0] = 1;
+  const Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
+  ConflictRegion region;
+  region.pairs = shapes::pairs_of(shape);
+  const auto free = vertices_of_tied_components(scene, ConnectedParts(scene), region, region.pairs);
+  EXPECT_EQ(free.size(), 6u);
+}
+
 }  // namespace
 }  // namespace unsnarl

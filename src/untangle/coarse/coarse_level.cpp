@@ -14,7 +14,7 @@ namespace {
 
 /// A vertex is collapsed only onto one of its rank or above. Vertices of the border are fixed corners of active faces.
 /// They keep its shape however coarse the mesh becomes: a border that came back far from where it ran would cut through
-/// what has been untangled beside it. [U31]
+/// what has been untangled beside it. [E62]
 enum Rank : std::uint8_t { free_vertex, obstacle, border };
 
 std::vector<std::uint8_t> ranks_of(const Patch& patch, std::span<const IntersectingPair> tolerated) {

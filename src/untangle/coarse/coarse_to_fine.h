@@ -21,7 +21,7 @@ enum class CoarseMeshes {
   until_solved,
 };
 
-/// Measurements: docs/experiments.md, "Constants of the untangling".
+/// Numbers in brackets: docs/experiments.md.
 struct CoarseOptions {
   double factor = 3;  ///< edges of the first coarse mesh are so many times as long as the patch's, without unit
   CoarseMeshes meshes = CoarseMeshes::until_solved;
@@ -29,22 +29,22 @@ struct CoarseOptions {
   std::span<const Tier> on_small_mesh = {};   ///< those for what vertices that come back bring on a small mesh
   std::span<const Tier> on_large_mesh = {};   ///< the same on a mesh of more than most_faces_for_all faces
 
-  /// Pairs: a coarse mesh that keeps a larger share of its pairs is not carried to the fine one. Without unit. [U32]
+  /// Pairs: a coarse mesh that keeps a larger share of its pairs is not carried to the fine one. Without unit. [E143]
   double carried_share = 0.1;
-  /// Pairs: the way back is given up on a mesh that keeps more than this share of the patch's. Without unit. [U33]
+  /// Pairs: the way back is given up on a mesh that keeps more than this share of the patch's. Without unit. [E51]
   double way_back_share = 0.7;
-  /// Pairs: no coarser mesh is tried after one that left no more than this share of the patch's. Without unit. [U34]
+  /// Pairs: no coarser mesh is tried after one that left no more than this share of the patch's. Without unit. [E144]
   double solved_share = 0.7;
-  /// Faces, with obstacles: on_small_mesh is for coarse meshes of so many at most. [U35]
+  /// Faces, with obstacles: on_small_mesh is for coarse meshes of so many at most. [E64]
   std::size_t most_faces_for_all = 4000;
-  /// Faces, with obstacles: far parts are tried again from rest on coarse meshes of so many at most. [U36]
+  /// Faces, with obstacles: far parts are tried again from rest on coarse meshes of so many at most. [E59, E61]
   std::size_t most_faces_to_retry = 4000;
-  /// Motion: parts that have at least this share of it all are tried again. Without unit. [U37]
+  /// Motion: parts that have at least this share of it all are tried again. Without unit. [E124, E145]
   double least_motion_share = 0.1;
-  int starts = 3;  ///< of each coarse mesh, with `until_solved` [U38]
-  /// Mean edges of the coarse mesh: these starts differ at random by so much at each coordinate, at most. [U38]
+  int starts = 3;  ///< number of starts of each coarse mesh, with `until_solved` [E47, E48]
+  /// Mean edges of the coarse mesh: these starts differ at random by so much at each coordinate, at most. [E47, E48]
   double start_distance = 0.2;
-  int coarsest_starts = 30;  ///< of the coarsest mesh, farther and farther away [U39]
+  int coarsest_starts = 30;  ///< number of starts of the coarsest mesh, farther and farther away [E146]
 };
 
 /// Untangles a patch from coarse to fine, by the untangler of its task.

@@ -63,66 +63,86 @@ struct States {
 };
 
 // A vertex that comes back is tried at shares of the way from its parent to points of the fan: a half, and each
-// `closer` times the last one, down to closest_share. [U40]
+// `closer` times the last one, down to closest_share. [E55, E56]
 constexpr double closer = 0.2;          ///< share of the last share, without unit
 constexpr double closest_share = 5e-4;  ///< share of the way, without unit
 /// Share of the way, without unit: the new star has space down to this.
 constexpr double least_space = 0.01;
 
-/// The places of a vertex: where the triangle of the fan carries the vertex, with its offset from there, half of it and
-/// none; points of the fan closer and closer to the parent; and eight directions in which it may leave the parent where
-/// the fan is folded up. Places that flip fewer faces of the star come before others. Last come points of the fan so
-/// close to the parent that the new star is hardly more than the fan, which is embedded: one of them is mostly free
-/// where layers are near.
-Places places_for(const Removal& removal, std::span<const Triangle> star, const States& states) {
-  const auto& [rest, start, x] = states;
-  Places result;
-  std::vector<Place>& places = result.list;
-  const auto add = [&](const Vec3& p) { places.push_back({p}); };
-  if (is_at(removal.corners, x, start))
-    add(start.col(removal.vertex));
-  else if (is_at(removal.corners, x, rest))
-    add(rest.col(removal.vertex));
-  else
-    add(prolongated(removal, 1, rest, x));
-  for (const double share : {0.5, 0.0}) add(prolongated(removal, share, rest, x));
+/// The triangles around a vertex that comes back, as they are without it.
+struct Fan {
+  Vec3 parent, vertex, middle;     ///< the parent, where the vertex lay, and the mean of the sides' middles
+  std::vector<Vec3> side_middles;  ///< of the sides that do not touch the parent
+};
 
-  const Vec3 on_fan = point_on_fan(x, removal), parent = x.col(removal.parent);
-  std::vector<Vec3> middles;  // of the sides of the fan
-  Vec3 middle = Vec3::Zero();
+Fan fan_of(const Removal& removal, std::span<const Triangle> star, const Positions& x) {
+  Fan fan{x.col(removal.parent), point_on_fan(x, removal), Vec3::Zero(), {}};
   for (const Triangle& t : star) {
-    Vec3 m = Vec3::Zero();
+    Vec3 side = Vec3::Zero();
     for (const Index v : t)
-      if (v != removal.vertex) m += 0.5 * x.col(v);
-    middle += m / static_cast<double>(star.size());
-    if (std::find(t.begin(), t.end(), removal.parent) == t.end()) middles.push_back(m);
+      if (v != removal.vertex) side += 0.5 * x.col(v);
+    fan.middle += side / static_cast<double>(star.size());
+    if (std::find(t.begin(), t.end(), removal.parent) == t.end()) fan.side_middles.push_back(side);
   }
+  return fan;
+}
+
+/// Where the triangle of the fan carries the vertex, with its offset from there, half of it and none. A triangle that
+/// has not moved carries it to where it was.
+void add_carried_places(const Removal& removal, const States& states, std::vector<Place>& places) {
+  const auto& [rest, start, x] = states;
+  if (is_at(removal.corners, x, start))
+    places.push_back({start.col(removal.vertex)});
+  else if (is_at(removal.corners, x, rest))
+    places.push_back({rest.col(removal.vertex)});
+  else
+    places.push_back({prolongated(removal, 1, rest, x)});
+  for (const double share : {0.5, 0.0}) places.push_back({prolongated(removal, share, rest, x)});
+}
+
+/// Points of the fan closer and closer to the parent, and eight directions in which the vertex may leave the parent of
+/// a folded fan; then (beyond `with_space`) points so close that the new star is hardly more than the fan, which is
+/// embedded: one of them is mostly free between close layers.
+void add_places_near_parent(const Fan& fan, Places& places) {
+  const auto add = [&](const Vec3& p) { places.list.push_back({p}); };
+  const auto add_towards = [&](const Vec3& p, double share) { add(fan.parent + share * (p - fan.parent)); };
   double share = 0.5, near = 0;
   for (; share > least_space; share *= closer) {
-    add(parent + share * (on_fan - parent));
-    add(parent + share * (middle - parent));
-    near = share * (on_fan - parent).norm();
+    add_towards(fan.vertex, share);
+    add_towards(fan.middle, share);
+    near = share * (fan.vertex - fan.parent).norm();
   }
   for (int corner = 0; corner < 8; ++corner)
-    add(parent + near * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
-  result.with_space = places.size();
+    add(fan.parent + near * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+  places.with_space = places.list.size();
   for (; share > closest_share; share *= closer) {
-    add(parent + share * (on_fan - parent));
-    add(parent + share * (middle - parent));
-    for (const Vec3& m : middles) add(parent + share * (m - parent));
+    add_towards(fan.vertex, share);
+    add_towards(fan.middle, share);
+    for (const Vec3& middle : fan.side_middles) add_towards(middle, share);
   }
+}
 
-  for (Place& place : places)
-    for (const Triangle& t : star) {
-      const auto at = [&, &x = x](Index v) { return v == removal.vertex ? place.position : Vec3(x.col(v)); };
-      const Vec3 a = at(t[0]), b = at(t[1]), c = at(t[2]);
-      place.flipped += (b - a).cross(c - a).dot(area_vector(rest, t)) < 0;
-    }
+int count_flipped(const Removal& removal, std::span<const Triangle> star, const Vec3& position, const States& states) {
+  int flipped = 0;
+  for (const Triangle& t : star) {
+    const auto at = [&](Index v) { return v == removal.vertex ? position : Vec3(states.x.col(v)); };
+    const Vec3 a = at(t[0]), b = at(t[1]), c = at(t[2]);
+    flipped += (b - a).cross(c - a).dot(area_vector(states.rest, t)) < 0;
+  }
+  return flipped;
+}
+
+/// The places of a vertex. Of those with space, and of the others, places that flip fewer faces of the star come first.
+Places places_for(const Removal& removal, std::span<const Triangle> star, const States& states) {
+  Places places;
+  add_carried_places(removal, states, places.list);
+  add_places_near_parent(fan_of(removal, star, states.x), places);
+  for (Place& place : places.list) place.flipped = count_flipped(removal, star, place.position, states);
   const auto flips_fewer = [](const Place& p, const Place& q) { return p.flipped < q.flipped; };
-  const auto close = places.begin() + static_cast<std::ptrdiff_t>(result.with_space);
-  std::stable_sort(places.begin(), close, flips_fewer);
-  std::stable_sort(close, places.end(), flips_fewer);
-  return result;
+  const auto close = places.list.begin() + static_cast<std::ptrdiff_t>(places.with_space);
+  std::stable_sort(places.list.begin(), close, flips_fewer);
+  std::stable_sort(close, places.list.end(), flips_fewer);
+  return places;
 }
 
 /// Puts vertices back, each at the first of its places where its star is in no new pair.

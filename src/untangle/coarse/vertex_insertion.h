@@ -23,7 +23,7 @@ std::vector<ProgressiveMesh::Removal> insert_vertices(const Patch& patch, const 
                                                       Positions& x);
 
 /// Moves vertices that insert_vertices() had to displace to where their fans carry them, or half the way, where that
-/// brings no pair. For when they have been given room.
+/// brings no pair. To be called once a recovery has made room.
 void offer_better_places(const Patch& patch, const ProgressiveMesh& mesh,
                          const std::vector<ProgressiveMesh::Removal>& displaced, Positions& x);
 

@@ -15,7 +15,7 @@ namespace {
 /// whole curve.
 constexpr double direction_limit = 4.0;
 /// Sine of the angle between an edge and a face, without unit: a smaller one counts as this, so that the quotient is
-/// finite. direction_limit decides then. [U30]
+/// finite. direction_limit decides then. [E24]
 constexpr double least_steepness = 1e-3;
 
 /// Union-find with the parity of each element relative to its root.

@@ -7,9 +7,9 @@
 namespace unsnarl {
 namespace {
 
-/// Share of its area vector at rest that a face keeps. Without unit. [U27]
+/// Share of its area vector at rest that a face keeps. Without unit. [E96]
 constexpr double guarded_share = 0.1;
-/// Sweeps over the faces in one projection, at most. [U28]
+/// Sweeps over the faces in one projection, at most. [E97]
 constexpr int guard_sweeps = 10;
 
 }  // namespace

@@ -25,7 +25,7 @@ struct LocalSettings {
   double step;         ///< largest vertex motion of an iteration, h
   double locality;     ///< range of the direction's smoothing, h
   /// Iterations after which a solve goes on only while it makes progress (LocalOptions::patience). With `free`: a solve
-  /// ends after so many iterations without progress. [U17]
+  /// ends after so many iterations without progress. [E136]
   int max_iterations;
 };
 
@@ -35,28 +35,29 @@ enum class KeepOrientation {
   at_first,  ///< where that fails, no longer: the solve goes on from where the guard first moved a vertex
 };
 
-/// h: the patch's edge length. Measurements: docs/experiments.md, "Constants of the untangling".
+/// h: the patch's edge length. Numbers in brackets: docs/experiments.md.
 struct LocalOptions {
-  double margin = 0.03;  ///< h: the penalty acts until faces are this far apart [U18]
+  double margin = 0.03;  ///< h: the penalty acts until faces are this far apart [E137]
   /// Random motion of a vertex at the start, which breaks the symmetry of coincident sheets and exact folds: share of
-  /// the shortest edge at the vertex, or of h if that is shorter. Without unit. [U19]
+  /// the shortest edge at the vertex, or of h if that is shorter. Without unit. [E36]
   double jitter = 1e-3;
-  /// h: `shallow` takes faces that do no more than touch to overlap by this. [U20]
+  /// h: `shallow` takes faces that do no more than touch to overlap by this. [E138]
   double least_overlap = 1e-3;
   /// Vertices of a zero-length edge first move this share of the way to their neighbours' mean
-  /// (open_zero_length_edges). Without unit. [U21]
+  /// (open_zero_length_edges). Without unit. [E17]
   double opening = 0.01;
   double area_floor = squeezed_area;  ///< share of its area at the start that each face keeps, without unit
-  double shallow_margin = 0.5;  ///< margin of `shallow`: share of the deepest overlap at the start, without unit [U26]
+  double shallow_margin = 0.5;  ///< margin of `shallow`: share of the deepest overlap at the start, without unit [E123]
   double min_gap = 0;           ///< length: `shallow` takes faces to overlap by this at least
   KeepOrientation orientation = KeepOrientation::at_first;
-  std::size_t few_enough = 0;     ///< pairs: a guarded solve that leaves no more does not go on without its guard
-  double progress = 0.1;          ///< share by which the number of pairs falls where there is progress, without unit
-  int patience = 12;              ///< iterations: past `max_iterations`, a solve without progress in so many ends [U22]
-  int give_up_after = 30;         ///< iterations: a solve without progress in so many ends even before that [U23]
-  int follow_after = 30;          ///< iterations: from here on pairs are counted only after each `recount_distance`
-  double recount_distance = 0.3;  ///< h: motion after which pairs are counted again; `shallow` always counts [U24]
-  int bisections = 5;  ///< steps: of the displacement of a solution, whose smallest clean share is kept [U25]
+  std::size_t few_enough = 0;  ///< pairs: a guarded solve that leaves no more does not go on without its guard
+  double progress = 0.1;       ///< share by which the number of pairs falls where there is progress, without unit
+  int patience = 12;           ///< iterations: past `max_iterations`, a solve without progress in so many ends [E139]
+  int give_up_after = 30;      ///< iterations: a solve without progress in so many ends even before that [E37, E140]
+  int follow_after = 30;       ///< iterations: from here on pairs are counted only after each `recount_distance`
+  double recount_distance =
+      0.3;             ///< h: motion after which pairs are counted again; `shallow` always counts [E29, E141]
+  int bisections = 5;  ///< steps: of the displacement of a solution, whose smallest clean share is kept [E126]
 };
 
 /// A number of pairs that the solver did not get to count.

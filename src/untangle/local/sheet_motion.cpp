@@ -8,7 +8,7 @@ namespace unsnarl {
 namespace {
 
 /// The least squares of a curve's two offsets penalise their squares by this share of the number of crossings, without
-/// unit: sheets that lie along each other then share the motion that parts them. [U29]
+/// unit: sheets that lie along each other then share the motion that parts them. [E142]
 constexpr double offset_damping = 0.01;
 
 /// How the first sheet best moves against the second at a crossing.

@@ -8,7 +8,7 @@
 namespace unsnarl {
 namespace {
 
-/// Share of the diagonal added to it, so that a component that lies wholly in one point has a solution: to stay.
+/// Added to the matrix, as a share of its diagonal, without unit: a component that lies wholly in one point stays.
 constexpr double regularisation = 1e-9;
 
 }  // namespace
