@@ -169,13 +169,8 @@ EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const Inter
   const Keep keep_if_it_holds = [&](Trial& trial) {
     if (still_holds(trial, scene, index)) keep(trial);
   };
-  const auto keep_best = [&](double share, Index level) {
-    const auto is_due = [&](const Trial& trial) { return agenda.level_of(trial.selection.region) > level; };
-    candidates.take_best(share, is_due, scene, keep_if_it_holds);
-  };
-  const auto keep_waiting = [&](Index level) {
-    const auto is_due = [&](const Trial& trial) { return agenda.level_of(trial.selection.region) > level; };
-    for (Trial& trial : candidates.take_waiting(is_due)) keep_if_it_holds(trial);
+  const auto is_beyond = [&](Index level) {
+    return [&agenda, level](const Trial& trial) { return agenda.level_of(trial.selection.region) > level; };
   };
 
   find_pairs();
@@ -189,12 +184,12 @@ EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const Inter
     index.update();
     try_candidates(trials, result.left, scene, index, options, candidates, keep);
     note_rejected(trials, options.attempts, is_rejected);
-    if (level.ends_tier) keep_best(kept_of_tier, due.level);
-    if (level.ends_waiting) keep_waiting(due.level);
+    if (level.ends_tier) candidates.take_best(kept_of_tier, is_beyond(due.level), scene, keep_if_it_holds);
+    if (level.ends_waiting) std::ranges::for_each(candidates.take_waiting(is_beyond(due.level)), keep_if_it_holds);
     find_pairs();
   }
-  keep_waiting(-1);
-  if (!is_stopped(options)) keep_best(1, last - 1);
+  std::ranges::for_each(candidates.take_waiting(is_beyond(-1)), keep_if_it_holds);
+  if (!is_stopped(options)) candidates.take_best(1, is_beyond(last - 1), scene, keep_if_it_holds);
   find_pairs();
   note_what_is_left(scene, options, result);
   return result;
