@@ -1,6 +1,7 @@
 #include "untangle/escalation.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -148,6 +149,7 @@ void note_what_is_left(const Scene& scene, const EscalationOptions& options, Esc
 
 EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
                           const EscalationOptions& options) {
+  assert(std::is_sorted(ignored.begin(), ignored.end()));
   const std::vector<Level> levels = levels_of(options.tiers, options.left_out);
   const auto last = static_cast<Index>(levels.size());
   Agenda agenda(scene.vertex_count(), last);

@@ -1,6 +1,7 @@
 #include "untangle/selection.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "mesh/areas.h"
 #include "mesh/union_find.h"
@@ -82,6 +83,8 @@ int depth_for(const Conflicts& conflicts, const ConflictRegion& region, const De
 std::vector<Selection> select_regions(
     const Conflicts& conflicts, std::size_t most_valence,
     const std::function<std::optional<Extent>(const ConflictRegion& region)>& extent_of) {
+  assert(std::is_sorted(conflicts.pairs.begin(), conflicts.pairs.end()));
+  assert(conflicts.is_due.size() == static_cast<std::size_t>(conflicts.scene.vertex_count()));
   RegionMap map = map_regions(conflicts, most_valence);
   std::vector<Selection> selections;
   for (std::size_t r = 0; r < map.regions.size(); ++r) {

@@ -1,6 +1,7 @@
 #include "untangle/trial.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -63,6 +64,7 @@ TrialPairs::TrialPairs(std::span<const IntersectingPair> pairs)
       total(pairs.size()) {}
 
 Trial make_trial(const Strategy& strategy, Selection selection) {
+  assert(!selection.free.empty() && std::is_sorted(selection.free.begin(), selection.free.end()));
   Trial trial;
   trial.strategy = &strategy;
   trial.reach = selection.bound;

@@ -1,6 +1,7 @@
 #include "untangle/coarse/coarse_to_fine.h"
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -179,6 +180,8 @@ bool refine(const CoarseProblem& problem, CoarseMesh& coarse) {
 }  // namespace
 
 CoarseResult solve_on_coarser_mesh(Patch& patch, const Task& task, const CoarseOptions& options) {
+  assert(std::is_sorted(task.tolerated.begin(), task.tolerated.end()));
+  assert(task.untangle);
   CoarseResult result;
   IntersectionFinder finder(patch.triangles, patch.active_count);
   const auto count_pairs = [&](const Positions& x) {

@@ -1,6 +1,7 @@
 #include "untangle/local/local_solver.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -203,6 +204,7 @@ void shrink_displacement(Patch& patch, const Positions& start, int bisections,
 
 LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span<const IntersectingPair> tolerated,
                           const LocalOptions& options, const std::function<bool()>& stop) {
+  assert(std::is_sorted(tolerated.begin(), tolerated.end()));
   const double h = patch.edge_length;
   if (patch.free_count == 0 || !(h > 0)) return {};
   const Positions start = patch.x;
