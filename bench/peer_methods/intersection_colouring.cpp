@@ -23,7 +23,7 @@
 #include "mesh/adjacency.h"
 #include "mesh/areas.h"
 #include "peer.h"
-#include "untangle/contours.h"
+#include "untangle/local/contours.h"
 
 namespace unsnarl::peers {
 namespace {

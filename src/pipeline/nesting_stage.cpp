@@ -10,7 +10,6 @@
 #include "scene/scene_index.h"
 #include "unsnarl/stage_clock.h"
 #include "untangle/conflict_regions.h"
-#include "untangle/local_solver.h"
 #include "untangle/push_into_nesting.h"
 
 namespace unsnarl {

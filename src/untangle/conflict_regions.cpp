@@ -1,6 +1,7 @@
 #include "untangle/conflict_regions.h"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -66,6 +67,7 @@ std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const
 }
 
 std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, int rings, std::size_t most_valence) {
+  assert(std::is_sorted(vertices.begin(), vertices.end()));
   std::vector<Index> all(vertices.begin(), vertices.end()), front = all;
   for (int ring = 0; ring < rings && !front.empty(); ++ring) {
     std::vector<Index> next;

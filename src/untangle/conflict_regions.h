@@ -16,18 +16,18 @@ struct ConflictRegion {
   std::vector<IntersectingPair> pairs;  ///< ascending
 };
 
-/// A bound of the number of neighbours. Vertices of higher valence connect faces far apart, and moving one moves all of
-/// those. This: no bound.
+/// Bound of the number of neighbours of a vertex: none. (Vertices of high valence connect faces far apart, and move all
+/// of them.)
 constexpr std::size_t any_valence = std::numeric_limits<std::size_t>::max();
 
 /// Groups pairs whose faces intersect each other or lie within two edges of each other. Ordered by smallest vertex.
-/// Vertices of higher valence are left out of the regions, and do not join them; so are pairs of which a face has no
-/// others.
+/// Vertices with more neighbours than `most_valence` belong to no region and join none. A pair is left out if one of
+/// its faces has only such vertices.
 std::vector<ConflictRegion> conflict_regions(const Scene& scene, std::span<const IntersectingPair> pairs,
                                              std::size_t most_valence = any_valence);
 
-/// The given vertices (ascending) and all that are at most `rings` edges away, without fixed ones and those of higher
-/// valence, nor what lies behind the latter; ascending.
+/// The given vertices (ascending) and all that are at most `rings` edges away, without fixed ones, ascending. Rings end
+/// at vertices with more neighbours than `most_valence`, which are left out.
 std::vector<Index> dilate(const Scene& scene, std::span<const Index> vertices, int rings,
                           std::size_t most_valence = any_valence);
 

@@ -18,9 +18,9 @@ struct PaperResult {
 };
 
 /// The untangling phase as the paper describes it (§3.1-3.3, §3.5), so that its experiments can be repeated; the
-/// default configuration is escalate() instead. Starts from patch.rest, ends as soon as no disjoint pair is left;
-/// patch.x is the last iterate. Where the line search ends below 1e-10 (§3.5.1), the last trial is taken and L-BFGS
-/// forgets its steps: the penalty has kinks, at which no direction descends.
+/// default is escalate(). Starts from patch.rest, and ends as soon as no disjoint pair is left; patch.x is the last
+/// iterate. If the line search ends below 1e-10 (§3.5.1), its last trial is taken and L-BFGS forgets its steps: the
+/// penalty has kinks, at which no direction descends.
 ///
 /// face_of: the face that each triangle of the *scene* is a piece of, for PaperOptions::whole_polygons; empty: all are
 /// triangles.

@@ -13,17 +13,18 @@
 #include "mesh/areas.h"
 #include "mesh/union_find.h"
 #include "rigid/free_place.h"
-#include "untangle/shared_constants.h"
 
 namespace unsnarl {
 namespace {
 
 /// Clearance: share of its motion by which a component goes beyond the first free place; it shrinks to this share at
-/// least.
+/// least (no unit)
 constexpr double margin = 0.05;
-/// Number of a component's own vertices that it shrinks toward, at most about. With 24 a wig ends 6 % farther, all
-/// others of 66 meshes as close.
+/// Number of a component's own vertices that it shrinks toward, at most about (unit: vertices)
 constexpr std::size_t most_centres = 16;
+
+/// Components that have more stay at rest, since each try takes an exact test of them all (unit: faces)
+constexpr std::size_t most_faces = 4000;
 
 /// A component of the patch that may be placed.
 struct Component {
@@ -189,7 +190,7 @@ class Placement {
   bool place(const Component& component) {
     const std::vector<IntersectingPair> contacts = contacts_of(component);
     if (contacts.empty()) return true;
-    if (component.triangles.size() > most_faces_of_small) return false;
+    if (component.triangles.size() > most_faces) return false;
     Positions from(3, static_cast<Index>(component.vertices.size()));
     for (std::size_t k = 0; k < component.vertices.size(); ++k)
       from.col(static_cast<Index>(k)) = x_.col(component.vertices[k]);
@@ -223,28 +224,6 @@ class Placement {
 
 int place(Patch& patch, std::span<const IntersectingPair> tolerated, const std::function<bool()>& stop) {
   return Placement(patch, tolerated, stop).run();
-}
-
-std::vector<Index> vertices_of_tied_components(const Scene& scene, const ConnectedParts& parts,
-                                               const ConflictRegion& region,
-                                               std::span<const IntersectingPair> initial_pairs) {
-  const auto part_of = [&](Index t) { return parts.of_vertex[scene.triangles[t][0]]; };
-  UnionFind tied(parts.count);
-  bool is_between = false;
-  for (const IntersectingPair& pair : region.pairs) is_between |= part_of(pair.a) != part_of(pair.b);
-  if (!is_between) return {};
-  for (const auto pairs : {std::span<const IntersectingPair>(region.pairs), initial_pairs})
-    for (const IntersectingPair& pair : pairs) tied.unite(part_of(pair.a), part_of(pair.b));
-  const Index group = tied.find(part_of(region.pairs.front().a));
-  std::vector<std::uint8_t> is_free(static_cast<std::size_t>(parts.count), 0);
-  for (std::size_t part = 0; part < is_free.size(); ++part)
-    is_free[part] = tied.find(static_cast<Index>(part)) == group;
-  for (Index v = 0; v < scene.vertex_count(); ++v)
-    if (scene.fixed[v]) is_free[parts.of_vertex[v]] = 0;
-  std::vector<Index> vertices;
-  for (Index v = 0; v < scene.vertex_count(); ++v)
-    if (is_free[parts.of_vertex[v]]) vertices.push_back(v);
-  return vertices;
 }
 
 }  // namespace unsnarl

@@ -9,10 +9,14 @@
 
 #include "contact/closed_surface.h"
 #include "mesh/areas.h"
-#include "untangle/local_solver.h"
 
 namespace unsnarl {
 namespace {
+
+/// Margin of its first push [E147] (unit: mean edges at the vertex)
+constexpr double nesting_margin = 0.03;
+/// The pushes end if the number of crossing faces has not fallen in so many (unit: iterations)
+constexpr int nesting_patience = 12;
 
 class Push {
  public:
@@ -48,7 +52,7 @@ class Push {
     PushResult result;
     const Positions start = scene_.x;
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    for (int waited = 0; waited < options_.patience && !(stop_ && stop_()); ++waited, ++result.iterations) {
+    for (int waited = 0; waited < nesting_patience && !(stop_ && stop_()); ++waited, ++result.iterations) {
       const std::size_t crossing = note_crossings();
       if (crossing == 0) break;
       if (crossing < fewest) waited = 0;
@@ -97,7 +101,7 @@ class Push {
   void tie(Role& role, Index v) const {
     role.ties[component_of_[v]] = 1;
     const double edge = edge_at(v);
-    role.margin[v] = std::min(std::max(2 * role.margin[v], options_.margin * edge), 0.5 * edge);
+    role.margin[v] = std::min(std::max(2 * role.margin[v], nesting_margin * edge), 0.5 * edge);
   }
 
   /// Mean length of the edges at a vertex, at rest.
@@ -124,7 +128,7 @@ class Push {
     const Vec3 p = scene_.x.col(v);
     const bool is_right = other.side_of(p) == role.right;
     if (is_right && !(role.margin[v] > 0)) return Vec3::Zero();
-    const double margin = role.margin[v] > 0 ? role.margin[v] : options_.margin * edge_at(v);
+    const double margin = role.margin[v] > 0 ? role.margin[v] : nesting_margin * edge_at(v);
     const std::vector<Vec3>& normals = normals_[role.against];
     const auto faces_the_same_way = [&](Index t) { return normals[t].dot(vertex_normals_.col(v)) > 0; };
     const double guess = std::max(distance, margin);
@@ -149,7 +153,6 @@ class Push {
   SceneIndex& index_;
   std::span<const Index> component_of_;
   const NestedSurfaces& nested_;
-  const LocalOptions options_;
   const std::function<bool()>& stop_;
   std::vector<ClosedSurface> surfaces_;
   std::vector<std::vector<Vec3>> normals_;  // outward, of the triangles of each, at rest

@@ -5,23 +5,28 @@
 #include <string_view>
 #include <vector>
 
+#include "untangle/coarse/coarse_to_fine.h"
 #include "untangle/strategy.h"
 
 namespace unsnarl {
 
-/// The default: what moves faces hardly more than they overlap, placement of small components, coarse to fine for deep
-/// tangles, layers crossing by crossing, coarse to fine in wider and wider surroundings, then for whole components.
+/// The default, in order: strategies that move faces hardly more than they overlap; placement of small components;
+/// coarse to fine for deep tangles; layers crossing by crossing; coarse to fine in wider and wider surroundings, and
+/// last for whole components.
 std::span<const Tier> default_tiers();
 
-/// The same for coarse meshes, but for the wider surroundings: each goes by one mesh that is coarser still, not by all
-/// of these.
+/// The default of coarse meshes: without the wider surroundings, and with one mesh that is coarser still, not several.
 std::span<const Tier> coarse_mesh_tiers();
 
-/// Those that move only what lies close to the conflict.
+/// Strategies that move only what lies close to a conflict.
 std::span<const Tier> local_tiers();
 
 /// The first tier of local_tiers(): strategies that move faces hardly more than they overlap.
 std::span<const Tier> shallow_tiers();
+
+/// How coarse to fine goes by meshes whose edges are `factor` times as long at first, with the strategies above:
+/// coarse_mesh_tiers() on a coarse mesh, local_tiers() and on large meshes shallow_tiers() on the way back.
+CoarseOptions coarse_options(double factor, CoarseMeshes meshes);
 
 /// Name of the strategy with this number in the order of default_tiers().
 std::string_view strategy_name(int number);

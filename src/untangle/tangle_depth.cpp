@@ -12,9 +12,8 @@
 namespace unsnarl {
 namespace {
 
-/// Vertices of the loop around an enclosed region for an edge of its depth that counts: two for a finger, which can
-/// leave sideways by half that loop; discs have six. Of posed bodies: fingers 11 deep in loops of 30, a chin 12 in 160,
-/// a limb 53 in 188. With one, a posed body ends 1.15 times as far, all others as near.
+/// Vertices of the loop around an enclosed region for each edge of its depth that counts: a finger can leave sideways
+/// by half its loop, which has two; a disc has six [E127] (unit: vertices / edge)
 constexpr int loop_length_per_edge = 2;
 
 /// The pieces that the intersecting faces cut the surface into, as far as they have been reached.

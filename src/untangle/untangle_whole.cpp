@@ -7,7 +7,6 @@
 #include "contact/blocking_pairs.h"
 #include "mesh/areas.h"
 #include "scene/trajectory.h"
-#include "untangle/local_solver.h"
 #include "untangle/paper_untangle.h"
 
 namespace unsnarl {

@@ -5,9 +5,9 @@
 
 namespace unsnarl {
 
-/// Untangles the whole scene as one patch, as the paper does it (paper_untangle), until no disjoint pair is left; in
-/// the place of escalate(). Of several groups each that has pairs is a patch. Of `options` only `stop`, `recorder` and
-/// `first_region` count.
+/// Untangles the whole scene as one patch, as the paper does (paper_untangle), until no disjoint pair is left. In place
+/// of escalate(). If the scene has groups, each one that has pairs is a patch. Of `options` only `stop`, `recorder` and
+/// `first_region` are used.
 EscalationResult untangle_whole(Scene& scene, SceneIndex& index, std::span<const IntersectingPair> ignored,
                                 const PaperOptions& paper, const EscalationOptions& options);
 

@@ -20,7 +20,6 @@
 #include "scene/shapes.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/samples.h"
-#include "untangle/local_solver.h"
 
 namespace unsnarl {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "scene/shapes.h"
 #include "untangle/strategies.h"
@@ -208,13 +209,20 @@ TEST(Escalation, stopping_leaves_the_rest_as_it_is) {
   EXPECT_TRUE(scene.x == scene.rest);
 }
 
-/// Moves everything free by a length along z: a trivial strategy, as CONTRIBUTING.md shows one.
-Strategy lifting(double height) {
+/// Moves everything free by a length along z: a trivial strategy, as CONTRIBUTING.md shows one. `reach` in h.
+Strategy lifting(double height, double reach = 100, std::string name = "lifting") {
   const auto solve = [height](Patch& patch, const Task&) {
     patch.x.row(2).leftCols(patch.free_count).array() += height;
     return 1;
   };
-  return {.name = "lifting", .extent = Extent::whole_components, .reach = 100, .solve = solve};
+  return {.name = std::move(name), .select = select_whole_components(reach), .solve = solve};
+}
+
+/// A tier of each list.
+std::vector<Tier> tiers_of(std::vector<std::vector<Strategy>> lists) {
+  std::vector<Tier> tiers;
+  for (std::vector<Strategy>& strategies : lists) tiers.push_back({.strategies = std::move(strategies)});
+  return tiers;
 }
 
 /// Two components: what lies in the upper sheet moves, the lower sheet is fixed.
@@ -227,7 +235,7 @@ Scene two_sheets(double depth) {
 
 TEST(Escalation, a_new_strategy_takes_one_entry_of_a_table) {
   Scene scene = two_sheets(1.5);
-  const std::vector<Tier> tiers = {{lifting(5)}};
+  const std::vector<Tier> tiers = tiers_of({{lifting(5)}});
   const EscalationResult result = untangle(scene, {}, options_with(tiers));
   EXPECT_TRUE(result.left.empty());
   ASSERT_EQ(result.regions.size(), 1u);
@@ -239,7 +247,7 @@ TEST(Escalation, a_new_strategy_takes_one_entry_of_a_table) {
 TEST(Escalation, candidates_with_more_pairs_are_not_kept) {
   Scene scene = two_sheets(0.5);
   const std::size_t before = shapes::pairs_at(scene.x, scene.triangles).size();
-  const std::vector<Tier> tiers = {{lifting(-0.5)}};  // deeper into the other sheet
+  const std::vector<Tier> tiers = tiers_of({{lifting(-0.5)}});  // deeper into the other sheet
   const EscalationResult result = untangle(scene, {}, options_with(tiers));
   EXPECT_EQ(result.left.size(), before);
   EXPECT_TRUE(scene.x == scene.rest);
@@ -248,7 +256,7 @@ TEST(Escalation, candidates_with_more_pairs_are_not_kept) {
 // Each step up leaves fewer pairs, but too many to be kept at once: the best candidate of the tier is.
 TEST(Escalation, what_a_tier_leaves_is_where_the_next_starts) {
   Scene scene = two_sheets(3);
-  const std::vector<Tier> small = {{lifting(0.3), lifting(2.4)}};
+  const std::vector<Tier> small = tiers_of({{lifting(0.3), lifting(2.4)}});
   const EscalationResult result = untangle(scene, {}, options_with(small));
   EXPECT_TRUE(result.left.empty());
   ASSERT_EQ(result.depths.size(), 2u);
@@ -257,39 +265,36 @@ TEST(Escalation, what_a_tier_leaves_is_where_the_next_starts) {
 }
 
 TEST(Escalation, what_goes_far_waits_for_a_nearer_candidate) {
-  Strategy far = lifting(5);
-  far.reach = 0.1;
-  Strategy nearer = lifting(4);
-  nearer.name = "nearer";
+  const Strategy far = lifting(5, 0.1), near = lifting(4, 100, "nearer"), nearer_than_far = lifting(4, 0.1, "nearer");
   const auto kept = [](const std::vector<Tier>& tiers) {
     Scene scene = two_sheets(1.5);
     const EscalationResult result = untangle(scene, {}, options_with(tiers));
     EXPECT_TRUE(result.left.empty());
     return result.regions.size() == 1 ? result.regions[0].strategy : "not one region";
   };
-  EXPECT_EQ(kept({{far}, {nearer}}), "nearer");
-  EXPECT_EQ(kept({{far}}), "lifting") << "none came";
-  EXPECT_EQ(kept({{nearer}, {far}}), "nearer");
+  EXPECT_EQ(kept(tiers_of({{far}, {near}})), "nearer");
+  EXPECT_EQ(kept(tiers_of({{far}})), "lifting") << "none came";
+  EXPECT_EQ(kept(tiers_of({{near}, {far}})), "nearer");
   // Two that both go far: the nearer of them, in either order.
-  nearer.reach = 0.1;
-  EXPECT_EQ(kept({{far}, {nearer}}), "nearer");
-  EXPECT_EQ(kept({{nearer}, {far}}), "nearer");
+  EXPECT_EQ(kept(tiers_of({{far}, {nearer_than_far}})), "nearer");
+  EXPECT_EQ(kept(tiers_of({{nearer_than_far}, {far}})), "nearer");
   // It does not wait for last resorts.
-  nearer.reach = 100;
-  nearer.is_last_resort = true;
-  EXPECT_EQ(kept({{far}, {nearer}}), "lifting");
+  std::vector<Tier> with_last_resort = tiers_of({{far}, {near}});
+  with_last_resort[1].is_last_resort = true;
+  EXPECT_EQ(kept(with_last_resort), "lifting");
 }
 
 TEST(Escalation, what_goes_far_and_leaves_pairs_is_not_kept) {
-  const Strategy strategy = lifting(2.4);  // not all the way
   const Scene before = two_sheets(3);
   const std::size_t pairs = shapes::pairs_at(before.x, before.triangles).size();
+  const auto left_with_reach = [&](double reach, Scene& scene) {
+    const std::vector<Tier> tiers = tiers_of({{lifting(2.4, reach)}});  // not all the way
+    return untangle(scene, {}, options_with(tiers)).left.size();
+  };
   Scene scene = before;
-  std::vector<Tier> tiers = {{strategy}};
-  EXPECT_LT(untangle(scene, {}, options_with(tiers)).left.size(), pairs);
-  tiers[0][0].reach = 0.1;
+  EXPECT_LT(left_with_reach(100, scene), pairs);
   scene = before;
-  EXPECT_EQ(untangle(scene, {}, options_with(tiers)).left.size(), pairs);
+  EXPECT_EQ(left_with_reach(0.1, scene), pairs);
   EXPECT_TRUE(scene.x == scene.rest);
 }
 
@@ -306,54 +311,9 @@ TEST(Escalation, what_goes_far_is_judged_by_all_that_it_meets) {
   std::fill(fixed.begin() + count, fixed.begin() + 2 * count, std::uint8_t{0});
   Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
   const std::size_t before = shapes::pairs_at(scene.x, scene.triangles).size();
-  Strategy far = lifting(5);
-  far.reach = 0.1;
-  const std::vector<Tier> tiers = {{far}};
+  const std::vector<Tier> tiers = tiers_of({{lifting(5, 0.1)}});
   EXPECT_EQ(untangle(scene, {}, options_with(tiers)).left.size(), before);
   EXPECT_TRUE(scene.x == scene.rest);
-}
-
-/// Runs a strategy that takes tangles of 4 edges and more, and returns the depths that it is told.
-std::vector<int> depths_told(Scene scene, int depth_factor) {
-  std::vector<int> told;
-  const auto note = [&](Patch&, const Task& task) {
-    told.push_back(task.depth);
-    return 0;
-  };
-  const std::vector<Tier> tiers = {{{.name = "note",
-                                     .extent = Extent::depth,
-                                     .rings_per_depth = 1,
-                                     .least_depth = 4,
-                                     .depth_factor = depth_factor,
-                                     .solve = note}}};
-  untangle(scene, {}, options_with(tiers));
-  return told;
-}
-
-TEST(Escalation, a_strategy_may_take_a_tangle_for_deeper_than_it_is) {
-  const Scene shallow = two_sheets(0.5), deep = shapes::scene_of(shapes::crossing_wide_bumps(2, 2));
-  EXPECT_TRUE(depths_told(shallow, 1).empty());
-  EXPECT_EQ(depths_told(shallow, 2), std::vector<int>{8});
-  const std::vector<int> as_it_is = depths_told(deep, 1);
-  ASSERT_EQ(as_it_is.size(), 1u);
-  EXPECT_GE(as_it_is[0], 4);
-  EXPECT_EQ(depths_told(deep, 3), std::vector<int>{3 * as_it_is[0]});
-}
-
-TEST(Escalation, a_strategy_may_leave_most_of_a_component_to_the_next) {
-  const auto is_tried = [](int rings) {
-    bool is_tried = false;
-    Scene scene = shapes::scene_of(shapes::crossing_bumps(24, 0.5));
-    const std::vector<Tier> tiers = {
-        {{.name = "note", .rings = rings, .leaves_most = true, .solve = [&](Patch&, const Task&) {
-            is_tried = true;
-            return 0;
-          }}}};
-    untangle(scene, {}, options_with(tiers));
-    return is_tried;
-  };
-  EXPECT_TRUE(is_tried(1));
-  EXPECT_FALSE(is_tried(24));
 }
 
 /// A sheet with a bump of each radius, which reaches through a plane that is fixed.
@@ -379,11 +339,11 @@ Scene bumps_through_a_plane(std::span<const double> radii) {
 TEST(Escalation, the_candidate_that_resolves_most_is_kept) {
   const std::array<double, 2> radii = {1.5, 3};
   Strategy first = lifting(0.05);
-  first.extent = Extent::rings;
+  first.select = select_rings({});
   const Strategy second = lifting(0.3);
-  const auto pairs_left = [&](const Tier& tier) {
+  const auto pairs_left = [&](const std::vector<Strategy>& tier) {
     Scene scene = bumps_through_a_plane(radii);
-    const std::vector<Tier> tiers = {tier};
+    const std::vector<Tier> tiers = tiers_of({tier});
     return untangle(scene, {}, options_with(tiers)).left.size();
   };
   EXPECT_GT(pairs_left({first}), 0u);
@@ -391,21 +351,31 @@ TEST(Escalation, the_candidate_that_resolves_most_is_kept) {
   EXPECT_EQ(pairs_left({first, second}), 0u);
 }
 
-TEST(Escalation, squeezed_faces_make_a_candidate_worthless) {
+TEST(Escalation, a_candidate_that_is_not_finite_is_dropped) {
   Scene scene = two_sheets(0.5);
-  const auto to_a_point = [](Patch& patch, const Task&) {
-    for (Index v = 0; v < patch.free_count; ++v) patch.x.col(v) = 1e-3 * patch.x.col(v) + Vec3(0, 0, 50);
-    return 1;
-  };
-  const std::vector<Tier> tiers = {
-      {{.name = "collapse", .extent = Extent::whole_components, .reach = 200, .solve = to_a_point}}};
-  untangle(scene, {}, options_with(tiers));
+  const std::vector<Tier> tiers = tiers_of({{lifting(std::numeric_limits<double>::quiet_NaN()), lifting(5)}});
+  const EscalationResult result = untangle(scene, {}, options_with(tiers));
+  EXPECT_TRUE(result.left.empty());
+  EXPECT_TRUE(scene.x.allFinite());
+}
+
+TEST(Escalation, what_is_not_accepted_leaves_the_surface_as_it_was) {
+  Scene scene = two_sheets(1.5);
+  AttemptLog attempts(scene.rest);
+  const std::vector<Tier> tiers = tiers_of({{lifting(5), lifting(4)}});
+  EscalationOptions options = options_with(tiers);
+  int asked = 0;
+  options.accept = [&](Patch&) { return ++asked < 0; };
+  options.attempts = &attempts;
+  const std::size_t before = shapes::pairs_at(scene.x, scene.triangles).size();
+  EXPECT_EQ(untangle(scene, {}, options).left.size(), before);
+  EXPECT_EQ(asked, 1) << "whole components are not tried again";
   EXPECT_TRUE(scene.x == scene.rest);
+  EXPECT_GT(std::count(attempts.is_too_far.begin(), attempts.is_too_far.end(), 1), 0);
 }
 
 TEST(Escalation, strategies_can_be_left_out_by_name) {
-  std::vector<Tier> named = {{lifting(5), lifting(4)}};
-  named[0][1].name = "lower";
+  std::vector<Tier> named = tiers_of({{lifting(5), lifting(4, 100, "lower")}});
   const auto kept = [&](std::vector<std::string> left_out) {
     Scene scene = two_sheets(1.5);
     EscalationOptions options = options_with(named);
@@ -418,19 +388,11 @@ TEST(Escalation, strategies_can_be_left_out_by_name) {
   EXPECT_EQ(kept({"lifting", "lower"}), "none");
 
   // Not all the way: the candidate is kept where the first strategy ends the tier now, and what it leaves starts anew.
-  named[0][0] = lifting(0.3);
-  named[0][1] = lifting(2.4);
-  named[0].push_back(lifting(0));
-  named[0].back().name = "nothing";
+  named = tiers_of({{lifting(0.3), lifting(2.4), lifting(0, 100, "nothing")}});
   Scene scene = two_sheets(3);
   EscalationOptions options = options_with(named);
   options.left_out = {"nothing"};
   EXPECT_TRUE(untangle(scene, {}, options).left.empty());
-}
-
-TEST(Strategies, numbers_name_them_in_the_order_of_the_table) {
-  EXPECT_EQ(strategy_name(0), default_tiers().front().front().name);
-  EXPECT_EQ(strategy_name(last_strategy()), default_tiers().back().back().name);
 }
 
 }  // namespace

@@ -76,32 +76,5 @@ TEST(Placement, tolerated_pairs_are_no_obstacle) {
   EXPECT_TRUE(patch.x == patch.rest);
 }
 
-TEST(Placement, ties_components_by_all_the_pairs_that_there_were) {
-  const Shape shape = sheet_with_strips(3, 0.2);
-  const Scene scene = shapes::scene_of(shape);
-  const ConnectedParts parts(scene);
-  const std::vector<IntersectingPair> pairs = shapes::pairs_of(shape);
-  ConflictRegion region;
-  region.pairs = {pairs.front()};
-  const auto all = vertices_of_tied_components(scene, parts, region, pairs);
-  EXPECT_EQ(static_cast<Index>(all.size()), scene.vertex_count());
-  const auto two = vertices_of_tied_components(scene, parts, region, region.pairs);
-  EXPECT_EQ(two.size(), 121u + 6u);
-  // Within a single component there is nothing to place.
-  region.pairs = {{0, 1, PairClass::folded}};
-  EXPECT_TRUE(vertices_of_tied_components(scene, parts, region, pairs).empty());
-}
-
-TEST(Placement, components_with_fixed_vertices_stay) {
-  const Shape shape = sheet_with_strips(1, 0.2);
-  std::vector<std::uint8_t> fixed(shape.points.size(), 0);
-  fixed[0] = 1;
-  const Scene scene = make_scene(shape.positions(), shape.triangles, fixed);
-  ConflictRegion region;
-  region.pairs = shapes::pairs_of(shape);
-  const auto free = vertices_of_tied_components(scene, ConnectedParts(scene), region, region.pairs);
-  EXPECT_EQ(free.size(), 6u);
-}
-
 }  // namespace
 }  // namespace unsnarl

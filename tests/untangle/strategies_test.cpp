@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "untangle/escalation.h"
 #include "untangle/tangled_shapes.h"
 
 namespace unsnarl {
@@ -11,7 +12,7 @@ namespace {
 
 Strategy strategy(const std::string& name) {
   for (const Tier& tier : default_tiers())
-    for (const Strategy& strategy : tier)
+    for (const Strategy& strategy : tier.strategies)
       if (strategy.name == name) return strategy;
   ADD_FAILURE() << name;
   return {};
@@ -20,13 +21,12 @@ Strategy strategy(const std::string& name) {
 std::set<std::string> names_of(std::span<const Tier> tiers) {
   std::set<std::string> names;
   for (const Tier& tier : tiers)
-    for (const Strategy& strategy : tier) names.insert(strategy.name);
+    for (const Strategy& strategy : tier.strategies) names.insert(strategy.name);
   return names;
 }
 
 int solve(const std::string& name, Patch& patch) {
-  const std::function<bool()> never;
-  return strategy(name).solve(patch, Task{.tolerated = {}, .stop = never});
+  return strategy(name).solve(patch, Task{.untangle = make_untangler({}, {})});
 }
 
 TEST(Strategies, whole_components_go_from_coarse_to_fine) {
@@ -48,6 +48,8 @@ TEST(Strategies, names_and_numbers_belong_together) {
   }
   EXPECT_EQ(names, names_of(default_tiers()));
   EXPECT_EQ(strategy_number("none of them"), -1);
+  EXPECT_EQ(strategy_name(0), default_tiers().front().strategies.front().name);
+  EXPECT_EQ(strategy_name(last_strategy()), default_tiers().back().strategies.back().name);
 }
 
 }  // namespace
