@@ -52,7 +52,7 @@ class Bvh {
   Index task_count() const { return static_cast<Index>(tasks_.size()); }
 
  private:
-  static constexpr Index leaf_size = 4;  ///< A leaf holds at most this many boxes (unit: boxes)
+  static constexpr Index leaf_size = 4;  ///< A leaf holds at most this many boxes [E174] (unit: boxes)
   struct Node {
     RoundedBox box;
     Index begin = 0, end = 0;  // boxes order_[begin, end) below it

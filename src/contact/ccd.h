@@ -16,7 +16,7 @@ struct CcdOptions {
   /// Conservative advances after which the time reached so far is returned; it is safe wherever they end (unit:
   /// advances)
   int max_advances = 128;
-  /// An advance is followed by another one if it adds at least this share of the time reached (no unit)
+  /// An advance is followed by another one if it adds at least this share of the time reached [E175] (no unit)
   double least_advance = 1e-2;
   std::function<bool()> stop;  ///< asked by filter_displacements; true: WorkStopped is thrown. May be empty
 };

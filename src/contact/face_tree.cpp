@@ -10,7 +10,7 @@ namespace unsnarl {
 namespace {
 
 /// Boxes are turned where that shrinks their total surface below this share, as for bundles of needles; turned boxes
-/// cost a product for each vertex (no unit)
+/// cost a product for each vertex [E176] (no unit)
 constexpr double worth_turning = 0.25;
 /// A box of turned positions is enlarged by this, since products are rounded (unit: largest coordinate)
 constexpr double turned_reserve = 4e-15;

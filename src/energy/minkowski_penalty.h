@@ -60,7 +60,7 @@ Penetration fold_penetration(const Vec3& u, const Vec3& v, const Vec3& p, const 
 
 struct MinkowskiOptions {
   double margin = 0;  ///< length, >= 0: penalised until the faces are this far apart
-  /// Faces that share a vertex are trimmed there by this share of their height (no unit)
+  /// Faces that share a vertex are trimmed there by this share of their height [E177] (no unit)
   double vertex_trim = 0.1;
   /// A fold counts as open at this slope, rise over run, where the margin would need more, as in thin triangles (no
   /// unit)

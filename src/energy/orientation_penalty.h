@@ -26,7 +26,7 @@ class OrientationPenalty {
   struct Options {
     double activation = 0.2;  ///< The penalty sets in where c is below this, in (0, 1) (no unit)
     /// The penalty is linear where c is below minus this, so that needles that became wide do not outweigh everything
-    /// else (no unit)
+    /// else [E178] (no unit)
     double linear = 30;
   };
   OrientationPenalty() = default;

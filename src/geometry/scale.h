@@ -13,7 +13,7 @@ namespace unsnarl {
 class Scale {
  public:
   /// Coordinates from 2^-largest_exponent to 2^largest_exponent are taken as they are: products of eight lengths do not
-  /// overflow (unit: binary exponent)
+  /// overflow [E180] (unit: binary exponent)
   static constexpr int largest_exponent = 100;
 
   Scale() = default;

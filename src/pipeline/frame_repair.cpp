@@ -15,7 +15,7 @@ namespace unsnarl {
 namespace {
 
 /// Weights of the frames around one, the frame itself first: the binomial weights of repeated averages of three, 1/4,
-/// 1/2, 1/4 (no unit)
+/// 1/2, 1/4 [E183] (no unit)
 constexpr std::array<double, sequence_reach + 1> weights = {70.0 / 256, 56.0 / 256, 28.0 / 256, 8.0 / 256, 1.0 / 256};
 
 /// Smaller corrections are not spread to other frames, since they would change vertices without being seen (unit:

@@ -14,7 +14,7 @@ namespace {
 
 /// Hinges are opened to this multiple of the wanted angle, so that rounding and neighbours leave enough (no unit)
 constexpr double reserve = 1.05;
-constexpr int most_rounds = 100;  ///< Rounds of opening hinges, at most (unit: rounds)
+constexpr int most_rounds = 100;  ///< Rounds of opening hinges, at most [E185] (unit: rounds)
 /// Longest motion of a vertex in one round; angles are far from linear in longer steps (unit: least height of a face at
 /// the vertex)
 constexpr double most_of_height = 0.25;

@@ -27,7 +27,7 @@ const std::array<FileColours, 6> file_colours = {{
 }};
 
 /// Red faces that are narrower on the screen are drawn this wide, so that a row of them on a fine mesh shows as a line
-/// (unit: pixels)
+/// [E182] (unit: pixels)
 constexpr double least_red_width = 2;
 
 struct Material {

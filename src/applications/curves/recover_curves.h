@@ -8,10 +8,10 @@ namespace unsnarl {
 
 struct CurveRecoverOptions {
   /// Length over which a displacement spreads along a curve: shorter bends of it cost more than the pull to the target
-  /// (unit: bounding-box diagonal)
+  /// [E186] (unit: bounding-box diagonal)
   double spread_rel = 0.02;
-  double barrier = 0.05;  ///< Force of the barrier (unit: pull of a vertex that is a diagonal away)
-  int max_steps = 80;     ///< Newton steps, at most (unit: steps)
+  double barrier = 0.05;  ///< Force of the barrier [E187] (unit: pull of a vertex that is a diagonal away)
+  int max_steps = 80;     ///< Newton steps, at most [E188] (unit: steps)
   /// A Newton step is small where no vertex moves farther than this (unit: bounding-box diagonal)
   double motion_rel = 2e-5;
   /// Closer contacts are opened step by step: the barrier sets in later for them (unit: gap)

@@ -7,20 +7,20 @@
 namespace unsnarl {
 
 struct SwitchOptions {
-  double cost_range = 4;  ///< A pass makes moves that cost up to this many times the cheapest (no unit)
+  double cost_range = 4;  ///< A pass makes moves that cost up to this many times the cheapest [E189] (no unit)
   /// A move costs this many times more where points are drawn straight. Costs are lengths of curve times the distance
-  /// moved (no unit)
+  /// moved [E190] (no unit)
   double pull_cost = 4;
   /// A move costs this many times more where a run has too few points for its new way, so that the drawing changes (no
   /// unit)
   double drawing_cost = 8;
-  /// A pass looks at about this many vertices of all moves together (unit: vertices)
+  /// A pass looks at about this many vertices of all moves together [E191] (unit: vertices)
   double affordable_vertices = 5e4;
   Index least_reach = 64;  ///< A move may change this many vertices at least (unit: vertices)
   /// With more crossings, nothing of the drawing can be kept, and loops are turned in any order (unit: crossings a
   /// segment)
   double dense = 3;
-  /// Another numbering of a curve is judged at this many of its points (unit: points)
+  /// Another numbering of a curve is judged at this many of its points [E192] [E193] (unit: points)
   Index renumber_samples = 400;
   /// A curve that lies on another one is drawn in by this, a quarter of the default gap (unit: bounding-box diagonal)
   double inset_rel = 1e-3;

@@ -14,7 +14,7 @@ struct RoundOptions {
   double move_of_distance = 0.3;
   /// A convex curve counts as round from this value of 4 pi area / length^2 on; a circle has 1 (no unit)
   double roundness = 0.9;
-  /// Steps after which the caller is told that the curves do not become round (unit: steps)
+  /// Steps after which the caller is told that the curves do not become round [E194] (unit: steps)
   int most_steps = 200000;
   /// Curves that wait for others shrink by this factor in each step, so that they are in no one's way (no unit)
   double shrinking = 0.98;

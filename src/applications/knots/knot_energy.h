@@ -18,12 +18,12 @@ class KnotEnergy {
   /// polygons as they get finer (no unit)
   static constexpr double beta = 4.5;
   /// Weight of the evenness of edges: if one gets longer than the distance between strands, these slip through between
-  /// middles; a larger weight slows descent (no unit)
+  /// middles; a larger weight slows descent [E203] (no unit)
   double evenness = 1000;
   /// Edges with at least three others between them that are nearer than this are kept apart by a barrier, since the
   /// energy of middles does not see their ends (unit: mean edge length)
   double barrier_reach = 1;
-  double barrier_weight = 100;  ///< Weight of that barrier (no unit)
+  double barrier_weight = 100;  ///< Weight of that barrier [E204] (no unit)
 
   double operator()(const Positions& x) const;
   /// The gradient is written, one column a vertex.

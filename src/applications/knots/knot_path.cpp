@@ -10,7 +10,7 @@
 namespace unsnarl {
 namespace {
 
-/// A step that is not proven is halved this many times, at most (unit: halvings)
+/// A step that is not proven is halved this many times, at most [E198] (unit: halvings)
 constexpr int most_halvings = 6;
 
 /// Appends states after `from` that lead to `to`. False: no proof was found.

@@ -11,7 +11,7 @@ struct RelaxOptions {
   /// A knot is at rest where the gradient, as long as KnotMetric measures it, is below this (unit: square root of the
   /// energy)
   double gradient_rel = 3e-4;
-  int most_steps = 1000;  ///< Steps after which a knot is left as it is (unit: steps)
+  int most_steps = 1000;  ///< Steps after which a knot is left as it is [E196] [E197] (unit: steps)
 };
 
 struct RelaxedKnot {

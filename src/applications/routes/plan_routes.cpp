@@ -32,7 +32,7 @@ constexpr int parting_steps = 50;   ///< Steps in each round of parting routes (
 constexpr double harder = 4;
 constexpr int most_rounds = 9;  ///< Rounds of parting routes, at most (unit: rounds)
 /// Weight of contacts and turns at the beginning: small, since hard pushes at the start make kinks that take long to
-/// undo (no unit)
+/// undo [E199] (no unit)
 constexpr double first_weight = 0.005;
 /// Weights of barriers while routes are pulled tight (no unit)
 constexpr std::array<double, 2> barrier_weights = {0.1, 0.01};

@@ -15,7 +15,7 @@ struct RouteEnergySettings {
   /// rod of stiffness B that is folded over has a radius of at least sqrt(B / 4 T) (unit: tension radius^2)
   double stiffness = 4;
   double swelling = 1;  ///< Tubes have this share of their radius, in (0, 1] (no unit)
-  /// Tubes push each other away from this far beyond the needed distance on (unit: needed distance)
+  /// Tubes push each other away from this far beyond the needed distance on [E200] (unit: needed distance)
   double cushion = 0.05;
   double contact = 0;  ///< weight of tubes that push each other; 0: they may overlap
   double turn = 1;     ///< Weight against turns that are too tight (no unit)

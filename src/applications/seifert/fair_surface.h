@@ -18,7 +18,7 @@ struct FairOptions {
   /// lets coarse meshes oscillate (no unit)
   double over_relaxation = 1.4;
   /// Weight of the curvature, the integral of H^2 times a squared edge of the level, against the area. H is taken with
-  /// the metric held, so that vertices move by a linear equation (no unit)
+  /// the metric held, so that vertices move by a linear equation [E201] (no unit)
   double curvature = 2;
   /// Gap to keep between sheets, wide enough that a picture shows two (unit: edge length of the level)
   double gap_of_edge = 0.3;
