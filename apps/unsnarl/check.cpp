@@ -80,8 +80,8 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
   defect(t.duplicate_faces, "face on the same three vertices as another", "faces on the same three vertices as others");
   defect(t.zero_area_faces, "face without area", "faces without area");
   defect(t.unused_vertices, "vertex of no face", "vertices of no face");
-  defect(found.closed_non_orientable, "closed non-orientable component, which has no embedding in space",
-         "closed non-orientable components, which have no embedding in space");
+  defect(found.closed_non_orientable, "closed non-orientable component, which always intersects itself",
+         "closed non-orientable components, which always intersect themselves");
   if (found.components.size() > 1)
     for (std::size_t i = 0; i < std::min(found.components.size(), components_in_text); ++i) {
       const ComponentFindings& c = found.components[i];

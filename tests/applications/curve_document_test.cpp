@@ -161,7 +161,7 @@ TEST(CurveDocument, BadSvgIsRefusedAndThePlaceNamed) {
   EXPECT_TRUE(says(svg_error("<svg><path d=\"M0 0 L nan 1\"/></svg>"), "not a number"));
   EXPECT_TRUE(says(svg_error("<svg><path d=\"M0 0 L 1e999 1\"/></svg>"), "not a number"));
   EXPECT_TRUE(says(svg_error("<svg><g transform=\"scale(0)\"><path d=\"M0 0L1 1\"/></g></svg>"), "flatten the plane"));
-  EXPECT_TRUE(says(svg_error("<svg><g transform=\"perspective(3)\"/></svg>"), "no transform that is known"));
+  EXPECT_TRUE(says(svg_error("<svg><g transform=\"perspective(3)\"/></svg>"), "not a known transform"));
   EXPECT_TRUE(says(svg_error("<svg><g style=\"transform: none\"/></svg>"), "CSS"));
   EXPECT_TRUE(says(svg_error("<svg><rect width=\"3mm\" height=\"2\"/></svg>"), "units"));
   EXPECT_TRUE(says(svg_error("<svg><polygon points=\"0 0 1\"/></svg>"), "3 numbers"));
