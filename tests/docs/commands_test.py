@@ -16,6 +16,7 @@ NUMBER = r"\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 # Numbers are of three kinds: the machine and the moment decide some, some were measured, all others are counts and names.
 KINDS = re.compile(rf"(?P<any>{NUMBER}(?= s\b| MB\b| a second\b)|(?<=residual){NUMBER}|(?<=at vertex)\d+)"
                    rf"|(?P<measured>\d+\.\d+(?:e[-+]?\d+)?|\d+(?= %| degrees\b))|\d+")
+PROGRESS = re.compile(r"[a-z]+ +\d+ %   .* s")  # what a slow machine says every 30 seconds
 TOLERANCE = 0.1  # share of a measured number by which it may differ; else by one in its last digit
 
 
@@ -76,7 +77,7 @@ class Commands(unittest.TestCase):
                         done = subprocess.run(["sh", "-c", command], cwd=folder, env=environment, text=True,
                                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
                         last = done.returncode
-                        said = "".join(unaligned(line) + "\n" for line in done.stdout.splitlines())
+                        said = "".join(unaligned(line) + "\n" for line in done.stdout.splitlines() if not PROGRESS.fullmatch(line))
                         regex, measured = pattern(shown)
                         self.assertRegex(said, rf"\A{regex}\Z")
                         for there, here in zip(measured, re.match(rf"{regex}\Z", said).groups()):
