@@ -7,7 +7,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(AlignKnots, FindsTheSimilarityTheOrderAndTheDirection) {
+TEST(AlignKnots, finds_the_similarity_the_order_and_the_direction) {
   const Positions x = points_of(knot_of_table("8_19").components[0]);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(2, Vec3(2, -1, 2) / 3).toRotationMatrix();
   for (const bool backwards : {false, true}) {
@@ -24,7 +24,7 @@ TEST(AlignKnots, FindsTheSimilarityTheOrderAndTheDirection) {
   }
 }
 
-TEST(AlignKnots, TheNearestOrderIsThatOfShiftedPoints) {
+TEST(AlignKnots, the_nearest_order_is_that_of_shifted_points) {
   const Positions x = points_of(knot_of_table("4_1").components[0]);
   const auto n = static_cast<Index>(x.cols());
   EXPECT_EQ(nearest_order(x, reordered(x, 5, false)), n - 5);

@@ -33,7 +33,7 @@ bool says(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }
 
-TEST(CurveDocument, GroupsNestedTooDeeplyAreRefused) {
+TEST(CurveDocument, groups_nested_too_deeply_are_refused) {
   std::string open, close;
   for (int k = 0; k < 255; ++k) open += "<g>", close += "</g>";
   EXPECT_EQ(svg_error("<svg>" + open + close + "</svg>"), "");
@@ -42,7 +42,7 @@ TEST(CurveDocument, GroupsNestedTooDeeplyAreRefused) {
   EXPECT_TRUE(says(json_error("{\"curves\": " + std::string(300, '[')), "nested too deeply"));
 }
 
-TEST(CurveDocument, UnmovedFilesComeBackByteForByte) {
+TEST(CurveDocument, unmoved_files_come_back_byte_for_byte) {
   const std::string text =
       "<?xml version=\"1.0\"?>\n<!-- kept --><svg xmlns=\"http://www.w3.org/2000/svg\"  >"
       "<path d='M0 0c1,1,2-1 3 .5.5.5.5.5.5.5z m 5 5 l 1 0 0 1'/><rect width=\"3\" "
@@ -55,7 +55,7 @@ TEST(CurveDocument, UnmovedFilesComeBackByteForByte) {
   EXPECT_EQ(other.patched(other.curves()), json);
 }
 
-TEST(CurveDocument, AMovedSubpathLeavesTheOthersTheirBeziers) {
+TEST(CurveDocument, a_moved_subpath_leaves_the_others_their_beziers) {
   const CurveDocument document =
       svg("<path id=\"p\" class=\"k\" d=\"m 1,2 l 4,0 m 1 1 c 1 0 2 1 2 2 z l 3 3\" fill=\"none\"/>");
   ASSERT_EQ(document.curves().size(), 3U);
@@ -70,7 +70,7 @@ TEST(CurveDocument, AMovedSubpathLeavesTheOthersTheirBeziers) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(back[c].points, moved[c].points) << c;
 }
 
-TEST(CurveDocument, ShapesBecomePathsOnlyWhenTheyMove) {
+TEST(CurveDocument, shapes_become_paths_only_when_they_move) {
   const CurveDocument document =
       svg("<line id=\"a\" x1=\"0\" y1=\"0\" x2=\"4\" y2=\"1\" stroke=\"red\"/>"
           "<rect id=\"b\" x=\"10\" y=\"10\" width=\"4\" height=\"2\"><title>box</title></rect>"
@@ -89,7 +89,7 @@ TEST(CurveDocument, ShapesBecomePathsOnlyWhenTheyMove) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(back[c].points, moved[c].points) << c;
 }
 
-TEST(CurveDocument, TransformsAreAppliedAndTakenBack) {
+TEST(CurveDocument, transforms_are_applied_and_taken_back) {
   const CurveDocument document =
       svg("<g transform=\"translate(10,20) scale(2)\"><polyline points=\"0,0 1,0 1,1\" transform=\"rotate(90)\"/></g>");
   const std::vector<double>& p = document.curves()[0].points;
@@ -102,7 +102,7 @@ TEST(CurveDocument, TransformsAreAppliedAndTakenBack) {
   for (std::size_t k = 0; k < p.size(); ++k) EXPECT_NEAR(back[0].points[k], moved[0].points[k], 1e-8);
 }
 
-TEST(CurveDocument, FlatteningKeepsItsTolerance) {
+TEST(CurveDocument, flattening_keeps_its_tolerance) {
   for (const double flatten : {1e-2, 1e-4}) {
     const CurveDocument document = svg("<circle cx=\"3\" cy=\"4\" r=\"10\"/><ellipse rx=\"3\" ry=\"1\"/>", flatten);
     const double tolerance = flatten * std::hypot(20, 20);
@@ -130,7 +130,7 @@ TEST(CurveDocument, FlatteningKeepsItsTolerance) {
   }
 }
 
-TEST(CurveDocument, PathDataOfAllKinds) {
+TEST(CurveDocument, path_data_of_all_kinds) {
   const auto ends = [](const char* data) { return parse_path_data(data, 0.1).back().points.back(); };
   EXPECT_EQ(ends("M1 1 2 2"), Vec2(2, 2));
   EXPECT_EQ(ends("m1 1 2 2"), Vec2(3, 3));
@@ -142,7 +142,7 @@ TEST(CurveDocument, PathDataOfAllKinds) {
   EXPECT_EQ(parse_path_data("M0 0L1 0 1 1ZL5 5", 0.1).size(), 2U);
 }
 
-TEST(CurveDocument, WhatIsNotDrawnIsLeftAlone) {
+TEST(CurveDocument, what_is_not_drawn_is_left_alone) {
   const CurveDocument document =
       svg("<defs><path d=\"M0 0L1 1\"/></defs><g display=\"none\"><path d=\"M0 0L1 1\"/></g><use href=\"#x\"/><rect "
           "width=\"100%\" height=\"100%\"/>"
@@ -153,7 +153,7 @@ TEST(CurveDocument, WhatIsNotDrawnIsLeftAlone) {
   EXPECT_TRUE(says(document.notes()[1], "<use>"));
 }
 
-TEST(CurveDocument, BadSvgIsRefusedAndThePlaceNamed) {
+TEST(CurveDocument, bad_svg_is_refused_and_the_place_named) {
   EXPECT_TRUE(says(svg_error("<svg>\n<path d=\"M0 0\"\n</svg>"), "line "));
   EXPECT_TRUE(says(svg_error("<html/>"), "root element is <html>"));
   EXPECT_TRUE(says(svg_error("<svg>\n<path id=\"p\" d=\"M0 0L1 x\"/></svg>"), "<path> 'p' on line 2"));
@@ -168,7 +168,7 @@ TEST(CurveDocument, BadSvgIsRefusedAndThePlaceNamed) {
   EXPECT_TRUE(says(svg_error("<svg><svg x=\"3\"/></svg>"), "inner <svg>"));
 }
 
-TEST(CurveDocument, BadJsonIsRefusedAndThePlaceNamed) {
+TEST(CurveDocument, bad_json_is_refused_and_the_place_named) {
   EXPECT_TRUE(says(json_error("{\"curves\": ["), "byte"));
   EXPECT_TRUE(says(json_error("[]"), "no list \"curves\""));
   EXPECT_TRUE(says(json_error("{\"curves\": [{}]}"), "curve 0 has no list \"points\""));
@@ -178,7 +178,7 @@ TEST(CurveDocument, BadJsonIsRefusedAndThePlaceNamed) {
   EXPECT_TRUE(says(json_error("{\"curves\": [{\"points\": [[0, 0], [1, 1]], \"closed\": 1}]}"), "true or false"));
 }
 
-TEST(CurveDocument, InsertedPointsAreWritten) {
+TEST(CurveDocument, inserted_points_are_written) {
   const std::string text = "{\"curves\": [{\"points\": [[0, 0], [10, 0]]}, {\"points\": [[5, 0], [5, 3]]}]}";
   const CurveDocument document = CurveDocument::parse(text, CurveFormat::json);
   std::vector<Curve> moved = document.curves();
@@ -187,7 +187,7 @@ TEST(CurveDocument, InsertedPointsAreWritten) {
             "{\"curves\": [{\"points\": [[0, 0], [5, 0], [10, 0]]}, {\"points\": [[5, 0], [5, 3]]}]}");
 }
 
-TEST(CurveDocument, AllDigitsKeepWhatRoundingWouldJoin) {
+TEST(CurveDocument, all_digits_keep_what_rounding_would_join) {
   const CurveDocument document = CurveDocument::parse(
       "{\"curves\": [{\"points\": [[0, 0], [7, 0], [9, 1]]}, {\"points\": [[0, 5], [7, 4], [9, 9]]}]}",
       CurveFormat::json);
@@ -200,7 +200,7 @@ TEST(CurveDocument, AllDigitsKeepWhatRoundingWouldJoin) {
   for (std::size_t c = 0; c < 2; ++c) EXPECT_EQ(back[c].points, moved[c].points);
 }
 
-TEST(CurveDocument, FlatteningIsRelativeToTheCurvesAndNotToTheirEnds) {
+TEST(CurveDocument, flattening_is_relative_to_the_curves_and_not_to_their_ends) {
   // A loop of one Bézier curve that ends where it starts, in three sizes.
   std::size_t points[3];
   int k = 0;
@@ -212,14 +212,14 @@ TEST(CurveDocument, FlatteningIsRelativeToTheCurvesAndNotToTheirEnds) {
   EXPECT_LT(points[0], 500U);
 }
 
-TEST(CurveDocument, ShortLastSegmentsAreKeptAndRoundingIsClosed) {
+TEST(CurveDocument, short_last_segments_are_kept_and_rounding_is_closed) {
   const CurveDocument document =
       svg("<polygon points=\"0,0 4,0 4,4 0,0.000001\"/><path d=\"m0 0l.1 0l.1 0 .1 0 0 1 -.3 -1z\"/>");
   EXPECT_EQ(document.curves()[0].size(), 4U);
   EXPECT_EQ(document.curves()[1].size(), 5U);
 }
 
-TEST(CurveDocument, ShapesWithinShapesAreLeftAlone) {
+TEST(CurveDocument, shapes_within_shapes_are_left_alone) {
   const CurveDocument document =
       svg("<rect width=\"4\" height=\"2\"><!--</rect>--><rect x=\"9\" width=\"4\" height=\"2\"></rect><desc/></rect >");
   ASSERT_EQ(document.curves().size(), 1U);
@@ -230,7 +230,7 @@ TEST(CurveDocument, ShapesWithinShapesAreLeftAlone) {
   EXPECT_EQ(document.read_back(text)[0].points, moved[0].points);
 }
 
-TEST(CurveDocument, NumbersBeyondArithmeticAreRefused) {
+TEST(CurveDocument, numbers_beyond_arithmetic_are_refused) {
   const auto refused = [](const std::string& inside, const char* words) {
     return says(svg_error("<svg>" + inside + "</svg>"), words);
   };
@@ -242,7 +242,7 @@ TEST(CurveDocument, NumbersBeyondArithmeticAreRefused) {
   EXPECT_TRUE(says(json_error("{\"curves\": [{\"points\": [[0, 0], [1e308, -1e308]]}]}"), "use another unit"));
 }
 
-TEST(CurvePictures, AreFilesOfTheirKind) {
+TEST(CurvePictures, are_files_of_their_kind) {
   const std::vector<Curve> curves{random_closed_curve("star", 1, 200)};
   const std::string png = curve_integrand_png(curves[0], 0.05, 64);
   EXPECT_EQ(png.substr(1, 3), "PNG");

@@ -88,7 +88,7 @@ std::optional<Status> status_of_written(const CurveDocument& document) {
   return result.status;
 }
 
-TEST(CurveFileFaults, JointsOfRandomNetsAreOnePointInTheFileToo) {
+TEST(CurveFileFaults, joints_of_random_nets_are_one_point_in_the_file_too) {
   int embedded = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::optional<Status> status = status_of_written(as_json(random_net(seed)));
@@ -98,7 +98,7 @@ TEST(CurveFileFaults, JointsOfRandomNetsAreOnePointInTheFileToo) {
   EXPECT_GT(embedded, 10);
 }
 
-TEST(CurveFileFaults, AndWhereElementsHaveTransforms) {
+TEST(CurveFileFaults, and_where_elements_have_transforms) {
   int embedded = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::optional<Status> status = status_of_written(as_svg(random_net(seed)));
@@ -120,7 +120,7 @@ struct Tee {
   }
 };
 
-TEST(CurveFileFaults, AnEndThatIsShiftedByTheLastDigitIsRefused) {
+TEST(CurveFileFaults, an_end_that_is_shifted_by_the_last_digit_is_refused) {
   const Tee tee;
   ASSERT_EQ(tee.result.report.joints.size(), 1U);
   EXPECT_EQ(tee.faults(tee.result.curves), "");
@@ -131,7 +131,7 @@ TEST(CurveFileFaults, AnEndThatIsShiftedByTheLastDigitIsRefused) {
   EXPECT_EQ(tee.faults(corrupted), "curve 0 and curve 1 have come apart");
 }
 
-TEST(CurveFileFaults, OtherCurvesAreRefused) {
+TEST(CurveFileFaults, other_curves_are_refused) {
   const Tee tee;
   std::vector<Curve> corrupted = tee.result.curves;
   corrupted[1].points[5] = -3;

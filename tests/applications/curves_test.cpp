@@ -45,7 +45,7 @@ CurveResult untangled(const std::vector<Curve>& curves, const CurveOptions& opti
   return result;
 }
 
-TEST(FindCrossings, AgreesWithTheOracleOnLatticePoints) {
+TEST(FindCrossings, agrees_with_the_oracle_on_lattice_points) {
   // Few places, so that touching and overlapping segments are the rule.
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Curve chaos = random_closed_curve("chaos", seed, 8 + static_cast<int>(seed % 9));
@@ -60,14 +60,14 @@ TEST(FindCrossings, AgreesWithTheOracleOnLatticePoints) {
   }
 }
 
-TEST(FindCrossings, SharedEndsOfAJointDoNotCount) {
+TEST(FindCrossings, shared_ends_of_a_joint_do_not_count) {
   const std::vector<Curve> curves{open({0, 0, 1, 0}), open({1, 0, 1, 1}), open({1, 0, 2, 0})};
   EXPECT_EQ(find_crossings(curves).size(), 3U);
   const std::vector<CurveJoint> joints{{{0, 1}, {1, 0}, {2, 0}}};
   EXPECT_TRUE(find_crossings(curves, joints).empty());
 }
 
-TEST(FindCrossings, PointsOfAJointThatAreApartAreTwo) {
+TEST(FindCrossings, points_of_a_joint_that_are_apart_are_two) {
   const double just_below = -1e-15;
   const std::vector<Curve> curves{open({-1, 0, 0, 0, 1, 0}), open({0, just_below, 0, 1})};
   const std::vector<CurveJoint> joints{{{0, 1}, {1, 0}}};
@@ -75,12 +75,12 @@ TEST(FindCrossings, PointsOfAJointThatAreApartAreTwo) {
   EXPECT_EQ(oracle::count_crossings(curves, joints), 2U);
 }
 
-TEST(FindCrossings, FoldedSegmentsMeet) {
+TEST(FindCrossings, folded_segments_meet) {
   EXPECT_EQ(find_crossings(std::vector<Curve>{open({0, 0, 2, 0, 1, 0})}).size(), 1U);
   EXPECT_EQ(find_crossings(std::vector<Curve>{open({0, 0, 1, 0, 2, 0})}).size(), 0U);
 }
 
-TEST(FindCrossings, HoldsWhereDoublesCannotTell) {
+TEST(FindCrossings, holds_where_doubles_cannot_tell) {
   // The end of the second segment is one unit in the last place beside the first, on either side.
   const double y = 0.5, up = std::nextafter(y, 1), down = std::nextafter(y, 0);
   EXPECT_EQ(find_crossings(std::vector<Curve>{open({0, 0, 1, 1}), open({0.5, y, 1, 0})}).size(), 1U);
@@ -88,7 +88,7 @@ TEST(FindCrossings, HoldsWhereDoublesCannotTell) {
   EXPECT_EQ(find_crossings(std::vector<Curve>{open({0, 0, 1, 1}), open({0.5, down, 1, 0})}).size(), 0U);
 }
 
-TEST(UntangleCurves, AFigureEightOpensAndKeepsItsDrawing) {
+TEST(UntangleCurves, a_figure_eight_opens_and_keeps_its_drawing) {
   const CurveResult result = untangled({figure_eight(400)});
   EXPECT_EQ(result.report.crossings_before, 1U);
   EXPECT_LT(result.report.distance_max_rel, 0.01);
@@ -96,7 +96,7 @@ TEST(UntangleCurves, AFigureEightOpensAndKeepsItsDrawing) {
   EXPECT_LT(result.report.displacement_max_rel, 0.5);
 }
 
-TEST(UntangleCurves, RandomClosedCurvesOfEveryKindEndSimple) {
+TEST(UntangleCurves, random_closed_curves_of_every_kind_end_simple) {
   for (const std::string_view kind : random_curve_kinds())
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
       SCOPED_TRACE(std::string(kind) + " " + std::to_string(seed));
@@ -106,13 +106,13 @@ TEST(UntangleCurves, RandomClosedCurvesOfEveryKindEndSimple) {
     }
 }
 
-TEST(UntangleCurves, WhatDoesNotCrossComesBackUnchanged) {
+TEST(UntangleCurves, what_does_not_cross_comes_back_unchanged) {
   const std::vector<Curve> curves{circle(0, 0, 1, 50), circle(0, 0, 2, 50), open({3, 0, 4, 1})};
   const CurveResult result = untangled(curves);
   for (std::size_t c = 0; c < curves.size(); ++c) EXPECT_EQ(result.curves[c].points, curves[c].points);
 }
 
-TEST(UntangleCurves, FarFromACrossingPointsAreBitIdentical) {
+TEST(UntangleCurves, far_from_a_crossing_points_are_bit_identical) {
   Curve wave{.points = {}, .closed = false, .fixed = {}, .name = {}};
   for (int k = 0; k <= 400; ++k) wave.points.insert(wave.points.end(), {k * 0.1, std::sin(k * 0.1)});
   const Curve bump = open({35, 5, 35, 0.0, 35.2, -0.7, 35.4, 0.0, 35.4, 5});
@@ -121,7 +121,7 @@ TEST(UntangleCurves, FarFromACrossingPointsAreBitIdentical) {
   for (std::size_t k = 0; k < 2 * 200; ++k) EXPECT_EQ(result.curves[0].points[k], wave.points[k]);
 }
 
-TEST(UntangleCurves, SetsOfCurvesComeApart) {
+TEST(UntangleCurves, sets_of_curves_come_apart) {
   std::vector<Curve> rings;
   for (int k = 0; k < 9; ++k) rings.push_back(circle(1.3 * (k % 3), 1.3 * (k / 3), 0.9, 80));
   const CurveResult result = untangled(rings);
@@ -134,14 +134,14 @@ TEST(UntangleCurves, SetsOfCurvesComeApart) {
   untangled(sticks);
 }
 
-TEST(UntangleCurves, CopiesAndCommonBordersAreDrawnInALittle) {
+TEST(UntangleCurves, copies_and_common_borders_are_drawn_in_a_little) {
   const CurveResult copies = untangled({circle(0, 0, 1, 40), circle(0, 0, 1, 40)});
   EXPECT_LT(copies.report.displacement_max_rel, 0.01);
   const CurveResult map = untangled({closed({0, 0, 1, 0, 1, 1, 0, 1}), closed({1, 0, 2, 0, 2, 1, 1, 1})});
   EXPECT_LT(map.report.displacement_max_rel, 0.01);
 }
 
-TEST(UntangleCurves, SharedEndsStayShared) {
+TEST(UntangleCurves, shared_ends_stay_shared) {
   const std::vector<Curve> theta{open({0, 0, 2, 3, 5, 3, 8, 3, 10, 0}),
                                  open({0, 0, 2, 4, 3, 1, 5, -1, 7, 1, 8, 4, 10, 0}), open({0, 0, 5, -5, 10, 0})};
   const CurveResult result = untangled(theta);
@@ -154,7 +154,7 @@ TEST(UntangleCurves, SharedEndsStayShared) {
   }
 }
 
-TEST(UntangleCurves, ATJunctionGetsAPointAndStays) {
+TEST(UntangleCurves, at_junction_gets_a_point_and_stays) {
   const std::vector<Curve> curves{open({0, 0, 10, 0}), open({5, 0, 5, 4, 2, 4, 2, -1})};
   const CurveResult result = untangled(curves);
   EXPECT_EQ(result.report.inserted_points, 1U);
@@ -163,7 +163,7 @@ TEST(UntangleCurves, ATJunctionGetsAPointAndStays) {
   EXPECT_EQ(result.curves[0].points[3], result.curves[1].points[1]);
 }
 
-TEST(UntangleCurves, CurvesShorterThanAJunctionAreNotJoined) {
+TEST(UntangleCurves, curves_shorter_than_a_junction_are_not_joined) {
   // Both ends of the short one are within 1e-9 of the diagonal of one point.
   const std::vector<Curve> curves{open({0, 0, 1e12, 0}), open({1, 2, 2, 4})};
   const CurveResult result = untangled(curves);
@@ -171,7 +171,7 @@ TEST(UntangleCurves, CurvesShorterThanAJunctionAreNotJoined) {
   EXPECT_EQ(result.curves[1].points, curves[1].points);
 }
 
-TEST(UntangleCurves, FixedPointsDoNotMove) {
+TEST(UntangleCurves, fixed_points_do_not_move) {
   std::vector<Curve> curves{circle(0, 0, 1, 60), circle(1.2, 0, 1, 60)};
   curves[0].fixed.assign(60, 1);
   const CurveResult result = untangled(curves);
@@ -184,7 +184,7 @@ TEST(UntangleCurves, FixedPointsDoNotMove) {
     for (const std::size_t k : {0, 1, 8, 9}) EXPECT_EQ(held.curves[c].points[k], waves[c].points[k]);
 }
 
-TEST(UntangleCurves, FixedCurvesThatCrossAreAnObstructionAndTheRestIsRepaired) {
+TEST(UntangleCurves, fixed_curves_that_cross_are_an_obstruction_and_the_rest_is_repaired) {
   std::vector<Curve> curves{open({0, 0, 10, 10}), open({0, 10, 10, 0}), figure_eight(100)};
   curves[0].fixed.assign(2, 1);
   curves[1].fixed.assign(2, 1);
@@ -197,7 +197,7 @@ TEST(UntangleCurves, FixedCurvesThatCrossAreAnObstructionAndTheRestIsRepaired) {
   EXPECT_EQ(oracle::count_crossings(result.curves, {}), 1U);
 }
 
-TEST(UntangleCurves, WhatCannotBeResolvedIsNotMadeWorse) {
+TEST(UntangleCurves, what_cannot_be_resolved_is_not_made_worse) {
   // Both ends of both fixed: the way around an end is not taken.
   const std::vector<Curve> curves{open({0, 0, 10, 10}), open({0, 10, 4, 6, 6, 4, 10, 0})};
   const CurveResult result = untangle_curves(curves, {.fix_ends = true});
@@ -205,7 +205,7 @@ TEST(UntangleCurves, WhatCannotBeResolvedIsNotMadeWorse) {
   EXPECT_LE(result.report.crossings_after, result.report.crossings_before);
 }
 
-TEST(UntangleCurves, IsTheSameOnEveryRunAndInEveryPlace) {
+TEST(UntangleCurves, is_the_same_on_every_run_and_in_every_place) {
   const Curve star = random_closed_curve("star", 4, 500);
   const CurveResult once = untangled({star}), twice = untangled({star});
   EXPECT_EQ(once.curves[0].points, twice.curves[0].points);
@@ -217,7 +217,7 @@ TEST(UntangleCurves, IsTheSameOnEveryRunAndInEveryPlace) {
   EXPECT_NEAR(scaled.report.displacement_mean_rel, once.report.displacement_mean_rel, 1e-6);
 }
 
-TEST(UntangleCurves, OpenedCrossingsKeepAGap) {
+TEST(UntangleCurves, opened_crossings_keep_a_gap) {
   const CurveResult result = untangled({figure_eight(400)}, {.gap_rel = 0.01});
   const CurveNet net = make_net(result.curves, {}, false);
   double narrowest = std::numeric_limits<double>::infinity();
@@ -228,7 +228,7 @@ TEST(UntangleCurves, OpenedCrossingsKeepAGap) {
   EXPECT_GT(narrowest, 0.005 * result.report.diagonal);
 }
 
-TEST(UntangleCurves, CanBeCancelledAndLimited) {
+TEST(UntangleCurves, can_be_cancelled_and_limited) {
   Context context;
   context.cancel();
   const std::vector<Curve> curves{random_closed_curve("noise", 1, 2000)};
@@ -239,7 +239,7 @@ TEST(UntangleCurves, CanBeCancelledAndLimited) {
   EXPECT_LE(limited.report.crossings_after, limited.report.crossings_before);
 }
 
-TEST(UntangleCurves, ProgressNeverGoesBack) {
+TEST(UntangleCurves, progress_never_goes_back) {
   Context context;
   double last = -1;
   context.on_progress = [&](const Context::Progress& progress) {
@@ -260,7 +260,7 @@ std::string refusal(const std::vector<Curve>& curves, const CurveOptions& option
   return "";
 }
 
-TEST(UntangleCurves, RefusesWhatMakesNoSenseAndNamesThePlace) {
+TEST(UntangleCurves, refuses_what_makes_no_sense_and_names_the_place) {
   const auto says = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
   EXPECT_TRUE(says(refusal({open({0, 0, 1, 1}), open({0, 0, 1, 1, 1, 1})}), "curve 1: points 1 and 2 are equal"));
   EXPECT_TRUE(says(refusal({closed({0, 0, 1, 1, 2, 0, 0, 0})}), "does not repeat its first point"));
@@ -274,7 +274,7 @@ TEST(UntangleCurves, RefusesWhatMakesNoSenseAndNamesThePlace) {
   EXPECT_TRUE(says(refusal({open({0, 0, 1, 1})}, {.gap_rel = 0}), "gap_rel"));
 }
 
-TEST(RandomClosedCurve, IsTheSameForASeedAndRefusesOthers) {
+TEST(RandomClosedCurve, is_the_same_for_a_seed_and_refuses_others) {
   EXPECT_EQ(random_closed_curve("walk", 3, 100).points, random_closed_curve("walk", 3, 100).points);
   EXPECT_NE(random_closed_curve("walk", 3, 100).points, random_closed_curve("walk", 4, 100).points);
   EXPECT_THROW(random_closed_curve("knot", 3, 100), std::invalid_argument);

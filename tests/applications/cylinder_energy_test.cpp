@@ -9,7 +9,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(CylinderEnergy, GradientsAreThoseOfFiniteDifferences) {
+TEST(CylinderEnergy, gradients_are_those_of_finite_differences) {
   const Positions from = densified(points_of(knot_of_table("3_1").components[0]), 100).points;
   Positions to = from;
   to.row(0) *= -1;
@@ -31,7 +31,7 @@ TEST(CylinderEnergy, GradientsAreThoseOfFiniteDifferences) {
   }
 }
 
-TEST(Separation4, IsTheDistanceOrTheDepth) {
+TEST(Separation4, is_the_distance_or_the_depth) {
   const Triangle4 a{Vec4(-1, -1, 0, 0), Vec4(2, -1, 0, 0), Vec4(-1, 2, 0, 0)};
   for (const double z : {0.5, 2.0}) {
     // Across a, at a distance of z beyond its corner plane.

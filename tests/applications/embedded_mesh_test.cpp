@@ -16,7 +16,7 @@ class Random {
   std::uint64_t state_ = 0;
 };
 
-TEST(AreSeparated, NeverSaysSoOfTrianglesThatMeet) {
+TEST(AreSeparated, never_says_so_of_triangles_that_meet) {
   Random random;
   int meeting = 0;
   for (int k = 0; k < 20000; ++k) {
@@ -35,7 +35,7 @@ TEST(AreSeparated, NeverSaysSoOfTrianglesThatMeet) {
   EXPECT_GT(meeting, 10000);
 }
 
-TEST(AreSeparated, SaysSoOfMostThatAreApart) {
+TEST(AreSeparated, says_so_of_most_that_are_apart) {
   Random random;
   int said = 0;
   for (int k = 0; k < 1000; ++k) {
@@ -48,7 +48,7 @@ TEST(AreSeparated, SaysSoOfMostThatAreApart) {
 }
 
 /// Two faces around a quad and one that stands over it.
-TEST(EmbeddedMesh, AFaceThatFoldsFlatOntoItsNeighbourIsRefused) {
+TEST(EmbeddedMesh, a_face_that_folds_flat_onto_its_neighbour_is_refused) {
   SpanningMesh mesh;
   mesh.x = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {2, 2, 0}};
   mesh.faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};

@@ -56,7 +56,7 @@ int folds(const SpanningMesh& mesh) {
   return count;
 }
 
-TEST(Fair, TheCurvatureTermUnfolds) {
+TEST(Fair, the_curvature_term_unfolds) {
   const Link link = knot_of_table("borromean");
   const SpanningMesh start = spanning_start(link, *best_diagram(link, 60), 0.2);
   const auto faired = [&](double curvature) {
@@ -67,7 +67,7 @@ TEST(Fair, TheCurvatureTermUnfolds) {
   EXPECT_LT(folds(faired(FairOptions().curvature)), folds(faired(0)));
 }
 
-TEST(Fair, BoundariesStayAndMinimalSurfacesAreFound) {
+TEST(Fair, boundaries_stay_and_minimal_surfaces_are_found) {
   SpanningMesh near = tube();
   for (Vec3& p : near.x) p.z() *= 0.2;
   const SpanningMesh mesh = fair(

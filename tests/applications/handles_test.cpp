@@ -24,7 +24,7 @@ double area(const FlatDisc& disc) {
   return sum;
 }
 
-TEST(HandlePlaces, AreInTheRoomiestDiscsAndApart) {
+TEST(HandlePlaces, are_in_the_roomiest_discs_and_apart) {
   const std::vector<FlatDisc> discs{rectangle(1, 1), rectangle(6, 2)};
   const std::vector<HandlePlace> places = handle_places(discs, 9);
   ASSERT_EQ(places.size(), 9U);
@@ -47,7 +47,7 @@ TEST(HandlePlaces, AreInTheRoomiestDiscsAndApart) {
   EXPECT_TRUE(handle_places(discs, 0).empty());
 }
 
-TEST(CutToHoles, GoesAroundAllOfThemOnce) {
+TEST(CutToHoles, goes_around_all_of_them_once) {
   FlatDisc disc = rectangle(6, 2);
   std::vector<FlatDisc> holes;
   double left = area(disc);
@@ -65,7 +65,7 @@ TEST(CutToHoles, GoesAroundAllOfThemOnce) {
   EXPECT_NEAR(area(disc), left, 1e-12);
 }
 
-TEST(AddHandle, IsEmbeddedAndFillsItsHexagonWithGenusOne) {
+TEST(AddHandle, is_embedded_and_fills_its_hexagon_with_genus_one) {
   SpanningMesh mesh;
   for (const Vec2& p : hexagon_of({.disc = 0, .middle = Vec2(1, 2), .radius = 3})) mesh.x.emplace_back(p.x(), p.y(), 0);
   add_handle(mesh, {0, 1, 2, 3, 4, 5}, -Vec3::UnitZ());

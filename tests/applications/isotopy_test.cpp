@@ -65,24 +65,24 @@ std::string refusal(const std::vector<Curve>& start, const std::vector<Curve>& e
   return "";
 }
 
-TEST(PlanarIsotopy, ALetterTurnsIntoItsMirrorImage) {
+TEST(PlanarIsotopy, a_letter_turns_into_its_mirror_image) {
   expect_isotopy({letter()}, {letter(0, -1)});
 }
 
-TEST(PlanarIsotopy, ATriangleTurnsIntoALetterOfMorePoints) {
+TEST(PlanarIsotopy, a_triangle_turns_into_a_letter_of_more_points) {
   expect_isotopy({polygon({0, 0, 3, 0, 0, 4})}, {letter()});
 }
 
-TEST(PlanarIsotopy, ClockwiseCurvesGoTheSameWay) {
+TEST(PlanarIsotopy, clockwise_curves_go_the_same_way) {
   expect_isotopy({polygon({0, 0, 0, 4, 3, 0})}, {polygon({0, 0, 0, 1, 5, 1, 5, 0})});
 }
 
-TEST(PlanarIsotopy, LockedLettersComeApartAndChangePlaces) {
+TEST(PlanarIsotopy, locked_letters_come_apart_and_change_places) {
   expect_isotopy({letter(), letter(1, -1, 0.9)}, {letter(-3), letter(3, -1)});
   expect_isotopy({letter(-3), letter(3)}, {letter(3), letter(-3)});
 }
 
-TEST(IsotopyFrame, CurvesAreSimpleAsTheyAreReadBackFarFromTheOriginToo) {
+TEST(IsotopyFrame, curves_are_simple_as_they_are_read_back_far_from_the_origin_too) {
   const double x = 1e6, far = x + 1e-3;
   const std::vector<Curve> square{polygon({x, x, far, x, far, far, x, far})};
   const Isotopy made = planar_isotopy(square, square);
@@ -95,7 +95,7 @@ TEST(IsotopyFrame, CurvesAreSimpleAsTheyAreReadBackFarFromTheOriginToo) {
   }
 }
 
-TEST(PlanarIsotopy, RefusesWhatCannotBe) {
+TEST(PlanarIsotopy, refuses_what_cannot_be) {
   const Curve square = polygon({0, 0, 1, 0, 1, 1, 0, 1}), backwards = polygon({0, 0, 0, 1, 1, 1, 1, 0});
   EXPECT_NE(refusal({square}, {backwards}).find("runs around the other way"), std::string::npos);
   EXPECT_NE(refusal({square}, {polygon({0, 0, 1, 1, 1, 0, 0, 1})}).find("cross"), std::string::npos);

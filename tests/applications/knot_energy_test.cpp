@@ -14,7 +14,7 @@ Positions knot(const char* name, Index n) {
   return densified(points_of(knot_of_table(name).components[0]), n).points;
 }
 
-TEST(KnotEnergy, GradientIsThatOfFiniteDifferences) {
+TEST(KnotEnergy, gradient_is_that_of_finite_differences) {
   // Resampled coarsely, so that strands are within reach of the barrier.
   for (const char* name : {"goeritz", "3_1", "kinks_6"}) {
     const Positions x = knot(name, 0);
@@ -33,7 +33,7 @@ TEST(KnotEnergy, GradientIsThatOfFiniteDifferences) {
   }
 }
 
-TEST(KnotEnergy, SizePlaceAndDirectionDoNotMatter) {
+TEST(KnotEnergy, size_place_and_direction_do_not_matter) {
   const Positions x = knot("4_1", 150);
   const KnotEnergy energy;
   const double value = energy(x);
@@ -42,7 +42,7 @@ TEST(KnotEnergy, SizePlaceAndDirectionDoNotMatter) {
   EXPECT_NEAR(energy(Positions(Eigen::AngleAxisd(1, Vec3(1, 2, 2) / 3).toRotationMatrix() * x)), value, 1e-9 * value);
 }
 
-TEST(KnotMetric, IsPositive) {
+TEST(KnotMetric, is_positive) {
   const Positions x = knot("3_1", 100);
   const KnotMetric metric(x, KnotEnergy().evenness);
   Positions v = Positions::Zero(3, x.cols());
@@ -53,7 +53,7 @@ TEST(KnotMetric, IsPositive) {
   }
 }
 
-TEST(RelaxKnot, OneKnotComesToRestWithOneEnergy) {
+TEST(RelaxKnot, one_knot_comes_to_rest_with_one_energy) {
   const auto never = [] { return false; };
   const RelaxedKnot a = relax_knot(knot("3_1", 200), {}, never);
   const RelaxedKnot b =

@@ -38,7 +38,7 @@ void expect_isotopy(const KnotIsotopy& made, const Link& start, const Link& end)
     EXPECT_NO_THROW(check_link(knot_isotopy_slice(made, static_cast<double>(k) / cuts))) << k;
 }
 
-TEST(KnotIsotopy, UnknotsBecomeACircle) {
+TEST(KnotIsotopy, unknots_become_a_circle) {
   const Link circle = knot_of_table("circle");
   for (const char* name : {"kinks_1", "kinks_2", "kinks_3", "kinks_4", "kinks_5", "kinks_6", "goeritz", "ochiai"}) {
     SCOPED_TRACE(name);
@@ -47,21 +47,21 @@ TEST(KnotIsotopy, UnknotsBecomeACircle) {
   }
 }
 
-TEST(KnotIsotopy, ATrefoilBecomesItselfDeformed) {
+TEST(KnotIsotopy, a_trefoil_becomes_itself_deformed) {
   const Link trefoil = knot_of_table("3_1"), other = deformed(parse_link("braid 3: -1 -1 -1 -2"));
   const KnotIsotopy made = knot_isotopy(trefoil, other);
   expect_isotopy(made, trefoil, other);
   expect_isotopy(knot_isotopy(other, trefoil), other, trefoil);
 }
 
-TEST(KnotIsotopy, AFigureEightBecomesItsMirrorImage) {
+TEST(KnotIsotopy, a_figure_eight_becomes_its_mirror_image) {
   const Link knot = knot_of_table("4_1"), mirror = mirrored(knot);
   const KnotIsotopy made = knot_isotopy(knot, mirror);
   expect_isotopy(made, knot, mirror);
   EXPECT_NEAR(made.start_energy, made.end_energy, 0.01 * made.start_energy);
 }
 
-TEST(KnotIsotopy, DifferentKnotsNeverDo) {
+TEST(KnotIsotopy, different_knots_never_do) {
   const Link left = knot_of_table("3_1"), right = mirrored(left), circle = knot_of_table("circle");
   const Link eight = knot_of_table("4_1");
   for (const auto& [start, end] :
@@ -84,7 +84,7 @@ TEST(KnotIsotopy, DifferentKnotsNeverDo) {
     }
 }
 
-TEST(KnotIsotopy, OneStrandThroughAnotherIsOneDoublePoint) {
+TEST(KnotIsotopy, one_strand_through_another_is_one_double_point) {
   // A loop whose strand across another one goes down through it, or up.
   const auto loop = [](double height) {
     Link link;
@@ -102,7 +102,7 @@ TEST(KnotIsotopy, OneStrandThroughAnotherIsOneDoublePoint) {
   EXPECT_EQ(down.straight_double_points[0].sign * up.straight_double_points[0].sign, -1);
 }
 
-TEST(KnotIsotopy, DoublePointsOfOppositeSignsAnnihilateEachOther) {
+TEST(KnotIsotopy, double_points_of_opposite_signs_annihilate_each_other) {
   const Link knot = knot_of_table("kinks_2"), circle = knot_of_table("circle");
   KnotIsotopyOptions options;
   options.method = KnotMethod::direct;
@@ -112,14 +112,14 @@ TEST(KnotIsotopy, DoublePointsOfOppositeSignsAnnihilateEachOther) {
   expect_isotopy(made, knot, circle);
 }
 
-TEST(KnotIsotopy, TheSameInputGivesTheSameBytes) {
+TEST(KnotIsotopy, the_same_input_gives_the_same_bytes) {
   const Link knot = knot_of_table("kinks_2"), circle = knot_of_table("circle");
   KnotIsotopy a = knot_isotopy(knot, circle), b = knot_isotopy(knot, circle);
   a.seconds = b.seconds = 0;
   EXPECT_EQ(knot_isotopy_json(a, {}), knot_isotopy_json(b, {}));
 }
 
-TEST(KnotIsotopy, SizeAndPlaceDoNotMatter) {
+TEST(KnotIsotopy, size_and_place_do_not_matter) {
   Link knot = knot_of_table("kinks_2");
   Link circle = knot_of_table("circle");
   for (double& c : knot.components[0]) c = c * 1e-20 + 3e-19;
@@ -127,7 +127,7 @@ TEST(KnotIsotopy, SizeAndPlaceDoNotMatter) {
   expect_isotopy(knot_isotopy(knot, circle), knot, circle);
 }
 
-TEST(KnotIsotopy, StopsWhenToldTo) {
+TEST(KnotIsotopy, stops_when_told_to) {
   const Link knot = knot_of_table("goeritz"), circle = knot_of_table("circle");
   Context context;
   context.cancel();
@@ -159,7 +159,7 @@ std::string refusal_of(const Link& start, const Link& end, const KnotIsotopyOpti
   return "";
 }
 
-TEST(KnotIsotopy, BadInputIsNamed) {
+TEST(KnotIsotopy, bad_input_is_named) {
   const Link circle = knot_of_table("circle");
   EXPECT_NE(refusal_of(parse_link("0 0 0\n2 2 0\n2 0 0\n0 2 0\n"), circle).find("the start: edge 0"),
             std::string::npos);
@@ -181,7 +181,7 @@ TEST(KnotIsotopy, BadInputIsNamed) {
   EXPECT_NE(refusal_of(circle, circle, options).find("points is 5;"), std::string::npos);
 }
 
-TEST(CheckKnotIsotopy, FindsWhatIsWrong) {
+TEST(CheckKnotIsotopy, finds_what_is_wrong) {
   const Link knot = knot_of_table("3_1"), other = deformed(knot);
   const KnotIsotopy made = knot_isotopy(knot, other);
   ASSERT_EQ(made.status, Status::embedded);
@@ -215,7 +215,7 @@ TEST(CheckKnotIsotopy, FindsWhatIsWrong) {
   EXPECT_THROW(parse_knot_isotopy("{\"rings\": []}"), FileError);
 }
 
-TEST(KnotIsotopyPictures, HaveTheirFormats) {
+TEST(KnotIsotopyPictures, have_their_formats) {
   const Link knot = knot_of_table("kinks_1"), circle = knot_of_table("circle");
   const KnotIsotopy made = knot_isotopy(knot, circle);
   EXPECT_TRUE(knot_isotopy_gif(made, 3).starts_with("GIF89a"));

@@ -27,7 +27,7 @@ Positions finger(double height, double reach) {
   return x;
 }
 
-TEST(MovingPolygon, MotionsOfTheWholeAreProven) {
+TEST(MovingPolygon, motions_of_the_whole_are_proven) {
   const Positions x = circle(40, 1, Vec3::Zero());
   EXPECT_TRUE(stays_simple(x, x));
   EXPECT_TRUE(stays_simple(x, circle(40, 3, {5, 6, 7})));
@@ -38,7 +38,7 @@ TEST(MovingPolygon, MotionsOfTheWholeAreProven) {
   EXPECT_FALSE(is_isotopy(x, Positions(-x)));
 }
 
-TEST(MovingPolygon, AStrandThatIsPassedIsFound) {
+TEST(MovingPolygon, a_strand_that_is_passed_is_found) {
   for (const double reach : {0.5, -0.5}) {
     // Short of the strand the finger may go up and down; beyond it, only one way.
     const Positions above = finger(1, reach), below = finger(-1, reach);
@@ -49,7 +49,7 @@ TEST(MovingPolygon, AStrandThatIsPassedIsFound) {
   }
 }
 
-TEST(MovingPolygon, ATouchIsNotProven) {
+TEST(MovingPolygon, a_touch_is_not_proven) {
   EXPECT_FALSE(stays_simple(finger(1, -0.5), finger(0, -0.5)));
   EXPECT_FALSE(is_isotopy(finger(1, -0.5), finger(0, -0.5)));
   EXPECT_TRUE(stays_simple(finger(1, -0.5), finger(1e-6, -0.5)));
@@ -57,7 +57,7 @@ TEST(MovingPolygon, ATouchIsNotProven) {
   EXPECT_FALSE(stays_simple(finger(1, -0.5), finger(1e-6, -0.5), 1e-6));
 }
 
-TEST(MovingPolygon, AnEdgeThatFoldsOverIsFound) {
+TEST(MovingPolygon, an_edge_that_folds_over_is_found) {
   Positions from(3, 5), to;
   from << 0, 4, 4, 2, 0,  //
       0, 0, 4, 6, 4,      //

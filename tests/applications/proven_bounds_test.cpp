@@ -13,7 +13,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(ProvenBounds, TouchingIsExactlyEnough) {
+TEST(ProvenBounds, touching_is_exactly_enough) {
   const std::array<Vec3, 2> a = {Vec3(0, 0, 0), Vec3(1, 0, 0)}, b = {Vec3(0.5, 0.3, -1), Vec3(0.5, 0.3, 1)};
   EXPECT_EQ(proven_clearance(a, b, Vec3(0, -1, 0), 0.3, 0), 1);
   EXPECT_LT(proven_clearance(a, b, Vec3(0, -1, 0), std::nextafter(0.3, 1), 0), 1);
@@ -24,7 +24,7 @@ TEST(ProvenBounds, TouchingIsExactlyEnough) {
   EXPECT_FALSE(is_as_far(Vec3(0, 0, 0), Vec3(3, 4, 0), 2, std::nextafter(3, 4)));
 }
 
-TEST(ProvenBounds, IsTheDistanceOfSegmentsAndNeverMore) {
+TEST(ProvenBounds, is_the_distance_of_segments_and_never_more) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Positions x = random_positions(seed, 4);
     const Closest closest = closest_edge_edge(x.col(0), x.col(1), x.col(2), x.col(3));
@@ -36,7 +36,7 @@ TEST(ProvenBounds, IsTheDistanceOfSegmentsAndNeverMore) {
   }
 }
 
-TEST(ProvenBounds, InTimeOnlyWhatMovesTogetherCounts) {
+TEST(ProvenBounds, in_time_only_what_moves_together_counts) {
   // Two that follow each other on one line, 0.75 apart: the segments lie on each other.
   const std::array<Vec3, 2> a = {Vec3(0.75, 0, 0), Vec3(1.75, 0, 0)}, b = {Vec3(0, 0, 0), Vec3(1, 0, 0)};
   EXPECT_EQ(proven_clearance(a, b, Vec3(1, 0, 0), 0.5, 0.25), 0);
@@ -56,7 +56,7 @@ TEST(ProvenBounds, InTimeOnlyWhatMovesTogetherCounts) {
   }
 }
 
-TEST(ProvenBounds, APolygonTurnsAsItsInscribedCircle) {
+TEST(ProvenBounds, a_polygon_turns_as_its_inscribed_circle) {
   for (const int sides : {4, 6, 30, 1000}) {
     const auto corner = [&](int k) {
       const double angle = 2 * std::numbers::pi * k / sides;

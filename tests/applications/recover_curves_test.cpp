@@ -5,7 +5,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(RecoverCurves, NeverPassesThroughAnything) {
+TEST(RecoverCurves, never_passes_through_anything) {
   // A stick that wants to be on the other side of a wall.
   std::vector<Curve> curves(2);
   curves[0] = {.points = {0, 0, 0, 10}, .closed = false, .fixed = {1, 1}, .name = {}};
@@ -23,7 +23,7 @@ TEST(RecoverCurves, NeverPassesThroughAnything) {
     }
 }
 
-TEST(RecoverCurves, ReachesTargetsThatNothingBars) {
+TEST(RecoverCurves, reaches_targets_that_nothing_bars) {
   const Curve curve{.points = {0, 0, 1, 0, 2, 1, 3, 1}, .closed = false, .fixed = {}, .name = {}};
   const CurveNet net = make_net({&curve, 1}, {}, false);
   CurveState state{net.rest, net.rest, std::vector<std::uint8_t>(net.vertex_count(), 0)};
@@ -32,7 +32,7 @@ TEST(RecoverCurves, ReachesTargetsThatNothingBars) {
   EXPECT_LT((state.x - state.target).colwise().norm().maxCoeff(), 1e-3);
 }
 
-TEST(RecoverCurves, AStrongPullDoesNotPressGapsShut) {
+TEST(RecoverCurves, a_strong_pull_does_not_press_gaps_shut) {
   // Nearly on a wall, and pulled to nearly a diagonal behind it: harder than the barrier of a gap so small can push.
   std::vector<Curve> curves(2);
   curves[0] = {.points = {0, 0, 0, 10}, .closed = false, .fixed = {1, 1}, .name = {}};

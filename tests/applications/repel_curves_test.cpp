@@ -7,7 +7,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(SegmentPenetration, IsTheShortestWayApart) {
+TEST(SegmentPenetration, is_the_shortest_way_apart) {
   // A stick through the middle of another, near its upper end.
   const SegmentPenetration p = segment_penetration({0, 0}, {10, 0}, {5, -3}, {5, 1});
   EXPECT_DOUBLE_EQ(p.depth, 1);
@@ -18,7 +18,7 @@ TEST(SegmentPenetration, IsTheShortestWayApart) {
   EXPECT_LT(segment_penetration({0, 2}, {10, 2}, {5, -3}, {5, 1}).depth, 0);
 }
 
-TEST(SegmentPenetration, GradientIsThatOfTheDepth) {
+TEST(SegmentPenetration, gradient_is_that_of_the_depth) {
   const std::array<Vec2, 4> x{Vec2(0.1, 0.2), Vec2(3.0, 1.1), Vec2(1.4, -1.2), Vec2(1.1, 1.0)};
   const SegmentPenetration p = segment_penetration(x[0], x[1], x[2], x[3]);
   ASSERT_GT(p.depth, 0);
@@ -37,12 +37,12 @@ TEST(SegmentPenetration, GradientIsThatOfTheDepth) {
     }
 }
 
-TEST(SegmentPenetration, PointsAreNoProblem) {
+TEST(SegmentPenetration, points_are_no_problem) {
   const SegmentPenetration p = segment_penetration({0, 0}, {0, 0}, {1, 1}, {1, 1});
   EXPECT_TRUE(std::isfinite(p.depth));
 }
 
-TEST(ContactPairs, WeightIsTheDistanceAlongTheCurve) {
+TEST(ContactPairs, weight_is_the_distance_along_the_curve) {
   Curve square{.points = {0, 0, 1, 0, 1, 1, 0, 1}, .closed = true, .fixed = {}, .name = {}};
   const CurveNet net = make_net({&square, 1}, {}, false);
   const auto pairs = contact_pairs(net, 1.5);
@@ -55,7 +55,7 @@ TEST(ContactPairs, WeightIsTheDistanceAlongTheCurve) {
   }
 }
 
-TEST(RepelCurves, SeparatesAStickThatReachesThroughALine) {
+TEST(RepelCurves, separates_a_stick_that_reaches_through_a_line) {
   std::vector<Curve> curves(2);
   for (int k = 0; k <= 8; ++k) curves[0].points.insert(curves[0].points.end(), {0.5 * k, 0});
   curves[0].fixed = {1, 0, 0, 0, 0, 0, 0, 0, 1};

@@ -45,7 +45,7 @@ void expect_gradient_of(RouteEnergy& energy, const Scene& scene, double toleranc
   expect_gradient(value, scene.x, Eigen::Map<const Positions>(gradient.data(), 3, scene.x.cols()), 1e-7, tolerance);
 }
 
-TEST(RouteEnergy, GradientsAreDifferencesOfTheValue) {
+TEST(RouteEnergy, gradients_are_differences_of_the_value) {
   for (const bool timed : {false, true})
     for (const bool strict : {false, true})
       for (const double turn_from : {0.0, 0.85}) {
@@ -61,7 +61,7 @@ TEST(RouteEnergy, GradientsAreDifferencesOfTheValue) {
       }
 }
 
-TEST(RouteChains, InTimeAllHaveEquallyManyVertices) {
+TEST(RouteChains, in_time_all_have_equally_many_vertices) {
   RoutePlan plan;
   plan.agents = {{"a", 1, {0, 0, 0}, {9, 0, 0}, {{3, 3, 0}}}, {"b", 0.5, {0, 0, 5}, {30, 0, 5}, {}}};
   const std::vector<Legs> ways = {{{Vec3(0, 0, 0), Vec3(3, 3, 0)}, {Vec3(3, 3, 0), Vec3(5, 3, 0), Vec3(9, 0, 0)}},
@@ -80,7 +80,7 @@ TEST(RouteChains, InTimeAllHaveEquallyManyVertices) {
   }
 }
 
-TEST(RouteChains, CornersOfAWayAreVertices) {
+TEST(RouteChains, corners_of_a_way_are_vertices) {
   RoutePlan plan;
   plan.agents = {{"a", 1, {0, 0, 0}, {3.3, 3.3, 0}, {}}};
   const std::vector<Legs> ways = {{{Vec3(0, 0, 0), Vec3(3.3, 0, 0), Vec3(3.3, 3.3, 0)}}};
@@ -95,7 +95,7 @@ TEST(RouteChains, CornersOfAWayAreVertices) {
   EXPECT_FALSE(has_corner(false));
 }
 
-TEST(RouteEnergy, OverlapsCostOrAreInfinite) {
+TEST(RouteEnergy, overlaps_cost_or_are_infinite) {
   const Scene scene(0.5);
   const ObstacleTriangles none((RoutePlan()));
   RouteEnergy energy(scene.chains, none);

@@ -91,7 +91,7 @@ RoutePlan three_crossing() {
   return plan;
 }
 
-TEST(PlanRoutes, AgentsThatMeetInOnePointGoAroundEachOther) {
+TEST(PlanRoutes, agents_that_meet_in_one_point_go_around_each_other) {
   const RoutePlan plan = three_crossing();
   const RoutesResult made = plan_routes(plan);
   expect_routes(plan, made);
@@ -99,14 +99,14 @@ TEST(PlanRoutes, AgentsThatMeetInOnePointGoAroundEachOther) {
   EXPECT_LT(check_routes(plan, made.asked).clearance, 1);
 }
 
-TEST(PlanRoutes, SixAgentsInAPlaneLeaveIt) {
+TEST(PlanRoutes, six_agents_in_a_plane_leave_it) {
   const RoutePlan plan = sample_route_plan("star_6");
   const RoutesResult made = plan_routes(plan);
   expect_routes(plan, made);
   EXPECT_LT(made.found.mean_ratio(), 1.1);
 }
 
-TEST(PlanRoutes, AWallIsGoneAroundAndARoundTurnMade) {
+TEST(PlanRoutes, a_wall_is_gone_around_and_a_round_turn_made) {
   RoutePlan plan;
   plan.agents = {agent("a", 0.3, {-4, 0, 0}, {4, 0, 0}), agent("b", 0.3, {-4, 1, 0}, {4, -1, 0})};
   plan.obstacles = {box("wall", {-0.2, -2, -2}, {0.2, 2, 2})};
@@ -118,7 +118,7 @@ TEST(PlanRoutes, AWallIsGoneAroundAndARoundTurnMade) {
   EXPECT_LT(made.mean_alone_ratio(), 1.1);
 }
 
-TEST(PlanRoutes, AloneAnAgentGoesThroughTheNearestHole) {
+TEST(PlanRoutes, alone_an_agent_goes_through_the_nearest_hole) {
   // A hole for one in the middle of a wall, and another one beside it.
   RoutePlan plan;
   plan.agents = {agent("a", 0.3, {-4, 0, 0.5}, {4, 0, 0.5}), agent("b", 0.3, {-4, 0, -0.5}, {4, 0, -0.5})};
@@ -132,7 +132,7 @@ TEST(PlanRoutes, AloneAnAgentGoesThroughTheNearestHole) {
   EXPECT_GT(std::max(made.found.length[0], made.found.length[1]), 8.4);
 }
 
-TEST(PlanRoutes, AWayThereAndBackTurnsNoTighterThanTheRadius) {
+TEST(PlanRoutes, a_way_there_and_back_turns_no_tighter_than_the_radius) {
   RoutePlan plan;
   plan.agents = {agent("a", 0.5, {0, 0, 0}, {0, 2, 0})};
   plan.agents[0].waypoints = {{6, 0, 0}};
@@ -141,7 +141,7 @@ TEST(PlanRoutes, AWayThereAndBackTurnsNoTighterThanTheRadius) {
   EXPECT_GT(made.found.turn, 0.5);
 }
 
-TEST(PlanRoutes, TheSameAtAnyNumberOfThreads) {
+TEST(PlanRoutes, the_same_at_any_number_of_threads) {
   const RoutePlan plan = three_crossing();
   std::vector<std::string> made;
   for (const std::size_t threads : {1, 4}) {
@@ -153,7 +153,7 @@ TEST(PlanRoutes, TheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(made[0], made[1]);
 }
 
-TEST(PlanRoutes, ObstructionsAreNamedBeforeAnythingRuns) {
+TEST(PlanRoutes, obstructions_are_named_before_anything_runs) {
   RoutePlan plan = three_crossing();
   plan.agents[1].start = {-5, 0.9, 0};
   plan.agents[2].goal = {3, 3, 3};
@@ -167,7 +167,7 @@ TEST(PlanRoutes, ObstructionsAreNamedBeforeAnythingRuns) {
   EXPECT_NE(made.messages[3].find("the goal of 'c' is inside the obstacle 'block'"), std::string::npos);
 }
 
-TEST(PlanRoutes, WhatJustTouchesIsNoObstruction) {
+TEST(PlanRoutes, what_just_touches_is_no_obstruction) {
   RoutePlan plan;
   plan.agents = {agent("a", 0.5, {0, 0, 0}, {9, 0, 0}), agent("b", 0.5, {0, 1, 0}, {9, 1, 0})};
   EXPECT_TRUE(route_obstructions(plan).empty());
@@ -175,7 +175,7 @@ TEST(PlanRoutes, WhatJustTouchesIsNoObstruction) {
   EXPECT_EQ(route_obstructions(plan).size(), 1U);
 }
 
-TEST(PlanRoutes, ARoomIsHollowOnlyWhereThePlanSaysSo) {
+TEST(PlanRoutes, a_room_is_hollow_only_where_the_plan_says_so) {
   RoutePlan plan;
   plan.agents = {agent("a", 0.5, {-2, 0, 0}, {2, 0, 0})};
   plan.obstacles = {box("room", {-4, -4, -4}, {4, 4, 4})};
@@ -184,7 +184,7 @@ TEST(PlanRoutes, ARoomIsHollowOnlyWhereThePlanSaysSo) {
   expect_routes(plan, plan_routes(plan));
 }
 
-TEST(PlanRoutes, AgentsThatAreShutInAreNamed) {
+TEST(PlanRoutes, agents_that_are_shut_in_are_named) {
   RoutePlan plan;
   plan.agents = {agent("a", 0.5, {0, 0, 0}, {9, 0, 0})};
   plan.obstacles = {box("cell", {-2, -2, -2}, {2, 2, 2})};
@@ -214,7 +214,7 @@ double clearance_at_times(const RoutePlan& plan, const std::vector<Route>& route
   return least;
 }
 
-TEST(PlanRoutes, InTimeAgentsChangePlaces) {
+TEST(PlanRoutes, in_time_agents_change_places) {
   RoutePlan plan;
   plan.agents = {agent("a", 0.5, {-5, 0, 0}, {5, 0, 0}), agent("b", 0.4, {5, 0, 0}, {-5, 0, 0}),
                  agent("c", 0.3, {0, 0, 2}, {0, 0, 1})};
@@ -229,7 +229,7 @@ TEST(PlanRoutes, InTimeAgentsChangePlaces) {
   EXPECT_EQ(route_obstructions(plan).size(), 1U);
 }
 
-TEST(PlanRoutes, InTimeOneAfterTheOtherGoesThroughADoor) {
+TEST(PlanRoutes, in_time_one_after_the_other_goes_through_a_door) {
   const RoutePlan plan = sample_route_plan("door");
   const RoutesResult made = plan_routes(plan);
   ASSERT_EQ(made.status, Status::embedded) << route_faults(plan, made.found);
@@ -246,7 +246,7 @@ TEST(PlanRoutes, InTimeOneAfterTheOtherGoesThroughADoor) {
   EXPECT_EQ(parse_route_plan(route_plan_json(plan)).timed, true);
 }
 
-TEST(PlanRoutes, StopsWhenItIsCancelled) {
+TEST(PlanRoutes, stops_when_it_is_cancelled) {
   Context context;
   context.on_progress = [&](const Context::Progress& progress) {
     EXPECT_LE(progress.fraction, 1);
@@ -255,13 +255,13 @@ TEST(PlanRoutes, StopsWhenItIsCancelled) {
   EXPECT_EQ(plan_routes(three_crossing(), {}, &context).status, Status::cancelled);
 }
 
-TEST(PlanRoutes, OptionsOutOfRangeAreRefused) {
+TEST(PlanRoutes, options_out_of_range_are_refused) {
   EXPECT_THROW(plan_routes(three_crossing(), {.spacing = 0}), std::invalid_argument);
   EXPECT_THROW(plan_routes(three_crossing(), {.time_limit_s = -1}), std::invalid_argument);
   EXPECT_THROW(sample_route_plan("stars"), std::invalid_argument);
 }
 
-TEST(CheckRoutes, InTimeOnlyMeetingAtOneTimeCounts) {
+TEST(CheckRoutes, in_time_only_meeting_at_one_time_counts) {
   RoutePlan plan;
   plan.timed = true;
   plan.agents = {agent("a", 0.5, {-2, 0, 0}, {4, 0, 0}), agent("b", 0.5, {0, -4, 0}, {0, 2, 0})};
@@ -275,7 +275,7 @@ TEST(CheckRoutes, InTimeOnlyMeetingAtOneTimeCounts) {
   EXPECT_THROW(check_routes(plan, routes), std::invalid_argument);
 }
 
-TEST(CheckRoutes, FindsWhatIsWrong) {
+TEST(CheckRoutes, finds_what_is_wrong) {
   RoutePlan plan;
   plan.agents = {agent("a", 0.5, {0, 0, 0}, {10, 0, 0}), agent("b", 0.5, {0, 1, 0}, {10, 1, 0})};
   plan.obstacles = {box("wall", {4, -2, 0.5}, {5, 2, 1})};
@@ -305,7 +305,7 @@ TEST(CheckRoutes, FindsWhatIsWrong) {
   EXPECT_FALSE(check_routes(plan, routes).places_kept);
 }
 
-TEST(CheckRoutes, ACircleTurnsAsTightAsItsRadiusAndMeetsItself) {
+TEST(CheckRoutes, a_circle_turns_as_tight_as_its_radius_and_meets_itself) {
   RoutePlan plan;
   plan.agents = {agent("a", 1, {3, 0, 0}, {3, 0, 0.5})};
   const auto helix = [&](double turns) {
@@ -325,7 +325,7 @@ TEST(CheckRoutes, ACircleTurnsAsTightAsItsRadiusAndMeetsItself) {
   EXPECT_EQ(found.self, 0);
 }
 
-TEST(RouteTubes, LieWithinWhatIsCertified) {
+TEST(RouteTubes, lie_within_what_is_certified) {
   RoutePlan plan;
   plan.agents = {agent("a", 0.7, {0, 0, 0}, {3, 1, 0})};
   const std::vector<Route> routes = {{{{0, 0, 0}, {1, 0.2, 0.1}, {2, 0.1, 0.4}, {3, 1, 0}}}};
@@ -351,7 +351,7 @@ std::string refusal(const std::string& text) {
   return "taken";
 }
 
-TEST(CheckPlan, RadiiThatDoublePrecisionDoesNotTellFromNoneAreRefused) {
+TEST(CheckPlan, radii_that_double_precision_does_not_tell_from_none_are_refused) {
   const auto refusal = [](double radius, double place) {
     RoutePlan plan;
     plan.agents = {{.name = "a", .radius = radius, .start = {place, 0, 0}, .goal = {place, place, 0}, .waypoints = {}}};
@@ -372,7 +372,7 @@ TEST(CheckPlan, RadiiThatDoublePrecisionDoesNotTellFromNoneAreRefused) {
   EXPECT_EQ(refusal(1e60, 1e65), "");
 }
 
-TEST(RoutePlanFile, WhatIsWrongIsNamedWithItsPlace) {
+TEST(RoutePlanFile, what_is_wrong_is_named_with_its_place) {
   const auto one = [](const std::string& members) { return "{\"agents\": [{" + members + "}]}"; };
   EXPECT_EQ(refusal("{\"agents\": ["), "byte 13: this is not JSON");
   EXPECT_EQ(refusal("{}"), "the plan: \"agents\" is missing");
@@ -401,7 +401,7 @@ TEST(RoutePlanFile, WhatIsWrongIsNamedWithItsPlace) {
             "obstacles[0].hollow: give true or false");
 }
 
-TEST(RoutePlanFile, PlansAndRoutesComeBackAsTheyWere) {
+TEST(RoutePlanFile, plans_and_routes_come_back_as_they_were) {
   for (const RoutePlanSample& sample : route_plan_samples()) {
     const RoutePlan plan = sample_route_plan(sample.name);
     EXPECT_TRUE(route_obstructions(plan).empty()) << sample.name;
@@ -417,7 +417,7 @@ TEST(RoutePlanFile, PlansAndRoutesComeBackAsTheyWere) {
   EXPECT_THROW(parse_routes("{\"routes\": [{\"name\": \"d\", \"points\": []}]}", plan), FileError);
 }
 
-TEST(RoutesAnimation, HasACircleForEachAgent) {
+TEST(RoutesAnimation, has_a_circle_for_each_agent) {
   const RoutePlan plan = three_crossing();
   std::vector<Route> routes;
   for (const RouteAgent& a : plan.agents) routes.push_back(straight(a));

@@ -26,7 +26,7 @@ SeifertFindings spanned(const Link& link, SeifertOptions options = {}) {
   return check_seifert_surface(seifert_surface(link, options).surface, link);
 }
 
-TEST(KnotTable, PolynomialsOfTheDiagramsHaveTheDeterminantsOfTables) {
+TEST(KnotTable, polynomials_of_the_diagrams_have_the_determinants_of_tables) {
   ASSERT_EQ(knot_table().size(), 249U + 7U);
   for (const KnotEntry& entry : knot_table()) {
     SCOPED_TRACE(entry.name);
@@ -41,7 +41,7 @@ TEST(KnotTable, PolynomialsOfTheDiagramsHaveTheDeterminantsOfTables) {
   EXPECT_THROW(knot_of_table("3_2"), std::invalid_argument);
 }
 
-TEST(Polynomial, DeterminantsOfLinearMatrices) {
+TEST(Polynomial, determinants_of_linear_matrices) {
   LinearMatrix m(2);  // (1 - t, 2; 3 t, 1)
   m.constant = {1, 2, 0, 1};
   m.slope = {-1, 0, 3, 0};
@@ -50,7 +50,7 @@ TEST(Polynomial, DeterminantsOfLinearMatrices) {
   EXPECT_EQ(to_text(without_units({0, 0, 2, -3})), "-2 + 3t");
 }
 
-TEST(ParseLink, PointsCodesAndBraids) {
+TEST(ParseLink, points_codes_and_braids) {
   const Link points = parse_link("# a triangle\n0 0 0\n1, 0, 0\n0\t1 0\n0 0 0\n\n\n0 0 1\n1 0 1\n0 1 1.5\n");
   ASSERT_EQ(points.components.size(), 2U);
   EXPECT_EQ(points.point_count(), 6U);  // the first point was repeated
@@ -59,7 +59,7 @@ TEST(ParseLink, PointsCodesAndBraids) {
   EXPECT_EQ(parse_link("PD[X[4,1,3,2], X[2,3,1,4]]").components.size(), 2U);
 }
 
-TEST(ParseLink, PlanarDiagramsKeepTheirHandedness) {
+TEST(ParseLink, planar_diagrams_keep_their_handedness) {
   // The left-handed trefoil as tables give it: three negative crossings.
   const auto diagram = diagram_of(parse_link("X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]"), Eigen::Matrix3d::Identity());
   ASSERT_TRUE(diagram);
@@ -67,7 +67,7 @@ TEST(ParseLink, PlanarDiagramsKeepTheirHandedness) {
   for (const LinkDiagram::Crossing& c : diagram->crossings) EXPECT_EQ(c.sign, -1);
 }
 
-TEST(ParseLink, SaysWhatIsWrongAndWhere) {
+TEST(ParseLink, says_what_is_wrong_and_where) {
   EXPECT_NE(link_refusal("").find("nothing in it"), std::string::npos);
   EXPECT_EQ(link_refusal("0 0 0\n1 0\n"), "line 2: 2 numbers; a point has three, 'x y z'");
   EXPECT_NE(link_refusal("0 0 0\n1 x 0\n").find("line 2: 'x 0' is not a coordinate"), std::string::npos);
@@ -84,7 +84,7 @@ TEST(ParseLink, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(link_refusal("braid three: 1").find("is not a whole number"), std::string::npos);
 }
 
-TEST(SeifertSurface, KnotsAndLinksAreSpanned) {
+TEST(SeifertSurface, knots_and_links_are_spanned) {
   const std::vector<std::pair<const char*, int>> genus{
       {"unknot", 0}, {"3_1", 1}, {"4_1", 1}, {"hopf", 0}, {"whitehead", 1}, {"t_2_4", 1}, {"t_2_4_reversed", 0}};
   for (const auto& [name, g] : genus) {
@@ -95,14 +95,14 @@ TEST(SeifertSurface, KnotsAndLinksAreSpanned) {
   }
 }
 
-TEST(SeifertSurface, AsBuiltItIsEmbeddedWhateverTheKnot) {
+TEST(SeifertSurface, as_built_it_is_embedded_whatever_the_knot) {
   for (const char* name : {"5_2", "8_19", "10_139", "10_165", "borromean", "t_3_7"}) {
     SCOPED_TRACE(name);
     EXPECT_TRUE(spanned(knot_of_table(name), {.fair = false}).hold());
   }
 }
 
-TEST(SeifertSurface, SticksLatticesAndSplitLinks) {
+TEST(SeifertSurface, sticks_lattices_and_split_links) {
   // A trefoil of six sticks, one on a lattice whose edges lie in line, two triangles apart.
   EXPECT_EQ(
       polynomial_text(
@@ -116,7 +116,7 @@ TEST(SeifertSurface, SticksLatticesAndSplitLinks) {
   EXPECT_TRUE(found.hold());
 }
 
-TEST(SeifertSurface, RandomPolygonsOfFewPointsAreSpanned) {
+TEST(SeifertSurface, random_polygons_of_few_points_are_spanned) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     std::uint64_t state = seed << 32;
@@ -127,7 +127,7 @@ TEST(SeifertSurface, RandomPolygonsOfFewPointsAreSpanned) {
   }
 }
 
-TEST(SeifertSurface, FlatAndSteepKnotsAndPlanarDiagramsAreSpanned) {
+TEST(SeifertSurface, flat_and_steep_knots_and_planar_diagrams_are_spanned) {
   for (const double height : {1e-6, 1e-3, 1e3}) {
     SCOPED_TRACE(height);
     Link link = knot_of_table("4_1");
@@ -140,7 +140,7 @@ TEST(SeifertSurface, FlatAndSteepKnotsAndPlanarDiagramsAreSpanned) {
   EXPECT_THROW(spanned(flat, {.fair = false}), std::invalid_argument);
 }
 
-TEST(SeifertSurface, NearlyFlatPolygonsAreSpannedThoughTheBestViewIsFromTheirSide) {
+TEST(SeifertSurface, nearly_flat_polygons_are_spanned_though_the_best_view_is_from_their_side) {
   std::uint64_t state = 0;
   const auto random = [&] { return splitmix_number(++state * splitmix_step) - 0.5; };
   for (int k = 0; k < 60; ++k) {
@@ -155,7 +155,7 @@ TEST(SeifertSurface, NearlyFlatPolygonsAreSpannedThoughTheBestViewIsFromTheirSid
   }
 }
 
-TEST(SeifertSurface, HandlesRaiseTheGenusAndKeepThePolynomial) {
+TEST(SeifertSurface, handles_raise_the_genus_and_keep_the_polynomial) {
   // The last link has two lowest discs, side by side.
   for (const char* text : {"braid 2: 1 1 1", "braid 3: 1 -2 1 -2 1 -2", "0 0 0\n1 0 0\n0 1 0\n\n5 0 0\n6 0 0\n5 1 0\n"})
     for (const bool fair : {false, true})
@@ -175,7 +175,7 @@ TEST(SeifertSurface, HandlesRaiseTheGenusAndKeepThePolynomial) {
   EXPECT_THROW(seifert_surface(trefoil, {.handles = 101}), std::invalid_argument);
 }
 
-TEST(SeifertSurface, TheTimeLimitHoldsWhileTrianglesAreSplit) {
+TEST(SeifertSurface, the_time_limit_holds_while_triangles_are_split) {
   const Link link = knot_of_table("3_1");
   const SeifertResult made = seifert_surface(link, {.edge_rel = 0.002, .time_limit_s = 0.05});
   EXPECT_EQ(made.status, Status::time_limit);
@@ -183,7 +183,7 @@ TEST(SeifertSurface, TheTimeLimitHoldsWhileTrianglesAreSplit) {
   EXPECT_THROW(seifert_surface(link, {.edge_rel = 1e-4}), std::invalid_argument);
 }
 
-TEST(SeifertSurface, RepeatsItselfAndStopsWhenAsked) {
+TEST(SeifertSurface, repeats_itself_and_stops_when_asked) {
   const Link link = knot_of_table("3_1");
   EXPECT_EQ(seifert_surface(link).surface.positions, seifert_surface(link).surface.positions);
   Context context;
@@ -195,7 +195,7 @@ TEST(SeifertSurface, RepeatsItselfAndStopsWhenAsked) {
   EXPECT_THROW(seifert_surface(link, {.views = 2}), std::invalid_argument);
 }
 
-TEST(CheckSeifertSurface, FindsWhatIsWrong) {
+TEST(CheckSeifertSurface, finds_what_is_wrong) {
   const Link link = knot_of_table("3_1");
   const Surface good = seifert_surface(link, {.fair = false}).surface;
   EXPECT_TRUE(check_seifert_surface(good, link).hold());
@@ -214,7 +214,7 @@ TEST(CheckSeifertSurface, FindsWhatIsWrong) {
   EXPECT_GT(check_seifert_surface(pierced, link).intersecting_pairs, 0U);
 }
 
-TEST(CheckSeifertSurface, AClosedComponentBoundsNothing) {
+TEST(CheckSeifertSurface, a_closed_component_bounds_nothing) {
   const Link split = parse_link("0 0 0\n1 0 0\n0 1 0\n\n5 0 0\n6 0 0\n5 1 0\n");
   Surface surface;
   for (const auto& component : split.components)

@@ -5,7 +5,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(ShrinkCurves, FreesACurveThatMeetsAnother) {
+TEST(ShrinkCurves, frees_a_curve_that_meets_another) {
   std::vector<Curve> curves(2);
   curves[0] = {.points = {0, 0, 4, 0, 4, 4, 0, 4}, .closed = true, .fixed = {1, 1, 1, 1}, .name = {}};
   curves[1] = {.points = {3, 1, 5, 1, 5, 2, 3, 2}, .closed = true, .fixed = {}, .name = {}};

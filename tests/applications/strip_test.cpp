@@ -26,14 +26,14 @@ void expect_annulus(const std::vector<StripTriangle>& strip, Index lower, Index 
   EXPECT_EQ(above.size(), static_cast<std::size_t>(upper));
 }
 
-TEST(Strip, IsAnAnnulus) {
+TEST(Strip, is_an_annulus) {
   expect_annulus(straight_strip(7), 7, 7);
   const std::vector<Index> pieces{1, 4, 2, 3};
   expect_annulus(strip_to_finer(pieces), 4, 10);
   for (const Index first : {0, 3, 9}) expect_annulus(strip_from_finer(pieces, first), 10, 4);
 }
 
-TEST(Strip, AKnotAndItsFinerSelfAreIsotopic) {
+TEST(Strip, a_knot_and_its_finer_self_are_isotopic) {
   const Positions knot = points_of(knot_of_table("4_1").components[0]);
   const DensePolygon dense = densified(knot, 150);
   EXPECT_TRUE(meeting_pairs(knot, dense.points, strip_to_finer(dense.pieces), 1).empty());

@@ -12,7 +12,7 @@ CurveState at_rest(const CurveNet& net) {
   return {net.rest, net.rest, std::vector<std::uint8_t>(net.vertex_count(), 0)};
 }
 
-TEST(SwitchCrossings, CrossingsAtTheEndsOfSegmentsAreInOrder) {
+TEST(SwitchCrossings, crossings_at_the_ends_of_segments_are_in_order) {
   // Three strands pass through about one point; two have a vertex there that is a few units in the last place beside
   // it. They cross so near the ends of segments that the computed places are the ends.
   const double ulp = 0x1p-46;
@@ -32,7 +32,7 @@ TEST(SwitchCrossings, CrossingsAtTheEndsOfSegmentsAreInOrder) {
   EXPECT_LT((state.target.colwise() - middle).cwiseAbs().maxCoeff(), 1.1);
 }
 
-TEST(SwitchCrossings, PointsThatNearlyTouchAreMovedApart) {
+TEST(SwitchCrossings, points_that_nearly_touch_are_moved_apart) {
   // A bow tie, and a tip that is one unit in the last place above a line.
   const std::vector<Curve> curves{
       {.points = {0, 0, 1, 1, 1, 0, 0, 1}, .closed = true, .fixed = {}, .name = {}},

@@ -80,7 +80,7 @@ bool degenerate(const Triangle4& t) {
   return u.squaredNorm() * v.squaredNorm() == u.dot(v) * u.dot(v);  // exact for small integers
 }
 
-TEST(Triangles4, AgreeWithEnumerationOnAFineAndOnACoarseGrid) {
+TEST(Triangles4, agree_with_enumeration_on_a_fine_and_on_a_coarse_grid) {
   Dice dice(1);
   std::array<std::array<int, 2>, 3> counts{};
   for (int round = 0; round < 1500; ++round) {
@@ -108,7 +108,7 @@ TEST(Triangles4, AgreeWithEnumerationOnAFineAndOnACoarseGrid) {
     for (const int some : count) EXPECT_GT(some, 10);
 }
 
-TEST(Triangles4, ALastDigitDecides) {
+TEST(Triangles4, a_last_digit_decides) {
   // A corner of b lies in the plane of a, and by one unit in the last place beside it.
   const Triangle4 a{Vec4(0, 0, 0, 0), Vec4(3, 0, 0, 1), Vec4(0, 3, 1, 0)};
   const Vec4 inside = (a[0] + a[1] + a[2]) / 3;  // (1, 1, 1/3, 1/3): thirds are rounded
@@ -129,7 +129,7 @@ TEST(Triangles4, ALastDigitDecides) {
   EXPECT_FALSE(triangles_meet(a, {inside, b[1], b[2]}, 0));  // rounded beside the triangle
 }
 
-TEST(Triangles4, CrossingsAreSignedAndPlaced) {
+TEST(Triangles4, crossings_are_signed_and_placed) {
   const Triangle4 a{Vec4(-1, -1, 0, 0), Vec4(2, -1, 0, 0), Vec4(-1, 2, 0, 0)};
   const Triangle4 b{Vec4(0, 0, -1, -1), Vec4(0, 0, 2, -1), Vec4(0, 0, -1, 2)};
   EXPECT_TRUE(triangles_meet(a, b, 0));
@@ -140,7 +140,7 @@ TEST(Triangles4, CrossingsAreSignedAndPlaced) {
   EXPECT_LT(crossing_point(a, b).norm(), 1e-15);
 }
 
-TEST(Triangles4, TheNearestPointIsNoFartherThanAnyOther) {
+TEST(Triangles4, the_nearest_point_is_no_farther_than_any_other) {
   Dice dice(2);
   for (int round = 0; round < 500; ++round) {
     std::array<Vec4, 9> points;

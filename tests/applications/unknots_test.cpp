@@ -6,7 +6,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(Unknots, HaveTheAlexanderPolynomialAndTheCrossingsOfTheirs) {
+TEST(Unknots, have_the_alexander_polynomial_and_the_crossings_of_theirs) {
   EXPECT_FALSE(unknot_of_table("3_1"));
   for (const UnknotEntry& entry : unknot_table()) {
     SCOPED_TRACE(entry.name);

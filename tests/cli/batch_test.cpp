@@ -50,7 +50,7 @@ class BatchCli : public ProgramTest {
   std::string in = folder / "in", out = folder / "out", jobs = "2";
 };
 
-TEST_F(BatchCli, RepairsAllBelowAFolderAsFixDoes) {
+TEST_F(BatchCli, repairs_all_below_a_folder_as_fix_does) {
   mesh("a/crossing.obj", crossing);
   mesh("triangle.obj", triangle);
   mesh("b/wrong.obj", "v 0 0 0\nf 1 1 9\n");
@@ -78,7 +78,7 @@ TEST_F(BatchCli, RepairsAllBelowAFolderAsFixDoes) {
   EXPECT_FALSE(fs::exists(out + "/work"));
 }
 
-TEST_F(BatchCli, WhatIsDoneIsNotDoneAgainUnlessSomethingChanges) {
+TEST_F(BatchCli, what_is_done_is_not_done_again_unless_something_changes) {
   mesh("crossing.obj", crossing);
   mesh("triangle.obj", triangle);
   const std::vector<std::string> arguments = worker("");
@@ -106,7 +106,7 @@ TEST_F(BatchCli, WhatIsDoneIsNotDoneAgainUnlessSomethingChanges) {
   expect_calls(2);
 }
 
-TEST_F(BatchCli, AMeshThatKillsItsWorkerIsRecordedAndNotTriedForEver) {
+TEST_F(BatchCli, a_mesh_that_kills_its_worker_is_recorded_and_not_tried_for_ever) {
   mesh("deadly.obj", triangle);
   mesh("crossing.obj", crossing);
   std::vector<std::string> arguments = worker("case $2 in *deadly*) kill -SEGV $$;; esac");
@@ -121,7 +121,7 @@ TEST_F(BatchCli, AMeshThatKillsItsWorkerIsRecordedAndNotTriedForEver) {
   EXPECT_EQ(calls(), 5u);
 }
 
-TEST_F(BatchCli, AWorkerKilledOnceIsStartedAgain) {
+TEST_F(BatchCli, a_worker_killed_once_is_started_again) {
   mesh("crossing.obj", crossing);
   const auto arguments = worker(fmt::format("mkdir '{}' && kill -KILL $$", folder / "was_here"));
   EXPECT_EQ(batch(arguments).exit_code, 0);
@@ -129,7 +129,7 @@ TEST_F(BatchCli, AWorkerKilledOnceIsStartedAgain) {
   EXPECT_EQ(results().at("crossing.obj")["status"], "embedded");
 }
 
-TEST_F(BatchCli, AMeshThatEndsTheBatchWaitsForAllOthersAndIsGivenUp) {
+TEST_F(BatchCli, a_mesh_that_ends_the_batch_waits_for_all_others_and_is_given_up) {
   for (const char* name : {"a.obj", "b.obj", "c.obj"}) mesh(name, crossing);
   mesh("deadly.obj", crossing + "# long\n");  // the largest comes first
   auto arguments = worker("case $2 in *deadly*) kill -KILL $PPID; sleep 1;; esac");
@@ -145,7 +145,7 @@ TEST_F(BatchCli, AMeshThatEndsTheBatchWaitsForAllOthersAndIsGivenUp) {
   EXPECT_EQ(batch(arguments).exit_code, 0);
 }
 
-TEST_F(BatchCli, AnInterruptionKeepsWhatIsDone) {
+TEST_F(BatchCli, an_interruption_keeps_what_is_done) {
   for (int i = 0; i < 6; ++i) mesh(fmt::format("{}.obj", i), crossing);
   const auto slow = worker("sleep 0.2");
   RunOptions interrupted;
@@ -159,7 +159,7 @@ TEST_F(BatchCli, AnInterruptionKeepsWhatIsDone) {
   EXPECT_EQ(results().size(), 6u);
 }
 
-TEST_F(BatchCli, ListsNameMeshesAndTheirResults) {
+TEST_F(BatchCli, lists_name_meshes_and_their_results) {
   mesh("crossing.obj", crossing);
   mesh("other/crossing.obj", triangle);
   in = folder / "list.txt";
@@ -181,7 +181,7 @@ TEST_F(BatchCli, ListsNameMeshesAndTheirResults) {
   EXPECT_TRUE(fs::exists(out + "/fixed/a.obj"));
 }
 
-TEST_F(BatchCli, ABadLineOfAListIsARow) {
+TEST_F(BatchCli, a_bad_line_of_a_list_is_a_row) {
   mesh("good.obj", crossing);
   in = folder / "list.txt";
   const std::string good = folder / "in/good.obj";
@@ -200,7 +200,7 @@ TEST_F(BatchCli, ABadLineOfAListIsARow) {
   EXPECT_EQ(results().at("../x.obj")["status"], "invalid_input");
 }
 
-TEST_F(BatchCli, FoldersThatCannotBeReadAreNamed) {
+TEST_F(BatchCli, folders_that_cannot_be_read_are_named) {
   mesh("good.obj", crossing);
   mesh("locked/bad.obj", crossing);
   fs::permissions(in + "/locked", fs::perms::none);
@@ -217,7 +217,7 @@ TEST_F(BatchCli, FoldersThatCannotBeReadAreNamed) {
   EXPECT_TRUE(contains(all.err, "cannot list the folder: Permission denied")) << all.err;
 }
 
-TEST_F(BatchCli, FilesOfOtherFormatsAreCounted) {
+TEST_F(BatchCli, files_of_other_formats_are_counted) {
   mesh("good.obj", triangle);
   mesh("a/model.fbx", "Kaydara");
   mesh("b/model.fbx", "Kaydara");
@@ -229,7 +229,7 @@ TEST_F(BatchCli, FilesOfOtherFormatsAreCounted) {
       << outcome.err;
 }
 
-TEST_F(BatchCli, AnErrorOfTheSystemIsTriedAgain) {
+TEST_F(BatchCli, an_error_of_the_system_is_tried_again) {
   if (!calls_can_fail) GTEST_SKIP() << "calls cannot be made to fail here";
   mesh("bad.obj", crossing);
   mesh("good.obj", crossing);
@@ -247,7 +247,7 @@ TEST_F(BatchCli, AnErrorOfTheSystemIsTriedAgain) {
   EXPECT_TRUE(contains(again.err, "1 done before")) << again.err;
 }
 
-TEST_F(BatchCli, AnErrorOfTheSystemInTheWorkerIsTriedAgain) {
+TEST_F(BatchCli, an_error_of_the_system_in_the_worker_is_tried_again) {
   if (!calls_can_fail) GTEST_SKIP() << "calls cannot be made to fail here";
   mesh("bad.obj", crossing);
   auto arguments = worker("test -e ran || export LD_PRELOAD=" UNSNARL_FAILING_READS
@@ -259,7 +259,7 @@ TEST_F(BatchCli, AnErrorOfTheSystemInTheWorkerIsTriedAgain) {
   EXPECT_EQ(calls(), 2u);
 }
 
-TEST_F(BatchCli, AWorkerThatIsNoProgramIsNamed) {
+TEST_F(BatchCli, a_worker_that_is_no_program_is_named) {
   mesh("triangle.obj", triangle);
   write(folder / "worker", "no program");
   const Outcome outcome = batch({"--worker", folder / "worker"});
@@ -267,7 +267,7 @@ TEST_F(BatchCli, AWorkerThatIsNoProgramIsNamed) {
   EXPECT_TRUE(contains(outcome.err, "cannot be started; --worker needs a program")) << outcome.err;
 }
 
-TEST_F(BatchCli, CellsOfTablesAreNoFormulas) {
+TEST_F(BatchCli, cells_of_tables_are_no_formulas) {
   const std::vector<std::string> names = {"=1+1.obj", "+1.obj",  "-1.obj", "@SUM(1).obj",
                                           "\t1.obj",  "\r1.obj", "'1.obj"};
   for (const std::string& name : names) mesh(name, triangle);
@@ -280,7 +280,7 @@ TEST_F(BatchCli, CellsOfTablesAreNoFormulas) {
   EXPECT_EQ(results().count("=1+1.obj"), 1u);
 }
 
-TEST_F(BatchCli, PartsAreDisjointAndCompleteAndTheTasksOfSlurm) {
+TEST_F(BatchCli, parts_are_disjoint_and_complete_and_the_tasks_of_slurm) {
   for (int i = 0; i < 5; ++i) mesh(fmt::format("{}.obj", i), crossing);
   const auto slow = worker("");
   const auto part = [&](const char* shard) {
@@ -315,7 +315,7 @@ TEST_F(BatchCli, PartsAreDisjointAndCompleteAndTheTasksOfSlurm) {
   EXPECT_EQ(batch(slow, task).exit_code, 2);
 }
 
-TEST_F(BatchCli, BuffersOfGltfComeAlongAndCount) {
+TEST_F(BatchCli, buffers_of_gltf_come_along_and_count) {
   const auto gltf = [](const std::string& buffer) {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[)"
            R"({"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
@@ -346,7 +346,7 @@ TEST_F(BatchCli, BuffersOfGltfComeAlongAndCount) {
   EXPECT_EQ(calls(), 5u);
 }
 
-TEST_F(BatchCli, ExternalFilesOfGiftiComeAlongAndCount) {
+TEST_F(BatchCli, external_files_of_gifti_come_along_and_count) {
   const auto array = [](const std::string& intent, const std::string& type, int rows) {
     return "<DataArray Intent=\"NIFTI_INTENT_" + intent + "\" DataType=\"NIFTI_TYPE_" + type +
            "\" Dimensionality=\"2\" Dim0=\"" + std::to_string(rows) +
@@ -375,7 +375,7 @@ TEST_F(BatchCli, ExternalFilesOfGiftiComeAlongAndCount) {
   EXPECT_EQ(calls(), 4u);
 }
 
-TEST_F(BatchCli, NamesNeedNotBeUtf8) {
+TEST_F(BatchCli, names_need_not_be_utf8) {
   mesh("\xe9\"<script>.obj", crossing);
   EXPECT_EQ(batch().exit_code, 0);
   EXPECT_TRUE(fs::exists(out + "/fixed/\xe9\"<script>.obj"));
@@ -389,7 +389,7 @@ TEST_F(BatchCli, NamesNeedNotBeUtf8) {
   EXPECT_TRUE(contains(contents(out + "/fixed/\xe9\"<script>.obj"), "v 0 0 0"));
 }
 
-TEST_F(BatchCli, RefusesWhatMakesNoSense) {
+TEST_F(BatchCli, refuses_what_makes_no_sense) {
   mesh("crossing.obj", crossing);
   const auto expect_refusal = [&](const std::vector<std::string>& more, int exit_code, const std::string& words) {
     const Outcome outcome = batch(more);
@@ -409,7 +409,7 @@ TEST_F(BatchCli, RefusesWhatMakesNoSense) {
   in = folder / "in";
 }
 
-TEST_F(BatchCli, ReplacesAndDeletesNothingThatNoBatchHasWritten) {
+TEST_F(BatchCli, replaces_and_deletes_nothing_that_no_batch_has_written) {
   mesh("crossing.obj", crossing);
   for (const char* const name : {"fixed", "reports", "thumbnails", "work"}) {
     const std::string thesis = out + "/" + name + "/0-of-1/thesis.txt";
@@ -428,7 +428,7 @@ TEST_F(BatchCli, ReplacesAndDeletesNothingThatNoBatchHasWritten) {
   EXPECT_EQ(contents(out + "/index.html"), "my page");
 }
 
-TEST_F(BatchCli, ResultsMayGoToTheFolderOfTheMeshes) {
+TEST_F(BatchCli, results_may_go_to_the_folder_of_the_meshes) {
   mesh("crossing.obj", crossing);
   out = in;
   for (int k = 0; k < 2; ++k) {
@@ -438,7 +438,7 @@ TEST_F(BatchCli, ResultsMayGoToTheFolderOfTheMeshes) {
   }
 }
 
-TEST_F(BatchCli, ResultsAreNoMeshesOfTheSameBatch) {
+TEST_F(BatchCli, results_are_no_meshes_of_the_same_batch) {
   mesh("crossing.obj", crossing);
   EXPECT_EQ(batch().exit_code, 0);
   in = out + "/fixed";

@@ -12,7 +12,7 @@ namespace {
 
 using Check = ProgramTest;
 
-TEST_F(Check, CheckCountsAndLocates) {
+TEST_F(Check, check_counts_and_locates) {
   const std::string in = file("in.obj", crossing);
   const Outcome text = run({"check", in, "--pairs", folder / "pairs.csv"});
   EXPECT_EQ(text.exit_code, 1);
@@ -49,7 +49,7 @@ TEST_F(Check, CheckCountsAndLocates) {
   EXPECT_NE(clean.out.find("no self-intersections"), std::string::npos);
 }
 
-TEST_F(Check, PartsThatOptionsCanNameAreListedWithTheirSizes) {
+TEST_F(Check, parts_that_options_can_name_are_listed_with_their_sizes) {
   const std::string in = file("in.obj",
                               "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 2\nv 2 1 2\n"
                               "o sheet\ng flat lower\nusemtl red\nf 1 2 3\no blade\ng upright\nf 4 5 6\n");
@@ -77,7 +77,7 @@ TEST_F(Check, PartsThatOptionsCanNameAreListedWithTheirSizes) {
   EXPECT_NE(long_list.find("more groups (--json lists all)"), std::string::npos) << long_list;
 }
 
-TEST_F(Check, OnePairIsNoPairs) {
+TEST_F(Check, one_pair_is_no_pairs) {
   // A folded pair of faces with a common edge, and a face far away.
   const std::string in = file("in.obj",
                               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.9 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\n"
@@ -87,14 +87,14 @@ TEST_F(Check, OnePairIsNoPairs) {
   EXPECT_NE(text.find("1 pair of faces intersects: 2 faces in 1 component;"), std::string::npos) << text;
 }
 
-TEST_F(Check, CheckForTheGoalDisjointSeesNoOthers) {
+TEST_F(Check, check_for_the_goal_disjoint_sees_no_others) {
   // Two faces of one fan pass through each other at their common vertex only.
   const std::string in = file("in.obj", "v 0 0 0\nv 2 -1 0\nv 2 1 0\nv 2 0 -1\nv 2 0 1\nf 1 2 3\nf 1 4 5\n");
   EXPECT_EQ(run({"check", in}).exit_code, 1);
   EXPECT_EQ(run({"check", in, "--goal", "disjoint"}).exit_code, 0);
 }
 
-TEST_F(Check, WeldDecidesWhatTouchingMeans) {
+TEST_F(Check, weld_decides_what_touching_means) {
   // Two triangles with a common side, written with corners of their own.
   const std::string in = file("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 0\nv 1 0 0\nv 1 1 1\nf 1 2 3\nf 4 5 6\n");
   EXPECT_EQ(run({"check", in}).exit_code, 0);
@@ -116,7 +116,7 @@ std::string bundle(int count) {
   return obj;
 }
 
-TEST_F(Check, MemoryDoesNotFollowTheNumberOfPairs) {
+TEST_F(Check, memory_does_not_follow_the_number_of_pairs) {
   if (!memory_can_be_limited) GTEST_SKIP() << "the sanitizer needs all addresses";
   constexpr int count = 3000;
   const std::string in = file("in.obj", bundle(count));
@@ -126,7 +126,7 @@ TEST_F(Check, MemoryDoesNotFollowTheNumberOfPairs) {
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["pairs"]["total"], count * (count - 1) / 2);
 }
 
-TEST_F(Check, LimitsOfTimeAndMemoryExitWith5) {
+TEST_F(Check, limits_of_time_and_memory_exit_with5) {
   const std::string in = file("in.obj", bundle(1000)), table = folder / "pairs.csv";
   expect_refusal({"check", in, "--time-limit", "0.001"}, 5, "raise --time-limit");
   if (!memory_can_be_limited) return;

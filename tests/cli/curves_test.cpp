@@ -19,7 +19,7 @@ class Curves : public ::testing::Test {
   }
 };
 
-TEST_F(Curves, ADrawingIsOpenedAndAllElseKept) {
+TEST_F(Curves, a_drawing_is_opened_and_all_else_kept) {
   write(in,
         "<!-- kept --><svg xmlns=\"http://www.w3.org/2000/svg\">\n<g transform=\"rotate(7)\"><circle id=\"a\" r=\"10\" "
         "class=\"k\"/></g>\n<circle cx=\"12\" r=\"9\"/><path d=\"M 90 90 c 1 0 1 1 0 1\"/></svg>\n");
@@ -43,7 +43,7 @@ TEST_F(Curves, ADrawingIsOpenedAndAllElseKept) {
   EXPECT_EQ(contents(again), text);
 }
 
-TEST_F(Curves, StreamsAndSamples) {
+TEST_F(Curves, streams_and_samples) {
   const Outcome sample = run({"sample", "curve_spiral", "--set", "seed=3", "--set", "points=300", "-o", "-"});
   ASSERT_EQ(sample.exit_code, 0) << sample.err;
   const std::vector<std::string> arguments{"curves", "-", "--format", "json", "-o", "-"};
@@ -55,7 +55,7 @@ TEST_F(Curves, StreamsAndSamples) {
   EXPECT_EQ(document.curves()[0].size(), 300U);
 }
 
-TEST_F(Curves, AnEndOnAnotherCurveIsOnItInTheFileToo) {
+TEST_F(Curves, an_end_on_another_curve_is_on_it_in_the_file_too) {
   const std::string json = folder / "in.json", result = folder / "out.json";
   write(json, R"({"curves": [{"points": [[0.1, 0.2], [7.123456789123, 1.987654321987]]},
       {"points": [[3.6117283945615, 1.0938271609935], [3.3, 5.1], [6.6, 5.2], [2.9, 5.3]]},
@@ -68,7 +68,7 @@ TEST_F(Curves, AnEndOnAnotherCurveIsOnItInTheFileToo) {
   EXPECT_EQ(oracle::count_crossings(curves, {{{{0, 1}, {1, 0}}}}), 0U);
 }
 
-TEST_F(Curves, FixedCurvesThatCrossExitWith7) {
+TEST_F(Curves, fixed_curves_that_cross_exit_with7) {
   const std::string json = folder / "in.json", result = folder / "out.json";
   write(json,
         "{\"curves\": [{\"name\": \"a\", \"points\": [[0, 0], [9, 9]]}, {\"points\": [[0, 9], [9, 0]]},\n"
@@ -80,7 +80,7 @@ TEST_F(Curves, FixedCurvesThatCrossExitWith7) {
   EXPECT_EQ(crossings_of(result), 1U);
 }
 
-TEST_F(Curves, LeftCrossingsExitWith1AndWriteNothing) {
+TEST_F(Curves, left_crossings_exit_with1_and_write_nothing) {
   const std::string json = folder / "in.json", result = folder / "out.json";
   write(json, "{\"curves\": [{\"points\": [[0, 0], [9, 9]]}, {\"points\": [[0, 9], [4, 6], [9, 0]]}]}");
   const Outcome outcome = run({"curves", json, "-o", result, "--fix-ends"});
@@ -91,13 +91,13 @@ TEST_F(Curves, LeftCrossingsExitWith1AndWriteNothing) {
   EXPECT_TRUE(fs::exists(result));
 }
 
-TEST_F(Curves, ATimeLimitExitsWith5) {
+TEST_F(Curves, a_time_limit_exits_with5) {
   const std::string json = folder / "in.json";
   ASSERT_EQ(run({"sample", "curve_noise", "--set", "points=2000", "-o", json}).exit_code, 0);
   EXPECT_EQ(run({"curves", json, "-o", folder / "out.json", "--time-limit", "0.000001"}).exit_code, 5);
 }
 
-TEST_F(Curves, WhatMakesNoSenseIsRefusedAndThePlaceNamed) {
+TEST_F(Curves, what_makes_no_sense_is_refused_and_the_place_named) {
   write(in, "<svg>\n<path id=\"p\" d=\"M0 0 L oops\"/></svg>");
   const Outcome data = run({"curves", in, "-o", out});
   EXPECT_EQ(data.exit_code, 3);

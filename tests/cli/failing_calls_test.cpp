@@ -99,19 +99,19 @@ std::string tetrahedra(double shift) {
       shift, shift + 4, shift + 1.2, shift + 2.6, shift + 2.5, shift + 2.4);
 }
 
-TEST_F(FailingCalls, LeaveAllFilesOfASceneNewOrAllOld) {
+TEST_F(FailingCalls, leave_all_files_of_a_scene_new_or_all_old) {
   for (int i = 0; i < 3; ++i) file(fmt::format("s{}.obj", i), tetrahedra(9 * i));
   // The third file is new.
   expect_all_or_none({"fix", folder / "s0.obj", folder / "s1.obj", folder / "s2.obj", "-o", folder / "out"}, "out",
                      {{"s0.obj", "old 0"}, {"s1.obj", "old 1"}});
 }
 
-TEST_F(FailingCalls, LeaveBothFilesOfAGltfInPlaceNewOrOld) {
+TEST_F(FailingCalls, leave_both_files_of_a_gltf_in_place_new_or_old) {
   expect_all_or_none({"fix", folder / "in/g.gltf", "--in-place"}, "in",
                      {{"g.gltf", gltf("data/a.bin")}, {"data/a.bin", buffer()}});
 }
 
-TEST_F(FailingCalls, AMeshWhoseReportOrPictureFailsIsNotReplaced) {
+TEST_F(FailingCalls, a_mesh_whose_report_or_picture_fails_is_not_replaced) {
   const std::string in = file("in.obj", crossing), out = file("out.obj", "precious");
   for (const auto& [option, name] :
        {std::pair("--report", "r.json"), {"--picture", "p.png"}, {"--highlight", "h.ply"}, {"--record", "c.json"}}) {
@@ -126,7 +126,7 @@ TEST_F(FailingCalls, AMeshWhoseReportOrPictureFailsIsNotReplaced) {
   }
 }
 
-TEST_F(FailingCalls, ASurfaceWhoseReportFailsIsNotReplaced) {
+TEST_F(FailingCalls, a_surface_whose_report_fails_is_not_replaced) {
   const std::string knot = file("k.xyz", "0 0 0\n1 0 0\n0 1 0\n"), out = file("out.obj", "precious");
   const std::string curves = file("c.json", R"({"curves": [{"closed": true, "points": [[0, 0], [9, 0], [0, 9]]}]})"),
                     drawn = file("drawn.json", "precious");
@@ -139,7 +139,7 @@ TEST_F(FailingCalls, ASurfaceWhoseReportFailsIsNotReplaced) {
   EXPECT_EQ(contents(drawn), "precious");
 }
 
-TEST_F(FailingCalls, WhatAKillBetweenTwoMovesLeavesIsSaid) {
+TEST_F(FailingCalls, what_a_kill_between_two_moves_leaves_is_said) {
   // docs/promises.md: the files that are not new are old, and the old files are in the hidden folder.
   for (int i = 0; i < 3; ++i) file(fmt::format("s{}.obj", i), tetrahedra(9 * i));
   put("out", {{"s0.obj", "old 0"}, {"s1.obj", "old 1"}, {"s2.obj", "old 2"}});
@@ -156,7 +156,7 @@ TEST_F(FailingCalls, WhatAKillBetweenTwoMovesLeavesIsSaid) {
   EXPECT_EQ(kept, 3u);
 }
 
-TEST_F(FailingCalls, AMountPointIsRefusedBeforeTheWork) {
+TEST_F(FailingCalls, a_mount_point_is_refused_before_the_work) {
   for (int i = 0; i < 3; ++i) file(fmt::format("s{}.obj", i), tetrahedra(9 * i));
   put("out", {{"s0.obj", "old 0"}, {"s1.obj", "old 1"}, {"s2.obj", "old 2"}});
   const std::string mounted = file("mounted", "mounted"), target = folder / "out/s1.obj";

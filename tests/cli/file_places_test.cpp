@@ -36,7 +36,7 @@ class FilePlaces : public ProgramTest {
   }
 };
 
-TEST_F(FilePlaces, ABufferBesideTheResultBelongsToIt) {
+TEST_F(FilePlaces, a_buffer_beside_the_result_belongs_to_it) {
   const std::string one = mesh("one", 1), two = mesh("two", 2);
   fs::create_directory(folder / "out");
   const std::string first = folder / "out/one.gltf";
@@ -70,7 +70,7 @@ std::string gifti(const std::string& data, std::size_t first_byte = 0) {
       data, first_byte);
 }
 
-TEST_F(FilePlaces, AGiftiGetsExternalFilesOfItsOwn) {
+TEST_F(FilePlaces, a_gifti_gets_external_files_of_its_own) {
   const std::string points = buffer(1), other = buffer(0.125F), both = points + other;
   write(folder / "both.dat", both);
   const std::string one = file("one.gii", gifti("both.dat")), two = file("two.gii", gifti("both.dat", 288));
@@ -118,7 +118,7 @@ TEST_F(FilePlaces, AGiftiGetsExternalFilesOfItsOwn) {
   EXPECT_EQ(pairs_in(two), 0u);
 }
 
-TEST_F(FilePlaces, NothingIsLeftWhereAnExternalFileCannotBeWritten) {
+TEST_F(FilePlaces, nothing_is_left_where_an_external_file_cannot_be_written) {
   write(folder / "points.dat", buffer(1));
   const std::string in = file("in.gii", gifti("points.dat"));
   fs::create_directories(folder / "out.gii.data/x");
@@ -126,7 +126,7 @@ TEST_F(FilePlaces, NothingIsLeftWhereAnExternalFileCannotBeWritten) {
   EXPECT_FALSE(fs::exists(folder / "out.gii"));
 }
 
-TEST_F(FilePlaces, NoCommandOverwritesWhatItReads) {
+TEST_F(FilePlaces, no_command_overwrites_what_it_reads) {
   const std::string in = folder / "in.obj", out = folder / "out.obj", ids = folder / "ids.txt";
   write(in, tetrahedron(0));
   write(ids, "0\n");
@@ -147,7 +147,7 @@ TEST_F(FilePlaces, NoCommandOverwritesWhatItReads) {
   expect_refusal({"curves", curves, "-o", folder / "c.json", "--report", curves}, "the input and --report");
 }
 
-TEST_F(FilePlaces, AFrameDoesNotOverwriteAnotherFrameThroughALink) {
+TEST_F(FilePlaces, a_frame_does_not_overwrite_another_frame_through_a_link) {
   for (const char* name : {"a", "b", "out"}) fs::create_directory(folder / name);
   write(folder / "a/f0.obj", tetrahedron(0));
   write(folder / "b/f1.obj", tetrahedron(0.125));
@@ -156,7 +156,7 @@ TEST_F(FilePlaces, AFrameDoesNotOverwriteAnotherFrameThroughALink) {
                  "one of the frames and a repaired frame are the same");
 }
 
-TEST_F(FilePlaces, EveryPlaceIsTestedBeforeTheWork) {
+TEST_F(FilePlaces, every_place_is_tested_before_the_work) {
   const std::string in = folder / "in.obj", out = folder / "out.obj";
   write(in, tetrahedron(0));
   for (const auto& [option, name] : {std::pair("--report", "none/file"),
@@ -168,7 +168,7 @@ TEST_F(FilePlaces, EveryPlaceIsTestedBeforeTheWork) {
   expect_refusal({"seifert", folder / "k.xyz", "-o", out, "--report", folder / "none/file"}, "cannot create files", 4);
 }
 
-TEST_F(FilePlaces, ABufferInASubfolderGetsOneBesideTheResult) {
+TEST_F(FilePlaces, a_buffer_in_a_subfolder_gets_one_beside_the_result) {
   fs::create_directories(folder / "in/data/deeper");
   fs::create_directory(folder / "out");
   std::string text = gltf(1);
@@ -191,7 +191,7 @@ TEST_F(FilePlaces, ABufferInASubfolderGetsOneBesideTheResult) {
   expect_refusal({"fix", in, "-o", folder / "third/g.gltf"}, "leads out of the folder", 4);
 }
 
-TEST_F(FilePlaces, NoHiddenFilesAreMadeThatAFileNames) {
+TEST_F(FilePlaces, no_hidden_files_are_made_that_a_file_names) {
   fs::create_directories(folder / "in/.git/hooks");
   fs::create_directory(folder / "out");
   write(folder / "in/.git/hooks/scene", buffer(1));
@@ -201,7 +201,7 @@ TEST_F(FilePlaces, NoHiddenFilesAreMadeThatAFileNames) {
                  4);
 }
 
-TEST_F(FilePlaces, NoPlaceIsAnInternalError) {
+TEST_F(FilePlaces, no_place_is_an_internal_error) {
   const std::string in = file("in.obj", tetrahedron(0)), long_name(300, 'a');
   const Folder elsewhere;
   fs::create_symlink("loop.obj", elsewhere / "loop.obj");
@@ -223,7 +223,7 @@ TEST_F(FilePlaces, NoPlaceIsAnInternalError) {
   }
 }
 
-TEST_F(FilePlaces, AFolderThatOneMayNotEnterIsNoInternalError) {
+TEST_F(FilePlaces, a_folder_that_one_may_not_enter_is_no_internal_error) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can give its rights up";
   const std::string in = file("in.obj", tetrahedron(0));
   for (const char* name : {"locked", "open"}) fs::create_directory(folder / name);

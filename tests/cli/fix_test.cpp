@@ -12,7 +12,7 @@ namespace {
 
 using Fix = ProgramTest;
 
-TEST_F(Fix, CleanInputComesBackByteForByte) {
+TEST_F(Fix, clean_input_comes_back_byte_for_byte) {
   const std::string in = file("in.obj", clean_cube), out = folder / "out.obj";
   const Outcome outcome = run({"fix", in, "-o", out});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -21,7 +21,7 @@ TEST_F(Fix, CleanInputComesBackByteForByte) {
   EXPECT_EQ(contents(in), clean_cube);
 }
 
-TEST_F(Fix, RepairsAndKeepsEverythingElse) {
+TEST_F(Fix, repairs_and_keeps_everything_else) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
   EXPECT_GT(pairs_in(in), 0u);
   const Outcome outcome = run({"fix", in, "-o", out});
@@ -35,7 +35,7 @@ TEST_F(Fix, RepairsAndKeepsEverythingElse) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "out.obj"}));
 }
 
-TEST_F(Fix, QuietSaysNothing) {
+TEST_F(Fix, quiet_says_nothing) {
   const std::string in = file("in.obj", crossing);
   const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--quiet"});
   EXPECT_EQ(outcome.exit_code, 0);
@@ -45,7 +45,7 @@ TEST_F(Fix, QuietSaysNothing) {
   EXPECT_EQ(check.out + check.err, "");
 }
 
-TEST_F(Fix, InPlaceReplacesTheInputAndKeepsItsPermissions) {
+TEST_F(Fix, in_place_replaces_the_input_and_keeps_its_permissions) {
   const std::string in = file("in.obj", crossing);
   fs::permissions(in, fs::perms(0640));
   fs::create_symlink("in.obj", folder / "link.obj");
@@ -56,7 +56,7 @@ TEST_F(Fix, InPlaceReplacesTheInputAndKeepsItsPermissions) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "link.obj"}));
 }
 
-TEST_F(Fix, OutputIsReplacedOnlyBySuccess) {
+TEST_F(Fix, output_is_replaced_only_by_success) {
   const std::string in = file("in.obj", hopeless), out = file("out.obj", "precious");
   const std::string ids = file("ids.txt", "1 2 3 4 5\n");
   const Outcome outcome = run({"fix", in, "-o", out, "--fix-vertices", ids});
@@ -65,7 +65,7 @@ TEST_F(Fix, OutputIsReplacedOnlyBySuccess) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "out.obj", "ids.txt"}));
 }
 
-TEST_F(Fix, NothingBetterThanTheInputExitsWith1) {
+TEST_F(Fix, nothing_better_than_the_input_exits_with1) {
   const std::string in = file("in.obj", hopeless), out = folder / "out.obj", report = folder / "report.json";
   const std::string ids = file("ids.txt", "1 2 # those around it\n3 4 5\n");
   const Outcome outcome = run({"fix", in, "-o", out, "--fix-vertices", ids, "--report", report});
@@ -80,7 +80,7 @@ TEST_F(Fix, NothingBetterThanTheInputExitsWith1) {
   EXPECT_LE(pairs_in(out), pairs_in(in));
 }
 
-TEST_F(Fix, BothDiagonalsOfQuadsCountWhereAskedFor) {
+TEST_F(Fix, both_diagonals_of_quads_count_where_asked_for) {
   const std::string in = file("in.obj",
                               "v 0 0 0\nv 4 0 1\nv 4 4 0\nv 0 4 1\nv 1.9 2.1 0.6\nv 2.2 1.9 0.5\nv 2 2 3\n"
                               "f 1 2 3 4\nf 5 6 7\n");
@@ -92,7 +92,7 @@ TEST_F(Fix, BothDiagonalsOfQuadsCountWhereAskedFor) {
   EXPECT_EQ(run({"check", out, "--both-diagonals"}).exit_code, 0);
 }
 
-TEST_F(Fix, ObstructedExitsWith7) {
+TEST_F(Fix, obstructed_exits_with7) {
   const std::string bottle = sample("klein_bottle"), out = folder / "out.obj";
   const Outcome refused = run({"fix", bottle, "-o", out});
   EXPECT_EQ(refused.exit_code, 7) << refused.err;
@@ -116,7 +116,7 @@ TEST_F(Fix, ObstructedExitsWith7) {
   EXPECT_EQ(pairs_in(out), pairs_in(bottle));
 }
 
-TEST_F(Fix, TheFirstObstructionsOfAKindAreNamed) {
+TEST_F(Fix, the_first_obstructions_of_a_kind_are_named) {
   std::ostringstream doubled;
   for (int i = 0; i < 7; ++i) doubled << "v " << 9 * i << " 0 0\nv " << 9 * i << " 4 0\nv " << 9 * i << " 0 4\n";
   for (int i = 0; i < 7; ++i)
@@ -129,7 +129,7 @@ TEST_F(Fix, TheFirstObstructionsOfAKindAreNamed) {
   EXPECT_NE(outcome.err.find("not repaired: 2 more of this kind (duplicate_faces)"), std::string::npos);
 }
 
-TEST_F(Fix, Float32ThatIsAskedForIsBinding) {
+TEST_F(Fix, float32_that_is_asked_for_is_binding) {
   const std::string in = file("near.obj",
                               "v 0 0 1\nv 1 0 1\nv 0 1 1\nv 0 0 1.0000000001\nv 1 0 1.0000000001\n"
                               "v 0 1 1.0000000001\nf 1 2 3\nf 4 5 6\n");
@@ -140,7 +140,7 @@ TEST_F(Fix, Float32ThatIsAskedForIsBinding) {
   EXPECT_NE(asked.err.find("in 32 bits, as asked for"), std::string::npos) << asked.err;
 }
 
-TEST_F(Fix, StandardInputAndOutput) {
+TEST_F(Fix, standard_input_and_output) {
   const Outcome outcome = run({"fix", "-", "--format", "obj", "-o", "-"}, {.input = crossing});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   write(folder / "out.obj", outcome.out);
@@ -150,7 +150,7 @@ TEST_F(Fix, StandardInputAndOutput) {
   EXPECT_EQ(run({"fix", "-", "--format", "obj", "-o", "-", "--report", "-"}, {.input = crossing}).exit_code, 2);
 }
 
-TEST_F(Fix, SameBytesAtAnyThreadCount) {
+TEST_F(Fix, same_bytes_at_any_thread_count) {
   const std::string in = file("in.obj", crossing);
   std::set<std::string> results;
   for (const char* threads : {"1", "2", "4"}) results.insert(run({"fix", in, "-o", "-", "--threads", threads}).out);

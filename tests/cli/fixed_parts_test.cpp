@@ -13,7 +13,7 @@ namespace {
 
 using PartsHeld = ProgramTest;
 
-TEST_F(PartsHeld, FixedVerticesKeepTheirTokens) {
+TEST_F(PartsHeld, fixed_vertices_keep_their_tokens) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
   EXPECT_EQ(run({"fix", in, "-o", out, "--fix-vertices", file("ids.txt", "0 1 2 3")}).exit_code, 0);
   const std::string fixed_part = crossing.substr(0, crossing.find("v 1.2"));
@@ -21,7 +21,7 @@ TEST_F(PartsHeld, FixedVerticesKeepTheirTokens) {
   EXPECT_EQ(pairs_in(out), 0u);
 }
 
-TEST_F(PartsHeld, NamedPartsStayWhereTheyAre) {
+TEST_F(PartsHeld, named_parts_stay_where_they_are) {
   // The same crossing, with names for its two bodies.
   std::string named = crossing;
   named.insert(named.find("f 1 3 2"), "o rock\ng anchor heavy\nusemtl stone\n");
@@ -59,7 +59,7 @@ TEST_F(PartsHeld, NamedPartsStayWhereTheyAre) {
   EXPECT_EQ(run({"fix", in, "-o", out, "--fix-boundary"}).exit_code, 0);
 }
 
-TEST_F(PartsHeld, BoundariesCanBeHeld) {
+TEST_F(PartsHeld, boundaries_can_be_held) {
   const std::string in = sample("crossing_tubes", {"--resolution", "16"}), out = folder / "out.obj";
   EXPECT_EQ(run({"fix", in, "-o", out, "--fix-boundary", "--report", folder / "r.json"}).exit_code, 0);
   const Surface before = Document::read(in).surface(), after = Document::read(out).surface();
@@ -75,7 +75,7 @@ TEST_F(PartsHeld, BoundariesCanBeHeld) {
   EXPECT_GT(count, 0u);
 }
 
-TEST_F(PartsHeld, AnAnchorHoldsAndTheSceneGivesWay) {
+TEST_F(PartsHeld, an_anchor_holds_and_the_scene_gives_way) {
   const std::string in = sample("anchored_balls", {"--resolution", "16"}), out = folder / "out.obj";
   const Outcome outcome = run({"fix", in, "-o", out, "--fix-group", "anchor"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -86,7 +86,7 @@ TEST_F(PartsHeld, AnAnchorHoldsAndTheSceneGivesWay) {
   EXPECT_EQ(contents(out).substr(0, end), text.substr(0, end));
 }
 
-TEST_F(PartsHeld, WhatLiesOutsideOfARegionIsLeftAndSaid) {
+TEST_F(PartsHeld, what_lies_outside_of_a_region_is_left_and_said) {
   // Two crossings; only one of them is to be repaired.
   const Document one = Document::parse(crossing, Format::obj);
   std::string two = crossing;
@@ -111,7 +111,7 @@ TEST_F(PartsHeld, WhatLiesOutsideOfARegionIsLeftAndSaid) {
   EXPECT_NE(outcome.err.find("inside parts that you told unsnarl to keep fixed"), std::string::npos) << outcome.err;
 }
 
-TEST_F(PartsHeld, EachComponentByItself) {
+TEST_F(PartsHeld, each_component_by_itself) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
   const Outcome outcome = run({"fix", in, "-o", out, "--each"});
   EXPECT_EQ(outcome.exit_code, 7) << outcome.err;

@@ -28,7 +28,7 @@ std::string freesurfer_surface(const Surface& surface, bool last_is_missing = fa
   return bytes;
 }
 
-TEST_F(FreeSurfer, FreeSurferSurfacesNeedNoExtension) {
+TEST_F(FreeSurfer, free_surfer_surfaces_need_no_extension) {
   Surface surface = Document::parse(crossing, Format::obj).surface();
   const std::string bytes = freesurfer_surface(surface);
   const std::string in = file("lh.pial_of_somebody", bytes), out = folder / "lh.pial.fixed";
@@ -42,7 +42,7 @@ TEST_F(FreeSurfer, FreeSurferSurfacesNeedNoExtension) {
   expect_refusal({"fix", file("lh.pial", bytes), "-o", folder / "lh.obj"}, 2, "name it *.pial");
 }
 
-TEST_F(FreeSurfer, MissingVerticesAreReportedAndStay) {
+TEST_F(FreeSurfer, missing_vertices_are_reported_and_stay) {
   Surface surface = Document::parse(crossing + "v 9 9 9\nv 0 0 0\nf 4 9 10\n", Format::obj).surface();
   const std::string bytes = freesurfer_surface(surface, true);
   const std::string in = file("lh.white", bytes), out = folder / "out.white";

@@ -40,7 +40,7 @@ std::string repeated(const std::string& part, std::size_t size) {
   return bytes;
 }
 
-TEST_F(Hostile, AbsurdCountsAreRefusedAndAskForNoMemory) {
+TEST_F(Hostile, absurd_counts_are_refused_and_ask_for_no_memory) {
   const std::string ply_header =
       "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n"
       "property float z\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
@@ -96,7 +96,7 @@ TEST_F(Hostile, AbsurdCountsAreRefusedAndAskForNoMemory) {
   }
 }
 
-TEST_F(Hostile, GarbageIsRefusedInEveryFormat) {
+TEST_F(Hostile, garbage_is_refused_in_every_format) {
   constexpr std::size_t size = 1 << 18;
   const std::vector<std::string> kinds = {random_bytes(size),         std::string(size, '\0'),   std::string(size, ' '),
                                           std::string(size, '\n'),    std::string(size, '9'),    repeated("f 1 ", size),
@@ -113,7 +113,7 @@ TEST_F(Hostile, GarbageIsRefusedInEveryFormat) {
   }
 }
 
-TEST_F(Hostile, WhatIsNestedTooDeeplyIsRefused) {
+TEST_F(Hostile, what_is_nested_too_deeply_is_refused) {
   const auto nested = [](const std::string& before, const std::string& open, const std::string& close,
                          const std::string& after) {
     constexpr std::size_t depth = 200000;
@@ -148,7 +148,7 @@ TEST_F(Hostile, WhatIsNestedTooDeeplyIsRefused) {
   EXPECT_LT(batch.exit_code, 70) << batch.err;
 }
 
-TEST_F(Hostile, FoldersAndPipesAsInputsAreRefusedAtOnce) {
+TEST_F(Hostile, folders_and_pipes_as_inputs_are_refused_at_once) {
   for (const char* format : formats) {
     const std::string directory = folder / ("d." + std::string(format)), pipe = folder / ("p." + std::string(format));
     fs::create_directory(directory);
@@ -160,7 +160,7 @@ TEST_F(Hostile, FoldersAndPipesAsInputsAreRefusedAtOnce) {
   }
 }
 
-TEST_F(Hostile, APipeAsOutputGetsTheWholeFile) {
+TEST_F(Hostile, a_pipe_as_output_gets_the_whole_file) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
   EXPECT_EQ(run({"fix", in, "-o", out}).exit_code, 0);
   const std::string pipe = folder / "pipe.obj";
@@ -172,7 +172,7 @@ TEST_F(Hostile, APipeAsOutputGetsTheWholeFile) {
   EXPECT_EQ(received, contents(out));
 }
 
-TEST_F(Hostile, AFullDiskKeepsTheOldFile) {
+TEST_F(Hostile, a_full_disk_keeps_the_old_file) {
   const std::string in = file("in.obj", crossing), out = file("out.obj", "precious");
   const auto before = folder.names();
   for (const rlim_t room : {0, 1, 100}) {
@@ -183,7 +183,7 @@ TEST_F(Hostile, AFullDiskKeepsTheOldFile) {
   }
 }
 
-TEST_F(Hostile, WriteProtectionIsRespected) {
+TEST_F(Hostile, write_protection_is_respected) {
   const std::string in = file("in.obj", crossing), out = file("out.obj", "precious");
   const RunOptions options = {.in_child = respect_permissions};
   fs::permissions(out, fs::perms(0444));
@@ -205,7 +205,7 @@ TEST_F(Hostile, WriteProtectionIsRespected) {
   EXPECT_EQ(contents(secret), crossing);
 }
 
-TEST_F(Hostile, StandardStreamsMayBeClosedOrFull) {
+TEST_F(Hostile, standard_streams_may_be_closed_or_full) {
   const std::string in = file("in.obj", crossing), expected = folder / "expected.obj", out = folder / "out.obj";
   ASSERT_EQ(run({"fix", in, "-o", expected}).exit_code, 0);
   const std::array<std::function<void()>, 4> streams = {
@@ -221,7 +221,7 @@ TEST_F(Hostile, StandardStreamsMayBeClosedOrFull) {
   EXPECT_EQ(contents(in), crossing);
 }
 
-TEST_F(Hostile, KilledAtAnyMomentTheTargetIsTheOldFileOrTheNewOne) {
+TEST_F(Hostile, killed_at_any_moment_the_target_is_the_old_file_or_the_new_one) {
   const std::string in = sample("folded_sheet", {"--resolution", "20"}), out = folder / "out.obj",
                     report = folder / "report.json";
   const std::string input = contents(in), old = "precious";
@@ -252,7 +252,7 @@ TEST_F(Hostile, KilledAtAnyMomentTheTargetIsTheOldFileOrTheNewOne) {
   }
 }
 
-TEST_F(Hostile, TooLittleMemoryIsNoCrash) {
+TEST_F(Hostile, too_little_memory_is_no_crash) {
   if (!memory_can_be_limited) GTEST_SKIP() << "the sanitizer needs all addresses";
   const std::string in = sample("folded_sheet", {"--resolution", "30"}), out = file("out.obj", "precious");
   const auto before = folder.names();

@@ -11,7 +11,7 @@ namespace {
 
 using Limits = ProgramTest;
 
-TEST_F(Limits, TheTimeLimitLeavesNothingUnlessAsked) {
+TEST_F(Limits, the_time_limit_leaves_nothing_unless_asked) {
   const std::string in = sample("crumpled_sheet", {"--resolution", "60"}), out = folder / "out.obj";
   const std::size_t before = pairs_in(in);
   // From hardly begun to nearly done; which phase each ends in depends on the machine, what must hold does not.
@@ -30,7 +30,7 @@ TEST_F(Limits, TheTimeLimitLeavesNothingUnlessAsked) {
   }
 }
 
-TEST_F(Limits, TheMemoryLimitIsKept) {
+TEST_F(Limits, the_memory_limit_is_kept) {
   if (!memory_can_be_limited) GTEST_SKIP() << "the sanitizer needs all addresses";
   const std::string in = sample("crumpled_sheet", {"--resolution", "250"}), out = folder / "out.obj";
   for (const double limit : {72.0, 30.0}) {
@@ -49,7 +49,7 @@ TEST_F(Limits, TheMemoryLimitIsKept) {
   }
 }
 
-TEST_F(Limits, LimitsExitWith5) {
+TEST_F(Limits, limits_exit_with5) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
   for (const std::vector<std::string>& limit : {std::vector<std::string>{"--max-displacement", "1e-9"},
                                                 {"--max-displacement", "1e-8", "--absolute"},
@@ -66,7 +66,7 @@ TEST_F(Limits, LimitsExitWith5) {
   }
 }
 
-TEST_F(Limits, InterruptedExitsWith6AndLeavesNothing) {
+TEST_F(Limits, interrupted_exits_with6_and_leaves_nothing) {
   // Large enough to be at work when the signal comes, which is sent at the first sign of progress.
   const std::string in = sample("crumpled_sheet", {"--resolution", "200"}), out = folder / "out.obj";
   const auto before = folder.names();
@@ -103,7 +103,7 @@ std::string sheets_among_huge_triangles() {
          faces + fmt::format("f {} {} {}\nf {} {} {}\n", next, next + 1, next + 2, next + 3, next + 4, next + 5);
 }
 
-TEST_F(Limits, WhatIsFarBelowTheLargestNumbersTakesNoMoreThanItIsWorth) {
+TEST_F(Limits, what_is_far_below_the_largest_numbers_takes_no_more_than_it_is_worth) {
   if (!memory_can_be_limited) GTEST_SKIP() << "the sanitizer needs all addresses";
   const std::string in = file("in.obj", sheets_among_huge_triangles()), out = folder / "out.obj";
   const Outcome outcome = run({"fix", in, "-o", out, "--memory-limit", "150", "--threads", "1"});

@@ -90,7 +90,7 @@ class Partial : public ProgramTest {
   }
 };
 
-TEST_F(Partial, WhatWasReachedIsKeptBesideTheTarget) {
+TEST_F(Partial, what_was_reached_is_kept_beside_the_target) {
   const std::string in = file("in.obj", obj(shallow_and_deep)), out = file("out.obj", "precious");
   const std::string partial = folder / "out.partial.obj", report = folder / "r.json";
   const Outcome outcome = run(limited({"fix", in, "-o", out, "--report", report}));
@@ -104,7 +104,7 @@ TEST_F(Partial, WhatWasReachedIsKeptBesideTheTarget) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "out.obj", "out.partial.obj", "r.json"}));
 }
 
-TEST_F(Partial, NothingIsKeptThatNobodyWants) {
+TEST_F(Partial, nothing_is_kept_that_nobody_wants) {
   const std::string in = file("in.obj", obj(shallow_and_deep)), out = folder / "out.obj";
   EXPECT_EQ(run(limited({"fix", in, "-o", out, "--no-partial"})).exit_code, 5);
   EXPECT_EQ(run(limited({"fix", in, "-o", "-"})).out, "");
@@ -119,7 +119,7 @@ TEST_F(Partial, NothingIsKeptThatNobodyWants) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj"}));
 }
 
-TEST_F(Partial, ACallThatGoesOnFromItKeepsBoth) {
+TEST_F(Partial, a_call_that_goes_on_from_it_keeps_both) {
   const std::string in = file("in.obj", obj({0.02, 0.15, 0.6})), out = folder / "out.obj";
   ASSERT_EQ(run(limited({"fix", in, "-o", out}, "0.03")).exit_code, 5);
   const std::string first = folder / "out.partial.obj", second = folder / "out.partial.2.obj";
@@ -130,14 +130,14 @@ TEST_F(Partial, ACallThatGoesOnFromItKeepsBoth) {
   EXPECT_EQ(run({"fix", second, "-o", out}).exit_code, 0);
 }
 
-TEST_F(Partial, InPlaceTheInputStays) {
+TEST_F(Partial, in_place_the_input_stays) {
   const std::string in = file("in.obj", obj(shallow_and_deep)), before = contents(in);
   EXPECT_EQ(run(limited({"fix", in, "--in-place"})).exit_code, 5);
   EXPECT_EQ(contents(in), before);
   expect_better(folder / "in.partial.obj", in);
 }
 
-TEST_F(Partial, AGltfKeepsItsBuffers) {
+TEST_F(Partial, a_gltf_keeps_its_buffers) {
   fs::create_directory(folder / "data");
   const std::string in = file("g.gltf", gltf("data/a%20b.bin", 48)),
                     data = file("data/a b.bin", buffer(shallow_and_deep));
@@ -150,7 +150,7 @@ TEST_F(Partial, AGltfKeepsItsBuffers) {
   EXPECT_TRUE(fs::exists(folder / "data/a b.partial.bin"));
 }
 
-TEST_F(Partial, OfASceneAllFilesAreKept) {
+TEST_F(Partial, of_a_scene_all_files_are_kept) {
   const std::string a = file("a.obj", obj(shallow_and_deep)), b = file("b.obj", obj({0.4, 0.02}));
   // The second lies elsewhere.
   write(b, "v 90 0 0\nv 91 0 0\nv 90 1 0\nf 1 2 3\n");
@@ -161,7 +161,7 @@ TEST_F(Partial, OfASceneAllFilesAreKept) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"a.obj", "b.obj", "out", "out/a.partial.obj", "out/b.partial.obj"}));
 }
 
-TEST_F(Partial, OfASequenceEachFrameIsKept) {
+TEST_F(Partial, of_a_sequence_each_frame_is_kept) {
   const std::string a = file("f0.obj", obj(shallow_and_deep)), b = file("f1.obj", obj({0.02, 0.02}));
   const Outcome outcome =
       run(limited({"fix", "--sequence", a, b, "-o", folder / "out", "--report", folder / "r.json"}));
@@ -175,7 +175,7 @@ TEST_F(Partial, OfASequenceEachFrameIsKept) {
   EXPECT_TRUE(list[1]["partial"].is_null());
 }
 
-TEST_F(Partial, InABatchItIsBesideTheResultsAndInTheTable) {
+TEST_F(Partial, in_a_batch_it_is_beside_the_results_and_in_the_table) {
   fs::create_directory(folder / "in");
   file("in/a.obj", obj(shallow_and_deep));
   file("in/a.partial.obj", obj({0.02}));  // another mesh, whose result has the name
@@ -192,7 +192,7 @@ TEST_F(Partial, InABatchItIsBesideTheResultsAndInTheTable) {
   EXPECT_TRUE(contains(contents(folder / "out/results.csv"), "fixed/g.gltf/g.partial.gltf"));
 }
 
-TEST_F(Partial, AnInterruptedCallKeepsWhatItReached) {
+TEST_F(Partial, an_interrupted_call_keeps_what_it_reached) {
   // The first overlap of all is resolved long before the others are.
   const std::string sheet = sample("crumpled_sheet", {"--resolution", "160"}), out = folder / "out.obj";
   std::string in = folder / "in.obj";
@@ -207,7 +207,7 @@ TEST_F(Partial, AnInterruptedCallKeepsWhatItReached) {
   expect_better(folder / "out.partial.obj", in);
 }
 
-TEST_F(Partial, AnEditSavedMeanwhileIsLeftAndTheResultKept) {
+TEST_F(Partial, an_edit_saved_meanwhile_is_left_and_the_result_kept) {
   // Saved when the program tests its places, after it has read the input.
   const std::string in = file("in.obj", crossing);
   // With the option first, run() does not take what is edited for a result and judge it.

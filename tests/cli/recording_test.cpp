@@ -18,7 +18,7 @@ class Recordings : public ::testing::Test {
   std::string in = folder / "in.obj";
 };
 
-TEST_F(Recordings, AreJsonAndChangeNoByteOfTheResult) {
+TEST_F(Recordings, are_json_and_change_no_byte_of_the_result) {
   const std::string recording = folder / "recording.json", report = folder / "report.json";
   ASSERT_EQ(run({"fix", in, "-o", folder / "out.obj", "--record", recording, "--report", report, "-q"}).exit_code, 0);
   EXPECT_EQ(contents(folder / "out.obj"), contents(folder / "plain.obj"));
@@ -31,7 +31,7 @@ TEST_F(Recordings, AreJsonAndChangeNoByteOfTheResult) {
   EXPECT_EQ(nlohmann::json::parse(contents(report))["history"], json["history"]);
 }
 
-TEST_F(Recordings, BecomeAGif) {
+TEST_F(Recordings, become_a_gif) {
   const std::string gif = folder / "out.gif";
   ASSERT_EQ(run({"fix", in, "-o", folder / "out.obj", "--picture", gif, "-q"}).exit_code, 0);
   EXPECT_EQ(contents(folder / "out.obj"), contents(folder / "plain.obj"));
@@ -39,7 +39,7 @@ TEST_F(Recordings, BecomeAGif) {
   EXPECT_TRUE(contents(gif).ends_with('\x3b'));
 }
 
-TEST_F(Recordings, BecomeAFolderOfPng) {
+TEST_F(Recordings, become_a_folder_of_png) {
   ASSERT_EQ(run({"fix", in, "-o", folder / "out.obj", "--picture", folder / "frames/", "-q"}).exit_code, 0);
   std::size_t pictures = 0;
   for (const std::string& name : folder.names()) {
@@ -52,7 +52,7 @@ TEST_F(Recordings, BecomeAFolderOfPng) {
   EXPECT_TRUE(fs::exists(folder / "frames/0000.png"));
 }
 
-TEST_F(Recordings, DoNotMixWithOtherFiles) {
+TEST_F(Recordings, do_not_mix_with_other_files) {
   fs::create_directory(folder / "frames");
   write(folder / "frames/mine.txt", "");
   for (const std::string& path : {folder / "frames", folder / "frames/"}) {

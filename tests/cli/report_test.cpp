@@ -15,7 +15,7 @@ namespace {
 
 using Report = ProgramTest;
 
-TEST_F(Report, ReportPictureAndHighlight) {
+TEST_F(Report, report_picture_and_highlight) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
   const Outcome outcome = run({"fix", in, "-o", out, "--report", folder / "r.json", "--picture", folder / "p.png",
                                "--highlight", folder / "h.ply"});
@@ -39,7 +39,7 @@ TEST_F(Report, ReportPictureAndHighlight) {
   EXPECT_NE(contents(folder / "h.ply").find("property double displacement"), std::string::npos);
 }
 
-TEST_F(Report, ReportsNameFilesWithAnyBytes) {
+TEST_F(Report, reports_name_files_with_any_bytes) {
   const std::string in = file("in\xff.obj", crossing);
   EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj", "--report", folder / "r.json"}).exit_code, 0);
   const std::string path = nlohmann::json::parse(contents(folder / "r.json"))["input"]["path"];
@@ -47,7 +47,7 @@ TEST_F(Report, ReportsNameFilesWithAnyBytes) {
   EXPECT_EQ(run({"check", in, "--json"}).exit_code, 1);
 }
 
-TEST_F(Report, AnInputThatIsRefusedHasOneToo) {
+TEST_F(Report, an_input_that_is_refused_has_one_too) {
   const std::string in = file("in.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), report = folder / "r.json";
   const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--report", report});
   EXPECT_EQ(outcome.exit_code, 3);
@@ -61,7 +61,7 @@ TEST_F(Report, AnInputThatIsRefusedHasOneToo) {
   EXPECT_EQ(contents(folder / "scene.bin"), "precious");
 }
 
-TEST_F(Report, NotesAreThoseThatWerePrinted) {
+TEST_F(Report, notes_are_those_that_were_printed) {
   const std::string in = file("in.obj", crossing), report = folder / "r.json";
   const std::string note = "--recompute-normals: in.obj has no vertex normals to update";
   const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--recompute-normals", "--report", report});
@@ -70,7 +70,7 @@ TEST_F(Report, NotesAreThoseThatWerePrinted) {
   EXPECT_EQ(nlohmann::json::parse(contents(report))["input"]["notes"], nlohmann::json({note}));
 }
 
-TEST_F(Report, EveryFileThatWasWrittenIsNamed) {
+TEST_F(Report, every_file_that_was_written_is_named) {
   const std::string in = file("in.obj", crossing);
   std::vector<std::string> call = {"fix", in, "-o", folder / "out.obj"};
   for (const auto& [option, name] :
@@ -82,7 +82,7 @@ TEST_F(Report, EveryFileThatWasWrittenIsNamed) {
     EXPECT_TRUE(contains(outcome.err, "wrote " + (folder / name) + "\n")) << outcome.err;
 }
 
-TEST_F(Report, ProgressCountsFacesAsTheReportDoes) {
+TEST_F(Report, progress_counts_faces_as_the_report_does) {
   const std::string in = sample("crossing_tubes");  // quads, some of which both triangles of are hit
   const Outcome fixed = run({"fix", in, "-o", folder / "out.obj", "--progress", "json", "--report", folder / "r.json"});
   ASSERT_EQ(fixed.exit_code, 0) << fixed.err;
@@ -93,7 +93,7 @@ TEST_F(Report, ProgressCountsFacesAsTheReportDoes) {
             nlohmann::json::parse(contents(folder / "r.json"))["before"]["total"]);
 }
 
-TEST_F(Report, ProgressIsShownWhileTheInputIsRead) {
+TEST_F(Report, progress_is_shown_while_the_input_is_read) {
   const std::string slow = folder / "slow";
   ASSERT_EQ(::mkfifo(slow.c_str(), 0600), 0);
   RunOptions options;
@@ -113,7 +113,7 @@ TEST_F(Report, ProgressIsShownWhileTheInputIsRead) {
   EXPECT_LE(first["seconds"], 1.2);
 }
 
-TEST_F(Report, ALogGetsALineEachHalfMinute) {
+TEST_F(Report, a_log_gets_a_line_each_half_minute) {
   const std::string slow = folder / "slow";
   ASSERT_EQ(::mkfifo(slow.c_str(), 0600), 0);
   const auto from_slow = [&] { ::dup2(::open(slow.c_str(), O_RDONLY), STDIN_FILENO); };
@@ -128,7 +128,7 @@ TEST_F(Report, ALogGetsALineEachHalfMinute) {
   EXPECT_TRUE(std::regex_match(outcome.err, std::regex("read +0 % +3[0-9] s\n"))) << outcome.err;
 }
 
-TEST_F(Report, ProgressAsJsonNeverGoesBack) {
+TEST_F(Report, progress_as_json_never_goes_back) {
   const std::string in = file("in.obj", crossing);
   const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--progress", "json", "--quiet"});
   EXPECT_EQ(outcome.exit_code, 0);

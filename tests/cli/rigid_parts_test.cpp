@@ -19,7 +19,7 @@ std::string named_crossing() {
   return named;
 }
 
-TEST_F(RigidParts, MoveAsBodiesHoweverNamed) {
+TEST_F(RigidParts, move_as_bodies_however_named) {
   const std::string in = file("in.obj", named_crossing()), out = folder / "out.obj";
   for (const std::vector<std::string>& option : {std::vector<std::string>{"--rigid", "fish"},
                                                  {"--rigid-object", "fish"},
@@ -57,7 +57,7 @@ TEST_F(RigidParts, MoveAsBodiesHoweverNamed) {
   }
 }
 
-TEST_F(RigidParts, FilesOfASceneAndPartsOfAGlb) {
+TEST_F(RigidParts, files_of_a_scene_and_parts_of_a_glb) {
   const std::string one =
       file("one.obj", crossing.substr(0, crossing.find("v 1.2")) + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   const std::string two = file("two.obj",
@@ -77,7 +77,7 @@ TEST_F(RigidParts, FilesOfASceneAndPartsOfAGlb) {
     EXPECT_LT(part["residual_rel"], 4e-7) << part["name"];
 }
 
-TEST_F(RigidParts, WhatMakesNoSenseIsRefused) {
+TEST_F(RigidParts, what_makes_no_sense_is_refused) {
   const std::string in = file("in.obj", named_crossing()), out = folder / "out.obj";
   expect_refusal({"fix", in, "-o", out, "--rigid", "bird"}, 2, "there is no object 'bird'; there are: 'rock', 'fish'");
   expect_refusal({"fix", in, "-o", out, "--rigid", "fish", "--fix-object", "fish"}, 2,
@@ -90,7 +90,7 @@ TEST_F(RigidParts, WhatMakesNoSenseIsRefused) {
                  "--rigid does not work with --sequence");
 }
 
-TEST_F(RigidParts, WhatIntersectsWithinOneIsNamed) {
+TEST_F(RigidParts, what_intersects_within_one_is_named) {
   const std::string out = folder / "out.obj";
   // As one part.
   const std::string together = file("one.obj", "o all\n" + crossing);

@@ -13,7 +13,7 @@ const std::string crossing_agents =
         "obstacles": [{"file": "wall.off"}]})";
 const std::string wall_of_plan = "OFF\n4 1 0\n-1 -1 2\n1 -1 2\n1 1 2\n-1 1 2\n4 0 1 2 3\n";
 
-TEST(RoutesCommand, RoutesAreWrittenAndCertified) {
+TEST(RoutesCommand, routes_are_written_and_certified) {
   Folder folder;
   write(folder / "plan.json", crossing_agents);
   write(folder / "wall.off", wall_of_plan);
@@ -37,7 +37,7 @@ TEST(RoutesCommand, RoutesAreWrittenAndCertified) {
   EXPECT_TRUE(contains(straight.err, "the routes of 'a' and 'b' have 0 of the distance that they need"));
 }
 
-TEST(RoutesCommand, FreeTubesAreUntangledAsSurfaces) {
+TEST(RoutesCommand, free_tubes_are_untangled_as_surfaces) {
   Folder folder;
   write(folder / "plan.json", crossing_agents);
   write(folder / "wall.off", wall_of_plan);
@@ -48,7 +48,7 @@ TEST(RoutesCommand, FreeTubesAreUntangledAsSurfaces) {
             (std::set<std::string>{"plan.json", "wall.off", "out", "out/tubes.obj", "out/picture.png"}));
 }
 
-TEST(RoutesCommand, ErrorsAndObstructions) {
+TEST(RoutesCommand, errors_and_obstructions) {
   Folder folder;
   const auto said = [&](const std::string& plan, int exit_code) {
     const Outcome outcome = run({"routes", "-", "-o", folder / "out"}, {.input = plan});

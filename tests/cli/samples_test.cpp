@@ -10,7 +10,7 @@ namespace {
 
 using Samples = ProgramTest;
 
-TEST_F(Samples, SamplesAreListedDescribedAndWritten) {
+TEST_F(Samples, samples_are_listed_described_and_written) {
   const Outcome list = run({"sample", "--list"});
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_NE(list.out.find("whitney_umbrella"), std::string::npos);
@@ -33,7 +33,7 @@ TEST_F(Samples, SamplesAreListedDescribedAndWritten) {
   EXPECT_EQ(run({"sample", "book", "-o", "-"}).out, contents(obj));
 }
 
-TEST_F(Samples, UnknownOnesAreNamedBeforeAllElse) {
+TEST_F(Samples, unknown_ones_are_named_before_all_else) {
   for (const auto& [name, meant] : {std::pair("crossing_tube", "crossing_tubes"),
                                     {"curve_stars", "curve_star"},
                                     {"knot_99_1", "knot_9_1"},
@@ -46,7 +46,7 @@ TEST_F(Samples, UnknownOnesAreNamedBeforeAllElse) {
   expect_refusal({"sample", "nope", "--list"}, 2, "there is no sample 'nope'. 'unsnarl sample --list'");
 }
 
-TEST_F(Samples, KnotsAndPlansHaveOneFormatAndNothingToSet) {
+TEST_F(Samples, knots_and_plans_have_one_format_and_nothing_to_set) {
   expect_refusal({"sample", "knot_3_1", "-o", folder / "k.obj"}, 2, "k.obj: name it *.xyz, or add --format xyz");
   expect_refusal({"sample", "knot_3_1", "-o", folder / "k.xyz", "--format", "off"}, 2, "knots are written as xyz");
   expect_refusal({"sample", "routes_ring", "-o", folder / "r.obj"}, 2, "r.obj: name it *.json, or add --format json");
@@ -58,7 +58,7 @@ TEST_F(Samples, KnotsAndPlansHaveOneFormatAndNothingToSet) {
 }
 
 // run() verifies every file that was written.
-TEST_F(Samples, EverySampleEndsAsTheExitCodeSays) {
+TEST_F(Samples, every_sample_ends_as_the_exit_code_says) {
   std::istringstream list(run({"sample", "--list"}).out);
   int samples = 0, left = 0;
   for (std::string line; std::getline(list, line);) {

@@ -35,7 +35,7 @@ class SceneFiles : public ProgramTest {
   const std::string a = folder / "a.obj", b = folder / "b.ply", c = folder / "c.off", out = folder / "new/out";
 };
 
-TEST_F(SceneFiles, WhatCrossesBetweenFilesIsResolvedAndEachIsWrittenBack) {
+TEST_F(SceneFiles, what_crosses_between_files_is_resolved_and_each_is_written_back) {
   const Outcome outcome = run({"fix", a, b, c, "-o", out, "--report", folder / "r.json"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("between a.obj and b.ply: "), std::string::npos) << outcome.err;
@@ -61,7 +61,7 @@ TEST_F(SceneFiles, WhatCrossesBetweenFilesIsResolvedAndEachIsWrittenBack) {
   EXPECT_EQ(report["between_files"][0]["after"]["total"], 0);
 }
 
-TEST_F(SceneFiles, FilesCanBeHeldOrAloneBeMoved) {
+TEST_F(SceneFiles, files_can_be_held_or_alone_be_moved) {
   for (const auto& [option, name, held, moved] :
        {std::tuple{"--fix-file", "a.obj", "a.obj", "b.ply"}, {"--only-file", "a.obj", "b.ply", "a.obj"}}) {
     const Outcome outcome = run({"fix", a, b, "-o", out, option, name});
@@ -74,7 +74,7 @@ TEST_F(SceneFiles, FilesCanBeHeldOrAloneBeMoved) {
   expect_refusal({"fix", a, b, "-o", out, "--fix-file", "d.obj"}, 2, "there are: 'a.obj', 'b.ply'");
 }
 
-TEST_F(SceneFiles, TheInnerFileGoesIn) {
+TEST_F(SceneFiles, the_inner_file_goes_in) {
   const std::string report = folder / "r.json";
   // The small one has only its tip in the large one: without --nested it is pushed out.
   const auto nested = [&](const std::vector<std::string>& more) {
@@ -122,7 +122,7 @@ TEST_F(SceneFiles, TheInnerFileGoesIn) {
   EXPECT_TRUE(contains(Json::parse(contents(report))["input"]["notes"][0], "--nested: "));
 }
 
-TEST_F(SceneFiles, NestingThatMakesNoSenseIsRefused) {
+TEST_F(SceneFiles, nesting_that_makes_no_sense_is_refused) {
   write(folder / "open.off", "OFF\n3 1 0\n0 0 9\n1 0 9\n0 1 9\n3 0 1 2\n");
   expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply,d.obj"}, 2, "there are: 'a.obj', 'b.ply'");
   expect_refusal({"fix", a, b, "-o", out, "--nested", "b.ply"}, 2, "two surfaces");
@@ -137,7 +137,7 @@ TEST_F(SceneFiles, NestingThatMakesNoSenseIsRefused) {
   expect_refusal({"fix", a, "-o", out, "--nested", "b.ply,a.obj"}, 2, "no object 'b.ply'");
 }
 
-TEST_F(SceneFiles, ObjectsOfOneFileAreNested) {
+TEST_F(SceneFiles, objects_of_one_file_are_nested) {
   const std::string in = sample("crossing_shells", {"--resolution", "24"});
   const Outcome outcome = run({"fix", in, "-o", folder / "fixed.obj", "--nested", "inner,outer,skin"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -145,7 +145,7 @@ TEST_F(SceneFiles, ObjectsOfOneFileAreNested) {
   EXPECT_NE(outcome.err.find("outer lies inside skin: "), std::string::npos) << outcome.err;
 }
 
-TEST_F(SceneFiles, CheckCountsWithinAndBetweenFiles) {
+TEST_F(SceneFiles, check_counts_within_and_between_files) {
   const Outcome text = run({"check", a, b, c});
   EXPECT_EQ(text.exit_code, 1);
   EXPECT_NE(text.out.find("3 files: 12 vertices"), std::string::npos) << text.out;
@@ -157,7 +157,7 @@ TEST_F(SceneFiles, CheckCountsWithinAndBetweenFiles) {
   EXPECT_EQ(run({"check", a, c}).exit_code, 0);
 }
 
-TEST_F(SceneFiles, AllAppearOrNone) {
+TEST_F(SceneFiles, all_appear_or_none) {
   fs::create_directories(out);
   fs::create_directories(out + "/b.ply");  // cannot be replaced
   expect_refusal({"fix", a, b, "-o", out}, 4, "is a folder");
@@ -165,7 +165,7 @@ TEST_F(SceneFiles, AllAppearOrNone) {
   expect_refusal({"fix", a, b, "-o", out, "--fix-file", "a.obj", "--fix-file", "b.ply"}, 7, "no file written");
 }
 
-TEST_F(SceneFiles, LinksInTheFolderAreReplaced) {
+TEST_F(SceneFiles, links_in_the_folder_are_replaced) {
   fs::create_directories(out);
   write(folder / "precious.obj", "precious");
   fs::create_symlink(folder / "precious.obj", out + "/a.obj");
@@ -174,7 +174,7 @@ TEST_F(SceneFiles, LinksInTheFolderAreReplaced) {
   EXPECT_EQ(pairs_in({out + "/a.obj", out + "/b.ply"}), 0u);
 }
 
-TEST_F(SceneFiles, WhatMakesNoSenseIsRefused) {
+TEST_F(SceneFiles, what_makes_no_sense_is_refused) {
   fs::create_directory(folder / "other");
   write(folder / "other/a.obj", large);
   expect_refusal({"fix", a, folder / "other/a.obj", "-o", out}, 2, "same name");
@@ -189,7 +189,7 @@ TEST_F(SceneFiles, WhatMakesNoSenseIsRefused) {
   expect_refusal({"check", a, "-", "--format", "obj"}, 2, "standard input");
 }
 
-TEST_F(SceneFiles, OtherUnitsArePointedOut) {
+TEST_F(SceneFiles, other_units_are_pointed_out) {
   write(folder / "mm.off", "OFF\n3 1 0\n0 0 9000\n90000 0 9000\n0 70000 9000\n3 0 1 2\n");
   const Outcome outcome = run({"check", a, folder / "mm.off"});
   EXPECT_NE(outcome.err.find("mm.off is 16457 times"), std::string::npos) << outcome.err;
@@ -200,7 +200,7 @@ TEST_F(SceneFiles, OtherUnitsArePointedOut) {
   EXPECT_EQ(run({"check", a, c}).err, "");
 }
 
-TEST_F(SceneFiles, PicturesShowEachInItsColour) {
+TEST_F(SceneFiles, pictures_show_each_in_its_colour) {
   EXPECT_EQ(run({"fix", a, b, "-o", out, "--picture", folder / "two.png"}).exit_code, 0);
   write(folder / "both.obj", large +
                                  "v 1.2 1.2 1.1\nv 2.6 2.5 2\nv 2.5 2.6 2.2\nv 2.4 2.4 2.7\nf 5 7 6\nf 5 6 8\n"
@@ -209,7 +209,7 @@ TEST_F(SceneFiles, PicturesShowEachInItsColour) {
   EXPECT_NE(contents(folder / "two.png"), contents(folder / "one.png"));
 }
 
-TEST_F(SceneFiles, ThePageShowsAllFilesBeforeAndAfter) {
+TEST_F(SceneFiles, the_page_shows_all_files_before_and_after) {
   ASSERT_EQ(run({"fix", a, b, "-o", out}).exit_code, 0);
   EXPECT_EQ(run({"view", a, b, out, "-o", folder / "p.html"}).exit_code, 0);
   EXPECT_NE(contents(folder / "p.html").find("\"files\":[{\"name\":\"a.obj\""), std::string::npos);

@@ -101,7 +101,7 @@ class Sequence : public ProgramTest {
   const std::string pattern = folder / "in/f*.obj", out = folder / "out";
 };
 
-TEST_F(Sequence, EveryFrameIsEmbeddedAndCorrectionsGoOnSmoothly) {
+TEST_F(Sequence, every_frame_is_embedded_and_corrections_go_on_smoothly) {
   const Outcome outcome = repair({"--report", folder / "r.json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("10 of 10 frames written"), std::string::npos) << outcome.err;
@@ -129,7 +129,7 @@ TEST_F(Sequence, EveryFrameIsEmbeddedAndCorrectionsGoOnSmoothly) {
   EXPECT_TRUE(report["list"][0]["jitter"].is_null());
 }
 
-TEST_F(Sequence, WhatIsDoneIsNotDoneAgainAndRangesMakeTheWhole) {
+TEST_F(Sequence, what_is_done_is_not_done_again_and_ranges_make_the_whole) {
   ASSERT_EQ(repair().exit_code, 0);
   const std::vector<std::string> whole = results();
   const Outcome again = repair();
@@ -155,7 +155,7 @@ TEST_F(Sequence, WhatIsDoneIsNotDoneAgainAndRangesMakeTheWhole) {
   EXPECT_EQ(results(), whole);
 }
 
-TEST_F(Sequence, AnInterruptedCallGoesOnFromWhereItWas) {
+TEST_F(Sequence, an_interrupted_call_goes_on_from_where_it_was) {
   ASSERT_EQ(repair().exit_code, 0);
   const std::vector<std::string> whole = results();
   fs::remove_all(out);
@@ -174,7 +174,7 @@ TEST_F(Sequence, AnInterruptedCallGoesOnFromWhereItWas) {
   EXPECT_NE(repair().err.find("10 were done before"), std::string::npos);
 }
 
-TEST_F(Sequence, PointCachesKeepAllButPositions) {
+TEST_F(Sequence, point_caches_keep_all_but_positions) {
   ASSERT_EQ(repair().exit_code, 0);
   for (const bool pc2 : {true, false}) {
     const std::string name = pc2 ? "walk.pc2" : "walk.mdd", format = cache(pc2);
@@ -200,7 +200,7 @@ TEST_F(Sequence, PointCachesKeepAllButPositions) {
   }
 }
 
-TEST_F(Sequence, APointCacheHasItsNameOnceAllOfItIsDoneAndNothingOfAnotherIsInIt) {
+TEST_F(Sequence, a_point_cache_has_its_name_once_all_of_it_is_done_and_nothing_of_another_is_in_it) {
   const std::string in = folder / "walk.pc2", name = folder / "caches/walk.pc2", part = name + ".part";
   const auto repair_cache = [&](const std::vector<std::string>& more = {}) {
     std::vector<std::string> call = {"fix", "--sequence", path(0), in, "-o", folder / "caches"};
@@ -241,7 +241,7 @@ TEST_F(Sequence, APointCacheHasItsNameOnceAllOfItIsDoneAndNothingOfAnotherIsInIt
   EXPECT_FALSE(fs::exists(part));
 }
 
-TEST_F(Sequence, TheNumberThatChangesSaysWhichFrameItIs) {
+TEST_F(Sequence, the_number_that_changes_says_which_frame_it_is) {
   fs::create_directory(folder / "lod");
   for (const int t : {0, 1, 2}) write(folder / fmt::format("lod/f{}_lod0.obj", t), obj(0));
   const std::vector<std::string> call = {"fix", "--sequence", folder / "lod/*.obj", "-o", out};
@@ -253,7 +253,7 @@ TEST_F(Sequence, TheNumberThatChangesSaysWhichFrameItIs) {
   expect_refusal(call, 2, "have the same frame number");
 }
 
-TEST_F(Sequence, WhatMakesNoSenseIsRefused) {
+TEST_F(Sequence, what_makes_no_sense_is_refused) {
   const std::vector<std::string> call = {"fix", "--sequence", pattern, "-o", out};
   const auto with = [&](const std::vector<std::string>& more) {
     std::vector<std::string> all = call;
@@ -289,7 +289,7 @@ TEST_F(Sequence, WhatMakesNoSenseIsRefused) {
                  "none.pc2: cannot open: No such file or directory");
 }
 
-TEST_F(Sequence, NoPointOfACacheIsLostOrInvented) {
+TEST_F(Sequence, no_point_of_a_cache_is_lost_or_invented) {
   const std::string bytes = cache(false);
   PointCache cache = PointCache::parse(bytes, PointCacheFormat::mdd);
   std::vector<double> moved = cache.positions(2);
@@ -307,7 +307,7 @@ TEST_F(Sequence, NoPointOfACacheIsLostOrInvented) {
   EXPECT_THROW(PointCache::parse(bytes, PointCacheFormat::pc2), FileError);
 }
 
-TEST_F(Sequence, FramesThatAreTakenForASceneAreNamedAtOnce) {
+TEST_F(Sequence, frames_that_are_taken_for_a_scene_are_named_at_once) {
   std::vector<std::string> arguments = {"fix"};
   for (int t = 0; t < 5; ++t) arguments.push_back(path(t));
   arguments.insert(arguments.end(), {"-o", out, "--time-limit", "0.001", "--threads", "1"});
@@ -326,7 +326,7 @@ TEST_F(Sequence, FramesThatAreTakenForASceneAreNamedAtOnce) {
   }
 }
 
-TEST_F(Sequence, ProgressCountsFrames) {
+TEST_F(Sequence, progress_counts_frames) {
   const Outcome outcome = repair({"--progress", "json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::istringstream lines(outcome.err);
@@ -340,7 +340,7 @@ TEST_F(Sequence, ProgressCountsFrames) {
   EXPECT_EQ(done, frame_count);
 }
 
-TEST_F(Sequence, TheSummaryNamesTheWorstFrameAndThoseThatAreNotSmoothed) {
+TEST_F(Sequence, the_summary_names_the_worst_frame_and_those_that_are_not_smoothed) {
   const Outcome outcome = repair({"--report", folder / "r.json", "--no-recover"});  // so that none is smoothed
   const Json report = Json::parse(contents(folder / "r.json"));
   Json farthest = report["list"][0];

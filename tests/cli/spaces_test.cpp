@@ -8,7 +8,7 @@
 namespace unsnarl::cli {
 namespace {
 
-TEST(SeifertCommand, AKnotIsSpannedAndCertified) {
+TEST(SeifertCommand, a_knot_is_spanned_and_certified) {
   Folder folder;
   const std::string knot = folder / "knot.xyz", surface = folder / "surface.obj";
   ASSERT_EQ(run({"sample", "knot_3_1", "-o", knot}).exit_code, 0);
@@ -30,7 +30,7 @@ TEST(SeifertCommand, AKnotIsSpannedAndCertified) {
   EXPECT_EQ(run({"seifert", knot, "--check", surface, "-q"}).exit_code, 1);
 }
 
-TEST(SeifertCommand, AnInterruptionCancelsIt) {
+TEST(SeifertCommand, an_interruption_cancels_it) {
   Folder folder;
   const Outcome ended = run({"seifert", "-", "-o", folder / "s.obj", "--progress", "json"},
                             {.input = "braid 3: 1 -2 1 -2 1 -2\n", .signal_after = {"\"fair\""}});
@@ -39,7 +39,7 @@ TEST(SeifertCommand, AnInterruptionCancelsIt) {
   EXPECT_TRUE(folder.names().empty());
 }
 
-TEST(SeifertCommand, StreamsAndErrors) {
+TEST(SeifertCommand, streams_and_errors) {
   Folder folder;
   const Outcome hopf =
       run({"seifert", "-", "--format", "off", "-o", "-", "--no-fair", "-q"}, {.input = "braid 2: 1 1\n"});
@@ -59,7 +59,7 @@ TEST(SeifertCommand, StreamsAndErrors) {
   EXPECT_TRUE(folder.names().empty());
 }
 
-TEST(IsotopyCommand, ACurveMovesToAnother) {
+TEST(IsotopyCommand, a_curve_moves_to_another) {
   Folder folder;
   write(folder / "a.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"><circle r=\"5\"/></svg>\n");
   write(folder / "b.json", "{\"curves\": [{\"points\": [[0, 0], [9, 0], [9, 1], [1, 1], [1, 9], [0, 9], [0, 0]]}]}");
@@ -92,7 +92,7 @@ TEST(IsotopyCommand, ACurveMovesToAnother) {
   EXPECT_FALSE(contains(full.err, "--picture")) << full.err;
 }
 
-TEST(KnotIsotopyCommand, AnUnknotMovesToACircle) {
+TEST(KnotIsotopyCommand, an_unknot_moves_to_a_circle) {
   Folder folder;
   const std::string knot = folder / "knot.xyz", circle = folder / "circle.xyz", way = folder / "way";
   ASSERT_EQ(run({"sample", "knot_kinks_2", "-o", knot}).exit_code, 0);
@@ -115,7 +115,7 @@ TEST(KnotIsotopyCommand, AnUnknotMovesToACircle) {
   EXPECT_EQ(run({"knot-isotopy", knot, circle, "-o", way}).exit_code, 2);  // not empty
 }
 
-TEST(KnotIsotopyCommand, WhatIsNotFoundIsSaidAndNothingWritten) {
+TEST(KnotIsotopyCommand, what_is_not_found_is_said_and_nothing_written) {
   Folder folder;
   write(folder / "left.xyz", "braid 2: -1 -1 -1\n");
   write(folder / "right.xyz", "braid 2: 1 1 1\n");
@@ -135,7 +135,7 @@ TEST(KnotIsotopyCommand, WhatIsNotFoundIsSaidAndNothingWritten) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"left.xyz", "right.xyz", "report.json"}));
 }
 
-TEST(KnotIsotopyCommand, BadInputIsNamed) {
+TEST(KnotIsotopyCommand, bad_input_is_named) {
   Folder folder;
   write(folder / "circle.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   const auto refuse = [&](const std::string& text, const std::string& says, int exit_code = 3) {

@@ -15,7 +15,7 @@ namespace {
 
 using Usage = ProgramTest;
 
-TEST_F(Usage, HelpAndVersionGoToStandardOutput) {
+TEST_F(Usage, help_and_version_go_to_standard_output) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"fix", "--help"},
                                                     {"check", "--help"},
@@ -31,7 +31,7 @@ TEST_F(Usage, HelpAndVersionGoToStandardOutput) {
   EXPECT_EQ(outcome.out.rfind("unsnarl ", 0), 0u);
 }
 
-TEST_F(Usage, VersionsOfAllLibraries) {
+TEST_F(Usage, versions_of_all_libraries) {
   for (const bool json_first : {false, true}) {
     const Outcome outcome = json_first ? run({"--json", "--version"}) : run({"--version", "--json"});
     EXPECT_EQ(outcome.exit_code, 0);
@@ -42,7 +42,7 @@ TEST_F(Usage, VersionsOfAllLibraries) {
   }
 }
 
-TEST_F(Usage, UsageErrorsExitWith2) {
+TEST_F(Usage, usage_errors_exit_with2) {
   const std::string in = file("in.obj", clean_cube);
   expect_refusal({}, 2, "");
   expect_refusal({"mend"}, 2, "fix, batch, check, view, sample, curves, isotopy, seifert, knot-isotopy, routes");
@@ -82,14 +82,14 @@ TEST_F(Usage, UsageErrorsExitWith2) {
   EXPECT_EQ(contents(in), clean_cube);
 }
 
-TEST_F(Usage, HelpAndVersionAreFoundHoweverAskedFor) {
+TEST_F(Usage, help_and_version_are_found_however_asked_for) {
   EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
   EXPECT_EQ(run({"help", "fix"}).out, run({"fix", "--help"}).out);
   EXPECT_EQ(run({"fix", "--version"}).out, run({"--version"}).out);
   EXPECT_EQ(run({"-V"}).out, run({"--version"}).out);
 }
 
-TEST_F(Usage, FilesAreNamedByWhatIsWrittenToThem) {
+TEST_F(Usage, files_are_named_by_what_is_written_to_them) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
   for (const char* name : {"x.jpg", "x.mp4", "x"})
     expect_refusal({"fix", in, "-o", out, "--picture", folder / name}, 2, "must be named *.png or *.gif");
@@ -100,7 +100,7 @@ TEST_F(Usage, FilesAreNamedByWhatIsWrittenToThem) {
   expect_refusal({"fix", in, "-o", folder / "x.vtk"}, 2, "keeps the format");
 }
 
-TEST_F(Usage, WhatIsNoNumberInTheRangeIsRefused) {
+TEST_F(Usage, what_is_no_number_in_the_range_is_refused) {
   const std::string in = file("in.obj", crossing);
   for (const char* value : {"90", "200", "-1", "nan", "inf", "x"})
     expect_refusal({"fix", in, "-o", folder / "out.obj", "--min-dihedral", value}, 2, "--min-dihedral");
@@ -119,7 +119,7 @@ TEST_F(Usage, WhatIsNoNumberInTheRangeIsRefused) {
                      option + (" must be a whole number, 0 or more, not '" + std::string(value)) + "'");
 }
 
-TEST_F(Usage, NumbersHaveTheUnitThatTheMessageNames) {
+TEST_F(Usage, numbers_have_the_unit_that_the_message_names) {
   const std::string in = file("in.obj", crossing);
   struct Case {
     const char *option, *value, *words;
@@ -148,7 +148,7 @@ std::size_t longest_line(const std::string& help) {
   return longest;
 }
 
-TEST_F(Usage, HelpIsAsWideAsTheTerminal) {
+TEST_F(Usage, help_is_as_wide_as_the_terminal) {
   const auto help_with = [&](const char* columns) {
     return run({"check", "--help"}, {.in_child = [=] { ::setenv("COLUMNS", columns, 1); }}).out;
   };
@@ -160,7 +160,7 @@ TEST_F(Usage, HelpIsAsWideAsTheTerminal) {
   EXPECT_NE(help_with("60").find("unsnarl check - --format stl < part.stl --pairs pairs.csv\n"), std::string::npos);
 }
 
-TEST_F(Usage, UsualOptionsComeFirstAndThoseOfResearchLast) {
+TEST_F(Usage, usual_options_come_first_and_those_of_research_last) {
   const std::string help = run({"fix", "--help"}).out;
   std::vector<std::size_t> places;
   for (const char* const words :
@@ -172,7 +172,7 @@ TEST_F(Usage, UsualOptionsComeFirstAndThoseOfResearchLast) {
   EXPECT_EQ(help.find("\n\n\n"), std::string::npos);
 }
 
-TEST_F(Usage, OptionsThatDoNothingBesideTheOthersAreRefused) {
+TEST_F(Usage, options_that_do_nothing_beside_the_others_are_refused) {
   const std::string in = file("in.obj", crossing), out = folder / "out.obj";
   expect_refusal({"fix", in, "-o", out, "--absolute"}, 2,
                  "--absolute has an effect only with --max-displacement or --min-gap");
@@ -183,14 +183,14 @@ TEST_F(Usage, OptionsThatDoNothingBesideTheOthersAreRefused) {
   }
 }
 
-TEST_F(Usage, AGapManyTimesAsWideAsTheFacesIsRefused) {
+TEST_F(Usage, a_gap_many_times_as_wide_as_the_faces_is_refused) {
   const std::string in = folder / "tubes.obj";
   ASSERT_EQ(run({"sample", "crossing_tubes", "-o", in, "--resolution", "12"}).exit_code, 0);
   expect_refusal({"fix", in, "-o", folder / "out.obj", "--min-gap", "0.6"}, 2, "--min-gap: a gap of");
   EXPECT_EQ(run({"fix", in, "-o", folder / "out.obj", "--min-gap", "0.002", "--absolute"}).exit_code, 0);
 }
 
-TEST_F(Usage, InputsThatMakeNoSenseExitWith3) {
+TEST_F(Usage, inputs_that_make_no_sense_exit_with3) {
   const std::string out = folder / "out.obj";
   expect_refusal({"fix", folder / "missing.obj", "-o", out}, 3, "missing.obj");
   expect_refusal({"check", folder / "missing.obj"}, 3, "missing.obj");
@@ -206,7 +206,7 @@ TEST_F(Usage, InputsThatMakeNoSenseExitWith3) {
   expect_refusal({"fix", in, "-o", out, "--fix-vertices", file("ids.txt", "0 -1\n")}, 3, "ids.txt:1");
 }
 
-TEST_F(Usage, ForeignFormatsAreRefusedWithAHint) {
+TEST_F(Usage, foreign_formats_are_refused_with_a_hint) {
   const std::string out = folder / "out.obj";
   expect_refusal({"fix", file("a.fbx", "Kaydara FBX Binary"), "-o", out}, 3,
                  "FBX files are not read; import it into Blender");
@@ -222,7 +222,7 @@ TEST_F(Usage, ForeignFormatsAreRefusedWithAHint) {
                  "neither the extension nor the content tells the format; add --format: obj, off");
 }
 
-TEST_F(Usage, ContentAndNameAreOfOneFormat) {
+TEST_F(Usage, content_and_name_are_of_one_format) {
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
@@ -244,7 +244,7 @@ TEST_F(Usage, ContentAndNameAreOfOneFormat) {
   EXPECT_TRUE(contains(outcome.err, "the first 4096 bytes are zero")) << outcome.err;
 }
 
-TEST_F(Usage, OutputsThatCannotBeWrittenExitWith4) {
+TEST_F(Usage, outputs_that_cannot_be_written_exit_with4) {
   const std::string in = file("in.obj", crossing);
   expect_refusal({"fix", in, "-o", folder / "no/such/folder/out.obj"}, 4, "no/such/folder");
   fs::create_directory(folder / "taken.obj");
@@ -264,7 +264,7 @@ void expect_visible(const std::string& text) {
   EXPECT_FALSE(contains(text, "\xc2\x9b") || contains(text, "\xe2\x80\xae")) << text;
 }
 
-TEST_F(Usage, NamesOfFilesAreShownNotObeyed) {
+TEST_F(Usage, names_of_files_are_shown_not_obeyed) {
   const std::string name = "a\x1b[31m\r\n\xc2\x9b\xe9\x7f\xe2\x80\xae",
                     shown = "a\\x1b[31m\\x0d\\x0a\\x9b\\xe9\\x7f\\u{202e}";
   const std::string missing = folder / name, plain = file("plain.obj", crossing);
@@ -301,7 +301,7 @@ TEST_F(Usage, NamesOfFilesAreShownNotObeyed) {
   }
 }
 
-TEST_F(Usage, NamesInFilesAreShownNotObeyed) {
+TEST_F(Usage, names_in_files_are_shown_not_obeyed) {
   const std::string name =
                         "a\x1b]0;owned\a\xc2\x9b"
                         "2J",
@@ -320,7 +320,7 @@ TEST_F(Usage, NamesInFilesAreShownNotObeyed) {
   expect_visible(run({"check", in}).out);
 }
 
-TEST_F(Usage, AnErrorOfTheSystemExitsWith9) {
+TEST_F(Usage, an_error_of_the_system_exits_with9) {
   if (!calls_can_fail) GTEST_SKIP() << "calls cannot be made to fail here";
   const std::string in = file("in.obj", crossing);
   const std::string svg = file("in.svg", "<svg><path d='M0 0 10 10 10 0 0 10z'/></svg>");

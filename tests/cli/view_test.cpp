@@ -21,7 +21,7 @@ class View : public ::testing::Test {
   const std::string in = folder / "in.obj", page = folder / "page.html";
 };
 
-TEST_F(View, WritesOnePageThatNeedsNothingElse) {
+TEST_F(View, writes_one_page_that_needs_nothing_else) {
   const Outcome outcome = run({"view", in, "-o", page});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string html = contents(page);
@@ -35,7 +35,7 @@ TEST_F(View, WritesOnePageThatNeedsNothingElse) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "page.html"}));
 }
 
-TEST_F(View, ShowsARepairWithItsReport) {
+TEST_F(View, shows_a_repair_with_its_report) {
   const std::string out = folder / "out.obj", report = folder / "report.json";
   ASSERT_EQ(run({"fix", in, "-o", out, "--report", report, "--view", page}).exit_code, 0);
   EXPECT_TRUE(contains(contents(page), "\"status\":\"embedded\""));
@@ -45,14 +45,14 @@ TEST_F(View, ShowsARepairWithItsReport) {
   EXPECT_TRUE(contains(contents(page), "\"output\":\"out.obj\""));
 }
 
-TEST_F(View, TheSamePageAtAnyNumberOfThreads) {
+TEST_F(View, the_same_page_at_any_number_of_threads) {
   ASSERT_EQ(run({"view", in, in, "-o", page, "--threads", "1"}).exit_code, 0);
   const std::string first = contents(page);
   ASSERT_EQ(run({"view", in, in, "-o", page, "--threads", "3"}).exit_code, 0);
   EXPECT_EQ(contents(page), first);
 }
 
-TEST_F(View, ImagesOfMaterialsAreInThePageOrInANote) {
+TEST_F(View, images_of_materials_are_in_the_page_or_in_a_note) {
   write(in, "mtllib in.mtl\n" + crossing_triangles + "usemtl a\nf 1 2 4\nusemtl b\nf 1 3 5\n");
   write(folder / "in.mtl", "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd gone.png\n");
   const std::string png("\x89PNG\r\n\x1A\n\0\0\0\rIHDR\0\0\0\x04\0\0\0\x04", 24);
@@ -67,7 +67,7 @@ TEST_F(View, ImagesOfMaterialsAreInThePageOrInANote) {
   }
 }
 
-TEST_F(View, RefusesWhatMakesNoSense) {
+TEST_F(View, refuses_what_makes_no_sense) {
   const std::string other = folder / "other.obj", text = folder / "text.json", old = folder / "old.json";
   write(other, crossing_triangles + "f 1 2 4\n");
   write(text, "{}");

@@ -18,7 +18,7 @@ double distance_at(StencilKind kind, const Four& x, const Four& p, double t) {
   return std::sqrt(squared_distance(kind, moved));
 }
 
-TEST(Ccd, VertexFallsOnFace) {
+TEST(Ccd, vertex_falls_on_face) {
   const Four x = {Vec3(0.25, 0.25, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   const Four p = {Vec3(0, 0, -2), zero, zero, zero};
   const double t = time_of_impact(StencilKind::vertex_face, x, p, 0);
@@ -29,7 +29,7 @@ TEST(Ccd, VertexFallsOnFace) {
   EXPECT_GT(kept, 0.2);
 }
 
-TEST(Ccd, NoImpactIsAFullStep) {
+TEST(Ccd, no_impact_is_a_full_step) {
   const Four x = {Vec3(0.25, 0.25, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {Vec3(0, 0, 5), zero, zero, zero}, 0), 1);     // away
   EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {Vec3(0, 0, -0.5), zero, zero, zero}, 0), 1);  // too short
@@ -38,7 +38,7 @@ TEST(Ccd, NoImpactIsAFullStep) {
   EXPECT_EQ(time_of_impact(StencilKind::vertex_face, x, {all, all, all, all}, 0), 1);  // together
 }
 
-TEST(Ccd, ParallelEdgesMeet) {
+TEST(Ccd, parallel_edges_meet) {
   const Four x = {Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(0, 0, 0), Vec3(1, 0, 0)};
   const Four p = {Vec3(0, 0, -1), Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(0, 0, 1)};
   const double t = time_of_impact(StencilKind::edge_edge, x, p, 0);
@@ -46,7 +46,7 @@ TEST(Ccd, ParallelEdgesMeet) {
   EXPECT_GT(t, 0.4);
 }
 
-TEST(Ccd, GrazingStopsBeforeTheContact) {
+TEST(Ccd, grazing_stops_before_the_contact) {
   // The vertex passes exactly through a corner of the face.
   const Four x = {Vec3(-1, 0, 0), Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, -1, 0)};
   const double t = time_of_impact(StencilKind::vertex_face, x, {Vec3(2, 0, 0), zero, zero, zero}, 0);
@@ -54,7 +54,7 @@ TEST(Ccd, GrazingStopsBeforeTheContact) {
   EXPECT_GT(t, 0.3);
 }
 
-TEST(Ccd, SlidingIsNotHeldUp) {
+TEST(Ccd, sliding_is_not_held_up) {
   for (double gap : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const Four x = {Vec3(0.2, 0.2, gap), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
     const Four slides = {Vec3(0.25, 0.25, 0), zero, zero, zero};
@@ -66,7 +66,7 @@ TEST(Ccd, SlidingIsNotHeldUp) {
   }
 }
 
-TEST(Ccd, RoundOffGapsNeverCloseNorReturnZero) {
+TEST(Ccd, round_off_gaps_never_close_nor_return_zero) {
   for (double gap : {1e-6, 1e-9, 1e-12, 1e-15}) {
     const Four x = {Vec3(0.3, 0.3, gap), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
     const Four p = {Vec3(0.1, 0.1, -1), zero, zero, zero};
@@ -77,7 +77,7 @@ TEST(Ccd, RoundOffGapsNeverCloseNorReturnZero) {
   }
 }
 
-TEST(Ccd, BrokenPreconditionDoesNotMove) {
+TEST(Ccd, broken_precondition_does_not_move) {
   const Four x = {Vec3(0.3, 0.3, 1e-3), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   const double t = time_of_impact(StencilKind::vertex_face, x, {Vec3(0, 0, -1), zero, zero, zero}, 1e-2);
   EXPECT_GT(t, 0);
@@ -85,7 +85,7 @@ TEST(Ccd, BrokenPreconditionDoesNotMove) {
 }
 
 // Integer motions that meet exactly at time 1/2: the positions there are chosen first, in contact by construction.
-TEST(Ccd, NeverMissesAKnownHitOnTinyIntegers) {
+TEST(Ccd, never_misses_a_known_hit_on_tiny_integers) {
   Dice dice(7);
   int hits = 0;
   for (int trial = 0; trial < 20000; ++trial) {
@@ -118,7 +118,7 @@ TEST(Ccd, NeverMissesAKnownHitOnTinyIntegers) {
   EXPECT_GT(hits, 15000);
 }
 
-TEST(Ccd, KeepsTheSeparationAllTheWay) {
+TEST(Ccd, keeps_the_separation_all_the_way) {
   Dice dice(8);
   for (int trial = 0; trial < 600; ++trial) {
     Four x, p;
@@ -161,7 +161,7 @@ Row row_above_floor() {
   return row;
 }
 
-TEST(Ccd, GlobalFilterObeysTheFirstImpact) {
+TEST(Ccd, global_filter_obeys_the_first_impact) {
   const Row row = row_above_floor();
   const double t = largest_step(row.stencils, row.x, row.p);
   EXPECT_LT(t, 0.5);
@@ -169,7 +169,7 @@ TEST(Ccd, GlobalFilterObeysTheFirstImpact) {
   EXPECT_EQ(largest_step({}, row.x, row.p), 1);
 }
 
-TEST(Ccd, VertexFilterShortensOnlyWhatCollides) {
+TEST(Ccd, vertex_filter_shortens_only_what_collides) {
   Row row = row_above_floor();
   const Positions wanted = row.p;
   filter_displacements(row.stencils, row.x, row.p, OnCollision::shorten);
@@ -183,7 +183,7 @@ TEST(Ccd, VertexFilterShortensOnlyWhatCollides) {
   }
 }
 
-TEST(Ccd, VertexFilterCanMakeThemStay) {
+TEST(Ccd, vertex_filter_can_make_them_stay) {
   Row row = row_above_floor();
   const Positions wanted = row.p;
   filter_displacements(row.stencils, row.x, row.p, OnCollision::stay);
@@ -196,7 +196,7 @@ TEST(Ccd, VertexFilterCanMakeThemStay) {
   }
 }
 
-TEST(Ccd, VertexFilterLeavesNoCollision) {
+TEST(Ccd, vertex_filter_leaves_no_collision) {
   Dice dice(9);
   for (int trial = 0; trial < 50; ++trial) {
     const int n = 12;

@@ -95,7 +95,7 @@ Vec3 random_vector(std::mt19937_64& engine, double size) {
   return p;
 }
 
-TEST(ContactCandidates, AgreeWithBruteForce) {
+TEST(ContactCandidates, agree_with_brute_force) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const Soup soup = random_soup(seed, 25, 30);
     std::vector<std::uint8_t> moves(25, 0);
@@ -119,7 +119,7 @@ TEST(ContactCandidates, AgreeWithBruteForce) {
   }
 }
 
-TEST(ContactCandidates, MissNothingThatComesNearWithinItsBounds) {
+TEST(ContactCandidates, miss_nothing_that_comes_near_within_its_bounds) {
   const double radius = 0.05;
   std::size_t listed = 0, listed_by_lengths = 0, came_near = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -169,7 +169,7 @@ TEST(ContactCandidates, MissNothingThatComesNearWithinItsBounds) {
   EXPECT_LT(listed, listed_by_lengths * 3 / 4);
 }
 
-TEST(ContactCandidates, AroundSomeVerticesListTheSameAsEverywhere) {
+TEST(ContactCandidates, around_some_vertices_list_the_same_as_everywhere) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     Soup soup = random_soup(seed + 200, 60, 60);
     std::mt19937_64 engine(seed);
@@ -201,7 +201,7 @@ TEST(ContactCandidates, AroundSomeVerticesListTheSameAsEverywhere) {
   }
 }
 
-TEST(ContactCandidates, ListNothingTwiceWhereNoTriangleIs) {
+TEST(ContactCandidates, list_nothing_twice_where_no_triangle_is) {
   Soup soup = random_soup(5, 200, 150);
   const std::vector<std::uint8_t> moves(200, 1);
   ContactCandidates candidates(soup.triangles, 200);
@@ -212,7 +212,7 @@ TEST(ContactCandidates, ListNothingTwiceWhereNoTriangleIs) {
   EXPECT_EQ(keys.size(), found.size());
 }
 
-TEST(ContactCandidates, FollowMotionAndRepeatThemselves) {
+TEST(ContactCandidates, follow_motion_and_repeat_themselves) {
   Soup soup = random_soup(6, 30, 30);
   const std::vector<std::uint8_t> moves(30, 1);
   ContactCandidates candidates(soup.triangles, 30);
@@ -228,7 +228,7 @@ TEST(ContactCandidates, FollowMotionAndRepeatThemselves) {
   EXPECT_EQ(again, repeated);
 }
 
-TEST(ContactCandidates, KnowNeighbours) {
+TEST(ContactCandidates, know_neighbours) {
   //  3---2   5
   //  | / |  / \      faces (0,1,2), (0,2,3), and (4,6,5) apart
   //  0---1 4---6

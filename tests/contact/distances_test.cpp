@@ -71,7 +71,7 @@ void expect_consistent(const Stencil& stencil, const Positions& x) {
   EXPECT_NEAR(std::sqrt(squared_distance(stencil, x)), c.distance, 1e-15 * size);
 }
 
-TEST(Distances, AgreeWithSamplingInGenericPosition) {
+TEST(Distances, agree_with_sampling_in_generic_position) {
   Dice dice(1);
   for (int trial = 0; trial < 300; ++trial) {
     const Positions x = columns(dice.vector(), dice.vector(), dice.vector(), dice.vector());
@@ -85,7 +85,7 @@ TEST(Distances, AgreeWithSamplingInGenericPosition) {
   }
 }
 
-TEST(Distances, AgreeWithSamplingOnTinyLatticesWhereDegenerateCasesRule) {
+TEST(Distances, agree_with_sampling_on_tiny_lattices_where_degenerate_cases_rule) {
   Dice dice(2);
   for (int trial = 0; trial < 4000; ++trial) {
     const Positions x = columns(dice.lattice(1), dice.lattice(1), dice.lattice(1), dice.lattice(1));
@@ -99,7 +99,7 @@ TEST(Distances, AgreeWithSamplingOnTinyLatticesWhereDegenerateCasesRule) {
   }
 }
 
-TEST(Distances, NoPieceOfABoundaryIsNearer) {
+TEST(Distances, no_piece_of_a_boundary_is_nearer) {
   Dice dice(7);
   for (int trial = 0; trial < 20000; ++trial) {
     const Vec3 a = dice.vector(), b = dice.vector(), c = dice.vector();
@@ -117,7 +117,7 @@ TEST(Distances, NoPieceOfABoundaryIsNearer) {
   }
 }
 
-TEST(Distances, KnownPlaces) {
+TEST(Distances, known_places) {
   const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
   EXPECT_DOUBLE_EQ(closest_vertex_face({0.25, 0.25, 0.5}, a, b, c).distance, 0.5);      // over the interior
   EXPECT_DOUBLE_EQ(closest_vertex_face({0.5, -2, 0}, a, b, c).distance, 2);             // beside an edge
@@ -135,7 +135,7 @@ TEST(Distances, KnownPlaces) {
   EXPECT_DOUBLE_EQ(closest_edge_edge(a, a, {3, 4, 0}, {3, 4, 0}).distance, 5);     // two points
 }
 
-TEST(Distances, TinyGapsKeepTheirDigitsFarFromTheOrigin) {
+TEST(Distances, tiny_gaps_keep_their_digits_far_from_the_origin) {
   // A gap of 2^-40 above a face whose coordinates are about 1000.
   const Vec3 offset(1000, 1000, 1000);
   const double gap = 0x1p-40;
@@ -144,7 +144,7 @@ TEST(Distances, TinyGapsKeepTheirDigitsFarFromTheOrigin) {
   EXPECT_DOUBLE_EQ(closest_vertex_face(p, offset, offset + Vec3(1, 0, 0), offset + Vec3(0, 1, 0)).distance, written);
 }
 
-TEST(Distances, GradientIsWeightTimesDirection) {
+TEST(Distances, gradient_is_weight_times_direction) {
   Dice dice(3);
   const double step = 1e-6;
   int checked = 0;
@@ -171,7 +171,7 @@ TEST(Distances, GradientIsWeightTimesDirection) {
   EXPECT_GT(checked, 5000);
 }
 
-TEST(Distances, RelabellingAndRigidMotionChangeNothing) {
+TEST(Distances, relabelling_and_rigid_motion_change_nothing) {
   Dice dice(4);
   for (int trial = 0; trial < 200; ++trial) {
     const Vec3 a = dice.vector(), b = dice.vector(), c = dice.vector(), d = dice.vector();

@@ -8,7 +8,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(FourBoxes, ThatOverlapAreAllSeen) {
+TEST(FourBoxes, that_overlap_are_all_seen) {
   std::mt19937_64 engine(1);
   int overlapping = 0, seen = 0;
   for (const double size : {1e-300, 1.0, 1e39, 1e300})

@@ -32,24 +32,24 @@ void expect_segment(const std::vector<std::array<Vec3, 2>>& segments, Vec3 p, Ve
   EXPECT_LT((b - q).norm(), 1e-14);
 }
 
-TEST(IntersectionSegments, ATriangleThroughAnother) {
+TEST(IntersectionSegments, a_triangle_through_another) {
   const Case both = {points({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {1, 9, 0}}),
                      {{0, 1, 2}, {3, 4, 5}}};
   expect_segment(both.segments(), {1, 1, 0}, {1, 3, 0});
 }
 
-TEST(IntersectionSegments, OneWhollyInsideTheOther) {
+TEST(IntersectionSegments, one_wholly_inside_the_other) {
   const Case inside = {points({{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {1, 1, -1}, {1, 1, 1}, {2, 1, 1}}),
                        {{0, 1, 2}, {3, 4, 5}}};
   expect_segment(inside.segments(), {1, 1, 0}, {1.5, 1, 0});
 }
 
-TEST(IntersectionSegments, BeginAtTheCommonVertex) {
+TEST(IntersectionSegments, begin_at_the_common_vertex) {
   const Case fan = {points({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}}), {{0, 1, 2}, {0, 3, 4}}};
   expect_segment(fan.segments(), {0, 0, 0}, {1, 1, 0});
 }
 
-TEST(IntersectionSegments, TouchingInAPointAndFlatOverlapHaveNone) {
+TEST(IntersectionSegments, touching_in_a_point_and_flat_overlap_have_none) {
   const Case touching = {points({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {1, 1, 1}, {2, 1, 1}}),
                          {{0, 1, 2}, {3, 4, 5}}};
   EXPECT_TRUE(touching.segments().empty());

@@ -5,7 +5,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(MotionBounds, AllowTheSegmentAndWhatIsAroundIt) {
+TEST(MotionBounds, allow_the_segment_and_what_is_around_it) {
   MotionBounds bounds;
   bounds.reset(2);
   EXPECT_TRUE(bounds.allow(0, Vec3::Zero()));
@@ -20,7 +20,7 @@ TEST(MotionBounds, AllowTheSegmentAndWhatIsAroundIt) {
   EXPECT_FALSE(bounds.allow(1, Vec3(2.4, 0, 0.4)));
 }
 
-TEST(MotionBounds, OnlyMotionTowardsEachOtherBringsTwoPrimitivesNearer) {
+TEST(MotionBounds, only_motion_towards_each_other_brings_two_primitives_nearer) {
   // Vertex 0 is 1 above the face (1, 2, 3).
   Positions x(3, 4);
   x << 0.2, 0, 1, 0,  //

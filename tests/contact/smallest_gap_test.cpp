@@ -40,7 +40,7 @@ double sampled_distance(const Positions& x, const Triangle& s, const Triangle& t
   return nearest;
 }
 
-TEST(SmallestGap, IsThatOfTheNearestTwoOfAll) {
+TEST(SmallestGap, is_that_of_the_nearest_two_of_all) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     const LooseTriangles s = loose_triangles(12, 0.05, seed);
     double nearest = 1e300;
@@ -55,7 +55,7 @@ TEST(SmallestGap, IsThatOfTheNearestTwoOfAll) {
 }
 
 /// Every pair is looked at here, so that a branch cut by mistake shows.
-TEST(SmallestGap, OfGroupsIsThatOfTheNearestTwoOfDifferentOnes) {
+TEST(SmallestGap, of_groups_is_that_of_the_nearest_two_of_different_ones) {
   LooseTriangles s = loose_triangles(400, 0.01, 4);
   std::vector<Index> group;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) group.push_back(s.x(0, 3 * static_cast<Index>(t)) < 0.5 ? 0 : 1);
@@ -72,7 +72,7 @@ TEST(SmallestGap, OfGroupsIsThatOfTheNearestTwoOfDifferentOnes) {
   EXPECT_GT(gap.distance, nearest - 0.02);
 }
 
-TEST(SmallestGap, LooksAsFarAsItHasTo) {
+TEST(SmallestGap, looks_as_far_as_it_has_to) {
   Positions x(3, 6);
   x << 0, 1, 0, 0, 1, 0,  //
       0, 0, 1, 0, 0, 1,   //
@@ -86,7 +86,7 @@ TEST(SmallestGap, LooksAsFarAsItHasTo) {
   EXPECT_TRUE(std::isinf(smallest_gap(joined, x).distance));
 }
 
-TEST(SmallestGap, PairsCloserThanADistanceAreThoseThatMeasureLess) {
+TEST(SmallestGap, pairs_closer_than_a_distance_are_those_that_measure_less) {
   const LooseTriangles s = loose_triangles(60, 0.05, 5);
   const double distance = 1.5 * smallest_gap(s.triangles, s.x).distance + 0.05;
   const std::vector<std::array<Index, 2>> pairs = pairs_closer_than(s.triangles, s.x, distance);

@@ -46,7 +46,7 @@ double value_of(Arap& energy, const Positions& x) {
   return energy.value_and_gradient(x, unused);
 }
 
-TEST(ClosestRotation, AgreesWithTheSingularValueDecomposition) {
+TEST(ClosestRotation, agrees_with_the_singular_value_decomposition) {
   std::mt19937 generator(1);
   for (int trial = 0; trial < 2000; ++trial) {
     Eigen::Matrix3d s;
@@ -64,7 +64,7 @@ TEST(ClosestRotation, AgreesWithTheSingularValueDecomposition) {
   }
 }
 
-TEST(ClosestRotation, DegenerateInputStillGivesARotation) {
+TEST(ClosestRotation, degenerate_input_still_gives_a_rotation) {
   for (const Eigen::Matrix3d& s :
        {Eigen::Matrix3d(Eigen::Matrix3d::Zero()), Eigen::Matrix3d(Vec3(1, 2, 3) * Vec3(3, -1, 1).transpose()),
         Eigen::Matrix3d(-Eigen::Matrix3d::Identity())}) {
@@ -74,7 +74,7 @@ TEST(ClosestRotation, DegenerateInputStillGivesARotation) {
   }
 }
 
-TEST(Arap, RigidMotionsCostNothing) {
+TEST(Arap, rigid_motions_cost_nothing) {
   std::mt19937 generator(2);
   const Grid grid = make_grid(5, generator);
   const Eigen::Matrix3d r = (Eigen::AngleAxisd(2.5, Vec3(1, 2, 3).normalized())).toRotationMatrix();
@@ -86,7 +86,7 @@ TEST(Arap, RigidMotionsCostNothing) {
   EXPECT_NEAR((energy.rotation(7) - r).norm(), 0, 1e-10);
 }
 
-TEST(Arap, GradientMatchesFiniteDifferences) {
+TEST(Arap, gradient_matches_finite_differences) {
   std::mt19937 generator(3);
   const Grid grid = make_grid(5, generator);
   for (const Index free_count : {25, 15}) {
@@ -105,7 +105,7 @@ TEST(Arap, GradientMatchesFiniteDifferences) {
   }
 }
 
-TEST(Arap, ScalesAsLengthSquared) {
+TEST(Arap, scales_as_length_squared) {
   std::mt19937 generator(4);
   const Grid grid = make_grid(5, generator);
   const Positions x = shaken(grid.rest, 0.4, generator);
@@ -113,7 +113,7 @@ TEST(Arap, ScalesAsLengthSquared) {
   EXPECT_NEAR(value_of(scaled, 8 * x), 64 * value_of(energy, x), 1e-9);
 }
 
-TEST(Arap, FixedSurroundingsDoNotTurn) {
+TEST(Arap, fixed_surroundings_do_not_turn) {
   std::mt19937 generator(5);
   const Grid grid = make_grid(4, generator);
   Arap energy(grid.triangles, grid.rest, 8);

@@ -12,7 +12,7 @@ namespace {
 
 const std::vector<Triangle> fan = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
 
-TEST(ArapTriangle, GradientAgreesWithFiniteDifferences) {
+TEST(ArapTriangle, gradient_agrees_with_finite_differences) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Positions rest = random_positions(seed, 5);
     const Positions x = rest + 0.4 * random_positions(seed + 100, 5);
@@ -22,7 +22,7 @@ TEST(ArapTriangle, GradientAgreesWithFiniteDifferences) {
   }
 }
 
-TEST(ArapTriangle, SliversAndSegmentsAtRestAreHarmless) {
+TEST(ArapTriangle, slivers_and_segments_at_rest_are_harmless) {
   Positions rest(3, 5);
   rest << 0, 1, 2, 3, 1.5,  //
       0, 0, 0, 1e-9, 0,     //
@@ -37,7 +37,7 @@ TEST(ArapTriangle, SliversAndSegmentsAtRestAreHarmless) {
   EXPECT_TRUE(std::isfinite(total_value(points, x)));
 }
 
-TEST(ArapTriangle, RigidMotionCostsNothing) {
+TEST(ArapTriangle, rigid_motion_costs_nothing) {
   const Positions rest = random_positions(7, 5);
   const ArapTriangle energy(rest, fan);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.5, Vec3(1, 2, 3).normalized()).toRotationMatrix();
@@ -47,13 +47,13 @@ TEST(ArapTriangle, RigidMotionCostsNothing) {
   EXPECT_LT(at.gradient.cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(ArapTriangle, ScalesAsLengthSquared) {
+TEST(ArapTriangle, scales_as_length_squared) {
   const Positions rest = random_positions(8, 5);
   const Positions x = rest + 0.3 * random_positions(9, 5);
   EXPECT_NEAR(total_value(ArapTriangle(3 * rest, fan), 3 * x), 9 * total_value(ArapTriangle(rest, fan), x), 1e-12);
 }
 
-TEST(ArapTriangle, HessianIsExactAtRest) {
+TEST(ArapTriangle, hessian_is_exact_at_rest) {
   const Positions rest = random_positions(10, 3);
   const ArapTriangle energy(rest, std::span<const Triangle>(fan).first(1));
   const Eigen::MatrixXd hessian = dense(linearise_all(energy, rest, 3).hessian, 3);
@@ -67,7 +67,7 @@ TEST(ArapTriangle, HessianIsExactAtRest) {
   EXPECT_GT(eigenvalues[6], 1e-3);  // three strains
 }
 
-TEST(ArapTriangle, DampedHessianHoldsTheRotation) {
+TEST(ArapTriangle, damped_hessian_holds_the_rotation) {
   // With the rotation held the energy is w/2 sum |e_k - c_k|^2: w times the Laplacian of the triangle.
   const Positions rest = random_positions(11, 3);
   const ArapTriangle energy(rest, std::span<const Triangle>(fan).first(1), 1);
@@ -78,7 +78,7 @@ TEST(ArapTriangle, DampedHessianHoldsTheRotation) {
   EXPECT_LT((hessian - ArapTriangle::edge_weight * laplacian).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(ArapTriangle, BlocksAreThoseOfTheMatrix) {
+TEST(ArapTriangle, blocks_are_those_of_the_matrix) {
   const Positions rest = random_positions(12, 3), x = random_positions(13, 3);
   const HessianTerms terms =
       linearise_all(ArapTriangle(rest, std::span<const Triangle>(fan).first(1), 0.1), x, 2).hessian;

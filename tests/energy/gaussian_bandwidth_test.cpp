@@ -33,7 +33,7 @@ double local_energy(const std::vector<BandwidthPair>& pairs, const std::vector<d
   return sum;
 }
 
-TEST(GlobalBandwidth, IsTheMaximumFoundByBruteForce) {
+TEST(GlobalBandwidth, is_the_maximum_found_by_brute_force) {
   std::mt19937 generator(1);
   for (int trial = 0; trial < 10; ++trial) {
     const std::vector<BandwidthPair> pairs = random_pairs(12, generator);
@@ -49,7 +49,7 @@ TEST(GlobalBandwidth, IsTheMaximumFoundByBruteForce) {
   }
 }
 
-TEST(GlobalBandwidth, FindsBothMaximaOfTwoScales) {
+TEST(GlobalBandwidth, finds_both_maxima_of_two_scales) {
   // A few close pairs and very many distant ones.
   const std::vector<BandwidthPair> pairs{{0, 1, 0.01 * 0.01, 1}, {2, 3, 1, 20000}};
   const std::vector<GlobalBandwidth> found = global_bandwidths(pairs);
@@ -59,7 +59,7 @@ TEST(GlobalBandwidth, FindsBothMaximaOfTwoScales) {
   EXPECT_GT(found[0].energy, found[1].energy);
 }
 
-TEST(GlobalBandwidth, NothingFromNothingAndAClampForCoincidentPoints) {
+TEST(GlobalBandwidth, nothing_from_nothing_and_a_clamp_for_coincident_points) {
   EXPECT_TRUE(global_bandwidths({}).empty());
   const std::vector<BandwidthPair> pairs{{0, 1, 0, 1}, {0, 2, 1, 1e-9}};
   BandwidthOptions options;
@@ -70,7 +70,7 @@ TEST(GlobalBandwidth, NothingFromNothingAndAClampForCoincidentPoints) {
   EXPECT_EQ(found[0].epsilon, 0.25);
 }
 
-TEST(SymmetricLocalBandwidth, IsALocalMaximum) {
+TEST(SymmetricLocalBandwidth, is_a_local_maximum) {
   std::mt19937 generator(2);
   int settled = 0;
   for (int trial = 0; trial < 20; ++trial) {
@@ -97,7 +97,7 @@ TEST(SymmetricLocalBandwidth, IsALocalMaximum) {
   EXPECT_GT(settled, 2);
 }
 
-TEST(SymmetricLocalBandwidth, TwoPointsShareTheirDistance) {
+TEST(SymmetricLocalBandwidth, two_points_share_their_distance) {
   const std::vector<BandwidthPair> pairs{{0, 1, 4, 1}};
   std::vector<double> squared{1, 2};
   const LocalBandwidthReport report = symmetric_local_bandwidths(pairs, squared, {.largest = 10});
@@ -105,7 +105,7 @@ TEST(SymmetricLocalBandwidth, TwoPointsShareTheirDistance) {
   EXPECT_NEAR(0.5 * (squared[0] + squared[1]), 4, 1e-8);  // p = 2: eps_ij^2 = r^2
 }
 
-TEST(SymmetricLocalBandwidth, NegativeAndUndefinedValuesAreClampedAndReported) {
+TEST(SymmetricLocalBandwidth, negative_and_undefined_values_are_clamped_and_reported) {
   // Point 1 is close to 0 and far from 2, which pulls its partner's bandwidth up: 4 r^2 / p - eps_j^2 < 0.
   const std::vector<BandwidthPair> pairs{{0, 1, 1e-4, 1}};
   std::vector<double> squared{1e-6 + 1e-3, 0.5, 7};
@@ -125,7 +125,7 @@ TEST(SymmetricLocalBandwidth, NegativeAndUndefinedValuesAreClampedAndReported) {
   EXPECT_EQ(squared[0], 1e-8);
 }
 
-TEST(IndependentLocalBandwidth, MaximisesEveryPointsOwnEnergy) {
+TEST(IndependentLocalBandwidth, maximises_every_points_own_energy) {
   std::mt19937 generator(3);
   const std::vector<BandwidthPair> pairs = random_pairs(8, generator);
   std::vector<double> squared(8, 0.25);
@@ -154,7 +154,7 @@ double pairwise_optimal_energy(std::span<const BandwidthPair> pairs) {
 }
 
 // Model (III): the kernel drops out and what is left is singular (App. B.3), which is why it is not used.
-TEST(PairwiseOptimalBandwidth, DivergesAsPointsMeet) {
+TEST(PairwiseOptimalBandwidth, diverges_as_points_meet) {
   double previous = 0;
   for (const double r : {1.0, 1e-2, 1e-4, 1e-8}) {
     const std::vector<BandwidthPair> pairs{{0, 1, r * r, 1}};

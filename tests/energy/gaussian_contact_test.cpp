@@ -45,7 +45,7 @@ void expect_gradient(Sample<Dim>& sample) {
   EXPECT_NEAR(gradient.rowwise().sum().norm(), 0, 1e-10);  // translations cost nothing
 }
 
-TEST(GaussianContact, GradientMatchesFiniteDifferencesInEveryDimension) {
+TEST(GaussianContact, gradient_matches_finite_differences_in_every_dimension) {
   std::mt19937 generator(1);
   Sample<2> plane = make_sample<2>(8, generator);
   Sample<3> space = make_sample<3>(8, generator);
@@ -61,7 +61,7 @@ TEST(GaussianContact, GradientMatchesFiniteDifferencesInEveryDimension) {
   expect_gradient(space);
 }
 
-TEST(GaussianContact, CountsEveryPairOnceWithTheQuadraticMeanOfTheBandwidths) {
+TEST(GaussianContact, counts_every_pair_once_with_the_quadratic_mean_of_the_bandwidths) {
   GaussianContact<3> energy;
   energy.pairs = {{0, 1, 6}};
   energy.squared_bandwidth = {1, 3};
@@ -73,7 +73,7 @@ TEST(GaussianContact, CountsEveryPairOnceWithTheQuadraticMeanOfTheBandwidths) {
 }
 
 // Paper §3.5.5: with areas, X^2 for scale-free weights and X^3 when the weight is an intrinsic distance.
-TEST(GaussianContact, ScalingLaws) {
+TEST(GaussianContact, scaling_laws) {
   std::mt19937 generator(2);
   Sample<3> sample = make_sample<3>(10, generator);
   Positions unused = Positions::Zero(3, 10);
@@ -88,7 +88,7 @@ TEST(GaussianContact, ScalingLaws) {
   }
 }
 
-TEST(GaussianContact, CurvesScaleAsLengthInThePlane) {
+TEST(GaussianContact, curves_scale_as_length_in_the_plane) {
   std::mt19937 generator(3);
   Sample<2> sample = make_sample<2>(10, generator);
   EXPECT_EQ(sample.energy.exponent, 1);
@@ -115,7 +115,7 @@ void expect_same_pairs_as_brute_force(std::mt19937& generator) {
   }
 }
 
-TEST(PairsWithin, MatchesBruteForce) {
+TEST(PairsWithin, matches_brute_force) {
   std::mt19937 generator(4);
   expect_same_pairs_as_brute_force<2>(generator);
   expect_same_pairs_as_brute_force<3>(generator);

@@ -24,7 +24,7 @@ Hessian one_vertex(const std::vector<std::pair<Vec3, double>>& springs) {
   return result;
 }
 
-TEST(Hessian, BlocksAreInverted) {
+TEST(Hessian, blocks_are_inverted) {
   const Hessian springs = one_vertex({{Vec3(1, 0, 0), 3}, {Vec3(0, 1, 1), 2}});
   std::vector<Eigen::Matrix3d> inverse;
   springs.inverse_blocks(false, inverse);
@@ -39,7 +39,7 @@ TEST(Hessian, BlocksAreInverted) {
 }
 
 // As of faces that have collapsed: all but one direction is lost to round-off.
-TEST(Hessian, InversesOfStiffBlocksArePositiveDefinite) {
+TEST(Hessian, inverses_of_stiff_blocks_are_positive_definite) {
   const Vec3 direction = Vec3(0.3, -0.7, 0.65).normalized();
   for (const double stiffness : {1e10, 1e16, 1e20, 1e30}) {
     std::vector<Eigen::Matrix3d> inverse;
@@ -49,7 +49,7 @@ TEST(Hessian, InversesOfStiffBlocksArePositiveDefinite) {
   }
 }
 
-TEST(Hessian, VerticesThatDoNotMoveAreLeftOut) {
+TEST(Hessian, vertices_that_do_not_move_are_left_out) {
   HessianTerms terms;
   terms.diagonals = {{0, 2}, {1, 5}};
   HessianTerms::RankOne& term = terms.rank_ones.emplace_back();

@@ -9,7 +9,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(IpcBarrier, FunctionAndDerivatives) {
+TEST(IpcBarrier, function_and_derivatives) {
   EXPECT_EQ(barrier(1), 0);
   EXPECT_EQ(barrier(1.5), 0);
   EXPECT_EQ(barrier_derivative(1.5), 0);
@@ -27,7 +27,7 @@ TEST(IpcBarrier, FunctionAndDerivatives) {
   }
 }
 
-TEST(IpcBarrier, MollifierIsSmooth) {
+TEST(IpcBarrier, mollifier_is_smooth) {
   EXPECT_EQ(mollifier(0, 0.1), 0);
   EXPECT_EQ(mollifier(0.1, 0.1), 1);
   EXPECT_EQ(mollifier(0.2, 0.1), 1);
@@ -50,7 +50,7 @@ void expect_barrier_gradient(const BarrierStencil& s, const Positions& x) {
   EXPECT_LT(at.gradient.rowwise().sum().norm(), 1e-10 * (1 + at.gradient.norm()));
 }
 
-TEST(IpcBarrier, GradientOfVertexOverFaceEdgeAndCorner) {
+TEST(IpcBarrier, gradient_of_vertex_over_face_edge_and_corner) {
   Positions x(3, 4);
   for (const Vec3& p : {Vec3(0.3, 0.3, 0.05), Vec3(0.5, -0.03, 0.04), Vec3(-0.03, -0.03, 0.02)}) {
     x << p, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0);
@@ -60,7 +60,7 @@ TEST(IpcBarrier, GradientOfVertexOverFaceEdgeAndCorner) {
   }
 }
 
-TEST(IpcBarrier, GradientOfCrossingAndNearlyParallelEdges) {
+TEST(IpcBarrier, gradient_of_crossing_and_nearly_parallel_edges) {
   Positions x(3, 4);
   x << Vec3(-1, 0, 0), Vec3(1, 0.1, 0), Vec3(0, -1, 0.05), Vec3(0.1, 1, 0.07);
   expect_barrier_gradient(stencil(StencilKind::edge_edge, 0.01, 0.1, 1e-3 * 16), x);
@@ -72,7 +72,7 @@ TEST(IpcBarrier, GradientOfCrossingAndNearlyParallelEdges) {
   EXPECT_EQ(IpcBarrier{{s}}.value(x, 0), 0);
 }
 
-TEST(IpcBarrier, ZeroBeyondActivationAndInfiniteAtSeparation) {
+TEST(IpcBarrier, zero_beyond_activation_and_infinite_at_separation) {
   Positions x(3, 4);
   x << Vec3(0.3, 0.3, 0.2), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0);
   const BarrierStencil far = stencil(StencilKind::vertex_face, 0.01, 0.1);
@@ -83,7 +83,7 @@ TEST(IpcBarrier, ZeroBeyondActivationAndInfiniteAtSeparation) {
   EXPECT_TRUE(std::isinf(IpcBarrier{{closed}}.value(x, 0)));
 }
 
-TEST(IpcBarrier, ForceDependsOnTheRatioAlone) {
+TEST(IpcBarrier, force_depends_on_the_ratio_alone) {
   // Scaled positions and lengths: the energy scales as length, the force not at all.
   Positions x(3, 4);
   x << Vec3(0.3, 0.3, 0.05), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0);

@@ -62,7 +62,7 @@ double sampled_depth(std::span<const Vec3> a, std::span<const Vec3> b) {
   return best;
 }
 
-TEST(TrianglePenetration, DepthIsTheLeastOverAllDirections) {
+TEST(TrianglePenetration, depth_is_the_least_over_all_directions) {
   std::mt19937 generator(1);
   int overlapping = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -79,7 +79,7 @@ TEST(TrianglePenetration, DepthIsTheLeastOverAllDirections) {
   EXPECT_GT(overlapping, 5);
 }
 
-TEST(TrianglePenetration, SeparatedTrianglesHaveNone) {
+TEST(TrianglePenetration, separated_triangles_have_none) {
   std::mt19937 generator(2);
   for (int trial = 0; trial < 100; ++trial) {
     const Corners a = random_triangle(generator);
@@ -90,7 +90,7 @@ TEST(TrianglePenetration, SeparatedTrianglesHaveNone) {
   }
 }
 
-TEST(TrianglePenetration, MovingByTheDepthSeparates) {
+TEST(TrianglePenetration, moving_by_the_depth_separates) {
   std::mt19937 generator(3);
   for (int trial = 0; trial < 300; ++trial) {
     Corners a = random_triangle(generator);
@@ -124,7 +124,7 @@ void expect_gradient(const Corners& a, const Corners& b, double margin, double t
   }
 }
 
-TEST(TrianglePenetration, GradientMatchesFiniteDifferences) {
+TEST(TrianglePenetration, gradient_matches_finite_differences) {
   std::mt19937 generator(4);
   int tested = 0;
   for (int trial = 0; trial < 400; ++trial) {
@@ -136,7 +136,7 @@ TEST(TrianglePenetration, GradientMatchesFiniteDifferences) {
   EXPECT_GT(tested, 20);
 }
 
-TEST(TrianglePenetration, WeightsAreInsideTheTrianglesWhenTheyOverlap) {
+TEST(TrianglePenetration, weights_are_inside_the_triangles_when_they_overlap) {
   std::mt19937 generator(5);
   for (int trial = 0; trial < 400; ++trial) {
     const Corners a = random_triangle(generator), b = random_triangle(generator);
@@ -149,7 +149,7 @@ TEST(TrianglePenetration, WeightsAreInsideTheTrianglesWhenTheyOverlap) {
   }
 }
 
-TEST(TrianglePenetration, ScalesLinearlyAndIsSymmetric) {
+TEST(TrianglePenetration, scales_linearly_and_is_symmetric) {
   std::mt19937 generator(6);
   for (int trial = 0; trial < 100; ++trial) {
     Corners a = random_triangle(generator), b = random_triangle(generator);
@@ -162,7 +162,7 @@ TEST(TrianglePenetration, ScalesLinearlyAndIsSymmetric) {
   }
 }
 
-TEST(TrianglePenetration, CoplanarNeighboursSideBySideAreNoContact) {
+TEST(TrianglePenetration, coplanar_neighbours_side_by_side_are_no_contact) {
   const Corners a{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   const Corners b{Vec3(1.5, 0, 0), Vec3(2.5, 0, 0), Vec3(1.5, 1, 0)};
   EXPECT_LE(triangle_penetration(a, b, 0.1).depth, 0);
@@ -173,7 +173,7 @@ TEST(TrianglePenetration, CoplanarNeighboursSideBySideAreNoContact) {
   EXPECT_NEAR(triangle_penetration(a, above, 0.1).depth, 0.07, 1e-12);
 }
 
-TEST(TrianglePenetration, DegenerateTrianglesAreSegments) {
+TEST(TrianglePenetration, degenerate_triangles_are_segments) {
   const Corners needle{Vec3(0.25, 0.25, -1), Vec3(0.25, 0.25, 0.1), Vec3(0.25, 0.25, 0)};
   const Corners face{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   const Penetration p = triangle_penetration(needle, face, 0);
@@ -183,7 +183,7 @@ TEST(TrianglePenetration, DegenerateTrianglesAreSegments) {
   EXPECT_LE(triangle_penetration(point, point, 0).depth, 0);
 }
 
-TEST(PolygonPenetration, AgreesWithTrianglesAndWithSampling) {
+TEST(PolygonPenetration, agrees_with_triangles_and_with_sampling) {
   std::mt19937 generator(7);
   for (int trial = 0; trial < 100; ++trial) {
     const Corners a = random_triangle(generator), b = random_triangle(generator);
@@ -223,7 +223,7 @@ void expect_energy_gradient(MinkowskiPenalty& energy, const Positions& x, double
   }
 }
 
-TEST(TrianglePenetration, HintsChangeNothingButTheCost) {
+TEST(TrianglePenetration, hints_change_nothing_but_the_cost) {
   std::mt19937 generator(9);
   for (int trial = 0; trial < 500; ++trial) {
     const Corners a = random_triangle(generator), b = random_triangle(generator);
@@ -242,7 +242,7 @@ TEST(TrianglePenetration, HintsChangeNothingButTheCost) {
   }
 }
 
-TEST(MinkowskiPenalty, OneVertexPairsHaveTheRightGradient) {
+TEST(MinkowskiPenalty, one_vertex_pairs_have_the_right_gradient) {
   const std::vector<Triangle> triangles{{0, 1, 2}, {3, 0, 4}};
   std::mt19937 generator(8);
   int tested = 0;
@@ -258,7 +258,7 @@ TEST(MinkowskiPenalty, OneVertexPairsHaveTheRightGradient) {
   EXPECT_EQ(tested, 20);
 }
 
-TEST(MinkowskiPenalty, FoldsOpen) {
+TEST(MinkowskiPenalty, folds_open) {
   const std::vector<Triangle> triangles{{0, 1, 2}, {1, 0, 3}};
   Positions x(3, 4);
   x.col(0) = Vec3(0, 0, 0);
@@ -282,7 +282,7 @@ TEST(MinkowskiPenalty, FoldsOpen) {
   EXPECT_NEAR(std::abs(flat.normal[2]), 1, 1e-12);
 }
 
-TEST(MinkowskiPenalty, SameThreeVerticesContributeNothing) {
+TEST(MinkowskiPenalty, same_three_vertices_contribute_nothing) {
   const std::vector<Triangle> triangles{{0, 1, 2}, {2, 1, 0}};
   Positions x(3, 3);
   x << 0, 1, 0, 0, 0, 1, 0, 0, 0;

@@ -27,7 +27,7 @@ double area_share(const Positions& rest, const Positions& x) {
   return at_rest.dot(area_vector(x, one[0])) / at_rest.squaredNorm();
 }
 
-TEST(OrientationPenalty, RestShapeAndItsSurroundingsHaveNoEnergy) {
+TEST(OrientationPenalty, rest_shape_and_its_surroundings_have_no_energy) {
   const OrientationPenalty penalty(corner(1), one, {});
   for (double height : {1.0, 0.5, 0.2, 3.0}) {
     EXPECT_EQ(penalty.value(corner(height), 0), 0);
@@ -36,14 +36,14 @@ TEST(OrientationPenalty, RestShapeAndItsSurroundingsHaveNoEnergy) {
   EXPECT_GT(penalty.value(corner(0.19), 0), 0);
 }
 
-TEST(OrientationPenalty, GrowsTheFartherAFaceIsFlipped) {
+TEST(OrientationPenalty, grows_the_farther_a_face_is_flipped) {
   const OrientationPenalty penalty(corner(1), one, {});
   EXPECT_GT(penalty.value(corner(-0.1), 0), penalty.value(corner(0.1), 0));
   EXPECT_GT(penalty.value(corner(-0.3), 0), penalty.value(corner(-0.1), 0));
   EXPECT_TRUE(std::isfinite(penalty.value(corner(-100), 0)));
 }
 
-TEST(OrientationPenalty, TrianglesWithoutAreaAtRestAreFree) {
+TEST(OrientationPenalty, triangles_without_area_at_rest_are_free) {
   const OrientationPenalty penalty(corner(0), one, {});
   EXPECT_EQ(penalty.value(corner(-1), 0), 0);
   Positions p = corner(-1);
@@ -51,7 +51,7 @@ TEST(OrientationPenalty, TrianglesWithoutAreaAtRestAreFree) {
   EXPECT_EQ(p, corner(-1));
 }
 
-TEST(OrientationPenalty, DerivativesAgreeWithFiniteDifferences) {
+TEST(OrientationPenalty, derivatives_agree_with_finite_differences) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Positions rest = corner(1) + 0.1 * random_positions(seed, 3);
     const Positions x = corner(seed % 2 ? 0.1 : -0.1) + 0.03 * random_positions(seed + 100, 3);
@@ -74,7 +74,7 @@ TEST(OrientationPenalty, DerivativesAgreeWithFiniteDifferences) {
 }
 
 // A needle at rest that has become wide.
-TEST(OrientationPenalty, GrowsLinearlyWhereAFaceIsManyTimesFlipped) {
+TEST(OrientationPenalty, grows_linearly_where_a_face_is_many_times_flipped) {
   const OrientationPenalty penalty(corner(1), one, {.linear = 30});
   const auto growth = [&](double height) {
     return penalty.value(corner(height - 1), 0) - penalty.value(corner(height), 0);
@@ -86,7 +86,7 @@ TEST(OrientationPenalty, GrowsLinearlyWhereAFaceIsManyTimesFlipped) {
   EXPECT_GT(linearise_all(penalty, x, 1).hessian.rank_ones.at(0).stiffness, 0);
 }
 
-TEST(OrientationPenalty, FilterStopsWhatWouldFlipAFace) {
+TEST(OrientationPenalty, filter_stops_what_would_flip_a_face) {
   const OrientationPenalty penalty(corner(1), one, {});
   Positions p = Positions::Zero(3, 3);
   p(1, 2) = -0.7;  // keeps 0.3 of its share
@@ -100,7 +100,7 @@ TEST(OrientationPenalty, FilterStopsWhatWouldFlipAFace) {
   EXPECT_GE(share, 0.2);
 }
 
-TEST(OrientationPenalty, FilterLetsFlippedFacesMove) {
+TEST(OrientationPenalty, filter_lets_flipped_faces_move) {
   const OrientationPenalty penalty(corner(1), one, {});
   Positions p = Positions::Zero(3, 3);
   p(1, 2) = -3;
@@ -109,7 +109,7 @@ TEST(OrientationPenalty, FilterLetsFlippedFacesMove) {
   EXPECT_EQ(p, whole);
 }
 
-TEST(OrientationPenalty, ProjectsAFlipOntoTheShareThatIsKept) {
+TEST(OrientationPenalty, projects_a_flip_onto_the_share_that_is_kept) {
   const Positions x = corner(1);
   const OrientationPenalty penalty(x, one, {});
   Positions p = Positions::Zero(3, 3);
@@ -124,7 +124,7 @@ TEST(OrientationPenalty, ProjectsAFlipOntoTheShareThatIsKept) {
   EXPECT_NEAR(p(2, 2), 0.7, 1e-12);  // along the face it may go
 }
 
-TEST(OrientationPenalty, ProjectionLeavesAloneWhatKeepsItsShare) {
+TEST(OrientationPenalty, projection_leaves_alone_what_keeps_its_share) {
   const Positions x = corner(1);
   const OrientationPenalty penalty(x, one, {});
   Positions p = Positions::Zero(3, 3);

@@ -23,7 +23,7 @@ struct Crossing {
   }
 };
 
-TEST(PolygonPenalty, TakesFlatConvexFacesWhole) {
+TEST(PolygonPenalty, takes_flat_convex_faces_whole) {
   Crossing crossing(0.7);
   EXPECT_EQ(convex_faces(crossing.triangles, crossing.face_of, crossing.x),
             (std::vector<std::vector<Index>>{{0, 1, 2, 3}, {4, 5, 6, 7}}));
@@ -34,7 +34,7 @@ TEST(PolygonPenalty, TakesFlatConvexFacesWhole) {
   EXPECT_EQ(convex_faces(crossing.triangles, crossing.face_of, crossing.x).size(), 4u);
 }
 
-TEST(PolygonPenalty, GradientMatchesFiniteDifferences) {
+TEST(PolygonPenalty, gradient_matches_finite_differences) {
   const Crossing crossing(0.7);
   PolygonPenalty penalty(convex_faces(crossing.triangles, crossing.face_of, crossing.x));
   penalty.pairs = {{0, 1}};
@@ -51,7 +51,7 @@ TEST(PolygonPenalty, GradientMatchesFiniteDifferences) {
     }
 }
 
-TEST(PolygonPenalty, FacesThatAreApartOrShareAVertexCostNothing) {
+TEST(PolygonPenalty, faces_that_are_apart_or_share_a_vertex_cost_nothing) {
   const Crossing apart(1.5);
   Positions gradient = Positions::Zero(3, 8);
   PolygonPenalty penalty({{0, 1, 2, 3}, {4, 5, 6, 7}});

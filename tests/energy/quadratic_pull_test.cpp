@@ -7,7 +7,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(QuadraticPull, VertexAreasSumToTheSurface) {
+TEST(QuadraticPull, vertex_areas_sum_to_the_surface) {
   Positions x(3, 5);
   x << 0, 1, 0, 1, 9,  //
       0, 0, 1, 1, 9,   //
@@ -20,7 +20,7 @@ TEST(QuadraticPull, VertexAreasSumToTheSurface) {
   EXPECT_LT(areas[4], 1e-3);
 }
 
-TEST(QuadraticPull, GradientAgreesWithFiniteDifferences) {
+TEST(QuadraticPull, gradient_agrees_with_finite_differences) {
   const QuadraticPull energy{{0.5, 2, 1}, random_positions(1, 3)};
   const Positions x = random_positions(2, 3);
   expect_derivatives(energy, x, 1e-6, 1e-8);
@@ -29,7 +29,7 @@ TEST(QuadraticPull, GradientAgreesWithFiniteDifferences) {
   EXPECT_NEAR(total_value(scaled, 3 * x), 9 * total_value(energy, x), 1e-12);
 }
 
-TEST(QuadraticPull, DampingIsInTheHessianAlone) {
+TEST(QuadraticPull, damping_is_in_the_hessian_alone) {
   const QuadraticPull energy{{0.5, 2}, random_positions(1, 2)};
   const QuadraticPull damped{{0.5, 2}, energy.rest, 3};
   const Positions x = random_positions(2, 2);

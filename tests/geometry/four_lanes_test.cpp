@@ -5,7 +5,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(FourLanes, BitsAreThoseOfTheComparisons) {
+TEST(FourLanes, bits_are_those_of_the_comparisons) {
   for (unsigned bits = 0; bits < 16; ++bits) {
     FourFloats numbers = {};
     FourIndices indices = {};

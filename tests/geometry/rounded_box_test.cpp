@@ -12,7 +12,7 @@ Box box_between(const Vec3& lo, const Vec3& hi) {
   return box;
 }
 
-TEST(RoundedBox, OverlapsWhatTheBoxOverlaps) {
+TEST(RoundedBox, overlaps_what_the_box_overlaps) {
   const RoundedBox box(box_between(Vec3(0, 0, 0), Vec3(1, 1, 1)));
   EXPECT_TRUE(box.overlaps(RoundedBox(box_between(Vec3(1, 1, 1), Vec3(2, 2, 2)))));
   EXPECT_TRUE(box.overlaps(RoundedBox(box_between(Vec3(-5, 0.5, 0.5), Vec3(5, 0.6, 0.6)))));
@@ -26,7 +26,7 @@ TEST(RoundedBox, OverlapsWhatTheBoxOverlaps) {
   EXPECT_TRUE(box.overlaps(RoundedBox(box_between(Vec3(1 + 1e-12, 0, 0), Vec3(2, 1, 1)))));
 }
 
-TEST(RoundedBox, EmptyOverlapsNothing) {
+TEST(RoundedBox, empty_overlaps_nothing) {
   const RoundedBox box(box_between(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
   EXPECT_FALSE(RoundedBox().overlaps(box));
   EXPECT_FALSE(RoundedBox(Box()).overlaps(box));
@@ -37,7 +37,7 @@ TEST(RoundedBox, EmptyOverlapsNothing) {
   EXPECT_TRUE(extended.overlaps(box));
 }
 
-TEST(RoundedBox, BeyondTheRangeOfSinglePrecisionOverlapsStill) {
+TEST(RoundedBox, beyond_the_range_of_single_precision_overlaps_still) {
   const RoundedBox far(box_between(Vec3(1e200, 0, 0), Vec3(2e200, 1, 1)));
   EXPECT_TRUE(far.overlaps(RoundedBox(box_between(Vec3(-1e300, -1e300, -1e300), Vec3(1e300, 1e300, 1e300)))));
   EXPECT_TRUE(far.overlaps(far));

@@ -9,7 +9,7 @@ namespace {
 
 const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-TEST(Document, FormatByExtension) {
+TEST(Document, format_by_extension) {
   EXPECT_EQ(format_from_extension("a/b.c/Mesh.OBJ"), Format::obj);
   EXPECT_EQ(format_from_extension("gltf"), Format::gltf);
   EXPECT_EQ(format_from_extension(".stl"), Format::stl);
@@ -23,12 +23,12 @@ TEST(Document, FormatByExtension) {
   for (const FormatEntry& entry : formats) EXPECT_EQ(format_from_extension(to_string(entry.format)), entry.format);
 }
 
-TEST(Document, NamesItsFormats) {
+TEST(Document, names_its_formats) {
   EXPECT_TRUE(format_names().starts_with("obj, off, ply, stl, glb, gltf, surf, gii"));
   EXPECT_NE(format_names(" or ").find(" or "), std::string::npos);
 }
 
-TEST(Document, FreeSurferSurfacesNeedNoExtension) {
+TEST(Document, free_surfer_surfaces_need_no_extension) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "document_test";
   std::filesystem::create_directories(folder);
   const auto error_of = [&](const char* name, const std::string& bytes) -> std::string {
@@ -53,7 +53,7 @@ TEST(Document, FreeSurferSurfacesNeedNoExtension) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Document, WhatHasNoFacesIsRefused) {
+TEST(Document, what_has_no_faces_is_refused) {
   const std::string gii_points =
       "<GIFTI><DataArray Intent=\"NIFTI_INTENT_POINTSET\" DataType=\"NIFTI_TYPE_FLOAT32\" Dimensionality=\"2\" "
       "Dim0=\"1\" Dim1=\"3\" Encoding=\"ASCII\"><Data>0 0 0</Data></DataArray><DataArray "
@@ -90,7 +90,7 @@ TEST(Document, WhatHasNoFacesIsRefused) {
   }
 }
 
-TEST(Document, RefusesPositionsThatAreNotItsOwn) {
+TEST(Document, refuses_positions_that_are_not_its_own) {
   const Document document = Document::parse(triangle, Format::obj);
   std::vector<double> positions = document.surface().positions;
   positions.pop_back();
@@ -99,7 +99,7 @@ TEST(Document, RefusesPositionsThatAreNotItsOwn) {
   EXPECT_THROW(document.as_written(positions, false), std::invalid_argument);
 }
 
-TEST(Document, CanBeMoved) {
+TEST(Document, can_be_moved) {
   Document document = Document::parse(triangle, Format::obj);
   const Document other = std::move(document);
   EXPECT_EQ(patched_bytes(other, other.surface().positions), triangle);
@@ -123,7 +123,7 @@ std::string with_line_ends(const std::string& text, const std::string& line_end)
   return result;
 }
 
-TEST(Document, LineEndsAndAMissingLastOneDoNotMatter) {
+TEST(Document, line_ends_and_a_missing_last_one_do_not_matter) {
   for (const auto& [format, text] : texts) {
     const Surface expected = Document::parse(text, format).surface();
     for (const char* line_end : {"\n", "\r\n", "\r"})
@@ -137,7 +137,7 @@ TEST(Document, LineEndsAndAMissingLastOneDoNotMatter) {
   }
 }
 
-TEST(Document, CoordinatesThatAreNotFiniteAreRefusedByPlace) {
+TEST(Document, coordinates_that_are_not_finite_are_refused_by_place) {
   for (const auto& [format, text] : texts)
     for (const char* word : {"nan", "NaN", "-nan", "inf", "-inf", "Infinity", "1e999", "-1e999", "1e99999999999"}) {
       const std::string error = parse_error(replaced(text, "1.5", word), format);

@@ -23,21 +23,21 @@ void throw_write_error_of(const std::string& message, int error_number, const st
   throw_write_error(message, error_number);
 }
 
-TEST(Errors, WhatAPathIsTheReasonOfIsAnErrorOfTheFile) {
+TEST(Errors, what_a_path_is_the_reason_of_is_an_error_of_the_file) {
   for (const int number : {ENOENT, EACCES, EISDIR, ENOTDIR, ELOOP, ENAMETOOLONG, ENOSPC, EROFS})
     EXPECT_FALSE(is_error_of_system(number)) << number;
   expect_thrown<FileError>(throw_read_error, ENOENT, "No such file or directory");
   expect_thrown<WriteError>(throw_write_error_of, EACCES, "Permission denied");
 }
 
-TEST(Errors, WhatTheMachineIsTheReasonOfIsAnErrorOfTheSystem) {
+TEST(Errors, what_the_machine_is_the_reason_of_is_an_error_of_the_system) {
   for (const int number : {EMFILE, ENFILE, EIO, ENOMEM, EAGAIN, ESTALE, ETIMEDOUT})
     EXPECT_TRUE(is_error_of_system(number)) << number;
   expect_thrown<SystemError>(throw_read_error, EIO, "Input/output error");
   expect_thrown<SystemError>(throw_write_error_of, EMFILE, "Too many open files");
 }
 
-TEST(Errors, WhatIsNoErrorOfTheSystemHasNoNumber) {
+TEST(Errors, what_is_no_error_of_the_system_has_no_number) {
   EXPECT_EQ(FileError("line 3: no number").error_number(), 0);
   EXPECT_FALSE(is_error_of_system(0));
 }

@@ -44,7 +44,7 @@ class FileAccess : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST_F(FileAccess, WritesNewFilesAndReplacesOldOnes) {
+TEST_F(FileAccess, writes_new_files_and_replaces_old_ones) {
   write_atomically(folder_ / "a.obj", "one");
   EXPECT_EQ(content(folder_ / "a.obj"), "one");
   write_atomically(folder_ / "a.obj", std::string("t\0o", 3));
@@ -52,14 +52,14 @@ TEST_F(FileAccess, WritesNewFilesAndReplacesOldOnes) {
   EXPECT_EQ(files_in_folder(), 1u);
 }
 
-TEST_F(FileAccess, KeepsPermissions) {
+TEST_F(FileAccess, keeps_permissions) {
   write_atomically(folder_ / "a.obj", "one");
   fs::permissions(folder_ / "a.obj", fs::perms::owner_read | fs::perms::owner_write);
   write_atomically(folder_ / "a.obj", "two");
   EXPECT_EQ(fs::status(folder_ / "a.obj").permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
-TEST_F(FileAccess, RespectsWriteProtection) {
+TEST_F(FileAccess, respects_write_protection) {
   if (::geteuid() == 0) GTEST_SKIP() << "nothing is protected from root";
   write_atomically(folder_ / "a.obj", "one");
   fs::permissions(folder_ / "a.obj", fs::perms::owner_read);
@@ -68,7 +68,7 @@ TEST_F(FileAccess, RespectsWriteProtection) {
   EXPECT_EQ(files_in_folder(), 1u);
 }
 
-TEST_F(FileAccess, FollowsLinks) {
+TEST_F(FileAccess, follows_links) {
   write_atomically(folder_ / "a.obj", "one");
   fs::create_symlink("a.obj", folder_ / "link.obj");
   write_atomically(folder_ / "link.obj", "two");
@@ -76,19 +76,19 @@ TEST_F(FileAccess, FollowsLinks) {
   EXPECT_EQ(content(folder_ / "a.obj"), "two");
 }
 
-TEST_F(FileAccess, WritesIntoDevices) {
+TEST_F(FileAccess, writes_into_devices) {
   write_atomically("/dev/null", "gone");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST_F(FileAccess, FailuresLeaveNothingBehind) {
+TEST_F(FileAccess, failures_leave_nothing_behind) {
   EXPECT_THROW(write_atomically(folder_ / "missing" / "a.obj", "x"), WriteError);
   EXPECT_THROW(write_atomically(folder_, "x"), WriteError);
   EXPECT_THROW(write_atomically("", "x"), WriteError);
   EXPECT_EQ(files_in_folder(), 0u);
 }
 
-TEST_F(FileAccess, ReadsWithTheFormatOfTheExtensionOrTheContent) {
+TEST_F(FileAccess, reads_with_the_format_of_the_extension_or_the_content) {
   write_atomically(folder_ / "a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_EQ(Document::read(folder_ / "a.off").format(), Format::off);
   fs::rename(folder_ / "a.off", folder_ / "a");
@@ -98,7 +98,7 @@ TEST_F(FileAccess, ReadsWithTheFormatOfTheExtensionOrTheContent) {
   EXPECT_NE(read_error(folder_ / "b").find("nor the content tells the format"), std::string::npos);
 }
 
-TEST_F(FileAccess, RefusesWhatIsNoFileAndNamesIt) {
+TEST_F(FileAccess, refuses_what_is_no_file_and_names_it) {
   EXPECT_NE(read_error(folder_ / "missing.obj").find("missing.obj: cannot open"), std::string::npos);
   fs::create_directory(folder_ / "folder.obj");
   EXPECT_NE(read_error(folder_ / "folder.obj").find("is a folder"), std::string::npos);
@@ -122,7 +122,7 @@ class NoMoreDescriptors {
   rlimit before_{};
 };
 
-TEST_F(FileAccess, AFailureOfTheSystemIsNoErrorOfTheFile) {
+TEST_F(FileAccess, a_failure_of_the_system_is_no_error_of_the_file) {
   write_atomically(folder_ / "a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   {
     const NoMoreDescriptors none;
@@ -133,7 +133,7 @@ TEST_F(FileAccess, AFailureOfTheSystemIsNoErrorOfTheFile) {
   EXPECT_EQ(files_in_folder(), 1u);
 }
 
-TEST_F(FileAccess, AnErrorOfAFileKeepsTheNumberOfTheSystem) {
+TEST_F(FileAccess, an_error_of_a_file_keeps_the_number_of_the_system) {
   try {
     Document::read(folder_ / "missing.obj");
     ADD_FAILURE() << "it was read";

@@ -70,7 +70,7 @@ std::vector<std::string> all_encodings() {
           binary<double, std::int64_t>("Base64Binary", little, "FLOAT64", "INT64")};
 }
 
-TEST(Gii, ReadsEveryEncoding) {
+TEST(Gii, reads_every_encoding) {
   for (const std::string& bytes : all_encodings()) {
     const Document document = Document::parse(bytes, Format::gii);
     EXPECT_EQ(document.surface().positions, positions);
@@ -80,18 +80,18 @@ TEST(Gii, ReadsEveryEncoding) {
   EXPECT_TRUE(Document::parse(ascii, Format::gii).stores_float32());
 }
 
-TEST(Gii, KeepsEveryPromiseOfPatching) {
+TEST(Gii, keeps_every_promise_of_patching) {
   for (const std::string& bytes : all_encodings()) check_patching(bytes, Format::gii);
 }
 
-TEST(Gii, OnlyTheMovedTokenChanges) {
+TEST(Gii, only_the_moved_token_changes) {
   const Document document = Document::parse(ascii, Format::gii);
   std::vector<double> moved = positions;
   moved[11] = 0.1;
   EXPECT_EQ(patched_bytes(document, moved), replaced(ascii, "4.25", "0.1"));
 }
 
-TEST(Gii, OnlyTheBlockOfPointsChanges) {
+TEST(Gii, only_the_block_of_points_changes) {
   for (const char* encoding : {"Base64Binary", "GZipBase64Binary"}) {
     const std::string bytes = binary(encoding, little);
     std::vector<double> moved = positions;
@@ -103,7 +103,7 @@ TEST(Gii, OnlyTheBlockOfPointsChanges) {
   }
 }
 
-TEST(Gii, LinesOfBase64StayWhereTheDigitsAreAsMany) {
+TEST(Gii, lines_of_base64_stay_where_the_digits_are_as_many) {
   const std::string digits = as_base64(packed_all<float>(positions, little));
   const std::string lines = std::string("\n") + digits.substr(0, 20) + "\r\n\t" + digits.substr(20) + "\n";
   const std::string bytes = replaced(binary("Base64Binary", little), digits, lines);
@@ -115,7 +115,7 @@ TEST(Gii, LinesOfBase64StayWhereTheDigitsAreAsMany) {
   EXPECT_EQ(patched.find("\r\n\t"), bytes.find("\r\n\t"));
 }
 
-TEST(Gii, ReadsGzipColumnsAndOtherArrays) {
+TEST(Gii, reads_gzip_columns_and_other_arrays) {
   const std::string by_columns = "ArrayIndexingOrder=\"ColumnMajorOrder\" Endian=\"LittleEndian\"";
   const std::string columns =
       gifti(data_array("SHAPE", "FLOAT32", 4, "ExternalFileBinary", "") +
@@ -132,7 +132,7 @@ TEST(Gii, ReadsGzipColumnsAndOtherArrays) {
                  Format::gii);
 }
 
-TEST(Gii, TrianglesMayBeStoredAsFloats) {
+TEST(Gii, triangles_may_be_stored_as_floats) {
   // slam does so, and nibabel reads it.
   const std::string floats = binary<float, float>("GZipBase64Binary", little, "FLOAT32", "FLOAT32");
   EXPECT_EQ(Document::parse(floats, Format::gii).surface().corners, corners);
@@ -143,7 +143,7 @@ TEST(Gii, TrianglesMayBeStoredAsFloats) {
   EXPECT_PARSE_ERROR(replaced(halves, "0 1.0 2", "0 1.5 2"), Format::gii, "'1.5' in DataArray 2");
 }
 
-TEST(Gii, SeveralSurfacesAreOneScene) {
+TEST(Gii, several_surfaces_are_one_scene) {
   const std::string two = gifti(data_array("POINTSET", "FLOAT32", 4, "ASCII", points_text) +
                                 data_array("POINTSET", "FLOAT32", 3, "Base64Binary",
                                            as_base64(packed<float>({5, 5, 5, 6, 5, 5, 5, 6, 5}, little))) +
@@ -155,7 +155,7 @@ TEST(Gii, SeveralSurfacesAreOneScene) {
   check_patching(two, Format::gii);
 }
 
-TEST(Gii, MissingVerticesStayAndSoDoTheirFaces) {
+TEST(Gii, missing_vertices_stay_and_so_do_their_faces) {
   const std::string text = replaced(ascii, "0 4 0", "NaN -nan 7");
   std::vector<double> with_nan = positions;
   with_nan[6] = nan;
@@ -178,7 +178,7 @@ TEST(Gii, MissingVerticesStayAndSoDoTheirFaces) {
             std::string::npos);
 }
 
-TEST(Gii, ErrorsSayWhatAndWhere) {
+TEST(Gii, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::gii, "empty");
   EXPECT_PARSE_ERROR("v 0 0 0\n", Format::gii, "line 1: this is not XML");
   EXPECT_PARSE_ERROR("<Mesh/>", Format::gii, "line 1: the root element is <Mesh>, but <GIFTI> should be here");
@@ -209,7 +209,7 @@ TEST(Gii, ErrorsSayWhatAndWhere) {
                      "should hold 15 numbers of 4 bytes, but has 48 bytes");
 }
 
-TEST(Gii, EntitiesDoNotGrow) {
+TEST(Gii, entities_do_not_grow) {
   const std::string bomb =
       replaced(replaced(ascii, "<!DOCTYPE GIFTI SYSTEM \"http://gifti.projects.nitrc.org/gifti.dtd\">",
                         "<!DOCTYPE GIFTI [<!ENTITY a \"ha\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\"><!ENTITY c "
@@ -218,7 +218,7 @@ TEST(Gii, EntitiesDoNotGrow) {
   check_patching(bomb, Format::gii);
 }
 
-TEST(Gii, SurvivesDamage) {
+TEST(Gii, survives_damage) {
   check_damage(ascii, Format::gii);
   check_damage(binary("Base64Binary", std::endian::big), Format::gii);
   check_damage(binary("GZipBase64Binary", little), Format::gii);
@@ -263,7 +263,7 @@ class GiiFolder : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST_F(GiiFolder, ReadsAndPatchesExternalFiles) {
+TEST_F(GiiFolder, reads_and_patches_external_files) {
   for (const std::endian order : {little, std::endian::big}) {
     const std::string bytes = in_one_file(order);
     const Document document = parse(bytes);
@@ -283,7 +283,7 @@ TEST_F(GiiFolder, ReadsAndPatchesExternalFiles) {
   }
 }
 
-TEST_F(GiiFolder, AResultHasExternalFilesOfItsOwn) {
+TEST_F(GiiFolder, a_result_has_external_files_of_its_own) {
   fs::create_directory(folder_ / "sub");
   const std::string points = packed_all<double>(positions, little), faces = packed_all<std::int32_t>(corners, little);
   file("sub/p & q.dat", points);
@@ -312,7 +312,7 @@ TEST_F(GiiFolder, AResultHasExternalFilesOfItsOwn) {
   EXPECT_EQ(again.patched(moved, false, "a'b.gii")[0].bytes, files[0].bytes);
 }
 
-TEST_F(GiiFolder, WhatNeedNotBeReadIsPassedOnOrNoted) {
+TEST_F(GiiFolder, what_need_not_be_read_is_passed_on_or_noted) {
   const std::string one = in_one_file();
   const auto with = [&](const std::string& name) {
     return replaced(one, "</GIFTI>", array("SHAPE", "FLOAT32", name, 0) + "</GIFTI>");
@@ -325,7 +325,7 @@ TEST_F(GiiFolder, WhatNeedNotBeReadIsPassedOnOrNoted) {
   EXPECT_EQ(parse(with("missing.dat")).patched(positions, true, "b.gii").size(), 2u);
 }
 
-TEST_F(GiiFolder, ExternalFilesMayBeShared) {
+TEST_F(GiiFolder, external_files_may_be_shared) {
   file("two.dat", packed<float>({5, 5, 5, 6, 5, 5, 5, 6, 5}, little) + packed_all<float>(positions, little) +
                       packed_all<std::int32_t>(corners, little));
   const std::string corners_of_both =
@@ -349,7 +349,7 @@ TEST_F(GiiFolder, ExternalFilesMayBeShared) {
                "DataArray 2 (NIFTI_INTENT_POINTSET) and DataArray 3 (NIFTI_INTENT_TRIANGLE) use the same bytes");
 }
 
-TEST_F(GiiFolder, ReferencesOutOfTheFolderAndDamageAreRefused) {
+TEST_F(GiiFolder, references_out_of_the_folder_and_damage_are_refused) {
   const std::string good = in_one_file();
   file("inside.dat", "");
   fs::create_directory(folder_ / "sub");
@@ -372,7 +372,7 @@ TEST_F(GiiFolder, ReferencesOutOfTheFolderAndDamageAreRefused) {
   expect_error(replaced(good, "Dim0=\"4\"", "Dim0=\"400000000000\""), "cut short or damaged");
 }
 
-TEST_F(GiiFolder, SurvivesDamage) {
+TEST_F(GiiFolder, survives_damage) {
   const std::string good = in_one_file();
   FixedNumbers numbers;
   const std::size_t begin = good.find("<DataArray"), end = good.find("<MetaData>");

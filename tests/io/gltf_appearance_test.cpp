@@ -57,7 +57,7 @@ std::vector<float> painted(const Appearance& look) {
   return {look.uv_of_corner.begin() + 6, look.uv_of_corner.end()};
 }
 
-TEST(GltfAppearance, ImagesInTheFile) {
+TEST(GltfAppearance, images_in_the_file) {
   const Appearance look = TexturedTriangle().look();
   EXPECT_EQ(look.material_of_face, (std::vector<std::int32_t>{-1, 0}));
   ASSERT_EQ(look.images.size(), 1u);
@@ -73,7 +73,7 @@ TEST(GltfAppearance, ImagesInTheFile) {
   EXPECT_TRUE(look.notes.empty());
 }
 
-TEST(GltfAppearance, ImagesAsDataAndBesideTheFile) {
+TEST(GltfAppearance, images_as_data_and_beside_the_file) {
   TexturedTriangle file;
   file.images = R"([{"uri":"data:image/jpeg;base64,)" + base64_encoded(jpeg_bytes(6, 5)) + R"("}])";
   EXPECT_EQ(file.look().images.at(0).media_type, "image/jpeg");
@@ -84,7 +84,7 @@ TEST(GltfAppearance, ImagesAsDataAndBesideTheFile) {
   EXPECT_EQ(file.look(folder.path()).images.at(0).name, "0 (maps/my%20skin.png)");
 }
 
-TEST(GltfAppearance, ColoursAndHoles) {
+TEST(GltfAppearance, colours_and_holes) {
   TexturedTriangle file;
   file.materials =
       R"([{"alphaMode":"MASK","alphaCutoff":0.3,"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[1,0,0.2140411,1]}}])";
@@ -104,7 +104,7 @@ TEST(GltfAppearance, ColoursAndHoles) {
   EXPECT_TRUE(file.look().uv_of_corner.empty());
 }
 
-TEST(GltfAppearance, OtherCoordinatesAndTransforms) {
+TEST(GltfAppearance, other_coordinates_and_transforms) {
   TexturedTriangle file;
   file.materials = R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}}}])";
   EXPECT_EQ(painted(file.look()), (std::vector<float>{0, 0.2f, 1, 0, 0, 0.4f}));
@@ -119,7 +119,7 @@ TEST(GltfAppearance, OtherCoordinatesAndTransforms) {
   EXPECT_EQ(painted(file.look())[1], 0);
 }
 
-TEST(GltfAppearance, WhatCannotBeShownIsSaid) {
+TEST(GltfAppearance, what_cannot_be_shown_is_said) {
   const auto note = [](const TexturedTriangle& file) {
     const Appearance look = file.look();
     EXPECT_EQ(look.material_of_face.size(), 2u);
@@ -153,7 +153,7 @@ TEST(GltfAppearance, WhatCannotBeShownIsSaid) {
   EXPECT_EQ(dangling.look().materials.at(0).image, -1);
 }
 
-TEST(GltfAppearance, AMeshWithoutMaterialsHasNone) {
+TEST(GltfAppearance, a_mesh_without_materials_has_none) {
   TexturedTriangle file;
   file.materials = "[]";
   EXPECT_FALSE(file.look().is_worth_showing());

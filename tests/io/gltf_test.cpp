@@ -73,7 +73,7 @@ const std::string moved_node =
     R"("nodes":[{"children":[1],"translation":[10,0,0],"rotation":[0,0,0.7071067811865476,0.7071067811865476]},
                 {"mesh":0,"scale":[2,2,-3],"name":"Knot"}])";
 
-TEST(Gltf, ReadsBothContainers) {
+TEST(Gltf, reads_both_containers) {
   for (const Document& document :
        {Document::parse(plain, Format::glb), Document::parse(gltf_with_data_uri(), Format::gltf)}) {
     EXPECT_EQ(document.surface().positions, std::vector<double>(tetrahedron.begin(), tetrahedron.end()));
@@ -88,7 +88,7 @@ TEST(Gltf, ReadsBothContainers) {
   }
 }
 
-TEST(Gltf, KeepsEveryPromiseOfPatching) {
+TEST(Gltf, keeps_every_promise_of_patching) {
   std::string chunk;
   put(chunk, std::uint32_t{4});
   chunk += "MOREdata";
@@ -102,7 +102,7 @@ TEST(Gltf, KeepsEveryPromiseOfPatching) {
   check_patching(escaped, Format::gltf);
 }
 
-TEST(Gltf, OnlyTheMovedNumbersAndTheirBoundsChange) {
+TEST(Gltf, only_the_moved_numbers_and_their_bounds_change) {
   const Document document = Document::parse(plain, Format::glb);
   std::vector<double> moved = document.surface().positions;
   moved[4] = 0.5;       // within the bounds
@@ -114,7 +114,7 @@ TEST(Gltf, OnlyTheMovedNumbersAndTheirBoundsChange) {
             glb(replaced(json_text(), "1.000, 0.1]", "1.000, 0.33333334]"), buffer_bytes(positions)));
 }
 
-TEST(Gltf, DataUriChangesOnlyWhereItMust) {
+TEST(Gltf, data_uri_changes_only_where_it_must) {
   const std::string text = gltf_with_data_uri();
   const Document document = Document::parse(text, Format::gltf);
   std::vector<double> moved = document.surface().positions;
@@ -124,7 +124,7 @@ TEST(Gltf, DataUriChangesOnlyWhereItMust) {
   EXPECT_EQ(patched_bytes(document, moved), replaced(text, base64(buffer_bytes()), base64(buffer_bytes(positions))));
 }
 
-TEST(Gltf, NormalsFollowWhereAskedTo) {
+TEST(Gltf, normals_follow_where_asked_to) {
   EXPECT_FALSE(Document::parse(plain, Format::glb).recompute_normals());
   // A triangle in a node that is moved, mirrored and stretched, and a vertex of no face.
   const std::string json = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
@@ -151,7 +151,7 @@ TEST(Gltf, NormalsFollowWhereAskedTo) {
   EXPECT_EQ(patched_bytes(document, document.surface().positions), glb(json, buffer(0, 0, 1)));
 }
 
-TEST(Gltf, NodesPlaceTheirMeshes) {
+TEST(Gltf, nodes_place_their_meshes) {
   const Document document = Document::parse(glb(json_text(moved_node), buffer_bytes()), Format::glb);
   const std::vector<double>& x = document.surface().positions;
   const double expected[] = {10, 0, 0, 10, 2, 0, 8, 0, 0, 10, 0, -3 * static_cast<double>(0.1f)};
@@ -165,7 +165,7 @@ TEST(Gltf, NodesPlaceTheirMeshes) {
   EXPECT_NEAR(load<float>(bytes.data() + vertex + 4, std::endian::little), 0.25f, 1e-7f);
 }
 
-TEST(Gltf, MatrixIsColumnMajor) {
+TEST(Gltf, matrix_is_column_major) {
   const Document document = Document::parse(
       glb(json_text(R"("nodes":[{"mesh":0,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1]}])"), buffer_bytes()),
       Format::glb);
@@ -176,7 +176,7 @@ TEST(Gltf, MatrixIsColumnMajor) {
 
 // An armature is turned by a quarter about x, which takes z to y. Without matrices of the bind pose the mesh is
 // modelled with z up; with one that undoes the turn it is modelled as it stands in the scene.
-TEST(Gltf, UpIsWhatTheJointsTurnToY) {
+TEST(Gltf, up_is_what_the_joints_turn_to_y) {
   using Axis = std::array<double, 3>;
   const auto up = [](const std::string& json, const std::string& more_bytes = "") {
     const std::string bytes = glb(json, buffer_bytes() + more_bytes);
@@ -207,7 +207,7 @@ TEST(Gltf, UpIsWhatTheJointsTurnToY) {
   EXPECT_EQ(up(bound, matrix), (Axis{0, 1, 0}));
 }
 
-TEST(Gltf, NotesOnWhatIsSpecial) {
+TEST(Gltf, notes_on_what_is_special) {
   const auto note = [](const std::string& nodes,
                        const std::string& primitive = R"("attributes":{"POSITION":0},"indices":1)") {
     const std::string bytes = glb(json_text(nodes, "", primitive), buffer_bytes());
@@ -230,7 +230,7 @@ TEST(Gltf, NotesOnWhatIsSpecial) {
                "1 primitives without triangles");
 }
 
-TEST(Gltf, ALaterPlaceServesWhereTheFirstIsFlat) {
+TEST(Gltf, a_later_place_serves_where_the_first_is_flat) {
   const Document document = Document::parse(
       glb(json_text(R"("nodes":[{"mesh":0,"scale":[0,0,0]},{"mesh":0,"translation":[5,0,0]}])"), buffer_bytes()),
       Format::glb);
@@ -241,7 +241,7 @@ TEST(Gltf, ALaterPlaceServesWhereTheFirstIsFlat) {
   EXPECT_EQ(Document::parse(glb(both, buffer_bytes()), Format::glb).surface().positions[3], 6.0);
 }
 
-TEST(Gltf, StripsFansAndUnindexed) {
+TEST(Gltf, strips_fans_and_unindexed) {
   const auto corners = [](const std::string& primitive) {
     return Document::parse(glb(json_text(R"("nodes":[{"mesh":0}])", "", primitive), buffer_bytes()), Format::glb)
         .surface()
@@ -253,7 +253,7 @@ TEST(Gltf, StripsFansAndUnindexed) {
   EXPECT_EQ(corners(R"("attributes":{"POSITION":0},"mode":6)"), (Corners{1, 2, 0, 2, 3, 0}));
 }
 
-TEST(Gltf, PrimitivesThatShareAnAccessorShareVertices) {
+TEST(Gltf, primitives_that_share_an_accessor_share_vertices) {
   const std::string bytes =
       glb(json_text(R"("nodes":[{"mesh":0}])", "",
                     R"("attributes":{"POSITION":0},"indices":1},{"attributes":{"POSITION":0},"mode":6)"),
@@ -280,7 +280,7 @@ std::string interleaved(std::size_t second_start) {
              data);
 }
 
-TEST(Gltf, AccessorsThatOverlapShareVertices) {
+TEST(Gltf, accessors_that_overlap_share_vertices) {
   const Document document = Document::parse(interleaved(48), Format::glb);
   EXPECT_EQ(document.surface().view().vertex_count(), 5u);
   EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 1, 2, 2, 3, 4}));
@@ -289,11 +289,11 @@ TEST(Gltf, AccessorsThatOverlapShareVertices) {
   check_patching(interleaved(72), Format::glb);
 }
 
-TEST(Gltf, PositionsThatCutThroughEachOtherAreRefused) {
+TEST(Gltf, positions_that_cut_through_each_other_are_refused) {
   EXPECT_PARSE_ERROR(interleaved(52), Format::glb, "overlap at byte");
 }
 
-TEST(Gltf, PositionsThatAreNormalsTooCannotMove) {
+TEST(Gltf, positions_that_are_normals_too_cannot_move) {
   const Document document = Document::parse(
       glb(json_text(R"("nodes":[{"mesh":0}])", "", R"("attributes":{"POSITION":0,"NORMAL":0},"indices":1)"),
           buffer_bytes()),
@@ -305,7 +305,7 @@ TEST(Gltf, PositionsThatAreNormalsTooCannotMove) {
   EXPECT_THROW(document.patched(moved, false), FileError);
 }
 
-TEST(Gltf, PositionsThatAreIndicesTooCannotMove) {
+TEST(Gltf, positions_that_are_indices_too_cannot_move) {
   const std::string text = replaced(json_text(), R"("byteOffset":48,"byteLength":24)", R"("byteLength":24)");
   const Document document = Document::parse(glb(text, buffer_bytes(std::vector<float>(12, 0.0f))), Format::glb);
   ASSERT_EQ(document.notes().size(), 1u);
@@ -328,7 +328,7 @@ class GltfFolder : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(GltfFolder, ExternalBuffersComeBackAsFiles) {
+TEST_F(GltfFolder, external_buffers_come_back_as_files) {
   const std::string text = json_text(R"("nodes":[{"mesh":0}])", R"("uri":"my%20data.bin",)");
   write_atomically(folder_ / "a.gltf", text);
   write_atomically(folder_ / "my data.bin", buffer_bytes());
@@ -348,7 +348,7 @@ TEST_F(GltfFolder, ExternalBuffersComeBackAsFiles) {
   EXPECT_EQ(files[1].bytes, buffer_bytes(positions));
 }
 
-TEST_F(GltfFolder, ExternalBuffersHaveToBeInTheFolder) {
+TEST_F(GltfFolder, external_buffers_have_to_be_in_the_folder) {
   const auto error = [this](const std::string& uri) {
     write_atomically(folder_ / "a.gltf", json_text(R"("nodes":[{"mesh":0}])", R"("uri":")" + uri + R"(",)"));
     try {
@@ -369,7 +369,7 @@ TEST_F(GltfFolder, ExternalBuffersHaveToBeInTheFolder) {
   EXPECT_PRED2(message_contains, error("short.bin"), "should have 72 bytes, but 4 are there");
 }
 
-TEST(Gltf, ErrorsSayWhatAndWhere) {
+TEST(Gltf, errors_say_what_and_where) {
   const std::string json = json_text();
   const auto error = [&](const std::string& from, const std::string& to) {
     return parse_error(glb(replaced(json, from, to), buffer_bytes()), Format::glb);
@@ -409,7 +409,7 @@ TEST(Gltf, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(glb(json, buffer_bytes(positions)), Format::glb, "byte 24 of buffer 0: vertex 2");
 }
 
-TEST(Gltf, ManyPrimitivesOnTheSameIndicesAreRefused) {
+TEST(Gltf, many_primitives_on_the_same_indices_are_refused) {
   std::string primitives = R"("attributes":{"POSITION":0},"indices":1)";
   for (int i = 0; i < 20000; ++i) primitives += R"(},{"attributes":{"POSITION":0},"indices":1)";
   EXPECT_TRUE(
@@ -424,7 +424,7 @@ TEST(Gltf, ManyPrimitivesOnTheSameIndicesAreRefused) {
                      "more face corners than a file of this size");
 }
 
-TEST(Gltf, SurvivesDamage) {
+TEST(Gltf, survives_damage) {
   check_damage(plain, Format::glb);
   check_damage(interleaved(48), Format::glb);
   check_damage(gltf_with_data_uri(moved_node), Format::gltf);

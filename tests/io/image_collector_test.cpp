@@ -8,7 +8,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(ImageCollector, TakesEachImageOnce) {
+TEST(ImageCollector, takes_each_image_once) {
   Appearance appearance;
   ImageCollector images(appearance, 1000);
   int taken = 0;
@@ -21,7 +21,7 @@ TEST(ImageCollector, TakesEachImageOnce) {
   EXPECT_TRUE(appearance.notes.empty());
 }
 
-TEST(ImageCollector, SaysWhatItLeavesOut) {
+TEST(ImageCollector, says_what_it_leaves_out) {
   Appearance appearance;
   ImageCollector images(appearance, 1000);
   const auto note_on = [&](const std::string& name, const std::string& bytes) {
@@ -37,7 +37,7 @@ TEST(ImageCollector, SaysWhatItLeavesOut) {
   EXPECT_EQ(appearance.notes.size(), 3u);
 }
 
-TEST(ImageCollector, AllImagesTogetherHaveALimit) {
+TEST(ImageCollector, all_images_together_have_a_limit) {
   Appearance appearance;
   ImageCollector images(appearance, 2'000'000);
   EXPECT_EQ(images.add("first", [] { return png_bytes(1, 1, 1'200'000); }), 0);
@@ -46,7 +46,7 @@ TEST(ImageCollector, AllImagesTogetherHaveALimit) {
   EXPECT_EQ(images.add("third", [] { return png_bytes(1, 1, 700'000); }), 1);
 }
 
-TEST(ImageCollector, ReadsOnlyBelowTheFolder) {
+TEST(ImageCollector, reads_only_below_the_folder) {
   Appearance appearance;
   const ImageCollector images(appearance, 1000);
   EXPECT_THROW(images.read_beside("/tmp", "../etc/passwd"), FileError);

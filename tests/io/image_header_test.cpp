@@ -7,7 +7,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(ImageHeader, TellsSizeAndKind) {
+TEST(ImageHeader, tells_size_and_kind) {
   const std::optional<ImageHeader> png = image_header(png_bytes(70000, 3));
   ASSERT_TRUE(png);
   EXPECT_EQ(png->media_type, "image/png");
@@ -20,7 +20,7 @@ TEST(ImageHeader, TellsSizeAndKind) {
   EXPECT_EQ(jpeg->height, 480u);
 }
 
-TEST(ImageHeader, OfWhatIsNoImageThereIsNone) {
+TEST(ImageHeader, of_what_is_no_image_there_is_none) {
   EXPECT_FALSE(image_header(""));
   EXPECT_FALSE(image_header("GIF89a........................"));
   EXPECT_FALSE(image_header("RIFF....WEBPVP8 ................."));

@@ -19,7 +19,7 @@ const std::string parts =
     "*Assembly, name=a\n*Instance, name=i, part=first\n*End Instance\n*Instance, name=j, part=second\n*End Instance\n"
     "*Node\n1, 9, 9, 9\n*End Assembly\n";
 
-TEST(Inp, ReadsNodesAndShells) {
+TEST(Inp, reads_nodes_and_shells) {
   const Document document = Document::parse(flat, Format::inp);
   EXPECT_EQ(document.surface().positions, positions);
   EXPECT_EQ(document.surface().corners, corners);
@@ -31,19 +31,19 @@ TEST(Inp, ReadsNodesAndShells) {
   EXPECT_PRED2(message_contains, document.notes().at(0), "Volume elements (1) are not looked at");
 }
 
-TEST(Inp, NumbersBelongToTheirPart) {
+TEST(Inp, numbers_belong_to_their_part) {
   const Document document = Document::parse(parts, Format::inp);
   EXPECT_EQ(document.surface().positions.size(), 21u);
   EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 1, 2, 5, 4, 3}));
   EXPECT_EQ(document.face_labels().at(1).names, (std::vector<std::string>{"first", "second"}));
 }
 
-TEST(Inp, KeepsEveryPromiseOfPatching) {
+TEST(Inp, keeps_every_promise_of_patching) {
   check_patching(flat, Format::inp);
   check_patching(parts, Format::inp);
 }
 
-TEST(Inp, OnlyTheMovedCoordinateChanges) {
+TEST(Inp, only_the_moved_coordinate_changes) {
   std::vector<double> moved = positions;
   moved[3] = 0.1;
   moved[8] = -2;
@@ -52,14 +52,14 @@ TEST(Inp, OnlyTheMovedCoordinateChanges) {
             replaced(replaced(replaced(flat, "4.000", "0.1"), "4.,0,", "4.,-2,"), "4.25", "1e-20"));
 }
 
-TEST(Inp, LineEndsDoNotMatter) {
+TEST(Inp, line_ends_do_not_matter) {
   std::string text;
   for (const char c : flat) text += c == '\n' ? "\r\n" : std::string(1, c);
   EXPECT_EQ(Document::parse(text, Format::inp).surface().positions, positions);
   check_patching(text, Format::inp);
 }
 
-TEST(Inp, ErrorsSayWhatAndWhere) {
+TEST(Inp, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::inp, "empty");
   EXPECT_PARSE_ERROR("v 0 0 0\n", Format::inp, "line 1: a keyword like '*NODE' should be before");
   EXPECT_PARSE_ERROR("*Heading\n", Format::inp, "no nodes");
@@ -87,7 +87,7 @@ TEST(Inp, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("*Part, name=p\n*Node\n1,0,0,0\n", Format::inp, "part p is not ended");
 }
 
-TEST(Inp, SurvivesDamage) {
+TEST(Inp, survives_damage) {
   check_damage(flat, Format::inp);
   check_damage(parts, Format::inp);
 }

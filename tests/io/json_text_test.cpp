@@ -7,7 +7,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(JsonText, FindsValuesAndTheirPlaces) {
+TEST(JsonText, finds_values_and_their_places) {
   const std::string text =
       "\xEF\xBB\xBF { \"a\" : [1, -2.5e1 ,true] , \"b\":{\"c\":\"x\\/y\\n\\u00e4\\ud83d\\ude00\"}, \"n\":null }\n";
   const JsonText json(text);
@@ -27,7 +27,7 @@ TEST(JsonText, FindsValuesAndTheirPlaces) {
   EXPECT_TRUE(root["n"]);
 }
 
-TEST(JsonText, KeysMayBeEscapedAndTheLastOfTwoCounts) {
+TEST(JsonText, keys_may_be_escaped_and_the_last_of_two_counts) {
   const std::string text = R"({"\u0061bc":1,"k":1,"k":2,"":3})";
   const JsonText json(text);
   EXPECT_EQ(json.root()["abc"].index(), 1u);
@@ -35,7 +35,7 @@ TEST(JsonText, KeysMayBeEscapedAndTheLastOfTwoCounts) {
   EXPECT_EQ(json.root()[""].index(), 3u);
 }
 
-TEST(JsonText, EmptyContainers) {
+TEST(JsonText, empty_containers) {
   const std::string text = R"([ {} , [ ], "" ])";
   const JsonText json(text);
   ASSERT_EQ(json.root().elements().size(), 3u);
@@ -43,7 +43,7 @@ TEST(JsonText, EmptyContainers) {
   EXPECT_TRUE(json.root().elements()[1].elements().empty());
 }
 
-TEST(JsonText, RefusesWhatIsNotJson) {
+TEST(JsonText, refuses_what_is_not_json) {
   for (const char* text :
        {"",       " ",      "{",    "[1", "[1,]",      "{\"a\"}", "{\"a\":}", "{a:1}",   "[1 2]",       "01",
         "1.",     ".5",     "+1",   "1e", "-",         "nul",     "\"",       "\"\\x\"", "\"\\u12g4\"", "\"\\",
@@ -53,12 +53,12 @@ TEST(JsonText, RefusesWhatIsNotJson) {
   }
 }
 
-TEST(JsonText, RefusesBottomlessNesting) {
+TEST(JsonText, refuses_bottomless_nesting) {
   const std::string text(1000000, '[');
   EXPECT_THROW(JsonText{text}, FileError);
 }
 
-TEST(JsonText, HalfASurrogatePairIsNoCrash) {
+TEST(JsonText, half_a_surrogate_pair_is_no_crash) {
   for (const char* text : {R"("\ud83d")", R"("\ud83dx")", R"("\ud83d\u0041")", R"("\ude00")"}) {
     const std::string owned = text;
     EXPECT_FALSE(JsonText(owned).root().string().empty());

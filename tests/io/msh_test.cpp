@@ -56,7 +56,7 @@ std::vector<std::string> all_files() {
   return {ascii_2, binary_2(little), binary_2(std::endian::big), ascii_4, binary_4(little), binary_4(std::endian::big)};
 }
 
-TEST(Msh, ReadsBothVersionsInTextAndBinary) {
+TEST(Msh, reads_both_versions_in_text_and_binary) {
   for (const std::string& bytes : all_files()) {
     SCOPED_TRACE(bytes.substr(0, 20));
     const Document document = Document::parse(bytes, Format::msh);
@@ -67,7 +67,7 @@ TEST(Msh, ReadsBothVersionsInTextAndBinary) {
   }
 }
 
-TEST(Msh, GroupsAreThePhysicalOnesAndObjectsTheEntities) {
+TEST(Msh, groups_are_the_physical_ones_and_objects_the_entities) {
   for (const std::string& bytes : {ascii_2, ascii_4}) {
     const Document document = Document::parse(bytes, Format::msh);
     ASSERT_EQ(document.face_labels().size(), 2u);
@@ -79,11 +79,11 @@ TEST(Msh, GroupsAreThePhysicalOnesAndObjectsTheEntities) {
   }
 }
 
-TEST(Msh, KeepsEveryPromiseOfPatching) {
+TEST(Msh, keeps_every_promise_of_patching) {
   for (const std::string& bytes : all_files()) check_patching(bytes, Format::msh);
 }
 
-TEST(Msh, OnlyTheMovedCoordinateChanges) {
+TEST(Msh, only_the_moved_coordinate_changes) {
   std::vector<double> moved = positions;
   moved[11] = 0.1;
   EXPECT_EQ(patched_bytes(Document::parse(ascii_2, Format::msh), moved), replaced(ascii_2, "4.25", "0.1"));
@@ -91,13 +91,13 @@ TEST(Msh, OnlyTheMovedCoordinateChanges) {
             replaced(binary_4(little), packed<double>({4.25}, little), packed<double>({0.1}, little)));
 }
 
-TEST(Msh, SaysWhatIsNotLookedAt) {
+TEST(Msh, says_what_is_not_looked_at) {
   EXPECT_PRED2(message_contains, Document::parse(ascii_2, Format::msh).notes().at(0),
                "Volume elements (1) are not looked at");
   EXPECT_PRED2(message_contains, Document::parse(ascii_4, Format::msh).notes().at(0), "Parametric coordinates");
 }
 
-TEST(Msh, AnElementOfTwoPhysicalGroupsIsOneFace) {
+TEST(Msh, an_element_of_two_physical_groups_is_one_face) {
   const std::string repeated = "3 2 2 7 1 10 5 20\n", again = "8 2 2 6 1 10 5 20\n";
   const std::string bytes = replaced(replaced(ascii_2, "$Elements\n7", "$Elements\n8"), repeated, repeated + again);
   const Document document = Document::parse(bytes, Format::msh);
@@ -109,7 +109,7 @@ TEST(Msh, AnElementOfTwoPhysicalGroupsIsOneFace) {
   EXPECT_EQ(Document::parse(doubled, Format::msh).surface().offsets.size(), 6u);
 }
 
-TEST(Msh, ErrorsSayWhatAndWhere) {
+TEST(Msh, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::msh, "empty");
   EXPECT_PARSE_ERROR("v 0 0 0\n", Format::msh, "line 1: '$MeshFormat' should be here");
   EXPECT_PARSE_ERROR(replaced(ascii_2, "2.2", "4.0"), Format::msh,
@@ -135,7 +135,7 @@ TEST(Msh, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", Format::msh, "no $Nodes");
 }
 
-TEST(Msh, SurvivesDamage) {
+TEST(Msh, survives_damage) {
   for (const std::string& bytes : {ascii_2, binary_2(little), ascii_4, binary_4(little)})
     check_damage(bytes, Format::msh);
 }

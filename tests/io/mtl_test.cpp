@@ -11,7 +11,7 @@ std::map<std::string, MtlMaterial, std::less<>> materials_of(std::string_view te
   return materials;
 }
 
-TEST(Mtl, ReadsColoursAndImages) {
+TEST(Mtl, reads_colours_and_images) {
   const auto materials = materials_of(
       "# by hand\nKd 1 0 0\nnewmtl skin tone\r\n  Kd 0.25 0.5 7\nNs 10\nmap_Kd skin 1.png\n"
       "newmtl tiles\nmap_Kd -blendu on -s 2 3 1 -o 0.5 -mm 0 1 -clamp on tiles.jpg\nnewmtl plain");
@@ -28,7 +28,7 @@ TEST(Mtl, ReadsColoursAndImages) {
   EXPECT_EQ(materials.at("plain").colour, (std::array<float, 3>{1, 1, 1}));
 }
 
-TEST(Mtl, PassesOverWhatMakesNoSense) {
+TEST(Mtl, passes_over_what_makes_no_sense) {
   const auto materials = materials_of("newmtl a\nKd 1 2\nKd x y z\nmap_Kd -clamp\nmap_Kd -s\n\xff\x00 0\nnewmtl\n");
   EXPECT_EQ(materials.at("a").colour, (std::array<float, 3>{1, 1, 1}));
   EXPECT_EQ(materials.at("a").image, "");

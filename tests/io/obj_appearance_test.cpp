@@ -20,7 +20,7 @@ class ObjAppearance : public ::testing::Test {
   TestFolder folder_;
 };
 
-TEST_F(ObjAppearance, HasColoursAndImages) {
+TEST_F(ObjAppearance, has_colours_and_images) {
   const Appearance look = appearance_of(vertices +
                                         "vt 0 0\nvt 0.5 0.25 0\nvt 1 1\nf 1 2 3\nusemtl red\nf 1 2\nf 1 2 4\n"
                                         "usemtl skin\nf 1/1 2/2/7 3/-1 4//1\nusemtl unknown\nf 2 3 4\n");
@@ -40,14 +40,14 @@ TEST_F(ObjAppearance, HasColoursAndImages) {
   EXPECT_TRUE(look.is_worth_showing());
 }
 
-TEST_F(ObjAppearance, CoordinatesAreScaledAndShifted) {
+TEST_F(ObjAppearance, coordinates_are_scaled_and_shifted) {
   const Appearance look = appearance_of(vertices + "vt 0.5 0.5\nusemtl skin\nf 1/1 2/1 3/1\n",
                                         "newmtl skin\nmap_Kd -s 2 4 -o 0.25 0 images/skin.png\n");
   EXPECT_EQ(look.uv_of_corner[0], 1.25f);
   EXPECT_EQ(look.uv_of_corner[1], -1.0f);
 }
 
-TEST_F(ObjAppearance, ImagesOfOtherMachinesAreLookedForBesideTheMesh) {
+TEST_F(ObjAppearance, images_of_other_machines_are_looked_for_beside_the_mesh) {
   folder_.write("skin.png", png_bytes(8, 8));
   const Appearance look =
       appearance_of(vertices + "usemtl skin\nf 1 2 3\n", "newmtl skin\nmap_Kd C:\\work\\skin.png\n");
@@ -55,7 +55,7 @@ TEST_F(ObjAppearance, ImagesOfOtherMachinesAreLookedForBesideTheMesh) {
   EXPECT_EQ(look.images[0].width, 8u);
 }
 
-TEST_F(ObjAppearance, WhatIsMissingIsSaid) {
+TEST_F(ObjAppearance, what_is_missing_is_said) {
   const auto notes = [&](const std::string& obj, const std::string& mtl) { return appearance_of(obj, mtl).notes; };
   EXPECT_NE(notes("mtllib absent.mtl\n" + vertices + "f 1 2 3\n", "").at(0).find("absent.mtl"), std::string::npos);
   EXPECT_NE(notes("mtllib ../look.mtl\n" + vertices + "f 1 2 3\n", "").at(0).find("not in the folder"),
@@ -70,7 +70,7 @@ TEST_F(ObjAppearance, WhatIsMissingIsSaid) {
   EXPECT_TRUE(appearance_of(skinned, mtl_text, 10).uv_of_corner.empty());
 }
 
-TEST_F(ObjAppearance, LinksOutOfTheFolderAreNotFollowed) {
+TEST_F(ObjAppearance, links_out_of_the_folder_are_not_followed) {
   const TestFolder elsewhere;
   std::filesystem::create_symlink(elsewhere.write("other.mtl", mtl_text), folder_.path() / "link.mtl");
   std::filesystem::create_symlink(elsewhere.write("secret.png", png_bytes(3, 3)), folder_.path() / "link.png");
@@ -81,7 +81,7 @@ TEST_F(ObjAppearance, LinksOutOfTheFolderAreNotFollowed) {
   EXPECT_NE(look.notes.at(0).find("a link out of it"), std::string::npos);
 }
 
-TEST_F(ObjAppearance, NotesEndSomewhere) {
+TEST_F(ObjAppearance, notes_end_somewhere) {
   std::string obj = vertices, mtl;
   for (int i = 0; i < 30; ++i) {
     mtl += "newmtl m" + std::to_string(i) + "\nmap_Kd " + std::to_string(i) + ".png\n";
@@ -92,7 +92,7 @@ TEST_F(ObjAppearance, NotesEndSomewhere) {
   EXPECT_EQ(notes.back(), "So it is with 22 more.");
 }
 
-TEST_F(ObjAppearance, OneColourIsNotWorthShowing) {
+TEST_F(ObjAppearance, one_colour_is_not_worth_showing) {
   EXPECT_FALSE(appearance_of(vertices + "usemtl red\nf 1 2 3\n").is_worth_showing());
   EXPECT_TRUE(appearance_of(vertices + "usemtl red\nf 1 2 3\nusemtl none\nf 1 2 4\n").is_worth_showing());
   EXPECT_FALSE(appearance_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").is_worth_showing());

@@ -28,7 +28,7 @@ Document parse(const std::string& text) {
   return Document::parse(text, Format::obj);
 }
 
-TEST(Obj, ReadsPositionsAndCornersOfEveryKind) {
+TEST(Obj, reads_positions_and_corners_of_every_kind) {
   const Document document = parse(tetrahedron);
   EXPECT_EQ(document.surface().positions, (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1.5, 0, 0, 0, 1}));
   EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}));
@@ -37,17 +37,17 @@ TEST(Obj, ReadsPositionsAndCornersOfEveryKind) {
   EXPECT_TRUE(document.notes().empty());
 }
 
-TEST(Obj, PolygonsHaveOffsets) {
+TEST(Obj, polygons_have_offsets) {
   const Document document = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 2 0\nf 1 2 3\nf 1 2 3 4\nf 1 2 5 3 4\n");
   EXPECT_EQ(document.surface().offsets, (std::vector<std::int32_t>{0, 3, 7, 12}));
 }
 
-TEST(Obj, FacesMayComeBeforeTheirVertices) {
+TEST(Obj, faces_may_come_before_their_vertices) {
   const Document document = parse("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 1 1 0\n");
   EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 1, 2}));
 }
 
-TEST(Obj, LabelsOfFaces) {
+TEST(Obj, labels_of_faces) {
   const std::vector<FaceLabels> labels = parse(tetrahedron).face_labels();
   ASSERT_EQ(labels.size(), 3u);
   EXPECT_EQ(labels[0].kind, "object");
@@ -59,20 +59,20 @@ TEST(Obj, LabelsOfFaces) {
   EXPECT_EQ(labels[2].of_face, (std::vector<std::int32_t>{0, 1, 1, 1}));
 }
 
-TEST(Obj, FacesBeforeTheFirstNameHaveNone) {
+TEST(Obj, faces_before_the_first_name_have_none) {
   const Document document = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\ng a\nf 1 2 3\ng b\nf 1 2 3\ng a\nf 1 3 2\n");
   ASSERT_EQ(document.face_labels().size(), 1u);
   EXPECT_EQ(document.face_labels()[0].of_face, (std::vector<std::int32_t>{-1, 0, 1, 0}));
 }
 
-TEST(Obj, KeepsEveryPromiseOfPatching) {
+TEST(Obj, keeps_every_promise_of_patching) {
   check_patching(tetrahedron, Format::obj);
   check_patching("\xEF\xBB\xBFv 1 2 3\r\nv 4 5 6\r\nv 7 8 10 1\r\nf 1 2 3\r\n", Format::obj);  // CR LF, byte order mark
   check_patching("v 1 2 3\rv 4 5 6\rv 7 8 10\rf 1 2 3\r", Format::obj);                        // CR alone
   check_patching("v 0.1 \\\n 0.2 \\\r\n0.3\nv 1e-400 1e30 -7\nv 3 3 3\n\n\nf 1 2 3", Format::obj);
 }
 
-TEST(Obj, OnlyTheMovedCoordinateChanges) {
+TEST(Obj, only_the_moved_coordinate_changes) {
   const Document document = parse(tetrahedron);
   std::vector<double> moved = document.surface().positions;
   moved[4] = 0.1;
@@ -82,7 +82,7 @@ TEST(Obj, OnlyTheMovedCoordinateChanges) {
   EXPECT_EQ(patched_bytes(document, moved, true), replaced(tetrahedron, "\t0 -0.0", "\t0.33333334 -0.0"));
 }
 
-TEST(Obj, DigitsOfFloatsReadBackAsTheDoubleThatTheyShow) {
+TEST(Obj, digits_of_floats_read_back_as_the_double_that_they_show) {
   const Document document = parse(tetrahedron);
   std::vector<double> moved = document.surface().positions;
   moved[0] = 0.1;
@@ -92,14 +92,14 @@ TEST(Obj, DigitsOfFloatsReadBackAsTheDoubleThatTheyShow) {
   EXPECT_EQ(document.as_written(moved, false)[0], 0.1 + 1e-12);
 }
 
-TEST(Obj, FacesWithFewerThanThreeCornersAreLeftOut) {
+TEST(Obj, faces_with_fewer_than_three_corners_are_left_out) {
   const Document document = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2\nf 1 2 3\nf\nf 1 1 2\n");
   EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 1, 2, 0, 0, 1}));
   ASSERT_EQ(document.notes().size(), 1u);
   EXPECT_PRED2(message_contains, document.notes()[0], "2 faces with fewer than three corners");
 }
 
-TEST(Obj, ErrorsSayWhatAndWhere) {
+TEST(Obj, errors_say_what_and_where) {
   const std::string three = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
   EXPECT_PARSE_ERROR("", Format::obj, "empty");
   EXPECT_PARSE_ERROR("hello\nworld\n", Format::obj, "no vertices");
@@ -118,7 +118,7 @@ TEST(Obj, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(std::string("\0\1\2\3 binary", 11), Format::obj, "not text");
 }
 
-TEST(Obj, SurvivesDamage) {
+TEST(Obj, survives_damage) {
   check_damage(tetrahedron, Format::obj);
 }
 

@@ -70,7 +70,7 @@ std::string binary(std::endian order, const std::string& scalar_name, bool list_
   return out;
 }
 
-TEST(Ply, ReadsAscii) {
+TEST(Ply, reads_ascii) {
   const Document document = parse(ascii);
   EXPECT_EQ(document.surface().positions,
             (std::vector<double>{0, 0, 0, static_cast<double>(1.1f), 0, 0, 0, 1, 0, 0, 0, 1}));
@@ -79,7 +79,7 @@ TEST(Ply, ReadsAscii) {
   EXPECT_TRUE(document.stores_float32());
 }
 
-TEST(Ply, ReadsBinaryOfBothOrders) {
+TEST(Ply, reads_binary_of_both_orders) {
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     for (const bool list_in_vertex : {false, true}) {
       const Document document = parse(binary<float>(order, "float32", list_in_vertex));
@@ -90,7 +90,7 @@ TEST(Ply, ReadsBinaryOfBothOrders) {
   }
 }
 
-TEST(Ply, KeepsEveryPromiseOfPatching) {
+TEST(Ply, keeps_every_promise_of_patching) {
   check_patching(ascii, Format::ply);
   std::string doubles = ascii;
   for (const char* axis : {"x", "y", "z"}) {
@@ -112,7 +112,7 @@ TEST(Ply, KeepsEveryPromiseOfPatching) {
   }
 }
 
-TEST(Ply, OnlyTheMovedCoordinateChanges) {
+TEST(Ply, only_the_moved_coordinate_changes) {
   const Document document = parse(ascii);
   std::vector<double> moved = document.surface().positions;
   moved[3] = 1.0 / 3;
@@ -120,14 +120,14 @@ TEST(Ply, OnlyTheMovedCoordinateChanges) {
   EXPECT_EQ(document.as_written(moved, false)[3], static_cast<double>(1.0f / 3));
 }
 
-TEST(Ply, MotionBelowFloatKeepsTheToken) {
+TEST(Ply, motion_below_float_keeps_the_token) {
   const Document document = parse(ascii);
   std::vector<double> moved = document.surface().positions;
   moved[3] += 1e-12;
   EXPECT_EQ(patched_bytes(document, moved), ascii);
 }
 
-TEST(Ply, FacesMayComeFirst) {
+TEST(Ply, faces_may_come_first) {
   const std::string text =
       "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_index\nelement vertex 3\n"
       "property double x\nproperty double y\nproperty double z\nend_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0";
@@ -135,7 +135,7 @@ TEST(Ply, FacesMayComeFirst) {
   check_patching(text, Format::ply);
 }
 
-TEST(Ply, IntegerPositionsAreReadButNotChanged) {
+TEST(Ply, integer_positions_are_read_but_not_changed) {
   std::string text = ascii;
   text = replaced(text, "property float y", "property int y");
   const Document document = parse(text);
@@ -148,14 +148,14 @@ TEST(Ply, IntegerPositionsAreReadButNotChanged) {
   EXPECT_THROW(document.patched(moved, false), FileError);
 }
 
-TEST(Ply, TooLargeForFloatIsAWriteError) {
+TEST(Ply, too_large_for_float_is_a_write_error) {
   const Document document = parse(ascii);
   std::vector<double> moved = document.surface().positions;
   moved[0] = 1e300;
   EXPECT_THROW(document.patched(moved, false), WriteError);
 }
 
-TEST(Ply, ErrorsSayWhatAndWhere) {
+TEST(Ply, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::ply, "empty");
   EXPECT_PARSE_ERROR("4 4 6\n", Format::ply, "'ply' missing");
   EXPECT_PARSE_ERROR("ply\nformat ascii 1.0\n", Format::ply, "within the header");
@@ -185,7 +185,7 @@ TEST(Ply, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(not_finite, Format::ply, "vertex 0 (counting from 0) is not finite");
 }
 
-TEST(Ply, SurvivesDamage) {
+TEST(Ply, survives_damage) {
   check_damage(ascii, Format::ply);
   check_damage(binary<float>(std::endian::little, "float", false), Format::ply);
   check_damage(binary<double>(std::endian::big, "double", true), Format::ply);

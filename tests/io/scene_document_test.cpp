@@ -8,7 +8,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(SceneDocument, AppearancesOfItsFilesAreJoined) {
+TEST(SceneDocument, appearances_of_its_files_are_joined) {
   const TestFolder folder;
   folder.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl skin\nmap_Kd a.png\n");
   folder.write("b.mtl", "newmtl skin\nmap_Kd b.png\nnewmtl gone\nmap_Kd gone.png\n");

@@ -28,7 +28,7 @@ class StagedFilesTest : public ::testing::Test {
   const std::vector<OutputFile> three = {{{}, "main"}, {"a.bin", "a"}, {"deeper/b.bin", "b"}};
 };
 
-TEST_F(StagedFilesTest, AreInPlaceOnceCommitted) {
+TEST_F(StagedFilesTest, are_in_place_once_committed) {
   const fs::path main = folder.write("x.gii", "old");
   ::chmod(main.c_str(), 0640);
   {
@@ -46,12 +46,12 @@ TEST_F(StagedFilesTest, AreInPlaceOnceCommitted) {
   EXPECT_EQ(entries(), 3u);
 }
 
-TEST_F(StagedFilesTest, LeaveNothingUnlessCommitted) {
+TEST_F(StagedFilesTest, leave_nothing_unless_committed) {
   { StagedFiles().add(folder.path() / "x.gii", three); }
   EXPECT_EQ(entries(), 0u);
 }
 
-TEST_F(StagedFilesTest, TellTheirGuardOfEveryTemporaryFolder) {
+TEST_F(StagedFilesTest, tell_their_guard_of_every_temporary_folder) {
   std::vector<std::size_t> before, after;
   const StagedFiles::Guard guard = [&](const StagedFiles& files, const std::function<void()>& step) {
     before.push_back(files.folders().size());
@@ -68,7 +68,7 @@ TEST_F(StagedFilesTest, TellTheirGuardOfEveryTemporaryFolder) {
   EXPECT_EQ(after, (std::vector<std::size_t>{1, 1, 0}));
 }
 
-TEST_F(StagedFilesTest, LeaveAllAsTheyWereWhereOneCannotBeReplaced) {
+TEST_F(StagedFilesTest, leave_all_as_they_were_where_one_cannot_be_replaced) {
   const fs::path main = folder.write("x.gii", "old"), last = folder.write("deeper/b.bin", "old b");
   {
     StagedFiles staged;
@@ -80,7 +80,7 @@ TEST_F(StagedFilesTest, LeaveAllAsTheyWereWhereOneCannotBeReplaced) {
   EXPECT_EQ(entries(), 3u);
 }
 
-TEST_F(StagedFilesTest, AreTakenBackWhereAMoveFails) {
+TEST_F(StagedFilesTest, are_taken_back_where_a_move_fails) {
   // The folder of the second is gone when its turn comes, so the first, which is moved already, has to come back.
   const fs::path main = folder.write("main.obj", "old"), other = folder.path() / "other";
   fs::create_directory(other);
@@ -98,13 +98,13 @@ TEST_F(StagedFilesTest, AreTakenBackWhereAMoveFails) {
   EXPECT_EQ(entries(), 2u);
 }
 
-TEST_F(StagedFilesTest, ReplaceNoPipes) {
+TEST_F(StagedFilesTest, replace_no_pipes) {
   ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
   EXPECT_THROW(StagedFiles().open(folder.path() / "pipe"), WriteError);
   EXPECT_EQ(entries(), 1u);
 }
 
-TEST_F(StagedFilesTest, ReplaceNothingThatWasChangedAfterItWasRead) {
+TEST_F(StagedFilesTest, replace_nothing_that_was_changed_after_it_was_read) {
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   for (const std::string how : {"longer", "as long", "another file"}) {
     const fs::path main = folder.write("a.obj", mesh);
@@ -128,7 +128,7 @@ TEST_F(StagedFilesTest, ReplaceNothingThatWasChangedAfterItWasRead) {
   EXPECT_EQ(content(main), mesh);
 }
 
-TEST_F(StagedFilesTest, WriteNoHiddenFilesNorOutsideTheFolder) {
+TEST_F(StagedFilesTest, write_no_hidden_files_nor_outside_the_folder) {
   const fs::path main = folder.path() / "out/x.gltf";
   fs::create_directories(folder.path() / "out");
   fs::create_directories(folder.path() / "elsewhere");

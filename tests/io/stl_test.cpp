@@ -46,7 +46,7 @@ std::string binary(const std::string& title, std::vector<std::array<float, 12>> 
 const std::vector<std::array<float, 12>> two_facets = {{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0},
                                                        {0, 0, 0, 0, 0, 0.1f, 1, 0, 0, 0, 1, 5}};
 
-TEST(Stl, ReadsAscii) {
+TEST(Stl, reads_ascii) {
   const Document document = parse(ascii);
   EXPECT_EQ(document.surface().view().vertex_count(), 9u);
   EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
@@ -57,7 +57,7 @@ TEST(Stl, ReadsAscii) {
   EXPECT_EQ(document.face_labels()[0].of_face, (std::vector<std::int32_t>{0, 0, 1}));
 }
 
-TEST(Stl, ReadsBinaryWhateverItsHeaderSays) {
+TEST(Stl, reads_binary_whatever_its_header_says) {
   for (const char* title : {"made by us", "solid but binary", ""}) {
     const std::string bytes = binary(title, two_facets);
     const Document document = parse(bytes);
@@ -68,14 +68,14 @@ TEST(Stl, ReadsBinaryWhateverItsHeaderSays) {
   }
 }
 
-TEST(Stl, KeepsEveryPromiseOfPatching) {
+TEST(Stl, keeps_every_promise_of_patching) {
   check_patching(ascii, Format::stl);
   std::string crlf;
   for (const char c : ascii) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
   check_patching(crlf, Format::stl);
 }
 
-TEST(Stl, NormalsOfMovedFacetsFollow) {
+TEST(Stl, normals_of_moved_facets_follow) {
   const Document document = parse(ascii);
   std::vector<double> moved = document.surface().positions;
   moved[5] = 1;  // the facet now faces (-1, 0, 1) / sqrt(2)
@@ -92,7 +92,7 @@ TEST(Stl, NormalsOfMovedFacetsFollow) {
   EXPECT_EQ(bytes.substr(84 + 50), packed.patched(packed.surface().positions, false)[0].bytes.substr(84 + 50));
 }
 
-TEST(Stl, ZeroNormalsStayAndNormalsWithoutAreaBecomeZero) {
+TEST(Stl, zero_normals_stay_and_normals_without_area_become_zero) {
   const Document document = parse(ascii);
   std::vector<double> moved = document.surface().positions;
   moved[18] = 4;   // the facet with normal 0 0 0
@@ -104,7 +104,7 @@ TEST(Stl, ZeroNormalsStayAndNormalsWithoutAreaBecomeZero) {
   EXPECT_NE(patched_bytes(document, moved).find("facet normal 0 0 0\n"), std::string::npos);
 }
 
-TEST(Stl, ErrorsSayWhatAndWhere) {
+TEST(Stl, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::stl, "empty");
   EXPECT_PARSE_ERROR("hello", Format::stl, "neither text that starts with 'solid' nor binary");
   EXPECT_PARSE_ERROR(binary("x", two_facets).substr(0, 140), Format::stl,
@@ -124,12 +124,12 @@ TEST(Stl, ErrorsSayWhatAndWhere) {
 }
 
 // A result whose numbers are shorter would have it nearer to the start, and be taken for binary.
-TEST(Stl, AZeroByteAnywhereIsNoText) {
+TEST(Stl, a_zero_byte_anywhere_is_no_text) {
   const std::string name = "endsolid My Part\nsolid", far_away = std::string(2000, ' ') + '\0';
   EXPECT_PARSE_ERROR(replaced(ascii, name, name + far_away), Format::stl, "the header promises");
 }
 
-TEST(Stl, SurvivesDamage) {
+TEST(Stl, survives_damage) {
   check_damage(ascii, Format::stl);
   check_damage(binary("solid", two_facets), Format::stl);
 }

@@ -36,7 +36,7 @@ const std::string quads_of_integers = "\xFF\xFF\xFF" + short_words({4, 1}) +
                                       packed<std::int16_t>({0, 0, 0, 100, 0, 0, 150, 100, -50, 0, 100, 0}, big) +
                                       short_words({0, 1, 2, 3});
 
-TEST(Surf, ReadsTriangles) {
+TEST(Surf, reads_triangles) {
   const Document document = Document::parse(tetrahedron, Format::surf);
   EXPECT_EQ(document.surface().positions, (std::vector<double>{0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4.25}));
   EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}));
@@ -44,7 +44,7 @@ TEST(Surf, ReadsTriangles) {
   EXPECT_TRUE(document.notes().empty());
 }
 
-TEST(Surf, ReadsQuadrangles) {
+TEST(Surf, reads_quadrangles) {
   for (const std::string& bytes : {quads_of_floats, quads_of_integers}) {
     const Document document = Document::parse(bytes, Format::surf);
     EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 1, 2, 3}));
@@ -54,14 +54,14 @@ TEST(Surf, ReadsQuadrangles) {
             (std::vector<double>{0, 0, 0, 1, 0, 0, 1.5, 1, -0.5, 0, 1, 0}));
 }
 
-TEST(Surf, KeepsEveryPromiseOfPatching) {
+TEST(Surf, keeps_every_promise_of_patching) {
   check_patching(tetrahedron, Format::surf);
   check_patching(triangles(points, faces, "no second line end\n", ""), Format::surf);
   check_patching(triangles(points, faces, "\n\n"), Format::surf);
   check_patching(quads_of_floats, Format::surf);
 }
 
-TEST(Surf, OnlyTheMovedCoordinateChanges) {
+TEST(Surf, only_the_moved_coordinate_changes) {
   const Document document = Document::parse(tetrahedron, Format::surf);
   std::vector<double> moved = document.surface().positions;
   moved[11] = 0.1;
@@ -69,7 +69,7 @@ TEST(Surf, OnlyTheMovedCoordinateChanges) {
             replaced(tetrahedron, packed<float>({4.25}, big), packed<float>({0.1}, big)));
 }
 
-TEST(Surf, HundredthsCannotHoldARepairedMesh) {
+TEST(Surf, hundredths_cannot_hold_a_repaired_mesh) {
   const Document document = Document::parse(quads_of_integers, Format::surf);
   EXPECT_EQ(patched_bytes(document, document.surface().positions), quads_of_integers);
   EXPECT_FALSE(document.notes().empty());
@@ -78,7 +78,7 @@ TEST(Surf, HundredthsCannotHoldARepairedMesh) {
   EXPECT_THROW(document.patched(moved, false), FileError);
 }
 
-TEST(Surf, MissingVerticesStayAndSoDoTheirFaces) {
+TEST(Surf, missing_vertices_stay_and_so_do_their_faces) {
   const std::string with_missing = triangles(packed<float>({0, nan, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4, 1, 1, 1}, big),
                                              packed<std::int32_t>({0, 2, 1, 4, 1, 3, 1, 2, 3, 0, 3, 2}, big));
   const Document document = Document::parse(with_missing, Format::surf);
@@ -97,13 +97,13 @@ TEST(Surf, MissingVerticesStayAndSoDoTheirFaces) {
   EXPECT_TRUE(same_bits(Document::parse(patched, Format::surf).surface().positions, document.as_written(moved, false)));
 }
 
-TEST(Surf, WhereAllIsMissingNothingIsLeft) {
+TEST(Surf, where_all_is_missing_nothing_is_left) {
   const std::string bytes =
       triangles(packed<float>({nan, nan, nan, nan, 0, 0, 0, nan, 0}, big), packed<std::int32_t>({0, 1, 2}, big));
   EXPECT_PARSE_ERROR(bytes, Format::surf, "no faces");
 }
 
-TEST(Surf, ErrorsSayWhatAndWhere) {
+TEST(Surf, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::surf, "empty");
   EXPECT_PARSE_ERROR("v 0 0 0\n", Format::surf, "byte 0: a FreeSurfer surface starts with");
   EXPECT_PARSE_ERROR("\xFF\xFF\xFE no end", Format::surf, "the comment of the file does not end");
@@ -118,7 +118,7 @@ TEST(Surf, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(quads_of_floats.substr(0, 30), Format::surf, "byte 9: 4 vertices of 12 bytes");
 }
 
-TEST(Surf, SurvivesDamage) {
+TEST(Surf, survives_damage) {
   check_damage(tetrahedron, Format::surf);
   check_damage(quads_of_floats, Format::surf);
   check_damage(quads_of_integers, Format::surf);

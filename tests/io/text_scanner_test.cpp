@@ -12,7 +12,7 @@ Number read(const std::string& text, T& value) {
   return TextScanner(text, {}).number(value);
 }
 
-TEST(TextScanner, NumbersAreExact) {
+TEST(TextScanner, numbers_are_exact) {
   double value = 0;
   for (const char* text : {"1", "+1", "1.", "1.0", "1e0", "10e-1", "+.1E1"}) {
     EXPECT_EQ(read(text, value), Number::ok) << text;
@@ -25,7 +25,7 @@ TEST(TextScanner, NumbersAreExact) {
   EXPECT_EQ(single, 0.1f);
 }
 
-TEST(TextScanner, NumbersTooSmallAreZero) {
+TEST(TextScanner, numbers_too_small_are_zero) {
   double value = 7;
   for (const char* text : {"1e-400", "-1e-99999999999999999999", "0.0000000001e-320", "123456789e-400", "0e999999"}) {
     value = 7;
@@ -39,7 +39,7 @@ TEST(TextScanner, NumbersTooSmallAreZero) {
   EXPECT_NEAR(single, 1e-40f, 1e-44f);
 }
 
-TEST(TextScanner, WhatIsNoFiniteNumber) {
+TEST(TextScanner, what_is_no_finite_number) {
   double value = 7;
   for (const char* text : {"inf", "-inf", "nan", "1e400", "-1e99999999999999999999", "infinity"}) {
     EXPECT_EQ(read(text, value), Number::not_finite) << text;
@@ -54,7 +54,7 @@ TEST(TextScanner, WhatIsNoFiniteNumber) {
   EXPECT_EQ(value, 7);
 }
 
-TEST(TextScanner, LinesEndInThreeWays) {
+TEST(TextScanner, lines_end_in_three_ways) {
   const std::string text = "a\nb\r\nc\rd";
   const TextScanner scanner(text, {});
   EXPECT_EQ(scanner.line(0), 1u);
@@ -63,7 +63,7 @@ TEST(TextScanner, LinesEndInThreeWays) {
   EXPECT_EQ(scanner.line(7), 4u);
 }
 
-TEST(TextScanner, ContinuationAndComments) {
+TEST(TextScanner, continuation_and_comments) {
   const std::string text = "a \\\n b # c \\\nd";
   TextScanner scanner(text, {.hash_comments = true, .continuation = true});
   EXPECT_EQ(scanner.token(), "a");
@@ -74,7 +74,7 @@ TEST(TextScanner, ContinuationAndComments) {
   EXPECT_EQ(scanner.token(), "d");
 }
 
-TEST(TextScanner, QuotesOnlyWhatCanBePrinted) {
+TEST(TextScanner, quotes_only_what_can_be_printed) {
   EXPECT_EQ(in_quotes(std::string("a\0b\xFF", 4)), "'a\\x00b\\xff'");
   EXPECT_EQ(in_quotes(std::string(29, 'x') + "\xc3\xa5y"), "'" + std::string(29, 'x') + "...'");
   EXPECT_EQ(in_quotes(std::string(100, 'x')), "'" + std::string(30, 'x') + "...'");

@@ -38,7 +38,7 @@ std::string model_of(const std::string& bytes) {
   return *ZipArchive(bytes).content("3D/my.model");
 }
 
-TEST(Threemf, ReadsTheObjectsOfTheBuild) {
+TEST(Threemf, reads_the_objects_of_the_build) {
   const Document document = Document::parse(package(plain), Format::threemf);
   EXPECT_EQ(document.surface().positions, (std::vector<double>{0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4.25}));
   EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}));
@@ -47,7 +47,7 @@ TEST(Threemf, ReadsTheObjectsOfTheBuild) {
   EXPECT_TRUE(document.notes().empty());
 }
 
-TEST(Threemf, ObjectsStandWhereTheBuildShowsThem) {
+TEST(Threemf, objects_stand_where_the_build_shows_them) {
   const Document document = Document::parse(package(placed), Format::threemf);
   const std::vector<double>& x = document.surface().positions;
   ASSERT_EQ(x.size(), 24u);
@@ -58,14 +58,14 @@ TEST(Threemf, ObjectsStandWhereTheBuildShowsThem) {
   EXPECT_PRED2(message_contains, document.notes().at(1), "Objects that the build shows several times (1)");
 }
 
-TEST(Threemf, KeepsEveryPromiseOfPatching) {
+TEST(Threemf, keeps_every_promise_of_patching) {
   for (const bool is_compressed : {false, true}) {
     check_patching(package(plain, is_compressed), Format::threemf);
     check_patching(package(placed, is_compressed), Format::threemf);
   }
 }
 
-TEST(Threemf, OnlyTheMovedCoordinateOfTheModelChanges) {
+TEST(Threemf, only_the_moved_coordinate_of_the_model_changes) {
   const std::string bytes = package(plain);
   const Document document = Document::parse(bytes, Format::threemf);
   std::vector<double> moved = document.surface().positions;
@@ -76,7 +76,7 @@ TEST(Threemf, OnlyTheMovedCoordinateOfTheModelChanges) {
   EXPECT_EQ(patched.substr(0, bytes.find("3D/my.model") - 30), bytes.substr(0, bytes.find("3D/my.model") - 30));
 }
 
-TEST(Threemf, ErrorsSayWhatAndWhere) {
+TEST(Threemf, errors_say_what_and_where) {
   const auto error = [](const std::string& model) { return parse_error(package(model), Format::threemf); };
   EXPECT_PARSE_ERROR("", Format::threemf, "empty");
   EXPECT_PARSE_ERROR("v 0 0 0\n", Format::threemf, "this is not a ZIP archive");
@@ -101,7 +101,7 @@ TEST(Threemf, ErrorsSayWhatAndWhere) {
                "within themselves");
 }
 
-TEST(Threemf, ComponentsThatDoubleEndSoon) {
+TEST(Threemf, components_that_double_end_soon) {
   std::string objects = "<object id=\"0\">" + mesh + "</object>";
   for (int i = 1; i <= 60; ++i) {
     const std::string component = "<component objectid=\"" + std::to_string(i - 1) + "\"/>";
@@ -112,14 +112,14 @@ TEST(Threemf, ComponentsThatDoubleEndSoon) {
   EXPECT_PARSE_ERROR(package(bomb), Format::threemf, "show more objects than can be read");
 }
 
-TEST(Threemf, WhatUnpacksToAThousandTimesItsSizeIsRefused) {
+TEST(Threemf, what_unpacks_to_a_thousand_times_its_size_is_refused) {
   const std::string padded = replaced(plain, "</model>", std::string(65'000'000, ' ') + "</model>");
   EXPECT_PARSE_ERROR(package(padded), Format::threemf, "it would unpack to 65 MB");
   const std::string less = replaced(plain, "</model>", std::string(1'000'000, ' ') + "</model>");
   EXPECT_EQ(Document::parse(package(less), Format::threemf).surface().positions.size(), 12u);
 }
 
-TEST(Threemf, SurvivesDamage) {
+TEST(Threemf, survives_damage) {
   check_damage(package(plain), Format::threemf);
   check_damage(package(placed, false), Format::threemf);
 }

@@ -23,7 +23,7 @@ std::vector<double> folded_up() {
   return x;
 }
 
-TEST(VertexNormals, SmoothOnesTurnHalfAsFarAndFlatOnesAllTheWay) {
+TEST(VertexNormals, smooth_ones_turn_half_as_far_and_flat_ones_all_the_way) {
   const std::vector<double> normals = {0, 0, 1, 0, 0, 2, 0, 0, -1};
   // The common side is smooth, the ends have normals of their own; the one of length 2 keeps it.
   const std::vector<double> turned = turned_normals(strip, folded_up(), normals, std::vector{0, 1, 1, 0, 1, 2, 2, 1});
@@ -41,7 +41,7 @@ TEST(VertexNormals, SmoothOnesTurnHalfAsFarAndFlatOnesAllTheWay) {
   EXPECT_NEAR(smooth[5], half, 1e-15);
 }
 
-TEST(VertexNormals, NothingMovesNothingTurns) {
+TEST(VertexNormals, nothing_moves_nothing_turns) {
   const std::vector<double> normals = {0.1, 0.2, 0.7, NAN, 0, 0};
   const std::vector<double> same = turned_normals(strip, strip.positions, normals, std::vector{0, 1, 0, 1, 0, 1, 0, 1});
   EXPECT_EQ(std::memcmp(same.data(), normals.data(), 6 * sizeof(double)), 0);
@@ -62,7 +62,7 @@ std::string patched(const std::string& text, Format format, bool recompute) {
   return document.patched(x, true)[0].bytes;
 }
 
-TEST(VertexNormals, ObjTokensChangeOnlyWhereAskedAndWhereSomethingMoved) {
+TEST(VertexNormals, obj_tokens_change_only_where_asked_and_where_something_moved) {
   const std::string head = "v 0 0 0\nv 1 0 0\n",
                     tail = "v 5 0 0\nv 6 0 0\nv 5 1 0\nvn 0 0 1\nvn 0  0 1.0 # far\nvn x\n";
   const std::string faces = "f 1//1 2//1 3/7/1\nf 4//2 5//-2 6//3\n";
@@ -74,7 +74,7 @@ TEST(VertexNormals, ObjTokensChangeOnlyWhereAskedAndWhereSomethingMoved) {
       head + "v 0 1 1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvn 0 -0.70710677 0.70710677\nvn 0  0 1.0 # far\nvn x\n" + faces);
 }
 
-TEST(VertexNormals, PlyPropertiesOfVertices) {
+TEST(VertexNormals, ply_properties_of_vertices) {
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
       "property float nx\nproperty float ny\nproperty float nz\nproperty uchar red\n"
@@ -87,7 +87,7 @@ TEST(VertexNormals, PlyPropertiesOfVertices) {
             header + "0 0 0 " + n + "1 0 0 " + n + "0 1 1 " + n + "9 9 9 0 0 1 7\n3 0 1 2\n");
 }
 
-TEST(VertexNormals, FilesWithoutThemSaySo) {
+TEST(VertexNormals, files_without_them_say_so) {
   EXPECT_FALSE(Document::parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", Format::obj).recompute_normals());
   EXPECT_FALSE(Document::parse("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", Format::off).recompute_normals());
 }

@@ -34,7 +34,7 @@ const std::string with_offsets_in_text =
     "METADATA\nINFORMATION 0\n\nPOLYGONS 3 7\nOFFSETS vtktypeint64\n0 3 7 \nCONNECTIVITY vtktypeint64\n0 2 1\n0 1 3 "
     "2\n";
 
-TEST(Vtk, ReadsTextAndBinary) {
+TEST(Vtk, reads_text_and_binary) {
   for (const std::string& bytes : {binary_float, binary_double, with_offsets, with_offsets_in_text}) {
     const Document document = Document::parse(bytes, Format::vtk);
     EXPECT_EQ(document.surface().positions, positions);
@@ -45,7 +45,7 @@ TEST(Vtk, ReadsTextAndBinary) {
   EXPECT_FALSE(Document::parse(binary_double, Format::vtk).stores_float32());
 }
 
-TEST(Vtk, StripsAreTrianglesOfOneOrientation) {
+TEST(Vtk, strips_are_triangles_of_one_orientation) {
   const Document document = Document::parse(ascii, Format::vtk);
   EXPECT_EQ(document.surface().positions, positions);
   EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 2, 0, 1, 2, 2, 1, 3}));
@@ -54,12 +54,12 @@ TEST(Vtk, StripsAreTrianglesOfOneOrientation) {
   EXPECT_EQ(stitched.surface().corners.size(), 10u);
 }
 
-TEST(Vtk, KeepsEveryPromiseOfPatching) {
+TEST(Vtk, keeps_every_promise_of_patching) {
   for (const std::string& bytes : {ascii, binary_float, binary_double, with_offsets, with_offsets_in_text})
     check_patching(bytes, Format::vtk);
 }
 
-TEST(Vtk, OnlyTheMovedCoordinateChanges) {
+TEST(Vtk, only_the_moved_coordinate_changes) {
   std::vector<double> moved = positions;
   moved[11] = 0.1;
   EXPECT_EQ(patched_bytes(Document::parse(ascii, Format::vtk), moved), replaced(ascii, "4.25", "0.1"));
@@ -67,7 +67,7 @@ TEST(Vtk, OnlyTheMovedCoordinateChanges) {
             replaced(binary_double, packed<double>({4.25}, big), packed<double>({0.1}, big)));
 }
 
-TEST(Vtk, IntegersCannotHoldARepairedMesh) {
+TEST(Vtk, integers_cannot_hold_a_repaired_mesh) {
   const std::string bytes = replaced(replaced(ascii, "4 float", "4 int"), "4.25", "4");
   const Document document = Document::parse(bytes, Format::vtk);
   EXPECT_FALSE(document.notes().empty());
@@ -75,7 +75,7 @@ TEST(Vtk, IntegersCannotHoldARepairedMesh) {
   EXPECT_THROW(document.patched(std::vector<double>(12, 0.5), false), FileError);
 }
 
-TEST(Vtk, ErrorsSayWhatAndWhere) {
+TEST(Vtk, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::vtk, "empty");
   EXPECT_PARSE_ERROR("v 0 0 0\n", Format::vtk, "line 1: '# vtk DataFile Version' should be here");
   EXPECT_PARSE_ERROR(replaced(ascii, "ASCII", "EBCDIC"), Format::vtk, "line 3: 'ebcdic' where ASCII or BINARY");
@@ -98,7 +98,7 @@ TEST(Vtk, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n", Format::vtk, "no POINTS");
 }
 
-TEST(Vtk, SurvivesDamage) {
+TEST(Vtk, survives_damage) {
   for (const std::string& bytes : {ascii, binary_float, with_offsets, with_offsets_in_text})
     check_damage(bytes, Format::vtk);
 }

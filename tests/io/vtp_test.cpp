@@ -108,7 +108,7 @@ std::vector<Storage> all_storages() {
   return result;
 }
 
-TEST(Vtp, ReadsEveryEncoding) {
+TEST(Vtp, reads_every_encoding) {
   for (const Storage& storage : all_storages()) {
     for (const std::string& bytes : {file_of<float>(storage), file_of<double>(storage)}) {
       const Document document = Document::parse(bytes, Format::vtp);
@@ -119,14 +119,14 @@ TEST(Vtp, ReadsEveryEncoding) {
   }
 }
 
-TEST(Vtp, KeepsEveryPromiseOfPatching) {
+TEST(Vtp, keeps_every_promise_of_patching) {
   for (const Storage& storage : all_storages()) {
     check_patching(file_of<float>(storage), Format::vtp);
     check_patching(file_of<double>(storage), Format::vtp);
   }
 }
 
-TEST(Vtp, OnlyThePointsChangeAndWhatFollowsIsFound) {
+TEST(Vtp, only_the_points_change_and_what_follows_is_found) {
   std::vector<double> moved = positions;
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += 0.1 * double(i * i % 7) + 1e-7 * double(i);
   std::vector<double> rounded;
@@ -138,7 +138,7 @@ TEST(Vtp, OnlyThePointsChangeAndWhatFollowsIsFound) {
   }
 }
 
-TEST(Vtp, BlocksThatDidNotChangeAreKept) {
+TEST(Vtp, blocks_that_did_not_change_are_kept) {
   // The first block of a level that is not ours: it must come back as it is.
   Storage storage{"appended", "raw", true};
   const std::string bytes = file_of<float>(storage);
@@ -150,7 +150,7 @@ TEST(Vtp, BlocksThatDidNotChangeAreKept) {
   EXPECT_NE(patched, bytes);
 }
 
-TEST(Vtp, SeveralPiecesAreOneScene) {
+TEST(Vtp, several_pieces_are_one_scene) {
   Writer writer({"appended", "base64", true});
   std::string pieces;
   for (int i = 0; i < 2; ++i) {
@@ -167,7 +167,7 @@ TEST(Vtp, SeveralPiecesAreOneScene) {
   check_patching(bytes, Format::vtp);
 }
 
-TEST(Vtp, ErrorsSayWhatAndWhere) {
+TEST(Vtp, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::vtp, "empty");
   EXPECT_PARSE_ERROR("<Mesh/>", Format::vtp, "the root element is <Mesh>, but <VTKFile> should be here");
   EXPECT_PARSE_ERROR(replaced(ascii, "PolyData", "UnstructuredGrid"), Format::vtp,
@@ -198,7 +198,7 @@ TEST(Vtp, ErrorsSayWhatAndWhere) {
   EXPECT_PARSE_ERROR(replaced(file_of<float>({"binary"}), "  MAAAA", "  M!AAA"), Format::vtp, "not base64");
 }
 
-TEST(Vtp, SurvivesDamage) {
+TEST(Vtp, survives_damage) {
   check_damage(ascii, Format::vtp);
   check_damage(file_of<float>({"binary", "raw", false}), Format::vtp);
   check_damage(file_of<float>({"binary", "raw", true, true}), Format::vtp);

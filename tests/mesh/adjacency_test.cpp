@@ -11,7 +11,7 @@ std::vector<Index> list(const IndexLists& lists, Index i) {
   return {lists[i].begin(), lists[i].end()};
 }
 
-TEST(Adjacency, TwoTrianglesShareOneEdge) {
+TEST(Adjacency, two_triangles_share_one_edge) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {2, 1, 3}};
   const EdgeTable table = build_edges(triangles);
   EXPECT_EQ(table.edges, (std::vector<Edge>{{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}}));
@@ -22,7 +22,7 @@ TEST(Adjacency, TwoTrianglesShareOneEdge) {
   EXPECT_EQ(list(table.triangles_of_edge, 4), (std::vector<Index>{1}));
 }
 
-TEST(Adjacency, DegenerateTriangleContributesItsRealEdgeOnce) {
+TEST(Adjacency, degenerate_triangle_contributes_its_real_edge_once) {
   const std::vector<Triangle> triangles = {{5, 2, 5}, {1, 1, 1}};
   const EdgeTable table = build_edges(triangles);
   EXPECT_EQ(table.edges, (std::vector<Edge>{{2, 5}}));
@@ -31,7 +31,7 @@ TEST(Adjacency, DegenerateTriangleContributesItsRealEdgeOnce) {
   EXPECT_EQ(list(table.triangles_of_edge, 0), (std::vector<Index>{0}));
 }
 
-TEST(Adjacency, NothingIn) {
+TEST(Adjacency, nothing_in) {
   const EdgeTable table = build_edges({});
   EXPECT_TRUE(table.edges.empty());
   EXPECT_EQ(table.triangles_of_edge.size(), 0);
@@ -39,7 +39,7 @@ TEST(Adjacency, NothingIn) {
   EXPECT_TRUE(triangles_of_vertices({}, 3)[2].empty());
 }
 
-TEST(Adjacency, TrianglesOfVerticesAscendAndCountATriangleOnce) {
+TEST(Adjacency, triangles_of_vertices_ascend_and_count_a_triangle_once) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {2, 1, 3}, {2, 2, 4}};
   const IndexLists lists = triangles_of_vertices(triangles, 6);
   ASSERT_EQ(lists.size(), 6);
@@ -48,7 +48,7 @@ TEST(Adjacency, TrianglesOfVerticesAscendAndCountATriangleOnce) {
   EXPECT_TRUE(list(lists, 5).empty());
 }
 
-TEST(Adjacency, NeighboursAscend) {
+TEST(Adjacency, neighbours_ascend) {
   const std::vector<Edge> edges = {{0, 3}, {0, 1}, {1, 3}};
   const IndexLists lists = vertex_neighbours(edges, 4);
   EXPECT_EQ(list(lists, 0), (std::vector<Index>{1, 3}));
@@ -56,7 +56,7 @@ TEST(Adjacency, NeighboursAscend) {
   EXPECT_TRUE(list(lists, 2).empty());
 }
 
-TEST(Adjacency, ClosedGridHasTheEdgesOfATorus) {
+TEST(Adjacency, closed_grid_has_the_edges_of_a_torus) {
   const Index n = 40;
   std::vector<Triangle> triangles;
   const auto at = [n](Index i, Index j) { return (i % n) * n + j % n; };

@@ -8,7 +8,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(Areas, OfTheUnitCube) {
+TEST(Areas, of_the_unit_cube) {
   const Surface s = shapes::cube();
   const std::vector<Triangle> triangles = triangulate(s).triangles;
   Positions x = Eigen::Map<const Positions>(s.positions.data(), 3, 8);
@@ -23,7 +23,7 @@ TEST(Areas, OfTheUnitCube) {
   EXPECT_DOUBLE_EQ(signed_volume(x, triangles), -8);
 }
 
-TEST(Areas, NormalsPointOutwardAndVanishWithoutArea) {
+TEST(Areas, normals_point_outward_and_vanish_without_area) {
   Positions x(3, 4);
   x << 0, 1, 0, 2, 0, 0, 1, 0, 0, 0, 0, 0;
   EXPECT_EQ(triangle_normal(x, {0, 1, 2}), Vec3(0, 0, 1));
@@ -31,7 +31,7 @@ TEST(Areas, NormalsPointOutwardAndVanishWithoutArea) {
   EXPECT_EQ(triangle_normal(x, {0, 1, 3}), Vec3(0, 0, 0));
 }
 
-TEST(Areas, OfNothing) {
+TEST(Areas, of_nothing) {
   const Positions x(3, 0);
   EXPECT_EQ(total_area(x, {}), 0);
   EXPECT_EQ(signed_volume(x, {}), 0);

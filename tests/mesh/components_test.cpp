@@ -31,7 +31,7 @@ Component only_component(const std::vector<Triangle>& triangles) {
   return found.list.at(0);
 }
 
-TEST(Components, TorusIsClosedAndOrientable) {
+TEST(Components, torus_is_closed_and_orientable) {
   const Component torus = only_component(torus_triangles(6, 5));
   EXPECT_TRUE(torus.closed());
   EXPECT_TRUE(torus.orientable);
@@ -40,13 +40,13 @@ TEST(Components, TorusIsClosedAndOrientable) {
   EXPECT_EQ(torus.vertices, 30);
 }
 
-TEST(Components, TurnedTrianglesDoNotMakeItNonOrientable) {
+TEST(Components, turned_triangles_do_not_make_it_non_orientable) {
   std::vector<Triangle> triangles = torus_triangles(6, 5);
   for (std::size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i][0], triangles[i][1]);
   EXPECT_TRUE(only_component(triangles).orientable);
 }
 
-TEST(Components, KleinBottleIsObstructed) {
+TEST(Components, klein_bottle_is_obstructed) {
   const Component bottle = only_component(klein_bottle_triangles(6, 5));
   EXPECT_TRUE(bottle.closed());
   EXPECT_FALSE(bottle.orientable);
@@ -54,7 +54,7 @@ TEST(Components, KleinBottleIsObstructed) {
   EXPECT_EQ(bottle.euler_characteristic(), 0);
 }
 
-TEST(Components, MoebiusStripHasABoundaryAndMayBeEmbedded) {
+TEST(Components, moebius_strip_has_a_boundary_and_may_be_embedded) {
   const Component strip = only_component(moebius_triangles(7, 2));
   EXPECT_FALSE(strip.closed());
   EXPECT_FALSE(strip.orientable);
@@ -63,7 +63,7 @@ TEST(Components, MoebiusStripHasABoundaryAndMayBeEmbedded) {
   EXPECT_EQ(strip.euler_characteristic(), 0);
 }
 
-TEST(Components, AreNumberedByTheirFirstFaces) {
+TEST(Components, are_numbered_by_their_first_faces) {
   std::vector<Triangle> triangles = {{7, 8, 9}, {0, 1, 2}, {8, 9, 10}, {2, 3, 4}};
   const Components found = components_of(triangles);
   ASSERT_EQ(found.count(), 2);
@@ -75,7 +75,7 @@ TEST(Components, AreNumberedByTheirFirstFaces) {
   EXPECT_EQ(count_non_manifold_vertices(triangles, 12, build_edges(triangles)), 1u);  // vertex 2: a bow tie
 }
 
-TEST(Components, ThreeSheetsOnOneEdgeAreNotManifold) {
+TEST(Components, three_sheets_on_one_edge_are_not_manifold) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
   const Component component = only_component(triangles);
   EXPECT_EQ(component.non_manifold_edges, 1);
@@ -84,7 +84,7 @@ TEST(Components, ThreeSheetsOnOneEdgeAreNotManifold) {
   EXPECT_EQ(count_non_manifold_vertices(triangles, 5, build_edges(triangles)), 0u);
 }
 
-TEST(Components, DuplicatesAreFoundInAnyOrderOfCorners) {
+TEST(Components, duplicates_are_found_in_any_order_of_corners) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {3, 1, 0}, {2, 0, 1}, {0, 1, 3}, {2, 1, 0}, {4, 5, 6}};
   EXPECT_EQ(duplicate_triangles(triangles), (std::vector<std::vector<Index>>{{0, 2, 4}, {1, 3}}));
 }

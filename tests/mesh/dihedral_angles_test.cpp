@@ -21,7 +21,7 @@ Positions wings(double angle, double scale = 1, Vec3 shift = Vec3::Zero()) {
 }
 const std::vector<Triangle> two = {{0, 1, 2}, {1, 0, 3}};
 
-TEST(DihedralAngles, AreThoseBetweenTheFaces) {
+TEST(DihedralAngles, are_those_between_the_faces) {
   const std::vector<Hinge> hinges = hinges_of(two);
   ASSERT_EQ(hinges.size(), 1u);
   for (const double angle : {1e-7, 0.01, 1.0, pi / 2, 2.5, pi}) {
@@ -35,7 +35,7 @@ TEST(DihedralAngles, AreThoseBetweenTheFaces) {
   }
 }
 
-TEST(DihedralAngles, TheBoundHoldsAgainstExactArithmeticForNeedlesToo) {
+TEST(DihedralAngles, the_bound_holds_against_exact_arithmetic_for_needles_too) {
   const std::vector<Hinge> hinges = hinges_of(two);
   for (int i = 1; i < 200; ++i) {
     Positions x = wings(1e-3 * i, 1, Vec3(1000.1, -300.7, 0.01 * i));
@@ -47,7 +47,7 @@ TEST(DihedralAngles, TheBoundHoldsAgainstExactArithmeticForNeedlesToo) {
   }
 }
 
-TEST(DihedralAngles, FacesWithoutAreaHaveNone) {
+TEST(DihedralAngles, faces_without_area_have_none) {
   Positions x = wings(1);
   x.col(2) = x.col(1);
   EXPECT_FALSE(exact_hinge_angle(x, hinges_of(two)[0]));
@@ -55,7 +55,7 @@ TEST(DihedralAngles, FacesWithoutAreaHaveNone) {
   EXPECT_EQ(smallest_angle(x, hinges_of(two)).hinge, -1);
 }
 
-TEST(DihedralAngles, EveryTwoFacesAtAnEdgeCountButDuplicates) {
+TEST(DihedralAngles, every_two_faces_at_an_edge_count_but_duplicates) {
   Positions x(3, 5);
   x.leftCols(4) = wings(0.5);
   x.col(4) = Vec3(0.5, std::cos(0.4), std::sin(0.4));

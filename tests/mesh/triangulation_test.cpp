@@ -39,7 +39,7 @@ double signed_area(const Surface& s, const Triangulation& cut, double& smallest)
   return sum;
 }
 
-TEST(Triangulation, TrianglesStayAsTheyAre) {
+TEST(Triangulation, triangles_stay_as_they_are) {
   const Triangulation cut = triangulate(octahedron());
   ASSERT_EQ(cut.triangles.size(), 8u);
   EXPECT_EQ(cut.triangles[1], (Triangle{2, 1, 4}));
@@ -47,13 +47,13 @@ TEST(Triangulation, TrianglesStayAsTheyAre) {
   EXPECT_EQ(cut.statistics.triangles, 8u);
 }
 
-TEST(Triangulation, ConvexQuadIsCutFromItsFirstCorner) {
+TEST(Triangulation, convex_quad_is_cut_from_its_first_corner) {
   const Triangulation cut = triangulate(polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0.3}, {0, 1, 0}}));
   EXPECT_EQ(cut.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(cut.polygon, (std::vector<Index>{0, 0}));
 }
 
-TEST(Triangulation, ConcaveQuadIsCutWhereItDoesNotFold) {
+TEST(Triangulation, concave_quad_is_cut_where_it_does_not_fold) {
   // The second corner is a dent, so the first diagonal runs outside.
   const Surface s = polygon({{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, {1, 3, 0}});
   const Triangulation cut = triangulate(s);
@@ -61,18 +61,18 @@ TEST(Triangulation, ConcaveQuadIsCutWhereItDoesNotFold) {
   EXPECT_EQ(cut.statistics.quads_other_diagonal, 1u);
 }
 
-TEST(Triangulation, QuadWhoseDentIsTheFirstCornerNeedsNoOther) {
+TEST(Triangulation, quad_whose_dent_is_the_first_corner_needs_no_other) {
   const Triangulation cut = triangulate(polygon({{1, 1, 0}, {2, 0, 0}, {1, 3, 0}, {0, 0, 0}}));
   EXPECT_EQ(cut.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(cut.statistics.quads_other_diagonal, 0u);
 }
 
-TEST(Triangulation, BowTieQuadFallsBackToTheFirstDiagonal) {
+TEST(Triangulation, bow_tie_quad_falls_back_to_the_first_diagonal) {
   const Triangulation cut = triangulate(polygon({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_EQ(cut.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
 }
 
-TEST(Triangulation, LShapeIsCoveredOnce) {
+TEST(Triangulation, l_shape_is_covered_once) {
   const Surface s = polygon({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}});
   const Triangulation cut = triangulate(s);
   ASSERT_EQ(cut.triangles.size(), 4u);
@@ -83,7 +83,7 @@ TEST(Triangulation, LShapeIsCoveredOnce) {
   EXPECT_EQ(cut.statistics.forced_ears, 0u);
 }
 
-TEST(Triangulation, NonPlanarPolygonKeepsItsTrianglesFacingOneWay) {
+TEST(Triangulation, non_planar_polygon_keeps_its_triangles_facing_one_way) {
   std::vector<std::array<double, 3>> points;
   for (int i = 0; i < 9; ++i) points.push_back({std::cos(i * 0.698), std::sin(i * 0.698), 0.2 * ((i * 7) % 5)});
   const Surface s = polygon(points);
@@ -94,7 +94,7 @@ TEST(Triangulation, NonPlanarPolygonKeepsItsTrianglesFacingOneWay) {
   EXPECT_GT(smallest, 0);
 }
 
-TEST(Triangulation, CombWithManyTeethIsCoveredOnce) {
+TEST(Triangulation, comb_with_many_teeth_is_covered_once) {
   std::vector<std::array<double, 3>> points = {{0, 0, 0}};
   const int teeth = 60;
   points.push_back({2.0 * teeth, 0, 0});
@@ -163,7 +163,7 @@ void expect_cut_as_by_the_rule(const Surface& s, const std::vector<Index>& corne
   EXPECT_EQ(cut.statistics.dropped, all - expected.size());
 }
 
-TEST(Triangulation, BookkeepingChangesNothing) {
+TEST(Triangulation, bookkeeping_changes_nothing) {
   std::mt19937 random(7);
   for (int round = 0; round < 300; ++round) {
     Surface s;
@@ -182,7 +182,7 @@ TEST(Triangulation, BookkeepingChangesNothing) {
 }
 
 /// A jagged ring in a plane askew, whose corners are rounded off it: what is collinear is so but for rounding.
-TEST(Triangulation, BoxesChangeNothingEvenWhereRoundingDecides) {
+TEST(Triangulation, boxes_change_nothing_even_where_rounding_decides) {
   std::mt19937 random(11);
   for (const double scale : {1.0, 1e-90, 1e90}) {
     for (int round = 0; round < 40; ++round) {
@@ -203,7 +203,7 @@ TEST(Triangulation, BoxesChangeNothingEvenWhereRoundingDecides) {
 }
 
 /// For a cost of the square of their number nobody would wait.
-TEST(Triangulation, PolygonsOfVeryManyCornersAreCut) {
+TEST(Triangulation, polygons_of_very_many_corners_are_cut) {
   const int size = 200000;
   const auto expect_covered_once = [](const std::vector<std::array<double, 3>>& points) {
     const Surface s = polygon(points);
@@ -239,7 +239,7 @@ TEST(Triangulation, PolygonsOfVeryManyCornersAreCut) {
   expect_covered_once(spiral);
 }
 
-TEST(Triangulation, RepeatedCornersAreDroppedAndCounted) {
+TEST(Triangulation, repeated_corners_are_dropped_and_counted) {
   Surface s = polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   add_face(s, {0, 1, 1});
   add_face(s, {0, 1, 2, 2});
@@ -251,7 +251,7 @@ TEST(Triangulation, RepeatedCornersAreDroppedAndCounted) {
   EXPECT_EQ(cut.statistics.too_small, 1u);
 }
 
-TEST(Triangulation, RepeatedCornersThatNoTriangleCoversStay) {
+TEST(Triangulation, repeated_corners_that_no_triangle_covers_stay) {
   Surface s = polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {7, 0, 0}});
   s.corners = {0, 1, 2};
   s.offsets = {0, 3};
@@ -267,7 +267,7 @@ TEST(Triangulation, RepeatedCornersThatNoTriangleCoversStay) {
 }
 
 /// Thousands of flat, concave and twisted ones, at scales where products of four lengths are no numbers.
-TEST(Triangulation, PolygonsAreCutAlikeAtAnyPowerOfTwo) {
+TEST(Triangulation, polygons_are_cut_alike_at_any_power_of_two) {
   std::mt19937 random(5);
   const auto number = [&] { return std::ldexp(static_cast<double>(random()), -31) - 1; };
   for (const int size : {4, 4, 4, 7, 12}) {
@@ -289,7 +289,7 @@ TEST(Triangulation, PolygonsAreCutAlikeAtAnyPowerOfTwo) {
 }
 
 // What meets a segment along an edge of a triangle without area may share that edge with the triangle.
-TEST(Triangulation, RepeatedCornersOnATriangleWithoutAreaStay) {
+TEST(Triangulation, repeated_corners_on_a_triangle_without_area_stay) {
   Surface s = polygon({{0, 0, 0}, {2, 0, 0}, {1, 0, 0}});
   add_vertex(s, 0, 1, 0);
   add_face(s, {0, 1, 3});
@@ -300,7 +300,7 @@ TEST(Triangulation, RepeatedCornersOnATriangleWithoutAreaStay) {
   EXPECT_EQ(triangulate(with_area).triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 3}}));
 }
 
-TEST(Triangulation, CornersAreRenamedAfterTheCut) {
+TEST(Triangulation, corners_are_renamed_after_the_cut) {
   const Surface s = exploded(cube());
   const WeldMap id = weld(s);
   const Triangulation cut = triangulate(s, id.vertex_of);
@@ -309,7 +309,7 @@ TEST(Triangulation, CornersAreRenamedAfterTheCut) {
     for (Index v : t) EXPECT_LT(v, 8);
 }
 
-TEST(Triangulation, SameAtAnyThreadCount) {
+TEST(Triangulation, same_at_any_thread_count) {
   Surface s;
   std::mt19937 random(3);
   for (int f = 0; f < 30000; ++f) {
@@ -329,7 +329,7 @@ TEST(Triangulation, SameAtAnyThreadCount) {
   }
 }
 
-TEST(Triangulation, DescribesOnlyWhatOccurs) {
+TEST(Triangulation, describes_only_what_occurs) {
   EXPECT_EQ(triangulate(cube()).statistics.describe(), "6 quads cut from their first corner");
   EXPECT_EQ(CutStatistics{}.describe(), "no faces");
   CutStatistics ones;

@@ -22,7 +22,7 @@ std::string complaint(const Surface& s) {
   return {};
 }
 
-TEST(Validity, SaysWhatIsWrongAndWhere) {
+TEST(Validity, says_what_is_wrong_and_where) {
   EXPECT_EQ(complaint(cube()), "");
   Surface s = cube();
   s.corners[5] = 8;

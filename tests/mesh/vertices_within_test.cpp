@@ -5,7 +5,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(VerticesWithin, FollowsEdgesAndNotTheStraightWay) {
+TEST(VerticesWithin, follows_edges_and_not_the_straight_way) {
   // A strip of four points 1 apart along three edges, the last above the first.
   Positions x(3, 4);
   x.col(0) = Vec3(0, 0, 0);

@@ -29,11 +29,11 @@ Index count_of(const Surface& s, Weld kind = Weld::seams, double tolerance = 0) 
   return id.count;
 }
 
-TEST(WeldMap, NoneKeepsEveryVertex) {
+TEST(WeldMap, none_keeps_every_vertex) {
   EXPECT_EQ(count_of(exploded(cube()), Weld::none), 24);
 }
 
-TEST(WeldMap, CornersOfASoupBecomeTheOctahedron) {
+TEST(WeldMap, corners_of_a_soup_become_the_octahedron) {
   const Surface s = exploded(octahedron());
   EXPECT_EQ(count_of(s), 6);
   const WeldMap id = weld(s);
@@ -41,11 +41,11 @@ TEST(WeldMap, CornersOfASoupBecomeTheOctahedron) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(s.positions[3 * v + k], s.positions[3 * id.first[id.vertex_of[v]] + k]);
 }
 
-TEST(WeldMap, SixSeparateQuadsBecomeACube) {
+TEST(WeldMap, six_separate_quads_become_a_cube) {
   EXPECT_EQ(count_of(exploded(cube())), 8);
 }
 
-TEST(WeldMap, MinusZeroIsZero) {
+TEST(WeldMap, minus_zero_is_zero) {
   Surface s = exploded(cube());
   for (std::size_t i = 0; i < s.positions.size(); i += 2)
     if (s.positions[i] == 0) s.positions[i] = -0.0;
@@ -53,7 +53,7 @@ TEST(WeldMap, MinusZeroIsZero) {
   EXPECT_EQ(count_of(s, Weld::all), 8);
 }
 
-TEST(WeldMap, ClosedSolidsThatTouchStayApart) {
+TEST(WeldMap, closed_solids_that_touch_stay_apart) {
   Surface s = cube();
   append(s, cube(), 1, 0, 0);  // share a face by position
   append(s, cube(), 0, 1, 1);  // an edge
@@ -61,25 +61,25 @@ TEST(WeldMap, ClosedSolidsThatTouchStayApart) {
   EXPECT_EQ(count_of(s, Weld::all), 18);
 }
 
-TEST(WeldMap, SoupOfCubesTouchingInAFaceStaysTwoCubes) {
+TEST(WeldMap, soup_of_cubes_touching_in_a_face_stays_two_cubes) {
   Surface s = exploded(cube());
   append(s, exploded(cube()), 1, 0, 0);
   EXPECT_EQ(count_of(s), 16);
 }
 
-TEST(WeldMap, SoupOfCubesTouchingInAnEdgeStaysTwoCubes) {
+TEST(WeldMap, soup_of_cubes_touching_in_an_edge_stays_two_cubes) {
   Surface s = exploded(cube());
   append(s, exploded(cube()), 1, 1, 0);
   EXPECT_EQ(count_of(s), 16);
 }
 
-TEST(WeldMap, SoupOfCubesTouchingInACornerStaysTwoCubes) {
+TEST(WeldMap, soup_of_cubes_touching_in_a_corner_stays_two_cubes) {
   Surface s = exploded(cube());
   append(s, exploded(cube()), 1, 1, 1);
   EXPECT_EQ(count_of(s), 16);
 }
 
-TEST(WeldMap, TwoCopiesOfASolidStayTwo) {
+TEST(WeldMap, two_copies_of_a_solid_stay_two) {
   Surface s = exploded(octahedron());
   append(s, exploded(octahedron()));
   EXPECT_EQ(count_of(s), 12);
@@ -102,14 +102,14 @@ Surface card(Index n, bool soup) {
   return s;
 }
 
-TEST(WeldMap, TwoSidedCardIsNotGlued) {
+TEST(WeldMap, two_sided_card_is_not_glued) {
   EXPECT_EQ(count_of(card(4, false)), 20);
 }
-TEST(WeldMap, TwoSidedCardAsSoupBecomesTwoSheets) {
+TEST(WeldMap, two_sided_card_as_soup_becomes_two_sheets) {
   EXPECT_EQ(count_of(card(4, true)), 20);
 }
 
-TEST(WeldMap, TwoSidedCardHangingOnOneEdgeIsNotGlued) {
+TEST(WeldMap, two_sided_card_hanging_on_one_edge_is_not_glued) {
   // Front and back share the vertices of one end, so that they are one shell.
   Surface s = card(4, false);
   for (Index& v : s.corners)
@@ -117,7 +117,7 @@ TEST(WeldMap, TwoSidedCardHangingOnOneEdgeIsNotGlued) {
   EXPECT_EQ(count_of(s), 20);  // 18 and the two that are not used now
 }
 
-TEST(WeldMap, SeamOfASheetIsGluedAlsoWhereOrientationsDiffer) {
+TEST(WeldMap, seam_of_a_sheet_is_glued_also_where_orientations_differ) {
   for (const bool flipped : {false, true}) {
     Surface s;
     for (int i = 0; i < 2; ++i) {
@@ -142,16 +142,16 @@ Surface pages_on_a_spine(int pages, int faces_of_a_page) {
   return s;
 }
 
-TEST(WeldMap, PagesOfASoupAreWeldedToTheirSpine) {
+TEST(WeldMap, pages_of_a_soup_are_welded_to_their_spine) {
   for (const int pages : {3, 4, 5, 12}) EXPECT_EQ(count_of(pages_on_a_spine(pages, 1)), 2 + pages);
 }
 
-TEST(WeldMap, SheetsStayApartWhereSeamsAreAmbiguous) {
+TEST(WeldMap, sheets_stay_apart_where_seams_are_ambiguous) {
   for (const int pages : {3, 4, 5, 12}) EXPECT_EQ(count_of(pages_on_a_spine(pages, 2)), 4 * pages);
   EXPECT_EQ(count_of(pages_on_a_spine(2, 2)), 6);
 }
 
-TEST(WeldMap, EdgesOfOneShellFindTheirPartnersFirst) {
+TEST(WeldMap, edges_of_one_shell_find_their_partners_first) {
   // Two cubes cut open along the edge in which they touch.
   Surface s;
   for (const double d : {0.0, 1.0}) append(s, cube(), d, d, 0);
@@ -172,7 +172,7 @@ TEST(WeldMap, EdgesOfOneShellFindTheirPartnersFirst) {
   EXPECT_NE(map.vertex_of[3], map.vertex_of[8]);
 }
 
-TEST(WeldMap, PinchedInteriorIsNotGlued) {
+TEST(WeldMap, pinched_interior_is_not_glued) {
   // Two pyramids whose apexes meet, joined by nothing else: interior vertices, hence apart.
   Surface s;
   for (int side = 0; side < 2; ++side) {
@@ -187,7 +187,7 @@ TEST(WeldMap, PinchedInteriorIsNotGlued) {
   EXPECT_EQ(count_of(s, Weld::all), 7);
 }
 
-TEST(WeldMap, SheetWrappedTwiceKeepsBothLayers) {
+TEST(WeldMap, sheet_wrapped_twice_keeps_both_layers) {
   const Index n = 8;  // quads a turn, sampled on the same points in both turns
   Surface s;
   for (Index i = 0; i <= 2 * n; ++i)
@@ -198,7 +198,7 @@ TEST(WeldMap, SheetWrappedTwiceKeepsBothLayers) {
   EXPECT_EQ(count_of(s), 6 * n);
 }
 
-TEST(WeldMap, VerticesOfOneShellWithoutACommonOpenEdgeStayApart) {
+TEST(WeldMap, vertices_of_one_shell_without_a_common_open_edge_stay_apart) {
   // A strip of three quads bent to a ring whose ends touch in one corner.
   Surface s;
   s.positions = {0, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 0, 1, 0, 0, 2};
@@ -207,7 +207,7 @@ TEST(WeldMap, VerticesOfOneShellWithoutACommonOpenEdgeStayApart) {
   EXPECT_EQ(count_of(s, Weld::all), 7);
 }
 
-TEST(WeldMap, InnerVerticesEdgesAndFansOfOneShellStayApart) {
+TEST(WeldMap, inner_vertices_edges_and_fans_of_one_shell_stay_apart) {
   for (const LensPinch pinch : {LensPinch::vertices, LensPinch::edges, LensPinch::fans, LensPinch::all}) {
     const Surface s = lens(6, pinch);
     EXPECT_EQ(count_of(s), static_cast<Index>(s.positions.size() / 3));
@@ -215,7 +215,7 @@ TEST(WeldMap, InnerVerticesEdgesAndFansOfOneShellStayApart) {
   }
 }
 
-TEST(WeldMap, TheEndsOfAnEdgeOfLengthZeroAreTwoVertices) {
+TEST(WeldMap, the_ends_of_an_edge_of_length_zero_are_two_vertices) {
   for (const LensPinch pinch : {LensPinch::ends_of_an_edge, LensPinch::fan_in_a_point}) {
     const Surface s = lens(6, pinch);
     EXPECT_EQ(count_of(s), static_cast<Index>(s.positions.size() / 3));
@@ -228,7 +228,7 @@ TEST(WeldMap, TheEndsOfAnEdgeOfLengthZeroAreTwoVertices) {
   EXPECT_EQ(count_of(s), 4);
 }
 
-TEST(WeldMap, ChartsThatMeetInAPointAreOneSurface) {
+TEST(WeldMap, charts_that_meet_in_a_point_are_one_surface) {
   // A disc of six quads in three charts of two: their borders meet in the middle, of which each has a copy.
   Surface s;
   const auto rim = [&](int k) { return add_vertex(s, std::cos(k % 6 * 1.047), std::sin(k % 6 * 1.047), 0); };
@@ -240,7 +240,7 @@ TEST(WeldMap, ChartsThatMeetInAPointAreOneSurface) {
   EXPECT_EQ(count_of(s), 7);
 }
 
-TEST(WeldMap, CollapsedCrossSectionOfATubeStaysARing) {
+TEST(WeldMap, collapsed_cross_section_of_a_tube_stays_a_ring) {
   Surface s;
   for (Index i = 0; i < 3; ++i)
     for (Index j = 0; j < 5; ++j) {
@@ -252,7 +252,7 @@ TEST(WeldMap, CollapsedCrossSectionOfATubeStaysARing) {
   EXPECT_EQ(count_of(s), 15);
 }
 
-TEST(WeldMap, PartsOfASoupThatMeetInSingleBorderVerticesAreJoined) {
+TEST(WeldMap, parts_of_a_soup_that_meet_in_single_border_vertices_are_joined) {
   // The border x = 0 is one edge on one side and two on the other.
   Surface s;
   s.positions = {-1, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
@@ -267,7 +267,7 @@ TEST(WeldMap, PartsOfASoupThatMeetInSingleBorderVerticesAreJoined) {
   EXPECT_NE(id.vertex_of[2], id.vertex_of[8]);
 }
 
-TEST(WeldMap, ToleranceJoinsNearCorners) {
+TEST(WeldMap, tolerance_joins_near_corners) {
   Surface s = exploded(cube());
   for (std::size_t i = 0; i < s.positions.size(); ++i) s.positions[i] += 1e-7 * static_cast<double>(i);
   EXPECT_EQ(count_of(s), 24);
@@ -276,7 +276,7 @@ TEST(WeldMap, ToleranceJoinsNearCorners) {
   EXPECT_EQ(count_of(s, Weld::all, 1e-8), 24);
 }
 
-TEST(WeldMap, ToleranceWorksAcrossCellsAndFarFromTheOrigin) {
+TEST(WeldMap, tolerance_works_across_cells_and_far_from_the_origin) {
   Surface s;
   add_vertex(s, 1e9, -0.001, 0);
   add_vertex(s, 1e9, 0.001, 0);
@@ -284,7 +284,7 @@ TEST(WeldMap, ToleranceWorksAcrossCellsAndFarFromTheOrigin) {
   EXPECT_EQ(count_of(s, Weld::all, 0.01), 2);
 }
 
-TEST(WeldMap, NothingIn) {
+TEST(WeldMap, nothing_in) {
   EXPECT_EQ(count_of(Surface{}), 0);
 }
 

@@ -21,7 +21,7 @@ std::vector<Eigen::Matrix3d> inverse_diagonal_blocks(const Eigen::MatrixXd& a) {
   return blocks;
 }
 
-TEST(BlockJacobiPcg, AgreesWithADirectSolve) {
+TEST(BlockJacobiPcg, agrees_with_a_direct_solve) {
   const int n = 20;
   const Eigen::MatrixXd r = random_matrix(1, 3 * n, 3 * n);
   const Eigen::MatrixXd a = r * r.transpose() + Eigen::MatrixXd::Identity(3 * n, 3 * n);
@@ -36,7 +36,7 @@ TEST(BlockJacobiPcg, AgreesWithADirectSolve) {
   EXPECT_LT((a * x.reshaped() - b.reshaped()).norm(), 1e-8 * b.norm());
 }
 
-TEST(BlockJacobiPcg, BlockDiagonalSystemsTakeOneStep) {
+TEST(BlockJacobiPcg, block_diagonal_systems_take_one_step) {
   const int n = 6;
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(3 * n, 3 * n);
   for (int k = 0; k < 3 * n; k += 3) {
@@ -52,7 +52,7 @@ TEST(BlockJacobiPcg, BlockDiagonalSystemsTakeOneStep) {
   EXPECT_EQ(solver.solve(apply, inverse_diagonal_blocks(a), b, x, {1e-10, 10}), 1);
 }
 
-TEST(BlockJacobiPcg, ReturnsADescentDirectionWhereTheMatrixIsIndefinite) {
+TEST(BlockJacobiPcg, returns_a_descent_direction_where_the_matrix_is_indefinite) {
   const Eigen::Matrix3Xd b = random_matrix(4, 3, 4);
   Eigen::Matrix3Xd x;
   BlockJacobiPcg solver;
@@ -61,7 +61,7 @@ TEST(BlockJacobiPcg, ReturnsADescentDirectionWhereTheMatrixIsIndefinite) {
   EXPECT_GT(b.cwiseProduct(x).sum(), 0);
 }
 
-TEST(BlockJacobiPcg, ZeroRightHandSide) {
+TEST(BlockJacobiPcg, zero_right_hand_side) {
   Eigen::Matrix3Xd x;
   BlockJacobiPcg solver;
   const std::vector<Eigen::Matrix3d> identity(4, Eigen::Matrix3d::Identity());

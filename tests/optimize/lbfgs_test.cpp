@@ -26,7 +26,7 @@ struct Quadratic {
   }
 };
 
-TEST(Lbfgs, FindsTheMinimumOfRosenbrock) {
+TEST(Lbfgs, finds_the_minimum_of_rosenbrock) {
   Eigen::VectorXd x(2);
   x << -1.2, 1;
   LbfgsOptions options;
@@ -39,7 +39,7 @@ TEST(Lbfgs, FindsTheMinimumOfRosenbrock) {
   EXPECT_LT(result.iterations, 100);
 }
 
-TEST(Lbfgs, TheRightMetricSolvesAQuadraticInOneStep) {
+TEST(Lbfgs, the_right_metric_solves_a_quadratic_in_one_step) {
   const Quadratic quadratic(30);
   const auto metric = [&](const Eigen::VectorXd& v, Eigen::VectorXd& out) { out = v.cwiseQuotient(quadratic.d); };
   LbfgsOptions options;
@@ -53,7 +53,7 @@ TEST(Lbfgs, TheRightMetricSolvesAQuadraticInOneStep) {
   EXPECT_GT(without.iterations, 10);
 }
 
-TEST(Lbfgs, DirectionIsExactAfterEnoughStepsOnAQuadratic) {
+TEST(Lbfgs, direction_is_exact_after_enough_steps_on_a_quadratic) {
   // With n independent conjugate steps remembered, -H g is the Newton step.
   const Eigen::Vector3d d(1, 10, 100);
   Lbfgs lbfgs(3);
@@ -67,7 +67,7 @@ TEST(Lbfgs, DirectionIsExactAfterEnoughStepsOnAQuadratic) {
   EXPECT_NEAR((direction + g.cwiseQuotient(Eigen::VectorXd(d))).norm(), 0, 1e-12);
 }
 
-TEST(Lbfgs, StepsWithoutPositiveCurvatureAreNotRemembered) {
+TEST(Lbfgs, steps_without_positive_curvature_are_not_remembered) {
   Lbfgs lbfgs;
   lbfgs.remember(Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0));
   lbfgs.remember(Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0));
@@ -78,7 +78,7 @@ TEST(Lbfgs, StepsWithoutPositiveCurvatureAreNotRemembered) {
   EXPECT_EQ(lbfgs.size(), 0);
 }
 
-TEST(Lbfgs, NoBlockMovesFartherThanTheCap) {
+TEST(Lbfgs, no_block_moves_farther_than_the_cap) {
   const Quadratic quadratic(9);
   Eigen::VectorXd x = Eigen::VectorXd::Constant(9, 5), before = x;
   LbfgsOptions options;
@@ -91,7 +91,7 @@ TEST(Lbfgs, NoBlockMovesFartherThanTheCap) {
   });
 }
 
-TEST(Lbfgs, TheCallbackStopsAndMayChangeTheObjective) {
+TEST(Lbfgs, the_callback_stops_and_may_change_the_objective) {
   double center = 0;
   const auto objective = [&](const Eigen::VectorXd& x, Eigen::VectorXd& g) {
     g = x.array() - center;
@@ -110,7 +110,7 @@ TEST(Lbfgs, TheCallbackStopsAndMayChangeTheObjective) {
   EXPECT_NEAR(x[0], 7, 1e-12);
 }
 
-TEST(Lbfgs, GivesUpWhereNoStepDecreases) {
+TEST(Lbfgs, gives_up_where_no_step_decreases) {
   // The gradient lies: it points the wrong way.
   const auto objective = [](const Eigen::VectorXd& x, Eigen::VectorXd& g) {
     g = -2 * x;

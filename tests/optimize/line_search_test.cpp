@@ -21,7 +21,7 @@ struct State {
   }
 };
 
-TEST(LineSearch, HalvesUntilTheDecreaseSuffices) {
+TEST(LineSearch, halves_until_the_decrease_suffices) {
   State s(parabola, 1);
   const Eigen::VectorXd d = Eigen::VectorXd::Constant(1, -8);
   const LineSearchResult result = backtrack(parabola, d, {}, s.x, s.value, s.gradient);
@@ -33,7 +33,7 @@ TEST(LineSearch, HalvesUntilTheDecreaseSuffices) {
   EXPECT_EQ(s.gradient[0], 0);
 }
 
-TEST(LineSearch, StopsBetweenTrials) {
+TEST(LineSearch, stops_between_trials) {
   State s(parabola, 1);
   const Eigen::VectorXd d = Eigen::VectorXd::Constant(1, -8);
   LineSearchOptions options;
@@ -46,7 +46,7 @@ TEST(LineSearch, StopsBetweenTrials) {
   EXPECT_EQ(s.value, 1);
 }
 
-TEST(LineSearch, LeavesEverythingAloneWhenItFails) {
+TEST(LineSearch, leaves_everything_alone_when_it_fails) {
   State s(parabola, 1);
   const Eigen::VectorXd uphill = Eigen::VectorXd::Constant(1, 1);
   const LineSearchResult result = backtrack(parabola, uphill, {}, s.x, s.value, s.gradient);
@@ -57,7 +57,7 @@ TEST(LineSearch, LeavesEverythingAloneWhenItFails) {
   EXPECT_EQ(result.evaluations, 34);  // 2^-33 > 1e-10 > 2^-34
 }
 
-TEST(LineSearch, TakesTheLastStepWhereToldTo) {
+TEST(LineSearch, takes_the_last_step_where_told_to) {
   State s(parabola, 1);
   LineSearchOptions options;
   options.accept_step = 0.1;
@@ -68,7 +68,7 @@ TEST(LineSearch, TakesTheLastStepWhereToldTo) {
   EXPECT_EQ(s.x[0], 1.125);
 }
 
-TEST(LineSearch, BacksOutOfNonFiniteValues) {
+TEST(LineSearch, backs_out_of_non_finite_values) {
   const auto log_like = [](const Eigen::VectorXd& x, Eigen::VectorXd& g) {
     g = Eigen::VectorXd::Constant(1, 1 - 1 / x[0]);
     return x[0] > 0 ? x[0] - std::log(x[0]) : std::numeric_limits<double>::quiet_NaN();
@@ -79,7 +79,7 @@ TEST(LineSearch, BacksOutOfNonFiniteValues) {
   EXPECT_EQ(s.x[0], 1);
 }
 
-TEST(LineSearch, LargestBlockNorm) {
+TEST(LineSearch, largest_block_norm) {
   Eigen::VectorXd v(6);
   v << 1, 2, 2, 0, 3, 4;
   EXPECT_EQ(largest_block_norm(v, 3), 5);

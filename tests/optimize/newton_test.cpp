@@ -61,7 +61,7 @@ struct Bowls final : NewtonProblem {
   }
 };
 
-TEST(Newton, ConvergesToTheMinimum) {
+TEST(Newton, converges_to_the_minimum) {
   Bowls bowls(5);
   NewtonOptions options;
   options.solver = {1e-10, 100};
@@ -72,7 +72,7 @@ TEST(Newton, ConvergesToTheMinimum) {
   EXPECT_EQ(bowls.accepted, result.iterations);
 }
 
-TEST(Newton, ShortStepsTakeMoreIterations) {
+TEST(Newton, short_steps_take_more_iterations) {
   Bowls bowls(2);
   bowls.cap = 0.5;
   NewtonOptions options;
@@ -82,7 +82,7 @@ TEST(Newton, ShortStepsTakeMoreIterations) {
   EXPECT_GE(result.iterations, 10);  // the target is 5.2 away
 }
 
-TEST(Newton, EndsWhereTheValueHardlyFalls) {
+TEST(Newton, ends_where_the_value_hardly_falls) {
   Bowls all(2), some(2);
   NewtonOptions options;
   options.motion = 1e-12;
@@ -93,7 +93,7 @@ TEST(Newton, EndsWhereTheValueHardlyFalls) {
   EXPECT_LT(minimise_newton(some, options).iterations, until_the_end);
 }
 
-TEST(Newton, StopsAtItsLimits) {
+TEST(Newton, stops_at_its_limits) {
   Bowls bowls(2);
   NewtonOptions options;
   options.max_steps = 2;
@@ -104,7 +104,7 @@ TEST(Newton, StopsAtItsLimits) {
   EXPECT_EQ(result.iterations, 1);
 }
 
-TEST(Newton, StartsAnewWithoutTheUnknownsThatAreBlocked) {
+TEST(Newton, starts_anew_without_the_unknowns_that_are_blocked) {
   Bowls stuck(1), freed(1);
   for (Bowls* b : {&stuck, &freed}) {
     b->floor = -1;

@@ -16,7 +16,7 @@ Surface flat_tetrahedron(double height) {
   return {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, height}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, {}};
 }
 
-TEST(Clearance, MeasuresAnglesAndGaps) {
+TEST(Clearance, measures_angles_and_gaps) {
   Surface two = flat_tetrahedron(0.3);
   const Surface other = flat_tetrahedron(0.3);
   for (std::size_t i = 0; i < other.positions.size(); ++i)
@@ -36,7 +36,7 @@ TEST(Clearance, MeasuresAnglesAndGaps) {
   EXPECT_NEAR(none.dihedral_deg, clearance.dihedral_deg, 1e-9);
 }
 
-TEST(Clearance, FoldedFacesAreOpenedToTheAngleAskedFor) {
+TEST(Clearance, folded_faces_are_opened_to_the_angle_asked_for) {
   for (const double height : {1e-7, 1e-4, 2e-3}) {
     const Surface thin = flat_tetrahedron(height);
     RepairOptions options;
@@ -52,7 +52,7 @@ TEST(Clearance, FoldedFacesAreOpenedToTheAngleAskedFor) {
   }
 }
 
-TEST(Clearance, WhereEachComponentIsAloneOthersAreInTheWayOfNoAngle) {
+TEST(Clearance, where_each_component_is_alone_others_are_in_the_way_of_no_angle) {
   // Two triangles folded together, and one above and one below them, nearer than the gap once they are open.
   const Surface surface = {{0, 0,  0,    1,   0, 0,    0.5, 1,  0,     0.5, 1,  0.05,  -1,  -1, 0.65,
                             2, -1, 0.65, 0.5, 2, 0.65, -1,  -1, -0.65, 2,   -1, -0.65, 0.5, 2,  -0.65},
@@ -66,7 +66,7 @@ TEST(Clearance, WhereEachComponentIsAloneOthersAreInTheWayOfNoAngle) {
   EXPECT_GE(measure_clearance(surface, repair(surface, options).positions).dihedral_deg, 60);
 }
 
-TEST(Clearance, NothingMovesWhereNothingIsFoldedOrAllIsHeld) {
+TEST(Clearance, nothing_moves_where_nothing_is_folded_or_all_is_held) {
   RepairOptions options;
   options.min_dihedral_deg = 0.5;
   const Surface open = flat_tetrahedron(0.3);
@@ -83,7 +83,7 @@ TEST(Clearance, NothingMovesWhereNothingIsFoldedOrAllIsHeld) {
   EXPECT_THROW(repair(thin, options), std::invalid_argument);
 }
 
-TEST(Clearance, RepairedSamplesHaveTheAngleAskedFor) {
+TEST(Clearance, repaired_samples_have_the_angle_asked_for) {
   for (const char* name : {"spindle_torus", "intersecting_spheres"}) {
     const Surface surface = make_sample(name, 24);
     RepairOptions options;
@@ -95,7 +95,7 @@ TEST(Clearance, RepairedSamplesHaveTheAngleAskedFor) {
   }
 }
 
-TEST(Clearance, OpeningFoldsKeepsTheOtherDiagonalsApart) {
+TEST(Clearance, opening_folds_keeps_the_other_diagonals_apart) {
   for (const char* name : {"overlapping_quads", "posed_limb"}) {
     const Surface surface = make_sample(name, 8);
     RepairOptions options;
@@ -106,7 +106,7 @@ TEST(Clearance, OpeningFoldsKeepsTheOtherDiagonalsApart) {
 }
 
 /// It is opened between two faces that leave it little more than the gap that is asked for.
-TEST(Clearance, GapsWiderThanFacesAreReached) {
+TEST(Clearance, gaps_wider_than_faces_are_reached) {
   const Surface tubes = make_sample("crossing_tubes", 30);  // edges of 0.032 of the diagonal
   RepairOptions options;
   options.min_gap_rel = 0.035;
@@ -117,7 +117,7 @@ TEST(Clearance, GapsWiderThanFacesAreReached) {
   EXPECT_LT(result.report.displacement_max_rel, 0.15);
 }
 
-TEST(Clearance, OpeningFoldsKeepsTheGapAskedFor) {
+TEST(Clearance, opening_folds_keeps_the_gap_asked_for) {
   Surface thin = flat_tetrahedron(1e-4);
   for (const double z : {-0.004, 0.004}) {
     const std::int32_t first = static_cast<std::int32_t>(thin.positions.size() / 3);

@@ -35,7 +35,7 @@ std::string complaint(const Document& document, const Parts& parts) {
   return {};
 }
 
-TEST(Parts, NamesMeanFaces) {
+TEST(Parts, names_mean_faces) {
   const Document document = two_squares();
   EXPECT_EQ(faces(document, {.groups = {"left skin"}}), (Flags{1, 1, 0, 0, 0}));
   EXPECT_EQ(faces(document, {.groups = {"right"}}), (Flags{0, 0, 1, 1, 0}));
@@ -47,7 +47,7 @@ TEST(Parts, NamesMeanFaces) {
   EXPECT_EQ(faces(document, {}), Flags(5, 0));
 }
 
-TEST(Parts, AllNamesAreListedWithWhatTheyName) {
+TEST(Parts, all_names_are_listed_with_what_they_name) {
   const Document document = two_squares();
   std::vector<std::string> found;
   for (const NamedPart& part : named_parts(document.surface(), document.face_labels())) {
@@ -68,13 +68,13 @@ TEST(Parts, AllNamesAreListedWithWhatTheyName) {
   EXPECT_EQ(parts[2].faces, 0u);
 }
 
-TEST(Parts, ComponentsAreCountedAfterWelding) {
+TEST(Parts, components_are_counted_after_welding) {
   const Document document = two_squares();
   EXPECT_EQ(component_of_faces(document.surface()), (std::vector<std::int32_t>{0, 0, 0, 0, 1}));
   EXPECT_EQ(component_of_faces(document.surface(), {.weld = Weld::none}), (std::vector<std::int32_t>{0, 0, 1, 1, 2}));
 }
 
-TEST(Parts, WhatDoesNotExistIsRefusedWithTheListOfWhatDoes) {
+TEST(Parts, what_does_not_exist_is_refused_with_the_list_of_what_does) {
   const Document document = two_squares();
   const std::string group = complaint(document, {.groups = {"lefty"}});
   EXPECT_NE(group.find("no group 'lefty'"), std::string::npos) << group;
@@ -87,7 +87,7 @@ TEST(Parts, WhatDoesNotExistIsRefusedWithTheListOfWhatDoes) {
   EXPECT_EQ(complaint(bare, {.groups = {"x"}}), "there is no group 'x': the file names no groups, only materials");
 }
 
-TEST(Parts, GltfNodesAreObjectsAndMeshesAreGroups) {
+TEST(Parts, gltf_nodes_are_objects_and_meshes_are_groups) {
   const std::vector<FaceLabels> labels = {
       {"node", {"chair"}, {0, -1}}, {"mesh", {"seat"}, {-1, 0}}, {"material", {"wood"}, {0, 0}}};
   const Surface surface{std::vector<double>(9), {0, 1, 2, 0, 2, 1}, {}};
@@ -97,12 +97,12 @@ TEST(Parts, GltfNodesAreObjectsAndMeshesAreGroups) {
   EXPECT_THROW(faces_in_parts(surface, labels, {.objects = {"seat"}}), UnknownPart);
 }
 
-TEST(Parts, VerticesOfFaces) {
+TEST(Parts, vertices_of_faces) {
   const Document document = two_squares();
   EXPECT_EQ(vertices_of_faces(document.surface(), Flags{0, 1, 0, 0, 0}), (Flags{1, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST(Parts, SeamsAreNoBoundary) {
+TEST(Parts, seams_are_no_boundary) {
   // A square of four triangles around a middle, in two halves with corners of their own.
   const Document document = Document::parse(
       "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 0\nv 5 5 5\n"

@@ -12,11 +12,11 @@ class RegularMaps : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(OfGenus3, RegularMaps, testing::Values("klein_map", "dyck_map"),
                          [](const auto& info) { return std::string(info.param); });
 
-TEST_P(RegularMaps, AreEmbeddedWithoutNoise) {
+TEST_P(RegularMaps, are_embedded_without_noise) {
   EXPECT_TRUE(find_intersections(make_sample(GetParam(), 0, {{"noise", 0}})).empty());
 }
 
-TEST_P(RegularMaps, AreRecoveredWhenShaken) {
+TEST_P(RegularMaps, are_recovered_when_shaken) {
   for (const double seed : {1, 2, 3}) {
     const Surface shaken = make_sample(GetParam(), 0, {{"seed", seed}});
     EXPECT_FALSE(find_intersections(shaken).empty()) << seed;
@@ -28,7 +28,7 @@ TEST_P(RegularMaps, AreRecoveredWhenShaken) {
   }
 }
 
-TEST_P(RegularMaps, AreEmbeddedFromSomeRandomPositions) {
+TEST_P(RegularMaps, are_embedded_from_some_random_positions) {
   int embedded = 0;
   for (double seed = 1; seed <= 12; ++seed) {
     const Surface random = make_sample(GetParam(), 0, {{"seed", seed}, {"random", 1}});

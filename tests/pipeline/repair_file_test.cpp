@@ -57,7 +57,7 @@ void expect_certified(const fs::path& written, const Surface& input) {
   EXPECT_EQ(read_back.surface().corners, input.corners);
 }
 
-TEST_F(RepairFile, WritesWhatItCertified) {
+TEST_F(RepairFile, writes_what_it_certified) {
   const fs::path in = folder.write("in.obj", crossing);
   const RepairedFiles done = repair_file(in, at("out.obj"));
   EXPECT_EQ(done.result.status, Status::embedded);
@@ -72,12 +72,12 @@ TEST_F(RepairFile, WritesWhatItCertified) {
   EXPECT_EQ(names(), (Names{"in.obj", "out.obj"}));
 }
 
-TEST_F(RepairFile, GivesAnEmbeddedFileBackByteForByte) {
+TEST_F(RepairFile, gives_an_embedded_file_back_byte_for_byte) {
   repair_file(folder.write("in.obj", floor_alone), at("out.obj"));
   EXPECT_EQ(content(at("out.obj")), floor_alone);
 }
 
-TEST_F(RepairFile, ReplacesTheInputInPlaceOnly) {
+TEST_F(RepairFile, replaces_the_input_in_place_only) {
   const fs::path in = folder.write("in.obj", crossing);
   EXPECT_THROW(repair_file(in, in), std::invalid_argument);
   EXPECT_THROW(repair_file(in, {}), std::invalid_argument);
@@ -90,7 +90,7 @@ TEST_F(RepairFile, ReplacesTheInputInPlaceOnly) {
   EXPECT_EQ(names(), Names{"in.obj"});
 }
 
-TEST_F(RepairFile, KeepsAnUnfinishedResultBesideItsPlace) {
+TEST_F(RepairFile, keeps_an_unfinished_result_beside_its_place) {
   const fs::path in = folder.write("in.obj", shallow_and_deep);
   folder.write("out.obj", "old");
   const RepairedFiles done = repair_file(in, at("out.obj"), bounded());
@@ -103,14 +103,14 @@ TEST_F(RepairFile, KeepsAnUnfinishedResultBesideItsPlace) {
             judged(input, input.positions).size());
 }
 
-TEST_F(RepairFile, GoesOnFromAPartialResultWithoutReplacingIt) {
+TEST_F(RepairFile, goes_on_from_a_partial_result_without_replacing_it) {
   const fs::path in = folder.write("out.partial.obj", shallow_and_deep);
   const RepairedFiles done = repair_file(in, at("out.obj"), bounded());
   EXPECT_EQ(done.partial, std::vector<fs::path>{at("out.partial.2.obj")});
   EXPECT_EQ(content(in), shallow_and_deep);
 }
 
-TEST_F(RepairFile, WritesAnUnfinishedResultAsAsked) {
+TEST_F(RepairFile, writes_an_unfinished_result_as_asked) {
   const fs::path in = folder.write("in.obj", shallow_and_deep);
   RepairFileOptions options = bounded();
   options.no_partial = true;
@@ -121,7 +121,7 @@ TEST_F(RepairFile, WritesAnUnfinishedResultAsAsked) {
   EXPECT_EQ(names(), (Names{"in.obj", "out.obj"}));
 }
 
-TEST_F(RepairFile, CompletesItsOptionsFromTheFile) {
+TEST_F(RepairFile, completes_its_options_from_the_file) {
   const fs::path in = folder.write("in.obj", crossing);
   RepairFileOptions options;
   options.when_read = [](const SceneDocument& scene, RepairFileOptions& own) {
@@ -132,7 +132,7 @@ TEST_F(RepairFile, CompletesItsOptionsFromTheFile) {
   EXPECT_EQ(names(), Names{"in.obj"});
 }
 
-TEST_F(RepairFile, LeavesNothingWhereItCannotWrite) {
+TEST_F(RepairFile, leaves_nothing_where_it_cannot_write) {
   const fs::path in = folder.write("in.obj", crossing);
   fs::create_directory(at("out.obj"));
   const Names before = names();
@@ -143,7 +143,7 @@ TEST_F(RepairFile, LeavesNothingWhereItCannotWrite) {
   EXPECT_EQ(names(), before);
 }
 
-TEST_F(RepairFile, LeavesAFileThatWasChangedMeanwhile) {
+TEST_F(RepairFile, leaves_a_file_that_was_changed_meanwhile) {
   const fs::path in = folder.write("in.obj", crossing);
   const Surface input = Document::read(in).surface();
   RepairFileOptions options;
@@ -160,7 +160,7 @@ TEST_F(RepairFile, LeavesAFileThatWasChangedMeanwhile) {
   EXPECT_EQ(names(), (Names{"in.obj", "in.partial.obj"}));
 }
 
-TEST_F(RepairFile, RefusesToStageWhatDoesNotHold) {
+TEST_F(RepairFile, refuses_to_stage_what_does_not_hold) {
   const fs::path in = folder.write("in.obj", crossing);
   const FilesToRepair files =
       files_to_repair(std::make_shared<SceneDocument>(read_scene({in})), {in}, at("out.obj"), {});
@@ -174,7 +174,7 @@ TEST_F(RepairFile, RefusesToStageWhatDoesNotHold) {
   EXPECT_EQ(names(), Names{"in.obj"});
 }
 
-TEST_F(RepairFile, HandsBytesBackThatHaveNoPlace) {
+TEST_F(RepairFile, hands_bytes_back_that_have_no_place) {
   const fs::path in = folder.write("in.obj", crossing);
   const FilesToRepair files = files_to_repair(std::make_shared<SceneDocument>(read_scene({in})), {in}, {}, {});
   const RepairedFiles done = repair_files(files, RepairFileOptions{});
@@ -182,7 +182,7 @@ TEST_F(RepairFile, HandsBytesBackThatHaveNoPlace) {
   expect_certified(folder.write("bytes.obj", done.bytes), files.scene->surface());
 }
 
-TEST_F(RepairFile, PutsAllFilesOfASceneInPlaceOrNone) {
+TEST_F(RepairFile, puts_all_files_of_a_scene_in_place_or_none) {
   const std::vector<fs::path> in = {folder.write("floor.obj", floor_alone), folder.write("blade.obj", blade_alone)};
   const Surface input = read_scene(in).surface();
   fs::create_directories(at("taken/blade.obj"));
@@ -196,7 +196,7 @@ TEST_F(RepairFile, PutsAllFilesOfASceneInPlaceOrNone) {
   EXPECT_EQ(done.report.scene.files[1].output, at("new/folder/blade.obj").string());
 }
 
-TEST_F(RepairFile, MakesNoFolderForASceneThatIsRefused) {
+TEST_F(RepairFile, makes_no_folder_for_a_scene_that_is_refused) {
   const std::vector<fs::path> in = {folder.write("floor.obj", floor_alone), folder.write("blade.obj", blade_alone)};
   EXPECT_THROW(repair_files(in, folder.path()), std::invalid_argument);
   RepairFileOptions options;

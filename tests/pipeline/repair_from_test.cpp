@@ -9,7 +9,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(RepairFrom, WithoutKnowledgeItIsRepair) {
+TEST(RepairFrom, without_knowledge_it_is_repair) {
   const Surface tubes = make_sample("crossing_tubes", 16);
   const KnownSurface known(tubes, {});
   Finders finders(known.prepared.triangles(), known.prepared.scale);
@@ -20,7 +20,7 @@ TEST(RepairFrom, WithoutKnowledgeItIsRepair) {
   EXPECT_GT(found.report.before.total(), 0u);
 }
 
-TEST(RepairFrom, WhatIsKnownOfOnePlaceSavesNothingWhereVerticesMove) {
+TEST(RepairFrom, what_is_known_of_one_place_saves_nothing_where_vertices_move) {
   const Surface tubes = make_sample("crossing_tubes", 16);
   const RepairResult clean = repair(tubes);
   ASSERT_EQ(clean.status, Status::embedded);
@@ -44,7 +44,7 @@ TEST(RepairFrom, WhatIsKnownOfOnePlaceSavesNothingWhereVerticesMove) {
 }
 
 // Of two squares a step apart, one is moved onto the other: that does not make them one.
-TEST(RepairFrom, WeldingStaysThatOfTheKnownSurface) {
+TEST(RepairFrom, welding_stays_that_of_the_known_surface) {
   Surface surface;
   for (const double z : {0.0, 1.0})
     for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})

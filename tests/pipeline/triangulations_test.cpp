@@ -12,7 +12,7 @@ Triangulation cut_of(std::vector<Triangle> triangles, std::vector<Index> polygon
   return cut;
 }
 
-TEST(Cuts, TheSameCutAddsNothing) {
+TEST(Cuts, the_same_cut_adds_nothing) {
   const Triangulation cut = cut_of({{0, 1, 2}, {0, 2, 3}}, {0, 0});
   const Triangulation from_other_corners = cut_of({{2, 0, 1}, {3, 0, 2}}, {0, 0});
   const UnitedTriangulations united = unite({cut, cut, Triangulation(), from_other_corners});
@@ -20,7 +20,7 @@ TEST(Cuts, TheSameCutAddsNothing) {
   EXPECT_EQ(united.all.triangles, cut.triangles);
 }
 
-TEST(Cuts, TheOtherDiagonalOfAQuad) {
+TEST(Cuts, the_other_diagonal_of_a_quad) {
   // A triangle, and a quad beside it that is cut the other way.
   const Triangulation cut = cut_of({{4, 1, 0}, {0, 1, 2}, {0, 2, 3}}, {0, 1, 1});
   const auto [all, exclusive] = unite({cut, cut_of({{4, 1, 0}, {1, 2, 3}, {1, 3, 0}}, {0, 1, 1})});
@@ -33,7 +33,7 @@ TEST(Cuts, TheOtherDiagonalOfAQuad) {
   }
 }
 
-TEST(Cuts, WhatBothCutsHoldIsNoStrangerToEither) {
+TEST(Cuts, what_both_cuts_hold_is_no_stranger_to_either) {
   const Triangulation cut = cut_of({{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}, {0, 0, 0});
   const auto [all, exclusive] = unite({cut, cut_of({{0, 1, 2}, {0, 2, 4}, {2, 3, 4}}, {0, 0, 0})});
   EXPECT_EQ(all.triangles.size(), 5u);
@@ -44,7 +44,7 @@ TEST(Cuts, WhatBothCutsHoldIsNoStrangerToEither) {
   }
 }
 
-TEST(Cuts, DuplicatesThatTheFirstCutsHaveAreNotNew) {
+TEST(Cuts, duplicates_that_the_first_cuts_have_are_not_new) {
   // Polygons 0 and 1 lie on 0 1 2 by the first cut already, 2 comes there by a later one.
   const Triangulation all = cut_of({{0, 1, 2}, {2, 1, 0}, {5, 6, 7}, {0, 1, 2}}, {0, 1, 2, 2});
   EXPECT_TRUE(polygons_on_new_duplicates(all, 3, std::vector<IntersectingPair>{{0, 1, PairClass::duplicate}}).empty());

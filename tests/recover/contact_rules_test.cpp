@@ -47,7 +47,7 @@ ContactRule rule_of_vertex_0(const Patch& patch, const std::vector<IntersectingP
   return {};
 }
 
-TEST(ContactRules, AGapKeepsTheWantedOneAndNoMoreThanHalfOfItself) {
+TEST(ContactRules, a_gap_keeps_the_wanted_one_and_no_more_than_half_of_itself) {
   const ContactRule wide = rule_of_vertex_0(face_over_face(0.03, 0.5), {});
   EXPECT_FALSE(wide.closed);
   EXPECT_EQ(wide.stencil.separation, 0.01);
@@ -59,7 +59,7 @@ TEST(ContactRules, AGapKeepsTheWantedOneAndNoMoreThanHalfOfItself) {
   EXPECT_DOUBLE_EQ(closed.stencil.separation, 0.002);
 }
 
-TEST(ContactRules, TheBarrierLeavesARestShapeWithoutConflictAlone) {
+TEST(ContactRules, the_barrier_leaves_a_rest_shape_without_conflict_alone) {
   const ContactRule thin = rule_of_vertex_0(face_over_face(0.2, 0.2), {});
   EXPECT_DOUBLE_EQ(thin.reach, 0.1);
   EXPECT_DOUBLE_EQ(thin.rest_distance, 0.2);
@@ -96,7 +96,7 @@ std::vector<ContactRule> rules_of(const Patch& patch, const std::vector<Intersec
   return found;
 }
 
-TEST(ContactRules, NeighboursKeepAShareOfTheirRestDistance) {
+TEST(ContactRules, neighbours_keep_a_share_of_their_rest_distance) {
   const std::vector<ContactRule> rules = rules_of(folded_pair(0.004), {});
   ASSERT_EQ(rules.size(), 2u);
   for (const ContactRule& rule : rules) {
@@ -108,7 +108,7 @@ TEST(ContactRules, NeighboursKeepAShareOfTheirRestDistance) {
   }
 }
 
-TEST(ContactRules, NearAlongASheetAreNeighbours) {
+TEST(ContactRules, near_along_a_sheet_are_neighbours) {
   // Two strips of a flat sheet with one between: 0.1 apart, and along the edges.
   Patch patch;
   patch.free_count = 8;
@@ -139,7 +139,7 @@ TEST(ContactRules, NearAlongASheetAreNeighbours) {
   EXPECT_NEAR(first_and_last(0.2).stencil.separation, 0.25 * 0.3, 1e-12);
 }
 
-TEST(ContactRules, FlatFoldsWantAGapOnlyWhereTheyAreInConflict) {
+TEST(ContactRules, flat_folds_want_a_gap_only_where_they_are_in_conflict) {
   const std::vector<ContactRule> in_conflict = rules_of(folded_pair(0), {{0, 1}});
   EXPECT_FALSE(in_conflict.empty());
   for (const ContactRule& rule : in_conflict) EXPECT_GT(rule.stencil.separation, 0.009);
@@ -147,7 +147,7 @@ TEST(ContactRules, FlatFoldsWantAGapOnlyWhereTheyAreInConflict) {
   for (const ContactRule& rule : rules_of(folded_pair(0), {})) EXPECT_NE(rule.stencil.stencil.v[0], 3);
 }
 
-TEST(ContactRules, ListWhatMayComeNearByMovingAsFarAsAllowed) {
+TEST(ContactRules, list_what_may_come_near_by_moving_as_far_as_allowed) {
   // Vertex 0 is 0.2 over the face, as at rest: its reach is 0.1, so that with the face it must approach by 0.1.
   const Patch patch = face_over_face(0.2, 0.2);
   const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
@@ -166,7 +166,7 @@ TEST(ContactRules, ListWhatMayComeNearByMovingAsFarAsAllowed) {
   EXPECT_TRUE(is_listed(0.11));
 }
 
-TEST(ContactRules, AroundAVertexJudgeClosedWhereItIsNow) {
+TEST(ContactRules, around_a_vertex_judge_closed_where_it_is_now) {
   // Vertex 0 started 0.2 over the face, whose bounds begin 0.195 below where it is now.
   Patch patch = face_over_face(0.2, 0.5);
   ContactRuleOptions options;
@@ -195,7 +195,7 @@ TEST(ContactRules, AroundAVertexJudgeClosedWhereItIsNow) {
   EXPECT_TRUE(found.empty());
 }
 
-TEST(ContactRules, FacesGuardTheirOwnAltitudes) {
+TEST(ContactRules, faces_guard_their_own_altitudes) {
   Patch patch = face_over_face(3, 3);
   patch.x.col(0) = 0.5 * (patch.x.col(1) + patch.x.col(2)) + Vec3(0, 0, 0.02);  // squeezed
   ContactRules rules(patch, {}, {});

@@ -14,7 +14,7 @@ Patch tent() {
   return shapes::patch_of(shape, 1, 4);
 }
 
-TEST(EmbeddingGuard, TakesBackWhatRunsIntoAnotherFace) {
+TEST(EmbeddingGuard, takes_back_what_runs_into_another_face) {
   const Patch patch = tent();
   EmbeddingGuard guard(patch);
   EXPECT_EQ(guard.pairs_at_start(), 0u);

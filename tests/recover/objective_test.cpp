@@ -77,7 +77,7 @@ struct Assembled {
   Objective objective;
 };
 
-TEST(Objective, DerivativesInGenericPositions) {
+TEST(Objective, derivatives_in_generic_positions) {
   const Patch patch = fan_over_face();
   Assembled assembled(patch);
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
@@ -87,7 +87,7 @@ TEST(Objective, DerivativesInGenericPositions) {
   }
 }
 
-TEST(Objective, DerivativesWithAFlippedFaceAndASqueezedOne) {
+TEST(Objective, derivatives_with_a_flipped_face_and_a_squeezed_one) {
   const Patch patch = fan_over_face();
   Assembled assembled(patch);
   Positions x = patch.rest;
@@ -99,7 +99,7 @@ TEST(Objective, DerivativesWithAFlippedFaceAndASqueezedOne) {
   assembled.expect_derivatives(x, 1e-8, 2e-2);
 }
 
-TEST(Objective, HessianIsThatOfThePartsAtRest) {
+TEST(Objective, hessian_is_that_of_the_parts_at_rest) {
   // At rest, with no contact, Gauss-Newton is exact.
   const Patch patch = fan_over_face();
   ObjectiveOptions options;
@@ -117,7 +117,7 @@ TEST(Objective, HessianIsThatOfThePartsAtRest) {
   }
 }
 
-TEST(Objective, TermsSumToTheValue) {
+TEST(Objective, terms_sum_to_the_value) {
   const Patch patch = fan_over_face();
   Assembled assembled(patch);
   Positions x = patch.rest;
@@ -133,7 +133,7 @@ TEST(Objective, TermsSumToTheValue) {
   EXPECT_NEAR(sum, value, 1e-12 * value);
 }
 
-TEST(Objective, ThePenaltyOfFlippedFacesCanBeScaled) {
+TEST(Objective, the_penalty_of_flipped_faces_can_be_scaled) {
   const Patch patch = fan_over_face();
   Assembled assembled(patch);
   Positions x = patch.rest;
@@ -146,7 +146,7 @@ TEST(Objective, ThePenaltyOfFlippedFacesCanBeScaled) {
   EXPECT_DOUBLE_EQ(assembled.objective.terms()[EnergyTerm::orientation], 5 * once);
 }
 
-TEST(Objective, RunsOverTheElementsOfMovingVertices) {
+TEST(Objective, runs_over_the_elements_of_moving_vertices) {
   const Patch patch = fan_over_face();
   Assembled assembled(patch);
   assembled.objective.contacts().clear();

@@ -148,7 +148,7 @@ RecoverOptions with_gap(double gap) {
   return options;
 }
 
-TEST(Recover, CrossingSheetsEndAgainstEachOther) {
+TEST(Recover, crossing_sheets_end_against_each_other) {
   for (double start_gap : {1e-3, 1e-12, 1e-17}) {
     Patch patch = crossing_bumps(14, 0.4, start_gap);
     ASSERT_GT(intersections(patch, patch.rest), 0u);
@@ -179,7 +179,7 @@ TEST(Recover, CrossingSheetsEndAgainstEachOther) {
 
 // Round-off hides a gap here, which is not opened first, so that no step can be told from a collision. All else returns
 // to rest. (It did on these sheets before such vertices were held, too; on bodies of 428k faces it did not.)
-TEST(Recover, TouchingFacesHoldUpNothingElse) {
+TEST(Recover, touching_faces_hold_up_nothing_else) {
   Sheets sheets(20, 2);
   Patch& patch = sheets.patch;
   const auto along = [](double x, double y) { return Vec3(x, y, 0.31 * x + 0.57 * y); };
@@ -212,7 +212,7 @@ TEST(Recover, TouchingFacesHoldUpNothingElse) {
       EXPECT_LT((patch.x - patch.rest).col(sheets.at(1, i, j)).norm(), 1e-3) << i << ' ' << j;
 }
 
-TEST(Recover, AGapNearTheWantedOneIsKept) {
+TEST(Recover, a_gap_near_the_wanted_one_is_kept) {
   // The final activation distance is forced down to the wanted gap: contacts end between one and two gaps apart, and
   // lists gathered there must not allow for less.
   Patch patch = crossing_bumps(12, 0.8, 0.1);
@@ -224,7 +224,7 @@ TEST(Recover, AGapNearTheWantedOneIsKept) {
   EXPECT_LT(gap_of(patch, 1), 0.04);
 }
 
-TEST(Recover, EmbeddedRestIsReachedExactly) {
+TEST(Recover, embedded_rest_is_reached_exactly) {
   Patch patch = crossing_bumps(12, -0.5, 0.9);
   ASSERT_EQ(intersections(patch, patch.rest), 0u);
   const RecoverResult result = recover(patch, with_gap(1e-5));
@@ -258,7 +258,7 @@ void add_obstacle(Patch& patch, const Vec3& a, const Vec3& b, const Vec3& c) {
   patch.triangles.push_back({n, n + 1, n + 2});
 }
 
-TEST(Recover, APartFarAwayWithAFreePathReturnsToItsPlace) {
+TEST(Recover, a_part_far_away_with_a_free_path_returns_to_its_place) {
   for (const double angle : {0.0, 0.7, 2.0}) {
     Patch patch = strip_away(Vec3(120, -150, 60), angle);  // 201 edge lengths
     const RecoverResult result = recover(patch, with_gap(1e-5));
@@ -267,7 +267,7 @@ TEST(Recover, APartFarAwayWithAFreePathReturnsToItsPlace) {
   }
 }
 
-TEST(Recover, APartFarAwayComesAsNearAsWhatIsInItsPlaceAllows) {
+TEST(Recover, a_part_far_away_comes_as_near_as_what_is_in_its_place_allows) {
   Patch patch = strip_away(Vec3(0, 0, 200), 0.4);
   add_obstacle(patch, Vec3(-9, -9, 0.15), Vec3(9, -9, 0.15), Vec3(0, 9, 0.15));
   ASSERT_GT(intersections(patch, patch.rest), 0u);
@@ -277,7 +277,7 @@ TEST(Recover, APartFarAwayComesAsNearAsWhatIsInItsPlaceAllows) {
 }
 
 // One vertex that wants to go far does not shorten the steps of a part that hangs nowhere together with it.
-TEST(Recover, AFarPartDoesNotHoldUpAnother) {
+TEST(Recover, a_far_part_does_not_hold_up_another) {
   Patch patch = strip_away(Vec3(0, 0, 200), 0.4);
   const Patch near = strip_away(Vec3(0, 0, 3), 0.2);
   const Vec3 apart(50, 0, 0);
@@ -296,7 +296,7 @@ TEST(Recover, AFarPartDoesNotHoldUpAnother) {
   EXPECT_EQ(both.x.middleCols(6, 6), both.rest.middleCols(6, 6));
 }
 
-TEST(Recover, NothingToDo) {
+TEST(Recover, nothing_to_do) {
   Patch patch = crossing_bumps(8, -0.5, 0.9);
   patch.x = patch.rest;
   const RecoverResult result = recover(patch, with_gap(1e-5));
@@ -306,7 +306,7 @@ TEST(Recover, NothingToDo) {
   EXPECT_FALSE(recover(empty).moved);
 }
 
-TEST(Recover, NeighboursDoNotFoldThroughEachOther) {
+TEST(Recover, neighbours_do_not_fold_through_each_other) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     Patch patch = crumpled_sheet(12, 0.8, seed);
     ASSERT_GT(intersections(patch, patch.rest), 0u);
@@ -319,7 +319,7 @@ TEST(Recover, NeighboursDoNotFoldThroughEachOther) {
   }
 }
 
-TEST(Recover, FoldedNeighbourOpensNoFartherThanItMust) {
+TEST(Recover, folded_neighbour_opens_no_farther_than_it_must) {
   // One corner folded flat over the next face at rest, at the start bent up.
   Sheets sheets(4, 1);
   Patch& patch = sheets.patch;
@@ -334,7 +334,7 @@ TEST(Recover, FoldedNeighbourOpensNoFartherThanItMust) {
   EXPECT_LT(rms_to_rest(patch, patch.x), before);
 }
 
-TEST(Recover, ObstaclesStandStill) {
+TEST(Recover, obstacles_stand_still) {
   // Only the lower sheet is free; the upper one is an obstacle whose bump it must stay under.
   Patch both = crossing_bumps(12, 1.2, 1e-12);
   Patch patch;
@@ -376,7 +376,7 @@ TEST(Recover, ObstaclesStandStill) {
   EXPECT_EQ(patch.x.rightCols(patch.x.cols() - patch.free_count), start.rightCols(patch.x.cols() - patch.free_count));
 }
 
-TEST(Recover, TwoRunsGiveTheSameBytes) {
+TEST(Recover, two_runs_give_the_same_bytes) {
   for (int kind = 0; kind < 2; ++kind) {
     const Patch patch = kind ? crumpled_sheet(12, 0.8, 5) : crossing_bumps(12, 0.4, 1e-12);
     Patch first = patch, second = patch;
@@ -386,7 +386,7 @@ TEST(Recover, TwoRunsGiveTheSameBytes) {
   }
 }
 
-TEST(Recover, ScaleChangesNothing) {
+TEST(Recover, scale_changes_nothing) {
   // By a power of two, so that no rounding differs.
   const Patch patch = crossing_bumps(10, 0.4, 1e-3);
   Patch one = patch, big = patch;
@@ -398,7 +398,7 @@ TEST(Recover, ScaleChangesNothing) {
   EXPECT_LT((1024 * one.x - big.x).cwiseAbs().maxCoeff(), 1e-6 * 1024);
 }
 
-TEST(Recover, TheCallerCanStopIt) {
+TEST(Recover, the_caller_can_stop_it) {
   Patch patch = crossing_bumps(12, 0.4, 1e-12);
   int asked = 0;
   const RecoverResult result = recover(patch, with_gap(1e-5), [&] { return ++asked > 3; });
@@ -407,7 +407,7 @@ TEST(Recover, TheCallerCanStopIt) {
   EXPECT_EQ(intersections(patch, patch.x), 0u);
 }
 
-TEST(Recover, StoppedAtOnceItDoesNotOpenGaps) {
+TEST(Recover, stopped_at_once_it_does_not_open_gaps) {
   Patch patch = crossing_bumps(12, 0.4, 0);
   patch.x.row(2) *= 1e-6;  // flat sheets almost upon each other
   const Index fixed = static_cast<Index>(patch.x.cols()) - patch.free_count;
@@ -435,7 +435,7 @@ TEST(Recover, stops_within_a_step) {
   }
 }
 
-TEST(Recover, PairsThatCannotBePartedAreNoObstacle) {
+TEST(Recover, pairs_that_cannot_be_parted_are_no_obstacle) {
   // A duplicate of a free face: an intersecting pair before and after, and no other.
   Patch patch = crossing_bumps(12, 0.4, 1e-12);
   patch.triangles.insert(patch.triangles.begin(), patch.triangles[0]);
@@ -448,7 +448,7 @@ TEST(Recover, PairsThatCannotBePartedAreNoObstacle) {
   EXPECT_LT(rms_to_rest(patch, patch.x), 0.5 * rms_to_rest(patch, start));
 }
 
-TEST(Recover, ThePapersVariantGoesOnUntilNothingFalls) {
+TEST(Recover, the_papers_variant_goes_on_until_nothing_falls) {
   const Patch patch = crossing_bumps(8, 0.4, 1e-3);
   RecoverOptions paper = RecoverOptions::paper();
   paper.min_gap = 1e-5;
@@ -461,7 +461,7 @@ TEST(Recover, ThePapersVariantGoesOnUntilNothingFalls) {
   EXPECT_LE(slow.iterations, 500);
 }
 
-TEST(Recover, OpensNeedlesThatAreHemmedIn) {
+TEST(Recover, opens_needles_that_are_hemmed_in) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
     Patch patch = needles_between_sheets(9, seed);
     ASSERT_EQ(intersections(patch, patch.x), 0u);

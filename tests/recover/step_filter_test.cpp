@@ -39,7 +39,7 @@ double share_kept(const Positions& x, const Positions& p) {
   return area_vector(x, one[0]).dot(area_vector(Positions(x + p), one[0])) / area_vector(x, one[0]).squaredNorm();
 }
 
-TEST(StepFilter, ACollisionDoesNotTurnAFaceOver) {
+TEST(StepFilter, a_collision_does_not_turn_a_face_over) {
   const Positions x = over_floor();
   const OrientationPenalty orientation(x, one, {});
   Positions collided = fall();
@@ -54,7 +54,7 @@ TEST(StepFilter, ACollisionDoesNotTurnAFaceOver) {
   EXPECT_LE(p(1, 2), 0);
 }
 
-TEST(StepFilter, WhoeverStaysMakesTheFaceStay) {
+TEST(StepFilter, whoever_stays_makes_the_face_stay) {
   const Positions x = over_floor();
   const OrientationPenalty orientation(x, one, {});
   Positions p = fall();
@@ -62,7 +62,7 @@ TEST(StepFilter, WhoeverStaysMakesTheFaceStay) {
   EXPECT_TRUE(p.isZero(0));
 }
 
-TEST(StepFilter, LeavesAloneWhatIsFree) {
+TEST(StepFilter, leaves_alone_what_is_free) {
   const Positions x = over_floor();
   const OrientationPenalty orientation(x, one, {});
   Positions p = 0.1 * fall();

@@ -17,7 +17,7 @@ std::vector<double> corners_of_box(double x, double y, double z) {
   return p;
 }
 
-TEST(Camera, ShowsEverythingAndFillsTheImageOneWay) {
+TEST(Camera, shows_everything_and_fills_the_image_one_way) {
   for (const auto& [x, y, z] :
        {std::array{1.0, 1.0, 1.0}, std::array{9.0, 1.0, 0.1}, std::array{0.1, 1.0, 20.0}, std::array{1.0, 30.0, 2.0}}) {
     const std::vector<double> p = corners_of_box(x, y, z);
@@ -37,7 +37,7 @@ TEST(Camera, ShowsEverythingAndFillsTheImageOneWay) {
   }
 }
 
-TEST(Camera, FrameIsRightHandedAndLooksFromAbove) {
+TEST(Camera, frame_is_right_handed_and_looks_from_above) {
   for (const auto& box :
        {corners_of_box(3, 1, 1), corners_of_box(1, 1, 3), corners_of_box(1, 3, 1), corners_of_box(1, 1.1, 1.2)}) {
     const Camera c = three_quarter_view(box, 1, 0);
@@ -48,13 +48,13 @@ TEST(Camera, FrameIsRightHandedAndLooksFromAbove) {
   EXPECT_GT(three_quarter_view(corners_of_box(3, 1, 1), 1, 0).toward[1], 0.1);
 }
 
-TEST(Camera, UpIsYExceptForFiguresThatStandAlongZ) {
+TEST(Camera, up_is_y_except_for_figures_that_stand_along_z) {
   EXPECT_GT(three_quarter_view(corners_of_box(1, 2, 1), 1, 0).up[1], 0.7);
   EXPECT_GT(three_quarter_view(corners_of_box(2, 1, 1), 1, 0).up[1], 0.7);
   EXPECT_GT(three_quarter_view(corners_of_box(1, 0.5, 3), 1, 0).up[2], 0.7);
 }
 
-TEST(Camera, UpIsWhatAFileSays) {
+TEST(Camera, up_is_what_a_file_says) {
   const auto long_along_z = corners_of_box(1, 0.5, 3), tall = corners_of_box(1, 2, 1);
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0})
@@ -70,7 +70,7 @@ TEST(Camera, UpIsWhatAFileSays) {
   EXPECT_FALSE(up_of(std::span(files).first(1)));
 }
 
-TEST(Camera, LongerHorizontalAxisRunsToTheRight) {
+TEST(Camera, longer_horizontal_axis_runs_to_the_right) {
   EXPECT_GT(three_quarter_view(corners_of_box(3, 1, 1), 1, 0).right[0], 0.8);
   EXPECT_GT(std::abs(three_quarter_view(corners_of_box(1, 3, 2.5), 1, 0).right[2]), 0.8);
 }

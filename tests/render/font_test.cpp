@@ -15,17 +15,17 @@ std::string drawn(const std::string& text) {
   return {image.pixels.begin(), image.pixels.end()};
 }
 
-TEST(Font, EveryPrintableCharacterLooksDifferent) {
+TEST(Font, every_printable_character_looks_different) {
   std::set<std::string> pictures;
   for (char c = ' '; c <= '~'; ++c) pictures.insert(drawn(std::string(1, c)));
   EXPECT_EQ(pictures.size(), 95U);
 }
 
-TEST(Font, WhatCannotBePrintedIsABlank) {
+TEST(Font, what_cannot_be_printed_is_a_blank) {
   EXPECT_EQ(drawn("a\tb\xC3"), drawn("a b "));
 }
 
-TEST(Font, WidthIsThatOfWhatIsDrawn) {
+TEST(Font, width_is_that_of_what_is_drawn) {
   for (const std::string text : {"before", "123 pairs", "W"}) {
     Image image(200, 30);
     draw_text(image, text, 10, 4, 14, {0, 0, 0}, 200);
@@ -37,7 +37,7 @@ TEST(Font, WidthIsThatOfWhatIsDrawn) {
   }
 }
 
-TEST(Font, IsCutOffAtTheGivenColumnAndAtTheImage) {
+TEST(Font, is_cut_off_at_the_given_column_and_at_the_image) {
   Image image(100, 20);
   draw_text(image, "MMMMMMMMMMMMMMM", 0, 2, 14, {0, 0, 0}, 50);
   for (int y = 0; y < image.height; ++y)

@@ -49,7 +49,7 @@ std::vector<std::uint32_t> unpacked(const std::string& text, std::size_t n, cons
 
 const std::vector<std::uint32_t> extremes = {0, 1, 0xffffffff, 0x80000000, 0x7fffffff, 12345, 12346};
 
-TEST(PackedWords, ComeBackWhateverThePrediction) {
+TEST(PackedWords, come_back_whatever_the_prediction) {
   const std::vector<std::uint32_t> like = {7, 0xffffffff, 0, 0x80000001, 5, 5, 5};
   for (const Prediction& prediction :
        {Prediction{}, Prediction{.stride = 1, .like = {}}, Prediction{.stride = 3, .like = {}},
@@ -58,19 +58,19 @@ TEST(PackedWords, ComeBackWhateverThePrediction) {
               extremes);
 }
 
-TEST(PackedWords, FloatsAreTheirBits) {
+TEST(PackedWords, floats_are_their_bits) {
   const std::vector<float> values = {0.F, -0.F, 1.5F, std::numeric_limits<float>::infinity(), 1e-40F};
   const std::vector<std::uint32_t> words = unpacked(pack_words(std::span<const float>(values)), values.size());
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(words[i], std::bit_cast<std::uint32_t>(values[i]));
 }
 
-TEST(PackedWords, WhatWasPredictedTakesNextToNoRoom) {
+TEST(PackedWords, what_was_predicted_takes_next_to_no_room) {
   std::vector<std::int32_t> words(30000);
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::int32_t>(i);
   EXPECT_LT(pack_words(std::span<const std::int32_t>(words), {.stride = 3, .like = {}}).size(), 500u);
 }
 
-TEST(PackedWords, PredictionOfAnotherLengthIsRefused) {
+TEST(PackedWords, prediction_of_another_length_is_refused) {
   EXPECT_THROW(
       pack_words(std::span<const std::uint32_t>(extremes), {.stride = 0, .like = std::span(extremes).first(2)}),
       std::invalid_argument);

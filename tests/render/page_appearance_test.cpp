@@ -21,14 +21,14 @@ Appearance painted() {
   return appearance;
 }
 
-TEST(PageAppearance, VerticesWithSeveralPlacesAreCopied) {
+TEST(PageAppearance, vertices_with_several_places_are_copied) {
   const TextureVertices vertices = texture_vertices(painted(), two_quads, quad_triangles);
   EXPECT_EQ(vertices.copies, std::vector<Index>{1});
   EXPECT_EQ(vertices.triangles, (std::vector<Index>{0, 1, 2, 0, 2, 3, 6, 4, 5, 6, 5, 2, 0, 1, 4}));
   EXPECT_EQ(vertices.uv, (std::vector<float>{0, 0, 0.5f, 0, 0.5f, 1, 0, 1, 1, 0, 1, 1, 0.25f, 0}));
 }
 
-TEST(PageAppearance, PutsImagesMaterialsAndCoordinatesIntoThePage) {
+TEST(PageAppearance, puts_images_materials_and_coordinates_into_the_page) {
   PageElements elements;
   const Json described = add_appearance(painted(), two_quads, quad_triangles, elements);
   EXPECT_EQ(described["images"], Json({{{"name", "a"}, {"media_type", "image/png"}, {"width", 3}, {"height", 4}}}));
@@ -39,7 +39,7 @@ TEST(PageAppearance, PutsImagesMaterialsAndCoordinatesIntoThePage) {
     EXPECT_NE(elements.html().find('"' + std::string(id) + '"'), std::string::npos) << id;
 }
 
-TEST(PageAppearance, WithoutSeamsTheTrianglesAreThoseOfThePage) {
+TEST(PageAppearance, without_seams_the_triangles_are_those_of_the_page) {
   Appearance appearance = painted();
   appearance.uv_of_corner[8] = 0.5f;
   PageElements elements;
@@ -48,7 +48,7 @@ TEST(PageAppearance, WithoutSeamsTheTrianglesAreThoseOfThePage) {
   EXPECT_EQ(elements.html().find("texture_copies"), std::string::npos);
 }
 
-TEST(PageAppearance, WhatIsNotWorthShowingLeavesItsNotes) {
+TEST(PageAppearance, what_is_not_worth_showing_leaves_its_notes) {
   Appearance appearance;
   appearance.notes = {"Image x is left out."};
   PageElements elements;

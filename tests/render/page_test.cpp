@@ -38,7 +38,7 @@ std::string packed(const std::vector<Word>& words, std::size_t stride) {
   return pack_words(std::span<const Word>(words), {.stride = stride, .like = {}});
 }
 
-TEST(Page, IsTheTemplateWithTheDataInItsPlace) {
+TEST(Page, is_the_template_with_the_data_in_its_place) {
   const std::string page = make_page(page_template, content_of(surface));
   EXPECT_EQ(page.rfind("<body>$&<script", 0), 0u);
   EXPECT_EQ(page.substr(page.size() - 17), "</script>\n</body>");
@@ -46,7 +46,7 @@ TEST(Page, IsTheTemplateWithTheDataInItsPlace) {
   EXPECT_THROW(make_page("<body></body>", content_of(surface)), std::invalid_argument);
 }
 
-TEST(Page, NamesCannotLeaveTheirElement) {
+TEST(Page, names_cannot_leave_their_element) {
   PageContent content = content_of(surface);
   content.input_name = "</script><script>alert(1)</script><!-- \xff\xfe \" \\ \n";
   content.report = {{"note", "</SCRIPT>"}};
@@ -58,7 +58,7 @@ TEST(Page, NamesCannotLeaveTheirElement) {
   EXPECT_EQ(scene["report"]["note"], "</SCRIPT>");
 }
 
-TEST(Page, PositionsAreRelativeToTheMiddleInUnitsOfTheDiagonal) {
+TEST(Page, positions_are_relative_to_the_middle_in_units_of_the_diagonal) {
   const std::string page = make_page(page_template, content_of(surface));
   const float a = static_cast<float>(-1 / std::sqrt(8.0));
   EXPECT_EQ(text_of(page, "positions_before"), packed<float>({a, a, 0, -a, a, 0, -a, -a, 0, a, -a, 0, 0, 0, 0}, 3));
@@ -67,7 +67,7 @@ TEST(Page, PositionsAreRelativeToTheMiddleInUnitsOfTheDiagonal) {
   EXPECT_EQ(scene["centre"], Json({11, 21, 31}));
 }
 
-TEST(Page, IsTheSameAtAnyPowerOfTwo) {
+TEST(Page, is_the_same_at_any_power_of_two) {
   Surface moved = surface;
   moved.positions[0] -= 0.25;
   const auto page_at = [&](int exponent) {
@@ -88,7 +88,7 @@ TEST(Page, IsTheSameAtAnyPowerOfTwo) {
   }
 }
 
-TEST(Page, PolygonsComeWithTheTrianglesThatDrawThem) {
+TEST(Page, polygons_come_with_the_triangles_that_draw_them) {
   const std::string page = make_page(page_template, content_of(surface));
   EXPECT_EQ(text_of(page, "corners"), packed<Index>({0, 1, 2, 3, 0, 1, 4}, 4));
   EXPECT_EQ(text_of(page, "sizes"), packed<Index>({4, 3}, 1));
@@ -99,7 +99,7 @@ TEST(Page, PolygonsComeWithTheTrianglesThatDrawThem) {
   EXPECT_EQ(text_of(plain, "triangles"), "");
 }
 
-TEST(Page, DisplacementComesFromDoubles) {
+TEST(Page, displacement_comes_from_doubles) {
   PageContent content = content_of(surface);
   std::vector<double> moved = surface.positions;
   moved[0] += 1e-12;  // far below what a float of the position holds
@@ -111,7 +111,7 @@ TEST(Page, DisplacementComesFromDoubles) {
   EXPECT_EQ(text_of(make_page(page_template, content_of(surface)), "positions_after"), "");
 }
 
-TEST(Page, PairsAndCurvesOfBothStates) {
+TEST(Page, pairs_and_curves_of_both_states) {
   PageContent content = content_of(surface);
   const std::vector<IntersectingPair> pairs = {{0, 1, PairClass::one_vertex}};
   content.before.pairs = pairs;
@@ -121,7 +121,7 @@ TEST(Page, PairsAndCurvesOfBothStates) {
   EXPECT_EQ(text_of(page, "curves_before"), packed<float>({0, 0, 0, 0, 0, 1}, 3));
 }
 
-TEST(Page, RecordedFramesEndToEnd) {
+TEST(Page, recorded_frames_end_to_end) {
   PageContent content = content_of(surface);
   std::vector<RecordedFrame> frames(2);
   frames[0] = {"input", "", 0, 7, {0, 1}, {}, {}};
@@ -136,7 +136,7 @@ TEST(Page, RecordedFramesEndToEnd) {
   EXPECT_EQ(text_of(page, "frame_faces"), packed<Index>({0, 1, 1}, 1));
 }
 
-TEST(Page, AnEmptyMeshHasAPage) {
+TEST(Page, an_empty_mesh_has_a_page) {
   EXPECT_NE(make_page(page_template, content_of({})).find("\"vertices\":0"), std::string::npos);
 }
 

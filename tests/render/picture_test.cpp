@@ -60,7 +60,7 @@ PictureOptions small() {
   return options;
 }
 
-TEST(Picture, ShowsRedFacesOnTheSideThatTheyBelongTo) {
+TEST(Picture, shows_red_faces_on_the_side_that_they_belong_to) {
   const Surface surface = plate(8);
   std::vector<Index> red(10);
   std::iota(red.begin(), red.end(), 20);
@@ -74,7 +74,7 @@ TEST(Picture, ShowsRedFacesOnTheSideThatTheyBelongTo) {
   EXPECT_EQ(after.vivid + after.tinted, 0U);
 }
 
-TEST(Picture, HiddenRedFacesShowThroughAsATint) {
+TEST(Picture, hidden_red_faces_show_through_as_a_tint) {
   // The second plate is hidden behind the first, as seen from in front and above.
   const Surface surface = together(plate(8, 0), plate(8, -0.05));
   const Image image = render_surface(surface, std::vector<Index>{64 + 27, 64 + 28, 64 + 35, 64 + 36}, small());
@@ -84,7 +84,7 @@ TEST(Picture, HiddenRedFacesShowThroughAsATint) {
 }
 
 // A row of faces that are a third of a pixel wide: seen as a vivid line, and as an unbroken tint through a plate above.
-TEST(Picture, NarrowRedFacesAreSeen) {
+TEST(Picture, narrow_red_faces_are_seen) {
   const int n = 500;
   const Surface fine = plate(n);
   std::vector<Index> row(n);
@@ -97,7 +97,7 @@ TEST(Picture, NarrowRedFacesAreSeen) {
   EXPECT_GT(through.tinted, 100U);
 }
 
-TEST(Picture, BothStatesAreSeenByOneCamera) {
+TEST(Picture, both_states_are_seen_by_one_camera) {
   const Surface before = plate(4);
   Surface after = before;
   for (std::size_t k = 0; k < after.positions.size(); k += 3) after.positions[k] += 1.5;
@@ -112,7 +112,7 @@ TEST(Picture, BothStatesAreSeenByOneCamera) {
   EXPECT_GT(middle(201, 400), middle(0, 200) + 30);
 }
 
-TEST(Picture, IsTheSameOnEveryCall) {
+TEST(Picture, is_the_same_on_every_call) {
   const Surface surface = plate(20);
   const std::vector<Index> red = {3, 4, 5};
   PictureOptions options = small();
@@ -121,7 +121,7 @@ TEST(Picture, IsTheSameOnEveryCall) {
             render_pair(surface, red, surface, {}, options).pixels);
 }
 
-TEST(Picture, MagnifiesSmallGroupsOfRedFaces) {
+TEST(Picture, magnifies_small_groups_of_red_faces) {
   PictureOptions options = small();
   options.width = 800;
   options.height = 400;
@@ -133,7 +133,7 @@ TEST(Picture, MagnifiesSmallGroupsOfRedFaces) {
   EXPECT_GT(count(with_inset, 0, 800).vivid, 4 * count(plain, 0, 800).vivid);
 }
 
-TEST(Picture, MagnifiesGroupsThatLieFarApart) {
+TEST(Picture, magnifies_groups_that_lie_far_apart) {
   PictureOptions options = small();
   options.width = 1000;
   options.height = 300;
@@ -147,7 +147,7 @@ TEST(Picture, MagnifiesGroupsThatLieFarApart) {
   EXPECT_GT(vivid(both) - plain_both, 3 * (vivid(one) - plain_one) / 2) << "the second group is magnified as well";
 }
 
-TEST(Picture, HidesNothingToMagnifyWhatIsSeenWell) {
+TEST(Picture, hides_nothing_to_magnify_what_is_seen_well) {
   PictureOptions options = small();
   options.width = options.height = 400;
   const Surface surface = plate(20);
@@ -158,7 +158,7 @@ TEST(Picture, HidesNothingToMagnifyWhatIsSeenWell) {
   EXPECT_EQ(render_surface(surface, red, options).pixels, plain.pixels);
 }
 
-TEST(Picture, DrawsItsLabels) {
+TEST(Picture, draws_its_labels) {
   PictureOptions options = small();
   options.before_label = options.after_label = "";
   const Surface surface = plate(4);
@@ -174,7 +174,7 @@ TEST(Picture, DrawsItsLabels) {
   EXPECT_GT(ink(labelled), ink(silent) + 50);
 }
 
-TEST(Picture, SurvivesDegenerateAndEmptySurfaces) {
+TEST(Picture, survives_degenerate_and_empty_surfaces) {
   const Surface empty;
   EXPECT_EQ(count(render_surface(empty, {}, small()), 0, 400, 30).drawn, 0U);
   Surface point{{1, 2, 3, 1, 2, 3, 1, 2, 3}, {0, 1, 2}, {}};
@@ -187,7 +187,7 @@ TEST(Picture, SurvivesDegenerateAndEmptySurfaces) {
   EXPECT_GT(count(render_surface(broken, std::vector<Index>{0, 1, 2}, {}), 0, 1600, 60).drawn, 1000U);
 }
 
-TEST(Picture, DoesNotDependOnTheSizeOfTheSurface) {
+TEST(Picture, does_not_depend_on_the_size_of_the_surface) {
   const Surface surface = plate(8);
   for (double scale : {1e-9, 1e9}) {
     Surface scaled = surface;
@@ -199,7 +199,7 @@ TEST(Picture, DoesNotDependOnTheSizeOfTheSurface) {
   }
 }
 
-TEST(Picture, RefusesFacesAndSizesOutOfRange) {
+TEST(Picture, refuses_faces_and_sizes_out_of_range) {
   const Surface surface = plate(2);
   EXPECT_THROW(render_surface(surface, std::vector<Index>{4}, small()), std::invalid_argument);
   EXPECT_THROW(render_surface(surface, std::vector<Index>{-1}, small()), std::invalid_argument);

@@ -41,7 +41,7 @@ Image decoded(const std::string& bytes) {
   return image;
 }
 
-TEST(Png, DecodesToTheSamePixels) {
+TEST(Png, decodes_to_the_same_pixels) {
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(7, 3), std::pair(120, 77)}) {
     const Image image = pattern(width, height);
     const Image back = decoded(encode_png(image));
@@ -51,11 +51,11 @@ TEST(Png, DecodesToTheSamePixels) {
   }
 }
 
-TEST(Png, RefusesAnEmptyImage) {
+TEST(Png, refuses_an_empty_image) {
   EXPECT_THROW(encode_png(Image()), std::invalid_argument);
 }
 
-TEST(Png, WritesTheFileAndNothingBesideIt) {
+TEST(Png, writes_the_file_and_nothing_beside_it) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "unsnarl_png_test";
   std::filesystem::create_directories(folder);
   const Image image = pattern(20, 10);
@@ -67,7 +67,7 @@ TEST(Png, WritesTheFileAndNothingBesideIt) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Png, NamesThePathThatCannotBeWritten) {
+TEST(Png, names_the_path_that_cannot_be_written) {
   const auto path = std::filesystem::path(testing::TempDir()) / "no_such_folder" / "picture.png";
   try {
     write_png(pattern(2, 2), path);

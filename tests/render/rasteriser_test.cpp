@@ -9,7 +9,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(Rasteriser, CoversEverySampleOfAMeshOnceOrMoreAndNothingElse) {
+TEST(Rasteriser, covers_every_sample_of_a_mesh_once_or_more_and_nothing_else) {
   // A square cut along a diagonal that passes through samples.
   const std::vector<ScreenPoint> points = {{2, 2, 1}, {12, 2, 1}, {12, 12, 1}, {2, 12, 1}};
   const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -20,7 +20,7 @@ TEST(Rasteriser, CoversEverySampleOfAMeshOnceOrMoreAndNothingElse) {
       EXPECT_EQ(buffer.triangle[buffer.at(x, y)] >= 0, x >= 2 && x < 12 && y >= 2 && y < 12) << x << ' ' << y;
 }
 
-TEST(Rasteriser, NearestWinsWhateverTheOrder) {
+TEST(Rasteriser, nearest_wins_whatever_the_order) {
   const std::vector<ScreenPoint> points = {{0, 0, 1}, {20, 0, 1}, {0, 20, 1}, {0, 0, 2}, {20, 0, 2}, {0, 20, 2}};
   const std::vector<Triangle> triangles = {{0, 1, 2}, {3, 4, 5}};
   for (const auto& order : {std::vector<Index>{0, 1}, std::vector<Index>{1, 0}}) {
@@ -31,7 +31,7 @@ TEST(Rasteriser, NearestWinsWhateverTheOrder) {
   }
 }
 
-TEST(Rasteriser, CrossingTrianglesAreSplitWhereTheyCross) {
+TEST(Rasteriser, crossing_triangles_are_split_where_they_cross) {
   const std::vector<ScreenPoint> points = {{0, -8, 1}, {16, 8, 3}, {0, 24, 1}, {0, -8, 3}, {16, 8, 1}, {0, 24, 3}};
   const std::vector<Triangle> triangles = {{0, 1, 2}, {3, 4, 5}};
   VisibilityBuffer buffer(16, 16);
@@ -40,7 +40,7 @@ TEST(Rasteriser, CrossingTrianglesAreSplitWhereTheyCross) {
   EXPECT_EQ(buffer.triangle[buffer.at(12, 8)], 0);
 }
 
-TEST(Rasteriser, LeavesOutWhatIsBehindTheEyeDegenerateOrNotANumber) {
+TEST(Rasteriser, leaves_out_what_is_behind_the_eye_degenerate_or_not_a_number) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const std::vector<ScreenPoint> points = {{0, 0, 1}, {20, 0, 1}, {0, 20, 0}, {10, 10, 1}, {nan, 3, 1}, {0, inf, 1}};
   const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 3, 3}, {0, 1, 4}, {0, 0, 0}};

@@ -9,7 +9,7 @@
 namespace unsnarl {
 namespace {
 
-TEST(RunControl, EndsWhereItIsCancelled) {
+TEST(RunControl, ends_where_it_is_cancelled) {
   Context context;
   RunControl control(&context, {});
   EXPECT_FALSE(control.stopped());
@@ -19,7 +19,7 @@ TEST(RunControl, EndsWhereItIsCancelled) {
   EXPECT_EQ(control.status_or(Status::reduced), Status::cancelled);
 }
 
-TEST(RunControl, EndsAtItsLimits) {
+TEST(RunControl, ends_at_its_limits) {
   RunControl timed(nullptr, {.time_s = 1e-3});
   std::this_thread::sleep_for(std::chrono::milliseconds(2));
   EXPECT_TRUE(timed.stopped());
@@ -30,7 +30,7 @@ TEST(RunControl, EndsAtItsLimits) {
   EXPECT_EQ(small.status_or(Status::embedded), Status::memory_limit);
 }
 
-TEST(RunControl, SaysTheFirstReasonForGood) {
+TEST(RunControl, says_the_first_reason_for_good) {
   Context context;
   RunControl control(&context, {.memory_mb = 1e-3});
   EXPECT_TRUE(control.stopped());
@@ -39,7 +39,7 @@ TEST(RunControl, SaysTheFirstReasonForGood) {
   EXPECT_EQ(control.status_or(Status::embedded), Status::memory_limit);
 }
 
-TEST(RunControl, TellsOfProgressThatNeverDecreases) {
+TEST(RunControl, tells_of_progress_that_never_decreases) {
   Context context;
   std::vector<double> fractions;
   context.on_progress = [&](const Context::Progress& progress) { fractions.push_back(progress.fraction); };

@@ -22,7 +22,7 @@ std::vector<RegularMap> both_maps() {
   return {{"klein_map", klein_map_faces(), 24, 84, 7, 168}, {"dyck_map", dyck_map_faces(), 12, 48, 8, 96}};
 }
 
-TEST(RegularMaps, HaveTheCountsOfTheirGenus) {
+TEST(RegularMaps, have_the_counts_of_their_genus) {
   for (const RegularMap& map : both_maps()) {
     SCOPED_TRACE(map.sample);
     std::set<Edge> edges;
@@ -40,7 +40,7 @@ TEST(RegularMaps, HaveTheCountsOfTheirGenus) {
 }
 
 // Schlaefli symbol, genus and the order of the group single them out: R3.1 and R3.2 in Conder's list.
-TEST(RegularMaps, HaveAsManyAutomorphismsAsFlags) {
+TEST(RegularMaps, have_as_many_automorphisms_as_flags) {
   for (const RegularMap& map : both_maps()) {
     const auto vertices = static_cast<Index>(map.vertices);
     std::set<VertexMap> group;
@@ -57,7 +57,7 @@ TEST(RegularMaps, HaveAsManyAutomorphismsAsFlags) {
   }
 }
 
-TEST(RegularMaps, AreFacedOutwardsWithoutNoise) {
+TEST(RegularMaps, are_faced_outwards_without_noise) {
   for (const RegularMap& map : both_maps()) {
     const Surface surface = make_sample(map.sample, 0, {{"noise", 0}});
     EXPECT_EQ(surface.view().face_count(), map.faces.size());
@@ -70,7 +70,7 @@ TEST(RegularMaps, AreFacedOutwardsWithoutNoise) {
   }
 }
 
-TEST(RegularMaps, ChangeWithTheSeedAndStayInTheirBox) {
+TEST(RegularMaps, change_with_the_seed_and_stay_in_their_box) {
   for (const RegularMap& map : both_maps()) {
     const Surface one = make_sample(map.sample, 0, {{"random", 1}}),
                   two = make_sample(map.sample, 0, {{"random", 1}, {"seed", 2}});

@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::ValuesIn([] {
                          }()),
                          [](const auto& info) { return info.param; });
 
-TEST_P(EverySample, IsAValidMeshAtManyResolutions) {
+TEST_P(EverySample, is_a_valid_mesh_at_many_resolutions) {
   for (int resolution : {8, 13, 40, 81}) {
     const Surface surface = make_sample(GetParam(), resolution);
     EXPECT_NO_THROW(require_valid(surface));
@@ -192,19 +192,19 @@ TEST_P(EverySample, IsAValidMeshAtManyResolutions) {
   }
 }
 
-TEST_P(EverySample, HasTheSizeThatTheHeaderPromises) {
+TEST_P(EverySample, has_the_size_that_the_header_promises) {
   if (GetParam().ends_with("_map")) return;  // regular maps have one size: see RegularMaps
   const std::size_t faces = make_sample(GetParam()).view().face_count();
   EXPECT_GE(faces, 1000U);
   EXPECT_LE(faces, 8000U);
 }
 
-TEST_P(EverySample, HasTheDeclaredTopology) {
+TEST_P(EverySample, has_the_declared_topology) {
   ASSERT_TRUE(shapes().contains(GetParam())) << "say here what the new sample is";
   EXPECT_EQ(shape_of(make_sample(GetParam())), shapes().at(GetParam()));
 }
 
-TEST_P(EverySample, KeepsItsTopologyWhenRefined) {
+TEST_P(EverySample, keeps_its_topology_when_refined) {
   Shape fine = shape_of(make_sample(GetParam(), 151)), expected = shapes().at(GetParam());
   if (expected.non_manifold_edges > 0) {  // the spine has as many edges as there are steps
     EXPECT_EQ(fine.non_manifold_edges, 151U);
@@ -213,20 +213,20 @@ TEST_P(EverySample, KeepsItsTopologyWhenRefined) {
   EXPECT_EQ(fine, expected);
 }
 
-TEST_P(EverySample, RunsThroughItself) {
+TEST_P(EverySample, runs_through_itself) {
   if (GetParam() == "cylinder_inverted")
     return;  // it only touches itself: see TheInvertedCylinderCollapsesToExactlyOnePoint
   EXPECT_TRUE(runs_through_itself(make_sample(GetParam())));
 }
 
-TEST_P(EverySample, IsTheSameOnEveryCall) {
+TEST_P(EverySample, is_the_same_on_every_call) {
   const Surface a = make_sample(GetParam()), b = make_sample(GetParam());
   EXPECT_EQ(a.positions, b.positions);
   EXPECT_EQ(a.corners, b.corners);
   EXPECT_EQ(a.offsets, b.offsets);
 }
 
-TEST_P(EverySample, TakesItsParametersToTheirBounds) {
+TEST_P(EverySample, takes_its_parameters_to_their_bounds) {
   const auto sample =
       std::find_if(all_samples().begin(), all_samples().end(), [](const Sample& s) { return s.name == GetParam(); });
   for (const SampleParameter& p : sample->parameters) {
@@ -243,7 +243,7 @@ TEST_P(EverySample, TakesItsParametersToTheirBounds) {
   }
 }
 
-TEST_P(EverySample, SaysTruthfullyWhetherItCanBeEmbedded) {
+TEST_P(EverySample, says_truthfully_whether_it_can_be_embedded) {
   const auto sample =
       std::find_if(all_samples().begin(), all_samples().end(), [](const Sample& s) { return s.name == GetParam(); });
   const Surface surface = make_sample(GetParam());
@@ -254,7 +254,7 @@ TEST_P(EverySample, SaysTruthfullyWhetherItCanBeEmbedded) {
   EXPECT_EQ(sample->embeddable, !obstructed);
 }
 
-TEST_P(EverySample, HasNoAccidentalCoincidences) {
+TEST_P(EverySample, has_no_accidental_coincidences) {
   const Surface surface = make_sample(GetParam());
   std::set<std::array<double, 3>> places;
   std::size_t coincident = 0;
@@ -267,7 +267,7 @@ TEST_P(EverySample, HasNoAccidentalCoincidences) {
   EXPECT_EQ(coincident, GetParam() == "cylinder_inverted" ? 47U : 0U);
 }
 
-TEST(Samples, AreAtLeastTwentySixAnalyticOnes) {
+TEST(Samples, are_at_least_twenty_six_analytic_ones) {
   EXPECT_GE(analytic_sample_count, 26U);
   ASSERT_GE(all_samples().size(), analytic_sample_count);
   for (std::size_t k = 0; k < analytic_sample_count; ++k)
@@ -276,12 +276,12 @@ TEST(Samples, AreAtLeastTwentySixAnalyticOnes) {
   EXPECT_EQ(shapes().size(), all_samples().size());
 }
 
-TEST(Samples, TheSnakesOfMedusaAreThickenedAroundSpinesThatKeepApart) {
+TEST(Samples, the_snakes_of_medusa_are_thickened_around_spines_that_keep_apart) {
   EXPECT_FALSE(runs_through_itself(make_sample("medusa", 64, {{"thickness", 0.25}, {"push", 0}})));
   EXPECT_GT(make_sample("medusa", 240).view().face_count(), 430000U);
 }
 
-TEST(Samples, HaveDistinctNamesAndOneLineDescriptions) {
+TEST(Samples, have_distinct_names_and_one_line_descriptions) {
   std::set<std::string> names;
   for (const Sample& sample : all_samples()) {
     EXPECT_TRUE(names.insert(sample.name).second) << sample.name;
@@ -290,7 +290,7 @@ TEST(Samples, HaveDistinctNamesAndOneLineDescriptions) {
   }
 }
 
-TEST(Samples, NameTheValidChoicesWhenRefusing) {
+TEST(Samples, name_the_valid_choices_when_refusing) {
   EXPECT_NE(message_of([] { make_sample("mobius"); }).find("mobius_extended"), std::string::npos);
   EXPECT_NE(message_of([] { make_sample("book", 0, {{"leaves", 3}}); }).find("pages"), std::string::npos);
   EXPECT_NE(message_of([] { make_sample("book", 0, {{"pages", 2.0}}); }).find("from 3 to 40"), std::string::npos);
@@ -300,7 +300,7 @@ TEST(Samples, NameTheValidChoicesWhenRefusing) {
   EXPECT_NE(message_of([] { make_sample("klein_bottle", 0, {{"x", 1}}); }).find("no parameters"), std::string::npos);
 }
 
-TEST(Samples, ChangeWithTheirParameters) {
+TEST(Samples, change_with_their_parameters) {
   EXPECT_EQ(shape_of(make_sample("pretzel", 40, {{"genus", 3}})).euler_characteristic, -4);
   EXPECT_EQ(shape_of(make_sample("perforated_fold", 90, {{"holes", 5}})).boundary_loops, 6U);
   EXPECT_TRUE(shape_of(make_sample("lemniscate_band", 0, {{"half_twists", 2}})).orientable);
@@ -308,7 +308,7 @@ TEST(Samples, ChangeWithTheirParameters) {
   EXPECT_NE(make_sample("crumpled_sheet", 0, {{"seed", 2}}).positions, make_sample("crumpled_sheet").positions);
 }
 
-TEST(Samples, AreFacedOutwardsWhereTheyAreClosedAndEmbedded) {
+TEST(Samples, are_faced_outwards_where_they_are_closed_and_embedded) {
   // Far thinner than by default, so that the tube does not touch itself and its volume is known.
   const Surface tube = make_sample("figure_eight_knot_tube", 0, {{"radius", 0.1}});
   EXPECT_FALSE(runs_through_itself(tube));
@@ -322,7 +322,7 @@ TEST(Samples, AreFacedOutwardsWhereTheyAreClosedAndEmbedded) {
   EXPECT_GT(volume, 0);
 }
 
-TEST(Samples, TheInvertedCylinderCollapsesToExactlyOnePoint) {
+TEST(Samples, the_inverted_cylinder_collapses_to_exactly_one_point) {
   const Surface surface = make_sample("cylinder_inverted", 24);
   std::size_t at_origin = 0;
   for (std::size_t v = 0; v < surface.view().vertex_count(); ++v)

@@ -9,7 +9,7 @@ namespace {
 
 using namespace shapes;
 
-TEST(Topology, OfASoupWithDefects) {
+TEST(Topology, of_a_soup_with_defects) {
   Surface s = exploded(cube());
   const Index a = add_vertex(s, 5, 5, 5), b = add_vertex(s, 6, 6, 6), c = add_vertex(s, 7, 7, 7);
   add_vertex(s, 9, 9, 9);  // unused

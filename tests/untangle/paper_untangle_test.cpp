@@ -11,7 +11,7 @@ using namespace shapes;
 
 class PaperUntangleTest : public testing::TestWithParam<std::pair<PaperBandwidth, bool>> {};
 
-TEST_P(PaperUntangleTest, PartsTwoSpheres) {
+TEST_P(PaperUntangleTest, parts_two_spheres) {
   Patch patch = patch_of(two_spheres(12));
   PaperOptions options;
   options.bandwidth = GetParam().first;
@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{PaperBandwidth::independent, false}, std::pair{PaperBandwidth::independent, true},
                     std::pair{PaperBandwidth::symmetric, false}, std::pair{PaperBandwidth::symmetric, true}));
 
-TEST(PaperUntangle, DoesNotDependOnTheUnit) {
+TEST(PaperUntangle, does_not_depend_on_the_unit) {
   Patch small = patch_of(limb_and_sheet()), large = small;
   large.rest *= 1024;  // a power of two: the scaled copies agree to the last bit
   large.x = large.rest;
@@ -45,7 +45,7 @@ TEST(PaperUntangle, DoesNotDependOnTheUnit) {
   EXPECT_EQ(Positions(1024 * small.x), large.x);
 }
 
-TEST(PaperUntangle, EveryEnergyCanBeLeftOut) {
+TEST(PaperUntangle, every_energy_can_be_left_out) {
   const Shape shape = two_spheres(12);
   PaperOptions by_length, gaussian_alone, nothing;
   by_length.mesh_energy = PaperMeshEnergy::intersection_length;
@@ -62,7 +62,7 @@ TEST(PaperUntangle, EveryEnergyCanBeLeftOut) {
   EXPECT_LT((patch.x - patch.rest).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(PaperUntangle, TheGlobalBandwidthIsStationaryWhereVerticesLieAtOnePlace) {
+TEST(PaperUntangle, the_global_bandwidth_is_stationary_where_vertices_lie_at_one_place) {
   PaperOptions options;
   options.bandwidth = PaperBandwidth::global;
   options.adaptive = false;
@@ -74,7 +74,7 @@ TEST(PaperUntangle, TheGlobalBandwidthIsStationaryWhereVerticesLieAtOnePlace) {
   EXPECT_GT(paper_untangle(patch, options).mean_bandwidth, 0.1 * patch.edge_length);
 }
 
-TEST(PaperUntangle, BandwidthsAreScaledAfterTheyAreFound) {
+TEST(PaperUntangle, bandwidths_are_scaled_after_they_are_found) {
   PaperOptions options;
   options.bandwidth = PaperBandwidth::global;
   options.adaptive = false;
@@ -87,7 +87,7 @@ TEST(PaperUntangle, BandwidthsAreScaledAfterTheyAreFound) {
   EXPECT_NEAR(bandwidth(3), 3 * bandwidth(1), 1e-9 * bandwidth(1));
 }
 
-TEST(PaperUntangle, GoesOnWhereNoDirectionDescends) {
+TEST(PaperUntangle, goes_on_where_no_direction_descends) {
   // With the penalty alone the first line search ends at a kink.
   Patch patch = patch_of(figure_eight_torus());
   PaperOptions options;
@@ -97,7 +97,7 @@ TEST(PaperUntangle, GoesOnWhereNoDirectionDescends) {
   EXPECT_EQ(paper_untangle(patch, options).iterations, 60);
 }
 
-TEST(PaperUntangle, OptionsHaveRanges) {
+TEST(PaperUntangle, options_have_ranges) {
   EXPECT_NO_THROW(check_paper_options({}));
   const auto refuses = [](auto&& change) {
     PaperOptions options;
@@ -111,7 +111,7 @@ TEST(PaperUntangle, OptionsHaveRanges) {
   refuses([](PaperOptions& o) { o.start_bandwidth = std::numeric_limits<double>::quiet_NaN(); });
 }
 
-TEST(PaperUntangle, FixedVerticesStay) {
+TEST(PaperUntangle, fixed_vertices_stay) {
   Patch patch = patch_with_fixed(limb_and_sheet(), [](const Vec3& p) { return p[2] == 0.003; });
   const Positions before = patch.rest;
   PaperOptions options;

@@ -19,7 +19,7 @@ int turned(const Patch& patch, const Positions& x) {
   return count;
 }
 
-TEST(FlipGuard, PushesAFaceBackOverItsEdge) {
+TEST(FlipGuard, pushes_a_face_back_over_its_edge) {
   const Patch patch = fan();
   const FlipGuard guard(patch, std::vector<std::uint8_t>(4, 0));
   Positions x = patch.x;
@@ -32,7 +32,7 @@ TEST(FlipGuard, PushesAFaceBackOverItsEdge) {
   EXPECT_EQ(x.rightCols(4), patch.x.rightCols(4));
 }
 
-TEST(FlipGuard, LeavesAloneWhatMayTurnAndWhatHasRoom) {
+TEST(FlipGuard, leaves_alone_what_may_turn_and_what_has_room) {
   const Patch patch = fan();
   Positions x = patch.x;
   x.col(0) = Vec3(0.2, -1.5, 0.1);
@@ -45,7 +45,7 @@ TEST(FlipGuard, LeavesAloneWhatMayTurnAndWhatHasRoom) {
   EXPECT_EQ(x, inside);
 }
 
-TEST(FlipGuard, DoesNotAskOfAFaceWhatItDidNotHaveAtTheStart) {
+TEST(FlipGuard, does_not_ask_of_a_face_what_it_did_not_have_at_the_start) {
   Patch patch = fan();
   patch.x.col(0) = Vec3(0, -1.2, 0);  // turned over when it is given
   Positions x = patch.x;
