@@ -1,4 +1,4 @@
-/* Repairs a mesh file from C: reads it, shows how far it is, writes it again. from_c IN OUT */
+/* Repairs a mesh file from C: reads it, shows how far it is, writes it certified. from_c IN OUT */
 #include <stdio.h>
 #include <string.h>
 #include <unsnarl/unsnarl.h>
@@ -29,12 +29,13 @@ int main(int count, char** arguments) {
   if (unsnarl_options_init(&options, sizeof options) != UNSNARL_OK) return failed();
   options.max_displacement = 0.1; /* of the diagonal of the bounding box */
   context = unsnarl_context_new(show, NULL);
-  if (unsnarl_repair(&surface, &options, context, &result) != UNSNARL_OK) return failed();
+  /* what is written is read back and certified before it is in place */
+  if (unsnarl_document_repair(document, &surface, arguments[2], &options, context, &result) != UNSNARL_OK)
+    return failed();
   unsnarl_context_free(context);
 
   embedded = strcmp(unsnarl_result_status(result), "embedded") == 0;
   printf("%s: %s\n", arguments[1], unsnarl_result_status(result));
-  if (embedded && unsnarl_document_write(document, result, arguments[2]) != UNSNARL_OK) return failed();
   unsnarl_result_free(result);
   unsnarl_document_free(document);
   return embedded ? 0 : 1;

@@ -16,6 +16,8 @@
 
 namespace unsnarl {
 
+struct FrameReport;
+
 /// Raised whenever a key is renamed, removed or changes its meaning; new keys do not raise it.
 inline constexpr int report_schema_version = 2;     ///< of report_json, see docs/report.md
 inline constexpr int recording_schema_version = 2;  ///< of recording_json, see docs/recording.md
@@ -46,6 +48,15 @@ std::string recording_json(const RepairResult& result, const SurfaceView& surfac
 /// The findings of `unsnarl check --json` as JSON, indented, without a line break at the end; with every place. Of
 /// `files` it uses input, format, vertices, faces, notes, parts and scene.
 std::string check_json(const CheckReport& found, Goal goal, const FindOptions& options, const ReportFiles& files = {});
+
+/// What became of a frame of a sequence, as JSON in one line: a line of the list in docs/sequences.md.
+std::string frame_json(const FrameReport& frame);
+
+/// Intersecting pairs as all reports count them: {"total": ..., "by_class": {"disjoint": ..., ...}}.
+std::string pairs_json(const PairCounts& counts);
+
+/// The status that reports call so; none: it is no status of a repair.
+std::optional<Status> status_from_name(std::string_view name);
 
 /// Names of options, as reports and the command line use them.
 std::string_view to_string(Weld weld);

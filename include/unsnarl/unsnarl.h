@@ -271,8 +271,8 @@ UNSNARL_EXPORT int unsnarl_repair(const unsnarl_surface* surface, const unsnarl_
 /* Repairs the frames of a moving surface so that corrections go on smoothly in time; each frame is certified by itself
  * (docs/sequences.md). surface->positions holds frame_count times vertex_count positions, one frame after another.
  *
- * Arrays: "positions" (frames wanted * n, 3) float64. Report: an array of one object a frame, with the fields of
- * unsnarl::FrameReport (sequence.h). Status: that of the first frame that is not "embedded". */
+ * Arrays: "positions" (frames wanted * n, 3) float64. Report: an array of one object a frame, as the list of the report
+ * of `unsnarl fix --sequence` has it. Status: that of the first frame that is not "embedded". */
 UNSNARL_EXPORT int unsnarl_repair_sequence(const unsnarl_surface* surface, size_t frame_count,
                                            const unsnarl_options* options, unsnarl_context* context,
                                            unsnarl_result** result);

@@ -16,7 +16,7 @@ from ._call import Status
 from ._documents import Parts
 from ._program import run, scratch_folder, words_of, words_of_parts
 from ._progress import OnProgress
-from ._sequence import Frame, Jitter
+from ._sequence import Frame, frame_of
 from ._types import Format, Goal, Names, Numbers, PathLike, Precision, Weld
 
 
@@ -140,7 +140,7 @@ both_diagonals, each_component, threads
         report = json.loads(report_file.read_text(encoding="utf-8"))
     listed = report["list"]
     return FileSequenceResult(
-        [_frame(one) for one in listed], [one["name"] for one in listed], Path(report["output"]), report
+        [frame_of(one) for one in listed], [one["name"] for one in listed], Path(report["output"]), report
     )
 
 
@@ -158,25 +158,3 @@ def _vertex_file(folder: Path, fixed: ArrayLike) -> Path:
     path = folder / "fixed.txt"
     path.write_text("\n".join(map(str, np.flatnonzero(given) if given.dtype == np.bool_ else given)))
     return path
-
-
-def _frame(report: dict[str, Any]) -> Frame:
-    def jitter(name: str) -> Optional[Jitter]:
-        value = report[name]
-        return Jitter(value["mean_rel"], value["max_rel"]) if value else None
-
-    return Frame(
-        frame=report["frame"],
-        status=Status(report["status"]),
-        before=report["before"]["by_class"],
-        after=report["after"]["by_class"],
-        diagonal=report["diagonal"],
-        displacement_mean_rel=report["displacement_mean_rel"],
-        displacement_max_rel=report["displacement_max_rel"],
-        untouched_share=report["untouched_share"],
-        float32_embedded=report["float32_embedded"],
-        precision=report["precision"],
-        is_smoothed=report["is_smoothed"],
-        alone=jitter("jitter_alone"),
-        jitter=jitter("jitter"),
-    )

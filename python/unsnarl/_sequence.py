@@ -125,11 +125,28 @@ def repair_sequence(
     moved = repaired.array("positions").reshape(-1, *positions.shape[1:])
     if is_float32 and precision == "float32":
         moved = moved.astype(given.dtype)
-    return SequenceResult(moved, [_frame(report) for report in repaired.report])
+    return SequenceResult(moved, [frame_of(report) for report in repaired.report])
 
 
-def _frame(report: dict[str, Any]) -> Frame:
-    for jitter in ("alone", "jitter"):
-        report[jitter] = Jitter(**report[jitter]) if report[jitter] else None
-    report["status"] = Status(report["status"])
-    return Frame(**report)
+def frame_of(report: dict[str, Any]) -> Frame:
+    """The frame that a report lists so."""
+
+    def jitter(name: str) -> Optional[Jitter]:
+        value = report[name]
+        return Jitter(value["mean_rel"], value["max_rel"]) if value else None
+
+    return Frame(
+        frame=report["frame"],
+        status=Status(report["status"]),
+        before=report["before"]["by_class"],
+        after=report["after"]["by_class"],
+        diagonal=report["diagonal"],
+        displacement_mean_rel=report["displacement_mean_rel"],
+        displacement_max_rel=report["displacement_max_rel"],
+        untouched_share=report["untouched_share"],
+        float32_embedded=report["float32_embedded"],
+        precision=report["precision"],
+        is_smoothed=report["is_smoothed"],
+        alone=jitter("jitter_alone"),
+        jitter=jitter("jitter"),
+    )

@@ -21,10 +21,7 @@ namespace unsnarl::c_interface {
 namespace {
 
 Json by_kind(const PairCounts& counts) {
-  Json json = Json::object();
-  for (std::size_t kind = 0; kind < pair_class_count; ++kind)
-    json[std::string(pair_class_names[kind])] = counts.by_class[kind];
-  return json;
+  return Json::parse(pairs_json(counts))["by_class"];
 }
 
 /// The report's entries on files: of the one that was read, or of each of several.
@@ -118,27 +115,6 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
   return result_of_repair(std::move(repaired), std::move(asked), files);
 }
 
-Json json_of(const std::optional<Jitter>& jitter) {
-  if (!jitter) return nullptr;
-  return {{"mean", jitter->mean_rel}, {"max", jitter->max_rel}};
-}
-
-Json json_of(const FrameReport& frame) {
-  return {{"frame", frame.frame},
-          {"status", to_string(frame.status)},
-          {"before", by_kind(frame.before)},
-          {"after", by_kind(frame.after)},
-          {"diagonal", frame.diagonal},
-          {"displacement_mean_rel", frame.displacement_mean_rel},
-          {"displacement_max_rel", frame.displacement_max_rel},
-          {"untouched_share", frame.untouched_share},
-          {"float32_embedded", frame.float32_embedded},
-          {"precision", to_string(frame.precision)},
-          {"is_smoothed", frame.is_smoothed},
-          {"alone", json_of(frame.alone)},
-          {"jitter", json_of(frame.jitter)}};
-}
-
 unsnarl_result repaired_sequence(const unsnarl_surface& given, std::size_t frame_count,
                                  const unsnarl_options& given_options, Context* context) {
   const std::size_t size = 3 * given.vertex_count;
@@ -176,9 +152,8 @@ unsnarl_result repaired_sequence(const unsnarl_surface& given, std::size_t frame
                                  [](const FrameReport& frame) { return frame.status != Status::embedded; });
   const bool all_reached = reports.size() == options.last - options.first;
   result.status = to_string(open != reports.end() ? open->status : all_reached ? Status::embedded : Status::cancelled);
-  Json json = Json::array();
-  for (const FrameReport& frame : reports) json.push_back(json_of(frame));
-  result.report = json.dump();
+  for (const FrameReport& frame : reports) result.report += (result.report.empty() ? "[" : ",") + frame_json(frame);
+  result.report += result.report.empty() ? "[]" : "]";
   result.arrays["positions"] = {std::move(positions), 3};
   return result;
 }

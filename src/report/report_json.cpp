@@ -161,6 +161,18 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   return text_of(json);
 }
 
+std::string pairs_json(const PairCounts& counts) {
+  return pair_counts_json(counts).dump();
+}
+
+std::optional<Status> status_from_name(std::string_view name) {
+  for (const Status status :
+       {Status::embedded, Status::reduced, Status::no_progress, Status::obstructed, Status::time_limit,
+        Status::memory_limit, Status::displacement_exceeded, Status::cancelled})
+    if (to_string(status) == name) return status;
+  return std::nullopt;
+}
+
 std::string_view to_string(Weld weld) {
   switch (weld) {
     case Weld::none: return "none";

@@ -30,6 +30,15 @@ TEST(SeifertCommand, AKnotIsSpannedAndCertified) {
   EXPECT_EQ(run({"seifert", knot, "--check", surface, "-q"}).exit_code, 1);
 }
 
+TEST(SeifertCommand, AnInterruptionCancelsIt) {
+  Folder folder;
+  const Outcome ended = run({"seifert", "-", "-o", folder / "s.obj", "--progress", "json"},
+                            {.input = "braid 3: 1 -2 1 -2 1 -2\n", .signal_after = {"\"fair\""}});
+  EXPECT_EQ(ended.exit_code, 6) << ended.err;
+  EXPECT_TRUE(contains(ended.err, "cancelled: nothing was written")) << ended.err;
+  EXPECT_TRUE(folder.names().empty());
+}
+
 TEST(SeifertCommand, StreamsAndErrors) {
   Folder folder;
   const Outcome hopf =

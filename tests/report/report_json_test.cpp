@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/shapes.h"
+#include "unsnarl/sequence.h"
 #include "unsnarl/stage_clock.h"
 
 namespace unsnarl {
@@ -92,6 +93,31 @@ TEST(StageClock, measures_from_its_construction_on) {
   EXPECT_GE(second.seconds, first.seconds);
   EXPECT_GE(second.cpu_seconds, first.cpu_seconds);
   EXPECT_GT(first.peak_memory_mb, 0);
+}
+
+TEST(FrameJson, holds_what_became_of_a_frame) {
+  FrameReport frame;
+  frame.frame = 7;
+  frame.status = Status::reduced;
+  frame.before.by_class[0] = 3;
+  frame.diagonal = 2;
+  frame.displacement_max_rel = 0.25;
+  frame.jitter = Jitter{0.5, 1};
+  const auto json = parsed(frame_json(frame));
+  EXPECT_EQ(json["frame"], 7);
+  EXPECT_EQ(json["status"], "reduced");
+  EXPECT_EQ(json["before"], parsed(pairs_json(frame.before)));
+  EXPECT_EQ(json["before"]["total"], 3);
+  EXPECT_EQ(json["displacement_max"], 0.5);
+  EXPECT_TRUE(json["jitter_alone"].is_null());
+  EXPECT_EQ(json["jitter"]["max_rel"], 1);
+}
+
+TEST(StatusFromName, finds_the_status_that_reports_call_so) {
+  for (int i = 0; i <= static_cast<int>(Status::cancelled); ++i)
+    EXPECT_EQ(status_from_name(to_string(static_cast<Status>(i))), static_cast<Status>(i));
+  EXPECT_FALSE(status_from_name("crashed"));
+  EXPECT_FALSE(status_from_name(""));
 }
 
 }  // namespace

@@ -81,26 +81,8 @@ Json jitter_json(const std::optional<Jitter>& jitter) {
   return jitter ? Json{{"mean_rel", jitter->mean_rel}, {"max_rel", jitter->max_rel}} : Json();
 }
 
-Json pairs_json(const PairCounts& pairs) {
-  Json by_class = Json::object();
-  for (std::size_t i = 0; i < pair_class_count; ++i) by_class[std::string(pair_class_names[i])] = pairs.by_class[i];
-  return {{"total", pairs.total()}, {"by_class", by_class}};
-}
-
-Json frame_json(const FrameReport& r) {
-  return {{"status", to_string(r.status)},
-          {"before", pairs_json(r.before)},
-          {"after", pairs_json(r.after)},
-          {"diagonal", r.diagonal},
-          {"displacement_mean_rel", r.displacement_mean_rel},
-          {"displacement_mean", r.displacement_mean_rel * r.diagonal},
-          {"displacement_max_rel", r.displacement_max_rel},
-          {"displacement_max", r.displacement_max_rel * r.diagonal},
-          {"untouched_share", r.untouched_share},
-          {"float32_embedded", r.float32_embedded},
-          {"precision", to_string(r.precision)},
-          {"is_smoothed", r.is_smoothed},
-          {"jitter_alone", jitter_json(r.alone)}};
+bool is_good(Status status) {
+  return status == Status::embedded || status == Status::obstructed;
 }
 
 class SequenceRun {
@@ -201,10 +183,10 @@ class SequenceRun {
     source.positions = [this](std::size_t t) { return files_->positions(t); };
     source.done = [this](std::size_t t) {
       const Json* const line = record_.find(files_->name(t), key_of(t), files_->output_hash(t));
-      const std::string status = line ? (*line)["report"].value("status", std::string()) : std::string();
-      if (!is_good(status)) return std::vector<double>();  // what was reached is tried again
+      const std::optional<Status> status = line ? status_of((*line)["report"]) : std::nullopt;
+      if (!status || !is_good(*status)) return std::vector<double>();  // what was reached is tried again
       done_[t] = (*line)["report"];
-      note_status(status);
+      note_status(*status);
       ++done_before_;
       return files_->output_positions(t);
     };
@@ -216,9 +198,8 @@ class SequenceRun {
 
   void take(FrameResult&& result) {
     const std::size_t t = result.report.frame;
-    const std::string status(to_string(result.report.status));
-    note_status(status);
-    if (!is_good(status) && !options_.keep_partial) {
+    note_status(result.report.status);
+    if (!is_good(result.report.status) && !options_.keep_partial) {
       ++unwritten_;
       return keep_partial(result);
     }
@@ -226,7 +207,7 @@ class SequenceRun {
     // The certificate is about these positions, bit for bit.
     if (files_->write(t, result.positions, float32_digits) != result.positions)
       throw std::logic_error(files_->name(t) + ": the written file is not what was certified");
-    done_[t] = frame_json(result.report);
+    done_[t] = Json::parse(frame_json(result.report));
     unrecorded_.push_back(t);
     if (unrecorded_.size() >= files_->frames_between_flushes()) flush();
   }
@@ -258,16 +239,15 @@ class SequenceRun {
     };
   }
 
-  static bool is_good(const std::string& status) {
-    return status == to_string(Status::embedded) || status == to_string(Status::obstructed);
+  /// Of a report that was recorded; none: it has none.
+  static std::optional<Status> status_of(const Json& report) {
+    return status_from_name(report.value("status", std::string()));
   }
 
-  void note_status(const std::string& status) {
-    if (status == "embedded") return;
-    for (const Status known : {Status::reduced, Status::no_progress, Status::obstructed, Status::time_limit,
-                               Status::memory_limit, Status::displacement_exceeded, Status::cancelled})
-      if (to_string(known) == status && (exit_code_ == exit_embedded || exit_code_ == exit_obstructed))
-        exit_code_ = exit_code_of(known);
+  /// The exit code is that of the first frame that is not embedded; obstructed frames give way to others.
+  void note_status(Status status) {
+    if (status != Status::embedded && (exit_code_ == exit_embedded || exit_code_ == exit_obstructed))
+      exit_code_ = exit_code_of(status);
   }
 
   struct Summary {
@@ -377,7 +357,8 @@ std::string SequenceRun::report_json() const {
     Json line = {{"frame", report.frame}, {"name", files_->name(report.frame)}, {"written", !frame.is_null()}};
     const auto partial = partial_.find(report.frame);
     line["partial"] = partial == partial_.end() ? Json() : Json(partial->second);
-    line.update(frame.is_null() ? frame_json(report) : frame);
+    line.update(frame.is_null() ? Json::parse(frame_json(report)) : frame);
+    line["frame"] = report.frame;  // a recorded frame may have had another number
     line["jitter"] = jitter_json(report.jitter);
     json["list"].push_back(std::move(line));
   }
