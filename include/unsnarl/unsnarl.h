@@ -1,12 +1,18 @@
+// clang-format off
 /* The C interface of unsnarl: C99 and C++, one shared library, libunsnarl_c.
  *
- *   unsnarl_surface mesh = {.size = sizeof mesh, .positions = p, .vertex_count = n, .corners = c, .corner_count = 3 *
- * m}; unsnarl_result* result; if (unsnarl_repair(&mesh, NULL, NULL, &result) != UNSNARL_OK) { fprintf(stderr, "%s\n",
- * unsnarl_error_message()); return 1;
+ *   double positions[3 * 6] = {0, 0, 0,  4, 0, 0,  0, 4, 0,  1, 1, -1,  1, 1, 2,  2, 2, 2};
+ *   int32_t corners[3 * 2] = {0, 1, 2,  3, 4, 5};
+ *   unsnarl_surface mesh = {
+ *     .size = sizeof mesh, .positions = positions, .vertex_count = 6, .corners = corners, .corner_count = 6};
+ *   unsnarl_result* result;
+ *   if (unsnarl_repair(&mesh, NULL, NULL, &result) != UNSNARL_OK) {
+ *     fprintf(stderr, "%s\n", unsnarl_error_message());
+ *     return 1;
  *   }
  *   unsnarl_array moved;
- *   unsnarl_result_array(result, "positions", &moved);  // moved.data: 3 n doubles
- *   puts(unsnarl_result_status(result));                // "embedded"
+ *   unsnarl_result_array(result, "positions", &moved);
+ *   printf("%s: vertex 3 is at z = %g now\n", unsnarl_result_status(result), ((const double*)moved.data)[11]);
  *   unsnarl_result_free(result);
  *
  * How all functions behave:
@@ -23,7 +29,10 @@
  *   default.
  * - Any number of threads may call at the same time, with handles of their own. unsnarl_context_cancel alone may be
  *   called with a handle that another thread is using.
+ * - An option that a function does not use must be as unsnarl_options_init sets it; those of a repair may be given to
+ *   every function that looks at a surface.
  */
+// clang-format on
 #ifndef UNSNARL_UNSNARL_H
 #define UNSNARL_UNSNARL_H
 

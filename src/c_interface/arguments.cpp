@@ -70,6 +70,15 @@ void check_offsets(std::span<const std::int32_t> offsets, std::size_t corners, c
                                 std::to_string(descent[0]) + " to " + std::to_string(descent[1]));
 }
 
+}  // namespace
+
+void check_size(std::size_t given, std::size_t known, const char* name) {
+  if (given <= sizeof given || given > known)
+    throw std::invalid_argument(std::string(name) + ": its size is " + std::to_string(given) +
+                                "; set it to sizeof of the struct, which has " + std::to_string(known) +
+                                " bytes or, in older versions of the library, fewer");
+}
+
 unsnarl_options default_options() {
   const RepairOptions repair;
   const SequenceOptions sequence;
@@ -122,16 +131,7 @@ unsnarl_options default_options() {
   return options;
 }
 
-}  // namespace
-
-void check_size(std::size_t given, std::size_t known, const char* name) {
-  if (given <= sizeof given || given > known)
-    throw std::invalid_argument(std::string(name) + ": its size is " + std::to_string(given) +
-                                "; set it to sizeof of the struct, which has " + std::to_string(known) +
-                                " bytes or, in older versions of the library, fewer");
-}
-
-unsnarl_options options_of(const unsnarl_options* given) {
+unsnarl_options options_of(const unsnarl_options* given, Work work) {
   const unsnarl_options defaults = default_options();
   if (given == nullptr) return defaults;
   unsnarl_options options = read(given, "options", defaults);
@@ -140,6 +140,7 @@ unsnarl_options options_of(const unsnarl_options* given) {
   if (options.precision == nullptr) options.precision = defaults.precision;
   if (options.paper_bandwidth == nullptr) options.paper_bandwidth = defaults.paper_bandwidth;
   if (options.paper_mesh_energy == nullptr) options.paper_mesh_energy = defaults.paper_mesh_energy;
+  refuse_what_is_not_used(options, work);
   return options;
 }
 

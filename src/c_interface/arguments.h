@@ -19,8 +19,26 @@ namespace unsnarl::c_interface {
 /// Throws unless `given` can be the size of a struct that has `known` bytes in this version of the library.
 void check_size(std::size_t given, std::size_t known, const char* name);
 
-/// What the caller's struct says, and defaults for fields that it does not have yet. NULL: the defaults.
-unsnarl_options options_of(const unsnarl_options* given);
+/// Kinds of work that options are for; a function takes those of one or several.
+enum class Work : unsigned {
+  search = 1 << 0,  ///< whatever looks at a surface; takes what is meant for its repair too, and does not use it
+  repair = 1 << 1,
+  document = 1 << 2,  ///< repair of a file
+  sequence = 1 << 3,
+  curves = 1 << 4,
+  seifert = 1 << 5,
+  check_seifert = 1 << 6,
+  isotopy = 1 << 7,
+  routes = 1 << 8,
+};
+
+/// What the caller's struct says, and defaults for fields that it does not have yet. NULL: the defaults. Throws where
+/// an option has another value than its default that `work` does not know.
+unsnarl_options options_of(const unsnarl_options* given, Work work);
+/// All defaults.
+unsnarl_options default_options();
+/// Throws where an option has another value than its default that `work` does not know.
+void refuse_what_is_not_used(const unsnarl_options& options, Work work);
 /// Every field, those that the caller's struct does not have yet as zero; arrays have the lengths they say.
 unsnarl_surface surface_of(const unsnarl_surface* given);
 unsnarl_page_content content_of(const unsnarl_page_content* given);  ///< NULL: nothing but the surface
@@ -37,7 +55,8 @@ SurfaceView view_of(const unsnarl_surface& surface);
 /// The meshes that lie one after another in `surface`, called by their numbers, or as the files of its document;
 /// empty where it is one.
 std::vector<SceneFile> meshes_of(const unsnarl_surface& surface);
-/// Which of `meshes`, or of the surfaces that `surface` numbers, are to lie inside which; no chains: it does not matter.
+/// Which of `meshes`, or of the surfaces that `surface` numbers, are to lie inside which; no chains: it does not
+/// matter.
 Nesting nesting_of(const unsnarl_surface& surface, std::span<const SceneFile> meshes);
 /// Throws where a face uses a vertex that does not exist.
 void check_corners(const SurfaceView& surface);

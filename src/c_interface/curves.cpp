@@ -72,14 +72,14 @@ int unsnarl_find_crossings(const unsnarl_curves* curves, unsnarl_result** result
 int unsnarl_untangle_curves(const unsnarl_curves* curves, const unsnarl_options* options, unsnarl_context* context,
                             unsnarl_result** result) {
   return hand_out(result, [&] {
-    return untangled(plane_curves(curves_of(curves, "curves")), options_of(options), context_of(context));
+    return untangled(plane_curves(curves_of(curves, "curves")), options_of(options, Work::curves), context_of(context));
   });
 }
 
 int unsnarl_planar_isotopy(const unsnarl_curves* start, const unsnarl_curves* end, const unsnarl_options* options,
                            unsnarl_context* context, unsnarl_result** result) {
   return hand_out(result, [&] {
-    return isotopy(plane_curves(curves_of(start, "start")), plane_curves(curves_of(end, "end")), options_of(options),
-                   context_of(context));
+    return isotopy(plane_curves(curves_of(start, "start")), plane_curves(curves_of(end, "end")),
+                   options_of(options, Work::isotopy), context_of(context));
   });
 }

@@ -193,8 +193,8 @@ int unsnarl_document_faces(const unsnarl_document* document, const char* kind, c
     require(name, "name");
     const SceneDocument& scene = *document->scene;
     unsnarl_result found;
-    found.arrays["faces"] = {
-        faces_in_parts(scene.surface(), scene.face_labels(), parts_of(kind, name), find_options(options_of(options)))};
+    found.arrays["faces"] = {faces_in_parts(scene.surface(), scene.face_labels(), parts_of(kind, name),
+                                            find_options(options_of(options, Work::search)))};
     return found;
   });
 }
@@ -237,7 +237,8 @@ int unsnarl_document_repair(unsnarl_document* document, const unsnarl_surface* s
                             const unsnarl_options* options, unsnarl_context* context, unsnarl_result** result) {
   return hand_out(result, [&] {
     require(document, "document");
-    return repaired_document(*document, surface_of(surface), path, options_of(options), context_of(context));
+    return repaired_document(*document, surface_of(surface), path, options_of(options, Work::document),
+                             context_of(context));
   });
 }
 

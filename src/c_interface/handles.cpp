@@ -12,7 +12,7 @@ using namespace unsnarl::c_interface;
 int unsnarl_options_init(unsnarl_options* options, size_t size) {
   return guarded([&] {
     require(options, "options");
-    unsnarl_options defaults = options_of(nullptr);
+    unsnarl_options defaults = default_options();
     check_size(size, sizeof defaults, "options");
     defaults.size = size;
     std::memcpy(options, &defaults, size);

@@ -54,8 +54,9 @@ using namespace unsnarl::c_interface;
 
 int unsnarl_seifert_surface(const unsnarl_curves* link, const unsnarl_options* options, unsnarl_context* context,
                             unsnarl_result** result) {
-  return hand_out(result,
-                  [&] { return spanned(link_of(curves_of(link, "link")), options_of(options), context_of(context)); });
+  return hand_out(result, [&] {
+    return spanned(link_of(curves_of(link, "link")), options_of(options, Work::seifert), context_of(context));
+  });
 }
 
 int unsnarl_check_seifert_surface(const unsnarl_surface* surface, const unsnarl_curves* link,
@@ -64,7 +65,7 @@ int unsnarl_check_seifert_surface(const unsnarl_surface* surface, const unsnarl_
     const SurfaceView view = view_of(surface_of(surface));
     check_corners(view);
     const Link of = link_of(curves_of(link, "link"));
-    const unsnarl_options given = options_of(options);
+    const unsnarl_options given = options_of(options, Work::check_seifert);
     unsnarl_result found;
     found.report = json_of(check_seifert_surface(view, of, given.views, given.handles)).dump();
     return found;

@@ -61,6 +61,6 @@ int unsnarl_page(const unsnarl_surface* surface, const unsnarl_page_content* con
                  unsnarl_result** result) {
   return hand_out(result, [&] {
     const unsnarl_surface whole = surface_of(surface);
-    return page(whole, content_of(content), frame_options(options_of(options), whole));
+    return page(whole, content_of(content), frame_options(options_of(options, Work::search), whole));
   });
 }

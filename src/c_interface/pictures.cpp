@@ -45,7 +45,7 @@ int unsnarl_picture(const unsnarl_surface* surface, const double* moved, size_t 
     const SurfaceView before = view_of(surface_of(surface));
     check_corners(before);
     const std::span<const double> after = moved ? std::span(moved, 3 * moved_count) : std::span<const double>();
-    const std::string png = picture(before, after, width, find_options(options_of(options)));
+    const std::string png = picture(before, after, width, find_options(options_of(options, Work::search)));
     unsnarl_result drawn;
     drawn.arrays["png"] = {std::vector<std::uint8_t>(png.begin(), png.end()), 1};
     return drawn;

@@ -70,7 +70,8 @@ using namespace unsnarl::c_interface;
 
 int unsnarl_plan_routes(const char* plan, const unsnarl_options* options, unsnarl_context* context,
                         unsnarl_result** result) {
-  return hand_out(result, [&] { return planned(plan_of(plan), options_of(options), context_of(context)); });
+  return hand_out(result,
+                  [&] { return planned(plan_of(plan), options_of(options, Work::routes), context_of(context)); });
 }
 
 int unsnarl_check_routes(const char* plan, const unsnarl_curves* routes, unsnarl_result** result) {

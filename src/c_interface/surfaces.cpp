@@ -168,7 +168,7 @@ int unsnarl_find_intersections(const unsnarl_surface* surface, const unsnarl_opt
                                unsnarl_result** result) {
   return hand_out(result, [&] {
     const std::vector<IntersectingPair> pairs =
-        find_intersections(view_of(surface_of(surface)), find_options(options_of(options)));
+        find_intersections(view_of(surface_of(surface)), find_options(options_of(options, Work::search)));
     unsnarl_result found;
     found.report = by_kind(count_by_class(pairs)).dump();
     add_pairs(found, pairs);
@@ -177,7 +177,7 @@ int unsnarl_find_intersections(const unsnarl_surface* surface, const unsnarl_opt
 }
 
 int unsnarl_check(const unsnarl_surface* surface, const unsnarl_options* options, unsnarl_result** result) {
-  return hand_out(result, [&] { return checked(surface_of(surface), options_of(options)); });
+  return hand_out(result, [&] { return checked(surface_of(surface), options_of(options, Work::search)); });
 }
 
 const char* unsnarl_pair_kind(int kind) {
@@ -189,8 +189,8 @@ int unsnarl_certify(const unsnarl_surface* surface, const double* moved, size_t 
                     const unsnarl_options* options, unsnarl_result** result) {
   return hand_out(result, [&] {
     if (moved_count > 0) require(moved, "moved");
-    const Certificate certificate =
-        certify(view_of(surface_of(surface)), {moved, 3 * moved_count}, find_options(options_of(options)));
+    const Certificate certificate = certify(view_of(surface_of(surface)), {moved, 3 * moved_count},
+                                            find_options(options_of(options, Work::search)));
     unsnarl_result found;
     found.report = Json{{"embedded", certificate.embedded()},
                         {"float32_embedded", certificate.float32_embedded()},
@@ -205,13 +205,15 @@ int unsnarl_certify(const unsnarl_surface* surface, const double* moved, size_t 
 
 int unsnarl_repair(const unsnarl_surface* surface, const unsnarl_options* options, unsnarl_context* context,
                    unsnarl_result** result) {
-  return hand_out(result, [&] { return repaired(surface_of(surface), options_of(options), context_of(context)); });
+  return hand_out(
+      result, [&] { return repaired(surface_of(surface), options_of(options, Work::repair), context_of(context)); });
 }
 
 int unsnarl_repair_sequence(const unsnarl_surface* surface, size_t frame_count, const unsnarl_options* options,
                             unsnarl_context* context, unsnarl_result** result) {
   return hand_out(result, [&] {
-    return repaired_sequence(surface_of(surface), frame_count, options_of(options), context_of(context));
+    return repaired_sequence(surface_of(surface), frame_count, options_of(options, Work::sequence),
+                             context_of(context));
   });
 }
 
@@ -219,7 +221,8 @@ int unsnarl_component_of_faces(const unsnarl_surface* surface, const unsnarl_opt
                                unsnarl_result** result) {
   return hand_out(result, [&] {
     unsnarl_result found;
-    found.arrays["components"] = {component_of_faces(view_of(surface_of(surface)), find_options(options_of(options)))};
+    found.arrays["components"] = {
+        component_of_faces(view_of(surface_of(surface)), find_options(options_of(options, Work::search)))};
     return found;
   });
 }
@@ -227,7 +230,8 @@ int unsnarl_component_of_faces(const unsnarl_surface* surface, const unsnarl_opt
 int unsnarl_boundary_vertices(const unsnarl_surface* surface, const unsnarl_options* options, unsnarl_result** result) {
   return hand_out(result, [&] {
     unsnarl_result found;
-    found.arrays["vertices"] = {boundary_vertices(view_of(surface_of(surface)), find_options(options_of(options)))};
+    found.arrays["vertices"] = {
+        boundary_vertices(view_of(surface_of(surface)), find_options(options_of(options, Work::search)))};
     return found;
   });
 }

@@ -177,6 +177,29 @@ static void heeds_options(void) {
   unsnarl_result_free(result);
 }
 
+static void refuses_options_that_it_does_not_use(void) {
+  unsnarl_surface surface = crossing();
+  unsnarl_options options = defaults();
+  unsnarl_result* result = NULL;
+
+  options.views = 61;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "does not use 'views'"));
+  options = defaults();
+  options.first_frame = 1;
+  CHECK(unsnarl_find_intersections(&surface, &options, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "does not use 'first_frame'"));
+
+  /* What is meant for the repair of a surface may be given to what looks at it; texts count as texts. */
+  options = defaults();
+  options.min_gap = 0.01;
+  char weld[] = "seams";
+  options.weld = weld;
+  options.paper_mesh_energy = NULL;
+  CHECK(unsnarl_find_intersections(&surface, &options, &result) == UNSNARL_OK);
+  unsnarl_result_free(result);
+}
+
 static void takes_structs_of_older_callers(void) {
   unsnarl_options options = defaults();
   unsnarl_surface surface = crossing();
@@ -698,6 +721,7 @@ int main(int count, char** arguments) {
   refuses_deep_nesting();
   makes_pages();
   heeds_options();
+  refuses_options_that_it_does_not_use();
   takes_structs_of_older_callers();
   says_what_is_wrong();
   tells_progress_and_cancels();

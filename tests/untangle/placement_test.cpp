@@ -5,27 +5,19 @@
 #include <cmath>
 
 #include "scene/shapes.h"
+#include "untangle/tangled_shapes.h"
 
 namespace unsnarl {
 namespace {
 
 using shapes::Shape;
 
-/// A sheet of 10 x 10 cells of side 1 at z = 0, and strips of two cells that stand in it, sunk by `depth`.
-Shape sheet_with_strips(int strips, double depth) {
-  Shape shape = shapes::grid(10, 10, false, [](double i, double j) { return Vec3(i, j, 0); });
-  for (int k = 0; k < strips; ++k)
-    shape.add(shapes::grid(2, 1, false, [](double i, double j) { return Vec3(0.4 * i, 0, j); }),
-              Vec3(1.13 + 1.9 * k, 4.37, -depth));
-  return shape;
-}
-
 double motion_of(const Patch& patch) {
   return (patch.x - patch.rest).colwise().norm().maxCoeff();
 }
 
 TEST(Placement, a_strip_leaves_a_sheet_by_the_shortest_way) {
-  const Shape shape = sheet_with_strips(1, 0.2);
+  const Shape shape = shapes::sheet_with_strips(1, 0.2);
   Patch patch = shapes::patch_of(shape);
   EXPECT_EQ(place(patch, {}, {}), 2);  // the sheet, where it is, and the strip
   EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
@@ -34,7 +26,7 @@ TEST(Placement, a_strip_leaves_a_sheet_by_the_shortest_way) {
 }
 
 TEST(Placement, many_strips_each_by_its_own_way) {
-  const Shape shape = sheet_with_strips(4, 0.3);
+  const Shape shape = shapes::sheet_with_strips(4, 0.3);
   Patch patch = shapes::patch_of(shape);
   EXPECT_EQ(place(patch, {}, {}), 5);
   EXPECT_TRUE(shapes::pairs_at(patch.x, patch.triangles).empty());
@@ -59,7 +51,7 @@ TEST(Placement, what_is_hemmed_in_shrinks) {
 }
 
 TEST(Placement, what_went_astray_goes_back_to_rest_first) {
-  const Shape shape = sheet_with_strips(1, 0.2);
+  const Shape shape = shapes::sheet_with_strips(1, 0.2);
   Patch patch = shapes::patch_of(shape);
   patch.x.rightCols(6).colwise() += Vec3(0, 0, -7);
   place(patch, {}, {});
@@ -68,7 +60,7 @@ TEST(Placement, what_went_astray_goes_back_to_rest_first) {
 }
 
 TEST(Placement, tolerated_pairs_are_no_obstacle) {
-  const Shape shape = sheet_with_strips(1, 0.2);
+  const Shape shape = shapes::sheet_with_strips(1, 0.2);
   Patch patch = shapes::patch_of(shape);
   const std::vector<IntersectingPair> pairs = shapes::pairs_of(shape);
   ASSERT_FALSE(pairs.empty());

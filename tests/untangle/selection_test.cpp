@@ -8,6 +8,7 @@
 
 #include "mesh/areas.h"
 #include "scene/shapes.h"
+#include "untangle/tangled_shapes.h"
 
 namespace unsnarl {
 namespace {
@@ -177,17 +178,8 @@ TEST(Selection, tied_components_are_free_as_wholes) {
     for (const Index v : selection.free) EXPECT_GE(v, held.scene().vertex_count() / 2);
 }
 
-/// A sheet of 10 x 10 cells of side 1 at z = 0, and strips of two cells that stand in it, sunk by `depth`.
-Shape sheet_with_strips(int strips, double depth) {
-  Shape shape = shapes::grid(10, 10, false, [](double i, double j) { return Vec3(i, j, 0); });
-  for (int k = 0; k < strips; ++k)
-    shape.add(shapes::grid(2, 1, false, [](double i, double j) { return Vec3(0.4 * i, 0, j); }),
-              Vec3(1.13 + 1.9 * k, 4.37, -depth));
-  return shape;
-}
-
 TEST(TiedComponents, are_tied_by_all_the_pairs_that_there_were) {
-  const Shape shape = sheet_with_strips(3, 0.2);
+  const Shape shape = shapes::sheet_with_strips(3, 0.2);
   const Scene scene = shapes::scene_of(shape);
   const ConnectedParts parts(scene);
   const std::vector<IntersectingPair> pairs = shapes::pairs_of(shape);
@@ -203,7 +195,7 @@ TEST(TiedComponents, are_tied_by_all_the_pairs_that_there_were) {
 }
 
 TEST(TiedComponents, with_fixed_vertices_are_left_out) {
-  const Shape shape = sheet_with_strips(1, 0.2);
+  const Shape shape = shapes::sheet_with_strips(1, 0.2);
   std::vector<std::uint8_t> fixed(shape.points.size(), 0);
   fixed[0] = 1;
   const Scene scene = make_scene(shape.positions(), shape.triangles, fixed);

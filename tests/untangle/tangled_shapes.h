@@ -32,6 +32,15 @@ inline Shape unit_grid(Index m, Index n, bool close_u, bool close_v, const std::
   return shape;
 }
 
+/// A sheet of 10 x 10 cells of side 1 at z = 0, and strips of two cells that stand in it, sunk by `depth`.
+inline Shape sheet_with_strips(int strips, double depth) {
+  Shape shape = grid(10, 10, false, [](double i, double j) { return Vec3(i, j, 0); });
+  for (int k = 0; k < strips; ++k)
+    shape.add(grid(2, 1, false, [](double i, double j) { return Vec3(0.4 * i, 0, j); }),
+              Vec3(1.13 + 1.9 * k, 4.37, -depth));
+  return shape;
+}
+
 inline Shape sphere(const Vec3& center, double radius, Index n) {
   Shape shape = unit_grid(n, 2 * n, false, true, [&](double u, double v) {
     const double polar = (0.02 + 0.96 * u) * tau / 2;

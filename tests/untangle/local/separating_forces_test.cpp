@@ -8,13 +8,13 @@ namespace unsnarl {
 namespace {
 
 /// Two flat sheets, the second one at this height above the first.
-Patch two_sheets(double height) {
+Patch two_flat_sheets(double height) {
   const shapes::Shape sheet = shapes::bumpy_sheet(4, 0);
   return shapes::patch_of(shapes::Shape(sheet).add(sheet, {0.2, 0.1, height}));
 }
 
 TEST(PenaltyForce, parts_sheets_within_its_margin) {
-  const Patch patch = two_sheets(0.05);
+  const Patch patch = two_flat_sheets(0.05);
   const Index half = patch.free_count / 2;
   PenaltyForce penalty(patch, 0.1);
   Positions force = Positions::Zero(3, patch.x.cols());
