@@ -10,10 +10,9 @@ from pathlib import Path
 
 
 def example(header):
-    """The indented lines of the first comment."""
+    """The first indented paragraph of the first comment."""
     comment = header[header.index("/*"):header.index("*/")]
-    lines = [match[1] for line in comment.splitlines() if (match := re.match(r" \*   (.*)$", line))]
-    return "\n".join(lines)
+    return re.search(r"(?:^ \*   .*\n)+", comment, re.MULTILINE)[0].replace("\n *   ", "\n")[5:]
 
 
 def main():
