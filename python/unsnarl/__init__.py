@@ -31,13 +31,15 @@ from ._batch import BatchResult, batch
 from ._call import Status
 from ._certify import Certificate, certify
 from ._curves import CurveResult, find_crossings, untangle_curves
+from ._documents import read
 from ._file_sequences import FileSequenceResult, fix_sequence
-from ._files import Check, Component, Part, check, fix, read
+from ._files import Check, Component, Part, check, fix
 from ._intersections import Intersections, find_intersections
 from ._library import version as __version__
 from ._parts import boundary_vertices, component_of_faces, vertices_of_faces
 from ._progress import Progress
-from ._repair import PaperSettings, Result, repair
+from ._repair import repair
+from ._result import PaperSettings, Result
 from ._samples import Sample, SampleParameter, sample, samples
 from ._routes import Routes, check_routes, plan_routes
 from ._sequence import Frame, Jitter, SequenceResult, repair_sequence

@@ -176,3 +176,17 @@ def _copied(address: Optional[int], count: int, dtype: Any) -> NDArray[Any]:
     if address is not None:
         ctypes.memmove(values.ctypes.data, address, values.nbytes)
     return values
+
+
+def read(path: PathLike, format: Optional[Format] = None) -> tuple[NDArray[np.float64], Any]:
+    """The mesh of a file, as (V, F) for all functions here: F is (m, 3), or (corners, offsets) of polygons.
+
+    path: the file. format: "obj", "ply", ...; None: by the extension, or the content.
+
+    Raises OSError where the file cannot be read.
+    """
+    surface = Document(path, format).surface()
+    V = surface.positions.reshape(-1, 3)
+    if surface.offsets.size == 0:
+        return V, surface.corners.reshape(-1, 3)
+    return V, (surface.corners, surface.offsets)

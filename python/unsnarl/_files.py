@@ -13,28 +13,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._call import call
-from ._documents import Document, NamedParts, Parts
+from ._documents import Document, NamedParts, Parts, read
 from ._intersections import Intersections
 from ._library import pair_kinds
+from ._log import log, log_notes
 from ._options import options_of, paper_options
 from ._progress import OnProgress
-from ._repair import Paper, Result, log, log_notes
+from ._result import Paper, Result
 from ._scenes import Scene
 from ._types import Faces, Format, Goal, Names, Numbers, PathLike, Paths, Positions, Precision, Weld
-
-
-def read(path: PathLike, format: Optional[Format] = None) -> tuple[NDArray[np.float64], Any]:
-    """The mesh of a file, as (V, F) for all functions here: F is (m, 3), or (corners, offsets) of polygons.
-
-    path: the file. format: "obj", "ply", ...; None: by the extension, or the content.
-
-    Raises OSError where the file cannot be read.
-    """
-    surface = Document(path, format).surface()
-    V = surface.positions.reshape(-1, 3)
-    if surface.offsets.size == 0:
-        return V, surface.corners.reshape(-1, 3)
-    return V, (surface.corners, surface.offsets)
 
 
 @dataclass(frozen=True)

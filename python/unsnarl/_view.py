@@ -16,12 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._call import call
-from ._documents import Document
-from ._files import read
+from ._documents import Document, read
 from ._library import PageContentStruct, SurfaceStruct
 from ._meshes import is_path
+from ._log import log_notes
 from ._options import options_of
-from ._repair import Result, log_notes
 from ._scenes import Scene, scene_of
 from ._types import Goal, PathLike, Weld
 
@@ -137,7 +136,7 @@ def view(
 
 
 @dataclass
-class _Shown:
+class Shown:
     """What a page shows; `struct` lends arrays of `kept`."""
 
     struct: SurfaceStruct
@@ -148,15 +147,25 @@ class _Shown:
     report: Optional[dict[str, Any]] = None
 
 
+class Repaired:
+    """A repair that can be shown: Result, which builds on this module."""
+
+    V: Any
+    report: dict[str, Any]
+
+    def _shown(self) -> Shown:
+        raise NotImplementedError
+
+
 def _encoded(text: Optional[str]) -> Optional[bytes]:
     return None if text is None else text.encode("utf-8", "replace")
 
 
-def _shown(V: Any, F: Any, after: Any) -> _Shown:
-    if isinstance(V, Result):
+def _shown(V: Any, F: Any, after: Any) -> Shown:
+    if isinstance(V, Repaired):
         if F is not None or after is not None:
             raise ValueError("a Result knows both, before and after: give it alone")
-        return _shown_result(V)
+        return V._shown()
     if is_path(V):
         if is_path(F) and after is None:
             F, after = None, F
@@ -168,26 +177,15 @@ def _shown(V: Any, F: Any, after: Any) -> _Shown:
         if isinstance(after, (list, tuple)):
             after = [read(one) if is_path(one) else one for one in after]
     scene = scene_of(V, F)
-    shown = _Shown(scene.struct(), scene)
+    shown = Shown(scene.struct(), scene)
     if after is not None:
         shown.moved, shown.report = _moved(scene, after)
     return shown
 
 
-def _shown_result(result: Result[Any]) -> _Shown:
-    if result._before is None:
-        raise ValueError("this result does not know its input; take the one that repair or fix returned")
-    sizes = np.empty(0) if result._mesh_sizes is None else result._mesh_sizes
-    struct = result._before.struct(mesh_sizes=sizes, mesh_count=len(sizes))
-    if result._document is not None:
-        struct.document = result._document.handle
-    output = None if result.output is None else result.output.name
-    return _Shown(struct, result, result._after, None, output, result.report)
-
-
-def _shown_file(path: PathLike, after: Any) -> _Shown:
+def _shown_file(path: PathLike, after: Any) -> Shown:
     document = Document(path)
-    shown = _Shown(document.struct, document, name=Path(path).name)
+    shown = Shown(document.struct, document, name=Path(path).name)
     if is_path(after):
         repaired = Document(after).surface()
         own = document.surface()
@@ -201,7 +199,7 @@ def _shown_file(path: PathLike, after: Any) -> _Shown:
 
 def _moved(scene: Scene, after: Any) -> tuple[NDArray[np.float64], Optional[dict[str, Any]]]:
     """Flat positions of all meshes after a repair, and the report of it."""
-    if isinstance(after, Result):
+    if isinstance(after, Repaired):
         return scene.positions_of(after.V, "after"), after.report
     if scene.is_list and isinstance(after, (list, tuple)):
         return scene.positions_of([_positions(one) for one in after], "after"), None

@@ -22,7 +22,7 @@ struct Reached {
 
 /// Components that were repaired as if alone may run into each other: takes them over one by one, without those that
 /// make it worse.
-Reached what_makes_nothing_worse(const RepairTask& task, const RunControl& control, PairCensus& census,
+Reached what_makes_nothing_worse(const RepairTask& task, const RepairControl& control, PairCensus& census,
                                  const Positions& wanted) {
   const Positions& rest = task.prepared.rest;
   const Components& components = task.diagnosis.components;
@@ -43,7 +43,7 @@ Reached what_makes_nothing_worse(const RepairTask& task, const RunControl& contr
 }
 
 /// What was reached, or so much of it as has no more pairs than before.
-Reached taken_back(const RepairTask& task, const RunControl& control, PairCensus& census, const RepairState& state) {
+Reached taken_back(const RepairTask& task, const RepairControl& control, PairCensus& census, const RepairState& state) {
   Reached reached = {state.scene.x, census.at(state.scene.x)};
   // Rigid parts in their places come before, where that is no worse than the input.
   const bool has_places = state.scene.rest != task.prepared.rest;
@@ -57,8 +57,8 @@ Reached taken_back(const RepairTask& task, const RunControl& control, PairCensus
 }
 
 /// The status of a result that has this one by its pairs.
-Status final_status(const RepairTask& task, const RunControl& control, Status by_pairs, bool displacement_is_exceeded,
-                    double displacement_max_rel) {
+Status final_status(const RepairTask& task, const RepairControl& control, Status by_pairs,
+                    bool displacement_is_exceeded, double displacement_max_rel) {
   const double limit = task.options.max_displacement_rel;
   if (limit > 0 && displacement_max_rel > limit) return Status::displacement_exceeded;
   Status status = by_pairs;
@@ -96,7 +96,7 @@ RepairReport report_of_input(const RepairTask& task, const PairCensus& census) {
   return report;
 }
 
-void list_left_pairs(const RepairTask& task, const RunControl& control, const RepairState& state,
+void list_left_pairs(const RepairTask& task, const RepairControl& control, const RepairState& state,
                      const Reached& reached, RepairReport& report) {
   const Ending ending = {task.policy,
                          task.diagnosis.components,
@@ -134,7 +134,8 @@ Status status_at(const RepairTask& task, PairCensus& census, const PairCensus::P
   return left.faces.total() < census.before().faces.total() ? Status::reduced : Status::no_progress;
 }
 
-RepairResult conclude(const RepairTask& task, const RunControl& control, PairCensus& census, const RepairState& state) {
+RepairResult conclude(const RepairTask& task, const RepairControl& control, PairCensus& census,
+                      const RepairState& state) {
   control.phases.start("certify");
   const Reached reached = taken_back(task, control, census, state);
   RepairResult result;

@@ -8,7 +8,8 @@ namespace unsnarl {
 
 /// The end of every repair: takes back what made things worse, decides the status, measures the result and says what is
 /// left and why.
-RepairResult conclude(const RepairTask& task, const RunControl& control, PairCensus& census, const RepairState& state);
+RepairResult conclude(const RepairTask& task, const RepairControl& control, PairCensus& census,
+                      const RepairState& state);
 
 /// The result where nothing was reached, or where that cannot be examined: the input.
 RepairResult unchanged(const RepairTask& task, const PairCensus& census, Status status);

@@ -9,7 +9,7 @@
 
 namespace unsnarl {
 
-void dihedral_stage(const RepairTask& task, const RunControl& control, RepairState& state) {
+void dihedral_stage(const RepairTask& task, const RepairControl& control, RepairState& state) {
   if (!(task.options.min_dihedral_deg > 0)) return;
   Finders finders = make_finders(task, state);
   OpenDihedralsOptions options;

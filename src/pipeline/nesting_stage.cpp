@@ -25,7 +25,7 @@ std::size_t count_triangles_at(const Scene& scene, const std::vector<Index>& ver
 
 }  // namespace
 
-void nesting_stage(const RepairTask& task, const RunControl& control, Finders& finders, RepairState& state) {
+void nesting_stage(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state) {
   assert(finders.are_of(state.scene.triangles));
   if (!task.nested || control.limits.reached()) return;
   control.phases.start("untangle");

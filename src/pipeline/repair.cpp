@@ -47,7 +47,7 @@ void check_gap(const RepairTask& task, const RepairState& state) {
                     gap, 100 * task.options.min_gap_rel, gap / side, widest_gap_in_sides * side));
 }
 
-void diagnose_within_limits(RepairTask& task, const RunControl& control, Finders& finders) {
+void diagnose_within_limits(RepairTask& task, const RepairControl& control, Finders& finders) {
   try {
     task.diagnose(finders.as_is, control.limits.stopper_but_for_cancellation());
   } catch (const WorkStopped&) {
@@ -56,7 +56,7 @@ void diagnose_within_limits(RepairTask& task, const RunControl& control, Finders
 }
 
 /// Repairs what is not held, from state.scene.rest on.
-void repair_shapes(const RepairTask& task, const RunControl& control, Finders& finders, RepairState& state) {
+void repair_shapes(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state) {
   leave_what_may_stay(task, finders, state);
   if (has_work(task, finders, state) || !task.prepared.other_diagonals.triangles.empty()) {
     nesting_stage(task, control, finders, state);
@@ -67,7 +67,7 @@ void repair_shapes(const RepairTask& task, const RunControl& control, Finders& f
 }
 
 /// All stages, in order. Where memory runs out, the state is what was reached. `finders`: of the scene's triangles.
-void run_stages(const RepairTask& task, const RunControl& control, std::span<const Index> clear_of_soft,
+void run_stages(const RepairTask& task, const RepairControl& control, std::span<const Index> clear_of_soft,
                 Finders& finders, RepairState& state) {
   try {
     rigid_stage(task, control, clear_of_soft, finders, state);
@@ -83,7 +83,7 @@ void run_stages(const RepairTask& task, const RunControl& control, std::span<con
 
 /// What all stages reach from the input on. Rigid parts that what is soft could not be repaired around give way to it
 /// in a second attempt; the better one counts.
-RepairState repaired(const RepairTask& task, const RunControl& control, Finders& finders, PairCensus& census) {
+RepairState repaired(const RepairTask& task, const RepairControl& control, Finders& finders, PairCensus& census) {
   RepairState best(task);
   run_stages(task, control, {}, finders, best);
   if (task.policy.rigid_parts().count == 0 || control.limits.reached()) return best;
@@ -99,7 +99,7 @@ RepairState repaired(const RepairTask& task, const RunControl& control, Finders&
   return best;
 }
 
-RepairResult run(RepairTask& task, const RunControl& control, Finders& finders) {
+RepairResult run(RepairTask& task, const RepairControl& control, Finders& finders) {
   diagnose_within_limits(task, control, finders);
   PairCensus census(task.surface, task.prepared, task.options.find, finders, task.diagnosis.pairs);
   try {
@@ -122,7 +122,7 @@ RepairResult run_under_control(const RepairOptions& options, Context& context, c
   std::vector<StageReport> stages;
   Phases phases(context, stages);
   phases.start("diagnose");
-  RepairResult result = work(RunControl{limits, phases});
+  RepairResult result = work(RepairControl{limits, phases});
   phases.end();
   result.report.stages = std::move(stages);
   return result;
@@ -131,7 +131,7 @@ RepairResult run_under_control(const RepairOptions& options, Context& context, c
 RepairResult repair_surface(const SurfaceView& surface, const Nesting* nesting, const RepairOptions& options,
                             Context* context) {
   return work_reporting_here(context, [&](Context& own) {
-    return run_under_control(options, own, [&](const RunControl& control) {
+    return run_under_control(options, own, [&](const RepairControl& control) {
       RepairTask task(surface, options, nesting);
       Finders finders(task.prepared.triangles(), task.prepared.scale);
       return run(task, control, finders);
@@ -153,7 +153,7 @@ RepairResult repair_nested(const SurfaceView& surface, const Nesting& nesting, c
 RepairResult repair_from(const SurfaceView& surface, const KnownSurface& known, Finders& finders,
                          const RepairOptions& options, Context* context) {
   Context own;
-  return run_under_control(options, context ? *context : own, [&](const RunControl& control) {
+  return run_under_control(options, context ? *context : own, [&](const RepairControl& control) {
     RepairTask task(surface, options, known.prepared, known.topology);
     return run(task, control, finders);
   });

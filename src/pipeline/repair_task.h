@@ -39,7 +39,7 @@ struct RepairTask {
 };
 
 /// Whom the stages of a repair ask when to end, and tell how far they are.
-struct RunControl {
+struct RepairControl {
   Limits& limits;
   Phases& phases;
 };

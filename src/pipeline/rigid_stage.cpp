@@ -20,7 +20,7 @@ std::vector<Index> vertices_of(const Bodies& bodies) {
 }
 
 /// Puts the bodies in their places. Returns whether one had none within the displacement that is allowed.
-bool place(const RepairTask& task, const RunControl& control, const RepairState& state, Bodies& bodies) {
+bool place(const RepairTask& task, const RepairControl& control, const RepairState& state, Bodies& bodies) {
   const double limit = task.options.max_displacement_rel * task.diagonal;
   PlaceBodiesOptions places;
   RecoverBodiesOptions recovery;
@@ -75,7 +75,7 @@ void hold(const RepairTask& task, const Positions& x, RepairState& state) {
 
 }  // namespace
 
-void rigid_stage(const RepairTask& task, const RunControl& control, std::span<const Index> clear_of_soft,
+void rigid_stage(const RepairTask& task, const RepairControl& control, std::span<const Index> clear_of_soft,
                  Finders& finders, RepairState& state) {
   assert(finders.are_of(state.scene.triangles));
   const RigidParts& parts = task.policy.rigid_parts();

@@ -12,7 +12,7 @@ namespace unsnarl {
 /// them, unless they are of `clear_of_soft`. Afterwards they are held there (state.scene.rest and fixed), rounded to
 /// the digits of the result. The state is that of the start; `finders`: of its triangles. Nothing happens where no part
 /// is rigid.
-void rigid_stage(const RepairTask& task, const RunControl& control, std::span<const Index> clear_of_soft,
+void rigid_stage(const RepairTask& task, const RepairControl& control, std::span<const Index> clear_of_soft,
                  Finders& finders, RepairState& state);
 
 /// Rigid parts that soft faces still intersect, ascending. `finders`: of the prepared triangles.

@@ -37,7 +37,7 @@ void take(const UnitedTriangulations& cuts, RepairState& state) {
   state.scene = std::move(scene);
 }
 
-void work_on(const RepairTask& task, const RunControl& control, const std::vector<Triangulation>& cuts,
+void work_on(const RepairTask& task, const RepairControl& control, const std::vector<Triangulation>& cuts,
              RepairState& state) {
   take(unite(cuts), state);
   Finders finders = make_finders(task, state);
@@ -64,7 +64,7 @@ bool give_up_what_is_left(const RepairTask& task, Finders& finders, RepairState&
 
 /// Works on the input's cuts and on those by the present positions until both are embedded. Returns whether they are;
 /// else the state is the best one that was met, or one of any cut.
-bool embed_both_cuts(const RepairTask& task, const RunControl& control, RepairState& state) {
+bool embed_both_cuts(const RepairTask& task, const RepairControl& control, RepairState& state) {
   const std::vector<Triangulation> input = cuts_of_input(task);
   const std::size_t input_size = unite(input).all.triangles.size();
   RepairState::Checkpoint best = state.checkpoint();
@@ -104,7 +104,7 @@ bool embed_both_cuts(const RepairTask& task, const RunControl& control, RepairSt
 
 }  // namespace
 
-void triangulation_stage(const RepairTask& task, const RunControl& control, Finders& finders, RepairState& state) {
+void triangulation_stage(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state) {
   assert(finders.are_of(state.scene.triangles));
   if (task.surface.offsets.empty()) return;
   give_up_what_is_left(task, finders, state);

@@ -9,6 +9,6 @@ namespace unsnarl {
 /// to that is found, on the one and the other in turn; quads along either diagonal, if both count. Gives up components
 /// on which something is left or for which no way is found. The scene has the input's triangles before and after.
 /// `finders`: of these.
-void triangulation_stage(const RepairTask& task, const RunControl& control, Finders& finders, RepairState& state);
+void triangulation_stage(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state);
 
 }  // namespace unsnarl

@@ -29,7 +29,7 @@ constexpr double untangled_fraction = 0.6;
 constexpr double recovered_fraction = 0.97;
 
 /// pairs_now: how many triangles' pairs there are with what is being tried; not given: `left` is all.
-void report_progress(const RepairTask& task, const RunControl& control, const RepairState& state, double fraction,
+void report_progress(const RepairTask& task, const RepairControl& control, const RepairState& state, double fraction,
                      std::span<const IntersectingPair> left, std::optional<double> pairs_now = {}) {
   // Reports and summaries count faces. A scene of triangles along both diagonals knows no faces.
   const std::vector<Index>& face_of = state.scene.face_of;
@@ -45,7 +45,7 @@ double most_motion(const RepairTask& task) {
   return task.options.max_displacement_rel * task.diagonal;
 }
 
-void recover_patch(const RunControl& control, const RepairState& state, Patch& patch) {
+void recover_patch(const RepairControl& control, const RepairState& state, Patch& patch) {
   RecoverOptions options;
   options.min_gap =
       state.format.wanted_gap(state.scene, {patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
@@ -59,7 +59,7 @@ bool is_within(const Patch& patch, const Positions& rest, double limit) {
 }
 
 /// `is_exceeded`: set where a candidate goes too far; both must outlive the options.
-EscalationOptions escalation_options(const RepairTask& task, const RunControl& control, RepairState& state,
+EscalationOptions escalation_options(const RepairTask& task, const RepairControl& control, RepairState& state,
                                      std::atomic<bool>& is_exceeded) {
   EscalationOptions options;
   options.tiers = default_tiers();
@@ -88,7 +88,7 @@ EscalationOptions escalation_options(const RepairTask& task, const RunControl& c
 
 /// Untangles the scene. Pairs that rounding brought (in rounds after the first) separate only where they are given a
 /// gap; where float32 is optional, only local strategies try. Returns the pairs that are left; none: it was given up.
-std::optional<std::vector<IntersectingPair>> untangle(const RepairTask& task, const RunControl& control,
+std::optional<std::vector<IntersectingPair>> untangle(const RepairTask& task, const RepairControl& control,
                                                       SceneIndex& index, RepairState& state, bool is_first) {
   std::atomic<bool> is_exceeded{false};
   EscalationOptions options = escalation_options(task, control, state, is_exceeded);
@@ -108,7 +108,7 @@ std::optional<std::vector<IntersectingPair>> untangle(const RepairTask& task, co
 }
 
 /// Recovers what moved since the last time. `left`: pairs of triangles that could not be untangled.
-void recover_moved(const RepairTask& task, const RunControl& control, std::span<const IntersectingPair> left,
+void recover_moved(const RepairTask& task, const RepairControl& control, std::span<const IntersectingPair> left,
                    SceneIndex& index, RepairState& state) {
   std::vector<std::vector<Index>> sets;
   for (std::size_t k = state.recovered; k < state.moved.size(); ++k) sets.push_back(state.moved[k].vertices);
@@ -199,7 +199,7 @@ struct Rounds {
 };
 
 /// Untangles, recovers and rounds until nothing intersects after rounding.
-Rounds work_in_rounds(const RepairTask& task, const RunControl& control, Finders& finders, RepairState& state) {
+Rounds work_in_rounds(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state) {
   Rounds result;
   SceneIndex index(state.scene, finders.as_is);
   StuckComponents stuck(task, state);
@@ -238,7 +238,7 @@ bool has_work(const RepairTask& task, Finders& finders, const RepairState& state
   return task.options.precision && !float32_conflicts(task, finders, state).empty();
 }
 
-void untangle_stage(const RepairTask& task, const RunControl& control, Finders& finders, RepairState& state) {
+void untangle_stage(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state) {
   assert(finders.are_of(state.scene.triangles));
   const std::vector<IntersectingPair> ignored = state.ignored;
   const Rounds rounds = work_in_rounds(task, control, finders, state);

@@ -8,7 +8,7 @@ namespace unsnarl {
 /// Untangles the scene, recovers it toward rest and rounds it to the digits of the result, again where rounding brought
 /// intersections. Where float32 was not asked for and no way is found to hold in it, float64 has to do. `finders`: of
 /// the scene's triangles.
-void untangle_stage(const RepairTask& task, const RunControl& control, Finders& finders, RepairState& state);
+void untangle_stage(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state);
 
 /// At rest, is there anything to untangle or to round?
 bool has_work(const RepairTask& task, Finders& finders, const RepairState& state);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "report/recording_json.h"
@@ -14,6 +16,21 @@ namespace unsnarl {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// What a strategy was called in reports of version 0.1 and sources before; to be left out in the version after the
+/// next.
+std::string strategy_name_of_0_1(const std::string& name) {
+  constexpr auto renamed = std::to_array<std::pair<std::string_view, std::string_view>>({
+      {"push_apart", "shallow-0"},
+      {"slide_apart", "contour-2"},
+      {"slide_apart_wide", "contour-4"},
+      {"part_layers", "contour-8"},
+      {"shorten_curves", "shorten-4"},
+  });
+  for (const auto& [now, then] : renamed)
+    if (name == now) return std::string(then);
+  return name;
+}
 
 Json options_json(const RepairOptions& options) {
   return {{"goal", to_string(options.goal)},
@@ -69,7 +86,9 @@ Json left_json(const RepairReport& report) {
     pairs.push_back({{"faces", {pair.a, pair.b}},
                      {"class", pair_class_names[static_cast<std::size_t>(pair.kind)]},
                      {"reason", to_string(pair.reason)}});
-    if (!pair.strategy.empty()) pairs.back()["strategy"] = pair.strategy;
+    if (pair.strategy.empty()) continue;
+    pairs.back()["strategy"] = pair.strategy;
+    pairs.back()["strategy_0_1"] = strategy_name_of_0_1(pair.strategy);
   }
   return {{"by_reason", by_reason}, {"pairs", pairs}};
 }
@@ -130,6 +149,7 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   json["regions"] = Json::array();
   for (const RegionReport& region : r.regions)
     json["regions"].push_back({{"strategy", region.strategy},
+                               {"strategy_0_1", strategy_name_of_0_1(region.strategy)},
                                {"faces", region.faces},
                                {"pairs", region.pairs},
                                {"iterations", region.iterations},

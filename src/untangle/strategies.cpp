@@ -21,7 +21,7 @@ constexpr std::size_t most_valence_of_shallow = 100;
 constexpr double short_step = 0.1;
 /// Steps of strategies that part layers (unit: h)
 constexpr double long_step = 0.3;
-/// LocalSettings::max_iterations of `shallow-0` [E23] (unit: steps)
+/// LocalSettings::max_iterations of `push_apart` [E23] (unit: steps)
 constexpr int shallow_iterations = 20;
 /// LocalSettings::max_iterations of the other local strategies [E23] (unit: steps)
 constexpr int iterations = 60;
@@ -128,16 +128,16 @@ Strategy placing() {
 /// Strategies that move faces hardly more than they overlap.
 Tier shallow_tier() {
   const auto rings = [](int count) { return RingsOptions{.rings = count, .most_valence = most_valence_of_shallow}; };
-  return {{local("shallow-0", rings(0), LocalMethod::shallow, SheetMotion::slide, short_step, shallow_iterations),
-           local("contour-2", rings(2), LocalMethod::contour, SheetMotion::slide, short_step, iterations),
-           local("contour-4", rings(4), LocalMethod::contour, SheetMotion::steeper, short_step, iterations)}};
+  return {{local("push_apart", rings(0), LocalMethod::shallow, SheetMotion::slide, short_step, shallow_iterations),
+           local("slide_apart", rings(2), LocalMethod::contour, SheetMotion::slide, short_step, iterations),
+           local("slide_apart_wide", rings(4), LocalMethod::contour, SheetMotion::steeper, short_step, iterations)}};
 }
 
 /// Layers that are hemmed in from both sides come apart crossing by crossing.
 Tier layers_tier() {
   const auto rings = [](int count) { return RingsOptions{.rings = count, .reach = reach_of_layers}; };
-  return {{local("contour-8", rings(8), LocalMethod::contour, SheetMotion::offset, long_step, iterations),
-           local("shorten-4", rings(4), LocalMethod::contour, SheetMotion::free, long_step, iterations)}};
+  return {{local("part_layers", rings(8), LocalMethod::contour, SheetMotion::offset, long_step, iterations),
+           local("shorten_curves", rings(4), LocalMethod::contour, SheetMotion::free, long_step, iterations)}};
 }
 
 Tier last_resort(Strategy strategy) {

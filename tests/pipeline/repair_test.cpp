@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Repair, Samples,
 
 TEST(Repair, strategies_to_do_without_must_exist) {
   RepairOptions options;
-  options.without_strategies = {"contour-2", "contour-3"};
+  options.without_strategies = {"slide_apart", "contour-3"};
   EXPECT_THROW(repair(shapes::crossing_bumps(8, 0.3).surface(), options), std::invalid_argument);
 }
 

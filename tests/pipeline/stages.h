@@ -32,7 +32,7 @@ struct StagedRepair {
   Limits limits;
   std::vector<StageReport> stages;
   Phases phases;
-  RunControl control;
+  RepairControl control;
   RepairTask task;
   Finders finders;  ///< of the input's cut
   RepairState state;

@@ -28,7 +28,7 @@ std::vector<RecordedFrame> frames_of(std::vector<std::int32_t> red) {
   for (int f = 0; f < 5; ++f) {
     RecordedFrame& frame = frames[f];
     frame.phase = f == 0 ? "input" : f == 4 ? "result" : "untangle";
-    frame.strategy = f == 0 || f == 4 ? "" : "contour-2";
+    frame.strategy = f == 0 || f == 4 ? "" : "slide_apart";
     frame.iteration = f;
     if (f < 4) frame.intersecting = red;
     frame.pairs = frame.intersecting.size();
