@@ -17,6 +17,7 @@ namespace unsnarl {
 
 /// A one-parameter family of motions; at 0 nothing moves.
 struct MotionFamily {
+  double span = 0;  ///< the first try is a share of this, so that families with equal spans are tried at equal steps
   double last = 0;  ///< largest parameter
   double rate = 1;  ///< root mean square of the displacement of the vertices / parameter, a length
 };
@@ -27,7 +28,7 @@ struct FreePlace {
 };
 
 struct FreePlaceConstants {
-  /// Parameter of the first try (unit: share of MotionFamily::last)
+  /// Parameter of the first try (unit: share of MotionFamily::span)
   static constexpr double first_step = 1e-3;
   /// The parameter grows by this factor from one try to the next (no unit)
   static constexpr double growth = 1.6;
@@ -37,22 +38,29 @@ struct FreePlaceConstants {
   static constexpr std::size_t most_contacts = 16;
 };
 
+struct PlaceSearch {
+  /// Clearance: a motion goes beyond the first free place by this share of itself if it is free there (no unit)
+  double margin = 0;
+  /// A family is also tried at the first step beyond the best place so far: its first free place may lie before that
+  /// step. [E206]
+  bool is_thorough = false;
+  std::function<bool()> stop = {};  ///< true ends the search with the best place so far
+};
+
 /// Of the first free place in each family, the one with the least root mean square displacement; nothing if no family
 /// has one. `is_free(family, parameter)`: called in any order.
-/// `margin`: clearance; a motion goes beyond the first free place by this share of itself if it is free there too.
-/// `stop`: true ends the search with the best place so far; may be empty.
 template <class IsFree>
-std::optional<FreePlace> nearest_free_place(std::span<const MotionFamily> families, IsFree&& is_free, double margin,
-                                            const std::function<bool()>& stop) {
+std::optional<FreePlace> nearest_free_place(std::span<const MotionFamily> families, IsFree&& is_free,
+                                            const PlaceSearch& search) {
   using C = FreePlaceConstants;
   std::optional<FreePlace> best;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < families.size() && !(stop && stop()); ++k) {
+  for (std::size_t k = 0; k < families.size() && !(search.stop && search.stop()); ++k) {
     const MotionFamily& family = families[k];
     if (!(family.rate > 0)) continue;
-    double blocked = 0, parameter = C::first_step * family.last;
+    double blocked = 0, parameter = C::first_step * family.span;
     bool found = false;
-    while (parameter * family.rate < least) {
+    while ((search.is_thorough ? blocked : parameter) * family.rate < least) {
       found = is_free(k, parameter);
       if (found || parameter == family.last) break;
       blocked = parameter;
@@ -65,7 +73,7 @@ std::optional<FreePlace> nearest_free_place(std::span<const MotionFamily> famili
     }
     if (!(parameter * family.rate < least)) continue;
     least = parameter * family.rate;
-    const double beyond = (1 + margin) * parameter;
+    const double beyond = (1 + search.margin) * parameter;
     best = FreePlace{k, is_free(k, beyond) ? beyond : parameter};
   }
   return best;

@@ -98,9 +98,9 @@ class BodyPlacement {
     if (contacts.empty()) return true;
     const std::vector<BodyMotion> motions = motions_of(bodies_, body, contacts);
     std::vector<MotionFamily> families;
-    for (const BodyMotion& motion : motions) families.push_back({.last = motion.longest(body.diagonal)});
+    for (const BodyMotion& motion : motions) families.push_back({body.diagonal, motion.longest(body.diagonal)});
     const auto is_free = [&](std::size_t k, double distance) { return is_free_at(body, motions[k], distance); };
-    const std::optional<FreePlace> found = nearest_free_place(families, is_free, margin, options_.stop);
+    const std::optional<FreePlace> found = nearest_free_place(families, is_free, {margin, true, options_.stop});
     motions[found ? found->family : 0].apply(body, found ? found->parameter : 0);
     bodies_.move(body);
     bodies_.settle(body);

@@ -154,8 +154,8 @@ class Placement {
   }
 
   static MotionFamily family_of(const Motion& motion, const Positions& from, double diagonal) {
-    if (motion.is_translation()) return {.last = diagonal};
-    return {.last = 1 - margin, .rate = std::sqrt((from.colwise() - motion.centre).colwise().squaredNorm().mean())};
+    if (motion.is_translation()) return {diagonal, diagonal};
+    return {1 - margin, 1 - margin, std::sqrt((from.colwise() - motion.centre).colwise().squaredNorm().mean())};
   }
 
   void move(const Component& component, const Positions& from, const Motion& motion, double parameter) {
@@ -201,7 +201,7 @@ class Placement {
       move(component, from, motions[k], parameter);
       return is_free(component);
     };
-    const std::optional<FreePlace> found = nearest_free_place(families, is_free_at, margin, stop_);
+    const std::optional<FreePlace> found = nearest_free_place(families, is_free_at, {margin, false, stop_});
     if (found)
       move(component, from, motions[found->family], found->parameter);
     else

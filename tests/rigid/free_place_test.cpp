@@ -12,10 +12,10 @@ namespace {
 constexpr double margin = 0.05;
 
 TEST(NearestFreePlace, is_the_one_of_least_displacement_whatever_the_parameter) {
-  const std::vector<MotionFamily> families = {{.last = 10, .rate = 1}, {.last = 100, .rate = 0.01}};
+  const std::vector<MotionFamily> families = {{10, 10, 1}, {100, 100, 0.01}};
   const std::array<double, 2> free_from = {2, 50};  // displacements 2 and 0.5
   const auto is_free = [&](std::size_t k, double parameter) { return parameter >= free_from[k]; };
-  const auto place = nearest_free_place(families, is_free, margin, {});
+  const auto place = nearest_free_place(families, is_free, {margin});
   ASSERT_TRUE(place);
   EXPECT_EQ(place->family, 1u);
   EXPECT_GE(place->parameter, 50 * (1 + margin));
@@ -23,20 +23,32 @@ TEST(NearestFreePlace, is_the_one_of_least_displacement_whatever_the_parameter) 
 }
 
 TEST(NearestFreePlace, keeps_no_clearance_where_that_is_not_free) {
-  const std::vector<MotionFamily> families = {{.last = 10}};
+  const std::vector<MotionFamily> families = {{10, 10}};
   const auto wide = [](std::size_t, double parameter) { return parameter >= 1.5 && parameter <= 5; };
-  const auto found = nearest_free_place(families, wide, 4, {});
+  const auto found = nearest_free_place(families, wide, {4});
   ASSERT_TRUE(found);
   EXPECT_GE(found->parameter, 1.5);
   EXPECT_LE(found->parameter, 5);
 }
 
+TEST(NearestFreePlace, a_thorough_search_looks_into_the_step_beyond_the_best_place) {
+  // The first family is free from a bit before a step on, the second from a bit behind the step before.
+  double step = FreePlaceConstants::first_step;
+  while (step < 0.2) step *= FreePlaceConstants::growth;
+  const double next = FreePlaceConstants::growth * step;
+  const std::vector<MotionFamily> families = {{1, 1}, {1, 1}};
+  const std::array<double, 2> free_from = {0.9 * next, 1.1 * step};
+  const auto is_free = [&](std::size_t k, double parameter) { return parameter >= free_from[k]; };
+  EXPECT_EQ(nearest_free_place(families, is_free, {margin})->family, 0u);
+  EXPECT_EQ(nearest_free_place(families, is_free, {margin, true})->family, 1u);
+}
+
 TEST(NearestFreePlace, there_may_be_none) {
-  const std::vector<MotionFamily> families = {{.last = 1}, {.last = 1, .rate = 0}};
-  EXPECT_FALSE(nearest_free_place(families, [](std::size_t, double) { return false; }, margin, {}));
-  EXPECT_FALSE(nearest_free_place(
-      families, [](std::size_t, double) { return true; }, margin, [] { return true; }));
-  EXPECT_FALSE(nearest_free_place({}, [](std::size_t, double) { return true; }, margin, {}));
+  const std::vector<MotionFamily> families = {{1, 1}, {1, 1, 0}};
+  EXPECT_FALSE(nearest_free_place(families, [](std::size_t, double) { return false; }, {margin}));
+  EXPECT_FALSE(
+      nearest_free_place(families, [](std::size_t, double) { return true; }, {margin, false, [] { return true; }}));
+  EXPECT_FALSE(nearest_free_place({}, [](std::size_t, double) { return true; }, {margin}));
 }
 
 TEST(LatticeDirections, name_every_neighbour_of_a_cell_once_but_for_the_sign) {
