@@ -117,7 +117,7 @@ TEST(Repair, layers_part_by_their_overlap) {
 }
 
 TEST(Repair, few_faces_end_turned_over) {
-  std::size_t flipped = 0;
+  std::size_t flipped = 0, triangles = 0;
   for (const Expected& sample : {Expected{"cross_cap_punctured", 22},
                                  {"cross_cap_punctured", 30},
                                  {"roman_punctured", 18},
@@ -125,8 +125,9 @@ TEST(Repair, few_faces_end_turned_over) {
     const RepairResult result = repair(make_sample(sample.sample, sample.resolution));
     EXPECT_EQ(result.status, Status::embedded);
     flipped += result.report.flipped_triangles;
+    triangles += result.report.topology.triangles;
   }
-  EXPECT_LT(flipped, 50u);  // 37; turned back after the last stage of the recovery 62
+  EXPECT_LT(100 * flipped, triangles) << "one in a hundred";
 }
 
 TEST(Repair, what_has_no_conflict_does_not_move) {
