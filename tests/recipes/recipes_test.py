@@ -119,6 +119,9 @@ class Recipes(unittest.TestCase):
     def test_strategy(self):
         self.run_recipe("A strategy", "untangle")
 
+    def test_reason(self):
+        self.run_recipe("A reason", "scene")
+
     def test_energy(self):
         self.run_recipe("An energy", "recover")
 
