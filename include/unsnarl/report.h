@@ -70,11 +70,11 @@ struct RegionReport {
   std::size_t pairs = 0;  ///< of triangles: resolved; with "none", left; with "paper", at its start
   int iterations = 0;
   double seconds = 0;
-  /// Depth of the tangle: how far from rest the separation that was found, with those it went on from, has a vertex, at
-  /// most / bounding-box diagonal.
+  /// Overlap depth: largest distance between a vertex of the first intersection-free state found and its input
+  /// position / bounding-box diagonal.
   double depth_rel = 0;
-  /// How far one of its vertices is from rest after the recovery, at most / bounding-box diagonal, and which vertex of
-  /// the input that is; -1: none moved.
+  /// Largest distance between a vertex of the region and its input position in the result / bounding-box diagonal, and
+  /// which vertex of the input that is; -1: none moved.
   double displacement_rel = 0;
   std::int32_t farthest_vertex = -1;
 };
