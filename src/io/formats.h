@@ -35,7 +35,7 @@ inline constexpr auto formats = std::to_array<FormatEntry>({
     {Format::surf, "surf", parse_surf, "freesurfer white pial inflated"},
     {Format::gii, "gii", parse_gii, "gifti"},
     {Format::vtk, "vtk", parse_vtk},
-    {Format::vtp, "vtp", parse_vtp},
+    {Format::vtp, "vtp", parse_vtp, "vtu"},
     {Format::msh, "msh", parse_msh},
     {Format::inp, "inp", parse_inp},
     {Format::threemf, "3mf", parse_threemf},

@@ -24,7 +24,7 @@ class ObjFile final : public CoordinateTextFile {
 class ObjParser {
  public:
   explicit ObjParser(CoordinateTextFile& file)
-      : file_(file), text_(file.bytes, {.hash_comments = true, .continuation = true}) {}
+      : file_(file), text_(without_end_marks(file.bytes), {.hash_comments = true, .continuation = true}) {}
 
   void parse() {
     if (file_.bytes.empty()) throw FileError("the file is empty; an OBJ file needs 'v' and 'f' lines");

@@ -11,7 +11,8 @@ namespace {
 
 class OffParser {
  public:
-  explicit OffParser(CoordinateTextFile& file) : file_(file), text_(file.bytes, {.hash_comments = true}) {}
+  explicit OffParser(CoordinateTextFile& file)
+      : file_(file), text_(without_end_marks(file.bytes), {.hash_comments = true}) {}
 
   void parse() {
     if (file_.bytes.empty()) throw FileError("the file is empty; an OFF file starts with 'OFF'");

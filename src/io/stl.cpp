@@ -137,15 +137,20 @@ class BinaryStlFile final : public StlFile {
 class AsciiStlFile final : public StlFile {
  public:
   void parse() {
-    TextScanner text(bytes, {});
+    TextScanner text(without_end_marks(bytes), {});
     LabelCollector solids("object");
     std::string word = keyword(text);
     if (word != "solid") text.fail("neither text that starts with 'solid' nor binary STL; check the format", 0);
     while (word == "solid") {
       const std::string_view name = text.rest_of_line();
       if (!name.empty()) solids.start(name, normals.size() / 3);
+      const std::size_t before = normals.size();
       for (word = keyword(text); word == "facet"; word = keyword(text)) facet(text);
       solids.stop(normals.size() / 3);
+      if (word.empty() && normals.size() > before) {
+        notes.emplace_back("The file ends without 'endsolid'; all its facets are complete.");
+        break;
+      }
       if (word != "endsolid") unexpected(text, word, "facet or endsolid");
       text.rest_of_line();
       word = keyword(text);

@@ -8,6 +8,12 @@
 
 namespace unsnarl {
 
+/// The text without the zeros and the control-Z with which some programs end a file.
+inline std::string_view without_end_marks(std::string_view text) {
+  while (!text.empty() && (text.back() == '\0' || text.back() == '\x1a')) text.remove_suffix(1);
+  return text;
+}
+
 /// Reads a text in memory from front to back; errors name the line. Numbers do not depend on the locale.
 class TextScanner {
  public:

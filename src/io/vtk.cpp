@@ -1,13 +1,14 @@
-// VTK legacy files with a data set of type POLYDATA, ASCII and binary, versions 1 to 5.1 (VTK User's Guide, "VTK File
-// Formats"; vtkDataReader.cxx for 5.1). Polygons and triangle strips make the surface; all else is passed on.
+// VTK legacy files with a data set of type POLYDATA or UNSTRUCTURED_GRID, ASCII and binary, versions 1 to 5.1 (VTK
+// User's Guide, "VTK File Formats"; vtkDataReader.cxx for 5.1). Polygons and triangle strips make the surface; all else
+// is passed on.
 #include <fmt/format.h>
 
 #include <array>
-#include <tuple>
 
 #include "io/formats.h"
 #include "io/point_file.h"
 #include "io/text_scanner.h"
+#include "io/vtk_cells.h"
 
 namespace unsnarl {
 namespace {
@@ -52,6 +53,11 @@ class VtkParser {
         if (!has_points && (word == "polygons" || word == "triangle_strips"))
           text_.fail("POINTS should come before the cells", start);
         cells(word);
+      } else if (word == "cells" && is_grid_) {
+        grid_ = cell_lists();
+      } else if (word == "cell_types" && is_grid_) {
+        if (!has_points) text_.fail("POINTS should come before the cells", start);
+        grid_cells();
       } else if (word == "field") {
         fields();
       } else if (word == "metadata") {
@@ -63,6 +69,7 @@ class VtkParser {
       }
     }
     if (!has_points) text_.fail("the file has no POINTS; it is cut short");
+    if (!grid_.offsets.empty() && !has_types_) text_.fail("the file has CELLS, but no CELL_TYPES; it is cut short");
     file_.finish();
   }
 
@@ -86,9 +93,10 @@ class VtkParser {
     if (lower_case(text_.token()) != "dataset") text_.fail("DATASET should be here; the file is damaged", set);
     text_.skip_space();
     const std::string kind = lower_case(text_.token());
-    if (kind != "polydata") {
-      text_.fail(fmt::format("DATASET {}: only POLYDATA is read; extract the surface first (in ParaView: Filters > "
-                             "Extract Surface, and save as .vtk or .vtp)",
+    is_grid_ = kind == "unstructured_grid";
+    if (kind != "polydata" && !is_grid_) {
+      text_.fail(fmt::format("DATASET {}: only POLYDATA and UNSTRUCTURED_GRID are read; extract the surface first (in "
+                             "ParaView: Filters > Extract Surface, and save as .vtk or .vtp)",
                              in_quotes(kind)),
                  set);
     }
@@ -157,23 +165,43 @@ class VtkParser {
     text_.seek(end);
   }
 
-  void cells(const std::string& kind) {
-    const std::size_t n = count("number of cells"), size = count("size of the list");
+  /// The points of cell c are corners[offsets[c]] to corners[offsets[c + 1] - 1].
+  struct CellLists {
     std::vector<std::int64_t> offsets, corners;
-    if (has_offsets_) {
-      offsets = section("offsets", n);
-      corners = section("connectivity", size);
-    } else {
-      std::tie(offsets, corners) = counted_lists(whole_numbers(NumberType::int32, size, "the list of cells"), n);
-    }
+  };
+
+  CellLists cell_lists() {
+    const std::size_t n = count("number of cells"), size = count("size of the list");
+    if (!has_offsets_) return counted_lists(whole_numbers(NumberType::int32, size, "the list of cells"), n);
+    CellLists lists;
+    lists.offsets = section("offsets", n);
+    lists.corners = section("connectivity", size);
+    return lists;
+  }
+  std::span<const std::int64_t> cell(const CellLists& lists, std::size_t c, const std::string& kind) const {
+    const std::int64_t begin = lists.offsets[c], end = lists.offsets[c + 1];
+    if (begin < 0 || end < begin || end > static_cast<std::int64_t>(lists.corners.size()))
+      text_.fail(fmt::format("{}: cell {} (counting from 0) reaches beyond the list; the file is damaged", kind, c));
+    return {lists.corners.data() + begin, static_cast<std::size_t>(end - begin)};
+  }
+  void cells(const std::string& kind) {
+    const CellLists lists = cell_lists();
     if (kind != "polygons" && kind != "triangle_strips") return;
-    for (std::size_t c = 0; c + 1 < offsets.size(); ++c) {
-      if (offsets[c] < 0 || offsets[c + 1] < offsets[c] || offsets[c + 1] > static_cast<std::int64_t>(corners.size()))
-        text_.fail(fmt::format("{}: cell {} (counting from 0) reaches beyond the list; the file is damaged", kind, c));
-      const std::span<const std::int64_t> cell(corners.data() + offsets[c],
-                                               static_cast<std::size_t>(offsets[c + 1] - offsets[c]));
-      const std::string wrong = kind == "polygons" ? file_.add_face(cell) : file_.add_strip(cell);
+    for (std::size_t c = 0; c + 1 < lists.offsets.size(); ++c) {
+      const std::span<const std::int64_t> points = cell(lists, c, kind);
+      const std::string wrong = kind == "polygons" ? file_.add_face(points) : file_.add_strip(points);
       if (!wrong.empty()) text_.fail(fmt::format("{}: cell {} (counting from 0) {}", kind, c, wrong));
+    }
+  }
+  /// The cells of an unstructured grid, once their types are here.
+  void grid_cells() {
+    has_types_ = true;
+    const std::size_t n = count("number of cells"), cells = grid_.offsets.empty() ? 0 : grid_.offsets.size() - 1;
+    if (n != cells) text_.fail(fmt::format("{} types for {} cells; the file is damaged", n, cells));
+    const std::vector<std::int64_t> types = whole_numbers(NumberType::int32, n, "CELL_TYPES");
+    for (std::size_t c = 0; c < n; ++c) {
+      const std::string wrong = add_vtk_cell(file_, types[c], cell(grid_, c, "CELLS"));
+      if (!wrong.empty()) text_.fail(fmt::format("CELLS: cell {} (counting from 0) {}", c, wrong));
     }
   }
   std::vector<std::int64_t> section(const char* keyword, std::size_t n) {
@@ -184,9 +212,8 @@ class VtkParser {
     return whole_numbers(type(), n, keyword);
   }
   /// From lists "3 0 1 2 4 0 1 2 3" to offsets and corners.
-  std::pair<std::vector<std::int64_t>, std::vector<std::int64_t>> counted_lists(std::vector<std::int64_t> list,
-                                                                                std::size_t n) const {
-    std::pair<std::vector<std::int64_t>, std::vector<std::int64_t>> result;
+  CellLists counted_lists(std::vector<std::int64_t> list, std::size_t n) const {
+    CellLists result;
     auto& [offsets, corners] = result;
     offsets.push_back(0);
     std::size_t at = 0;
@@ -230,7 +257,8 @@ class VtkParser {
 
   PointFile& file_;
   TextScanner text_;
-  bool is_text_ = false, has_offsets_ = false;
+  bool is_text_ = false, has_offsets_ = false, is_grid_ = false, has_types_ = false;
+  CellLists grid_;  // until the types of its cells are known
 };
 
 }  // namespace

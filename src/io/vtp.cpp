@@ -1,6 +1,6 @@
-// VTK's XML files of type PolyData (.vtp): numbers as text, as base64, or appended as base64 or raw bytes; compressed
-// by zlib or not (VTK User's Guide, "XML File Formats"; vtkXMLDataParser.cxx). Polygons and triangle strips make the
-// surface; all else is passed on.
+// VTK's XML files of type PolyData (.vtp) and UnstructuredGrid (.vtu): numbers as text, as base64, or appended as
+// base64 or raw bytes; compressed by zlib or not (VTK User's Guide, "XML File Formats"; vtkXMLDataParser.cxx). Polygons
+// and triangle strips make the surface; all else is passed on.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "io/formats.h"
 #include "io/point_file.h"
 #include "io/text_scanner.h"
+#include "io/vtk_cells.h"
 #include "io/xml_text.h"
 #include "io/zlib_stream.h"
 
@@ -181,10 +182,12 @@ class VtpParser {
 
   void parse() {
     const pugi::xml_node root = xml_.root();
-    if (root.attribute("type").value() != std::string_view("PolyData")) {
-      xml_.fail(root, fmt::format("type {}: only PolyData is read; extract the surface first (in ParaView: Filters > "
-                                  "Extract Surface, and save as .vtp)",
-                                  in_quotes(root.attribute("type").value())));
+    const std::string_view kind = root.attribute("type").value();
+    is_grid_ = kind == "UnstructuredGrid";
+    if (kind != "PolyData" && !is_grid_) {
+      xml_.fail(root, fmt::format("type {}: only PolyData and UnstructuredGrid are read; extract the surface first (in "
+                                  "ParaView: Filters > Extract Surface, and save as .vtp)",
+                                  in_quotes(kind)));
     }
     const bool is_big = root.attribute("byte_order").value() == std::string_view("BigEndian");
     headers_.order = is_big ? std::endian::big : std::endian::little;
@@ -197,11 +200,11 @@ class VtpParser {
                                   in_quotes(compressor)));
     }
     find_appended_data();
-    const pugi::xml_node poly_data = root.child("PolyData");
-    if (!poly_data) xml_.fail(root, "it has no <PolyData>; the file is damaged");
+    const pugi::xml_node data = root.child(std::string(kind).c_str());
+    if (!data) xml_.fail(root, fmt::format("it has no <{}>; the file is damaged", kind));
     std::size_t number = 0;
-    for (const pugi::xml_node& element : poly_data.children("Piece")) piece(element, number++);
-    if (number == 0) xml_.fail(poly_data, "it has no <Piece>; the file is damaged");
+    for (const pugi::xml_node& element : data.children("Piece")) piece(element, number++);
+    if (number == 0) xml_.fail(data, "it has no <Piece>; the file is damaged");
     check_overlaps();
     file_.finish();
   }
@@ -253,12 +256,35 @@ class VtpParser {
     } catch (const FileError& error) {
       fail_in(points, error);
     }
-    for (const bool is_strip : {false, true}) cells(piece, number, is_strip, first, static_cast<std::int64_t>(n));
+    const PieceOfPoints of = {piece, number, first, static_cast<std::int64_t>(n)};
+    if (is_grid_) return grid_cells(of);
+    cells(of, "Polys", "NumberOfPolys", [&](std::size_t, const auto& cell) { return file_.add_face(cell); });
+    cells(of, "Strips", "NumberOfStrips", [&](std::size_t, const auto& cell) { return file_.add_strip(cell); });
   }
 
-  void cells(const pugi::xml_node& piece, std::size_t number, bool is_strip, std::int64_t first, std::int64_t points) {
-    const char* kind = is_strip ? "Strips" : "Polys";
-    const std::size_t count = xml_.whole_number(piece, is_strip ? "NumberOfStrips" : "NumberOfPolys", 0);
+  /// A piece, its number, its first point in the file and how many it has.
+  struct PieceOfPoints {
+    pugi::xml_node element;
+    std::size_t number;
+    std::int64_t first, points;
+  };
+
+  void grid_cells(const PieceOfPoints& of) {
+    const std::size_t count = xml_.whole_number(of.element, "NumberOfCells", 0);
+    if (count == 0) return;
+    const pugi::xml_node types_element = named(of.element.child("Cells"), "types");
+    if (!types_element) xml_.fail(of.element, "<Cells> should have the array 'types'");
+    const std::vector<std::int64_t> types =
+        whole_numbers(types_element, count, fmt::format("Cells of piece {}, types", of.number));
+    cells(of, "Cells", "NumberOfCells",
+          [&](std::size_t c, const auto& cell) { return add_vtk_cell(file_, types[c], cell); });
+  }
+
+  /// add(c, points): adds cell c of the piece; returns what is wrong with it.
+  template <class Add>
+  void cells(const PieceOfPoints& of, const char* kind, const char* counter, const Add& add) {
+    const auto& [piece, number, first, points] = of;
+    const std::size_t count = xml_.whole_number(piece, counter, 0);
     if (count == 0) return;
     const pugi::xml_node ends_element = named(piece.child(kind), "offsets"),
                          corners_element = named(piece.child(kind), "connectivity");
@@ -283,7 +309,7 @@ class VtpParser {
                     fmt::format("{}: cell {} uses point {}, but there are {} (counting from 0)", where, c, v, points));
         v += first;
       }
-      const std::string wrong = is_strip ? file_.add_strip(cell) : file_.add_face(cell);
+      const std::string wrong = add(c, std::span<const std::int64_t>(cell));
       if (!wrong.empty()) xml_.fail(corners_element, fmt::format("{}: cell {} {}", where, c, wrong));
     }
   }
@@ -402,7 +428,7 @@ class VtpParser {
   XmlText xml_;
   Headers headers_;
   std::vector<ByteRange> used_;  ///< binary data of the arrays that were read
-  bool is_compressed_ = false, is_raw_ = false;
+  bool is_compressed_ = false, is_raw_ = false, is_grid_ = false;
 };
 
 }  // namespace

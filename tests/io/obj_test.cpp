@@ -37,6 +37,17 @@ TEST(Obj, reads_positions_and_corners_of_every_kind) {
   EXPECT_TRUE(document.notes().empty());
 }
 
+TEST(Obj, marks_at_the_end_of_the_file_are_no_line) {
+  using namespace std::string_literals;
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  for (const std::string& end : {"\0"s, "\x1a"s, "\x1a\0\0\0"s}) {
+    const Document document = Document::parse(text + end, Format::obj);
+    EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 1, 2}));
+    EXPECT_EQ(patched_bytes(document, document.surface().positions), text + end);
+    EXPECT_PARSE_ERROR("v 0 0 0\n" + end + text, Format::obj, "this is not text");
+  }
+}
+
 TEST(Obj, polygons_have_offsets) {
   const Document document = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 2 0\nf 1 2 3\nf 1 2 3 4\nf 1 2 5 3 4\n");
   EXPECT_EQ(document.surface().offsets, (std::vector<std::int32_t>{0, 3, 7, 12}));

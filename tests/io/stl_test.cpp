@@ -104,6 +104,16 @@ TEST(Stl, zero_normals_stay_and_normals_without_area_become_zero) {
   EXPECT_NE(patched_bytes(document, moved).find("facet normal 0 0 0\n"), std::string::npos);
 }
 
+TEST(Stl, the_last_endsolid_may_be_missing) {
+  const std::string bytes = ascii.substr(0, ascii.rfind("endsolid"));
+  const Document document = parse(bytes);
+  EXPECT_EQ(document.surface().positions, parse(ascii).surface().positions);
+  EXPECT_FALSE(document.notes().empty());
+  check_patching(bytes, Format::stl);
+  EXPECT_PARSE_ERROR(ascii.substr(0, ascii.rfind("endfacet")), Format::stl, "the file ends where 'endfacet' should be");
+  EXPECT_PARSE_ERROR("solid a\n", Format::stl, "the file ends where 'facet or endsolid' should be");
+}
+
 TEST(Stl, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::stl, "empty");
   EXPECT_PARSE_ERROR("hello", Format::stl, "neither text that starts with 'solid' nor binary");

@@ -34,6 +34,27 @@ const std::string with_offsets_in_text =
     "METADATA\nINFORMATION 0\n\nPOLYGONS 3 7\nOFFSETS vtktypeint64\n0 3 7 \nCONNECTIVITY vtktypeint64\n0 2 1\n0 1 3 "
     "2\n";
 
+/// A triangle, a quad, a line, a point, a pixel and a strip.
+const std::string grid =
+    "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 4.000 0 0\n0 4 0\n0 0 "
+    "4.25\n"
+    "CELLS 6 24\n3 0 2 1\n4 0 1 3 2\n2 0 1\n1 3\n4 0 1 2 3\n4 0 1 2 3\nCELL_TYPES 6\n5\n9\n3\n1\n8\n6\n"
+    "POINT_DATA 4\nSCALARS a int\n";
+const std::string grid_with_offsets =
+    "# vtk DataFile Version 5.1\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n" +
+    packed_all<double>(positions, big) + "\nCELLS 3 7\nOFFSETS vtktypeint64\n" + packed<std::int64_t>({0, 3, 7}, big) +
+    "\nCONNECTIVITY vtktypeint64\n" + packed<std::int64_t>({0, 2, 1, 0, 1, 3, 2}, big) + "\nCELL_TYPES 2\n" +
+    packed<std::int32_t>({5, 7}, big) + "\n";
+
+TEST(Vtk, faces_of_unstructured_grids_are_the_surface) {
+  const Document of_text = Document::parse(grid, Format::vtk),
+                 of_binary = Document::parse(grid_with_offsets, Format::vtk);
+  const Surface &mixed = of_text.surface(), &binary_grid = of_binary.surface();
+  EXPECT_EQ(mixed.corners, (std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 2, 0, 1, 3, 2, 0, 1, 2, 2, 1, 3}));
+  EXPECT_EQ(binary_grid.positions, positions);
+  EXPECT_EQ(binary_grid.corners, (std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 2}));
+}
+
 TEST(Vtk, reads_text_and_binary) {
   for (const std::string& bytes : {binary_float, binary_double, with_offsets, with_offsets_in_text}) {
     const Document document = Document::parse(bytes, Format::vtk);
@@ -55,7 +76,8 @@ TEST(Vtk, strips_are_triangles_of_one_orientation) {
 }
 
 TEST(Vtk, keeps_every_promise_of_patching) {
-  for (const std::string& bytes : {ascii, binary_float, binary_double, with_offsets, with_offsets_in_text})
+  for (const std::string& bytes :
+       {ascii, binary_float, binary_double, with_offsets, with_offsets_in_text, grid, grid_with_offsets})
     check_patching(bytes, Format::vtk);
 }
 
@@ -79,8 +101,14 @@ TEST(Vtk, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::vtk, "empty");
   EXPECT_PARSE_ERROR("v 0 0 0\n", Format::vtk, "line 1: '# vtk DataFile Version' should be here");
   EXPECT_PARSE_ERROR(replaced(ascii, "ASCII", "EBCDIC"), Format::vtk, "line 3: 'ebcdic' where ASCII or BINARY");
-  EXPECT_PARSE_ERROR(replaced(ascii, "POLYDATA", "UNSTRUCTURED_GRID"), Format::vtk,
-                     "line 4: DATASET 'unstructured_grid': only POLYDATA");
+  EXPECT_PARSE_ERROR(replaced(ascii, "POLYDATA", "STRUCTURED_GRID"), Format::vtk,
+                     "line 4: DATASET 'structured_grid': only POLYDATA");
+  EXPECT_PARSE_ERROR(replaced(grid, "CELL_TYPES 6\n5\n9", "CELL_TYPES 6\n5\n10"), Format::vtk,
+                     "CELLS: cell 1 (counting from 0) is of type 10: only triangles");
+  EXPECT_PARSE_ERROR(replaced(grid, "CELL_TYPES 6\n5", "CELL_TYPES 6\n9"), Format::vtk,
+                     "CELLS: cell 0 (counting from 0) has 3 points, but is a quad");
+  EXPECT_PARSE_ERROR(replaced(grid, "CELL_TYPES 6", "CELL_TYPES 5"), Format::vtk, "5 types for 6 cells");
+  EXPECT_PARSE_ERROR(grid.substr(0, grid.find("CELL_TYPES")), Format::vtk, "CELLS, but no CELL_TYPES");
   EXPECT_PARSE_ERROR(replaced(ascii, "POINTS 4", "POINTS 5"), Format::vtk,
                      "line 10: coordinate 'VERTICES' of vertex 4 is not a number");
   EXPECT_PARSE_ERROR(replaced(ascii, "POINTS 4", "POINTS 50"), Format::vtk, "POINTS should hold 150 numbers");
@@ -99,7 +127,7 @@ TEST(Vtk, errors_say_what_and_where) {
 }
 
 TEST(Vtk, survives_damage) {
-  for (const std::string& bytes : {ascii, binary_float, with_offsets, with_offsets_in_text})
+  for (const std::string& bytes : {ascii, binary_float, with_offsets, with_offsets_in_text, grid, grid_with_offsets})
     check_damage(bytes, Format::vtk);
 }
 

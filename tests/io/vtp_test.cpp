@@ -108,6 +108,26 @@ std::vector<Storage> all_storages() {
   return result;
 }
 
+/// A triangle and a quad, as meshio and ParaView store surfaces that they do not take for PolyData.
+std::string grid() {
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+         "<UnstructuredGrid><Piece NumberOfPoints=\"4\" NumberOfCells=\"2\"><Points>\n<DataArray type=\"Float64\" "
+         "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 4 0 0 0 4 0 0 0 4.25</DataArray></Points>\n<Cells>"
+         "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 2 1 0 1 3 2</DataArray>\n"
+         "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">3 7</DataArray>\n"
+         "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5 9</DataArray></Cells></Piece>"
+         "</UnstructuredGrid></VTKFile>\n";
+}
+
+TEST(Vtp, faces_of_unstructured_grids_are_the_surface) {
+  const Document document = Document::parse(grid(), Format::vtp);
+  EXPECT_EQ(document.surface().positions, positions);
+  EXPECT_EQ(document.surface().corners, (std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 2}));
+  EXPECT_EQ(format_from_extension("a/b.VTU"), Format::vtp);
+  check_patching(grid(), Format::vtp);
+  check_damage(grid(), Format::vtp);
+}
+
 TEST(Vtp, reads_every_encoding) {
   for (const Storage& storage : all_storages()) {
     for (const std::string& bytes : {file_of<float>(storage), file_of<double>(storage)}) {
@@ -170,8 +190,11 @@ TEST(Vtp, several_pieces_are_one_scene) {
 TEST(Vtp, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::vtp, "empty");
   EXPECT_PARSE_ERROR("<Mesh/>", Format::vtp, "the root element is <Mesh>, but <VTKFile> should be here");
-  EXPECT_PARSE_ERROR(replaced(ascii, "PolyData", "UnstructuredGrid"), Format::vtp,
-                     "line 2: type 'UnstructuredGrid': only PolyData");
+  EXPECT_PARSE_ERROR(replaced(ascii, "PolyData", "StructuredGrid"), Format::vtp,
+                     "line 2: type 'StructuredGrid': only PolyData and UnstructuredGrid");
+  EXPECT_PARSE_ERROR(replaced(grid(), ">5 9<", ">5 10<"), Format::vtp, "cell 1 is of type 10: only triangles");
+  EXPECT_PARSE_ERROR(replaced(grid(), "Name=\"types\"", "Name=\"kinds\""), Format::vtp,
+                     "should have the array 'types'");
   EXPECT_PARSE_ERROR(replaced(file_of<float>({"binary", "raw", true}), "vtkZLib", "vtkLZ4"), Format::vtp,
                      "line 2: compressor 'vtkLZ4DataCompressor': only vtkZLibDataCompressor is read");
   EXPECT_PARSE_ERROR(replaced(ascii, "NumberOfPoints=\"4\"", "NumberOfPoints=\"5\""), Format::vtp,
