@@ -109,6 +109,8 @@ class MshParser {
     while (text.skip_space()) {
       const std::size_t start = text.offset();
       const std::string_view section = text.token();
+      if (!has_format_ && section == "$NOD")
+        text.fail("version 1 of Gmsh's format is not read; convert it: gmsh IN -save -format msh22 -o OUT.msh", start);
       if (!has_format_ && section != "$MeshFormat")
         text.fail("'$MeshFormat' should be here; check that it is a Gmsh file", start);
       if (section == "$MeshFormat") {

@@ -29,12 +29,20 @@ bool is_one_of(const fs::path& place, const std::vector<fs::path>& others) {
   return std::any_of(others.begin(), others.end(), [&](const fs::path& other) { return is_same_file(place, other); });
 }
 
+/// The extensions of VTK's XML files say which data set they hold: .vtp or .vtu. Other formats' say nothing more.
+bool hold_different_data_sets(const fs::path& a, const fs::path& b) {
+  const auto is_grid = [](const fs::path& path) { return path.extension() == ".vtu" || path.extension() == ".VTU"; };
+  const auto is_known = [](const fs::path& path) { return format_from_extension(path.string()) == Format::vtp; };
+  return is_known(a) && is_known(b) && is_grid(a) != is_grid(b);
+}
+
 /// A result is the input's file with other positions, so it cannot change its format.
 void require_own_format(const FilesToRepair& files) {
   const Format own = files.scene->document(0).format();
   if (files.is_scene() || files.targets.empty()) return;
   const std::optional<Format> format = format_from_extension(files.output.string());
-  if (!format || *format == own) return;
+  const bool is_own = !format || *format == own;
+  if (is_own && !hold_different_data_sets(files.inputs[0], files.output)) return;
   std::string extension = files.inputs[0].extension().string();  // of several, such as *.pial, the input's
   if (extension.empty() || format_from_extension(files.inputs[0].string()) != own)
     extension = fmt::format(".{}", to_string(own));

@@ -98,6 +98,16 @@ TEST_F(Usage, files_are_named_by_what_is_written_to_them) {
   expect_refusal({"view", in, "-o", folder / "x.png"}, 2, "must be named *.html");
   expect_refusal({"sample", "book", "-o", folder / "x.vtk"}, 2, "vtk");
   expect_refusal({"fix", in, "-o", folder / "x.vtk"}, 2, "keeps the format");
+  const std::string grid = file(
+      "g.vtu",
+      "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><Points>"
+      "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 "
+      "0</DataArray></Points><Cells>"
+      "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>"
+      "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">3</DataArray>"
+      "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5</DataArray></Cells></Piece></UnstructuredGrid>"
+      "</VTKFile>\n");
+  expect_refusal({"fix", grid, "-o", folder / "x.vtp"}, 2, "keeps the format of the input, vtp; name it *.vtu");
 }
 
 TEST_F(Usage, what_is_no_number_in_the_range_is_refused) {
@@ -216,6 +226,8 @@ TEST_F(Usage, foreign_formats_are_refused_with_a_hint) {
                                      {"a.mesh", "meshio convert IN OUT.ply"},
                                      {"a.nii", "3D Slicer"},
                                      {"a.xyz", "points have no faces"},
+                                     {"a.smesh", "save the surface as OFF, PLY or STL"},
+                                     {"a.tri", "mne.read_tri"},
                                      {"a.zip", "unpack it first"}})
     expect_refusal({"check", file(name, "x")}, 3, advice);
   expect_refusal({"check", file("a.unknown", crossing)}, 3,

@@ -112,6 +112,7 @@ TEST(Msh, an_element_of_two_physical_groups_is_one_face) {
 TEST(Msh, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR("", Format::msh, "empty");
   EXPECT_PARSE_ERROR("v 0 0 0\n", Format::msh, "line 1: '$MeshFormat' should be here");
+  EXPECT_PARSE_ERROR("$NOD\n1\n1 0 0 0\n$ENDNOD\n", Format::msh, "gmsh IN -save -format msh22 -o OUT.msh");
   EXPECT_PARSE_ERROR(replaced(ascii_2, "2.2", "4.0"), Format::msh,
                      "line 2: version '4.0', but only 2.2 and 4.1 are read");
   EXPECT_PARSE_ERROR(replaced(ascii_2, "2.2 0 8", "2.2 0 4"), Format::msh, "numbers of 4 bytes");
