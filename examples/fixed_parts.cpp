@@ -18,7 +18,7 @@ int main() {
 
   const unsnarl::RepairResult result = unsnarl::repair(surface, options);
   for (const unsnarl::Obstruction& obstruction : result.report.obstructions)
-    std::printf("cannot be resolved: %s\n", obstruction.message.c_str());
+    std::printf("not repaired: %s\n", obstruction.message.c_str());
   const bool unmoved = std::equal(result.positions.begin(), result.positions.begin() + 3 * static_cast<long>(upper),
                                   surface.positions.begin());
   std::printf("%s; the fixed part is %s; moved by %.2g %% of the diagonal at most\n",

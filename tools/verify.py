@@ -17,7 +17,7 @@ Which vertices count as one is decided by IN, by the rules that src/mesh/weld_ma
 triangles by IN and once more by OUT, by those of src/mesh/triangulation.h; faces must not meet either way. All geometry
 is decided in integers: coordinates are scaled by one power of two. Only the standard library is needed.
 
-Exit codes: 0 all holds, 1 something does not, 2 the command line makes no sense, 3 a file cannot be read.
+Exit codes: 0 all holds, 1 something does not, 2 the command line is wrong, 3 a file cannot be read.
 """
 import argparse
 import copy

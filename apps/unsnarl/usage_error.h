@@ -4,7 +4,7 @@
 
 namespace unsnarl::app {
 
-/// Two options that contradict each other, a value that makes no sense: exit_usage.
+/// Two options that contradict each other, or an invalid value: exit_usage.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -13,7 +13,7 @@
 
 unsnarl batch "$1" -o "$2" --jobs "${SLURM_CPUS_PER_TASK:-1}"
 code=$?
-# 0 and 1: all have been worked on; results.csv says which are not embedded. 2 and 3: the command makes no sense.
+# 0 and 1: all have been worked on; results.csv says which are not embedded. 2 and 3: the command is wrong.
 case $code in 0|1) exit 0;; 2|3) exit $code;; esac
 [ "${SLURM_RESTART_COUNT:-0}" -lt 3 ] && scontrol requeue "$SLURM_JOB_ID"
 exit $code

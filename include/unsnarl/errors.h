@@ -17,7 +17,7 @@ class NumberedError : public std::runtime_error {
   int error_number_;
 };
 
-/// A file cannot be read or makes no sense. The message says what, where (line or byte, face and vertex as the format
+/// A file cannot be read or is not valid. The message says what, where (line or byte, face and vertex as the format
 /// counts them) and what to do.
 class FileError : public NumberedError {
  public:

@@ -22,7 +22,7 @@ std::optional<PointCacheFormat> point_cache_format(std::string_view path);
 /// little-endian. MDD (NewTek Motion Designer): frames, points, the time of each frame; big-endian.
 class PointCache {
  public:
-  /// Throws FileError (document.h) where the header makes no sense, the size is not what it says or a coordinate is not
+  /// Throws FileError (document.h) where the header is not valid, the size is not what it says or a coordinate is not
   /// finite.
   static PointCache parse(std::string bytes, PointCacheFormat format);
 

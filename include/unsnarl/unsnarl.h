@@ -53,8 +53,8 @@ extern "C" {
 
 typedef enum unsnarl_error {
   UNSNARL_OK = 0,
-  UNSNARL_INVALID_ARGUMENT = 1, /* an argument makes no sense; the message names face, vertex, curve or option */
-  UNSNARL_CANNOT_READ = 2,      /* a file is missing or makes no sense */
+  UNSNARL_INVALID_ARGUMENT = 1, /* an argument is not valid; the message names face, vertex, curve or option */
+  UNSNARL_CANNOT_READ = 2,      /* a file is missing or not valid */
   UNSNARL_CANNOT_WRITE = 3,     /* a file cannot be written; what was there before is still there */
   UNSNARL_OUT_OF_MEMORY = 4,
   UNSNARL_SYSTEM_ERROR = 5,   /* the system failed (no descriptors, a read error); the same call may succeed later */
@@ -98,8 +98,8 @@ typedef struct unsnarl_surface {
   size_t nested_count;   /* of these numbers, -1 included */
   const char* const* rigid_names; /* names of the rigid parts, for reports; NULL: their numbers */
   size_t rigid_name_count;
-  const int32_t* nested_surface; /* one number a vertex: the surface that it belongs to, which `nested` then counts in
-                                    place of meshes; -1: none. NULL: `nested` counts meshes */
+  const int32_t* nested_surface;   /* one number a vertex: the surface that it belongs to, which `nested` then counts in
+                                      place of meshes; -1: none. NULL: `nested` counts meshes */
   const char* const* nested_names; /* names of these surfaces, for messages and reports; NULL: their numbers */
   size_t nested_name_count;
 } unsnarl_surface;
@@ -344,19 +344,20 @@ UNSNARL_EXPORT const char* unsnarl_document_report(const unsnarl_document* docum
  * Array "faces" (m, 1) uint8, flags. */
 UNSNARL_EXPORT int unsnarl_document_faces(const unsnarl_document* document, const char* kind, const char* name,
                                           const unsnarl_options* options, unsnarl_result** result);
-/* From now on unsnarl_document_write turns stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that moved.
- * *is_any: 0: there are none that could be updated. */
+/* From now on unsnarl_document_write turns stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that
+ * moved. *is_any: 0: there are none that could be updated. */
 UNSNARL_EXPORT int unsnarl_document_recompute_normals(unsnarl_document* document, int32_t* is_any);
 /* From file to certified file, as `unsnarl fix` does it: repairs the document's mesh, writes the result to a temporary
  * folder beside path, reads it back, certifies it as it was read back, and puts it in place. The old files or the whole
  * new ones are there at any time, never a part.
  *
  * path: the file, which gets the format of the input; of several files the folder where all go under their names, made
- * where it is missing; NULL: the input is overwritten (not of several files). surface: of unsnarl_document_surface, with
- * what must not move, is rigid or nested. An embedded result is written, and one that is obstructed, where it is not the
- * input; any other goes beside path where it is better than the input, in out.partial.obj for out.obj (unless
- * options->no_partial; with options->keep_partial to path). Places are checked before the work. A file to be overwritten
- * that somebody has changed since it was read is left as it is, the result is kept beside it, and the error says so.
+ * where it is missing; NULL: the input is overwritten (not of several files). surface: of unsnarl_document_surface,
+ * with what must not move, is rigid or nested. An embedded result is written, and one that is obstructed, where it is
+ * not the input; any other goes beside path where it is better than the input, in out.partial.obj for out.obj (unless
+ * options->no_partial; with options->keep_partial to path). Places are checked before the work. A file to be
+ * overwritten that somebody has changed since it was read is left as it is, the result is kept beside it, and the error
+ * says so.
  *
  * Array and report as of unsnarl_repair; the report's "output" tells what was written. See unsnarl_document_partial. */
 UNSNARL_EXPORT int unsnarl_document_repair(unsnarl_document* document, const unsnarl_surface* surface, const char* path,
@@ -368,11 +369,11 @@ UNSNARL_EXPORT int unsnarl_document_repair(unsnarl_document* document, const uns
 /* Whether unsnarl_document_write may write there, to be asked before a repair: the format is that of the file, the
  * folder exists, nothing is write-protected, and nothing else would be overwritten. */
 UNSNARL_EXPORT int unsnarl_document_check_output(const unsnarl_document* document, const char* path);
-/* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was. It is read back
- * and certified to hold what the status says before anything is in place. path may be that of the file that was read;
- * where somebody has changed that since, it is left as it is, the result is written as of
- * unsnarl_document_write_partial, and the error says so. The old files or the whole new ones are there, never a part. Of
- * several files path is the folder where all go under their names. */
+/* Writes the file with the positions of a repair of unsnarl_document_surface, everything else as it was. It is read
+ * back and certified to hold what the status says before anything is in place. path may be that of the file that was
+ * read; where somebody has changed that since, it is left as it is, the result is written as of
+ * unsnarl_document_write_partial, and the error says so. The old files or the whole new ones are there, never a part.
+ * Of several files path is the folder where all go under their names. */
 UNSNARL_EXPORT int unsnarl_document_write(const unsnarl_document* document, const unsnarl_result* repaired,
                                           const char* path);
 /* Keeps what an unfinished repair has reached beside path, which is left as it is: in out.partial.obj for out.obj, with
@@ -386,7 +387,7 @@ UNSNARL_EXPORT void unsnarl_document_free(unsnarl_document* document);
 
 /* ---- samples ------------------------------------------------------------------------------------------------ */
 
-/* A surface that runs through itself, to play with (`unsnarl sample`). resolution: steps along its longest direction,
+/* A self-intersecting test surface (`unsnarl sample`). resolution: steps along its longest direction,
  * [8, 2000]; 0: its own. parameters: JSON, an object of numbers by their names; NULL: the defaults.
  *
  * Arrays: "positions" (n, 3) float64, "corners" (c, 1) int32 and "offsets" (m + 1, 1) int32 as in unsnarl_surface
@@ -443,9 +444,9 @@ UNSNARL_EXPORT int unsnarl_check_routes(const char* plan, const unsnarl_curves* 
 /* An oriented surface without self-intersections whose boundary is the link (docs/seifert.md).
  *
  * Arrays: "positions" (n, 3) float64, the points of the link first, and "corners" (m, 3) int32. Report: what
- * unsnarl_check_seifert_surface finds; "crossings" and "circles" of the diagram, "area", "seconds". Status "no_progress":
- * strands are too close to each other for double precision, the arrays are empty and "message" says why; with another
- * status "message" is there where the surface was left as it was built. */
+ * unsnarl_check_seifert_surface finds; "crossings" and "circles" of the diagram, "area", "seconds". Status
+ * "no_progress": strands are too close to each other for double precision, the arrays are empty and "message" says why;
+ * with another status "message" is there where the surface was left as it was built. */
 UNSNARL_EXPORT int unsnarl_seifert_surface(const unsnarl_curves* link, const unsnarl_options* options,
                                            unsnarl_context* context, unsnarl_result** result);
 

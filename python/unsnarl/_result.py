@@ -99,7 +99,7 @@ class Result(Repaired, Generic[V_]):
         }
         if self.output is not None:
             rows["file"] = str(self.output)
-        rows.update({"cannot be resolved": o["message"] for o in report["obstructions"][:1]})
+        rows.update({"not repaired": o["message"] for o in report["obstructions"][:1]})
         text = "".join(f"<tr><th>{html.escape(k)}</th><td>{html.escape(v)}</td></tr>" for k, v in rows.items())
         text = f"<table>{text}</table>"
         if self._before is None or self._before.face_count > _MOST_DRAWN_FACES:

@@ -48,7 +48,7 @@ def plan_routes(
     progress
         Called with a Progress now and then; True draws a bar.
 
-    Raises ValueError for a plan that makes no sense, naming the place as in "agents[2].radius".
+    Raises ValueError for an invalid plan, and names the place as in "agents[2].radius".
     """
     options = options_of(spacing=spacing, time_limit=time_limit)
     done = call_and_wait("plan_routes", _json_of(plan), options, progress=progress)

@@ -1,4 +1,4 @@
-"""Surfaces that run through themselves, to play with."""
+"""Self-intersecting test surfaces."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def sample(name: str, *, resolution: int = 0, **parameters: float) -> tuple[NDAr
     parameters
         Numbers by the names that samples() lists, as in ``sample("crossing_tubes", radius=0.3)``.
 
-    Raises ValueError for a name or a number that makes no sense, with those that do.
+    Raises ValueError for an unknown name or an invalid number; the message lists the valid ones.
     """
     given = json.dumps({key: float(value) for key, value in parameters.items()}).encode()
     made = call("sample", name_of("name", name), c_int32(count("resolution", resolution)), given)
