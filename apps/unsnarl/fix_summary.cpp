@@ -172,7 +172,8 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   line(fmt::format("  intersecting pairs after:  {}", in_words(r.after)));
   for (const std::string& words : by_file(files.scene, r.diagonal)) line("    " + words);
   for (std::size_t i = 0; i < left_reason_count; ++i)
-    if (r.left_by_reason[i] > 0) line(fmt::format("    {} {}", r.left_by_reason[i], describe(static_cast<LeftReason>(i))));
+    if (r.left_by_reason[i] > 0)
+      line(fmt::format("    {} {}", r.left_by_reason[i], describe(static_cast<LeftReason>(i))));
   if (r.untouched_share < 1)
     line(fmt::format("  moved {:.3g} % of the vertices, by {} at most, {} on average", 100 * (1 - r.untouched_share),
                      length_in_words(r.displacement_max_rel, r.diagonal),

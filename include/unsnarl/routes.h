@@ -51,8 +51,8 @@ RoutePlan parse_route_plan(std::string_view text, const std::filesystem::path& f
 /// The plan as JSON with all digits, surfaces in place of files.
 std::string route_plan_json(const RoutePlan& plan);
 /// Throws std::invalid_argument, naming the place, for a plan without agents, names that are empty or stand twice,
-/// radii that are not within 1e-70 and 1e70 or below 1e-12 of the largest coordinate, coordinates that are not finite or
-/// beyond 1e70, two places of a route in a row that are the same, faces of vertices that do not exist.
+/// radii that are not within 1e-70 and 1e70 or below 1e-12 of the largest coordinate, coordinates that are not finite
+/// or beyond 1e70, two places of a route in a row that are the same, faces of vertices that do not exist.
 void check_plan(const RoutePlan& plan);
 
 /// Lists what no routes can mend, one sentence each: a start, goal or way-point within the reach of one of another

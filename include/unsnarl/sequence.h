@@ -70,8 +70,8 @@ inline constexpr std::size_t sequence_reach = 4;
 /// Every frame is repaired by itself; then each is moved by the average of the corrections of the frames around it
 /// (binomial weights over sequence_reach to either side, turned with the surface around each vertex), and what that
 /// makes intersect is resolved from there. Frames without self-intersections stay as they are. A frame is certified in
-/// the welding of its own input, polygons split as there and as in the result; where its smoothed version does not hold,
-/// the one repaired by itself is its result.
+/// the welding of its own input, polygons split as there and as in the result; where its smoothed version does not
+/// hold, the one repaired by itself is its result.
 ///
 /// take: gets each wanted frame that is not done, in order, as soon as its result is certain; called by one thread at a
 /// time. What it throws ends the work and is thrown again.

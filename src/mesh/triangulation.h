@@ -36,8 +36,8 @@ struct Triangulation {
 /// concave. `vertex_of` (file vertex -> welded vertex, see WeldMap) renames the corners after the cut. Empty: no
 /// renaming.
 ///
-/// A triangle with a repeated vertex is a segment or a point. Where that is an edge or a corner of a triangle with area,
-/// whatever meets it intersects that one too: it is left out and counted.
+/// A triangle with a repeated vertex is a segment or a point. Where that is an edge or a corner of a triangle with
+/// area, whatever meets it intersects that one too: it is left out and counted.
 ///
 /// Precondition: valid ids, finite coordinates. The result does not depend on the number of threads.
 Triangulation triangulate(const SurfaceView& surface, std::span<const Index> vertex_of = {});
