@@ -14,7 +14,7 @@ namespace unsnarl::app {
 
 CLI::Validator one_of(std::vector<std::string> words);
 
-/// What the number of an option is, in the words that a message says after the option's name.
+/// Words that say what the number of an option means; a message puts them after the option's name.
 struct Unit {
   const char* words;
 };

@@ -24,7 +24,7 @@
 #include "unsnarl/exit_code.h"
 #include "unsnarl/page.h"
 #include "unsnarl/pictures.h"
-#include "unsnarl/repair_file.h"
+#include "unsnarl/repair_file_steps.h"
 #include "unsnarl/report_json.h"
 #include "unsnarl/stage_clock.h"
 #include "unsnarl/version.h"
@@ -101,7 +101,7 @@ FilesToRepair read(const FixOptions& options, const std::string& output) {
   return files;
 }
 
-/// What lies where external files are to go may belong to something else.
+/// Claims the places of external files. Throws UsageError where one belongs to something else.
 void claim_external_files(const FixOptions& options, const FilesToRepair& files, FilePlaces& places) {
   if (!options.in_place) claim_inputs(places, "the input", options.inputs, *files.scene);
   for (std::size_t i = 0; i < files.inputs.size(); ++i) {

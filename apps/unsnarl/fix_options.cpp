@@ -117,7 +117,7 @@ void add_parts(CLI::App& command, const std::string& prefix, Parts& parts, const
   named("file", parts.files, "the input file of this name", "NAME");
 }
 
-/// Where the result goes, how far vertices may move, limits.
+/// Adds the options that say where the result goes, how far vertices may move, and when to stop.
 void add_usual_options(CLI::App& command, FixOptions& options) {
   command
       .add_option("-o,--output", options.output,

@@ -46,7 +46,7 @@ class Context {
 };
 
 struct RepairOptions {
-  // What everybody uses.
+  // Everybody uses these.
 
   FindOptions find;  ///< welding, threads
   Goal goal = Goal::all;
@@ -71,7 +71,7 @@ struct RepairOptions {
   /// the process too: an allocation that fails ends the work with Status::memory_limit and what was reached.
   double memory_limit_mb = 0;
 
-  // What programs use that write files or show how it went.
+  // Programs use these that write files or show how a repair went.
 
   /// Format in which the result has to hold. Unset: float32 wherever the input's coordinates allow it and a way to it
   /// is found, else float64. Where float32 is set and the result does not hold in it, or a coordinate is beyond its
@@ -82,7 +82,7 @@ struct RepairOptions {
   std::function<std::vector<double>(std::span<const double> positions, bool float32)> as_written;
   RecordOptions record;  ///< what to note on the way; nothing unless asked for
 
-  // What research uses.
+  // Research uses these.
 
   bool recover = true;  ///< false: stop after untangling
   /// Untangles and recovers as the paper does, instead of region by region. Unset: region by region.

@@ -122,7 +122,7 @@ enum class LeftReason : std::uint8_t {
 inline constexpr auto left_reason_count = static_cast<std::size_t>(LeftReason::count);
 /// Its name in reports.
 std::string_view to_string(LeftReason reason);
-/// What comes after "5 intersections ", for a person; names options as the command line does.
+/// Words for a person that follow "5 intersections "; they name options as the command line does.
 std::string_view describe(LeftReason reason);
 
 /// Two faces that intersect in the result, a <= b.

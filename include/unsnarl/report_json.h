@@ -49,7 +49,7 @@ std::string recording_json(const RepairResult& result, const SurfaceView& surfac
 /// `files` it uses input, format, vertices, faces, notes, parts and scene.
 std::string check_json(const CheckReport& found, Goal goal, const FindOptions& options, const ReportFiles& files = {});
 
-/// What became of a frame of a sequence, as JSON in one line: a line of the list in docs/sequences.md.
+/// The report of a frame of a sequence as JSON in one line: a line of the list in docs/sequences.md.
 std::string frame_json(const FrameReport& frame);
 
 /// Intersecting pairs as all reports count them: {"total": ..., "by_class": {"disjoint": ..., ...}}.

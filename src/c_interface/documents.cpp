@@ -9,7 +9,7 @@
 #include "arguments.h"
 #include "results.h"
 #include "unsnarl/parts.h"
-#include "unsnarl/repair_file.h"
+#include "unsnarl/repair_file_steps.h"
 #include "unsnarl/stage_clock.h"
 #include "unsnarl/staged_files.h"
 

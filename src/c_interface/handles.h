@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "unsnarl/repair.h"
-#include "unsnarl/repair_file.h"
+#include "unsnarl/repair_file_steps.h"
 #include "unsnarl/scene_document.h"
 #include "unsnarl/unsnarl.h"
 

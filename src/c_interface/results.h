@@ -7,7 +7,7 @@
 
 #include "errors.h"
 #include "handles.h"
-#include "unsnarl/repair_file.h"
+#include "unsnarl/repair_file_steps.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl::c_interface {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "unsnarl/repair_file.h"
+#include "unsnarl/repair_file_steps.h"
 
 namespace unsnarl {
 namespace {
@@ -50,7 +50,7 @@ void require_own_format(const FilesToRepair& files) {
                                           files.output.string(), to_string(own), extension));
 }
 
-/// What lies where external files are to go may belong to something else.
+/// Throws where an external file of the result would replace a file that belongs to something else.
 void require_own_external_files(const FilesToRepair& files, std::size_t i) {
   const std::vector<fs::path> names = files.names_beside(i);
   if (names.empty()) return;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "unsnarl/certify.h"
+#include "unsnarl/repair_file_steps.h"
 #include "unsnarl/stage_clock.h"
 
 namespace unsnarl {

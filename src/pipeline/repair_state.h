@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/repair_control.h"
 #include "pipeline/repair_task.h"
 #include "scene/finders.h"
 #include "scene/output_format.h"

@@ -3,8 +3,6 @@
 #include <functional>
 #include <optional>
 
-#include "run/limits.h"
-#include "run/phases.h"
 #include "scene/diagnose.h"
 #include "scene/nested_surfaces.h"
 #include "scene/pair_policy.h"
@@ -36,12 +34,6 @@ struct RepairTask {
   const double diagonal;  ///< of the input's bounding box, at the scale of the prepared positions
   PairPolicy policy;
   std::optional<NestedSurfaces> nested;  ///< none: it does not matter which surface is inside which
-};
-
-/// Whom the stages of a repair ask when to end, and tell how far they are.
-struct RepairControl {
-  Limits& limits;
-  Phases& phases;
 };
 
 }  // namespace unsnarl

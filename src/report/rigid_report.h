@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "scene/pair_policy.h"
+#include "scene/rigid_parts.h"
 #include "unsnarl/repair.h"
 
 namespace unsnarl {

@@ -72,11 +72,6 @@ std::string_view describe(LeftReason reason) {
   return reasons.at(static_cast<std::size_t>(reason)).description;
 }
 
-std::string RigidParts::name(Index part) const {
-  const auto p = static_cast<std::size_t>(part);
-  return p < names.size() ? names[p] : std::to_string(part);
-}
-
 bool is_obstruction(LeftReason reason) {
   return reason == LeftReason::closed_non_orientable || reason == LeftReason::duplicate_faces ||
          reason == LeftReason::fixed_faces || reason == LeftReason::rigid_faces;

@@ -3,25 +3,15 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "geometry/types.h"
 #include "mesh/components.h"
+#include "scene/rigid_parts.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/repair.h"
 
 namespace unsnarl {
-
-/// The parts of a surface that move as bodies.
-struct RigidParts {
-  std::vector<Index> of_vertex;  ///< the part of each welded vertex, or -1; empty: no part is rigid
-  Index count = 0;
-  std::vector<std::string> names;  ///< of the first of them
-
-  /// The name of a part; its number where it has none.
-  std::string name(Index part) const;
-};
 
 /// No motion of the vertices parts two triangles that may stay for this reason.
 bool is_obstruction(LeftReason reason);

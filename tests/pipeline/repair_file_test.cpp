@@ -1,5 +1,5 @@
 // What is promised of written files: certified as they are read back, whole or not at all, of several all or none.
-#include "unsnarl/repair_file.h"
+#include "unsnarl/repair_file_steps.h"
 
 #include <gtest/gtest.h>
 

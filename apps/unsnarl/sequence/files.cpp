@@ -16,7 +16,7 @@
 #include "mesh_input.h"
 #include "staged_output.h"
 #include "unsnarl/point_cache.h"
-#include "unsnarl/repair_file.h"
+#include "unsnarl/repair_file_steps.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {

@@ -239,7 +239,7 @@ class SequenceRun {
     };
   }
 
-  /// Of a report that was recorded; none: it has none.
+  /// Returns the status in a report that was recorded; nothing if the report has none.
   static std::optional<Status> status_of(const Json& report) {
     return status_from_name(report.value("status", std::string()));
   }

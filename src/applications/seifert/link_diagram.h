@@ -50,9 +50,9 @@ struct LinkDiagram {
 /// between them. Decided by exact arithmetic.
 std::optional<LinkDiagram> diagram_of(const Link& link, const Eigen::Matrix3d& frame);
 
-/// Of `directions` views, one whose surface is connected and of largest Euler characteristic; of several, the one with
-/// most room. The coordinate axes are the first three views. Nothing if no view is generic.
-/// stop: asked after each view; true: the best of those seen is enough, once there is one.
+/// Returns the one of `directions` views whose surface is connected and of largest Euler characteristic; of several,
+/// the one with most room. The coordinate axes are the first three views. Nothing if no view is generic. stop: asked
+/// after each view; true: the best of those seen is enough, once there is one.
 std::optional<LinkDiagram> best_diagram(const Link& link, int directions, const std::function<bool()>& stop = {});
 
 /// The Alexander polynomial, all variables equal, by Fox calculus on the Wirtinger presentation; without units.
