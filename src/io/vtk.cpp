@@ -54,9 +54,11 @@ class VtkParser {
           text_.fail("POINTS should come before the cells", start);
         cells(word);
       } else if (word == "cells" && is_grid_) {
+        if (!grid_.offsets.empty() || has_types_) text_.fail("a second CELLS; the file is damaged", start);
         grid_ = cell_lists();
       } else if (word == "cell_types" && is_grid_) {
         if (!has_points) text_.fail("POINTS should come before the cells", start);
+        if (has_types_) text_.fail("a second CELL_TYPES; the file is damaged", start);
         grid_cells();
       } else if (word == "field") {
         fields();

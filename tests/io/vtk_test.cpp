@@ -108,6 +108,9 @@ TEST(Vtk, errors_say_what_and_where) {
   EXPECT_PARSE_ERROR(replaced(grid, "CELL_TYPES 6\n5", "CELL_TYPES 6\n9"), Format::vtk,
                      "CELLS: cell 0 (counting from 0) has 3 points, but is a quad");
   EXPECT_PARSE_ERROR(replaced(grid, "CELL_TYPES 6", "CELL_TYPES 5"), Format::vtk, "5 types for 6 cells");
+  const std::string types = "CELL_TYPES 6\n5\n9\n3\n1\n8\n6\n";
+  EXPECT_PARSE_ERROR(replaced(grid, types, types + types), Format::vtk, "a second CELL_TYPES");
+  EXPECT_PARSE_ERROR(replaced(grid, types, types + "CELLS 1 4\n3 0 1 2\n"), Format::vtk, "a second CELLS");
   EXPECT_PARSE_ERROR(grid.substr(0, grid.find("CELL_TYPES")), Format::vtk, "CELLS, but no CELL_TYPES");
   EXPECT_PARSE_ERROR(replaced(ascii, "POINTS 4", "POINTS 5"), Format::vtk,
                      "line 10: coordinate 'VERTICES' of vertex 4 is not a number");

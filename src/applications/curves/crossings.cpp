@@ -31,32 +31,32 @@ bool boxes_overlap(const Points2& x, const Edge& a, const Edge& b) {
 
 }  // namespace
 
-Meeting meeting_of(const Points2& x, const Edge& a, const Edge& b) {
-  if (!boxes_overlap(x, a, b)) return Meeting::none;
+SegmentMeeting meeting_of(const Points2& x, const Edge& a, const Edge& b) {
+  if (!boxes_overlap(x, a, b)) return SegmentMeeting::none;
   const bool first = a[0] == b[0] || a[0] == b[1], second = a[1] == b[0] || a[1] == b[1];
-  if (first && second) return Meeting::touching;
+  if (first && second) return SegmentMeeting::touching;
   if (first || second) {
     const Index shared = first ? a[0] : a[1], p = first ? a[1] : a[0], q = b[0] == shared ? b[1] : b[0];
-    if (side(x, shared, p, q) != 0) return Meeting::none;
+    if (side(x, shared, p, q) != 0) return SegmentMeeting::none;
     // On one line: they meet in more than the shared vertex where both lead the same way, or one has no length.
     const bool has_length = x.col(p) != x.col(shared) && x.col(q) != x.col(shared);
-    return has_length && before(x, shared, p) != before(x, shared, q) ? Meeting::none : Meeting::touching;
+    return has_length && before(x, shared, p) != before(x, shared, q) ? SegmentMeeting::none : SegmentMeeting::touching;
   }
   const Sign s0 = side(x, a[0], a[1], b[0]), s1 = side(x, a[0], a[1], b[1]);
-  if (s0 * s1 > 0) return Meeting::none;
+  if (s0 * s1 > 0) return SegmentMeeting::none;
   const Sign t0 = side(x, b[0], b[1], a[0]), t1 = side(x, b[0], b[1], a[1]);
-  if (t0 * t1 > 0) return Meeting::none;
-  if (s0 * s1 < 0 && t0 * t1 < 0) return Meeting::proper;
+  if (t0 * t1 > 0) return SegmentMeeting::none;
+  if (s0 * s1 < 0 && t0 * t1 < 0) return SegmentMeeting::proper;
   const bool touch = (s0 == 0 && is_between(x, a[0], a[1], b[0])) || (s1 == 0 && is_between(x, a[0], a[1], b[1])) ||
                      (t0 == 0 && is_between(x, b[0], b[1], a[0])) || (t1 == 0 && is_between(x, b[0], b[1], a[1]));
-  return touch ? Meeting::touching : Meeting::none;
+  return touch ? SegmentMeeting::touching : SegmentMeeting::none;
 }
 
 std::vector<SegmentPair> find_meetings(const CurveNet& net, const SegmentTree& tree, const Points2& x) {
   std::vector<SegmentPair> result;
   tree.pairs_within(0, [&](Index i, Index j) {
-    const Meeting kind = meeting_of(x, net.segments[i], net.segments[j]);
-    if (kind != Meeting::none) result.push_back({i, j, kind});
+    const SegmentMeeting kind = meeting_of(x, net.segments[i], net.segments[j]);
+    if (kind != SegmentMeeting::none) result.push_back({i, j, kind});
   });
   std::sort(result.begin(), result.end());
   return result;

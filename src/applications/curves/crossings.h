@@ -7,17 +7,17 @@
 namespace unsnarl {
 
 /// How two segments meet, decided exactly.
-enum class Meeting {
+enum class SegmentMeeting {
   none,     ///< not at all, or in the vertex that they share
   proper,   ///< inner points of both, one on each side of the other
   touching  ///< in any other way: an end on the other segment, along a line
 };
-Meeting meeting_of(const Points2& x, const Edge& a, const Edge& b);
+SegmentMeeting meeting_of(const Points2& x, const Edge& a, const Edge& b);
 
 /// Pairs of segments that meet, i < j, sorted.
 struct SegmentPair {
   Index i = 0, j = 0;
-  Meeting kind = Meeting::none;
+  SegmentMeeting kind = SegmentMeeting::none;
   friend bool operator<(const SegmentPair& a, const SegmentPair& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; }
 };
 /// The tree has to be fitted to x.

@@ -48,7 +48,7 @@ class Repulsion {
     crossings_ = 0;
     tree_.pairs_within(0, [&](Index i, Index j) {
       const Edge &a = net_.segments[i], &b = net_.segments[j];
-      if (meeting_of(x, a, b) == Meeting::none) return;
+      if (meeting_of(x, a, b) == SegmentMeeting::none) return;
       ++crossings_;
       if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;
       const SegmentPenetration p = segment_penetration(x.col(a[0]), x.col(a[1]), x.col(b[0]), x.col(b[1]));

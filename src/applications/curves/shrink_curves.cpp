@@ -29,7 +29,7 @@ bool is_free(const CurveNet& net, const CurveNet::Chain& chain, const SegmentTre
   for (Index s = chain.first_segment; result && s < chain.first_segment + chain.segment_count(); ++s) {
     const Vec2 a = x.col(net.segments[s][0]), b = x.col(net.segments[s][1]);
     tree.near(a.cwiseMin(b), a.cwiseMax(b), [&](Index j) {
-      if (j != s && result) result = meeting_of(x, net.segments[s], net.segments[j]) == Meeting::none;
+      if (j != s && result) result = meeting_of(x, net.segments[s], net.segments[j]) == SegmentMeeting::none;
     });
   }
   return result;

@@ -193,7 +193,7 @@ class Switcher {
   bool inset(const std::vector<SegmentPair>& pairs) {
     std::vector<std::uint8_t> moves(net_.vertex_count(), 0);
     for (const SegmentPair& pair : pairs)
-      if (pair.kind == Meeting::touching && net_.chain_of[pair.i] != net_.chain_of[pair.j])
+      if (pair.kind == SegmentMeeting::touching && net_.chain_of[pair.i] != net_.chain_of[pair.j])
         for (const Index v : net_.segments[std::max(pair.i, pair.j)]) moves[v] = !net_.pinned[v];
     const Points2 old = state_.x;
     bool any = false;
@@ -237,7 +237,7 @@ class Switcher {
       std::vector<std::uint8_t> moves(net_.vertex_count(), 0);
       bool any = false;
       for (const SegmentPair& pair : pairs)
-        if (pair.kind == Meeting::touching)
+        if (pair.kind == SegmentMeeting::touching)
           for (const Index s : {pair.i, pair.j})
             for (const Index v : net_.segments[s])
               if (!net_.pinned[v]) {
@@ -336,7 +336,7 @@ class Switcher {
     std::vector<Place> places;
     std::vector<Vec2> points;
     for (const SegmentPair& pair : pairs) {
-      if (pair.kind != Meeting::proper) continue;
+      if (pair.kind != SegmentMeeting::proper) continue;
       const Edge a = net_.segments[pair.i], b = net_.segments[pair.j];
       // Below 1, so that the order of places is that of their slots.
       const double t = std::min(crossing_fraction(state_.x, a, b), largest_fraction);
@@ -543,7 +543,7 @@ class Switcher {
       const Vec2 a = state_.x.col(net_.segments[i][0]), b = state_.x.col(net_.segments[i][1]);
       tree_.near(a.cwiseMin(b), a.cwiseMax(b), [&](Index j) {
         if (j == i || (j < i && std::binary_search(segments.begin(), segments.end(), j))) return;
-        if (meeting_of(state_.x, net_.segments[i], net_.segments[j]) != Meeting::none) ++count;
+        if (meeting_of(state_.x, net_.segments[i], net_.segments[j]) != SegmentMeeting::none) ++count;
       });
     }
     return count;
@@ -631,7 +631,7 @@ class Switcher {
     std::optional<Run> found;
     tree_.near(a.cwiseMin(b), a.cwiseMax(b), [&](Index j) {
       if (found || net_.chain_of[j] != net_.chain_of[i] || j == i) return;
-      if (meeting_of(state_.x, net_.segments[i], net_.segments[j]) != Meeting::proper) return;
+      if (meeting_of(state_.x, net_.segments[i], net_.segments[j]) != SegmentMeeting::proper) return;
       const Index p = net_.slot_of(std::min(i, j)), q = net_.slot_of(std::max(i, j));
       Run inner{net_.chain_of[i], p + 1, q - p}, outer{net_.chain_of[i], q + 1, chain.size() - (q - p)};
       if (chain.closed && outer.count < inner.count) std::swap(inner, outer);
