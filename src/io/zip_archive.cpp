@@ -78,6 +78,25 @@ void check(bool is_good, zip_t* archive) {
   if (!is_good) throw WriteError(fmt::format("the archive cannot be written: {}", zip_strerror(archive)));
 }
 
+/// `content` has to outlive the archive.
+void replace_entry(zip_t* archive, const std::string& name, const std::string& content) {
+  const zip_int64_t found = entry_of(archive, name);
+  if (found < 0) throw std::invalid_argument("no entry " + name);
+  const auto entry = static_cast<zip_uint64_t>(found);
+  zip_stat_t status{};
+  check(zip_stat_index(archive, entry, 0, &status) == 0, archive);
+  zip_source_t* replacement = zip_source_buffer(archive, content.data(), content.size(), 0);
+  if (replacement == nullptr) throw std::bad_alloc();
+  if (zip_file_replace(archive, entry, replacement, 0) < 0) {
+    zip_source_free(replacement);
+    check(false, archive);
+  }
+  // The level counts only where the method is another; "default" is, and means deflate.
+  const zip_int32_t method = status.comp_method == ZIP_CM_DEFLATE ? ZIP_CM_DEFAULT : status.comp_method;
+  check(zip_set_file_compression(archive, entry, method, level) == 0, archive);
+  check(zip_file_set_mtime(archive, entry, status.mtime, 0) == 0, archive);
+}
+
 }  // namespace
 
 struct ZipArchive::Handle {
@@ -123,26 +142,13 @@ std::optional<std::string> ZipArchive::content(const std::string& name) const {
   return result;
 }
 
-std::string ZipArchive::with_content(const std::string& name, std::string_view content) const {
+std::string ZipArchive::with_contents(const std::map<std::string, std::string>& contents) const {
   auto [archive, source] = opened(bytes_, true);
-  const zip_int64_t found = entry_of(archive.get(), name);
-  if (found < 0) throw std::invalid_argument("no entry " + name);
-  const auto entry = static_cast<zip_uint64_t>(found);
-  zip_stat_t status{};
-  check(zip_stat_index(archive.get(), entry, 0, &status) == 0, archive.get());
-  zip_source_t* replacement = zip_source_buffer(archive.get(), content.data(), content.size(), 0);
-  if (replacement == nullptr) throw std::bad_alloc();
-  if (zip_file_replace(archive.get(), entry, replacement, 0) < 0) {
-    zip_source_free(replacement);
-    check(false, archive.get());
-  }
-  // The level counts only where the method is another; "default" is, and means deflate.
-  const zip_int32_t method = status.comp_method == ZIP_CM_DEFLATE ? ZIP_CM_DEFAULT : status.comp_method;
-  check(zip_set_file_compression(archive.get(), entry, method, level) == 0, archive.get());
-  check(zip_file_set_mtime(archive.get(), entry, status.mtime, 0) == 0, archive.get());
+  for (const auto& [name, content] : contents) replace_entry(archive.get(), name, content);
   check(zip_close(archive.get()) == 0, archive.get());
   static_cast<void>(archive.release());  // closed, so freed
 
+  zip_stat_t status{};
   if (zip_source_stat(source.get(), &status) < 0 || zip_source_open(source.get()) < 0)
     throw WriteError("the archive cannot be read back");
   std::string result(status.size, '\0');

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,9 +20,9 @@ class ZipArchive {
   /// Returns the content of an entry, whatever the case of its name; nothing: there is none. Throws FileError where it
   /// is damaged, encrypted, or compressed in a way that is not supported.
   std::optional<std::string> content(const std::string& name) const;
-  /// The archive with other content of one entry, which is there; compressed as before, of the same time; all other
-  /// entries as they are. Throws WriteError.
-  std::string with_content(const std::string& name, std::string_view content) const;
+  /// The archive with other content of these entries, by their names, which are there; compressed as before, of the
+  /// same time; all other entries as they are. Throws WriteError.
+  std::string with_contents(const std::map<std::string, std::string>& contents) const;
 
  private:
   struct Handle;

@@ -24,12 +24,12 @@ TEST(ZipArchive, reads_what_is_stored_or_deflated) {
 TEST(ZipArchive, replaces_one_entry_and_keeps_the_others) {
   for (const bool is_compressed : {false, true}) {
     const std::string bytes = zip_of(entries, is_compressed);
-    const std::string changed = ZipArchive(bytes).with_content("folder/second.txt", "another text, longer");
+    const std::string changed = ZipArchive(bytes).with_contents({{"folder/second.txt", "another text, longer"}});
     const ZipArchive archive(changed);
     EXPECT_EQ(archive.content("first.txt"), entries[0].second);
     EXPECT_EQ(archive.content("folder/second.txt"), "another text, longer");
     EXPECT_EQ(archive.content("third"), "");
-    EXPECT_EQ(changed, ZipArchive(bytes).with_content("folder/second.txt", "another text, longer"));
+    EXPECT_EQ(changed, ZipArchive(bytes).with_contents({{"folder/second.txt", "another text, longer"}}));
     // The first entry is where it was, as it was, of its own level of compression.
     EXPECT_EQ(changed.substr(0, bytes.find("PK\3\4", 4)), bytes.substr(0, bytes.find("PK\3\4", 4)));
   }
