@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -69,6 +70,44 @@ Surface anchored_balls(int resolution, const SampleValues& values) {
   return builder.take();
 }
 
+/// A block of six faces, whose corners are the images of those of the cube from -1 to 1.
+void add_block(MeshBuilder& builder, const DirectionMap& place) {
+  std::array<Index, 8> corner{};
+  for (int k = 0; k < 8; ++k)
+    corner[k] = builder.add_vertex(place(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+  for (const auto& [a, b, c, d] :
+       {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+    builder.add_face({corner[a], corner[b], corner[c], corner[d]});
+}
+
+/// A stool as one puts it together of parts: legs that end in the seat, rungs that end in the legs.
+Surface stool(int resolution, const SampleValues& values) {
+  const double depth = values["depth"], thickness = 0.16, leg = 0.11, rung = 0.06, slant = 0.16;
+  MeshBuilder builder;
+  builder.append(sample_sphere(std::max(2, resolution / 4), FaceKind::quads, [&](const Vec3& d) {
+    const double round = std::pow(std::pow(std::hypot(d[0], d[2]), 6) + std::pow(d[1], 6), 1.0 / 6);
+    return Vec3(d[0] / round, thickness * d[1] / round, d[2] / round);
+  }));
+  const double top = -thickness + depth, length = 1.7;
+  const auto on_leg = [&](double side, double end, double height) {  // of its middle line
+    const double out = 0.55 + slant * (top - height) / length;
+    return Vec3(side * out, height, end * out);
+  };
+  for (const double end : {-1.0, 1.0})
+    add_block(builder, [&](const Vec3& c) {
+      const Vec3 middle = on_leg(c[0], end, -1.15);
+      const double reach = std::abs(middle[0]) - leg + depth;
+      return Vec3(reach * c[0], middle[1] + rung * c[1], middle[2] + rung * c[2]);
+    });
+  for (const double side : {-1.0, 1.0})
+    for (const double end : {-1.0, 1.0})
+      add_block(builder, [&](const Vec3& c) {
+        const Vec3 middle = on_leg(side, end, top + (c[1] - 1) / 2 * length);
+        return Vec3(middle[0] + leg * c[0], middle[1], middle[2] + leg * c[2]);
+      });
+  return builder.take();
+}
+
 /// Closed surfaces that should lie inside each other, as of a head model: most of the inner one is outside, where the
 /// shortest way apart puts it beside the others.
 Surface crossing_shells(int resolution, const SampleValues& values) {
@@ -103,6 +142,13 @@ std::vector<SampleMaker> scene_samples() {
         {"anchor", "ball"}},
        28,
        anchored_balls},
+      {{"stool",
+        "scene of parts that overlap on purpose: legs that end in a seat, rungs that end in the legs",
+        {{"depth", 0.12, 0.01, 0.25, "how far parts reach into others, where the seat has radius 1"}},
+        true,
+        {"seat", "rung", "rung_2", "leg", "leg_2", "leg_3", "leg_4"}},
+       56,
+       stool},
       {{"crossing_shells",
         "scene of closed surfaces that should lie inside each other: 'inner' in 'outer' in 'skin', all crossing",
         {{"shift", 0.8, 0, 1.5, "how far the inner one is off, where the outer one has radius 1"},

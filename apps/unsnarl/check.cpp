@@ -109,6 +109,7 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
     line(fmt::format("  {:>10} {}", pairs.before.total(),
                      pairs.a == pairs.b ? "within " + a : fmt::format("between {} and {}", a, b)));
   }
+  if (!found.overlapping_components.empty()) line("advice: " + advice_on_overlaps(found.overlapping_components));
   line(counted(found.places.size(), "place:", "places:"));
   for (std::size_t i = 0; i < std::min(found.places.size(), places_in_text); ++i) {
     const ConflictPlace& place = found.places[i];
@@ -118,6 +119,12 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
   if (found.places.size() > places_in_text)
     line(fmt::format("  and {} more (--json lists all)", found.places.size() - places_in_text));
   return text;
+}
+
+/// Components by the names that the files give to their faces.
+void name_components(const SceneDocument& scene, CheckReport& found) {
+  for (OverlappingComponent& component : found.overlapping_components)
+    component.name = part_of_face(scene.face_labels(), component.first_face);
 }
 
 ReportFiles described(const CheckOptions& options, const SceneDocument& scene, const CheckReport& found) {
@@ -165,7 +172,8 @@ int checked(const CheckOptions& options, Interruption& interruption) {
   places.writes("--pairs", options.pairs);
   places.require_writable(interruption);
   display.begin("find");
-  const CheckReport found = check(scene.surface(), options.find(), limits_of(options));
+  CheckReport found = check(scene.surface(), options.find(), limits_of(options));
+  name_components(scene, found);
   const ReportFiles files = described(options, scene, found);
   display.clear();
   if (!options.pairs.empty()) write_file(options.pairs, pairs_table(found.pairs), interruption);

@@ -132,6 +132,20 @@ std::string rigid_part_in_words(const RigidPartReport& part, double diagonal) {
                      length_in_words(part.translation_rel, diagonal), part.rotation_deg, part.residual_rel);
 }
 
+constexpr std::size_t most_changed_components = 5;  // lines
+
+/// The components that are no longer what they were, most changed first.
+std::vector<std::string> changed_in_words(const RepairReport& report) {
+  std::vector<std::string> lines;
+  for (const ChangedComponent& component : report.changed_components) {
+    if (lines.size() == most_changed_components) break;
+    lines.push_back(describe(component, report.diagonal));
+  }
+  if (report.changed_components.size() > lines.size())
+    lines.push_back(fmt::format("and {} more; --report lists all", report.changed_components.size() - lines.size()));
+  return lines;
+}
+
 std::string dihedral_in_words(const Clearance& clearance, double wanted_deg) {
   const std::string angle = fmt::format("  smallest dihedral angle: {:.3g} degrees", clearance.dihedral_deg);
   if (clearance.dihedral_deg >= wanted_deg) return angle;
@@ -181,6 +195,8 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   for (const NestedPair& pair : files.nested) line("  " + nested_in_words(pair));
   for (const RigidPartReport& part : r.rigid_parts) line("  " + rigid_part_in_words(part, r.diagonal));
   for (const std::string& words : far_regions(r)) line("  " + words);
+  for (const std::string& words : changed_in_words(r)) line("  " + words);
+  if (!r.overlapping_components.empty()) line("  advice: " + advice_on_overlaps(r.overlapping_components));
   if (options.min_dihedral_deg > 0 && files.clearance_after)
     line(dihedral_in_words(*files.clearance_after, options.min_dihedral_deg));
   if (result.status == Status::displacement_exceeded && r.displacement_lower_bound_rel > options.max_displacement_rel)

@@ -55,11 +55,12 @@ struct CheckReport {
   std::vector<std::int32_t> faces;    ///< in any pair, ids, ascending
   std::vector<ConflictPlace> places;  ///< most pairs first
   Topology topology;
-  std::vector<ComponentFindings> components;  ///< in the order of their first faces
-  std::size_t closed_non_orientable = 0;      ///< components that have no embedding in space
-  std::size_t intersecting_components = 0;    ///< with a face in any pair
-  std::size_t pairs_within_components = 0;    ///< of two faces of one component
-  std::string triangulation;                  ///< how the polygons were split into triangles, one sentence
+  std::vector<ComponentFindings> components;                 ///< in the order of their first faces
+  std::vector<OverlappingComponent> overlapping_components;  ///< in the order of their numbers
+  std::size_t closed_non_orientable = 0;                     ///< components that have no embedding in space
+  std::size_t intersecting_components = 0;                   ///< with a face in any pair
+  std::size_t pairs_within_components = 0;                   ///< of two faces of one component
+  std::string triangulation;  ///< how the polygons were split into triangles, one sentence
 };
 
 /// Counts and locates the self-intersections of a surface. Throws as find_intersections does, LimitReached, and

@@ -48,6 +48,10 @@ std::string_view to_string(NamedPart::Kind kind);  ///< as options name it: "obj
 /// Those without faces too.
 std::vector<NamedPart> named_parts(const SurfaceView& surface, std::span<const FaceLabels> labels);
 
+/// What the file calls the part that a face is of: its object, else its group, else, of several files, its file; empty:
+/// it has no name.
+std::string part_of_face(std::span<const FaceLabels> labels, std::int32_t face);
+
 /// Component of each face (faces joined by a shared vertex, after welding), numbered from 0 in the order of
 /// their first faces, as `unsnarl check` lists them; -1 for a face without corners. Throws as
 /// find_intersections does.

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,6 +87,44 @@ struct ComponentReport {
   std::int32_t first_face = 0;
   std::size_t pairs_before = 0, pairs_after = 0;  ///< intersecting pairs of its faces among each other
 };
+
+/// A closed component of the input of which more than large_overlap_share lies inside others that it intersects.
+struct OverlappingComponent {
+  std::size_t component = 0;  ///< number in the order of the first faces (see component_of_faces)
+  std::int32_t first_face = 0;
+  /// What the file calls the part that its first face is of, see part_of_face(); empty: it has no name.
+  std::string name = {};
+  double volume_share = 0;  ///< of its volume inside others; estimated, some hundredths off
+};
+/// Share of the volume of a component from which its overlap is listed (fixed by the report).
+inline constexpr double large_overlap_share = 0.1;
+/// One sentence for a person: how many they are, and what can be done; options as the command line calls them. Empty
+/// where there are none.
+std::string advice_on_overlaps(std::span<const OverlappingComponent> overlapping);
+
+/// A component that has lost more than 5 % of its volume or area, has turned by more than 5 degrees, or has moved far:
+/// by more than twice the depth of its overlap, with the gap that was asked for, and by more than 1 % of its own
+/// bounding box.
+struct ChangedComponent {
+  std::size_t component = 0;  ///< number in the order of the first faces (see component_of_faces)
+  std::int32_t first_face = 0;
+  std::string name = {};  ///< as of OverlappingComponent
+  bool has_shrunk = false, is_turned = false, is_far = false;
+  bool is_closed = false;  ///< and orientable, so that it has a volume
+  /// Of a closed component the signed volume, of any other the area: after / before - 1. -1: nothing is left; less:
+  /// turned inside out.
+  double size_change_rel = 0;
+  double rotation_deg = 0;      ///< of the rigid motion that fits best, by squared distances over the area; in [0, 180]
+  double displacement_rel = 0;  ///< of the vertex that moved farthest / bounding-box diagonal
+  std::int32_t farthest_vertex = 0;
+  /// Depth of its overlap with other components in the input / bounding-box diagonal: the largest distance between a
+  /// vertex of one that is inside the other, where this is closed, and the surface of the other; at least the depth of
+  /// the deepest pair of triangles that share no vertex. None: it intersects itself, or an open component while it is
+  /// open itself, so that the depth is not known; then is_far is false.
+  std::optional<double> depth_rel = {};
+};
+/// "component 3 (jaw) lost 57 % of its volume, turned by 12 degrees". `diagonal`: RepairReport::diagonal.
+std::string describe(const ChangedComponent& changed, double diagonal);
 
 /// How a rigid part moved (RepairOptions::rigid): a vertex at p in the input is at R p + t in the result.
 struct RigidPartReport {
@@ -170,7 +210,9 @@ struct RepairReport {
   Precision precision = Precision::float64;  ///< the format in which the result was made to hold
   std::vector<RegionReport> regions;
   std::vector<ComponentReport> components;
-  std::vector<RigidPartReport> rigid_parts;  ///< in the order of their numbers
+  std::vector<OverlappingComponent> overlapping_components;  ///< in the order of their numbers
+  std::vector<ChangedComponent> changed_components;          ///< those that lost most first, then those that moved most
+  std::vector<RigidPartReport> rigid_parts;                  ///< in the order of their numbers
   std::vector<RegionHistory> history;  ///< in the order of the work; empty unless RepairOptions::record asks for it
   std::vector<StageReport> stages;
 };

@@ -57,10 +57,18 @@ void add_pairs(unsnarl_result& result, const std::vector<IntersectingPair>& pair
   result.arrays["kinds"] = {std::move(kinds), 1};
 }
 
+/// Components by the names that the files give to their faces.
+void name_components(const unsnarl_surface& given, CheckReport& report) {
+  if (given.document == nullptr) return;
+  for (OverlappingComponent& component : report.overlapping_components)
+    component.name = part_of_face(given.document->scene->face_labels(), component.first_face);
+}
+
 unsnarl_result checked(const unsnarl_surface& given, const unsnarl_options& options) {
   const SurfaceView surface = view_of(given);
   const FindOptions find = find_options(options);
-  const CheckReport report = check(surface, find);
+  CheckReport report = check(surface, find);
+  name_components(given, report);
   ReportFiles files;
   files.vertices = surface.vertex_count();
   files.faces = surface.face_count();

@@ -1,6 +1,7 @@
 #include "contact/closed_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "contact/bvh_traversal.h"
@@ -15,6 +16,22 @@ Sign side_of_line(const Vec3& a, const Vec3& b, const Vec3& p) {
   if (const Sign side = orient2d(a[1], a[2], b[1], b[2], p[1], p[2]); side != 0) return side;
   if (a[2] != b[2]) return a[2] > b[2] ? 1 : -1;
   return (b[1] > a[1]) - (b[1] < a[1]);
+}
+
+/// Side of all edges of the triangle, seen along x, that p shifted by (0, e, e^2) is on; 0: not of one and the same.
+Sign side_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+  const Sign side = side_of_line(a, b, p);
+  return side != 0 && side_of_line(b, c, p) == side && side_of_line(c, a, p) == side ? side : 0;
+}
+
+/// x of the triangle where it is crossed by the line along x through p.
+double place_on_line(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+  const auto area = [&](const Vec3& v, const Vec3& w) {
+    return std::abs((v[1] - p[1]) * (w[2] - p[2]) - (v[2] - p[2]) * (w[1] - p[1]));
+  };
+  const double of_a = area(b, c), of_b = area(c, a), of_c = area(a, b), sum = of_a + of_b + of_c;
+  const double place = sum > 0 ? (of_a * a[0] + of_b * b[0] + of_c * c[0]) / sum : (a[0] + b[0] + c[0]) / 3;
+  return std::clamp(place, std::min({a[0], b[0], c[0]}), std::max({a[0], b[0], c[0]}));
 }
 
 }  // namespace
@@ -51,12 +68,24 @@ Side ClosedSurface::side_of(const Vec3& p) const {
     const Triangle& t = triangles_[i];
     if (has(p, t)) return true;
     const Vec3 a = x_.col(t[0]), b = x_.col(t[1]), c = x_.col(t[2]);
-    const Sign side = side_of_line(a, b, p);
-    if (side == 0 || side_of_line(b, c, p) != side || side_of_line(c, a, p) != side) return false;
-    if (orient3d(a, b, c, p) == -side) is_inside = !is_inside;
+    const Sign side = side_of_triangle(a, b, c, p);
+    if (side != 0 && orient3d(a, b, c, p) == -side) is_inside = !is_inside;
     return false;
   });
   return is_on ? Side::on : is_inside ? Side::inside : Side::outside;
+}
+
+std::vector<double> ClosedSurface::crossings(double y, double z) const {
+  std::vector<double> places;
+  const Vec3 p(box_.lo[0], y, z);
+  Box line = {p, p};
+  line.hi[0] = box_.hi[0];
+  bvh_.query(line, [&](Index i) {
+    const Vec3 a = x_.col(triangles_[i][0]), b = x_.col(triangles_[i][1]), c = x_.col(triangles_[i][2]);
+    if (side_of_triangle(a, b, c, p) != 0) places.push_back(place_on_line(a, b, c, p));
+  });
+  std::sort(places.begin(), places.end());
+  return places;
 }
 
 ClosedSurface::Nearest ClosedSurface::nearest(const Vec3& p, double guess,

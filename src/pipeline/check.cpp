@@ -6,11 +6,13 @@
 #include <stdexcept>
 
 #include "contact/stop_check.h"
+#include "geometry/sort_unique.h"
 #include "mesh/components.h"
 #include "mesh/union_find.h"
 #include "run/limits.h"
 #include "run/thread_limit.h"
 #include "scene/face_pairs.h"
+#include "scene/overlapping_components.h"
 #include "scene/prepared_surface.h"
 #include "scene/topology.h"
 
@@ -29,8 +31,14 @@ void extend_by_face(Bounds& bounds, const SurfaceView& surface, Index f) {
 /// What follows from all pairs, of which the first alone are kept.
 class PairTally {
  public:
-  PairTally(std::size_t faces, std::size_t components, std::size_t listed)
-      : listed_(listed), connected_(faces), pairs_of_face_(faces, 0), is_in_any_(faces, 0), of_component_(components) {}
+  PairTally(std::size_t faces, const Components& components, std::size_t listed)
+      : listed_(listed),
+        connected_(faces),
+        pairs_of_face_(faces, 0),
+        is_in_any_(faces, 0),
+        of_component_(components.list.size()) {
+    for (std::size_t c = 0; c < of_component_.size(); ++c) of_component_[c].has_volume = has_volume(components.list[c]);
+  }
 
   /// component_of(face): its component.
   template <class ComponentOf>
@@ -45,11 +53,18 @@ class PairTally {
         ++a.within;
       } else {
         ++a.with_others, ++b.with_others;
+        if (a.has_volume && b.has_volume) note_meeting(component_of(pair.a), component_of(pair.b));
       }
     }
     if (listed_ == 0) return;
     list_.insert(list_.end(), pairs.begin(), pairs.end());
     if (list_.size() / 2 >= listed_) keep_first();
+  }
+
+  /// Components that have a volume, with faces that intersect faces of others, in pairs: sorted, each once.
+  std::vector<ComponentPair> meeting() {
+    sort_unique(meeting_);
+    return meeting_;
   }
 
   void describe(CheckReport& found) {
@@ -98,6 +113,7 @@ class PairTally {
  private:
   struct OfComponent {
     std::size_t within = 0, with_others = 0;
+    bool has_volume = false;
   };
   void keep_first() {
     if (list_.size() <= listed_) return;
@@ -105,8 +121,20 @@ class PairTally {
     list_.resize(listed_);
   }
 
+  /// Keeps each pair of components a few times at most.
+  void note_meeting(Index a, Index b) {
+    const ComponentPair pair = {std::min(a, b), std::max(a, b)};
+    if (!meeting_.empty() && meeting_.back() == pair) return;
+    meeting_.push_back(pair);
+    if (meeting_.size() < meeting_noted_) return;
+    sort_unique(meeting_);
+    meeting_noted_ = 2 * meeting_.size() + of_component_.size();
+  }
+
   const std::size_t listed_;
   std::vector<IntersectingPair> list_;
+  std::vector<ComponentPair> meeting_;
+  std::size_t meeting_noted_ = 0;  // from so many on they are sorted
   PairCounts counts_;
   UnionFind connected_;
   std::vector<std::size_t> pairs_of_face_;  // in which it is the first of two
@@ -165,10 +193,11 @@ CheckReport check(const SurfaceView& surface, const FindOptions& options, const 
   const Components components = find_components(surface, prepared.weld_map, prepared.triangles(), edges);
   found.topology = describe_topology(surface, prepared.weld_map, prepared.triangulation, edges, components);
   describe_components(surface, prepared.weld_map, components, found);
-  PairTally tally(surface.face_count(), components.list.size(), limits.pairs_listed);
+  PairTally tally(surface.face_count(), components, limits.pairs_listed);
   find_pairs(prepared, limits, tally,
              [&](Index f) { return component_of_face(surface, prepared.weld_map, components, f); });
   tally.describe(found);
+  found.overlapping_components = overlapping_components(prepared, components, tally.meeting());
   found.places = tally.places(surface, prepared.weld_map, found.faces);
   return found;
 }

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "mesh/areas.h"
+#include "report/changed_components.h"
 #include "report/left_pairs.h"
 #include "report/measure.h"
 #include "report/recorded_frames.h"
 #include "report/rigid_report.h"
+#include "scene/overlapping_components.h"
 
 namespace unsnarl {
 namespace {
@@ -96,6 +98,15 @@ RepairReport report_of_input(const RepairTask& task, const PairCensus& census) {
   return report;
 }
 
+/// Components that overlapped in the input, and those that are no longer what they were.
+void describe_parts(const RepairTask& task, const Positions& x, RepairReport& report) {
+  const Components& components = task.diagnosis.components;
+  report.overlapping_components =
+      overlapping_components(task.prepared, components, meeting_components(components, task.diagnosis.pairs));
+  report.changed_components =
+      changed_components(task.prepared, task.diagnosis, x, task.options.min_gap_rel * task.diagonal, task.diagonal);
+}
+
 void list_left_pairs(const RepairTask& task, const RepairControl& control, const RepairState& state,
                      const Reached& reached, RepairReport& report) {
   const Ending ending = {task.policy,
@@ -150,6 +161,7 @@ RepairResult conclude(const RepairTask& task, const RepairControl& control, Pair
   result.status = final_status(task, control, status_at(task, census, reached.left, reached.x),
                                state.displacement_is_exceeded, report.displacement_max_rel);
   measure_components(task.prepared, task.diagnosis, reached.left.triangles, report);
+  describe_parts(task, reached.x, report);
   list_left_pairs(task, control, state, reached, report);
   measure_rigid_parts(task.surface, task.options, task.policy.rigid_parts(), result.positions, report);
   report.history = history_of(task, state);

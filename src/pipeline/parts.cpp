@@ -105,6 +105,13 @@ std::vector<NamedPart> named_parts(const SurfaceView& surface, std::span<const F
   return parts;
 }
 
+std::string part_of_face(std::span<const FaceLabels> labels, std::int32_t face) {
+  for (const KindNames* kinds : {&object_kinds, &group_kinds, &file_kinds})
+    for (const FaceLabels& label : labels)
+      if (is_of_kind(label, *kinds) && label.of_face[face] >= 0) return label.names[label.of_face[face]];
+  return {};
+}
+
 std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const FindOptions& options) {
   const ThreadLimit threads(options.threads);
   const PreparedSurface prepared = prepare(surface, options);

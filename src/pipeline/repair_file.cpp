@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "unsnarl/certify.h"
+#include "unsnarl/parts.h"
 #include "unsnarl/repair_file_steps.h"
 #include "unsnarl/stage_clock.h"
 
@@ -146,6 +147,14 @@ void describe(const FilesToRepair& files, ReportFiles& report) {
   report.notes = files.notes;
 }
 
+/// Components by the names that the files give to their faces.
+void name_components(const SceneDocument& scene, RepairReport& report) {
+  for (auto& component : report.overlapping_components)
+    component.name = part_of_face(scene.face_labels(), component.first_face);
+  for (auto& component : report.changed_components)
+    component.name = part_of_face(scene.face_labels(), component.first_face);
+}
+
 /// Pairs by file, what lies inside what, as read back.
 void describe_result(const FilesToRepair& files, const RepairFileOptions& options, Certifier& certifier,
                      RepairedFiles& done) {
@@ -188,6 +197,7 @@ RepairedFiles stage_result(const FilesToRepair& files, RepairResult result, cons
   done.positions = result.positions;
   done.result = std::move(result);
   describe(files, done.report);
+  name_components(*files.scene, done.result.report);
   if (is_written || is_kept || files.is_scene() || !options.nesting.chains.empty()) {
     Certifier certifier(files.scene->surface(), options.repair.find);
     if (is_written) stage_whole(files, options, certifier, staged, done);

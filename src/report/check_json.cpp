@@ -41,6 +41,9 @@ std::string check_json(const CheckReport& found, Goal goal, const FindOptions& o
                                           {"pairs_with_others", component.pairs_with_others},
                                           {"min", component.bounds.min},
                                           {"max", component.bounds.max}});
+  json["overlapping_components"] = overlapping_components_json(found.overlapping_components);
+  json["advice"] = Json::array();
+  if (!found.overlapping_components.empty()) json["advice"].push_back(advice_on_overlaps(found.overlapping_components));
   json["parts"] = Json::array();
   for (const NamedPart& part : files.parts)
     json["parts"].push_back(

@@ -48,6 +48,16 @@ Json pair_counts_json(const PairCounts& counts) {
   return {{"total", counts.total()}, {"by_class", by_class}};
 }
 
+Json overlapping_components_json(std::span<const OverlappingComponent> overlapping) {
+  Json list = Json::array();
+  for (const OverlappingComponent& component : overlapping)
+    list.push_back({{"component", component.component},
+                    {"first_face", component.first_face},
+                    {"name", component.name.empty() ? Json() : Json(component.name)},
+                    {"volume_share", component.volume_share}});
+  return list;
+}
+
 void add_scene(const SceneReport& scene, bool after, Json& json) {
   if (scene.files.empty()) return;
   const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };

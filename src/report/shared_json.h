@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 #include "unsnarl/intersections.h"
@@ -13,6 +14,8 @@ namespace unsnarl {
 
 nlohmann::ordered_json topology_json(const Topology& topology);
 nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
+/// What "overlapping_components" lists.
+nlohmann::ordered_json overlapping_components_json(std::span<const OverlappingComponent> overlapping);
 /// Adds "files" and "between_files" where there are several files. `after`: with what became of them.
 void add_scene(const SceneReport& scene, bool after, nlohmann::ordered_json& json);
 /// Beside each length relative to the diagonal ("displacement_max_rel") the same in the units of the positions, under

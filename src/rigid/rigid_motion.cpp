@@ -19,10 +19,10 @@ Eigen::Matrix3d rotation_by(const Vec3& w) {
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 
-RigidMotion best_rigid_motion(const Positions& from, const Positions& to) {
-  if (from == to) return {};
-  const Vec3 a = from.rowwise().mean(), b = to.rowwise().mean();
-  const Eigen::Matrix3d covariance = (to.colwise() - b) * (from.colwise() - a).transpose();
+namespace {
+
+/// The motion that brings a to b, with the rotation that fits the covariance of `to` with `from` best.
+RigidMotion motion_by_covariance(const Eigen::Matrix3d& covariance, const Vec3& a, const Vec3& b) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d u = svd.matrixU();
   const Eigen::Matrix3d v = svd.matrixV();
@@ -31,6 +31,20 @@ RigidMotion best_rigid_motion(const Positions& from, const Positions& to) {
   motion.rotation = u * v.transpose();
   motion.translation = b - motion.rotation * a;
   return motion;
+}
+
+}  // namespace
+
+RigidMotion best_rigid_motion(const Positions& from, const Positions& to) {
+  if (from == to) return {};
+  const Vec3 a = from.rowwise().mean(), b = to.rowwise().mean();
+  return motion_by_covariance((to.colwise() - b) * (from.colwise() - a).transpose(), a, b);
+}
+
+RigidMotion best_rigid_motion(const Positions& from, const Positions& to, const Eigen::VectorXd& weights) {
+  if (from == to) return {};
+  const Vec3 a = from * weights / weights.sum(), b = to * weights / weights.sum();
+  return motion_by_covariance((to.colwise() - b) * weights.asDiagonal() * (from.colwise() - a).transpose(), a, b);
 }
 
 }  // namespace unsnarl

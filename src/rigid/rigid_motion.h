@@ -22,5 +22,7 @@ Eigen::Matrix3d rotation_by(const Vec3& w);
 /// The rigid motion that brings `from` nearest to `to`, by the sum of squared distances (Kabsch; without reflections).
 /// Columns that are equal in both give exactly the identity. Both have as many columns, at least one.
 RigidMotion best_rigid_motion(const Positions& from, const Positions& to);
+/// The same by the weighted sum. One weight a column, none negative, not all 0.
+RigidMotion best_rigid_motion(const Positions& from, const Positions& to, const Eigen::VectorXd& weights);
 
 }  // namespace unsnarl

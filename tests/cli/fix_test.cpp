@@ -35,6 +35,32 @@ TEST_F(Fix, repairs_and_keeps_everything_else) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"in.obj", "out.obj"}));
 }
 
+TEST_F(Fix, parts_that_change_and_parts_that_overlap_are_named) {
+  const std::string in = sample("stool", {"--resolution", "16"}), json = folder / "r.json";
+  // Each rung is longer than the room between its legs.
+  const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--fix-object", "leg", "--fix-object", "leg_2",
+                               "--fix-object", "leg_3", "--fix-object", "leg_4", "--report", json});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(contents(json));
+  ASSERT_FALSE(report["changed_components"].empty());
+  for (const auto& component : report["changed_components"]) {
+    EXPECT_NE(outcome.err.find("  " + component["message"].get<std::string>() + "\n"), std::string::npos)
+        << outcome.err;
+    EXPECT_FALSE(component["name"].get<std::string>().starts_with("leg")) << "what is fixed does not change";
+  }
+  ASSERT_EQ(report["overlapping_components"].size(), 2u);
+  EXPECT_EQ(report["overlapping_components"][0]["name"], "rung");
+  EXPECT_EQ(report["overlapping_components"][1]["name"], "rung_2");
+  EXPECT_NEAR(report["overlapping_components"][0]["volume_share"], report["overlapping_components"][1]["volume_share"],
+              0.05);
+  const std::string advice = report["advice"].at(0);
+  EXPECT_NE(outcome.err.find("  advice: " + advice + "\n"), std::string::npos) << outcome.err;
+  EXPECT_NE(run({"check", in}).out.find("advice: " + advice + "\n"), std::string::npos);
+  const auto found = nlohmann::json::parse(run({"check", in, "--json"}).out);
+  EXPECT_EQ(found["advice"], report["advice"]);
+  EXPECT_EQ(found["overlapping_components"], report["overlapping_components"]);
+}
+
 TEST_F(Fix, quiet_says_nothing) {
   const std::string in = file("in.obj", crossing);
   const Outcome outcome = run({"fix", in, "-o", folder / "out.obj", "--quiet"});

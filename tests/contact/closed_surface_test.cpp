@@ -78,6 +78,22 @@ TEST(ClosedSurface, agrees_with_the_planes_of_a_convex_solid) {
   }
 }
 
+TEST(ClosedSurface, lines_of_a_lattice_are_inside_between_their_crossings) {
+  Positions x(3, 0);
+  add_box(-2, 2, x);
+  add_box(-1, 1, x);
+  std::vector<Triangle> triangles = box_triangles(0);
+  const std::vector<Triangle> hollow = box_triangles(8);
+  triangles.insert(triangles.end(), hollow.begin(), hollow.end());
+  ClosedSurface shell(triangles);
+  shell.update(x);
+  EXPECT_EQ(shell.crossings(1.5, 0), (std::vector<double>{-2, 2}));
+  EXPECT_EQ(shell.crossings(0, 0.25), (std::vector<double>{-2, -1, 1, 2}));
+  EXPECT_TRUE(shell.crossings(3, 0).empty());
+  for (int j = -6; j <= 6; ++j)
+    for (int k = -6; k <= 6; ++k) EXPECT_EQ(shell.crossings(j / 2.0, k / 2.0).size() % 2, 0u) << j << ' ' << k;
+}
+
 TEST(ClosedSurface, the_nearest_triangle_is_that_of_brute_force) {
   Dice dice(3);
   Positions x(3, 60);

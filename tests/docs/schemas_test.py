@@ -68,7 +68,7 @@ class Schemas(unittest.TestCase):
     def test_what_the_program_writes(self):
         calls = {"crossing_tubes": [], "klein_bottle": [], "anchored_balls": ["--fix-group", "anchor", "--record", "c.json"],
                  "anchor_scene": ["--fix-object", "anchor", "--rigid", "hoop"],
-                 "linked_rings": ["--max-displacement", "1e-6", "--keep-partial"]}
+                 "linked_rings": ["--max-displacement", "1e-6", "--keep-partial"], "stool": []}
         with tempfile.TemporaryDirectory() as folder:
             for sample, options in calls.items():
                 with self.subTest(sample=sample):

@@ -35,6 +35,19 @@ TEST(RigidMotion, without_motion_it_is_exactly_the_identity) {
   EXPECT_EQ(rotation_by(Vec3::Zero()), Eigen::Matrix3d::Identity());
 }
 
+TEST(RigidMotion, points_of_weight_0_do_not_count_and_equal_weights_change_nothing) {
+  const Positions from = some_points();
+  const Eigen::Matrix3d turn = rotation_by(Vec3(0.3, 0.2, -0.9));
+  Positions to = (turn * from).colwise() + Vec3(1, 2, 3);
+  to.col(2) += Vec3(5, -4, 3);
+  Eigen::VectorXd weights = Eigen::VectorXd::Constant(7, 0.7);
+  const RigidMotion even = best_rigid_motion(from, to, weights), plain = best_rigid_motion(from, to);
+  EXPECT_LT((even.rotation - plain.rotation).norm() + (even.translation - plain.translation).norm(), 1e-12);
+  EXPECT_GT((plain.rotation - turn).norm(), 0.1);
+  weights[2] = 0;
+  EXPECT_LT((best_rigid_motion(from, to, weights).rotation - turn).norm(), 1e-12);
+}
+
 TEST(RigidMotion, mirrors_nothing) {
   Positions mirrored = some_points();
   mirrored.row(0) *= -1;

@@ -108,6 +108,7 @@ const std::map<std::string, Shape>& shapes() {
       {"linked_rings", {3, 0, 0, orientable, 0}},
       {"jellyfish", {12, 24, 0, orientable, 0}},
       {"anchored_balls", {6, 0, 0, orientable, 12}},
+      {"stool", {7, 0, 0, orientable, 14}},
       {"crossing_shells", {3, 0, 0, orientable, 6}},
       {"anchor_scene", {7, 1, 0, orientable, 5}},
       {"dressed_figure", {2, 4, 0, orientable, 0}},

@@ -76,6 +76,15 @@ function rigidParts(parts, diagonal) {
     : `shifted ${percentAndLength(part.translation_rel, diagonal)}, turned ${short(part.rotation_deg)}°`]));
 }
 
+const mostChanges = 10;
+
+/** The components that are no longer what they were, most changed first, and advice. */
+function changes({ changed_components: changed = [], advice = [] }) {
+  const shown = changed.slice(0, mostChanges).map(({ message }) => message);
+  if (changed.length > shown.length) shown.push(`and ${count(changed.length - shown.length)} more`);
+  return [...shown, ...advice].map((words) => element('p', { class: 'note' }, words));
+}
+
 /** The sections of the panel that stay as they are. */
 export function summary(page, before, after) {
   const { scene } = page;
@@ -87,6 +96,7 @@ export function summary(page, before, after) {
       ...(report?.obstructions ?? []).map(({ message }) => element('p', { class: 'note' }, `Cannot be resolved: ${message}`))),
     page.displacement ? section('Motion: share of the diagonal (length)', motion(page)) : null,
     report ? section('Report', reportFacts(report)) : null,
+    report && changes(report).length ? section('Parts', ...changes(report)) : null,
     report?.rigid_parts?.length ? section('Rigid parts', rigidParts(report.rigid_parts, report.diagonal)) : null,
     files ? section('Files', files) : null,
     page.appearance?.notes.length ? section('Texture', ...page.appearance.notes.map((note) => element('p', { class: 'note' }, note))) : null,

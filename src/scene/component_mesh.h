@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "contact/closed_surface.h"
+#include "mesh/components.h"
+
+namespace unsnarl {
+
+/// A component by itself: its triangles over its own vertices.
+struct ComponentMesh {
+  std::vector<Triangle> triangles;
+  Positions x;
+};
+
+/// `triangles`: of one component, over the columns of x.
+ComponentMesh component_mesh(const Positions& x, std::span<const Triangle> triangles);
+
+/// The triangles of each component, by its number.
+std::vector<std::vector<Triangle>> triangles_by_component(std::span<const Triangle> triangles,
+                                                          const Components& components);
+
+/// A closed component, asked what is inside.
+struct SolidComponent {
+  explicit SolidComponent(ComponentMesh component) : mesh(std::move(component)), surface(mesh.triangles) {
+    surface.update(mesh.x);
+  }
+  ComponentMesh mesh;
+  ClosedSurface surface;
+};
+
+}  // namespace unsnarl
