@@ -6,7 +6,7 @@ What is checked, and said line by line:
   faces       OUT has the faces of IN, corner by corner
   file        every byte of OUT but the positions is that of IN, and coordinates that did not change kept their text
               (what follows from positions may follow: STL normals of moved facets, glTF min and max;
-              of glTF, every value of the JSON is compared)
+              of glTF, every value of the JSON is compared; of compressed arrays and archives what is in them)
   seams       vertices that count as one in IN still lie at one place
   fixed       the vertices listed by --fixed did not move
   embedded    no two faces of OUT meet anywhere but in the hull of the vertices that they share
@@ -162,7 +162,7 @@ def read_ids(path, count):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('input', metavar='IN', help='the mesh before repair: obj, off, ply, stl, glb, gltf, FreeSurfer')
+    parser.add_argument('input', metavar='IN', help='the mesh before repair, in any format that unsnarl reads')
     parser.add_argument('output', metavar='OUT', help='the mesh after repair')
     parser.add_argument('--format', help='of both files; else by their extensions')
     parser.add_argument('--float32', action='store_true', help='also check with all positions rounded to float32')

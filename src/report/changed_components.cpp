@@ -125,14 +125,20 @@ class Depths {
     for (const Index other : met->second)
       if (!is_closed(component) && !is_closed(other)) return std::nullopt;
     double depth = of_pairs_[component];
-    for (const Index other : met->second) {
-      if (is_closed(other)) depth = depth_inside(solid(component).mesh, solid(other), depth);
-      if (is_closed(component)) depth = depth_inside(solid(other).mesh, solid(component), depth);
-    }
+    for (const Index other : met->second)
+      depth = std::max(depth, of_meeting({std::min(component, other), std::max(component, other)}));
     return depth;
   }
 
  private:
+  /// How deep either of two components reaches into the other, where this is closed.
+  double of_meeting(const ComponentPair& pair) {
+    const auto [entry, is_new] = of_meeting_.try_emplace(pair, 0);
+    const auto& [a, b] = pair;
+    if (is_new && is_closed(b)) entry->second = depth_inside(solid(a).mesh, solid(b), entry->second);
+    if (is_new && is_closed(a)) entry->second = depth_inside(solid(b).mesh, solid(a), entry->second);
+    return entry->second;
+  }
   bool is_closed(Index component) const { return change_.diagnosis.components.list[component].closed(); }
   const SolidComponent& solid(Index component) {
     const auto found = solids_.find(component);
@@ -144,7 +150,8 @@ class Depths {
   const Change& change_;
   std::map<Index, std::vector<Index>> met_by_;
   std::map<Index, bool> intersects_itself_;
-  std::map<Index, double> of_pairs_;
+  std::map<Index, double> of_pairs_;  // the deepest pair of triangles of each component
+  std::map<ComponentPair, double> of_meeting_;
   std::map<Index, SolidComponent> solids_;
 };
 

@@ -28,13 +28,12 @@ class Verification {
     format_ = !named.empty() ? named : lower(std::filesystem::path(arguments[1]).extension().string());
     if (input.empty() || input.size() > largest_input || format_.empty()) return;
     if (format_[0] == '.') format_.erase(0, 1);
-    if (format_ == "gii") return;  // judged by other programs, in tests/io/foreign_readers_test.py
     is_in_place_ = has("--in-place");
-    if (is_in_place_ && format_ == "gltf") return;  // its old buffer is gone then
+    if (is_in_place_ && (format_ == "gltf" || format_ == "gii")) return;  // what lay beside it is gone then
     output_ = is_in_place_ ? arguments[1] : value_of("-o");
     if (output_.empty() || output_.starts_with("/dev/")) return;
     old_output_ = bytes_of(output_);
-    // The buffers of a glTF lie beside it, so it is copied only where it must be.
+    // The buffers of a glTF and the numbers of a GIFTI lie beside it, so it is copied only where it must be.
     input_ = arguments[1] == "-" || is_in_place_ ? copy("before", input) : arguments[1];
   }
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """tools/verify.py accepts what is right and names what is not. Every check is broken here in turn."""
+import base64
 import contextlib
 import io
 import itertools
@@ -11,6 +12,8 @@ import struct
 import sys
 import tempfile
 import unittest
+import zipfile
+import zlib
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'tools'))
 import verify  # noqa: E402
@@ -65,6 +68,133 @@ class VerifyTest(unittest.TestCase):
         self.expect(['embedded'], surface(-1), surface(1), 'pial')
         self.expect(['file'], surface(1), surface(-1, end=b'gats'), 'pial')
         self.expect(['file'], surface(1), surface(-1, missing=b'\x7f\xc0\0\1'), 'pial')
+
+    POINTS = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (1, 1, None), (0, 0, -3), (3, 0, -3), (0, 3, -3)]
+    FACES = [(0, 1, 2), (3, 4, 5), (3, 5, 6), (3, 6, 4), (4, 6, 5)]
+
+    def points(self, tip, separator='\n'):
+        return separator.join(' '.join(str(tip if x is None else x) for x in p) for p in self.POINTS)
+
+    def expect_judged(self, surface, extension, *others):
+        """surface(points) is a file; `others`: replacements that change something else."""
+        stuck, apart = surface(1), surface(-1)
+        self.expect([], stuck, apart, extension)
+        self.expect(['embedded'], stuck, stuck, extension)
+        for old, new in others:
+            self.assertIn(old, apart)
+            self.expect(['file'], stuck, apart.replace(old, new, 1), extension)
+
+    def test_reads_vtk(self):
+        def polygons(tip):
+            faces = '\n'.join('3 %d %d %d' % f for f in self.FACES)
+            return (f'# vtk DataFile Version 4.2\nmade\nASCII\nDATASET POLYDATA\nPOINTS 7 float\n{self.points(tip)}\n'
+                    f'POLYGONS 5 20\n{faces}\nPOINT_DATA 7\nSCALARS a int\nLOOKUP_TABLE default\n1 2 3 4 5 6 7\n').encode()
+
+        def grid(tip):
+            numbers = [float(x) for x in self.points(tip).split()]
+            return (b'# vtk DataFile Version 5.1\nmade\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 7 double\n'
+                    + struct.pack('>21d', *numbers) + b'\nCELLS 7 16\nOFFSETS vtktypeint64\n'
+                    + struct.pack('>7q', 0, 1, 4, 7, 10, 13, 16)[:56] + b'\nCONNECTIVITY vtktypeint64\n'
+                    + struct.pack('>16q', 0, *[v for f in self.FACES for v in f]) + b'\nCELL_TYPES 6\n'
+                    + struct.pack('>6i', 1, 5, 5, 5, 5, 5) + b'\n')
+        self.expect_judged(polygons, 'vtk', (b'made', b'Made'), (b'6 7\n', b'6 8\n'))
+        self.expect_judged(grid, 'vtk', (b'made', b'Made'))
+
+    def test_reads_vtk_in_xml(self):
+        def array(name, kind, numbers, compressed):
+            raw = struct.pack(f'<{len(numbers)}{kind}', *numbers)
+            if compressed:
+                packed = zlib.compress(raw)
+                data = base64.b64encode(struct.pack('<4I', 1, len(raw), 0, len(packed))) + base64.b64encode(packed)
+            else:
+                data = base64.b64encode(struct.pack('<I', len(raw)) + raw)
+            types = {'d': 'Float64', 'q': 'Int64', 'B': 'UInt8'}
+            return (f'<DataArray type="{types[kind]}" Name="{name}" NumberOfComponents="3" format="binary">\n'
+                    f'{data.decode()}\n</DataArray>')
+
+        def surface(tip, compressed, kind):
+            numbers = [float(x) for x in self.points(tip).split()]
+            corners = [v for f in self.FACES for v in f]
+            tag, count = ('Polys', 'NumberOfPolys') if kind == 'PolyData' else ('Cells', 'NumberOfCells')
+            compressor = ' compressor="vtkZLibDataCompressor"' if compressed else ''
+            return (f'<?xml version="1.0"?><VTKFile type="{kind}" byte_order="LittleEndian"{compressor}><{kind}>'
+                    f'<Piece NumberOfPoints="7" {count}="5"><PointData>{array("a", "d", [1, 2], compressed)}</PointData>'
+                    f'<Points>{array("Points", "d", numbers, compressed)}</Points><{tag}>'
+                    f'{array("connectivity", "q", corners, compressed)}{array("offsets", "q", [3, 6, 9, 12, 15], compressed)}'
+                    f'{array("types", "B", [5] * 5, compressed)}</{tag}></Piece></{kind}></VTKFile>').encode()
+        for compressed in (False, True):
+            other = array('a', 'd', [1, 2], compressed).encode(), array('a', 'd', [1, 3], compressed).encode()
+            self.expect_judged(lambda tip: surface(tip, compressed, 'PolyData'), 'vtp', other, (b'1.0', b'1.1'))
+            self.expect_judged(lambda tip: surface(tip, compressed, 'UnstructuredGrid'), 'vtu', other)
+
+    def test_reads_gmsh(self):
+        def surface(tip):
+            nodes = '\n'.join(f'{k + 1} {p}' for k, p in enumerate(self.points(tip).split('\n')))
+            faces = '\n'.join(f'{k + 1} 2 2 0 9 ' + ' '.join(str(v + 1) for v in f) for k, f in enumerate(self.FACES))
+            return (f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n7\n{nodes}\n$EndNodes\n'
+                    f'$Elements\n6\n9 15 2 0 1 1\n{faces}\n$EndElements\n').encode()
+        self.expect_judged(surface, 'msh', (b' 0 9 ', b' 0 8 '))
+
+    def test_reads_abaqus(self):
+        def surface(tip):
+            nodes = '\n'.join(f'{10 * k + 10}, {p.replace(" ", ", ")}' for k, p in enumerate(self.points(tip).split('\n')))
+            faces = '\n'.join(f'{k + 1}, ' + ', '.join(str(10 * v + 10) for v in f) for k, f in enumerate(self.FACES))
+            return f'*Heading\nmade\n*Node\n{nodes}\n*Element, type=S3, elset=a\n{faces}\n*Step\n1, 2\n'.encode()
+        self.expect_judged(surface, 'inp', (b'made', b'Made'), (b'1, 2\n', b'1, 3\n'))
+
+    def test_reads_gifti(self):
+        def surface(tip):
+            return (f'<?xml version="1.0"?><GIFTI><DataArray Intent="NIFTI_INTENT_POINTSET" DataType="NIFTI_TYPE_FLOAT32" '
+                    f'ArrayIndexingOrder="RowMajorOrder" Dim0="7" Dim1="3" Encoding="ASCII"><Data>{self.points(tip)}</Data>'
+                    f'</DataArray><DataArray Intent="NIFTI_INTENT_TRIANGLE" DataType="NIFTI_TYPE_INT32" Encoding="ASCII" '
+                    f'ArrayIndexingOrder="RowMajorOrder" Dim0="5" Dim1="3"><Data>'
+                    + ' '.join(str(v) for f in self.FACES for v in f) + '</Data></DataArray></GIFTI>').encode()
+        self.expect_judged(surface, 'gii', (b'1.0', b'1.1'))
+
+    def test_reads_3mf(self):
+        head = '<?xml version="1.0"?><model><resources>'
+
+        def package(tip, other='kept'):
+            # The second part is where its component says: 3 below its own zero.
+            vertices = ['<vertex x="%s" y="%s" z="%s"/>' % tuple(p.split()) for p in self.points(tip).split('\n')]
+            vertices[3:] = [v.replace('z="-3"', 'z="0"').replace(f'z="{tip}"', f'z="{tip + 3}"') for v in vertices[3:]]
+            faces = ['<triangle v1="%d" v2="%d" v3="%d"/>' % f for f in [(0, 1, 2), (0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2)]]
+
+            def mesh(vertices, faces):
+                return f'<mesh><vertices>{"".join(vertices)}</vertices><triangles>{"".join(faces)}</triangles></mesh>'
+            parts = f'{head}<object id="1">{mesh(vertices[3:], faces[1:])}</object></resources><build/></model>'
+            model = (f'{head}<object id="1">{mesh(vertices[:3], faces[:1])}</object><object id="2"><components>'
+                     '<component objectid="1"/><component p:path="/3D/Objects/a.model" objectid="1" '
+                     'transform="1 0 0 0 1 0 0 0 1 0 0 -3"/></components></object></resources>'
+                     '<build><item objectid="2"/></build></model>')
+            file = io.BytesIO()
+            with zipfile.ZipFile(file, 'w') as archive:
+                for name, text in (('3D/3dmodel.model', model), ('3D/Objects/a.model', parts), ('Metadata/a', other)):
+                    archive.writestr(zipfile.ZipInfo(name), text)
+            return file.getvalue()
+        self.expect_judged(package, '3mf')
+        self.expect(['file'], package(1), package(-1, 'lost'), '3mf')
+
+    def test_reads_what_the_fuzzers_start_from(self):
+        seeds = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'fuzz', 'seeds')
+        count = 0
+        for folder, form in (('vtk', 'vtk'), ('vtp', 'vtp'), ('msh', 'msh'), ('inp', 'inp'), ('gii', 'gii'), ('threemf', '3mf'),
+                             ('surf', 'surf')):
+            for name in sorted(os.listdir(os.path.join(seeds, folder))):
+                if name == 'external.gii':  # its other file is not there
+                    continue
+                with self.subTest(seed=name):
+                    self.assertGreater(len(verify.read(os.path.join(seeds, folder, name), form).faces), 0)
+                    count += 1
+        self.assertGreater(count, 15)
+
+    def test_reads_freesurfer_quadrangles(self):
+        def surface(tip):
+            points = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, tip), (1, 3, tip), (3, 2, -3), (3, 1, -3)]
+            corners = b''.join(v.to_bytes(3, 'big') for v in (0, 1, 2, 3, 4, 5, 6, 7))
+            return (b'\xff\xff\xfd' + (8).to_bytes(3, 'big') + (2).to_bytes(3, 'big')
+                    + b''.join(struct.pack('>3f', *p) for p in points) + corners + b'tags')
+        self.expect_judged(surface, 'surf', (b'tags', b'gats'))
 
     def test_accepts_a_repair(self):
         self.expect([], STUCK, DRAWN_BACK)

@@ -2,9 +2,15 @@
 import os
 import re
 import struct
+import zipfile
+import zlib
 
+from .gifti_file import read_gifti
 from .gltf_file import read_gltf
 from .mesh import Mesh, Unreadable, float32, outside
+from .node_files import read_abaqus, read_gmsh
+from .threemf_file import read_3mf
+from .vtk_files import read_vtk, read_vtk_xml
 
 
 WORDS = re.compile(rb'#[^\r\n]*|\\(?:\r\n|\r|\n)|\r\n|\r|\n|[^\x00-\x20#\\]+|\\')
@@ -141,28 +147,45 @@ def read_stl(data):
     return mesh.check_ids()
 
 
-FREESURFER_TRIANGLES = b'\xff\xff\xfe'
+FREESURFER_TRIANGLES, FREESURFER_HUNDREDTHS, FREESURFER_QUADRANGLES = b'\xff\xff\xfe', b'\xff\xff\xff', b'\xff\xff\xfd'
+FREESURFER = (FREESURFER_TRIANGLES, FREESURFER_HUNDREDTHS, FREESURFER_QUADRANGLES)
+
+
+def three_bytes(data, begin, count):
+    return [int.from_bytes(data[begin + 3 * k:begin + 3 * k + 3], 'big') for k in range(count)]
 
 
 def read_freesurfer(data):
     """Vertices marked by NaN are missing, and so are the faces that use them; their bytes must stay."""
-    comment = re.compile(rb'[^\n]*\n\n?').match(data, 3).end()
-    vertices, faces = struct.unpack_from('>2i', data, comment)
-    mesh, missing, points = Mesh(), set(), comment + 8
+    if data.startswith(FREESURFER_TRIANGLES):
+        counts = re.compile(rb'[^\n]*\n\n?').match(data, 3).end()
+        (vertices, faces), points = struct.unpack_from('>2i', data, counts), counts + 8
+    else:
+        (vertices, faces), points = three_bytes(data, 3, 2), 9
+    kind, unit = ('h', 100) if data.startswith(FREESURFER_HUNDREDTHS) else ('f', 1)
+    size = struct.calcsize(kind)
+    mesh, missing, spans = Mesh(), set(), []
     for v in range(vertices):
-        begin = points + 12 * v
-        values = struct.unpack_from('>3f', data, begin)
+        begin = points + 3 * size * v
+        values = [x / unit for x in struct.unpack_from('>3' + kind, data, begin)]
         if any(x != x for x in values):
             missing.add(v)
             values = (0, 0, 0)
-        mesh.add_vertex(values, [data[begin + 4 * k:begin + 4 * k + 4] for k in range(3)])
+        else:
+            spans.append((begin, begin + 3 * size))
+        mesh.add_vertex(values, [data[begin + size * k:begin + size * (k + 1)] for k in range(3)])
     for f in range(faces):
-        face = struct.unpack_from('>3i', data, points + 12 * (vertices + f))
+        begin = points + 3 * size * vertices + 12 * f
+        face = struct.unpack_from('>3i', data, begin) if data.startswith(FREESURFER_TRIANGLES) else three_bytes(data, begin, 4)
         if not missing.intersection(face):
-            mesh.faces.append(face)
-    spans = [(points + 12 * v, points + 12 * v + 12) for v in range(vertices) if v not in missing]
+            mesh.faces.append(tuple(face))
     mesh.rest = outside(data, spans)
     return mesh.check_ids()
+
+
+READERS = {'obj': read_obj, 'off': read_off, 'ply': read_ply, 'stl': read_stl, 'vtk': read_vtk, 'vtp': read_vtk_xml,
+           'vtu': read_vtk_xml, 'msh': read_gmsh, 'inp': read_abaqus, '3mf': read_3mf}
+WITH_OTHER_FILES = {'glb': read_gltf, 'gltf': read_gltf, 'gii': read_gifti}
 
 
 def read(path, form=None):
@@ -170,13 +193,14 @@ def read(path, form=None):
     try:
         with open(path, 'rb') as file:
             data = file.read()
-        if data.startswith(FREESURFER_TRIANGLES):
+        if data.startswith(FREESURFER):
             return read_freesurfer(data)
-        if form in ('glb', 'gltf'):
-            return read_gltf(data, os.path.dirname(path))
-        if form not in ('obj', 'off', 'ply', 'stl'):
-            raise Unreadable(f'{form or "a file without extension"} is no format that is checked here; they are obj, off, ply, stl, '
-                             'glb, gltf and FreeSurfer triangles')
-        return {'obj': read_obj, 'off': read_off, 'ply': read_ply, 'stl': read_stl}[form](data)
-    except (OSError, ValueError, KeyError, IndexError, StopIteration, struct.error, Unreadable) as error:
+        if form in WITH_OTHER_FILES:
+            return WITH_OTHER_FILES[form](data, os.path.dirname(path))
+        if form not in READERS:
+            raise Unreadable(f'{form or "a file without extension"} is no format that is checked here; they are '
+                             f'{", ".join([*READERS, *WITH_OTHER_FILES])} and FreeSurfer surfaces')
+        return READERS[form](data)
+    except (OSError, ValueError, KeyError, IndexError, StopIteration, struct.error, zipfile.BadZipFile, zlib.error,
+            AttributeError, TypeError, Unreadable) as error:
         raise Unreadable(f'{path}: {error or type(error).__name__}') from error
