@@ -127,3 +127,15 @@ def test_stored_normals_turn_with_the_faces(tmp_path):
     run("fix", path, "-o", tmp_path / "theirs.ply", "--recompute-normals", "-q")
     assert (tmp_path / "mine.ply").read_bytes() == (tmp_path / "theirs.ply").read_bytes()
     assert (tmp_path / "mine.ply").read_bytes() != (tmp_path / "plain.ply").read_bytes()
+
+
+def test_parts_that_change_and_overlap_are_told(tmp_path, caplog):
+    stool = tmp_path / "stool.obj"
+    sample(stool, "stool", "--resolution", "16")
+    with caplog.at_level("INFO", logger="unsnarl"):
+        result = unsnarl.fix(stool, tmp_path / "out.obj", fix_object=["leg", "leg_2", "leg_3", "leg_4"])
+    changed, advice = result.report["changed_components"], result.report["advice"]
+    assert changed and changed[0]["message"] in caplog.text and changed[0]["message"] in result._repr_html_()
+    assert [part["name"] for part in result.report["overlapping_components"]] == ["rung", "rung_2"]
+    assert len(advice) == 1 and advice[0] in caplog.text
+    assert unsnarl.check(stool).report["overlapping_components"] == result.report["overlapping_components"]

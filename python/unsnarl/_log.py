@@ -9,9 +9,12 @@ from ._call import Outcome
 _log = logging.getLogger("unsnarl")
 _log.addHandler(logging.NullHandler())
 
+#: Of the parts that changed, most changed first.
+_MOST_PARTS_NAMED = 5
+
 
 def log(repaired: Outcome) -> None:
-    """Tells the logger "unsnarl" what a repair came to: a warning where it is not embedded."""
+    """Tells the logger "unsnarl" what a repair came to: warnings where it is not embedded, and of parts that changed."""
     report = repaired.report
     log_notes(report["input"]["notes"])
     level = logging.INFO if repaired.status == "embedded" else logging.WARNING
@@ -25,6 +28,9 @@ def log(repaired: Outcome) -> None:
         report["displacement_max_rel"],
         report["seconds"],
     )
+    for changed in report["changed_components"][:_MOST_PARTS_NAMED]:
+        _log.warning("%s", changed["message"])
+    log_notes(report["advice"])
 
 
 def log_notes(notes: list[str]) -> None:

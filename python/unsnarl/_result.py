@@ -100,6 +100,10 @@ class Result(Repaired, Generic[V_]):
         if self.output is not None:
             rows["file"] = str(self.output)
         rows.update({"not repaired": o["message"] for o in report["obstructions"][:1]})
+        if changed := report["changed_components"]:
+            more = f"; and {len(changed) - 1} more" if len(changed) > 1 else ""
+            rows["parts"] = changed[0]["message"] + more
+        rows.update({"advice": advice for advice in report["advice"]})
         text = "".join(f"<tr><th>{html.escape(k)}</th><td>{html.escape(v)}</td></tr>" for k, v in rows.items())
         text = f"<table>{text}</table>"
         if self._before is None or self._before.face_count > _MOST_DRAWN_FACES:

@@ -8,7 +8,7 @@ from .mesh import Mesh, Unreadable, outside
 
 TYPES = {'INT8': 'b', 'UINT8': 'B', 'INT16': 'h', 'UINT16': 'H', 'INT32': 'i', 'UINT32': 'I', 'INT64': 'q', 'UINT64': 'Q',
          'FLOAT32': 'f', 'FLOAT64': 'd'}
-ARRAY = re.compile(rb'<DataArray\b([^>]*)>(.*?)</DataArray>', re.S)
+ARRAY = re.compile(rb'<DataArray\b([^>]*?)(?:/>|>(.*?)</DataArray>)', re.S)
 ATTRIBUTE = re.compile(rb'([\w:.-]+)\s*=\s*(?:"([^"]*)"|\'([^\']*)\')')
 
 
@@ -20,8 +20,8 @@ class Array:
         self.intent, self.encoding, self.rest = a['Intent'], a['Encoding'], None
         rows, columns = int(a['Dim0']), int(a.get('Dim1', 1))
         kind, order = TYPES[a['DataType'].rpartition('_')[2]], '<' if a.get('Endian') == 'LittleEndian' else '>'
-        text = re.compile(rb'<Data>(.*?)</Data>|<Data\s*/>', re.S).search(data, match.start(2), match.end(2))
-        self.span = text.span(1) if text and text.group(1) is not None else (match.end(2), match.end(2))
+        text = re.compile(rb'<Data>(.*?)</Data>', re.S).search(data, *match.span())
+        self.span = text.span(1) if text else (match.end(), match.end())
         count = rows * columns
         if self.encoding == 'ASCII':
             numbers = from_text(data, *self.span, count, kind)
