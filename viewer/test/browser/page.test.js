@@ -2,7 +2,7 @@
 // Environment: UNSNARL_PROGRAM, the program; CHROMIUM, the browser.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -73,6 +73,16 @@ test('rigid parts are listed with how they moved', async () => {
   await open('rings.html');
   const parts = page.locator('section', { has: page.locator('h2', { hasText: 'Rigid parts' }) });
   assert.match(await parts.textContent(), /component 0(at rest|shifted [\d.]+\u202f% \([\d.]+\), turned [\d.]+°)/);
+});
+
+test('parts that changed and that overlap are named', async () => {
+  unsnarl('sample', 'stool', '-o', at('stool.obj'), '--resolution', '16');
+  unsnarl('fix', at('stool.obj'), '-o', at('stool_fixed.obj'), '--view', at('stool.html'), '--report', at('stool.json'), '--quiet');
+  await open('stool.html');
+  const parts = page.locator('section', { has: page.locator('h2', { hasText: /^Parts$/ }) });
+  const report = JSON.parse(readFileSync(at('stool.json'), 'utf8'));
+  for (const words of [report.changed_components[0].message, report.advice[0]])
+    assert.ok((await parts.textContent()).includes(words), words);
 });
 
 test('before and after are drawn side by side, intersections in red', async () => {
