@@ -11,10 +11,10 @@ _log.addHandler(logging.NullHandler())
 
 
 def log(repaired: Outcome) -> None:
-    """Tells the logger "unsnarl" what a repair came to: a warning where it is not embedded."""
+    """Tells the logger "unsnarl" what a repair came to: a warning where something is left."""
     report = repaired.report
     log_notes(report["input"]["notes"])
-    level = logging.INFO if repaired.status == "embedded" else logging.WARNING
+    level = logging.INFO if repaired.status in ("embedded", "allowed") else logging.WARNING
     _log.log(
         level,
         "%s: %d intersecting pairs before, %d after; moved by %.2g at most, %.2g of the diagonal; %.2f s",

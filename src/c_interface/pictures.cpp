@@ -42,10 +42,11 @@ using namespace unsnarl::c_interface;
 int unsnarl_picture(const unsnarl_surface* surface, const double* moved, size_t moved_count, int32_t width,
                     const unsnarl_options* options, unsnarl_result** result) {
   return hand_out(result, [&] {
-    const SurfaceView before = view_of(surface_of(surface));
+    const unsnarl_surface given = surface_of(surface);
+    const SurfaceView before = view_of(given);
     check_corners(before);
     const std::span<const double> after = moved ? std::span(moved, 3 * moved_count) : std::span<const double>();
-    const std::string png = picture(before, after, width, find_options(options_of(options, Work::search)));
+    const std::string png = picture(before, after, width, find_options(options_of(options, Work::search), given));
     unsnarl_result drawn;
     drawn.arrays["png"] = {std::vector<std::uint8_t>(png.begin(), png.end()), 1};
     return drawn;

@@ -34,7 +34,7 @@ std::string view_page(std::string_view page_template, const PageSource& source) 
   const ThreadLimit threads(source.find.threads);
   const PreparedSurface prepared = prepare(source.before, source.find);
   if (!source.after.empty()) require_positions(source.before, source.after);
-  IntersectionFinder finder(prepared.triangles());
+  IntersectionFinder finder(prepared.triangles(), prepared.passing());
   std::vector<IntersectingPair> pairs_before, pairs_after;
   const auto state_at = [&](std::span<const double> positions, std::vector<IntersectingPair>& pairs) {
     const Positions x = prepared.gather(positions);

@@ -9,6 +9,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <thread>
@@ -82,7 +83,8 @@ std::string host_name() {
 }
 
 bool is_success(const std::string& status) {
-  return status == to_string(Status::embedded) || status == to_string(Status::obstructed);
+  return status == to_string(Status::embedded) || status == to_string(Status::allowed) ||
+         status == to_string(Status::obstructed);
 }
 
 /// Everything around one call of `batch`.
@@ -128,8 +130,13 @@ class Batch {
       tell(is_whole ? fmt::format("see {}\n", visible_text((folder_.root / "index.html").string()))
                     : "when all parts are done, run the same command with --summary\n");
     }
-    return counts.size() == 1 && counts.contains(std::string(to_string(Status::embedded))) ? exit_embedded
-                                                                                           : exit_intersecting;
+    const auto are_all = [&](std::initializer_list<Status> statuses) {
+      return std::all_of(counts.begin(), counts.end(), [&](const auto& count) {
+        return std::any_of(statuses.begin(), statuses.end(), [&](Status s) { return count.first == to_string(s); });
+      });
+    };
+    if (counts.empty() || !are_all({Status::embedded, Status::allowed})) return exit_intersecting;
+    return are_all({Status::embedded}) ? exit_embedded : exit_allowed;
   }
 
  private:
