@@ -21,9 +21,9 @@ class Certificate(NamedTuple):
     float32_embedded: bool  #: no two faces meet after rounding all positions to float32
     pairs: dict[str, int]  #: intersecting pairs of faces by kind, see Intersections.kinds
     pairs_float32: dict[str, int]  #: the same after rounding to float32
-    allowed: dict[str, int]  #: pairs that may intersect and do, which the others leave out
     new_zero_area_faces: int  #: triangles without area that had some in the input
     seams_closed: bool  #: welded vertices are at one position
+    allowed: dict[str, int]  #: pairs that may intersect and do, which the others leave out
     resolved: bool  #: embedded, or nothing keeps it from being so but pairs that may intersect
 
 
