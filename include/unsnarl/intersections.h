@@ -64,8 +64,8 @@ struct FindOptions {
   /// Quads have two diagonals: count two faces as intersecting where they do for any choice of them (a diagonal that
   /// folds its quad left out). Readers of the file may choose either.
   bool both_diagonals = false;
-  AllowedPairs allowed;  ///< of which no pair is an intersection
-  int threads = 0;       ///< 0: as many as the machine has. >= 0
+  AllowedPairs allowed = {};  ///< of which no pair is an intersection
+  int threads = 0;            ///< 0: as many as the machine has. >= 0
 };
 
 /// All pairs of faces that intersect and may not, sorted by (a, b), decided by exact predicates. Ids are those of the

@@ -484,7 +484,8 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
       "--summary", options.summary,
       "Only write the summary of what is done. Needed with --shard; else the summary is written at the end");
   command.add_flag("--thumbnails", options.thumbnails, "Draw each mesh before and after for the summary page");
-  command.add_flag("--retry", options.retry, "Repair again the meshes that did not end as embedded or obstructed");
+  command.add_flag("--retry", options.retry,
+                   "Repair again the meshes that did not end as embedded, allowed or obstructed");
   const std::string limits = "Limits for each mesh";
   command
       .add_option("--time-limit", options.time_limit_s,
@@ -516,7 +517,8 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
                              "meshes that are done are "
                              "skipped.\n\n") +
                  exit_codes({{exit_embedded, "all meshes are embedded (no self-intersections)"},
-                             {exit_intersecting, "all were tried, but not all are embedded; results.csv says why"}}));
+                             {exit_intersecting, "all were tried, but not all are embedded; results.csv says why"},
+                             {exit_allowed, "all are embedded but for pairs that --allow lets pass"}}));
 }
 
 int run_batch(const BatchOptions& options, Interruption& interruption) {
