@@ -46,8 +46,8 @@ class Result(Repaired, Generic[V_]):
     """What a repair came to; of one mesh Result[Positions], of several Result[list[Positions]]."""
 
     #: (n, 3), vertex order of the input. float32 where the input is and precision is not "float64", else float64.
-    #: What did not have to move is bit-identical. Never has more intersecting pairs than the input. Of a list of
-    #: meshes: a list of such arrays.
+    #: What did not have to move is bit-identical. Never has more intersecting pairs than the input, but for
+    #: allowed ones. Of a list of meshes: a list of such arrays.
     V: V_
     #: Only "embedded" promises a surface without self-intersections, "allowed" one that has none but those allowed.
     status: Status
