@@ -15,11 +15,14 @@ std::string picture(const SurfaceView& before, std::span<const double> moved, in
     throw std::invalid_argument("width is " + std::to_string(width) + "; give pixels from 128 to 8192");
   Certifier certifier(before, find);
   const std::vector<IntersectingPair> pairs_before = certifier.find_intersections(before.positions);
+  const auto allowed_at = [&](std::span<const double> positions) {
+    return certifier.find_allowed_pairs(positions).size();
+  };
   PictureOptions options;
   options.width = width;
   if (moved.empty()) {
     options.height = width * 3 / 4;
-    options.before_label = picture_label("mesh", pairs_before.size());
+    options.before_label = picture_label("mesh", pairs_before.size(), allowed_at(before.positions));
     return picture_png(before, intersecting_faces(pairs_before), options);
   }
   if (moved.size() != before.positions.size())
@@ -27,8 +30,8 @@ std::string picture(const SurfaceView& before, std::span<const double> moved, in
                                 std::to_string(before.vertex_count()));
   const std::vector<IntersectingPair> pairs_after = certifier.find_intersections(moved);
   options.height = width / 2;
-  options.before_label = picture_label("before", pairs_before.size());
-  options.after_label = picture_label("after", pairs_after.size());
+  options.before_label = picture_label("before", pairs_before.size(), allowed_at(before.positions));
+  options.after_label = picture_label("after", pairs_after.size(), allowed_at(moved));
   return picture_png(before, intersecting_faces(pairs_before), {moved, before.corners, before.offsets},
                      intersecting_faces(pairs_after), options);
 }

@@ -61,6 +61,9 @@ TEST_F(Allow, other_pairs_are_resolved_as_without_it) {
                                folder / "p.png", "--view", folder / "v.html"});
   EXPECT_EQ(outcome.exit_code, 8) << outcome.err;
   const auto json = nlohmann::json::parse(contents(folder / "r.json"));
+  const std::string left = json["allowed"]["after"]["total"].dump();
+  EXPECT_NE(contents(folder / "v.html").find("\"allowed\":{\"before\":" + left + ",\"after\":" + left + "}"),
+            std::string::npos);
   EXPECT_GT(json["before"]["total"], 0);
   EXPECT_EQ(json["after"]["total"], 0);
   EXPECT_EQ(pairs_in(out), json["allowed"]["after"]["total"]);

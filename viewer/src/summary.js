@@ -18,9 +18,10 @@ const statuses = {
 };
 
 /** The mesh in one phrase, and its mood: by the report, or by the pairs that are left. */
-export function statusOf({ report }, before, after) {
+export function statusOf({ report, allowed }, before, after) {
   if (report && statuses[report.status]) return statuses[report.status];
   const shown = after ?? before;
+  if (shown.count === 0 && (after ? allowed?.after : allowed?.before)) return statuses.allowed;
   return shown.count === 0 ? ['No self-intersections', 'good']
     : [plural(shown.count, 'intersecting pair', 'intersecting pairs'), 'bad'];
 }
