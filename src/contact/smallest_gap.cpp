@@ -61,8 +61,13 @@ double squared_distance(const Box& a, const Box& b) {
 /// hold only one group, are skipped.
 class Search {
  public:
-  Search(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group)
-      : triangles_(triangles), x_(x), group_(group), order_(triangles.size()), boxes_(triangles.size()) {
+  Search(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group, Passing passing)
+      : triangles_(triangles),
+        x_(x),
+        group_(group),
+        passing_(passing),
+        order_(triangles.size()),
+        boxes_(triangles.size()) {
     nearest_.distance = std::numeric_limits<double>::infinity();
     if (triangles.empty()) return;
     std::iota(order_.begin(), order_.end(), Index{0});
@@ -147,7 +152,7 @@ class Search {
   }
 
   void compare(Index s, Index t) {
-    if (group(s) == group(t)) return;
+    if (group(s) == group(t) || !passing_.meet(triangles_, s, t)) return;
     if (squared_distance(boxes_[s], boxes_[t]) >= nearest_.distance * nearest_.distance) return;
     if (share_a_vertex(triangles_[s], triangles_[t])) return;
     if (are_apart(x_, triangles_[s], triangles_[t], nearest_.distance)) return;
@@ -158,6 +163,7 @@ class Search {
   std::span<const Triangle> triangles_;
   const Positions& x_;
   std::span<const Index> group_;
+  Passing passing_;
   std::vector<Index> order_;
   std::vector<Box> boxes_;  // of the triangles
   std::vector<Node> nodes_;
@@ -166,8 +172,9 @@ class Search {
 
 }  // namespace
 
-SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group) {
-  return Search(triangles, x, group).nearest();
+SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group,
+                         Passing passing) {
+  return Search(triangles, x, group, passing).nearest();
 }
 
 std::vector<std::array<Index, 2>> pairs_closer_than(std::span<const Triangle> triangles, const Positions& x,

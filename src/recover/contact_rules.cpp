@@ -104,19 +104,31 @@ bool ContactRules::are_neighbours(const Stencil& s) const {
   return false;
 }
 
-bool ContactRules::intersect_at_rest(const Stencil& s) const {
+template <class IsWanted>
+bool ContactRules::any_pair(const Stencil& s, IsWanted&& is_wanted) const {
   const auto [first, second] = s.primitives;
   const bool is_edge = s.kind == StencilKind::edge_edge;
   const IndexLists& of_edge = candidates_.edges().triangles_of_edge;
   for (const Index t : is_edge ? of_edge[first] : candidates_.triangles_of_vertex()[first])
     for (const Index u : is_edge ? of_edge[second] : std::span<const Index>(&second, 1))
-      if (std::binary_search(pairs_.begin(), pairs_.end(), Edge{std::min(t, u), std::max(t, u)})) return true;
+      if (is_wanted(t, u)) return true;
   return false;
+}
+
+bool ContactRules::intersect_at_rest(const Stencil& s) const {
+  return any_pair(s, [&](Index t, Index u) {
+    return std::binary_search(pairs_.begin(), pairs_.end(), Edge{std::min(t, u), std::max(t, u)});
+  });
+}
+
+bool ContactRules::pass(const Stencil& s) const {
+  const Passing passing = patch_.passing();
+  return passing.has_parts() && !any_pair(s, [&](Index t, Index u) { return passing.meet(patch_.triangles, t, u); });
 }
 
 bool ContactRules::rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const {
   const Stencil& s = near.stencil;
-  if (!(distance > 0)) return false;
+  if (!(distance > 0) || pass(s)) return false;
   rule.stencil.stencil = s;
   rule.distance = near.distance;
   rule.direction = near.direction;

@@ -52,7 +52,8 @@ struct ContactRuleOptions {
 ///   other at rest.
 /// - No stencil has to keep more than half its present distance: faces that were shrunk below min_gap can grow again,
 ///   and stencils that end too close are opened last.
-/// A stencil without distance at rest whose triangles do not intersect there (around zero-area faces) has no rule.
+/// A stencil without distance at rest whose triangles do not intersect there (around zero-area faces) has no rule, nor
+/// has one whose triangles all pass through each other.
 class ContactRules {
  public:
   /// pairs: those of triangles that intersect at rest. The patch must outlive this.
@@ -77,8 +78,13 @@ class ContactRules {
   void add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
                  std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
   bool are_neighbours(const Stencil& stencil) const;
+  /// Whether triangles t at the one primitive and u at the other are a pair for which is_wanted(t, u).
+  template <class IsWanted>
+  bool any_pair(const Stencil& stencil, IsWanted&& is_wanted) const;
   /// Whether a triangle at the one primitive intersects one at the other at rest.
   bool intersect_at_rest(const Stencil& stencil) const;
+  /// Whether all triangles at the one primitive pass through all at the other.
+  bool pass(const Stencil& stencil) const;
   /// Rule of a stencil that is `distance` wide now; false where there is none or it cannot come that close.
   bool rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const;
   /// The corners of triangles [begin, end) that move against their opposite edges.

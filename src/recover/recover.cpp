@@ -52,7 +52,7 @@ bool is_below_roundoff(const Patch& patch) {
 }
 
 ContactRules contact_rules_of(const Patch& patch, const RecoverOptions& recovery, const std::function<bool()>& stop) {
-  IntersectionFinder at_rest(patch.triangles, patch.active_count);
+  IntersectionFinder at_rest(patch.triangles, patch.active_count, patch.passing());
   ContactRuleOptions options;
   options.roundoff = roundoff_of(patch);
   options.min_gap = std::max(recovery.min_gap, options.roundoff);

@@ -85,7 +85,7 @@ TEST(FailingAllocation, a_finder_finds_all_when_it_is_asked_again) {
   std::vector<Index> sheet_of(shape.points.size(), 0);
   std::fill(sheet_of.begin() + static_cast<std::ptrdiff_t>(sheet_of.size() / 2), sheet_of.end(), 1);
   for (const bool passes_through : {false, true}) {  // one sheet through the other
-    const VertexGroups groups = passes_through ? VertexGroups(sheet_of) : VertexGroups();
+    const Passing groups = passes_through ? Passing(sheet_of) : Passing();
     const std::vector<IntersectingPair> pairs =
         passes_through ? std::vector<IntersectingPair>() : shapes::pairs_of(shape);
     // The whole comes from afar, a step at a time: from the third on the finder follows what moves.

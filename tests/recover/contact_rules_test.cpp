@@ -59,6 +59,20 @@ TEST(ContactRules, a_gap_keeps_the_wanted_one_and_no_more_than_half_of_itself) {
   EXPECT_DOUBLE_EQ(closed.stencil.separation, 0.002);
 }
 
+TEST(ContactRules, what_passes_through_each_other_has_none) {
+  Patch patch = face_over_face(0.004, 0.5);
+  patch.part_of = {0, 1};
+  for (const bool pass : {true, false}) {
+    const PassingParts parts(2, std::vector<std::array<Index, 2>>{{0, pass ? 1 : 0}});
+    patch.parts = &parts;
+    ContactRules rules(patch, {}, {.min_gap = 0.01, .roundoff = 1e-13});
+    std::vector<ContactRule> found;
+    rules.gather(patch.x, 1, anywhere_within(std::vector<double>(6, 1)), std::vector<std::uint8_t>{1, 1, 1, 0, 0, 0},
+                 found);
+    EXPECT_EQ(std::all_of(found.begin(), found.end(), [](const ContactRule& rule) { return rule.own_altitude; }), pass);
+  }
+}
+
 TEST(ContactRules, the_barrier_leaves_a_rest_shape_without_conflict_alone) {
   const ContactRule thin = rule_of_vertex_0(face_over_face(0.2, 0.2), {});
   EXPECT_DOUBLE_EQ(thin.reach, 0.1);
