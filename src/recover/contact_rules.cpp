@@ -14,17 +14,24 @@ namespace {
 /// The barrier sets in at this distance at least, so that it has a width (unit: separations of the stencil)
 constexpr double least_activation = 1.5;
 
+/// At a vertex, h counts as no more than this many of its longest edge: parts much finer than the others, or shrunk on
+/// the way, would list and push apart everything that is within many edges [E207] (unit: edges)
+constexpr double most_edges = 4;
+
 /// Corner k of a triangle against the opposite edge.
 Stencil altitude_of(const Triangle& f, int k) {
   return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
 }
 
-/// Moves the rules of `from` to the end of `to`; `from` is unspecified afterwards.
-void take_over(std::vector<ContactRule>& from, std::vector<ContactRule>& to) {
-  if (to.empty())
-    to.swap(from);
-  else
+/// Moves the rules of `from` to the end of `to`, which grows no more than it needs: lists are the most memory that a
+/// recovery takes.
+void take_over(std::vector<ContactRule>&& from, std::vector<ContactRule>& to) {
+  if (to.empty()) {
+    to = std::move(from);
+  } else {
+    to.reserve(to.size() + from.size());
     to.insert(to.end(), from.begin(), from.end());
+  }
 }
 
 }  // namespace
@@ -57,42 +64,62 @@ ContactRules::ContactRules(const Patch& patch, std::span<const IntersectingPair>
   }
 }
 
+std::vector<double> ContactRules::shares_of_h(const Positions& x) const {
+  std::vector<double> longest(static_cast<std::size_t>(x.cols()), 0), shares(longest.size(), 1);
+  if (!(options_.h > 0)) return shares;
+  for (const Edge& e : candidates_.edges().edges) {
+    const double length = (x.col(e[1]) - x.col(e[0])).norm();
+    for (const Index v : e) longest[v] = std::max(longest[v], length);
+  }
+  for (std::size_t v = 0; v < shares.size(); ++v) shares[v] = std::min(1.0, most_edges * longest[v] / options_.h);
+  return shares;
+}
+
 void ContactRules::gather(const Positions& x, double activation, const MotionBounds& bounds,
                           std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
   rules.clear();
-  candidates_.gather(x, activation, bounds, moves, stencils_, options_.stop);
-  add_rules(x, x, activation, bounds, moves, rules);
+  const double least = std::min(activation, options_.reach_gaps * options_.min_gap);
+  radius_ = shares_of_h(x);
+  for (double& radius : radius_) radius = std::max(least, activation * radius);
+  std::vector<NearStencil> stencils;
+  candidates_.gather(x, radius_, bounds, moves, stencils, options_.stop);
+  add_rules(std::move(stencils), x, x, bounds, moves, rules);
 }
 
-void ContactRules::gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
-                                 double activation, const MotionBounds& bounds, std::vector<ContactRule>& rules) {
+bool ContactRules::gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
+                                 const MotionBounds& bounds, std::vector<ContactRule>& rules, std::size_t most) {
   is_anew_.assign(static_cast<std::size_t>(x.cols()), 0);
   for (Index v : vertices) is_anew_[v] = 1;
   std::erase_if(rules, [&](const ContactRule& rule) {
     const Stencil& s = rule.stencil.stencil;
     return std::any_of(s.v.begin(), s.v.begin() + s.size(), [&](Index v) { return is_anew_[v] != 0; });
   });
-  candidates_.gather_around(vertices, from, activation, bounds, stencils_, options_.stop);
-  add_rules(from, x, activation, bounds, is_anew_, rules);
+  std::vector<NearStencil> stencils;
+  if (!candidates_.gather_around(vertices, from, radius_, bounds, stencils, options_.stop, most)) return false;
+  add_rules(std::move(stencils), from, x, bounds, is_anew_, rules);
+  return true;
 }
 
-void ContactRules::add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
-                             std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
+void ContactRules::add_rules(std::vector<NearStencil>&& stencils, const Positions& from, const Positions& x,
+                             const MotionBounds& bounds, std::span<const std::uint8_t> moves,
+                             std::vector<ContactRule>& rules) const {
+  std::vector<ContactRule> added;
   gather_in_chunks(
-      static_cast<Index>(stencils_.size()), added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
-        end_long_work_if(options_.stop, stencils_.size());
+      static_cast<Index>(stencils.size()), added, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+        end_long_work_if(options_.stop, stencils.size());
         for (Index k = begin; k < end; ++k) {
-          const NearStencil& near = stencils_[k];
+          const NearStencil& near = stencils[k];
           const double distance = &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x));
           ContactRule rule;
-          if (rule_of(near, distance, activation, rule)) list.push_back(rule);
+          if (rule_of(near, distance, rule)) list.push_back(rule);
         }
       });
-  take_over(added_, rules);
-  gather_in_chunks(patch_.active_count, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+  std::vector<NearStencil>().swap(stencils);
+  take_over(std::move(added), rules);
+  gather_in_chunks(patch_.active_count, added, [&](Index begin, Index end, std::vector<ContactRule>& list) {
     add_altitudes(from, x, bounds, moves, begin, end, list);
   });
-  take_over(added_, rules);
+  take_over(std::move(added), rules);
 }
 
 bool ContactRules::are_neighbours(const Stencil& s) const {
@@ -114,7 +141,7 @@ bool ContactRules::intersect_at_rest(const Stencil& s) const {
   return false;
 }
 
-bool ContactRules::rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const {
+bool ContactRules::rule_of(const NearStencil& near, double distance, ContactRule& rule) const {
   const Stencil& s = near.stencil;
   if (!(distance > 0)) return false;
   rule.stencil.stencil = s;
@@ -140,7 +167,8 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   }
   rule.closed = !(distance > separation);
   rule.stencil.separation = std::min(0.5 * distance, separation);
-  rule.stencil.activation = std::max(std::min(activation, rule.reach), least_activation * rule.stencil.separation);
+  rule.stencil.activation =
+      std::max(std::min(radius_of(s, radius_), rule.reach), least_activation * rule.stencil.separation);
   if (near.least_distance > rule.stencil.activation) return false;
   if (s.kind == StencilKind::edge_edge) {
     const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();

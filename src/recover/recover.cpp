@@ -57,6 +57,7 @@ ContactRules contact_rules_of(const Patch& patch, const RecoverOptions& recovery
   options.roundoff = roundoff_of(patch);
   options.min_gap = std::max(recovery.min_gap, options.roundoff);
   options.reach_gaps = recovery.least_gaps;
+  options.h = edge_length_of(patch);
   options.stop = stop;
   return ContactRules(patch, at_rest.find(patch.rest, stop), options);
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "scene/shapes.h"
+
 namespace unsnarl {
 namespace {
 
@@ -180,7 +182,7 @@ TEST(ContactRules, around_a_vertex_judge_closed_where_it_is_now) {
   rules.gather(from, 0.1, bounds, moves, found);
   const std::size_t count = found.size();
   for (Index v : {3, 4, 5}) patch.x(2, v) += 0.195;
-  rules.gather_around(std::vector<Index>{0}, from, patch.x, 0.1, bounds, found);
+  rules.gather_around(std::vector<Index>{0}, from, patch.x, bounds, found);
   EXPECT_EQ(found.size(), count);
   const auto over_face = std::find_if(found.begin(), found.end(), [](const ContactRule& rule) {
     return rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}};
@@ -191,8 +193,27 @@ TEST(ContactRules, around_a_vertex_judge_closed_where_it_is_now) {
   EXPECT_NEAR(over_face->stencil.separation, 0.0025, 1e-12);
   // Where nothing may come any more there is no rule either.
   for (Index v = 0; v < 6; ++v) bounds.around[v] = 0;
-  rules.gather_around(std::vector<Index>{0, 1, 2, 3, 4, 5}, from, from, 0.1, bounds, found);
+  rules.gather_around(std::vector<Index>{0, 1, 2, 3, 4, 5}, from, from, bounds, found);
   EXPECT_TRUE(found.empty());
+}
+
+/// Rules per vertex of a fine tube that is shrunk to a point but for a hundredth, beside edges of length h.
+double rules_a_vertex(Index cells, double h) {
+  Patch patch = shapes::patch_of(shapes::tube(cells, cells, cells / 6.0));
+  patch.x *= 0.01 / cells;
+  ContactRuleOptions options;
+  options.h = h;
+  ContactRules rules(patch, {}, options);
+  std::vector<ContactRule> found;
+  const std::size_t count = static_cast<std::size_t>(patch.x.cols());
+  rules.gather(patch.x, 0.1, anywhere_within(std::vector<double>(count, 0)), std::vector<std::uint8_t>(count, 1),
+               found);
+  return static_cast<double>(found.size()) / static_cast<double>(count);
+}
+
+TEST(ContactRules, of_what_is_shrunk_are_as_many_a_vertex_however_fine_it_is) {
+  EXPECT_LT(rules_a_vertex(24, 1), 1.5 * rules_a_vertex(12, 1));
+  EXPECT_GT(rules_a_vertex(24, 0), 3 * rules_a_vertex(12, 0)) << "without h, all pairs are near";
 }
 
 TEST(ContactRules, faces_guard_their_own_altitudes) {
