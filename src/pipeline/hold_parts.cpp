@@ -110,16 +110,18 @@ std::optional<Index> heaviest_part(const RepairTask& task, const Scene& scene, c
     const Triangle& corners = scene.triangles[t];
     motion[part_of(task, corners[0])] += squared_motion(scene.rest, scene.x, corners);
   }
+  double all = 0;
+  for (const auto& [part, m] : motion) all += m;
   for (const Index part : cluster.held) motion.erase(part);
   const auto most =
       std::ranges::max_element(motion, {}, [](const auto& part_and_motion) { return part_and_motion.second; });
-  if (most == motion.end() || !(most->second > 0)) return std::nullopt;
+  if (most == motion.end() || !(most->second > env("U_SHARE", 0) * all)) return std::nullopt;
   return most->first;
 }
 
 /// Repairs the open clusters again from rest, these components held, and recovers with them free.
 EscalationResult repair_again(const RepairTask& task, const RepairControl& control, std::span<const Cluster> clusters,
-                              std::span<const std::uint8_t> is_held, SceneIndex& index, RepairState& state) {
+                              std::span<const std::uint8_t> is_held, SceneIndex& index, RepairState& state, const Positions& saved) {
   Scene& scene = state.scene;
   std::vector<std::uint8_t> fixed = scene.fixed;
   for (const Cluster& cluster : clusters)
@@ -145,7 +147,20 @@ EscalationResult repair_again(const RepairTask& task, const RepairControl& contr
     sets.emplace_back();
     std::ranges::copy_if(cluster.vertices, std::back_inserter(sets.back()), [&](Index v) { return !scene.fixed[v]; });
   }
-  if (result.left.empty() || !std::getenv("U_FAIL")) recover_sets(task, control, std::move(sets), index, state, {});
+  const auto r0 = recover_sets;
+  (void)r0;
+  if (result.left.empty() || !std::getenv("U_FAIL")) {
+    if (std::getenv("U_QUICK")) quick_recovery = true;
+    recover_sets(task, control, sets, index, state, {});
+    if (quick_recovery) {
+      quick_recovery = false;
+      std::vector<Index> all;
+      for (auto& s : sets) all.insert(all.end(), s.begin(), s.end());
+      sort_unique(all);
+      const double is = motion_of(scene, scene.x, all), was = motion_of(scene, saved, all);
+      if (is < env("U_QUICK", 1) * was) recover_sets(task, control, sets, index, state, {});
+    }
+  }
   if (std::getenv("U_VERBOSE")) std::printf("   escalate %.3f recover %.3f left %zu\n", std::chrono::duration<double>(t1 - t0).count(), std::chrono::duration<double>(std::chrono::steady_clock::now() - t1).count(), result.left.size());
   if (std::getenv("U_VERBOSE")) for (auto& r : result.regions) std::printf("      %s %zu\n", r.strategy.c_str(), r.pairs);
   return result;
@@ -159,7 +174,12 @@ std::vector<IntersectingPair> hold_parts(const RepairTask& task, const RepairCon
   const bool verbose = std::getenv("U_VERBOSE");
   std::vector<Cluster> clusters = clusters_of(task, state);
   std::vector<IntersectingPair> left = blocking_pairs(index.find_pairs(), state.ignored);
-  if (std::getenv("U_NOHOLD")) return left;
+  if (const char* e = std::getenv("U_AGAIN")) {
+    std::vector<std::vector<Index>> sets;
+    for (const Cluster& c : clusters) { sets.emplace_back(); for (Index v : c.vertices) if (!scene.fixed[v]) sets.back().push_back(v); }
+    for (int k = 0; k < std::atoi(e); ++k) recover_sets(task, control, sets, index, state, {});
+  }
+  if (std::getenv("U_NOHOLD")) return blocking_pairs(index.find_pairs(), state.ignored);
   for (int round = 0;; ++round) {
     std::vector<std::uint8_t> is_held(task.diagnosis.components.count(), 0);
     bool any = false;
@@ -175,7 +195,7 @@ std::vector<IntersectingPair> hold_parts(const RepairTask& task, const RepairCon
     }
     if (!any || control.limits.reached()) break;
     const Positions saved = scene.x;
-    EscalationResult again = repair_again(task, control, clusters, is_held, index, state);
+    EscalationResult again = repair_again(task, control, clusters, is_held, index, state, saved);
     // Decide.
     std::vector<std::vector<Index>> sets = again.moved;
     for (const Cluster& cluster : clusters) sets.push_back(cluster.vertices);

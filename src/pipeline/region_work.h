@@ -12,6 +12,7 @@
 #include "untangle/escalation.h"
 
 namespace unsnarl {
+extern bool quick_recovery;
 
 /// How regions of the state are untangled within the limits and the displacement that the task allows, without a word
 /// of progress. `is_exceeded`: set where a candidate goes too far. All must outlive the options.
