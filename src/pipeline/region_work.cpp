@@ -7,7 +7,6 @@
 #include "untangle/strategies.h"
 
 namespace unsnarl {
-bool quick_recovery = false;
 namespace {
 
 double most_motion(const RepairTask& task) {
@@ -51,10 +50,10 @@ EscalationOptions escalation_options(const RepairTask& task, const RepairControl
 }
 
 double recover_sets(const RepairTask& task, const RepairControl& control, std::vector<std::vector<Index>> sets,
-                    SceneIndex& index, RepairState& state, std::function<void(double)> on_progress) {
+                    const RecoverOptions& recovery, SceneIndex& index, RepairState& state,
+                    std::function<void(double)> on_progress) {
   RecoverRegionsOptions options;
-  if (task.options.paper) options.recover = RecoverOptions::paper();
-  if (quick_recovery) { options.recover.has_last_stage = false; options.recover.unflip_rounds = 0; }
+  options.recover = recovery;
   options.min_gap = [&](std::span<const Index> vertices) { return state.format.wanted_gap(state.scene, vertices); };
   options.stop = control.limits.stopper();
   options.on_progress = std::move(on_progress);

@@ -12,7 +12,6 @@
 #include "untangle/escalation.h"
 
 namespace unsnarl {
-extern bool quick_recovery;
 
 /// How regions of the state are untangled within the limits and the displacement that the task allows, without a word
 /// of progress. `is_exceeded`: set where a candidate goes too far. All must outlive the options.
@@ -22,6 +21,7 @@ EscalationOptions escalation_options(const RepairTask& task, const RepairControl
 /// Recovers sets of vertices, those that overlap as one. Returns the least gap that was reached, or infinity.
 /// `on_progress`: see RecoverRegionsOptions; may be empty.
 double recover_sets(const RepairTask& task, const RepairControl& control, std::vector<std::vector<Index>> sets,
-                    SceneIndex& index, RepairState& state, std::function<void(double)> on_progress);
+                    const RecoverOptions& recovery, SceneIndex& index, RepairState& state,
+                    std::function<void(double)> on_progress = {});
 
 }  // namespace unsnarl

@@ -77,7 +77,8 @@ void recover_moved(const RepairTask& task, const RepairControl& control, std::sp
                    SceneIndex& index, RepairState& state) {
   std::vector<std::vector<Index>> sets;
   for (std::size_t k = state.recovered; k < state.moved.size(); ++k) sets.push_back(state.moved[k].vertices);
-  const double gap = recover_sets(task, control, std::move(sets), index, state, [&](double share) {
+  const RecoverOptions recovery = task.options.paper ? RecoverOptions::paper() : RecoverOptions();
+  const double gap = recover_sets(task, control, std::move(sets), recovery, index, state, [&](double share) {
     report_progress(task, control, state, untangled_fraction + (recovered_fraction - untangled_fraction) * share, left);
   });
   state.smallest_gap = std::min(state.smallest_gap, gap);
@@ -170,7 +171,7 @@ Rounds work_in_rounds(const RepairTask& task, const RepairControl& control, Find
       control.phases.start("recover");
       report_progress(task, control, state, untangled_fraction, *left);
       recover_moved(task, control, *left, index, state);
-      if (round == 0 && !task.options.paper) left = hold_parts(task, control, index, state);
+      if (round == 0 && !task.options.paper) left = hold_parts(task, control, std::move(*left), index, state);
     }
     measure_regions(task, state);
     state.recovered = state.moved.size();
