@@ -7,6 +7,7 @@
 #include <new>
 
 #include "file_places.h"
+#include "gap_words.h"
 #include "memory_guard.h"
 #include "mesh_input.h"
 #include "pair_class_words.h"
@@ -14,6 +15,7 @@
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/check.h"
+#include "unsnarl/clearance.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/report_json.h"
@@ -93,6 +95,7 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
     line(fmt::format("  and {} more (--json lists all)", found.components.size() - components_in_text));
   if (found.counts.total() == 0) {
     line("no self-intersections");
+    if (found.gap) line(gap_in_words(*found.gap, diagonal_of(surface)));
     return text;
   }
   line(fmt::format("{}: {} in {}; {} within a component, {} between two",
@@ -161,6 +164,12 @@ CheckLimits limits_of(const CheckOptions& options) {
   return limits;
 }
 
+GapReport measured(const CheckOptions& options, const SurfaceView& surface) {
+  const double diagonal = diagonal_of(surface);
+  return measure_gap(surface, options.absolute && diagonal > 0 ? options.min_gap / diagonal : options.min_gap,
+                     options.find());
+}
+
 int checked(const CheckOptions& options, Interruption& interruption) {
   if (options.pairs == standard_stream) throw UsageError("--pairs needs a file name, not '-'");
   const MemoryGuard memory_guard(options.memory_limit_mb);
@@ -174,6 +183,7 @@ int checked(const CheckOptions& options, Interruption& interruption) {
   display.begin("find");
   CheckReport found = check(scene.surface(), options.find(), limits_of(options));
   name_components(scene, found);
+  if (options.min_gap > 0 && found.counts.total() == 0) found.gap = measured(options, scene.surface());
   const ReportFiles files = described(options, scene, found);
   display.clear();
   if (!options.pairs.empty()) write_file(options.pairs, pairs_table(found.pairs), interruption);
@@ -185,7 +195,8 @@ int checked(const CheckOptions& options, Interruption& interruption) {
   }
   const std::size_t that_count =
       options.goal_wanted() == Goal::all ? found.counts.total() : found.counts[PairClass::disjoint];
-  return that_count == 0 ? exit_embedded : exit_intersecting;
+  if (that_count > 0) return exit_intersecting;
+  return found.gap && !found.gap->is_met() ? exit_gap_not_met : exit_embedded;
 }
 
 }  // namespace
@@ -197,9 +208,21 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
       .add_option("--pairs", options.pairs,
                   "Write all intersecting pairs of faces: the ids of both, counted from 0, and the class")
       ->type_name("FILE.csv");
+  command
+      .add_option("--min-gap", options.min_gap,
+                  "Find the smallest gap between surfaces, and say whether it is at least this, a fraction of the "
+                  "bounding-box diagonal. 0 (default): no gap is looked for")
+      ->check(not_negative(unit::share_or_length))
+      ->type_name("NUMBER");
+  command.add_flag("--absolute", options.absolute, "--min-gap is a length in the units of the file");
   add_time_limit(command, options.time_limit_s);
   add_memory_limit(command, options.memory_limit_mb);
   add_mesh_options(command, options);
+  command.final_callback([&command, &options] {
+    options.require_effect();
+    if (options.absolute && command.count("--min-gap") == 0)
+      throw UsageError("--absolute has an effect only with --min-gap; add it, or leave --absolute out");
+  });
   command.footer(std::string("Classes of pairs:\n"
                              "  disjoint    the faces share no vertex\n"
                              "  one_vertex  they share one vertex, and meet elsewhere too\n"
@@ -214,7 +237,8 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
                              "  unsnarl check - --format stl < part.stl --pairs pairs.csv\n\n") +
                  exit_codes({{exit_embedded, "no self-intersections"},
                              {exit_intersecting, "self-intersections found"},
-                             {exit_limit, "limit of time or memory reached"}}));
+                             {exit_limit, "limit of time or memory reached"},
+                             {exit_gap_not_met, "no self-intersections, but a gap is smaller than --min-gap asks"}}));
 }
 
 int run_check(const CheckOptions& options, Interruption& interruption) {

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gap_words.h"
 #include "mesh_input.h"
 #include "pair_class_words.h"
 #include "unsnarl/visible_text.h"
@@ -41,13 +42,15 @@ std::string_view explanation(Status status, Goal goal) {
     case Status::displacement_exceeded:
       return "displacement exceeded: the remaining intersections need a vertex to move farther than allowed";
     case Status::cancelled: return "interrupted";
+    case Status::gap_not_met:
+      return "gap not met: no self-intersection is left, but surfaces are closer than --min-gap asks";
   }
   return "unknown status";
 }
 
 std::string_view float32_remark(const RepairResult& result, const RepairOptions& options) {
   if (result.report.float32_embedded || result.report.after.total() > 0) return "";
-  if (result.status == Status::embedded)
+  if (result.status == Status::embedded || result.status == Status::gap_not_met)
     return " (in double precision; programs that use 32-bit numbers may find some)";
   return options.precision == Precision::float32 ? " (in 32 bits, as asked for; none in double precision)" : "";
 }
@@ -197,6 +200,7 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   for (const std::string& words : far_regions(r)) line("  " + words);
   for (const std::string& words : changed_in_words(r)) line("  " + words);
   if (!r.overlapping_components.empty()) line("  advice: " + advice_on_overlaps(r.overlapping_components));
+  if (r.gap) line("  " + gap_in_words(*r.gap, r.diagonal));
   if (options.min_dihedral_deg > 0 && files.clearance_after)
     line(dihedral_in_words(*files.clearance_after, options.min_dihedral_deg));
   if (result.status == Status::displacement_exceeded && r.displacement_lower_bound_rel > options.max_displacement_rel)

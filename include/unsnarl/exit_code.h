@@ -15,6 +15,7 @@ enum ExitCode : int {
   exit_cancelled = 6,
   exit_obstructed = 7,
   exit_system_error = 9,  ///< the system failed (no descriptors, no memory, a read error); may succeed later
+  exit_gap_not_met = 10,
   exit_internal_error = 70,
 };
 
@@ -29,6 +30,7 @@ constexpr ExitCode exit_code_of(Status status) {
     case Status::memory_limit:
     case Status::displacement_exceeded: return exit_limit;
     case Status::cancelled: return exit_cancelled;
+    case Status::gap_not_met: return exit_gap_not_met;
   }
   return exit_internal_error;
 }

@@ -132,7 +132,8 @@ typedef struct unsnarl_options {
   const char* precision;   /* numbers the result must hold in: "float32", "float64", "auto": float32 where the
                               coordinates allow it (default) */
   double min_gap;          /* wanted gap between sheets, a fraction of the diagonal of the bounding box, >= 0 and no
-                              more than 8 mean widths of the faces; 0: just enough to be safe (default) */
+                              more than 8 mean widths of the faces: smaller ones are opened; 0: just enough to be safe
+                              where faces intersect (default) */
   double max_displacement; /* how far any vertex may move, a fraction of the diagonal, >= 0; 0: any distance. Default
                               0 */
   int32_t absolute;        /* min_gap and max_displacement are lengths in the units of the positions. Default 0 */
@@ -188,6 +189,9 @@ typedef struct unsnarl_options {
   /* unsnarl_document_repair */
   int32_t keep_partial; /* write an unfinished result to its place. Default 0 */
   int32_t no_partial;   /* do not keep an unfinished result beside its place. Default 0 */
+
+  /* unsnarl_repair, unsnarl_repair_sequence, unsnarl_document_repair */
+  int32_t gap_near_conflicts; /* open gaps to min_gap only around what intersects, and promise none. Default 0 */
 } unsnarl_options;
 
 /* Sets all options to their defaults. size: sizeof(unsnarl_options). */
@@ -230,8 +234,9 @@ typedef struct unsnarl_array {
 } unsnarl_array;
 
 /* How the work ended: "embedded", "reduced", "no_progress", "obstructed", "not_nested", "time_limit", "memory_limit",
- * "displacement_exceeded" or "cancelled"; only "embedded" promises that nothing intersects and meshes lie inside each
- * other as `nested` asks; of "not_nested" the first holds alone. "" where nothing was to be moved. */
+ * "displacement_exceeded", "gap_not_met" or "cancelled"; only "embedded" promises that nothing intersects, gaps are as
+ * min_gap asks and meshes lie inside each other as `nested` asks; of "not_nested" and "gap_not_met" the first holds. ""
+ * where nothing was to be moved. */
 UNSNARL_EXPORT const char* unsnarl_result_status(const unsnarl_result* result);
 /* What was found, as JSON: an object, or for sequences an array of them. */
 UNSNARL_EXPORT const char* unsnarl_result_report(const unsnarl_result* result);

@@ -124,6 +124,7 @@ def fix(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -172,6 +173,7 @@ def fix(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -219,6 +221,7 @@ def fix(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -271,8 +274,8 @@ def fix(
     nested
         Which surfaces lie inside which, from the innermost out: names of files, or of one file's objects, as in
         ["inner.off", "outer.off"], or a list of such chains; see repair.
-    goal, precision, min_gap, min_dihedral, max_displacement, absolute, time_limit, memory_limit, weld, \
-weld_tolerance, both_diagonals, each_component, threads, recover, paper, progress
+    goal, precision, min_gap, gap_near_conflicts, min_dihedral, max_displacement, absolute, time_limit, \
+memory_limit, weld, weld_tolerance, both_diagonals, each_component, threads, recover, paper, progress
         As for repair.
 
     Returns a Result; its `output` is the file that was written (of several files the folder), or None, its `partial` the
@@ -295,6 +298,7 @@ weld_tolerance, both_diagonals, each_component, threads, recover, paper, progres
         goal=goal,
         precision=precision,
         min_gap=min_gap,
+        gap_near_conflicts=gap_near_conflicts,
         min_dihedral=min_dihedral,
         max_displacement=max_displacement,
         absolute=absolute,

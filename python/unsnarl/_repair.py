@@ -30,6 +30,7 @@ def repair(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -57,6 +58,7 @@ def repair(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -84,6 +86,7 @@ def repair(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -110,6 +113,7 @@ def repair(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -159,7 +163,10 @@ def repair(
         conflicts lie on coordinates coarse enough for it.
     min_gap
         Wanted gap between sheets, as a fraction of the bounding-box diagonal; at most 8 times as wide as the faces.
-        0: just enough to be safe.
+        Gaps that are too small are opened wherever they are; report["gap"] names the smallest one, and status is
+        "gap_not_met" where it falls short by more than 1 %. 0: just enough to be safe where faces intersect.
+    gap_near_conflicts
+        Open gaps only around what intersects, and promise none.
     min_dihedral
         Degrees, below 90: two faces at an edge that are folded together closer are opened to this angle, as far as
         nothing is in the way. 0: left as they are.
@@ -198,6 +205,7 @@ def repair(
         goal=goal,
         precision=precision,
         min_gap=min_gap,
+        gap_near_conflicts=gap_near_conflicts,
         min_dihedral=min_dihedral,
         max_displacement=max_displacement,
         absolute=absolute,

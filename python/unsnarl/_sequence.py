@@ -62,6 +62,7 @@ def repair_sequence(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     max_displacement: float = 0.0,
     time_limit: float = 0.0,
     weld: Weld = "seams",
@@ -84,7 +85,7 @@ def repair_sequence(
     frames
         The range wanted, (first, last) with last excluded. Those around it are seen, so that the result of a frame does
         not depend on the range. None: all.
-    goal, precision, min_gap, max_displacement, time_limit
+    goal, precision, min_gap, gap_near_conflicts, max_displacement, time_limit
         As for repair, of each frame.
     weld, weld_tolerance, both_diagonals, threads
         As for find_intersections.
@@ -111,6 +112,7 @@ def repair_sequence(
         goal=goal,
         precision=precision,
         min_gap=min_gap,
+        gap_near_conflicts=gap_near_conflicts,
         max_displacement=max_displacement,
         time_limit=time_limit,
         weld=weld,

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "mesh/areas.h"
+#include "pipeline/gap_stage.h"
 #include "report/changed_components.h"
 #include "report/left_pairs.h"
 #include "report/measure.h"
@@ -60,10 +62,11 @@ Reached taken_back(const RepairTask& task, const RepairControl& control, PairCen
 
 /// The status of a result that has this one by its pairs.
 Status final_status(const RepairTask& task, const RepairControl& control, Status by_pairs,
-                    bool displacement_is_exceeded, double displacement_max_rel) {
+                    bool displacement_is_exceeded, double displacement_max_rel, const std::optional<GapReport>& gap) {
   const double limit = task.options.max_displacement_rel;
   if (limit > 0 && displacement_max_rel > limit) return Status::displacement_exceeded;
   Status status = by_pairs;
+  if (status == Status::embedded && gap && !gap->is_met()) status = control.limits.status_or(Status::gap_not_met);
   if (status == Status::reduced || status == Status::no_progress)
     status = control.limits.status_or(displacement_is_exceeded ? Status::displacement_exceeded : status);
   return control.limits.status_of_result(status);
@@ -158,8 +161,9 @@ RepairResult conclude(const RepairTask& task, const RepairControl& control, Pair
   report.regions = state.regions;
   measure_change(task.surface, task.prepared, task.diagnosis, result.positions, report);
   report.min_gap_rel = std::isfinite(state.smallest_gap) && task.diagonal > 0 ? state.smallest_gap / task.diagonal : 0;
+  report.gap = measured_gap(task, state, reached.x, reached.left.triangles);
   result.status = final_status(task, control, status_at(task, census, reached.left, reached.x),
-                               state.displacement_is_exceeded, report.displacement_max_rel);
+                               state.displacement_is_exceeded, report.displacement_max_rel, report.gap);
   measure_components(task.prepared, task.diagnosis, reached.left.triangles, report);
   describe_parts(task, reached.x, report);
   list_left_pairs(task, control, state, reached, report);

@@ -114,10 +114,18 @@ Jitter FrameRepair::jitter_of_results(std::size_t t, std::span<const SequenceFra
   return jitter_at(t, frames, [](const SequenceFrame& frame) { return frame.result; });
 }
 
+namespace {
+
+bool is_embedded(Status status) {
+  return status == Status::embedded || status == Status::gap_not_met;
+}
+
+}  // namespace
+
 FrameResult FrameRepair::finished(std::size_t t, std::span<const SequenceFrame> frames) const {
   const SequenceFrame& frame = frames[t];
   FrameResult result = {report_of_repair_alone(t, frame.alone), frame.alone.positions};
-  if (!frame.is_clean && frame.alone.status == Status::embedded && options.recover) {
+  if (!frame.is_clean && is_embedded(frame.alone.status) && options.recover) {
     smooth(t, frames, result);
     // The mean of the corrections may be that of repairs that memory ran out in.
     for (std::size_t s = FrameSchedule::begin_around(t); s < std::min(t + sequence_reach + 1, frames.size()); ++s)
@@ -175,7 +183,7 @@ void FrameRepair::smooth(std::size_t t, std::span<const SequenceFrame> frames, F
     finders.start_without_pairs(prepared.gather(result.positions), frame.alone.report.float32_embedded);
   RepairResult smoothed = repair_from(surface(target), frame.seen->known(), finders, own, &context);
   if (smoothed.status == Status::memory_limit) result.report.status = smoothed.status;
-  if (smoothed.status != Status::embedded) return;
+  if (smoothed.status != Status::embedded && smoothed.status != frame.alone.status) return;
   // A layer that came out on another side would pop.
   if (largest(distances(smoothed.positions, target, prepared.scale)) >
       largest(distances(result.positions, target, prepared.scale)))

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 bool is_to_be_written(const RepairResult& result, const Surface& input, bool keep_partial) {
   switch (result.status) {
-    case Status::embedded: return true;
+    case Status::embedded:
+    case Status::gap_not_met: return true;
     // Nothing to repair but what cannot be: a refusal.
     case Status::obstructed: return result.positions != input.positions;
     default: return keep_partial;
@@ -29,6 +30,7 @@ bool is_to_be_written(const RepairResult& result, const Surface& input, bool kee
 bool is_partial(const RepairResult& result, const Surface& input) {
   switch (result.status) {
     case Status::embedded:
+    case Status::gap_not_met:
     case Status::obstructed:
     case Status::no_progress: return false;
     default: return result.positions != input.positions;
@@ -46,9 +48,10 @@ std::string broken_promise(const RepairResult& result, Goal goal, const Surface&
   const PairCounts &after = certificate.pairs, &before = result.report.before;
   const std::size_t disjoint = after[PairClass::disjoint];
   const bool all = goal == Goal::all;
-  if (result.status == Status::embedded && (all ? after.total() : disjoint) > 0)
+  const bool is_embedded = result.status == Status::embedded || result.status == Status::gap_not_met;
+  if (is_embedded && (all ? after.total() : disjoint) > 0)
     return fmt::format("{} pairs of faces intersect", all ? after.total() : disjoint);
-  if (result.status == Status::embedded && all && !certificate.embedded())
+  if (is_embedded && all && !certificate.embedded())
     return fmt::format("{} faces have lost their area", certificate.new_zero_area_faces);
   if (disjoint > before[PairClass::disjoint] || (all && after.total() > before.total()))
     return fmt::format("more pairs of faces intersect than in the input: {} instead of {}", after.total(),

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contact/blocking_pairs.h"
+#include "pipeline/gap_stage.h"
 #include "pipeline/restore_to_rest.h"
 #include "recover/recover.h"
 #include "recover/recover_regions.h"
@@ -45,8 +46,9 @@ double most_motion(const RepairTask& task) {
   return task.options.max_displacement_rel * task.diagonal;
 }
 
-void recover_patch(const RepairControl& control, const RepairState& state, Patch& patch) {
+void recover_patch(const RepairTask& task, const RepairControl& control, const RepairState& state, Patch& patch) {
   RecoverOptions options;
+  options.knows_sheets = gap_wanted_everywhere(task) > 0;
   options.min_gap =
       state.format.wanted_gap(state.scene, {patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
   recover(patch, options, control.limits.stopper());
@@ -69,11 +71,11 @@ EscalationOptions escalation_options(const RepairTask& task, const RepairControl
   options.recorder = &state.recorder;
   options.first_region = state.regions.size();
   options.attempts = &state.attempts;
-  if (task.options.recover) options.recover = [&](Patch& patch) { recover_patch(control, state, patch); };
+  if (task.options.recover) options.recover = [&](Patch& patch) { recover_patch(task, control, state, patch); };
   if (task.options.max_displacement_rel > 0)
     options.accept = [&](Patch& patch) {
       if (is_within(patch, state.scene.rest, most_motion(task))) return true;
-      if (task.options.recover) recover_patch(control, state, patch);
+      if (task.options.recover) recover_patch(task, control, state, patch);
       if (task.options.recover && is_within(patch, state.scene.rest, most_motion(task))) return true;
       is_exceeded = true;
       return false;
@@ -114,6 +116,7 @@ void recover_moved(const RepairTask& task, const RepairControl& control, std::sp
   for (std::size_t k = state.recovered; k < state.moved.size(); ++k) sets.push_back(state.moved[k].vertices);
   RecoverRegionsOptions options;
   if (task.options.paper) options.recover = RecoverOptions::paper();
+  options.recover.knows_sheets = gap_wanted_everywhere(task) > 0;
   options.min_gap = [&](std::span<const Index> vertices) { return state.format.wanted_gap(state.scene, vertices); };
   options.stop = control.limits.stopper();
   options.on_progress = [&](double share) {

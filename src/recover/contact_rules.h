@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -7,6 +8,7 @@
 
 #include "contact/ccd.h"
 #include "contact/contact_candidates.h"
+#include "contact/sheet_gaps.h"
 #include "energy/ipc_barrier.h"
 #include "recover/recover_options.h"
 #include "scene/patch.h"
@@ -30,6 +32,9 @@ struct ContactRuleOptions {
   /// Primitives up to this far apart along the edges at rest are neighbours. More than 1.41: in a grid of squares cut
   /// in two, points at a distance of 1 are up to 1.41 apart along the edges (unit: min_gap)
   double joined_gaps = 2;
+  /// Primitives that are this near at rest are neighbours by OneSheet instead, unless one is in conflict: a length; 0:
+  /// none are
+  double one_sheet_within = 0;
   /// Neighbours keep at least this share of their rest distance, where that is less than min_gap (no unit)
   double kept_rest_share = 0.25;
   /// A face's own barrier, which keeps it from being squeezed, sets in below this share of its rest altitude (no unit)
@@ -48,8 +53,8 @@ struct ContactRuleOptions {
 /// Separation of a stencil:
 /// - min_gap, in general.
 /// - Neighbours (primitives of triangles that share a vertex, or that are at most joined_gaps min_gap apart along the
-///   edges at rest) keep at least a share of their rest distance if that is less, unless their triangles intersect each
-///   other at rest.
+///   edges at rest, or of one sheet) keep at least a share of their rest distance if that is less, unless their
+///   triangles intersect each other at rest.
 /// - No stencil has to keep more than half its present distance: faces that were shrunk below min_gap can grow again,
 ///   and stencils that end too close are opened last.
 /// A stencil without distance at rest whose triangles do not intersect there (around zero-area faces) has no rule.
@@ -76,7 +81,11 @@ class ContactRules {
   /// Adds the rules of stencils_ and of altitudes with a moving vertex.
   void add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
                  std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
-  bool are_neighbours(const Stencil& stencil) const;
+  bool are_neighbours(const Stencil& stencil, double rest_distance) const;
+  /// Lists the neighbours by OneSheet.
+  void find_sheets();
+  /// Of each primitive: a triangle there intersects another one at rest.
+  std::array<bool, 2> in_conflict(const Stencil& stencil) const;
   /// Whether a triangle at the one primitive intersects one at the other at rest.
   bool intersect_at_rest(const Stencil& stencil) const;
   /// Rule of a stencil that is `distance` wide now; false where there is none or it cannot come that close.
@@ -93,6 +102,7 @@ class ContactRules {
   ContactCandidates candidates_;
   std::vector<std::uint8_t> vertex_in_conflict_, edge_in_conflict_;  // one flag each: a triangle there is in conflict
   IndexLists joined_;  // per vertex: those within joined_gaps along the edges, ascending; empty lists where none is
+  std::vector<std::array<Index, 3>> of_one_sheet_;     // kind and primitives of stencils, ascending
   std::vector<std::array<double, 3>> rest_altitudes_;  // of the active triangles; 0 where corners are equal
   std::vector<NearStencil> stencils_;
   std::vector<ContactRule> added_;

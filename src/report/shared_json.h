@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,6 +17,8 @@ nlohmann::ordered_json topology_json(const Topology& topology);
 nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
 /// What "overlapping_components" lists.
 nlohmann::ordered_json overlapping_components_json(std::span<const OverlappingComponent> overlapping);
+/// The gap, or null.
+nlohmann::ordered_json gap_json(const std::optional<GapReport>& gap);
 /// Adds "files" and "between_files" where there are several files. `after`: with what became of them.
 void add_scene(const SceneReport& scene, bool after, nlohmann::ordered_json& json);
 /// Beside each length relative to the diagonal ("displacement_max_rel") the same in the units of the positions, under

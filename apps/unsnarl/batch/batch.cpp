@@ -82,7 +82,8 @@ std::string host_name() {
 }
 
 bool is_success(const std::string& status) {
-  return status == to_string(Status::embedded) || status == to_string(Status::obstructed);
+  return status == to_string(Status::embedded) || status == to_string(Status::obstructed) ||
+         status == to_string(Status::gap_not_met);
 }
 
 /// Everything around one call of `batch`.

@@ -82,7 +82,7 @@ Json jitter_json(const std::optional<Jitter>& jitter) {
 }
 
 bool is_good(Status status) {
-  return status == Status::embedded || status == Status::obstructed;
+  return status == Status::embedded || status == Status::obstructed || status == Status::gap_not_met;
 }
 
 class SequenceRun {
@@ -244,10 +244,14 @@ class SequenceRun {
     return status_from_name(report.value("status", std::string()));
   }
 
-  /// The exit code is that of the first frame that is not embedded; obstructed frames give way to others.
+  /// The exit code is that of the first frame that is not embedded; frames whose gap is not met give way to others, and
+  /// so do obstructed ones, but to those.
   void note_status(Status status) {
-    if (status != Status::embedded && (exit_code_ == exit_embedded || exit_code_ == exit_obstructed))
-      exit_code_ = exit_code_of(status);
+    const ExitCode code = exit_code_of(status);
+    const auto weight = [](int of) {
+      return of == exit_embedded ? 0 : of == exit_gap_not_met ? 1 : of == exit_obstructed ? 2 : 3;
+    };
+    if (weight(code) > weight(exit_code_)) exit_code_ = code;
   }
 
   struct Summary {
