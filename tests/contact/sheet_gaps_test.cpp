@@ -64,17 +64,17 @@ TEST(SheetGaps, are_those_of_triangles_where_each_is_a_sheet) {
 }
 
 TEST(SheetGaps, of_equal_ones_that_of_the_smallest_numbers_is_found_and_its_place) {
-  Shape shape = flat(40, 0.1, 0);
+  Shape shape = flat(40, 0.125, 0);  // numbers without rounding
   const auto count = static_cast<Index>(shape.triangles.size());
-  shape.add(flat(40, 0.1, 0.05));
-  const SheetGap found = smallest(shape, 0.1);
-  EXPECT_DOUBLE_EQ(found.distance, 0.05);
+  shape.add(flat(40, 0.125, 0.0625));
+  const SheetGap found = smallest(shape, 0.125);
+  EXPECT_EQ(found.distance, 0.0625);
   EXPECT_EQ(found.first, 0);
   EXPECT_EQ(found.second, count);
-  EXPECT_DOUBLE_EQ(found.place[2], 0.025);
-  EXPECT_EQ(narrow(shape, 0.1).size(), shape.triangles.size());
-  EXPECT_EQ(smallest(shape, 0.04).first, -1);
-  EXPECT_TRUE(narrow(shape, 0.04).empty());
+  EXPECT_EQ(found.place[2], 0.03125);
+  EXPECT_EQ(narrow(shape, 0.125).size(), shape.triangles.size());
+  EXPECT_EQ(smallest(shape, 0.0625).first, -1);
+  EXPECT_TRUE(narrow(shape, 0.0625).empty());
 }
 
 TEST(SheetGaps, are_not_looked_for_along_a_surface_or_around_its_creases) {
@@ -98,7 +98,15 @@ TEST(SheetGaps, a_surface_has_beside_itself) {
 }
 
 TEST(SheetGaps, faces_that_a_third_one_joins_have_none) {
-  EXPECT_TRUE(narrow(shapes::box({1, 1, 1e-3}, 1), 0.1).empty());
+  Shape flat_double_pyramid;  // around the corners of a square, with apexes 0.002 apart
+  for (const Vec3& p :
+       {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1e-3), Vec3(0, 0, -1e-3)})
+    flat_double_pyramid.points.push_back(p);
+  for (Index k = 0; k < 4; ++k) {
+    flat_double_pyramid.triangles.push_back({k, (k + 1) % 4, 4});
+    flat_double_pyramid.triangles.push_back({(k + 1) % 4, k, 5});
+  }
+  EXPECT_TRUE(narrow(flat_double_pyramid, 0.1).empty());
   EXPECT_FALSE(narrow(shapes::box({1, 1, 1e-3}, 8), 0.1).empty());
 }
 
