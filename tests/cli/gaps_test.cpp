@@ -84,28 +84,23 @@ TEST_F(Gaps, are_kept_between_files_of_a_scene_too) {
   const Outcome fix = run({"fix", file("upper.obj", upper), file("lower.obj", lower), "-o", folder / "out", "--min-gap",
                            "0.02", "--absolute", "--fix-file", "upper.obj"});
   EXPECT_EQ(fix.exit_code, 0) << fix.err;
-  EXPECT_EQ(contents(folder / "out" / "upper.obj"), upper);
-  EXPECT_NE(contents(folder / "out" / "lower.obj"), lower);
+  EXPECT_EQ(contents(folder / "out/upper.obj"), upper);
+  EXPECT_NE(contents(folder / "out/lower.obj"), lower);
 }
 
 TEST_F(Gaps, of_frames_and_of_a_batch_are_met_or_said) {
   for (const char* name : {"f1.obj", "f2.obj"}) file(name, near);
   const auto sequence = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"fix",
-                                      "--sequence",
-                                      folder / "f1.obj",
-                                      folder / "f2.obj",
-                                      "-o",
-                                      folder / "frames" / more.back().substr(2),
-                                      "--min-gap",
-                                      "0.02"};
+    std::vector<std::string> words = {
+        "fix",       "--sequence", folder / "f1.obj", folder / "f2.obj", "-o", folder / more.back().substr(2),
+        "--min-gap", "0.02"};
     words.insert(words.end(), more.begin(), more.end());
     return run(words).exit_code;
   };
   EXPECT_EQ(sequence({"--absolute"}), 0);
   EXPECT_EQ(sequence({"--absolute", "--fix-component", "0", "--fix-component", "1", "--quiet"}), 10);
-  const Outcome batch = run({"batch", folder / "f1.obj", "-o", folder / "batch", "--", "--min-gap", "0.02",
-                             "--absolute", "--fix-component", "0", "--fix-component", "1"});
+  const Outcome batch = run({"batch", file("list.txt", (folder / "f1.obj") + "\n"), "-o", folder / "batch", "--",
+                             "--min-gap", "0.02", "--absolute", "--fix-component", "0", "--fix-component", "1"});
   EXPECT_NE(batch.err.find("1 gap_not_met"), std::string::npos) << batch.err;
 }
 
