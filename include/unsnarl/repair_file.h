@@ -53,7 +53,8 @@ struct RepairedFiles {
 
 /// Repairs a mesh file. `out` is given the format of `in`; empty with RepairFileOptions::in_place.
 ///
-/// An embedded result is written, and one that is obstructed, where it is not the input. Any other goes to
+/// An embedded result is written (also where a gap is not met), and one that is obstructed, where it is not the input.
+/// Any other goes to
 /// OUT.partial.EXT where it is better than the input, and `out` is not touched (see keep_partial, no_partial).
 ///
 /// Throws before the work: std::invalid_argument for options and places that make no sense (another format, an output

@@ -358,8 +358,8 @@ UNSNARL_EXPORT int unsnarl_document_recompute_normals(unsnarl_document* document
  *
  * path: the file, which gets the format of the input; of several files the folder where all go under their names, made
  * where it is missing; NULL: the input is overwritten (not of several files). surface: of unsnarl_document_surface,
- * with what must not move, is rigid or nested. An embedded result is written, and one that is obstructed, where it is
- * not the input; any other goes beside path where it is better than the input, in out.partial.obj for out.obj (unless
+ * with what must not move, is rigid or nested. An embedded result is written (also with "gap_not_met"), and one that is
+ * obstructed, where it is not the input; any other goes beside path where it is better than the input, in out.partial.obj for out.obj (unless
  * options->no_partial; with options->keep_partial to path). Places are checked before the work. A file to be
  * overwritten that somebody has changed since it was read is left as it is, the result is kept beside it, and the error
  * says so.

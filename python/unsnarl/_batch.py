@@ -91,7 +91,7 @@ def batch(
     summary
         Repair nothing: read what is there, of all parts.
     retry
-        Try again what has not ended embedded or obstructed.
+        Try again what has not ended embedded, obstructed or gap_not_met.
     attempts
         How often a mesh is tried whose process dies, 1 to 100.
     thumbnails

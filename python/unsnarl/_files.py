@@ -244,7 +244,8 @@ def fix(
     path, output
         Files of one format; output must be another file. Or a list of files, which are one scene (meshes are also
         separated from each other), and the folder where they go under their names, made where it is missing. Where the
-        result is not embedded, they are not written, but for obstructed, where something else was repaired. The best
+        result is not embedded, they are not written, but for gap_not_met, and for obstructed where something else was
+        repaired. The best
         state that was reached goes to a file beside each, out.partial.obj for out.obj, unless nothing better than the
         input was found.
     fixed

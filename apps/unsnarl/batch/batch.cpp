@@ -478,7 +478,8 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
       "--summary", options.summary,
       "Only write the summary of what is done. Needed with --shard; else the summary is written at the end");
   command.add_flag("--thumbnails", options.thumbnails, "Draw each mesh before and after for the summary page");
-  command.add_flag("--retry", options.retry, "Repair again the meshes that did not end as embedded or obstructed");
+  command.add_flag("--retry", options.retry,
+                   "Repair again the meshes that did not end as embedded, obstructed or gap_not_met");
   const std::string limits = "Limits for each mesh";
   command
       .add_option("--time-limit", options.time_limit_s,
