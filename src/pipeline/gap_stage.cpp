@@ -23,7 +23,7 @@ namespace {
 
 /// Rounds of opening what is too small, at most: in each, a vertex goes a few edge lengths at most (unit: rounds)
 constexpr int gap_rounds = 6;
-/// Vertices this far along the edges from a gap that is opened make way too [E208] (unit: wanted gap)
+/// Vertices this far along the edges from a gap that is opened make way too [E209] (unit: wanted gap)
 constexpr double way_gaps = 2;
 /// Obstacles of a recovery are listed up to this distance (unit: wanted gap)
 constexpr double obstacle_gaps = 2;
