@@ -93,8 +93,11 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
     }
   if (found.components.size() > components_in_text)
     line(fmt::format("  and {} more (--json lists all)", found.components.size() - components_in_text));
+  if (!options.allow.empty())
+    line(counted(found.allowed.total(), "pair of faces intersects that may", "pairs of faces intersect that may") +
+         " (--allow)");
   if (found.counts.total() == 0) {
-    line("no self-intersections");
+    line(found.allowed.total() > 0 ? "no other self-intersections" : "no self-intersections");
     if (found.gap) line(gap_in_words(*found.gap, diagonal_of(surface)));
     return text;
   }
@@ -142,6 +145,7 @@ ReportFiles described(const CheckOptions& options, const SceneDocument& scene, c
     return files;
   }
   files.scene = scene_report(scene.surface(), scene.files(), found.pairs);
+  count_allowed_pairs(found.allowed_pairs, {}, files.scene);
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
     files.scene.files[i].input = options.inputs[i];
     files.scene.files[i].format = to_string(scene.document(i).format());
@@ -164,10 +168,9 @@ CheckLimits limits_of(const CheckOptions& options) {
   return limits;
 }
 
-GapReport measured(const CheckOptions& options, const SurfaceView& surface) {
+GapReport measured(const CheckOptions& options, const FindOptions& find, const SurfaceView& surface) {
   const double diagonal = diagonal_of(surface);
-  return measure_gap(surface, options.absolute && diagonal > 0 ? options.min_gap / diagonal : options.min_gap,
-                     options.find());
+  return measure_gap(surface, options.absolute && diagonal > 0 ? options.min_gap / diagonal : options.min_gap, find);
 }
 
 int checked(const CheckOptions& options, Interruption& interruption) {
@@ -181,21 +184,24 @@ int checked(const CheckOptions& options, Interruption& interruption) {
   places.writes("--pairs", options.pairs);
   places.require_writable(interruption);
   display.begin("find");
-  CheckReport found = check(scene.surface(), options.find(), limits_of(options));
+  const FindOptions find = options.find_in(scene);
+  CheckReport found = check(scene.surface(), find, limits_of(options));
   name_components(scene, found);
-  if (options.min_gap > 0 && found.counts.total() == 0) found.gap = measured(options, scene.surface());
+  if (options.min_gap > 0 && found.counts.total() == 0) found.gap = measured(options, find, scene.surface());
   const ReportFiles files = described(options, scene, found);
   display.clear();
   if (!options.pairs.empty()) write_file(options.pairs, pairs_table(found.pairs), interruption);
   if (options.json) {
-    write_to_stream(standard_stream, check_json(found, options.goal_wanted(), options.find(), files) + "\n");
+    write_to_stream(standard_stream, check_json(found, options.goal_wanted(), find, files) + "\n");
   } else if (!options.quiet) {
     for (const std::string& note : scene.notes()) tell("note: " + visible_text(note) + "\n");
     write_to_stream(standard_stream, as_text(found, options, scene, files));
   }
-  const std::size_t that_count =
-      options.goal_wanted() == Goal::all ? found.counts.total() : found.counts[PairClass::disjoint];
-  if (that_count > 0) return exit_intersecting;
+  const auto is_any = [&](const PairCounts& pairs) {
+    return (options.goal_wanted() == Goal::all ? pairs.total() : pairs[PairClass::disjoint]) > 0;
+  };
+  if (is_any(found.counts)) return exit_intersecting;
+  if (is_any(found.allowed)) return exit_allowed;
   return found.gap && !found.gap->is_met() ? exit_gap_not_met : exit_embedded;
 }
 
@@ -218,6 +224,7 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
   add_time_limit(command, options.time_limit_s);
   add_memory_limit(command, options.memory_limit_mb);
   add_mesh_options(command, options);
+  add_allow(command, options.allow, options_of_reading);
   command.final_callback([&command, &options] {
     options.require_effect();
     if (options.absolute && command.count("--min-gap") == 0)
@@ -238,6 +245,7 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
                  exit_codes({{exit_embedded, "no self-intersections"},
                              {exit_intersecting, "self-intersections found"},
                              {exit_limit, "limit of time or memory reached"},
+                             {exit_allowed, "only pairs that --allow lets pass intersect"},
                              {exit_gap_not_met, "no self-intersections, but a gap is smaller than --min-gap asks"}}));
 }
 

@@ -8,11 +8,13 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "standard_streams.h"
 #include "unsnarl/document.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/parts.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -203,6 +205,29 @@ FindOptions MeshOptions::find() const {
   result.both_diagonals = both_diagonals;
   result.threads = threads;
   return result;
+}
+
+FindOptions MeshOptions::find_in(const SceneDocument& scene) const {
+  FindOptions result = find();
+  try {
+    result.allowed = allowed_pairs(scene.surface(), scene.face_labels(), allow, result);
+  } catch (const std::invalid_argument& wrong) {
+    throw UsageError(fmt::format("--allow: {}", wrong.what()));
+  }
+  return result;
+}
+
+void add_allow(CLI::App& command, std::vector<std::string>& allow, const std::string& group) {
+  command
+      .add_option(
+          "--allow", allow,
+          "Let the faces of A and B pass through each other; A alone: let A intersect itself. A and B are names "
+          "of files, objects, groups or materials, or numbers of components in the list of 'unsnarl check'; "
+          "object=A, group=A, material=A, component=A or file=A says which. Such pairs are counted apart (exit "
+          "code 8). May be repeated")
+      ->type_name("A[:B]")
+      ->group(group)
+      ->allow_extra_args(false);
 }
 
 }  // namespace unsnarl::app

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "unsnarl/repair.h"
+#include "unsnarl/scene_document.h"
 
 namespace unsnarl::app {
 
@@ -60,18 +61,24 @@ struct MeshOptions {
   std::string goal = "all", weld = "seams";
   double weld_tolerance = 0;
   bool both_diagonals = false;
+  std::vector<std::string> allow;  ///< rules, see allowed_pairs()
   int threads = 0;
   bool quiet = false;
 
   bool is_scene() const { return inputs.size() > 1; }
   /// Refuses options that do nothing beside the others, as they do after parsing. Throws UsageError.
   void require_effect() const;
+  /// All but what `allow` says.
   FindOptions find() const;
+  /// With that too. Throws UsageError.
+  FindOptions find_in(const SceneDocument& scene) const;
   Goal goal_wanted() const { return goal == "disjoint" ? Goal::disjoint : Goal::all; }
 };
 /// `input`: what the help says of IN, before the formats.
 void add_inputs(CLI::App& command, MeshOptions& options,
                 const std::string& input = "Mesh file, or several files that form one scene");
+/// Pairs that may pass through each other.
+void add_allow(CLI::App& command, std::vector<std::string>& allow, const std::string& group);
 /// All but the inputs.
 void add_mesh_options(CLI::App& command, MeshOptions& options);
 

@@ -181,8 +181,10 @@ void add_pictures(const FixOptions& options, const SceneDocument& scene, const R
     picture.files = scene.files();
     picture.width = options.picture_width;
     picture.height = options.picture_width / 2;
-    picture.before_label = picture_label("before", pairs_before.size());
-    picture.after_label = picture_label("after", pairs_after.size());
+    picture.before_label =
+        picture_label("before", pairs_before.size(), certifier.find_allowed_pairs(surface.positions).size());
+    picture.after_label =
+        picture_label("after", pairs_after.size(), certifier.find_allowed_pairs(result.positions).size());
     const SurfaceView before = surface;
     const SurfaceView after = {result.positions, before.corners, before.offsets};
     outputs.add(options.picture,

@@ -214,6 +214,7 @@ void add_what_may_move(CLI::App& command, FixOptions& options) {
       .add_flag("--together", options.together, "Also separate connected pieces that intersect each other (default)")
       ->excludes(each)
       ->group(what);
+  add_allow(command, options.allow, what);
   command
       .add_option(
           "--nested", options.nested,
@@ -275,6 +276,8 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
   add_mesh_options(command, options);
   command.final_callback([&command, &options] {
     options.require_effect();
+    if (options.paper && !options.allow.empty())
+      throw UsageError("--paper knows nothing of pairs that may intersect; leave --paper or --allow out");
     if (options.absolute && command.count("--max-displacement") + command.count("--min-gap") == 0)
       throw UsageError(
           "--absolute has an effect only with --max-displacement or --min-gap; add one of them, or leave "
@@ -309,6 +312,7 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
                   {exit_obstructed,
                    "everything was repaired that can be repaired with these options;\n      or with --nested: a "
                    "surface is on the wrong side"},
+                  {exit_allowed, "no self-intersections but those that --allow lets pass"},
                   {exit_gap_not_met, "no self-intersections, but a gap is smaller than --min-gap asks"}}) +
       "\n\n"
       "With --only-... and --each, 0 still means that the whole file has no self-intersections. If only the parts that "
@@ -319,8 +323,9 @@ WantedNesting nesting_wanted(const FixOptions& options, const SceneDocument& sce
   WantedNesting wanted;
   Nesting& nesting = wanted.nesting;
   if (options.nested.empty()) return wanted;
-  if (options.each || options.paper || !options.rigid.empty())
-    throw UsageError("--nested cannot be combined with --each, --paper, --rigid or --rigid-...; leave one of them out");
+  if (options.each || options.paper || !options.rigid.empty() || !options.allow.empty())
+    throw UsageError(
+        "--nested cannot be combined with --allow, --each, --paper, --rigid or --rigid-...; leave one of them out");
   const SurfaceView surface = scene.surface();
   nesting.surface_of_vertex.assign(surface.vertex_count(), -1);
   const auto number_of = [&](const std::string& name) {
@@ -358,7 +363,7 @@ WantedNesting nesting_wanted(const FixOptions& options, const SceneDocument& sce
 
 RepairOptions repair_options(const FixOptions& options, const SceneDocument& scene) {
   RepairOptions result;
-  result.find = options.find();
+  result.find = options.find_in(scene);
   result.goal = options.goal_wanted();
   if (options.precision == "float32") result.precision = Precision::float32;
   if (options.precision == "float64") result.precision = Precision::float64;

@@ -37,6 +37,7 @@ std::string_view explanation(Status status, Goal goal) {
     case Status::reduced: return "reduced: some self-intersections are left";
     case Status::no_progress: return "no progress: nothing better than the input was found";
     case Status::obstructed: return "obstructed: with these options the remaining intersections cannot be removed";
+    case Status::allowed: return "allowed: no self-intersection is left but those of parts that may pass (--allow)";
     case Status::time_limit: return "stopped at the time limit";
     case Status::memory_limit: return "stopped at the memory limit";
     case Status::displacement_exceeded:
@@ -50,8 +51,7 @@ std::string_view explanation(Status status, Goal goal) {
 
 std::string_view float32_remark(const RepairResult& result, const RepairOptions& options) {
   if (result.report.float32_embedded || result.report.after.total() > 0) return "";
-  if (result.status == Status::embedded || result.status == Status::gap_not_met)
-    return " (in double precision; programs that use 32-bit numbers may find some)";
+  if (is_resolved(result.status)) return " (in double precision; programs that use 32-bit numbers may find some)";
   return options.precision == Precision::float32 ? " (in 32 bits, as asked for; none in double precision)" : "";
 }
 
@@ -99,7 +99,10 @@ std::vector<std::string> by_file(const SceneReport& scene, double diagonal) {
   std::vector<std::string> lines;
   for (const ScenePairs& pairs : scene.pairs) {
     const SceneFileReport& file = scene.files[pairs.a];
-    const std::string counts = fmt::format("{} before, {} after", pairs.before.total(), pairs.after.total());
+    std::string counts = fmt::format("{} before, {} after", pairs.before.total(), pairs.after.total());
+    if (pairs.allowed_before.total() + pairs.allowed_after.total() > 0)
+      counts += fmt::format(" (besides {} and {} that may intersect)", pairs.allowed_before.total(),
+                            pairs.allowed_after.total());
     if (pairs.a != pairs.b) {
       lines.push_back(fmt::format("between {} and {}: {}", file.file.name, scene.files[pairs.b].file.name, counts));
       continue;
@@ -187,6 +190,9 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
                    counted(r.topology.components, "component", "components")));
   line(fmt::format("  intersecting pairs before: {}", in_words(r.before)));
   line(fmt::format("  intersecting pairs after:  {}", in_words(r.after)));
+  if (!options.find.allowed.empty())
+    line(fmt::format("  pairs that may intersect:  {} before, {} after", r.allowed_before.total(),
+                     r.allowed_after.total()));
   for (const std::string& words : by_file(files.scene, r.diagonal)) line("    " + words);
   for (std::size_t i = 0; i < left_reason_count; ++i)
     if (r.left_by_reason[i] > 0)

@@ -90,6 +90,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       ->type_name("FILE");
   command.add_flag("--scene", options.scene, "Two files are a scene, not a mesh before and after");
   add_mesh_options(command, options);
+  add_allow(command, options.allow, options_of_reading);
   command.footer(std::string("The page is one file. Any current browser opens it from the disk, without a network.\n\n"
                              "Examples:\n"
                              "  unsnarl view hand.obj -o hand.html\n"
@@ -128,7 +129,7 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
   for (const std::string& note : appearance.notes) display.say("note: {}", note);
   source.appearance = &appearance;
   display.begin("write");
-  source.find = options.find();
+  source.find = options.find_in(scene);
   source.goal = options.goal_wanted();
   source.report = read_report(options.report);
   const std::string page = view_page(built_in_page(), source);

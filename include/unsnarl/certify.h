@@ -14,15 +14,19 @@ namespace unsnarl {
 /// Findings of an exact check of given positions. Welding is that of the *input*, so vertices that have come to
 /// coincide since intersect. Polygons count as the input is cut, and as a program cuts them that reads these positions.
 struct Certificate {
-  PairCounts pairs;  ///< intersecting pairs of faces
+  PairCounts pairs;    ///< intersecting pairs of faces, without those that are allowed
+  PairCounts allowed;  ///< intersecting pairs of FindOptions::allowed
   /// The same after rounding all positions to float32; what is beyond its range counts as one degenerate pair. Unset:
   /// not looked for.
   std::optional<PairCounts> pairs_float32;
   std::size_t new_zero_area_faces = 0;  ///< triangles without area that had some in the input
   bool seams_closed = true;             ///< welded vertices are at one position
 
+  /// Nothing is left to resolve: no two faces meet anywhere but in the hull of the vertices they share, or are allowed
+  /// to.
+  bool resolved() const { return pairs.total() == 0 && new_zero_area_faces == 0 && seams_closed; }
   /// The promise: no two faces meet anywhere but in the hull of the vertices they share.
-  bool embedded() const { return pairs.total() == 0 && new_zero_area_faces == 0 && seams_closed; }
+  bool embedded() const { return resolved() && allowed.total() == 0; }
   bool float32_embedded() const { return pairs_float32 && pairs_float32->total() == 0; }
 };
 
@@ -42,8 +46,10 @@ class Certifier {
 
   // Each takes 3 n doubles and throws std::invalid_argument as certify() does.
 
-  /// All pairs of faces that intersect at these positions, sorted by (a, b).
+  /// All pairs of faces that intersect at these positions, sorted by (a, b), without those that are allowed.
   std::vector<IntersectingPair> find_intersections(std::span<const double> positions);
+  /// The intersecting pairs that are allowed, sorted by (a, b); none where FindOptions::allowed is empty.
+  std::vector<IntersectingPair> find_allowed_pairs(std::span<const double> positions);
   /// Everything but Certificate::pairs_float32, which stays unset.
   Certificate certify(std::span<const double> positions);
   /// Certificate::pairs_float32.

@@ -53,8 +53,10 @@ struct CheckLimits {
 struct CheckReport {
   std::vector<IntersectingPair> pairs;  ///< as find_intersections gives them, CheckLimits::pairs_listed at most
   PairCounts counts;
-  std::vector<std::int32_t> faces;    ///< in any pair, ids, ascending
-  std::vector<ConflictPlace> places;  ///< most pairs first
+  PairCounts allowed;  ///< intersecting pairs of FindOptions::allowed, which nothing else here counts
+  std::vector<IntersectingPair> allowed_pairs;  ///< these, sorted, CheckLimits::pairs_listed at most
+  std::vector<std::int32_t> faces;              ///< in any pair, ids, ascending
+  std::vector<ConflictPlace> places;            ///< most pairs first
   Topology topology;
   std::vector<ComponentFindings> components;                 ///< in the order of their first faces
   std::vector<OverlappingComponent> overlapping_components;  ///< in the order of their numbers

@@ -11,7 +11,8 @@
 
 namespace unsnarl {
 
-/// How much room a surface leaves between its faces: what programs that mesh volumes or simulate contact ask for.
+/// How much room a surface leaves between its faces: what programs that mesh volumes or simulate contact ask for. Faces
+/// that may pass through each other (FindOptions::allowed) are no two faces here, but at an edge.
 struct Clearance {
   /// Smallest angle between two faces at an edge, in degrees, in [0, 180]: 0 where they are folded onto each other, 180
   /// where they are flat. Exact up to one rounding at the end: no edge has a smaller one. Faces without area do not

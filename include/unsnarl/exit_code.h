@@ -14,6 +14,7 @@ enum ExitCode : int {
   exit_limit = 5,
   exit_cancelled = 6,
   exit_obstructed = 7,
+  exit_allowed = 8,       ///< nothing intersects but what may pass through each other
   exit_system_error = 9,  ///< the system failed (no descriptors, no memory, a read error); may succeed later
   exit_gap_not_met = 10,
   exit_internal_error = 70,
@@ -26,6 +27,7 @@ constexpr ExitCode exit_code_of(Status status) {
     case Status::reduced:
     case Status::no_progress: return exit_intersecting;
     case Status::obstructed: return exit_obstructed;
+    case Status::allowed: return exit_allowed;
     case Status::time_limit:
     case Status::memory_limit:
     case Status::displacement_exceeded: return exit_limit;

@@ -48,17 +48,28 @@ enum class Weld : std::uint8_t {
   all,    ///< all vertices at exactly equal positions
 };
 
+/// Faces that may pass through each other. To every search their pairs are no intersections; they are counted apart.
+struct AllowedPairs {
+  /// The part that each face is of, counted from 0; -1: none. Empty: no pair is allowed.
+  std::vector<std::int32_t> part_of_face;
+  /// Pairs of parts whose faces may pass through each other; a part twice: its own faces may.
+  std::vector<std::array<std::int32_t, 2>> parts;
+
+  bool empty() const { return part_of_face.empty() || parts.empty(); }
+};
+
 struct FindOptions {
   Weld weld = Weld::seams;
   double weld_tolerance = 0;  ///< length, in the units of the positions: vertices this close count as equal. >= 0
   /// Quads have two diagonals: count two faces as intersecting where they do for any choice of them (a diagonal that
   /// folds its quad left out). Readers of the file may choose either.
   bool both_diagonals = false;
-  int threads = 0;  ///< 0: as many as the machine has. >= 0
+  AllowedPairs allowed = {};  ///< of which no pair is an intersection
+  int threads = 0;            ///< 0: as many as the machine has. >= 0
 };
 
-/// All pairs of faces that intersect, sorted by (a, b), decided by exact predicates. Ids are those of the given faces
-/// (polygons, not their triangles); a polygon that meets itself is reported with a == b.
+/// All pairs of faces that intersect and may not, sorted by (a, b), decided by exact predicates. Ids are those of the
+/// given faces (polygons, not their triangles); a polygon that meets itself is reported with a == b.
 ///
 /// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an
 /// option is out of range.

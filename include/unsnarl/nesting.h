@@ -51,8 +51,8 @@ struct NestedPair {
 /// even where the other way is nearer. A component that crosses nothing but lies on the wrong side as a whole stays
 /// there; nested_pairs() tells. Status::embedded says nothing of nesting.
 ///
-/// Throws std::invalid_argument as repair() and check_nesting() do, and for RepairOptions::rigid, each_component and
-/// paper, which know nothing of nesting.
+/// Throws std::invalid_argument as repair() and check_nesting() do, and for FindOptions::allowed and
+/// RepairOptions::rigid, each_component and paper, which know nothing of nesting.
 RepairResult repair_nested(const SurfaceView& surface, const Nesting& nesting, const RepairOptions& options = {},
                            Context* context = nullptr);
 

@@ -61,6 +61,13 @@ std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const F
 std::vector<std::uint8_t> faces_in_parts(const SurfaceView& surface, std::span<const FaceLabels> labels,
                                          const Parts& parts, const FindOptions& options = {});
 
+/// The pairs of faces that rules allow to pass through each other: "A:B" those of the parts A and B, "A" those of A
+/// among each other. A part is the name of a file, an object, a group or a material, or the number of a component;
+/// "object=A" (file=, group=, material=, component=) says which where a name is of several kinds. Throws UnknownPart
+/// for a name that nothing has, and std::invalid_argument for a rule that can be read in two ways.
+AllowedPairs allowed_pairs(const SurfaceView& surface, std::span<const FaceLabels> labels,
+                           std::span<const std::string> rules, const FindOptions& options = {});
+
 /// One flag a vertex: a flagged face uses it.
 std::vector<std::uint8_t> vertices_of_faces(const SurfaceView& surface, std::span<const std::uint8_t> faces);
 

@@ -26,8 +26,8 @@ struct PictureOptions {
   std::span<const SceneFile> files = {};
 };
 
-/// A label of two lines: `title`, and how many pairs of faces intersect.
-std::string picture_label(std::string_view title, std::size_t pairs);
+/// A label of two lines: `title`, and how many pairs of faces intersect; `allowed`: besides those.
+std::string picture_label(std::string_view title, std::size_t pairs, std::size_t allowed = 0);
 
 /// Before and after side by side, as the bytes of a PNG file. The camera looks down on both at a three-quarter angle: y
 /// up, unless a file says otherwise (SceneFile::up) or they reach much further along z, then z; the longer horizontal

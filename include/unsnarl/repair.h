@@ -48,7 +48,7 @@ class Context {
 struct RepairOptions {
   // Everybody uses these.
 
-  FindOptions find;  ///< welding, threads
+  FindOptions find;  ///< welding, what may pass through each other, threads
   Goal goal = Goal::all;
   /// One flag a vertex, nonzero: must not move, nor the vertices welded to it. Empty: all may move.
   std::vector<std::uint8_t> fixed;
@@ -112,8 +112,8 @@ struct RepairResult {
 ///
 /// Nothing is lost where memory runs out on the way, and the status says so (memory_limit), also of a result that is
 /// embedded; std::bad_alloc is thrown only if there is not even enough to find the input's intersections. Never returns
-/// positions with more intersecting pairs than the input. The same input and options give the same bytes at any thread
-/// count (time limits and cancellation aside).
+/// positions with more intersecting pairs than the input; pairs of FindOptions::allowed do not count. The same input
+/// and options give the same bytes at any thread count (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument when a corner names a vertex that does not exist, a coordinate is not finite, or an
 /// option is out of range, GapTooWide among them; LimitReached where a limit ends the search for the input's

@@ -16,12 +16,14 @@
 
 namespace unsnarl {
 
-/// How a repair ended. Only `embedded` promises a surface without self-intersections.
+/// How a repair ended. Only `embedded` and `gap_not_met` promise a surface without self-intersections, `allowed` one
+/// that has none but those of FindOptions::allowed.
 enum class Status : std::uint8_t {
   embedded,     ///< no two faces meet anywhere but in the hull of the vertices they share
   reduced,      ///< fewer intersecting pairs than the input, but not none
   no_progress,  ///< nothing better than the input was found; positions are the input's
   obstructed,   ///< everything else repaired; only the listed obstructions remain
+  allowed,      ///< embedded but for pairs of faces that may pass through each other (FindOptions::allowed)
   time_limit,   ///< stopped by RepairOptions::time_limit_s
   /// Stopped by RepairOptions::memory_limit_mb, or an allocation failed. What is left is counted; where that is
   /// nothing, vertices may lie farther from the input than they need.
@@ -33,6 +35,10 @@ enum class Status : std::uint8_t {
   gap_not_met,  ///< embedded, but the smallest gap fell short of RepairOptions::min_gap_rel by more than 1 %
 };
 std::string_view to_string(Status status);
+/// No pair is left that had to be resolved: embedded, whatever the gaps, or allowed.
+constexpr bool is_resolved(Status status) {
+  return status == Status::embedded || status == Status::gap_not_met || status == Status::allowed;
+}
 
 /// Number format the repaired positions must stay embedded in.
 enum class Precision : std::uint8_t { float32, float64 };
@@ -203,8 +209,9 @@ struct StageReport {
 
 struct RepairReport {
   Topology topology;
-  std::string triangulation;  ///< how the input's polygons were split into triangles, one sentence
-  PairCounts before, after;
+  std::string triangulation;                 ///< how the input's polygons were split into triangles, one sentence
+  PairCounts before, after;                  ///< without pairs that are allowed; these:
+  PairCounts allowed_before, allowed_after;  ///< pairs of FindOptions::allowed that intersect
   std::vector<Obstruction> obstructions;
   /// The pairs of `after`, sorted. Empty where memory ran out at the end.
   std::vector<LeftPair> left;

@@ -71,6 +71,7 @@ std::vector<std::int32_t> file_of_faces(std::span<const SceneFile> files);
 struct ScenePairs {
   std::size_t a = 0, b = 0;
   PairCounts before, after;
+  PairCounts allowed_before, allowed_after;  ///< see RepairReport
 };
 
 /// How a file of a scene came off. Lengths are relative to the diagonal of the whole scene.
@@ -92,5 +93,9 @@ struct SceneReport {
 SceneReport scene_report(const SurfaceView& before, std::span<const SceneFile> files,
                          std::span<const IntersectingPair> pairs_before, std::span<const double> after = {},
                          std::span<const IntersectingPair> pairs_after = {});
+
+/// Counts pairs that are allowed by file, beside those that the report counts. `after`: empty: it was nothing repaired.
+void count_allowed_pairs(std::span<const IntersectingPair> before, std::span<const IntersectingPair> after,
+                         SceneReport& report);
 
 }  // namespace unsnarl

@@ -39,7 +39,8 @@ struct FrameReport {
   std::size_t frame = 0;
   Status status = Status::no_progress;
   PairCounts before, after;
-  double diagonal = 0;  ///< of the frame's bounding box; unit of every *_rel
+  PairCounts allowed_before, allowed_after;  ///< see RepairReport
+  double diagonal = 0;                       ///< of the frame's bounding box; unit of every *_rel
   double displacement_mean_rel = 0, displacement_max_rel = 0;
   double untouched_share = 1;                ///< share of vertices that are bit-identical to the input
   bool float32_embedded = false;             ///< see RepairReport

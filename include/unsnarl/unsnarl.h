@@ -102,6 +102,11 @@ typedef struct unsnarl_surface {
                                       place of meshes; -1: none. NULL: `nested` counts meshes */
   const char* const* nested_names; /* names of these surfaces, for messages and reports; NULL: their numbers */
   size_t nested_name_count;
+  const int32_t* face_parts; /* one number a face: the part that it belongs to, which `allowed` counts; -1: none. NULL:
+                                no pair of faces is allowed to intersect */
+  const int32_t* allowed;    /* pairs of these parts, two numbers each: their faces may pass through each other; a part
+                                twice: its faces may intersect among themselves. Not with nested or paper */
+  size_t allowed_count;      /* of pairs */
 } unsnarl_surface;
 
 /* Polylines in the plane, or closed polygons in space (a link). */
@@ -233,9 +238,10 @@ typedef struct unsnarl_array {
   unsnarl_type type;
 } unsnarl_array;
 
-/* How the work ended: "embedded", "reduced", "no_progress", "obstructed", "not_nested", "time_limit", "memory_limit",
- * "displacement_exceeded", "gap_not_met" or "cancelled"; only "embedded" promises that nothing intersects, gaps are as
- * min_gap asks and meshes lie inside each other as `nested` asks; of "not_nested" and "gap_not_met" the first holds. ""
+/* How the work ended: "embedded", "reduced", "no_progress", "obstructed", "allowed", "not_nested", "time_limit",
+ * "memory_limit", "displacement_exceeded", "gap_not_met" or "cancelled"; only "embedded" promises that nothing
+ * intersects, gaps are as min_gap asks and meshes lie inside each other as `nested` asks; "allowed" promises that
+ * nothing intersects but pairs of `allowed`; of "not_nested" and "gap_not_met" it holds that nothing intersects. ""
  * where nothing was to be moved. */
 UNSNARL_EXPORT const char* unsnarl_result_status(const unsnarl_result* result);
 /* What was found, as JSON: an object, or for sequences an array of them. */
@@ -246,7 +252,8 @@ UNSNARL_EXPORT void unsnarl_result_free(unsnarl_result* result);
 
 /* ---- surfaces ----------------------------------------------------------------------------------------------- */
 
-/* All pairs of faces that meet anywhere but in the hull of the vertices they share, decided exactly. Touching counts.
+/* All pairs of faces that meet anywhere but in the hull of the vertices they share, decided exactly. Touching counts;
+ * pairs of surface->allowed do not.
  *
  * Arrays: "pairs" (k, 2) int32, faces a < b, or a == b where a polygon meets itself, sorted; "kinds" (k, 1) uint8, how
  * the two are related, see unsnarl_pair_kind. Report: their number by kind. */
@@ -269,8 +276,9 @@ UNSNARL_EXPORT int unsnarl_check(const unsnarl_surface* surface, const unsnarl_o
  * Vertices are welded as on the positions of `surface`; polygons are split as there, and as a program splits them that
  * reads `moved`.
  *
- * Report: "embedded", "float32_embedded" (after rounding to float32), "pairs" and "pairs_float32" by kind,
- * "new_zero_area_faces", "seams_closed". */
+ * Report: "embedded", "float32_embedded" (after rounding to float32), "pairs" and "pairs_float32" by kind, "allowed"
+ * (the pairs of surface->allowed that intersect, which the others leave out) by kind, "resolved" (embedded but for
+ * these), "new_zero_area_faces", "seams_closed". */
 UNSNARL_EXPORT int unsnarl_certify(const unsnarl_surface* surface, const double* moved, size_t moved_count,
                                    const unsnarl_options* options, unsnarl_result** result);
 
@@ -286,7 +294,8 @@ UNSNARL_EXPORT int unsnarl_repair(const unsnarl_surface* surface, const unsnarl_
  * (docs/sequences.md). surface->positions holds frame_count times vertex_count positions, one frame after another.
  *
  * Arrays: "positions" (frames wanted * n, 3) float64. Report: an array of one object a frame, as the list of the report
- * of `unsnarl fix --sequence` has it. Status: that of the first frame that is not "embedded". */
+ * of `unsnarl fix --sequence` has it. Status: that of the first frame that is none of "embedded", "allowed" and
+ * "gap_not_met"; where all are, "allowed" if one is, else "gap_not_met" if one is. */
 UNSNARL_EXPORT int unsnarl_repair_sequence(const unsnarl_surface* surface, size_t frame_count,
                                            const unsnarl_options* options, unsnarl_context* context,
                                            unsnarl_result** result);
@@ -349,6 +358,13 @@ UNSNARL_EXPORT const char* unsnarl_document_report(const unsnarl_document* docum
  * Array "faces" (m, 1) uint8, flags. */
 UNSNARL_EXPORT int unsnarl_document_faces(const unsnarl_document* document, const char* kind, const char* name,
                                           const unsnarl_options* options, unsnarl_result** result);
+/* What surface->face_parts and surface->allowed are to be so that parts which the document names may pass through each
+ * other. rules: "A:B" for two parts, "A" for one and itself, as `unsnarl fix --allow` takes them
+ * (docs/command_line.md). UNSNARL_INVALID_ARGUMENT where there is no such part, or a name is of several kinds.
+ *
+ * Arrays "face_parts" (m, 1) int32 and "allowed" (k, 2) int32. */
+UNSNARL_EXPORT int unsnarl_document_allowed(const unsnarl_document* document, const char* const* rules,
+                                            size_t rule_count, const unsnarl_options* options, unsnarl_result** result);
 /* From now on unsnarl_document_write turns stored vertex normals (OBJ vn, PLY nx ny nz, glTF) with the faces that
  * moved. *is_any: 0: there are none that could be updated. */
 UNSNARL_EXPORT int unsnarl_document_recompute_normals(unsnarl_document* document, int32_t* is_any);
@@ -358,11 +374,11 @@ UNSNARL_EXPORT int unsnarl_document_recompute_normals(unsnarl_document* document
  *
  * path: the file, which gets the format of the input; of several files the folder where all go under their names, made
  * where it is missing; NULL: the input is overwritten (not of several files). surface: of unsnarl_document_surface,
- * with what must not move, is rigid or nested. An embedded result is written (also with "gap_not_met"), and one that is
- * obstructed, where it is not the input; any other goes beside path where it is better than the input, in out.partial.obj for out.obj (unless
- * options->no_partial; with options->keep_partial to path). Places are checked before the work. A file to be
- * overwritten that somebody has changed since it was read is left as it is, the result is kept beside it, and the error
- * says so.
+ * with what must not move, is rigid, nested or may pass. An embedded result is written (also with "gap_not_met"), an
+ * allowed one, and one that is obstructed, where it is not the input; any other goes beside path where it is better
+ * than the input, in out.partial.obj for out.obj (unless options->no_partial; with options->keep_partial to path).
+ * Places are checked before the work. A file to be overwritten that somebody has changed since it was read is left as
+ * it is, the result is kept beside it, and the error says so.
  *
  * Array and report as of unsnarl_repair; the report's "output" tells what was written. See unsnarl_document_partial. */
 UNSNARL_EXPORT int unsnarl_document_repair(unsnarl_document* document, const unsnarl_surface* surface, const char* path,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,6 +21,8 @@ class Surface(NamedTuple):
     positions: NDArray[np.float64]  # 3 n
     corners: NDArray[np.int32]  # vertex ids, face after face
     offsets: NDArray[np.int32]  # m + 1; empty: all faces are triangles
+    face_parts: NDArray[np.int32] = np.empty(0, np.int32)  # of each face; empty: no pair of faces may intersect
+    allowed: NDArray[np.int32] = np.empty((0, 2), np.int32)  # pairs of these parts
 
     @property
     def face_count(self) -> int:
@@ -35,6 +38,9 @@ class Surface(NamedTuple):
                 "corner_count": len(self.corners),
                 "offsets": self.offsets,
                 "offset_count": len(self.offsets),
+                "face_parts": self.face_parts,
+                "allowed": self.allowed,
+                "allowed_count": len(self.allowed),
                 **fields,
             }
         )
@@ -118,9 +124,33 @@ def rigid_numbers(parts: Any, vertex_count: int) -> NDArray[np.int32]:
     return numbers if len(parts) > 0 else np.empty(0, np.int32)
 
 
-def face_flags(faces: Any, face_count: int) -> NDArray[np.uint8]:
+def face_flags(faces: Any, face_count: int, argument: str = "faces") -> NDArray[np.uint8]:
     """One flag a face, from a mask (m,) of bool or from face ids."""
-    return _flags(faces, "faces", face_count, "faces", "face")
+    return _flags(faces, argument, face_count, "faces", "face")
+
+
+def allowing(surface: Surface, allow: Any, faces_of: Callable[[Any, str], NDArray[np.uint8]]) -> Surface:
+    """The surface where pairs of faces may intersect. `allow`: a list of rules: a tuple of two parts, or one part that
+    may intersect itself; None: no pair may. faces_of(part, argument): one flag a face."""
+    if allow is None:
+        return surface
+    if not isinstance(allow, (list, tuple)):
+        raise TypeError("allow is a list: of tuples (A, B) of parts that may pass through each other, or of single parts")
+    rules = []
+    for number, rule in enumerate(allow):
+        sides = rule if isinstance(rule, tuple) else (rule, rule)
+        if len(sides) != 2:
+            raise ValueError(f"allow[{number}] is a tuple of {len(sides)}; give (A, B), or A alone")
+        rules.append([faces_of(side, f"allow[{number}]").astype(bool) for side in sides])
+    parts = np.zeros(surface.face_count, np.int64)
+    for flags in (flags for rule in rules for flags in rule):
+        parts = np.unique(2 * parts + flags, return_inverse=True)[1].reshape(-1)
+    first = np.unique(parts, return_index=True)[1]  # a face of each part
+    may_pass = np.zeros((len(first), len(first)), bool)
+    for a, b in rules:
+        may_pass |= np.outer(a[first], b[first])
+    pairs = np.argwhere(np.triu(may_pass | may_pass.T)).astype(np.int32)
+    return surface._replace(face_parts=parts.astype(np.int32), allowed=np.ascontiguousarray(pairs))
 
 
 def _flags(chosen: Any, argument: str, count: int, things: str, thing: str) -> NDArray[np.uint8]:

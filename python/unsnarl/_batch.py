@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any, Optional, Union
 
 from ._documents import Parts
-from ._program import run, scratch_folder, words_of, words_of_parts
-from ._types import Format, Goal, Names, Numbers, PathLike, Precision, Weld
+from ._program import run, scratch_folder, words_of, words_of_parts, words_of_rules
+from ._types import Format, Goal, Names, Numbers, PathLike, Precision, Rules, Weld
 
 
 @dataclass(frozen=True)
@@ -60,6 +60,7 @@ def batch(
     only_object: Optional[Names] = None,
     only_material: Optional[Names] = None,
     only_component: Optional[Numbers] = None,
+    allow: Rules = None,
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
@@ -91,7 +92,7 @@ def batch(
     summary
         Repair nothing: read what is there, of all parts.
     retry
-        Try again what has not ended embedded, obstructed or gap_not_met.
+        Try again what has not ended embedded, allowed, obstructed or gap_not_met.
     attempts
         How often a mesh is tried whose process dies, 1 to 100.
     thumbnails
@@ -101,8 +102,8 @@ def batch(
     threads
         For each mesh. 0: the processors divided by jobs.
     keep_partial, recompute_normals, format, fix_group, fix_object, fix_material, fix_component, fix_boundary, \
-only_group, only_object, only_material, only_component, goal, precision, min_gap, gap_near_conflicts, min_dihedral, \
-max_displacement, absolute, weld, weld_tolerance, both_diagonals, each_component
+only_group, only_object, only_material, only_component, allow, goal, precision, min_gap, gap_near_conflicts, \
+min_dihedral, max_displacement, absolute, weld, weld_tolerance, both_diagonals, each_component
         As for fix, the same for every mesh.
 
     Raises ValueError for options that make no sense, OSError where the folder or the list cannot be read, or the folder
@@ -129,6 +130,7 @@ max_displacement, absolute, weld, weld_tolerance, both_diagonals, each_component
         Parts(fix_group, fix_object, fix_material, fix_component),
         Parts(only_group, only_object, only_material, only_component),
     )
+    fix_words += words_of_rules(allow)
     words = words_of(jobs=jobs, threads=threads, summary=summary, retry=retry, thumbnails=thumbnails)
     words += ["--time-limit", repr(float(time_limit)), "--attempts", str(attempts)]
     if memory_limit is not None:
@@ -139,7 +141,7 @@ max_displacement, absolute, weld, weld_tolerance, both_diagonals, each_component
         given = meshes if isinstance(meshes, (str, os.PathLike)) else _list_file(scratch, meshes)
         os.stat(given)  # raises what the system says
         ended = run(["batch", os.fspath(given), "-o", os.fspath(output), *words, "--", *fix_words])
-    if ended.code not in (0, 1):
+    if ended.code not in (0, 1, 8):
         ended.fail()
     rows = Path(output) / "results.jsonl"
     # A part does not write the tables, and those that are there are of an earlier time.

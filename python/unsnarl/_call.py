@@ -31,6 +31,7 @@ class Status(str, enum.Enum):
     reduced = "reduced"  #: fewer intersecting pairs than the input, but not none
     no_progress = "no_progress"  #: nothing better than the input was found; V is the input's
     obstructed = "obstructed"  #: all repaired but what no motion can resolve, see report["obstructions"]
+    allowed = "allowed"  #: no two faces meet but those that `allow` lets pass through each other
     not_nested = "not_nested"  #: no two faces meet, but a mesh does not lie inside another as `nested` asks
     time_limit = "time_limit"  #: stopped by time_limit
     memory_limit = "memory_limit"  #: stopped by memory_limit

@@ -18,7 +18,7 @@ from ._library import OptionsStruct, SurfaceStruct, check as check_code, library
 from ._options import options_of
 from ._progress import OnProgress
 from ._scenes import Scene
-from ._types import Format, Names, Numbers, PathLike, Paths
+from ._types import Format, Names, Numbers, PathLike, Paths, Rules
 
 
 class Document:
@@ -63,9 +63,22 @@ class Document:
 
     def faces_of(self, kind: str, name: Union[str, int], **options: Any) -> NDArray[np.uint8]:
         """One flag a face: it belongs to the part of this kind and name."""
-        found = call("document_faces", self.handle, kind.encode(), str(name).encode("utf-8", "surrogateescape"),
-                     options_of(**options))
+        found = call("document_faces", self.handle, kind.encode(), _encoded(str(name)), options_of(**options))
         return found.array("faces")
+
+    def allow(self, rules: Rules, surface: Surface, **options: Any) -> Surface:
+        """Lets pairs of faces intersect, in the struct and in the surface that is returned."""
+        if rules is None:
+            return surface
+        texts = [_encoded(text_of_rule(rule)) for rule in ([rules] if isinstance(rules, (str, tuple)) else rules)]
+        listed, count = (ctypes.c_char_p * len(texts))(*texts), ctypes.c_size_t(len(texts))
+        try:
+            found = call("document_allowed", self.handle, listed, count, options_of(**options))
+        except ValueError as error:
+            raise ValueError(f"allow: {error}") from None
+        surface = surface._replace(face_parts=found.array("face_parts"), allowed=found.array("allowed"))
+        self.struct.lend(face_parts=surface.face_parts, allowed=surface.allowed, allowed_count=len(surface.allowed))
+        return surface
 
     def vertices_of(self, faces: NDArray[np.uint8]) -> NDArray[np.uint8]:
         found = call("vertices_of_faces", self.struct, ctypes.c_void_p(faces.ctypes.data), ctypes.c_size_t(faces.size))
@@ -169,6 +182,23 @@ class NamedParts:
             return self._document.faces_of(kind, name, **self._find_options)
         except ValueError as error:
             raise ValueError(f"{option}: {error}") from None
+
+
+def text_of_rule(rule: Any) -> str:
+    """A rule of `allow` as the program takes it: "A:B" or "A"; numbers are those of components."""
+    if isinstance(rule, tuple):
+        if len(rule) != 2:
+            raise ValueError(f"allow: {rule!r} is a tuple of {len(rule)}; give (A, B), or A alone")
+        return ":".join(text_of_rule(part) for part in rule)
+    if isinstance(rule, str):
+        return rule
+    if isinstance(rule, (int, np.integer)) and not isinstance(rule, bool):
+        return f"component={rule}"
+    raise TypeError(f"allow: {rule!r} is neither a name nor the number of a component")
+
+
+def _encoded(text: str) -> bytes:
+    return text.encode("utf-8", "surrogateescape")
 
 
 def _copied(address: Optional[int], count: int, dtype: Any) -> NDArray[Any]:

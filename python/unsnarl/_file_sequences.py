@@ -14,10 +14,10 @@ from numpy.typing import ArrayLike
 
 from ._call import Status
 from ._documents import Parts
-from ._program import run, scratch_folder, words_of, words_of_parts
+from ._program import run, scratch_folder, words_of, words_of_parts, words_of_rules
 from ._progress import OnProgress
 from ._sequence import Frame, frame_of
-from ._types import Format, Goal, Names, Numbers, PathLike, Precision, Weld
+from ._types import Format, Goal, Names, Numbers, PathLike, Precision, Rules, Weld
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,7 @@ def fix_sequence(
     only_object: Optional[Names] = None,
     only_material: Optional[Names] = None,
     only_component: Optional[Numbers] = None,
+    allow: Rules = None,
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
@@ -87,7 +88,7 @@ def fix_sequence(
     keep_partial
         Write also frames that are not embedded.
     recompute_normals, format, fix_group, fix_object, fix_material, fix_component, fix_boundary, only_group, \
-only_object, only_material, only_component
+only_object, only_material, only_component, allow
         As for fix.
     goal, precision, min_gap, gap_near_conflicts, max_displacement, absolute, time_limit, memory_limit, weld, \
 weld_tolerance, both_diagonals, each_component, threads
@@ -130,6 +131,7 @@ weld_tolerance, both_diagonals, each_component, threads
         Parts(fix_group, fix_object, fix_material, fix_component),
         Parts(only_group, only_object, only_material, only_component),
     )
+    words += words_of_rules(allow)
     if frames is not None:
         words += ["--frames", f"{int(frames[0])}:{int(frames[1])}"]
     with scratch_folder() as scratch:

@@ -21,7 +21,7 @@ from ._options import options_of, paper_options
 from ._progress import OnProgress
 from ._result import Paper, Result
 from ._scenes import Scene
-from ._types import Faces, Format, Goal, Names, Numbers, PathLike, Paths, Positions, Precision, Weld
+from ._types import Faces, Format, Goal, Names, Numbers, PathLike, Paths, Positions, Precision, Rules, Weld
 
 
 @dataclass(frozen=True)
@@ -68,6 +68,7 @@ def check(
     path: Union[PathLike, Paths],
     format: Optional[Format] = None,
     *,
+    allow: Rules = None,
     goal: Goal = "all",
     weld: Weld = "seams",
     weld_tolerance: float = 0.0,
@@ -76,8 +77,8 @@ def check(
 ) -> Check:
     """What ``unsnarl check`` finds in a mesh file, or in a list of them, which are one scene.
 
-    path: the file, or several. format: "obj", "ply", ...; None: by the extension, or the content. goal: noted in the
-    report. weld, weld_tolerance, both_diagonals, threads: as for find_intersections.
+    path: the file, or several. format: "obj", "ply", ...; None: by the extension, or the content. allow: parts that
+    may intersect, as for fix; report["allowed"] alone counts them. goal: noted in the report. weld, weld_tolerance, both_diagonals, threads: as for find_intersections.
 
     Returns a Check: intersecting pairs, parts that the file names, components. Raises OSError where a file cannot be
     read.
@@ -86,9 +87,11 @@ def check(
     options = options_of(
         goal=goal, weld=weld, weld_tolerance=weld_tolerance, both_diagonals=both_diagonals, threads=threads
     )
+    scene = document.scene()
+    document.allow(allow, scene.surface, weld=weld, weld_tolerance=weld_tolerance, threads=threads)
     found = call("check", document.struct, options)
     pairs = found.array("pairs")
-    meshes = document.scene().meshes_of(pairs) if document.is_scene else None
+    meshes = scene.meshes_of(pairs) if document.is_scene else None
     return Check(pairs, np.array(pair_kinds)[found.array("kinds")], meshes, found.report)
 
 
@@ -99,6 +102,7 @@ def fix(
     fixed: Optional[ArrayLike] = None,
     *,
     rigid: Optional[Sequence[ArrayLike]] = None,
+    allow: Rules = None,
     in_place: bool = False,
     keep_partial: bool = False,
     no_partial: bool = False,
@@ -148,6 +152,7 @@ def fix(
     fixed: Optional[Sequence[Optional[ArrayLike]]] = None,
     *,
     rigid: Optional[Sequence[int]] = None,
+    allow: Rules = None,
     in_place: bool = False,
     keep_partial: bool = False,
     no_partial: bool = False,
@@ -196,6 +201,7 @@ def fix(
     fixed: Any = None,
     *,
     rigid: Any = None,
+    allow: Rules = None,
     in_place: bool = False,
     keep_partial: bool = False,
     no_partial: bool = False,
@@ -244,10 +250,9 @@ def fix(
     path, output
         Files of one format; output must be another file. Or a list of files, which are one scene (meshes are also
         separated from each other), and the folder where they go under their names, made where it is missing. Where the
-        result is not embedded, they are not written, but for gap_not_met, and for obstructed where something else was
-        repaired. The best
-        state that was reached goes to a file beside each, out.partial.obj for out.obj, unless nothing better than the
-        input was found.
+        result is neither embedded nor allowed, they are not written, but for gap_not_met, and for obstructed where
+        something else was repaired. The best state that was reached goes to a file beside each, out.partial.obj for
+        out.obj, unless nothing better than the input was found.
     fixed
         Vertices that must not move, as for repair; of several files a list of the same length, with None where all may
         move.
@@ -272,6 +277,9 @@ def fix(
         Leave all as it is but the faces of these parts.
     rigid_group, rigid_object, rigid_material, rigid_component, rigid_file
         Parts that are turned and shifted as one body each and never deformed. Not with `rigid`.
+    allow
+        Parts that may intersect: ("A", "B") or "A:B" for two, "A" for one and itself; one rule or a list. A and B are
+        names of files, objects, groups or materials, or numbers of components; "object=A" says which. See repair.
     nested
         Which surfaces lie inside which, from the innermost out: names of files, or of one file's objects, as in
         ["inner.off", "outer.off"], or a list of such chains; see repair.
@@ -316,6 +324,7 @@ memory_limit, weld, weld_tolerance, both_diagonals, each_component, threads, rec
         **paper_options(paper),
     )
     scene = document.scene()
+    surface = document.allow(allow, scene.surface, weld=weld, weld_tolerance=weld_tolerance, threads=threads)
     named = NamedParts(document, weld=weld, weld_tolerance=weld_tolerance, threads=threads)
     flags = named.fixed(fix_parts, only_parts, fix_boundary)
     own_flags = scene.flags_of_vertices(fixed)
@@ -335,7 +344,7 @@ memory_limit, weld, weld_tolerance, both_diagonals, each_component, threads, rec
         report,
         None,
         target if report["output"]["written"] else None,
-        scene.surface,
+        surface,
         V,
         scene.mesh_sizes if document.is_scene else None,
         _document=document,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -51,6 +52,7 @@ def find_intersections(
     V: Union[ArrayLike, Mesh, Meshes],
     F: Optional[Faces] = None,
     *,
+    allow: Optional[Sequence[Any]] = None,
     weld: Weld = "seams",
     weld_tolerance: float = 0.0,
     both_diagonals: bool = False,
@@ -66,6 +68,8 @@ def find_intersections(
         Positions (n, 3) and faces (m, 3), (m, 4), (m, k) or (corners, offsets); or a mesh of meshio, trimesh, pyvista
         or VTK alone; or a list of such, ``find_intersections([(V, F), mesh, ...])``, of which also those between meshes
         are found. See the documentation of the package.
+    allow
+        Pairs of faces that may intersect, as for repair; they are left out.
     weld
         Which vertices count as one: "none"; "seams", the ends of open edges (of one face) at exactly equal positions
         (UV seams, split normals); "all" at exactly equal positions.
@@ -83,7 +87,7 @@ def find_intersections(
         An array has another shape or dtype, a coordinate is not finite, a face uses a vertex that does not exist, an
         option is out of range. The message says which and where.
     """
-    scene = scene_of(V, F)
+    scene = scene_of(V, F).allowing(allow)
     options = options_of(
         weld=weld, weld_tolerance=weld_tolerance, both_diagonals=both_diagonals, threads=threads
     )

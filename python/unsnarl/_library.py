@@ -59,6 +59,9 @@ class SurfaceStruct(_Struct):
         ("nested_surface", c_void_p),
         ("nested_names", c_void_p),
         ("nested_name_count", c_size_t),
+        ("face_parts", c_void_p),
+        ("allowed", c_void_p),
+        ("allowed_count", c_size_t),
     ]
 
 

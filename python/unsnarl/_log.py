@@ -14,10 +14,10 @@ _MOST_PARTS_NAMED = 5
 
 
 def log(repaired: Outcome) -> None:
-    """Tells the logger "unsnarl" what a repair came to: warnings where it is not embedded, and of parts that changed."""
+    """Tells the logger "unsnarl" what a repair came to: warnings where something is left, and of parts that changed."""
     report = repaired.report
     log_notes(report["input"]["notes"])
-    level = logging.INFO if repaired.status == "embedded" else logging.WARNING
+    level = logging.INFO if repaired.status in ("embedded", "allowed") else logging.WARNING
     _log.log(
         level,
         "%s: %d intersecting pairs before, %d after; moved by %.2g at most, %.2g of the diagonal; %.2f s",

@@ -19,9 +19,10 @@ from pathlib import Path
 from typing import Any, NamedTuple, NoReturn, Optional
 
 from ._call import next_news
-from ._documents import Parts
+from ._documents import Parts, text_of_rule
 from ._options import PROGRAM_NAMES
 from ._progress import OnProgress, Progress, ProgressBar, function_of
+from ._types import Rules
 
 _log = logging.getLogger("unsnarl")
 _PATH = Path(__file__).with_name("bin") / "unsnarl"
@@ -143,6 +144,11 @@ def words_of_parts(fix: Parts, only: Parts) -> list[str]:
         for option, _, name in parts.named(prefix)
         for word in ("--" + option.replace("_", "-"), str(name))
     ]
+
+
+def words_of_rules(allow: Rules) -> list[str]:
+    rules = [] if allow is None else [allow] if isinstance(allow, (str, tuple)) else allow
+    return [word for rule in rules for word in ("--allow", text_of_rule(rule))]
 
 
 @contextmanager

@@ -26,6 +26,7 @@ def repair(
     fixed: Optional[ArrayLike] = None,
     *,
     rigid: Optional[Sequence[ArrayLike]] = None,
+    allow: Optional[Sequence[Union[ArrayLike, tuple[ArrayLike, ArrayLike]]]] = None,
     nested: None = None,
     goal: Goal = "all",
     precision: Precision = "auto",
@@ -54,6 +55,7 @@ def repair(
     fixed: Optional[ArrayLike] = None,
     *,
     rigid: Optional[Sequence[ArrayLike]] = None,
+    allow: Optional[Sequence[Union[ArrayLike, tuple[ArrayLike, ArrayLike]]]] = None,
     nested: None = None,
     goal: Goal = "all",
     precision: Precision = "auto",
@@ -82,6 +84,7 @@ def repair(
     fixed: Union[Sequence[Optional[ArrayLike]], Mapping[str, ArrayLike], None] = None,
     *,
     rigid: Optional[Sequence[Union[int, str]]] = None,
+    allow: Optional[Sequence[Union[int, str, tuple[Union[int, str], Union[int, str]]]]] = None,
     nested: Union[Sequence[Union[int, str]], Sequence[Sequence[Union[int, str]]], None] = None,
     goal: Goal = "all",
     precision: Precision = "auto",
@@ -109,6 +112,7 @@ def repair(
     fixed: Any = None,
     *,
     rigid: Any = None,
+    allow: Any = None,
     nested: Any = None,
     goal: Goal = "all",
     precision: Precision = "auto",
@@ -150,6 +154,11 @@ def repair(
         Parts that are turned and shifted as one body each and never deformed: a list of masks (n,) of bool or of vertex
         ids. Of a list of meshes: the numbers of those that are rigid. They move where they intersect what is fixed or
         each other; report["rigid_parts"] says how. What is in none of them is soft.
+    allow
+        Pairs of faces that may intersect: a list of rules, (A, B) for the faces of two parts, A alone for those of one
+        among each other. Parts are masks (m,) of bool or ids of faces; of a list of meshes the numbers of meshes. Such
+        pairs hold nothing up; report["allowed"] counts them, all else leaves them out; status is "allowed" where nothing
+        else is left. Not with nested and paper.
     nested
         Of a list of meshes: which lies inside which, their numbers from the innermost out, as in [0, 1, 2], or several
         such chains. All but the first of a chain have to be closed. Where two of them cross, the inner one goes in and
@@ -197,7 +206,7 @@ def repair(
     ValueError, TypeError
         As for find_intersections. A mesh that could not be untangled raises nothing: see Result.status.
     """
-    scene = scene_of(V, F)
+    scene = scene_of(V, F).allowing(allow)
     is_float32 = [dtype.kind == "f" and dtype.itemsize == 4 for dtype in scene.dtypes]
     if any(is_float32) and precision == "auto":
         precision = "float32"
@@ -250,7 +259,7 @@ def _put_back(scene: Scene, repaired: Outcome, moved: Any, find_options: Any) ->
         flat = np.ascontiguousarray(positions).ravel()
         pointer, count = ctypes.c_void_p(flat.ctypes.data), ctypes.c_size_t(len(positions))
         certificate = call("certify", scene.surface.struct(), pointer, count, find_options).report
-        if status == "embedded" and not certificate["embedded"]:
+        if status in ("embedded", "allowed", "gap_not_met") and not certificate["resolved"]:
             status = Status.reduced
             notes.append("rounding in the frames of the geometries made faces meet again; give a min_gap")
             pairs = certificate["pairs"]

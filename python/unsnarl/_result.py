@@ -46,10 +46,11 @@ class Result(Repaired, Generic[V_]):
     """What a repair came to; of one mesh Result[Positions], of several Result[list[Positions]]."""
 
     #: (n, 3), vertex order of the input. float32 where the input is and precision is not "float64", else float64.
-    #: What did not have to move is bit-identical. Never has more intersecting pairs than the input. Of a list of
-    #: meshes: a list of such arrays.
+    #: What did not have to move is bit-identical. Never has more intersecting pairs than the input, but for
+    #: allowed ones. Of a list of meshes: a list of such arrays.
     V: V_
-    #: Only "embedded" promises a surface without self-intersections.
+    #: Only "embedded" and "gap_not_met" promise a surface without self-intersections, "allowed" one that has none but
+    #: those allowed.
     status: Status
     #: The document that the command line writes with --report, see docs/report.md.
     report: dict[str, Any]
@@ -90,6 +91,7 @@ class Result(Repaired, Generic[V_]):
 
     def _repr_html_(self) -> str:
         report = self.report
+        allowed = report["allowed"]
         rows = {
             "status": str(self.status),
             "intersecting pairs": f"{report['before']['total']} before, {report['after']['total']} after",
@@ -97,6 +99,8 @@ class Result(Repaired, Generic[V_]):
             f"by {100 * report['displacement_max_rel']:.2g} % of the diagonal ({report['displacement_max']:.2g}) at most",
             "time": f"{report['seconds']:.2f} s",
         }
+        if allowed["before"]["total"] + allowed["after"]["total"] > 0:
+            rows["pairs that may intersect"] = f"{allowed['before']['total']} before, {allowed['after']['total']} after"
         if self.output is not None:
             rows["file"] = str(self.output)
         rows.update({"not repaired": o["message"] for o in report["obstructions"][:1]})

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arguments import Surface, positions_of, rigid_numbers, surface_of, vertex_flags
+from ._arguments import Surface, allowing, face_flags, positions_of, rigid_numbers, surface_of, vertex_flags
 from ._library import SurfaceStruct
 from ._meshes import MovedTo, opened
 from ._trimesh_scenes import instances_of, is_scene
@@ -77,6 +77,23 @@ class Scene(NamedTuple):
             raise ValueError(f"rigid names mesh {wrong[0]}, but there are {count} (counted from 0)")
         number_of = {mesh: number for number, mesh in enumerate(dict.fromkeys(rigid))}
         return np.repeat(np.array([number_of.get(i, -1) for i in range(count)], np.int32), self.vertex_counts)
+
+    def allowing(self, allow: Any) -> Scene:
+        """The same where pairs of faces may intersect: of parts of the mesh, each a mask or ids of faces; of a list of
+        meshes of these, by their numbers."""
+        count = len(self.face_counts)
+
+        def faces_of(part: Any, argument: str) -> NDArray[np.uint8]:
+            if not self.is_list:
+                return face_flags(part, self.face_counts[0], argument)
+            mesh = self.numbers_of([part], argument)[0]
+            if not isinstance(mesh, (int, np.integer)) or isinstance(mesh, bool):
+                raise TypeError(f"{argument} is {part!r}; of {count} meshes give their numbers, as in (0, 1)")
+            if not 0 <= mesh < count:
+                raise ValueError(f"{argument} names mesh {mesh}, but there are {count} (counted from 0)")
+            return np.repeat(np.arange(count) == mesh, self.face_counts).astype(np.uint8)
+
+        return self._replace(surface=allowing(self.surface, allow, faces_of))
 
     def numbers_of(self, meshes: Any, argument: str) -> Any:
         """Nodes of a scene of trimesh as the numbers of their meshes; what is none stays."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from ctypes import c_size_t
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Optional
@@ -9,7 +10,7 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import frame_range, surface_of, vertex_flags
+from ._arguments import allowing, face_flags, frame_range, surface_of, vertex_flags
 from ._call import Status, call_and_wait
 from ._options import options_of
 from ._progress import OnProgress
@@ -29,9 +30,11 @@ class Frame:
     """What became of a frame. Lengths are relative to the diagonal of its bounding box."""
 
     frame: int
-    status: Status  #: only "embedded" promises a frame without self-intersections
+    status: Status  #: only "embedded" and "gap_not_met" promise a frame without self-intersections
     before: dict[str, int]  #: intersecting pairs of faces by kind, see Intersections.kinds
     after: dict[str, int]
+    allowed_before: dict[str, int]  #: pairs that may intersect and do, which the others leave out
+    allowed_after: dict[str, int]
     diagonal: float
     displacement_mean_rel: float
     displacement_max_rel: float
@@ -58,6 +61,7 @@ def repair_sequence(
     F: Faces,
     fixed: Optional[ArrayLike] = None,
     *,
+    allow: Optional[Sequence[Any]] = None,
     frames: Optional[tuple[int, int]] = None,
     goal: Goal = "all",
     precision: Precision = "auto",
@@ -82,6 +86,8 @@ def repair_sequence(
         Positions (frames, n, 3), and faces as for repair, the same in all frames.
     fixed
         Vertices that must not move: a mask (n,) of bool, or their ids.
+    allow
+        Pairs of faces that may intersect, as for repair.
     frames
         The range wanted, (first, last) with last excluded. Those around it are seen, so that the result of a frame does
         not depend on the range. None: all.
@@ -101,6 +107,7 @@ def repair_sequence(
     if given.ndim != 3 or given.shape[2] != 3 or given.shape[0] == 0:
         raise ValueError(f"V has shape {given.shape}; give (frames, n, 3), x y z of each vertex of each frame")
     surface = surface_of(given[0], F)
+    surface = allowing(surface, allow, lambda part, name: face_flags(part, surface.face_count, name))
     if given.dtype.kind not in "fiu":
         raise TypeError(f"V has dtype {given.dtype}; positions are real numbers")
     positions = np.array(given, dtype=np.float64, order="C", copy=True)
@@ -142,6 +149,8 @@ def frame_of(report: dict[str, Any]) -> Frame:
         status=Status(report["status"]),
         before=report["before"]["by_class"],
         after=report["after"]["by_class"],
+        allowed_before=report["allowed"]["before"]["by_class"],
+        allowed_after=report["allowed"]["after"]["by_class"],
         diagonal=report["diagonal"],
         displacement_mean_rel=report["displacement_mean_rel"],
         displacement_max_rel=report["displacement_max_rel"],

@@ -18,6 +18,10 @@ Format = Literal["obj", "off", "ply", "stl", "glb", "gltf", "surf", "gii", "vtk"
 PathLike = Union[str, "os.PathLike[str]"]
 #: Several files; not any sequence, for a str is one too.
 Paths = Union[list[str], list[Path], tuple[PathLike, ...]]
+#: A part by its name or, of a component, its number.
+PartName = Union[str, int]
+#: Of parts that may intersect: ("A", "B") or "A:B" for two, "A" for one and itself; one rule or a list.
+Rules = Union[str, tuple[PartName, PartName], Sequence[Union[PartName, tuple[PartName, PartName]]], None]
 #: One name, or several.
 Names = Union[str, Sequence[str]]
 Numbers = Union[int, Sequence[int]]

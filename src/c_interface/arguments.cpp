@@ -60,6 +60,17 @@ PaperOptions paper_options(const unsnarl_options& options) {
   return paper;
 }
 
+AllowedPairs allowed_of(const unsnarl_surface& surface) {
+  AllowedPairs allowed;
+  if (surface.allowed_count == 0) return allowed;
+  require(surface.face_parts, "surface: face_parts");
+  require(surface.allowed, "surface: allowed");
+  allowed.part_of_face.assign(surface.face_parts, surface.face_parts + view_of(surface).face_count());
+  for (std::size_t k = 0; k < surface.allowed_count; ++k)
+    allowed.parts.push_back({surface.allowed[2 * k], surface.allowed[2 * k + 1]});
+  return allowed;
+}
+
 void check_offsets(std::span<const std::int32_t> offsets, std::size_t corners, const std::string& what) {
   if (offsets.front() != 0 || static_cast<std::size_t>(offsets.back()) != corners)
     throw std::invalid_argument("offsets run from " + std::to_string(offsets.front()) + " to " +
@@ -174,10 +185,11 @@ unsnarl_curves curves_of(const unsnarl_curves* given, const char* name) {
   return curves;
 }
 
-FindOptions find_options(const unsnarl_options& options) {
+FindOptions find_options(const unsnarl_options& options, const unsnarl_surface& surface) {
   return {.weld = named("weld", options.weld, {Weld::none, Weld::seams, Weld::all}),
           .weld_tolerance = options.weld_tolerance,
           .both_diagonals = options.both_diagonals != 0,
+          .allowed = allowed_of(surface),
           .threads = options.threads};
 }
 
@@ -187,7 +199,7 @@ Goal goal_of(const unsnarl_options& options) {
 
 RepairOptions frame_options(const unsnarl_options& options, const unsnarl_surface& surface) {
   RepairOptions repair;
-  repair.find = find_options(options);
+  repair.find = find_options(options, surface);
   repair.goal = goal_of(options);
   if (options.precision != std::string_view("auto"))
     repair.precision = named("precision", options.precision, {Precision::float32, Precision::float64});

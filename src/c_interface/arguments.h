@@ -44,7 +44,8 @@ unsnarl_surface surface_of(const unsnarl_surface* given);
 unsnarl_page_content content_of(const unsnarl_page_content* given);  ///< NULL: nothing but the surface
 unsnarl_curves curves_of(const unsnarl_curves* given, const char* name);
 
-FindOptions find_options(const unsnarl_options& options);
+/// `surface`: whose pairs are allowed; they are of no other.
+FindOptions find_options(const unsnarl_options& options, const unsnarl_surface& surface = {});
 Goal goal_of(const unsnarl_options& options);
 /// `options` for a repair of `surface`.
 RepairOptions repair_options(const unsnarl_options& options, const unsnarl_surface& surface);

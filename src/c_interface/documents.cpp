@@ -199,6 +199,25 @@ int unsnarl_document_faces(const unsnarl_document* document, const char* kind, c
   });
 }
 
+int unsnarl_document_allowed(const unsnarl_document* document, const char* const* rules, size_t rule_count,
+                             const unsnarl_options* options, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    require(document, "document");
+    if (rule_count > 0) require(rules, "rules");
+    for (std::size_t i = 0; i < rule_count; ++i) require(rules[i], "rules[i]");
+    const SceneDocument& scene = *document->scene;
+    const std::vector<std::string> texts(rules, rules + rule_count);
+    AllowedPairs allowed =
+        allowed_pairs(scene.surface(), scene.face_labels(), texts, find_options(options_of(options, Work::search)));
+    std::vector<std::int32_t> pairs;
+    for (const auto& pair : allowed.parts) pairs.insert(pairs.end(), pair.begin(), pair.end());
+    unsnarl_result found;
+    found.arrays["face_parts"] = {std::move(allowed.part_of_face)};
+    found.arrays["allowed"] = {std::move(pairs), 2};
+    return found;
+  });
+}
+
 int unsnarl_document_recompute_normals(unsnarl_document* document, int32_t* is_any) {
   return guarded([&] {
     require(document, "document");

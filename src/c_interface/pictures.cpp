@@ -15,11 +15,14 @@ std::string picture(const SurfaceView& before, std::span<const double> moved, in
     throw std::invalid_argument("width is " + std::to_string(width) + "; give pixels from 128 to 8192");
   Certifier certifier(before, find);
   const std::vector<IntersectingPair> pairs_before = certifier.find_intersections(before.positions);
+  const auto allowed_at = [&](std::span<const double> positions) {
+    return certifier.find_allowed_pairs(positions).size();
+  };
   PictureOptions options;
   options.width = width;
   if (moved.empty()) {
     options.height = width * 3 / 4;
-    options.before_label = picture_label("mesh", pairs_before.size());
+    options.before_label = picture_label("mesh", pairs_before.size(), allowed_at(before.positions));
     return picture_png(before, intersecting_faces(pairs_before), options);
   }
   if (moved.size() != before.positions.size())
@@ -27,8 +30,8 @@ std::string picture(const SurfaceView& before, std::span<const double> moved, in
                                 std::to_string(before.vertex_count()));
   const std::vector<IntersectingPair> pairs_after = certifier.find_intersections(moved);
   options.height = width / 2;
-  options.before_label = picture_label("before", pairs_before.size());
-  options.after_label = picture_label("after", pairs_after.size());
+  options.before_label = picture_label("before", pairs_before.size(), allowed_at(before.positions));
+  options.after_label = picture_label("after", pairs_after.size(), allowed_at(moved));
   return picture_png(before, intersecting_faces(pairs_before), {moved, before.corners, before.offsets},
                      intersecting_faces(pairs_after), options);
 }
@@ -42,10 +45,11 @@ using namespace unsnarl::c_interface;
 int unsnarl_picture(const unsnarl_surface* surface, const double* moved, size_t moved_count, int32_t width,
                     const unsnarl_options* options, unsnarl_result** result) {
   return hand_out(result, [&] {
-    const SurfaceView before = view_of(surface_of(surface));
+    const unsnarl_surface given = surface_of(surface);
+    const SurfaceView before = view_of(given);
     check_corners(before);
     const std::span<const double> after = moved ? std::span(moved, 3 * moved_count) : std::span<const double>();
-    const std::string png = picture(before, after, width, find_options(options_of(options, Work::search)));
+    const std::string png = picture(before, after, width, find_options(options_of(options, Work::search), given));
     unsnarl_result drawn;
     drawn.arrays["png"] = {std::vector<std::uint8_t>(png.begin(), png.end()), 1};
     return drawn;

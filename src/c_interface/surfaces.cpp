@@ -66,7 +66,7 @@ void name_components(const unsnarl_surface& given, CheckReport& report) {
 
 unsnarl_result checked(const unsnarl_surface& given, const unsnarl_options& options) {
   const SurfaceView surface = view_of(given);
-  const FindOptions find = find_options(options);
+  const FindOptions find = find_options(options, given);
   CheckReport report = check(surface, find);
   name_components(given, report);
   ReportFiles files;
@@ -75,6 +75,7 @@ unsnarl_result checked(const unsnarl_surface& given, const unsnarl_options& opti
   describe_document(given, files);
   if (const std::vector<SceneFile> meshes = meshes_of(given); !meshes.empty()) {
     files.scene = scene_report(surface, meshes, report.pairs);
+    count_allowed_pairs(report.allowed_pairs, {}, files.scene);
     describe_scene_files(given, files.scene);
   }
   unsnarl_result found;
@@ -101,6 +102,8 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
     const std::vector<IntersectingPair> after = certifier.find_intersections(repaired.positions);
     files.scene =
         scene_report(surface, meshes, certifier.find_intersections(surface.positions), repaired.positions, after);
+    count_allowed_pairs(certifier.find_allowed_pairs(surface.positions),
+                        certifier.find_allowed_pairs(repaired.positions), files.scene);
     describe_scene_files(given, files.scene);
   }
   if (!nesting.chains.empty()) {
@@ -121,6 +124,21 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
   RepairFileOptions asked;
   asked.repair = options;
   return result_of_repair(std::move(repaired), std::move(asked), files);
+}
+
+/// That of the first frame that has something left, else of an allowed one, else of one whose gap is not met. `all`: no
+/// frame is missing.
+Status status_of(std::span<const FrameReport> reports, bool all) {
+  for (const FrameReport& frame : reports)
+    if (!is_resolved(frame.status)) return frame.status;
+  if (!all) return Status::cancelled;
+  const auto is_any = [&](Status status) {
+    return std::any_of(reports.begin(), reports.end(),
+                       [&](const FrameReport& frame) { return frame.status == status; });
+  };
+  for (const Status status : {Status::allowed, Status::gap_not_met})
+    if (is_any(status)) return status;
+  return Status::embedded;
 }
 
 unsnarl_result repaired_sequence(const unsnarl_surface& given, std::size_t frame_count,
@@ -156,10 +174,8 @@ unsnarl_result repaired_sequence(const unsnarl_surface& given, std::size_t frame
   const std::vector<FrameReport> reports = repair_sequence(source, options, take, context);
 
   unsnarl_result result;
-  const auto open = std::find_if(reports.begin(), reports.end(),
-                                 [](const FrameReport& frame) { return frame.status != Status::embedded; });
   const bool all_reached = reports.size() == options.last - options.first;
-  result.status = to_string(open != reports.end() ? open->status : all_reached ? Status::embedded : Status::cancelled);
+  result.status = to_string(status_of(reports, all_reached));
   for (const FrameReport& frame : reports) result.report += (result.report.empty() ? "[" : ",") + frame_json(frame);
   result.report += result.report.empty() ? "[]" : "]";
   result.arrays["positions"] = {std::move(positions), 3};
@@ -175,8 +191,9 @@ using namespace unsnarl::c_interface;
 int unsnarl_find_intersections(const unsnarl_surface* surface, const unsnarl_options* options,
                                unsnarl_result** result) {
   return hand_out(result, [&] {
+    const unsnarl_surface given = surface_of(surface);
     const std::vector<IntersectingPair> pairs =
-        find_intersections(view_of(surface_of(surface)), find_options(options_of(options, Work::search)));
+        find_intersections(view_of(given), find_options(options_of(options, Work::search), given));
     unsnarl_result found;
     found.report = by_kind(count_by_class(pairs)).dump();
     add_pairs(found, pairs);
@@ -197,16 +214,16 @@ int unsnarl_certify(const unsnarl_surface* surface, const double* moved, size_t 
                     const unsnarl_options* options, unsnarl_result** result) {
   return hand_out(result, [&] {
     if (moved_count > 0) require(moved, "moved");
-    const Certificate certificate = certify(view_of(surface_of(surface)), {moved, 3 * moved_count},
-                                            find_options(options_of(options, Work::search)));
+    const unsnarl_surface given = surface_of(surface);
+    const Certificate certificate =
+        certify(view_of(given), {moved, 3 * moved_count}, find_options(options_of(options, Work::search), given));
     unsnarl_result found;
-    found.report = Json{{"embedded", certificate.embedded()},
-                        {"float32_embedded", certificate.float32_embedded()},
-                        {"pairs", by_kind(certificate.pairs)},
-                        {"pairs_float32", by_kind(*certificate.pairs_float32)},
-                        {"new_zero_area_faces", certificate.new_zero_area_faces},
-                        {"seams_closed", certificate.seams_closed}}
-                       .dump();
+    found.report =
+        Json{{"embedded", certificate.embedded()},       {"float32_embedded", certificate.float32_embedded()},
+             {"pairs", by_kind(certificate.pairs)},      {"pairs_float32", by_kind(*certificate.pairs_float32)},
+             {"allowed", by_kind(certificate.allowed)},  {"new_zero_area_faces", certificate.new_zero_area_faces},
+             {"seams_closed", certificate.seams_closed}, {"resolved", certificate.resolved()}}
+            .dump();
     return found;
   });
 }

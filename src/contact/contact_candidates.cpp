@@ -1,8 +1,10 @@
 #include "contact/contact_candidates.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "contact/stop_check.h"
@@ -126,12 +128,14 @@ ContactCandidates::ContactCandidates(std::span<const Triangle> triangles, Index 
   for (Index e = 0; e < edges_.triangles_of_edge.size(); ++e) list_corners(around_edge_, edges_.triangles_of_edge[e]);
 }
 
-void ContactCandidates::update_triangle(const Positions& x, double radius, const MotionBounds& bounds, Index t) {
+void ContactCandidates::update_triangle(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
+                                        Index t) {
   const Triangle& f = triangles_[t];
   const Vec3 a = x.col(f[0]), b = x.col(f[1]), c = x.col(f[2]);
   const Vec3 p = bounds.along.col(f[0]), q = bounds.along.col(f[1]), r = bounds.along.col(f[2]);
   Slab& slab = slabs_[t];
   slab.around = std::max({bounds.around[f[0]], bounds.around[f[1]], bounds.around[f[2]]});
+  slab.radius = std::max({radius[f[0]], radius[f[1]], radius[f[2]]});
   std::array<Box, 3> ways;  // of the corners
   Box box;
   for (int k = 0; k < 3; ++k) {
@@ -140,21 +144,21 @@ void ContactCandidates::update_triangle(const Positions& x, double radius, const
     ways[k].extend(Vec3(at + bounds.along.col(f[k])));
     box.extend(ways[k]);
   }
-  const auto reaching = [&](const Box& way, double around) {
-    return way.inflated(0.5 * radius + (1 + length_rounding) * around);
+  const auto reaching = [&](const Box& way, double radius_there, double around) {
+    return way.inflated(0.5 * radius_there + (1 + length_rounding) * around);
   };
-  boxes_[t] = reaching(box, slab.around);
+  boxes_[t] = reaching(box, slab.radius, slab.around);
   Reach& reach = reach_[t];
   reach.corners.set(3, RoundedBox(boxes_[t]));
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
     const bool owns_corner = owned_corners_[t] & (1u << k), owns_edge = owned_corners_[t] & (8u << k);
-    reach.corners.set(k, owns_corner ? RoundedBox(reaching(ways[k], bounds.around[f[k]])) : RoundedBox());
+    reach.corners.set(k, owns_corner ? RoundedBox(reaching(ways[k], radius[f[k]], bounds.around[f[k]])) : RoundedBox());
     Box edge;
     if (owns_edge) {
       edge.extend(ways[k]);
       edge.extend(ways[l]);
-      edge = reaching(edge, std::max(bounds.around[f[k]], bounds.around[f[l]]));
+      edge = reaching(edge, std::max(radius[f[k]], radius[f[l]]), std::max(bounds.around[f[k]], bounds.around[f[l]]));
     }
     reach.edges.set(k, RoundedBox(edge));
   }
@@ -168,7 +172,7 @@ void ContactCandidates::update_triangle(const Positions& x, double radius, const
   slab.hi = range.hi;
 }
 
-void ContactCandidates::gather(const Positions& x, double radius, const MotionBounds& bounds,
+void ContactCandidates::gather(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
                                std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils,
                                const std::function<bool()>& stop) {
   // Only pairs with a moving triangle are visited, so that the cost does not grow with what stands still.
@@ -188,12 +192,13 @@ void ContactCandidates::gather(const Positions& x, double radius, const MotionBo
     built_ = true;
   }
   bvh_.set_active(moving_);
-  gather_active(x, radius, bounds, moves, stencils, stop);
+  gather_active(x, radius, bounds, moves, stencils, stop, std::numeric_limits<std::size_t>::max());
 }
 
-void ContactCandidates::gather_around(std::span<const Index> vertices, const Positions& x, double radius,
-                                      const MotionBounds& bounds, std::vector<NearStencil>& stencils,
-                                      const std::function<bool()>& stop) {
+bool ContactCandidates::gather_around(std::span<const Index> vertices, const Positions& x,
+                                      std::span<const double> radius, const MotionBounds& bounds,
+                                      std::vector<NearStencil>& stencils, const std::function<bool()>& stop,
+                                      std::size_t most) {
   around_.assign(around_vertex_.size(), 0);
   std::fill(moving_.begin(), moving_.end(), std::uint8_t{0});
   std::vector<Index> touched;
@@ -209,28 +214,34 @@ void ContactCandidates::gather_around(std::span<const Index> vertices, const Pos
   });
   bvh_.refit(boxes_, touched);
   bvh_.set_only_active(touched);
-  gather_active(x, radius, bounds, around_, stencils, stop);
+  return gather_active(x, radius, bounds, around_, stencils, stop, most);
 }
 
-void ContactCandidates::gather_active(const Positions& x, double radius, const MotionBounds& bounds,
+bool ContactCandidates::gather_active(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
                                       std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils,
-                                      const std::function<bool()>& stop) {
+                                      const std::function<bool()>& stop, std::size_t most) {
   std::vector<std::vector<NearStencil>> lists(bvh_.task_count());
+  std::atomic<std::size_t> listed{0};
   StopCheck check(stop, lists.size(), candidates_between_looks);
   bvh_.self_pairs_parallel([&](Index task, Index a, Index b) {
     check.step(task);
+    if (listed.load(std::memory_order_relaxed) > most) return;
+    const std::size_t before = lists[task].size();
     gather_pair(x, radius, bounds, moves, a, b, lists[task]);
+    const std::size_t after = lists[task].size();
+    if (after > before) listed.fetch_add(after - before, std::memory_order_relaxed);
   });
   join_lists(std::move(lists), stencils);
+  return listed <= most;
 }
 
-void ContactCandidates::gather_pair(const Positions& x, double radius, const MotionBounds& bounds,
+void ContactCandidates::gather_pair(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
                                     std::span<const std::uint8_t> moves, Index a, Index b,
                                     std::vector<NearStencil>& stencils) const {
   const auto append = [&](const Stencil& stencil) {
     const Closest at = closest(stencil, x);
     const double least = least_distance(stencil, x, bounds, at.direction);
-    if (least <= radius) stencils.push_back({stencil, at.distance, at.direction, least});
+    if (least <= radius_of(stencil, radius)) stencils.push_back({stencil, at.distance, at.direction, least});
   };
   const Shared& shared = shared_of_corners[equal_corners(corners_[a], corners_[b])];
   const auto gather_corners = [&](Index t, Index other, unsigned corners_of_other) {
@@ -241,7 +252,7 @@ void ContactCandidates::gather_pair(const Positions& x, double radius, const Mot
       const Index v = triangles_[t][k];
       if (!moves[v] && !moving_[other]) return;
       // Farther from the plane than the radius: the distance is not needed.
-      const double reach = radius + (bounds.around[v] + slab.around);
+      const double reach = 0.5 * (radius[v] + slab.radius) + (bounds.around[v] + slab.around);
       const Vec3 to = x.col(v) - x.col(f[0]);
       const Interval range(slab.normal.dot(to), slab.normal.dot(bounds.along.col(v)));
       if (std::max(range.lo - slab.hi, slab.lo - range.hi) > reach + length_rounding * (reach + to.cwiseAbs().sum()))
@@ -257,8 +268,12 @@ void ContactCandidates::gather_pair(const Positions& x, double radius, const Mot
       const Index edge_a = edges_.edges_of_triangle[a][k], edge_b = edges_.edges_of_triangle[b][l];
       const Edge &e = edges_.edges[edge_a], &g = edges_.edges[edge_b];
       if (!moves[e[0]] && !moves[e[1]] && !moves[g[0]] && !moves[g[1]]) return;
-      const auto around = [&](const Edge& edge) { return std::max(bounds.around[edge[0]], bounds.around[edge[1]]); };
-      if (stay_apart_along_normal(radius + (around(e) + around(g)), x, bounds.along, e, g)) return;
+      const auto most = [&](std::span<const double> of, const Edge& edge) {
+        return std::max(of[edge[0]], of[edge[1]]);
+      };
+      const double reach =
+          0.5 * (most(radius, e) + most(radius, g)) + (most(bounds.around, e) + most(bounds.around, g));
+      if (stay_apart_along_normal(reach, x, bounds.along, e, g)) return;
       append({StencilKind::edge_edge, {e[0], e[1], g[0], g[1]}, {edge_a, edge_b}});
     });
   }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,6 +24,12 @@ struct NearStencil {
   friend bool operator==(const NearStencil& s, const NearStencil& t) = default;
 };
 
+/// Radius of a stencil where every vertex has one: the mean of its two primitives', of which each has that of its
+/// vertex with the largest.
+inline double radius_of(const Stencil& stencil, std::span<const double> radius) {
+  return 0.5 * approach(stencil, radius);
+}
+
 /// Lists the stencils of a triangle mesh that are close together: every vertex against every triangle it is not a
 /// corner of, every edge against every edge it shares no end point with. Stencils between triangles that share a vertex
 /// or an edge are among them; they keep neighbours from folding through each other.
@@ -30,16 +38,21 @@ class ContactCandidates {
   /// The triangles may include obstacles; vertices without a triangle take part in nothing. The span must outlive this.
   ContactCandidates(std::span<const Triangle> triangles, Index vertex_count);
 
-  /// All stencils with a vertex v with moves[v] != 0 whose primitives may come closer than `radius` while every vertex
-  /// keeps to its bounds, and a few more. `moves` has one entry a vertex. Parallel; the order depends only on the
-  /// arguments, and on those of the first call. Throws WorkStopped soon after `stop` says so.
-  void gather(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
-              std::vector<NearStencil>& stencils, const std::function<bool()>& stop = {});
+  /// All stencils with a vertex v with moves[v] != 0 whose primitives may come closer than their radius while every
+  /// vertex keeps to its bounds, and a few more. `moves` and `radius`, a length, have one entry a vertex; the radius of
+  /// a stencil is radius_of(). Parallel; the order depends only on the arguments, and on those of the first call.
+  /// Throws WorkStopped soon after `stop` says so.
+  void gather(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
+              std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils,
+              const std::function<bool()>& stop = {});
 
   /// The same for the stencils with one of `vertices`, after only the positions and bounds of these have changed since
-  /// the last gathering. The cost grows with their number. Lists each stencil once.
-  void gather_around(std::span<const Index> vertices, const Positions& x, double radius, const MotionBounds& bounds,
-                     std::vector<NearStencil>& stencils, const std::function<bool()>& stop = {});
+  /// the last gathering. The cost grows with their number. Lists each stencil once. Returns false, and a part of them,
+  /// where there are more than `most`.
+  bool gather_around(std::span<const Index> vertices, const Positions& x, std::span<const double> radius,
+                     const MotionBounds& bounds, std::vector<NearStencil>& stencils,
+                     const std::function<bool()>& stop = {},
+                     std::size_t most = std::numeric_limits<std::size_t>::max());
 
   /// Whether a triangle at the one primitive shares a vertex with a triangle at the other. For listed stencils.
   bool are_neighbours(const Stencil& stencil) const;
@@ -49,11 +62,12 @@ class ContactCandidates {
 
  private:
   /// Updates where triangle t may be.
-  void update_triangle(const Positions& x, double radius, const MotionBounds& bounds, Index t);
-  void gather_active(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
-                     std::vector<NearStencil>& stencils, const std::function<bool()>& stop);
-  void gather_pair(const Positions& x, double radius, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
-                   Index a, Index b, std::vector<NearStencil>& stencils) const;
+  void update_triangle(const Positions& x, std::span<const double> radius, const MotionBounds& bounds, Index t);
+  bool gather_active(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
+                     std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils,
+                     const std::function<bool()>& stop, std::size_t most);
+  void gather_pair(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
+                   std::span<const std::uint8_t> moves, Index a, Index b, std::vector<NearStencil>& stencils) const;
 
   std::span<const Triangle> triangles_;
   EdgeTable edges_;
@@ -71,6 +85,7 @@ class ContactCandidates {
     Vec3 normal;        // of the triangle, unit or zero
     double lo, hi;      // where its corners may be along it, from the first one
     double around = 0;  // the largest of its corners
+    double radius = 0;  // the same
   };
   struct Reach {
     FourBoxes corners;  // of those the triangle looks after, and its own

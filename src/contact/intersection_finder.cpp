@@ -90,14 +90,14 @@ bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairCl
   return degenerate_triangles_meet(rotated(x, a, 0), rotated(x, b, 0), shared);
 }
 
-IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, VertexGroups groups)
-    : IntersectionFinder(triangles, static_cast<Index>(triangles.size()), groups) {}
+IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Passing passing)
+    : IntersectionFinder(triangles, static_cast<Index>(triangles.size()), passing) {}
 
-IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Index active_count, VertexGroups groups)
-    : triangles_(triangles), active_count_(active_count), groups_(groups), tree_(triangles, active_count) {}
+IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Index active_count, Passing passing)
+    : triangles_(triangles), active_count_(active_count), passing_(passing), tree_(triangles, active_count) {}
 
 void IntersectionFinder::begin_change() {
-  if (is_changing_) *this = IntersectionFinder(triangles_, active_count_, groups_);
+  if (is_changing_) *this = IntersectionFinder(triangles_, active_count_, passing_);
   is_changing_ = true;
 }
 
@@ -174,7 +174,7 @@ void IntersectionFinder::decide_each(const std::function<bool()>& stop, Skip&& s
   StopCheck check(stop, static_cast<std::size_t>(tree_.task_count()), pairs_between_looks);
   tree_.self_pairs([&](Index task, Index i, Index j) {
     check.step(task);
-    if (i >= active_count_ || skip(i, j) || !groups_.meet(triangles_[i], triangles_[j])) return;
+    if (i >= active_count_ || skip(i, j) || !passing_.meet(triangles_, i, j)) return;
     PairClass kind;
     if (intersects(x_, triangles_[i], triangles_[j], kind)) found(task, IntersectingPair{i, j, kind});
   });
@@ -226,7 +226,7 @@ std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x, const
   const std::size_t undecided = undecided_.items().size();
   is_all_undecided_ |= undecided > 0 && !is_few(undecided, static_cast<std::size_t>(active_count_));
   if (is_all_undecided_ && decided_as_a_whole_ >= seldom && !tree_.is_turned()) {
-    if (!moving_) moving_.emplace(triangles_, active_count_, std::move(*fans_), groups_);
+    if (!moving_) moving_.emplace(triangles_, active_count_, std::move(*fans_), passing_);
     pairs_ = moving_->find(x_);
   } else if (is_all_undecided_) {
     ++decided_as_a_whole_;

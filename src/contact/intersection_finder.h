@@ -20,10 +20,10 @@ bool intersects(const Positions& x, const Triangle& a, const Triangle& b, PairCl
 /// once. If few triangles move, the cost grows with their number, apart from one pass over all vertices and triangles.
 class IntersectionFinder {
  public:
-  /// Pairs of two triangles >= active_count are skipped (obstacles among themselves), and those of two groups. The
-  /// triangles and groups must outlive the finder.
-  explicit IntersectionFinder(std::span<const Triangle> triangles, VertexGroups groups = {});
-  IntersectionFinder(std::span<const Triangle> triangles, Index active_count, VertexGroups groups = {});
+  /// Pairs of two triangles >= active_count are skipped (obstacles among themselves), and those that pass through each
+  /// other. The triangles must outlive the finder.
+  explicit IntersectionFinder(std::span<const Triangle> triangles, Passing passing = {});
+  IntersectionFinder(std::span<const Triangle> triangles, Index active_count, Passing passing = {});
 
   /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates; only triangles that moved since the last
   /// call are tested again. Same result at any thread count. Throws WorkStopped soon after `stop` says so.
@@ -91,7 +91,7 @@ class IntersectionFinder {
 
   std::span<const Triangle> triangles_;
   Index active_count_;
-  VertexGroups groups_;
+  Passing passing_;
   bool is_changing_ = false;
   FaceTree tree_;
   Some outside_tree_;                          // triangles that have moved since it was updated

@@ -26,7 +26,7 @@ void MovingIntersections::add_joined(const Positions& x, Index begin, Index end,
       for (std::size_t i = 0; i < j && at[i] < active_count_; ++i) {
         const Triangle &a = triangles_[at[i]], &b = triangles_[at[j]];
         // A pair that shares two vertices is decided by the fan of either, or else at the first of them.
-        if (!near_.overlap(at[i], at[j])) continue;
+        if (!near_.overlap(at[i], at[j]) || !passing_.meet(triangles_, at[i], at[j])) continue;
         const bool elsewhere = std::any_of(
             a.begin(), a.end(), [&](Index u) { return u != v && has_corner(b, u) && (u < v || fans_.is_unfolded(u)); });
         if (!elsewhere && intersects(x, a, b, kind)) found.push_back({at[i], at[j], kind});

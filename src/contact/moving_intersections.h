@@ -17,11 +17,12 @@ class MovingIntersections {
   /// Pairs of two triangles >= active_count are skipped. The span must outlive this.
   MovingIntersections(std::span<const Triangle> triangles, Index active_count, Index vertex_count)
       : MovingIntersections(triangles, active_count, VertexFans(triangles, active_count, vertex_count), {}) {}
-  /// `fans`: of the same triangles. Pairs of two groups are skipped too; these must outlive this.
-  MovingIntersections(std::span<const Triangle> triangles, Index active_count, VertexFans fans, VertexGroups groups)
+  /// `fans`: of the same triangles. Pairs that pass through each other are skipped too.
+  MovingIntersections(std::span<const Triangle> triangles, Index active_count, VertexFans fans, Passing passing)
       : triangles_(triangles),
         active_count_(active_count),
-        near_(triangles, active_count, groups),
+        passing_(passing),
+        near_(triangles, active_count, passing),
         fans_(std::move(fans)) {}
 
   /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates. Same result at any thread count.
@@ -34,6 +35,7 @@ class MovingIntersections {
 
   std::span<const Triangle> triangles_;
   Index active_count_;
+  Passing passing_;
   NearPairs near_;
   VertexFans fans_;
 };

@@ -78,7 +78,7 @@ void NearPairs::update(const Positions& x) {
 }
 
 bool NearPairs::is_wanted(Index a, Index b) const {
-  return !share_a_vertex(triangles_[a], triangles_[b]) && groups_.meet(triangles_[a], triangles_[b]);
+  return !share_a_vertex(triangles_[a], triangles_[b]) && passing_.meet(triangles_, a, b);
 }
 
 void NearPairs::look_for_all() {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/bvh.h"
-#include "contact/vertex_groups.h"
+#include "contact/passing.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -18,10 +18,10 @@ class NearPairs {
  public:
   using Pair = std::array<Index, 2>;  // ascending
 
-  /// Pairs of two triangles >= active_count are left out, and those of two groups (VertexGroups). The spans must
-  /// outlive this.
-  NearPairs(std::span<const Triangle> triangles, Index active_count, VertexGroups groups = {})
-      : triangles_(triangles), active_count_(active_count), groups_(groups) {}
+  /// Pairs of two triangles >= active_count are left out, and those that pass through each other. The span must outlive
+  /// this.
+  NearPairs(std::span<const Triangle> triangles, Index active_count, Passing passing = {})
+      : triangles_(triangles), active_count_(active_count), passing_(passing) {}
 
   /// Takes over the positions. The list then holds every pair whose boxes overlap, each once, and some pairs that are a
   /// little farther apart. Its order depends on all positions so far.
@@ -37,7 +37,7 @@ class NearPairs {
 
   std::span<const Triangle> triangles_;
   Index active_count_;
-  VertexGroups groups_;
+  Passing passing_;
   double length_ = 0;                // mean diagonal of the boxes
   std::vector<Box> boxes_, padded_;  // at the positions; enlarged, as of when the triangle last left it
   std::vector<RoundedBox> rounded_;  // the boxes at the positions

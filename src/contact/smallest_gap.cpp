@@ -44,8 +44,13 @@ double squared_distance(const Box& a, const Box& b) {
 /// hold only one group, are skipped.
 class Search {
  public:
-  Search(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group)
-      : triangles_(triangles), x_(x), group_(group), order_(triangles.size()), boxes_(triangles.size()) {
+  Search(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group, Passing passing)
+      : triangles_(triangles),
+        x_(x),
+        group_(group),
+        passing_(passing),
+        order_(triangles.size()),
+        boxes_(triangles.size()) {
     nearest_.distance = std::numeric_limits<double>::infinity();
     if (triangles.empty()) return;
     std::iota(order_.begin(), order_.end(), Index{0});
@@ -130,7 +135,7 @@ class Search {
   }
 
   void compare(Index s, Index t) {
-    if (group(s) == group(t)) return;
+    if (group(s) == group(t) || !passing_.meet(triangles_, s, t)) return;
     if (squared_distance(boxes_[s], boxes_[t]) >= nearest_.distance * nearest_.distance) return;
     if (share_a_vertex(triangles_[s], triangles_[t])) return;
     if (are_apart(x_, triangles_[s], triangles_[t], nearest_.distance)) return;
@@ -141,6 +146,7 @@ class Search {
   std::span<const Triangle> triangles_;
   const Positions& x_;
   std::span<const Index> group_;
+  Passing passing_;
   std::vector<Index> order_;
   std::vector<Box> boxes_;  // of the triangles
   std::vector<Node> nodes_;
@@ -163,8 +169,9 @@ bool are_apart(const Positions& x, const Triangle& s, const Triangle& t, double 
   return false;
 }
 
-SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group) {
-  return Search(triangles, x, group).nearest();
+SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group,
+                         Passing passing) {
+  return Search(triangles, x, group, passing).nearest();
 }
 
 std::vector<std::array<Index, 2>> pairs_closer_than(std::span<const Triangle> triangles, const Positions& x,

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/passing.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -20,9 +21,10 @@ struct SmallestGap {
   Index first = -1, second = -1;
 };
 
-/// group: one entry a triangle; only triangles of different groups count. Empty: all.
-/// Precondition: no two of these triangles intersect.
-SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group = {});
+/// group: one entry a triangle; only triangles of different groups count. Empty: all. Those that pass through each
+/// other do not count. Precondition: no two of the triangles that count intersect.
+SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group = {},
+                         Passing passing = {});
 
 /// The pairs of triangles (the smaller number first, sorted) that share no vertex and are less than `distance` apart.
 /// Pairs that intersect may or may not be among them.

@@ -29,9 +29,16 @@ class Certifier::Search {
     return read ? unite_face_pairs(std::move(pairs), FacePairFinder(*read).find(x)) : pairs;
   }
 
+  std::vector<IntersectingPair> allowed_pairs_at(std::span<const double> positions) const {
+    require_positions(input_, positions);
+    return unsnarl::find_allowed_pairs(prepared_, cut_anew(input_, prepared_, options_, positions),
+                                       at_own_scale(positions));
+  }
+
   Certificate certify(std::span<const double> positions) {
     Certificate certificate;
     certificate.pairs = count_by_class(pairs_at(positions));
+    certificate.allowed = count_by_class(allowed_pairs_at(positions));
     certificate.seams_closed = options_.weld_tolerance > 0 || prepared_.seams_are_closed(positions);
     certificate.new_zero_area_faces = count_lost_areas(prepared_.rest, at_own_scale(positions), prepared_.triangles());
     return certificate;
@@ -71,6 +78,11 @@ Certifier::~Certifier() = default;
 std::vector<IntersectingPair> Certifier::find_intersections(std::span<const double> positions) {
   const ThreadLimit threads(search_->threads());
   return search_->pairs_at(positions);
+}
+
+std::vector<IntersectingPair> Certifier::find_allowed_pairs(std::span<const double> positions) {
+  const ThreadLimit threads(search_->threads());
+  return search_->allowed_pairs_at(positions);
 }
 
 Certificate Certifier::certify(std::span<const double> positions) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "contact/stop_check.h"
 #include "geometry/sort_unique.h"
@@ -28,11 +29,39 @@ void extend_by_face(Bounds& bounds, const SurfaceView& surface, Index f) {
     }
 }
 
+/// The first of all pairs, so many, however many there are.
+class FirstPairs {
+ public:
+  explicit FirstPairs(std::size_t most) : most_(most) {}
+
+  void add(std::span<const IntersectingPair> pairs) {
+    if (most_ == 0) return;
+    list_.insert(list_.end(), pairs.begin(), pairs.end());
+    if (list_.size() / 2 >= most_) keep_first();
+  }
+  /// Sorted; leaves none.
+  std::vector<IntersectingPair> take() {
+    keep_first();
+    std::sort(list_.begin(), list_.end());
+    return std::exchange(list_, {});
+  }
+
+ private:
+  void keep_first() {
+    if (list_.size() <= most_) return;
+    std::nth_element(list_.begin(), list_.begin() + static_cast<std::ptrdiff_t>(most_), list_.end());
+    list_.resize(most_);
+  }
+
+  const std::size_t most_;
+  std::vector<IntersectingPair> list_;
+};
+
 /// What follows from all pairs, of which the first alone are kept.
 class PairTally {
  public:
   PairTally(std::size_t faces, const Components& components, std::size_t listed)
-      : listed_(listed),
+      : list_(listed),
         connected_(faces),
         pairs_of_face_(faces, 0),
         is_in_any_(faces, 0),
@@ -56,9 +85,7 @@ class PairTally {
         if (a.has_volume && b.has_volume) note_meeting(component_of(pair.a), component_of(pair.b));
       }
     }
-    if (listed_ == 0) return;
-    list_.insert(list_.end(), pairs.begin(), pairs.end());
-    if (list_.size() / 2 >= listed_) keep_first();
+    list_.add(pairs);
   }
 
   /// Components that have a volume, with faces that intersect faces of others, in pairs: sorted, each once.
@@ -68,9 +95,7 @@ class PairTally {
   }
 
   void describe(CheckReport& found) {
-    keep_first();
-    std::sort(list_.begin(), list_.end());
-    found.pairs = std::move(list_);
+    found.pairs = list_.take();
     found.counts = counts_;
     for (std::size_t f = 0; f < is_in_any_.size(); ++f)
       if (is_in_any_[f]) found.faces.push_back(static_cast<Index>(f));
@@ -115,11 +140,6 @@ class PairTally {
     std::size_t within = 0, with_others = 0;
     bool has_volume = false;
   };
-  void keep_first() {
-    if (list_.size() <= listed_) return;
-    std::nth_element(list_.begin(), list_.begin() + static_cast<std::ptrdiff_t>(listed_), list_.end());
-    list_.resize(listed_);
-  }
 
   /// Keeps each pair of components a few times at most.
   void note_meeting(Index a, Index b) {
@@ -131,8 +151,7 @@ class PairTally {
     meeting_noted_ = 2 * meeting_.size() + of_component_.size();
   }
 
-  const std::size_t listed_;
-  std::vector<IntersectingPair> list_;
+  FirstPairs list_;
   std::vector<ComponentPair> meeting_;
   std::size_t meeting_noted_ = 0;  // from so many on they are sorted
   PairCounts counts_;
@@ -162,19 +181,24 @@ void describe_components(const SurfaceView& surface, const WeldMap& weld_map, co
   for (const Component& component : components.list) found.closed_non_orientable += component.obstructed();
 }
 
-/// Throws LimitReached.
-void find_pairs(const PreparedSurface& prepared, const CheckLimits& limits, PairTally& tally,
-                const std::function<Index(Index)>& component_of) {
+/// Takes the pairs in blocks, those to resolve and those that are allowed. Throws LimitReached.
+void find_pairs(const PreparedSurface& prepared, const CheckLimits& limits,
+                const std::function<void(std::span<const IntersectingPair>)>& take,
+                const std::function<void(std::span<const IntersectingPair>)>& take_allowed) {
   RepairOptions wanted;
   wanted.time_limit_s = limits.time_limit_s;
   wanted.memory_limit_mb = limits.memory_limit_mb;
   const Context nobody;
   Limits watch(wanted, nobody);
   try {
-    FacePairFinder(prepared).visit(prepared.rest, watch.stopper(), [&](std::span<const IntersectingPair> pairs) {
-      tally.add(pairs, component_of);
-      if (watch.reached()) throw WorkStopped();
-    });
+    const auto visit = [&](FacePairFinder::Which which, const auto& taker) {
+      FacePairFinder(prepared, which).visit(prepared.rest, watch.stopper(), [&](auto pairs) {
+        taker(pairs);
+        if (watch.reached()) throw WorkStopped();
+      });
+    };
+    visit(FacePairFinder::Which::to_resolve, take);
+    if (prepared.allowed.any()) visit(FacePairFinder::Which::allowed, take_allowed);
   } catch (const WorkStopped&) {
     throw LimitReached(watch.status_or(Status::time_limit));
   }
@@ -194,8 +218,15 @@ CheckReport check(const SurfaceView& surface, const FindOptions& options, const 
   found.topology = describe_topology(surface, prepared.weld_map, prepared.triangulation, edges, components);
   describe_components(surface, prepared.weld_map, components, found);
   PairTally tally(surface.face_count(), components, limits.pairs_listed);
-  find_pairs(prepared, limits, tally,
-             [&](Index f) { return component_of_face(surface, prepared.weld_map, components, f); });
+  const auto component_of = [&](Index f) { return component_of_face(surface, prepared.weld_map, components, f); };
+  FirstPairs allowed(limits.pairs_listed);
+  find_pairs(
+      prepared, limits, [&](std::span<const IntersectingPair> pairs) { tally.add(pairs, component_of); },
+      [&](std::span<const IntersectingPair> pairs) {
+        for (const IntersectingPair& pair : pairs) ++found.allowed[pair.kind];
+        allowed.add(pairs);
+      });
+  found.allowed_pairs = allowed.take();
   tally.describe(found);
   found.overlapping_components = overlapping_components(prepared, components, tally.meeting());
   found.places = tally.places(surface, prepared.weld_map, found.faces);

@@ -41,15 +41,15 @@ Clearance measure_clearance(const SurfaceView& input, std::span<const double> po
   }
   const Components components = find_components(input, prepared.weld_map, triangles, build_edges(triangles));
   std::vector<IntersectingPair> pairs;
-  if (!is_embedded) pairs = IntersectionFinder(triangles).find(x);
+  if (!is_embedded) pairs = IntersectionFinder(triangles, prepared.passing()).find(x);
   for (const IntersectingPair& pair : pairs) {
     result.gap = 0;
     if (components.component_of_triangle[pair.a] != components.component_of_triangle[pair.b]) result.component_gap = 0;
   }
-  if (result.gap > 0) take(smallest_gap(triangles, x), prepared, result.gap, result.gap_faces);
+  if (result.gap > 0) take(smallest_gap(triangles, x, {}, prepared.passing()), prepared, result.gap, result.gap_faces);
   if (result.component_gap > 0 && components.count() > 1)
-    take(smallest_gap(triangles, x, components.component_of_triangle), prepared, result.component_gap,
-         result.component_gap_faces);
+    take(smallest_gap(triangles, x, components.component_of_triangle, prepared.passing()), prepared,
+         result.component_gap, result.component_gap_faces);
   return result;
 }
 

@@ -60,15 +60,19 @@ Reached taken_back(const RepairTask& task, const RepairControl& control, PairCen
   return {task.prepared.rest, census.before()};
 }
 
-/// The status of a result that has this one by its pairs.
+/// The status of a result that has this one by its pairs and is otherwise as the report says.
 Status final_status(const RepairTask& task, const RepairControl& control, Status by_pairs,
-                    bool displacement_is_exceeded, double displacement_max_rel, const std::optional<GapReport>& gap) {
+                    bool displacement_is_exceeded, const RepairReport& report) {
   const double limit = task.options.max_displacement_rel;
-  if (limit > 0 && displacement_max_rel > limit) return Status::displacement_exceeded;
+  if (limit > 0 && report.displacement_max_rel > limit) return Status::displacement_exceeded;
   Status status = by_pairs;
-  if (status == Status::embedded && gap && !gap->is_met()) status = control.limits.status_or(Status::gap_not_met);
   if (status == Status::reduced || status == Status::no_progress)
     status = control.limits.status_or(displacement_is_exceeded ? Status::displacement_exceeded : status);
+  const PairCounts& allowed = report.allowed_after;
+  const bool is_any_allowed = (task.options.goal == Goal::all ? allowed.total() : allowed[PairClass::disjoint]) > 0;
+  if (status == Status::embedded && report.gap && !report.gap->is_met())
+    status = control.limits.status_or(Status::gap_not_met);
+  if (is_resolved(status) && is_any_allowed) status = Status::allowed;
   return control.limits.status_of_result(status);
 }
 
@@ -98,6 +102,7 @@ RepairReport report_of_input(const RepairTask& task, const PairCensus& census) {
   report.triangulation = task.prepared.triangulation.statistics.describe();
   report.obstructions = task.diagnosis.obstructions;
   report.before = report.after = census.before().faces;
+  report.allowed_before = report.allowed_after = census.allowed_at(task.prepared.rest);
   return report;
 }
 
@@ -156,6 +161,7 @@ RepairResult conclude(const RepairTask& task, const RepairControl& control, Pair
   result.positions = task.prepared.scatter(task.surface.positions, reached.x);
   RepairReport& report = result.report = report_of_input(task, census);
   report.after = reached.left.faces;
+  if (reached.x != task.prepared.rest) report.allowed_after = census.allowed_at(reached.x);
   report.precision = state.format.float32() ? Precision::float32 : Precision::float64;
   report.float32_embedded = census.is_embedded_in_float32(reached.x);
   report.regions = state.regions;
@@ -163,7 +169,7 @@ RepairResult conclude(const RepairTask& task, const RepairControl& control, Pair
   report.min_gap_rel = std::isfinite(state.smallest_gap) && task.diagonal > 0 ? state.smallest_gap / task.diagonal : 0;
   report.gap = measured_gap(task, state, reached.x, reached.left.triangles);
   result.status = final_status(task, control, status_at(task, census, reached.left, reached.x),
-                               state.displacement_is_exceeded, report.displacement_max_rel, report.gap);
+                               state.displacement_is_exceeded, report);
   measure_components(task.prepared, task.diagnosis, reached.left.triangles, report);
   describe_parts(task, reached.x, report);
   list_left_pairs(task, control, state, reached, report);

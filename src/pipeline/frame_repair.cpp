@@ -62,11 +62,17 @@ Jitter jitter_at(std::size_t t, std::span<const SequenceFrame> frames, const Res
   return {differences.mean() / diagonal, differences.maxCoeff() / diagonal};
 }
 
+bool lacks_a_gap(const RepairResult& result) {
+  return result.report.gap && !result.report.gap->is_met();
+}
+
 FrameReport report_of_repair_alone(std::size_t t, const RepairResult& alone) {
   return {.frame = t,
           .status = alone.status,
           .before = alone.report.before,
           .after = alone.report.after,
+          .allowed_before = alone.report.allowed_before,
+          .allowed_after = alone.report.allowed_after,
           .diagonal = alone.report.diagonal,
           .float32_embedded = alone.report.float32_embedded,
           .precision = alone.report.precision,
@@ -96,7 +102,8 @@ void FrameRepair::see(SequenceFrame& frame) const {
 
 void FrameRepair::repair_alone(std::size_t t, SequenceFrame& frame) const {
   see(frame);
-  Finders finders(frame.seen->prepared().triangles(), frame.seen->prepared().scale);
+  const PreparedSurface& prepared = frame.seen->prepared();
+  Finders finders(prepared.triangles(), prepared.scale, prepared.passing());
   frame.alone = repair_from(surface(frame.input), frame.seen->known(), finders, options_of(t), &context);
   frame.is_clean = frame.alone.positions == frame.input;
 }
@@ -114,18 +121,10 @@ Jitter FrameRepair::jitter_of_results(std::size_t t, std::span<const SequenceFra
   return jitter_at(t, frames, [](const SequenceFrame& frame) { return frame.result; });
 }
 
-namespace {
-
-bool is_embedded(Status status) {
-  return status == Status::embedded || status == Status::gap_not_met;
-}
-
-}  // namespace
-
 FrameResult FrameRepair::finished(std::size_t t, std::span<const SequenceFrame> frames) const {
   const SequenceFrame& frame = frames[t];
   FrameResult result = {report_of_repair_alone(t, frame.alone), frame.alone.positions};
-  if (!frame.is_clean && is_embedded(frame.alone.status) && options.recover) {
+  if (!frame.is_clean && is_resolved(frame.alone.status) && options.recover) {
     smooth(t, frames, result);
     // The mean of the corrections may be that of repairs that memory ran out in.
     for (std::size_t s = FrameSchedule::begin_around(t); s < std::min(t + sequence_reach + 1, frames.size()); ++s)
@@ -178,19 +177,22 @@ void FrameRepair::smooth(std::size_t t, std::span<const SequenceFrame> frames, F
   RepairOptions own = options_of(t);
   const double most_displacement_rel = std::exchange(own.max_displacement_rel, 0);
   // In the welding and triangulation of the input, not of the target; from what is known of the repair by itself.
-  Finders finders(prepared.triangles(), prepared.scale);
+  Finders finders(prepared.triangles(), prepared.scale, prepared.passing());
   if (frame.alone.report.after.total() == 0)
     finders.start_without_pairs(prepared.gather(result.positions), frame.alone.report.float32_embedded);
   RepairResult smoothed = repair_from(surface(target), frame.seen->known(), finders, own, &context);
   if (smoothed.status == Status::memory_limit) result.report.status = smoothed.status;
-  if (smoothed.status != Status::embedded && smoothed.status != frame.alone.status) return;
+  if (!is_resolved(smoothed.status)) return;
+  if (lacks_a_gap(smoothed) && !lacks_a_gap(frame.alone)) return;
   // A layer that came out on another side would pop.
   if (largest(distances(smoothed.positions, target, prepared.scale)) >
       largest(distances(result.positions, target, prepared.scale)))
     return;
   if (!holds(frame, smoothed)) return;
   FrameResult candidate{result.report, std::move(smoothed.positions)};
+  candidate.report.status = smoothed.status;
   candidate.report.after = smoothed.report.after;
+  candidate.report.allowed_after = smoothed.report.allowed_after;
   candidate.report.float32_embedded = smoothed.report.float32_embedded;
   candidate.report.precision = smoothed.report.precision;
   candidate.report.is_smoothed = true;

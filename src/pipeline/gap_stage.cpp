@@ -23,7 +23,7 @@ namespace {
 
 /// Rounds of opening what is too small, at most: in each, a vertex goes a few edge lengths at most (unit: rounds)
 constexpr int gap_rounds = 6;
-/// Vertices this far along the edges from a gap that is opened make way too [E209] (unit: wanted gap)
+/// Vertices this far along the edges from a gap that is opened make way too [E211] (unit: wanted gap)
 constexpr double way_gaps = 2;
 /// Obstacles of a recovery are listed up to this distance (unit: wanted gap)
 constexpr double obstacle_gaps = 2;
@@ -38,7 +38,8 @@ SheetGaps sheet_gaps(const RepairTask& task, const RepairState& state, std::span
   options.wanted = gap_wanted_everywhere(task);
   options.stop = std::move(stop);
   const std::span<const Triangle> triangles = task.prepared.triangles();
-  options.counts = [&state, triangles, left](Index s, Index t) {
+  options.counts = [&state, triangles, left, passing = task.prepared.passing()](Index s, Index t) {
+    if (!passing.meet(triangles, s, t)) return false;
     const auto reason = state.policy.reason_to_leave(triangles[s], triangles[t], PairClass::disjoint);
     if (reason && *reason != LeftReason::fixed_faces && *reason != LeftReason::rigid_faces) return false;
     const auto before = [](const IntersectingPair& p, const std::array<Index, 2>& q) {
@@ -232,7 +233,10 @@ GapReport measure_gap(const SurfaceView& surface, double asked_rel, const FindOp
   const ThreadLimit threads(options.threads);
   const PreparedSurface prepared = prepare(surface, options);
   const double diagonal = prepared.diagonal_of(surface.positions), wanted = asked_rel * diagonal;
-  const SheetGaps gaps(prepared.triangles(), prepared.rest, {.wanted = wanted, .counts = {}, .stop = {}});
+  const auto counts = [triangles = prepared.triangles(), passing = prepared.passing()](Index s, Index t) {
+    return passing.meet(triangles, s, t);
+  };
+  const SheetGaps gaps(prepared.triangles(), prepared.rest, {.wanted = wanted, .counts = counts, .stop = {}});
   const SheetGap gap = wanted > 0 ? gaps.smallest(prepared.rest, named_gaps * wanted) : SheetGap{};
   return report_of(gap, asked_rel, diagonal, prepared.scale, prepared.triangulation.polygon);
 }

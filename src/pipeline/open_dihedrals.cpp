@@ -143,9 +143,7 @@ class Opening {
   std::vector<std::array<Index, 2>> near_pairs() const {
     if (!(options_.least_gap > 0)) return {};
     std::vector<std::array<Index, 2>> pairs = pairs_closer_than(scene_.triangles, scene_.x, options_.least_gap);
-    std::erase_if(pairs, [&](const auto& pair) {
-      return !scene_.groups().meet(scene_.triangles[pair[0]], scene_.triangles[pair[1]]);
-    });
+    std::erase_if(pairs, [&](const auto& pair) { return !scene_.passing().meet(scene_.triangles, pair[0], pair[1]); });
     return pairs;
   }
 

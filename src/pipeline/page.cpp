@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "mesh/validity.h"
 #include "render/page.h"
 #include "run/thread_limit.h"
+#include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "unsnarl/document.h"
 
@@ -34,7 +36,7 @@ std::string view_page(std::string_view page_template, const PageSource& source) 
   const ThreadLimit threads(source.find.threads);
   const PreparedSurface prepared = prepare(source.before, source.find);
   if (!source.after.empty()) require_positions(source.before, source.after);
-  IntersectionFinder finder(prepared.triangles());
+  IntersectionFinder finder(prepared.triangles(), prepared.passing());
   std::vector<IntersectingPair> pairs_before, pairs_after;
   const auto state_at = [&](std::span<const double> positions, std::vector<IntersectingPair>& pairs) {
     const Positions x = prepared.gather(positions);
@@ -45,7 +47,7 @@ std::string view_page(std::string_view page_template, const PageSource& source) 
     std::vector<std::array<Vec3, 2>> curves = intersection_segments(x, prepared.triangles(), of_triangles);
     for (std::array<Vec3, 2>& segment : curves)
       for (Vec3& end : segment) end = end.unaryExpr([&](double number) { return prepared.scale.out(number); });
-    return PageState{positions, pairs, std::move(curves)};
+    return PageState{positions, pairs, std::move(curves), find_allowed_pairs(prepared, std::nullopt, x).size()};
   };
   PageContent content;
   content.input_name = source.input_name;

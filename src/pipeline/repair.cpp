@@ -109,7 +109,7 @@ RepairResult run(RepairTask& task, const RepairControl& control, Finders& finder
     std::optional<Finders> of_scene;  // triangles of two groups pass through each other
     if (task.options.each_component)
       of_scene.emplace(task.prepared.triangles(), task.prepared.scale,
-                       VertexGroups(task.diagnosis.components.component_of_vertex));
+                       task.prepared.passing(task.diagnosis.components.component_of_vertex));
     return conclude(task, control, census, repaired(task, control, of_scene ? *of_scene : finders, census));
   } catch (const std::bad_alloc&) {  // the result cannot be examined, so it is none
     control.limits.run_out_of_memory();
@@ -136,7 +136,7 @@ RepairResult repair_surface(const SurfaceView& surface, const Nesting* nesting, 
   return work_reporting_here(context, [&](Context& own) {
     return run_under_control(options, own, [&](const RepairControl& control) {
       RepairTask task(surface, options, nesting);
-      Finders finders(task.prepared.triangles(), task.prepared.scale);
+      Finders finders(task.prepared.triangles(), task.prepared.scale, task.prepared.passing());
       return run(task, control, finders);
     });
   });

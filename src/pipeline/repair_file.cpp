@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 bool is_to_be_written(const RepairResult& result, const Surface& input, bool keep_partial) {
   switch (result.status) {
     case Status::embedded:
+    case Status::allowed:
     case Status::gap_not_met: return true;
     // Nothing to repair but what cannot be: a refusal.
     case Status::obstructed: return result.positions != input.positions;
@@ -30,6 +31,7 @@ bool is_to_be_written(const RepairResult& result, const Surface& input, bool kee
 bool is_partial(const RepairResult& result, const Surface& input) {
   switch (result.status) {
     case Status::embedded:
+    case Status::allowed:
     case Status::gap_not_met:
     case Status::obstructed:
     case Status::no_progress: return false;
@@ -48,10 +50,12 @@ std::string broken_promise(const RepairResult& result, Goal goal, const Surface&
   const PairCounts &after = certificate.pairs, &before = result.report.before;
   const std::size_t disjoint = after[PairClass::disjoint];
   const bool all = goal == Goal::all;
-  const bool is_embedded = result.status == Status::embedded || result.status == Status::gap_not_met;
-  if (is_embedded && (all ? after.total() : disjoint) > 0)
+  if (is_resolved(result.status) && (all ? after.total() : disjoint) > 0)
     return fmt::format("{} pairs of faces intersect", all ? after.total() : disjoint);
-  if (is_embedded && all && !certificate.embedded())
+  const std::size_t allowed = all ? certificate.allowed.total() : certificate.allowed[PairClass::disjoint];
+  if (is_resolved(result.status) && result.status != Status::allowed && allowed > 0)
+    return fmt::format("{} pairs of faces intersect that may pass through each other", allowed);
+  if (is_resolved(result.status) && all && !certificate.resolved())
     return fmt::format("{} faces have lost their area", certificate.new_zero_area_faces);
   if (disjoint > before[PairClass::disjoint] || (all && after.total() > before.total()))
     return fmt::format("more pairs of faces intersect than in the input: {} instead of {}", after.total(),
@@ -170,6 +174,8 @@ void describe_result(const FilesToRepair& files, const RepairFileOptions& option
   SceneReport& scene = done.report.scene;
   scene =
       scene_report(before, files.scene->files(), certifier.find_intersections(before.positions), done.positions, after);
+  count_allowed_pairs(certifier.find_allowed_pairs(before.positions), certifier.find_allowed_pairs(done.positions),
+                      scene);
   for (std::size_t i = 0; i < files.inputs.size(); ++i) {
     scene.files[i].input = files.inputs[i].string();
     scene.files[i].format = to_string(files.scene->document(i).format());

@@ -17,6 +17,8 @@ Scene scene_at_rest(const RepairTask& task) {
   Scene scene =
       make_scene(task.prepared.rest, task.prepared.triangulation.triangles, std::move(held), task.diagnosis.edges);
   scene.face_of = task.prepared.triangulation.polygon;
+  scene.part_of = task.prepared.part_of;
+  scene.parts = &task.prepared.allowed.passing;
   if (task.options.each_component) scene.group_of = task.diagnosis.components.component_of_vertex;
   return scene;
 }
@@ -43,7 +45,7 @@ void RepairState::restore(const Checkpoint& checkpoint) {
 }
 
 Finders make_finders(const RepairTask& task, const RepairState& state) {
-  return Finders(state.scene.triangles, task.prepared.scale, state.scene.groups());
+  return Finders(state.scene.triangles, task.prepared.scale, state.scene.passing());
 }
 
 std::vector<IntersectingPair> leave_what_may_stay(const RepairTask& task, Finders& finders, RepairState& state) {

@@ -43,6 +43,14 @@ void check_rigid_parts(const RepairOptions& options, std::size_t n) {
                                 "; give -1 for none, or a number from 0, less than that of the vertices");
 }
 
+void check_allowed_pairs(const RepairOptions& options, const Nesting* nesting) {
+  if (options.find.allowed.empty()) return;
+  if (nesting || options.paper)
+    throw std::invalid_argument(
+        "FindOptions::allowed: neither surfaces inside each other nor the method of the paper know of pairs that may "
+        "pass through each other; leave one of the two out");
+}
+
 /// The options, where they make sense.
 const RepairOptions& checked(const SurfaceView& surface, const RepairOptions& options, const Nesting* nesting) {
   if (nesting && (!options.rigid.empty() || options.each_component || options.paper))
@@ -54,6 +62,7 @@ const RepairOptions& checked(const SurfaceView& surface, const RepairOptions& op
                                 std::to_string(surface.vertex_count()) + " vertices");
   check_ranges(options);
   check_rigid_parts(options, surface.vertex_count());
+  check_allowed_pairs(options, nesting);
   return options;
 }
 

@@ -83,7 +83,8 @@ void rigid_stage(const RepairTask& task, const RepairControl& control, std::span
   const RigidParts& parts = task.policy.rigid_parts();
   if (parts.count == 0) return;
   control.phases.start("place");
-  Bodies bodies(state.scene.rest, state.scene.triangles, parts.of_vertex, parts.count, state.scene.fixed);
+  Bodies bodies(state.scene.rest, state.scene.triangles, parts.of_vertex, parts.count, state.scene.fixed,
+                state.scene.passing());
   for (const Index part : clear_of_soft) bodies.avoid_soft(part);
   state.format.choose(state.scene, state.pairs_at_rest);
   if (place(task, control, state, bodies)) {

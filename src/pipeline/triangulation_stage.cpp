@@ -29,17 +29,19 @@ std::vector<Triangulation> cuts_by_positions(const RepairTask& task, const Repai
 }
 
 /// Makes the scene one of these triangles, where it is now.
-void take(const UnitedTriangulations& cuts, RepairState& state) {
+void take(const RepairTask& task, const UnitedTriangulations& cuts, RepairState& state) {
   Scene scene = make_scene(state.scene.rest, cuts.all.triangles, state.scene.fixed);
   state.ignored = state.exclusive = cuts.exclusive;
   scene.x = std::move(state.scene.x);
   scene.group_of = std::move(state.scene.group_of);
+  scene.part_of = task.prepared.allowed.of_triangles(cuts.all.polygon);
+  scene.parts = state.scene.parts;
   state.scene = std::move(scene);
 }
 
 void work_on(const RepairTask& task, const RepairControl& control, const std::vector<Triangulation>& cuts,
              RepairState& state) {
-  take(unite(cuts), state);
+  take(task, unite(cuts), state);
   Finders finders = make_finders(task, state);
   leave_what_may_stay(task, finders, state);
   untangle_stage(task, control, finders, state);
@@ -73,7 +75,7 @@ bool embed_both_cuts(const RepairTask& task, const RepairControl& control, Repai
     const std::vector<Triangulation> now = cuts_by_positions(task, state);
     const UnitedTriangulations both = unite({input[0], input[1], now[0], now[1]});
     if (round == 0 && both.all.triangles.size() == input[0].triangles.size()) return true;
-    take(both, state);
+    take(task, both, state);
     const RepairState::Checkpoint here = state.checkpoint();
     Finders finders_of_both = make_finders(task, state);
     const std::vector<IntersectingPair> pairs = leave_what_may_stay(task, finders_of_both, state);
@@ -93,11 +95,11 @@ bool embed_both_cuts(const RepairTask& task, const RepairControl& control, Repai
     }
   }
   const std::vector<Triangulation> now = cuts_by_positions(task, state);
-  take(unite({input[0], input[1], now[0], now[1]}), state);
+  take(task, unite({input[0], input[1], now[0], now[1]}), state);
   Finders finders_at_end = make_finders(task, state);
   leave_what_may_stay(task, finders_at_end, state);
   const bool is_done = !give_up_what_is_left(task, finders_at_end, state);
-  take(unite(input), state);
+  take(task, unite(input), state);
   state.restore(best);
   return is_done;
 }

@@ -24,6 +24,8 @@ namespace {
 /// Rounds of rounding and of repairing what rounding brought, at most (unit: rounds)
 constexpr int rounding_rounds = 4;
 
+/// Share of a time limit after which what is resolved is recovered, and the rest left (no unit)
+constexpr double untangling_time = 0.7;
 /// Share of the progress reported when recovery begins (no unit)
 constexpr double untangled_fraction = 0.6;
 /// Share of the progress reported when recovery ends (no unit)
@@ -94,6 +96,7 @@ std::optional<std::vector<IntersectingPair>> untangle(const RepairTask& task, co
                                                       SceneIndex& index, RepairState& state, bool is_first) {
   std::atomic<bool> is_exceeded{false};
   EscalationOptions options = escalation_options(task, control, state, is_exceeded);
+  if (is_first && task.options.recover) options.stop = control.limits.stopper_at(untangling_time);
   const bool may_fail = !is_first && state.format.may_give_up_float32();
   if (!is_first)
     options.min_gap = [&](std::span<const Index> vertices) { return state.format.wanted_gap(state.scene, vertices); };
@@ -161,26 +164,27 @@ std::vector<IntersectingPair> float32_conflicts(const RepairTask& task, Finders&
   return conflicts;
 }
 
-/// Components that are left as they are until the rounds end.
-class StuckComponents {
+/// Faces that are left as they are until the rounds end: those that could not be untangled, and what touches them.
+class StuckFaces {
  public:
-  StuckComponents(const RepairTask& task, const RepairState& state)
-      : task_(task), state_(state), is_stuck_(task.diagnosis.components.count(), 0) {}
+  explicit StuckFaces(const Scene& scene) : scene_(scene), is_stuck_(static_cast<std::size_t>(scene.vertex_count())) {}
   void add(const IntersectingPair& pair) {
-    for (const Index t : {pair.a, pair.b}) is_stuck_[state_.component_of(task_, t)] = 1;
+    for (const Index t : {pair.a, pair.b})
+      for (const Index v : scene_.triangles[t]) is_stuck_[v] = 1;
   }
   bool have(const IntersectingPair& pair) const {
-    return is_stuck_[state_.component_of(task_, pair.a)] || is_stuck_[state_.component_of(task_, pair.b)];
+    const auto is_stuck = [&](Index v) { return is_stuck_[v] != 0; };
+    const Triangle &a = scene_.triangles[pair.a], &b = scene_.triangles[pair.b];
+    return std::any_of(a.begin(), a.end(), is_stuck) || std::any_of(b.begin(), b.end(), is_stuck);
   }
 
  private:
-  const RepairTask& task_;
-  const RepairState& state_;
-  std::vector<std::uint8_t> is_stuck_;
+  const Scene& scene_;
+  std::vector<std::uint8_t> is_stuck_;  // per vertex: of a face that is stuck
 };
 
-/// Ignores what intersects on components that are stuck, so that the others go on without them.
-void ignore_stuck(Finders& finders, const StuckComponents& stuck, RepairState& state) {
+/// Ignores what intersects on faces that are stuck, so that the others go on without them.
+void ignore_stuck(Finders& finders, const StuckFaces& stuck, RepairState& state) {
   std::vector<IntersectingPair> left = blocking_pairs(finders.as_is.find(state.scene.x), state.ignored);
   std::erase_if(left, [&](const IntersectingPair& pair) { return !stuck.have(pair); });
   state.ignored.insert(state.ignored.end(), left.begin(), left.end());
@@ -205,7 +209,7 @@ struct Rounds {
 Rounds work_in_rounds(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state) {
   Rounds result;
   SceneIndex index(state.scene, finders.as_is);
-  StuckComponents stuck(task, state);
+  StuckFaces stuck(state.scene);
   for (int round = 0; round < rounding_rounds && !control.limits.reached(); ++round) {
     control.phases.start("untangle");
     const auto left = untangle(task, control, index, state, round == 0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/stop_check.h"
 #include "geometry/parallel_lists.h"
@@ -13,30 +14,50 @@ namespace {
 /// gathered (unit: h)
 constexpr double list_margin = 0.02;
 
+/// A step is halved where its list would be longer: what grows from a point meets all of itself [E208] (unit: stencils
+/// a vertex)
+constexpr std::size_t most_a_vertex = 150;
+/// Lists of a few vertices may be so long all the same (unit: stencils)
+constexpr std::size_t always_allowed = 20'000;
+/// How often a step is halved at most (unit: times)
+constexpr int most_halvings = 8;
+
 }  // namespace
 
 void ContactList::gather(const Positions& x, double activation, const MovingVertices& moving) {
-  activation_ = activation;
   travelled_.assign(moving.moves.size(), 0);
   travel_.assign(moving.moves.size(), 0);
   gathered_at_ = x;
   bounds_.reset(static_cast<Index>(x.cols()));
-  for (Index v : moving.vertices) bounds_.around[v] = list_margin * h_;
+  margins_ = rules_.shares_of_h(x);
+  for (double& margin : margins_) margin *= list_margin * h_;
+  for (Index v : moving.vertices) bounds_.around[v] = margins_[v];
   rules_.gather(x, activation, bounds_, moving.moves, list_);
 }
 
-void ContactList::follow(const Positions& x, const Positions& p, const MovingVertices& moving) {
+double ContactList::gather_around_leaving(const Positions& x, Positions& p) {
+  const std::size_t most = std::max(always_allowed, most_a_vertex * static_cast<std::size_t>(x.cols()));
+  for (const Index v : leaving_) {
+    gathered_at_.col(v) = x.col(v);
+    bounds_.around[v] = margins_[v];
+  }
+  double share = 1;
+  for (int halvings = 0;; ++halvings) {
+    for (const Index v : leaving_) bounds_.along.col(v) = p.col(v);
+    const bool is_last = halvings == most_halvings;
+    if (rules_.gather_around(leaving_, gathered_at_, x, bounds_, list_,
+                             is_last ? std::numeric_limits<std::size_t>::max() : most))
+      return share;
+    p *= 0.5;
+    share *= 0.5;
+  }
+}
+
+double ContactList::follow(const Positions& x, Positions& p, const MovingVertices& moving) {
   leaving_.clear();
   for (Index v : moving.vertices)
     if (!bounds_.allow(v, x.col(v) + p.col(v) - gathered_at_.col(v))) leaving_.push_back(v);
-  if (!leaving_.empty()) {
-    for (Index v : leaving_) {
-      gathered_at_.col(v) = x.col(v);
-      bounds_.along.col(v) = p.col(v);
-      bounds_.around[v] = list_margin * h_;
-    }
-    rules_.gather_around(leaving_, gathered_at_, x, activation_, bounds_, list_);
-  }
+  const double share = leaving_.empty() ? 1 : gather_around_leaving(x, p);
   for (Index v : moving.vertices) {
     travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
     travel_[v] = p.col(v).norm();
@@ -55,6 +76,7 @@ void ContactList::follow(const Positions& x, const Positions& p, const MovingVer
           list.push_back({s.stencil, s.separation});
         }
       });
+  return share;
 }
 
 void ContactList::pick_near(const Positions& x, const MovingVertices& moving, std::vector<BarrierStencil>& near) {

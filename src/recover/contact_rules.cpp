@@ -14,6 +14,10 @@ namespace {
 /// The barrier sets in at this distance at least, so that it has a width (unit: separations of the stencil)
 constexpr double least_activation = 1.5;
 
+/// At a vertex, h counts as no more than this many of its longest edge: parts much finer than the others, or shrunk on
+/// the way, would list and push apart everything that is within many edges [E208] (unit: edges)
+constexpr double most_edges = 4;
+
 /// Corner k of a triangle against the opposite edge.
 Stencil altitude_of(const Triangle& f, int k) {
   return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
@@ -26,12 +30,15 @@ std::array<Index, 3> key_of(const Stencil& s) {
   return {static_cast<Index>(s.kind), first, second};
 }
 
-/// Moves the rules of `from` to the end of `to`; `from` is unspecified afterwards.
-void take_over(std::vector<ContactRule>& from, std::vector<ContactRule>& to) {
-  if (to.empty())
-    to.swap(from);
-  else
+/// Moves the rules of `from` to the end of `to`, which grows no more than it needs: lists are the most memory that a
+/// recovery takes.
+void take_over(std::vector<ContactRule>&& from, std::vector<ContactRule>& to) {
+  if (to.empty()) {
+    to = std::move(from);
+  } else {
+    to.reserve(to.size() + from.size());
     to.insert(to.end(), from.begin(), from.end());
+  }
 }
 
 }  // namespace
@@ -69,64 +76,86 @@ void ContactRules::find_sheets() {
   MotionBounds still;
   still.reset(static_cast<Index>(patch_.rest.cols()));
   const std::vector<std::uint8_t> all(static_cast<std::size_t>(patch_.rest.cols()), 1);
-  candidates_.gather(patch_.rest, options_.one_sheet_within, still, all, stencils_, options_.stop);
+  const std::vector<double> radius(all.size(), options_.one_sheet_within);
+  std::vector<NearStencil> stencils;
+  candidates_.gather(patch_.rest, radius, still, all, stencils, options_.stop);
+  std::erase_if(stencils, [&](const NearStencil& near) {
+    return in_conflict(near.stencil) != std::array{false, false} || candidates_.are_neighbours(near.stencil) ||
+           pass(near.stencil);
+  });
   const auto triangle_at = [&](const Stencil& s, int side) {
     if (s.kind == StencilKind::edge_edge) return candidates_.edges().triangles_of_edge[s.primitives[side]][0];
     return side == 0 ? candidates_.triangles_of_vertex()[s.primitives[0]][0] : s.primitives[1];
   };
   std::vector<std::array<Index, 3>> order;  // triangles at the two, number of the stencil
-  for (std::size_t k = 0; k < stencils_.size(); ++k)
-    order.push_back(
-        {triangle_at(stencils_[k].stencil, 0), triangle_at(stencils_[k].stencil, 1), static_cast<Index>(k)});
+  for (std::size_t k = 0; k < stencils.size(); ++k)
+    order.push_back({triangle_at(stencils[k].stencil, 0), triangle_at(stencils[k].stencil, 1), static_cast<Index>(k)});
   std::sort(order.begin(), order.end());
   OneSheet one_sheet(patch_.triangles, patch_.rest, candidates_.edges(), options_.min_gap);
   for (const auto& [first, second, k] : order) {
     end_long_work_if(options_.stop, order.size());
-    const Stencil& s = stencils_[k].stencil;
-    if (in_conflict(s) == std::array{false, false} && !candidates_.are_neighbours(s) &&
-        one_sheet.holds(s, first, second))
-      of_one_sheet_.push_back(key_of(s));
+    const Stencil& s = stencils[k].stencil;
+    if (one_sheet.holds(s, first, second)) of_one_sheet_.push_back(key_of(s));
   }
   std::sort(of_one_sheet_.begin(), of_one_sheet_.end());
-  std::vector<NearStencil>().swap(stencils_);
+}
+
+std::vector<double> ContactRules::shares_of_h(const Positions& x) const {
+  std::vector<double> longest(static_cast<std::size_t>(x.cols()), 0), shares(longest.size(), 1);
+  if (!(options_.h > 0)) return shares;
+  for (const Edge& e : candidates_.edges().edges) {
+    const double length = (x.col(e[1]) - x.col(e[0])).norm();
+    for (const Index v : e) longest[v] = std::max(longest[v], length);
+  }
+  for (std::size_t v = 0; v < shares.size(); ++v) shares[v] = std::min(1.0, most_edges * longest[v] / options_.h);
+  return shares;
 }
 
 void ContactRules::gather(const Positions& x, double activation, const MotionBounds& bounds,
                           std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
   rules.clear();
-  candidates_.gather(x, activation, bounds, moves, stencils_, options_.stop);
-  add_rules(x, x, activation, bounds, moves, rules);
+  const double least = std::min(activation, options_.reach_gaps * options_.min_gap);
+  radius_ = shares_of_h(x);
+  for (double& radius : radius_) radius = std::max(least, activation * radius);
+  std::vector<NearStencil> stencils;
+  candidates_.gather(x, radius_, bounds, moves, stencils, options_.stop);
+  add_rules(std::move(stencils), x, x, bounds, moves, rules);
 }
 
-void ContactRules::gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
-                                 double activation, const MotionBounds& bounds, std::vector<ContactRule>& rules) {
+bool ContactRules::gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
+                                 const MotionBounds& bounds, std::vector<ContactRule>& rules, std::size_t most) {
   is_anew_.assign(static_cast<std::size_t>(x.cols()), 0);
   for (Index v : vertices) is_anew_[v] = 1;
   std::erase_if(rules, [&](const ContactRule& rule) {
     const Stencil& s = rule.stencil.stencil;
     return std::any_of(s.v.begin(), s.v.begin() + s.size(), [&](Index v) { return is_anew_[v] != 0; });
   });
-  candidates_.gather_around(vertices, from, activation, bounds, stencils_, options_.stop);
-  add_rules(from, x, activation, bounds, is_anew_, rules);
+  std::vector<NearStencil> stencils;
+  if (!candidates_.gather_around(vertices, from, radius_, bounds, stencils, options_.stop, most)) return false;
+  add_rules(std::move(stencils), from, x, bounds, is_anew_, rules);
+  return true;
 }
 
-void ContactRules::add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
-                             std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
+void ContactRules::add_rules(std::vector<NearStencil>&& stencils, const Positions& from, const Positions& x,
+                             const MotionBounds& bounds, std::span<const std::uint8_t> moves,
+                             std::vector<ContactRule>& rules) const {
+  std::vector<ContactRule> added;
   gather_in_chunks(
-      static_cast<Index>(stencils_.size()), added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
-        end_long_work_if(options_.stop, stencils_.size());
+      static_cast<Index>(stencils.size()), added, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+        end_long_work_if(options_.stop, stencils.size());
         for (Index k = begin; k < end; ++k) {
-          const NearStencil& near = stencils_[k];
+          const NearStencil& near = stencils[k];
           const double distance = &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x));
           ContactRule rule;
-          if (rule_of(near, distance, activation, rule)) list.push_back(rule);
+          if (rule_of(near, distance, rule)) list.push_back(rule);
         }
       });
-  take_over(added_, rules);
-  gather_in_chunks(patch_.active_count, added_, [&](Index begin, Index end, std::vector<ContactRule>& list) {
+  std::vector<NearStencil>().swap(stencils);
+  take_over(std::move(added), rules);
+  gather_in_chunks(patch_.active_count, added, [&](Index begin, Index end, std::vector<ContactRule>& list) {
     add_altitudes(from, x, bounds, moves, begin, end, list);
   });
-  take_over(added_, rules);
+  take_over(std::move(added), rules);
 }
 
 bool ContactRules::are_neighbours(const Stencil& s, double rest_distance) const {
@@ -147,19 +176,31 @@ std::array<bool, 2> ContactRules::in_conflict(const Stencil& s) const {
           (is_edge ? edge_in_conflict_[second] : in_conflict_[second]) != 0};
 }
 
-bool ContactRules::intersect_at_rest(const Stencil& s) const {
+template <class IsWanted>
+bool ContactRules::any_pair(const Stencil& s, IsWanted&& is_wanted) const {
   const auto [first, second] = s.primitives;
   const bool is_edge = s.kind == StencilKind::edge_edge;
   const IndexLists& of_edge = candidates_.edges().triangles_of_edge;
   for (const Index t : is_edge ? of_edge[first] : candidates_.triangles_of_vertex()[first])
     for (const Index u : is_edge ? of_edge[second] : std::span<const Index>(&second, 1))
-      if (std::binary_search(pairs_.begin(), pairs_.end(), Edge{std::min(t, u), std::max(t, u)})) return true;
+      if (is_wanted(t, u)) return true;
   return false;
 }
 
-bool ContactRules::rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const {
+bool ContactRules::intersect_at_rest(const Stencil& s) const {
+  return any_pair(s, [&](Index t, Index u) {
+    return std::binary_search(pairs_.begin(), pairs_.end(), Edge{std::min(t, u), std::max(t, u)});
+  });
+}
+
+bool ContactRules::pass(const Stencil& s) const {
+  const Passing passing = patch_.passing();
+  return passing.has_parts() && !any_pair(s, [&](Index t, Index u) { return passing.meet(patch_.triangles, t, u); });
+}
+
+bool ContactRules::rule_of(const NearStencil& near, double distance, ContactRule& rule) const {
   const Stencil& s = near.stencil;
-  if (!(distance > 0)) return false;
+  if (!(distance > 0) || pass(s)) return false;
   rule.stencil.stencil = s;
   rule.distance = near.distance;
   rule.direction = near.direction;
@@ -180,7 +221,8 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, double acti
   }
   rule.closed = !(distance > separation);
   rule.stencil.separation = std::min(0.5 * distance, separation);
-  rule.stencil.activation = std::max(std::min(activation, rule.reach), least_activation * rule.stencil.separation);
+  rule.stencil.activation =
+      std::max(std::min(radius_of(s, radius_), rule.reach), least_activation * rule.stencil.separation);
   if (near.least_distance > rule.stencil.activation) return false;
   if (s.kind == StencilKind::edge_edge) {
     const double u2 = (patch_.rest.col(s.v[1]) - patch_.rest.col(s.v[0])).squaredNorm();

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -44,6 +46,8 @@ struct ContactRuleOptions {
   double reach_share = 0.5;
   /// The barrier of primitives that are no neighbours reaches at least this far (unit: min_gap)
   double reach_gaps = barrier_gaps;
+  /// Mean edge length of the patch; 0: as if every vertex had edges of that length
+  double h = 0;
   double roundoff = 0;         ///< length below which computed distances mean nothing
   std::function<bool()> stop;  ///< asked while rules are gathered; true: WorkStopped is thrown. May be empty
 };
@@ -57,39 +61,51 @@ struct ContactRuleOptions {
 ///   triangles intersect each other at rest.
 /// - No stencil has to keep more than half its present distance: faces that were shrunk below min_gap can grow again,
 ///   and stencils that end too close are opened last.
-/// A stencil without distance at rest whose triangles do not intersect there (around zero-area faces) has no rule.
+/// A stencil without distance at rest whose triangles do not intersect there (around zero-area faces) has no rule, nor
+/// has one whose triangles all pass through each other.
 class ContactRules {
  public:
   /// pairs: those of triangles that intersect at rest. The patch must outlive this.
   ContactRules(const Patch& patch, std::span<const IntersectingPair> pairs, const ContactRuleOptions& options);
 
+  /// The share of h that counts at each vertex where the edges are as long as at x: less than 1 where they are short.
+  std::vector<double> shares_of_h(const Positions& x) const;
+
   /// Rules for all stencils with a moving vertex that may be closer than their activation distance while every vertex
-  /// keeps to its bounds. That distance is `activation` or the stencil's reach, whichever is less (own altitudes: the
-  /// reach), but never too close to the separation.
+  /// keeps to its bounds. That distance is `activation` times the share of h that counts there, or the stencil's reach,
+  /// whichever is less (own altitudes: the reach), but never too close to the separation.
   void gather(const Positions& x, double activation, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
               std::vector<ContactRule>& rules);
 
   /// Gathers the rules of stencils at `vertices` again, after these vertices got new bounds that start at x. The cost
-  /// grows with their number. `from`: where each vertex's bounds start; activation as before.
-  void gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x, double activation,
-                     const MotionBounds& bounds, std::vector<ContactRule>& rules);
+  /// grows with their number. `from`: where each vertex's bounds start; activation distances as before. Returns false
+  /// where that lists more than `most` stencils: they have to be gathered again, with other bounds.
+  bool gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
+                     const MotionBounds& bounds, std::vector<ContactRule>& rules,
+                     std::size_t most = std::numeric_limits<std::size_t>::max());
 
   const ContactCandidates& candidates() const { return candidates_; }
   const ContactRuleOptions& options() const { return options_; }
 
  private:
-  /// Adds the rules of stencils_ and of altitudes with a moving vertex.
-  void add_rules(const Positions& from, const Positions& x, double activation, const MotionBounds& bounds,
-                 std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules);
+  /// Adds the rules of the stencils, which it gives back, and of altitudes with a moving vertex.
+  void add_rules(std::vector<NearStencil>&& stencils, const Positions& from, const Positions& x,
+                 const MotionBounds& bounds, std::span<const std::uint8_t> moves,
+                 std::vector<ContactRule>& rules) const;
   bool are_neighbours(const Stencil& stencil, double rest_distance) const;
   /// Lists the neighbours by OneSheet.
   void find_sheets();
   /// Of each primitive: a triangle there intersects another one at rest.
   std::array<bool, 2> in_conflict(const Stencil& stencil) const;
+  /// Whether triangles t at the one primitive and u at the other are a pair for which is_wanted(t, u).
+  template <class IsWanted>
+  bool any_pair(const Stencil& stencil, IsWanted&& is_wanted) const;
   /// Whether a triangle at the one primitive intersects one at the other at rest.
   bool intersect_at_rest(const Stencil& stencil) const;
+  /// Whether all triangles at the one primitive pass through all at the other.
+  bool pass(const Stencil& stencil) const;
   /// Rule of a stencil that is `distance` wide now; false where there is none or it cannot come that close.
-  bool rule_of(const NearStencil& near, double distance, double activation, ContactRule& rule) const;
+  bool rule_of(const NearStencil& near, double distance, ContactRule& rule) const;
   /// The corners of triangles [begin, end) that move against their opposite edges.
   void add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
                      std::span<const std::uint8_t> moves, Index begin, Index end,
@@ -104,8 +120,7 @@ class ContactRules {
   IndexLists joined_;  // per vertex: those within joined_gaps along the edges, ascending; empty lists where none is
   std::vector<std::array<Index, 3>> of_one_sheet_;     // kind and primitives of stencils, ascending
   std::vector<std::array<double, 3>> rest_altitudes_;  // of the active triangles; 0 where corners are equal
-  std::vector<NearStencil> stencils_;
-  std::vector<ContactRule> added_;
+  std::vector<double> radius_;         // per vertex, of the last gather(): see ContactCandidates::gather
   std::vector<std::uint8_t> is_anew_;  // per vertex
 };
 

@@ -7,7 +7,7 @@
 namespace unsnarl {
 
 EmbeddingGuard::EmbeddingGuard(const Patch& patch)
-    : patch_(patch), finder_(patch.triangles, patch.active_count), tolerated_(finder_.find(patch.x)) {}
+    : patch_(patch), finder_(patch.triangles, patch.active_count, patch.passing()), tolerated_(finder_.find(patch.x)) {}
 
 std::vector<IntersectingPair> EmbeddingGuard::new_pairs(const Positions& x) {
   return blocking_pairs(finder_.find(x), tolerated_);

@@ -19,6 +19,7 @@ constexpr int opening_sweeps = 10;  ///< Sweeps over the gaps in one round, at m
 double target_of(const ContactRule& rule, double target, double min_gap) {
   const double least = rule.stencil.separation + std::min(rule.stencil.separation, target - min_gap);
   if (rule.neighbours) target -= min_gap;
+  target = std::min(target, rule.stencil.activation);
   return std::max(least, std::min(std::max(target, least), rule.reach));
 }
 
@@ -78,7 +79,9 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
   std::vector<Widening> gaps;
   MotionBounds bounds;
   bounds.reset(static_cast<Index>(x.cols()));
-  for (std::size_t v = 0; v < moves.size(); ++v) bounds.around[v] = moves[v] ? options.step_cap : 0;
+  std::vector<double> step_cap = rules.shares_of_h(x);
+  for (double& share : step_cap) share *= options.step_cap;
+  for (std::size_t v = 0; v < moves.size(); ++v) bounds.around[v] = moves[v] ? step_cap[v] : 0;
   std::vector<double> cap(static_cast<std::size_t>(x.cols())), length(cap.size());  // of the vertices' displacements
   Positions p(3, x.cols());
   Positions safe;
@@ -88,7 +91,7 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
     if (round == 0)
       rules.gather(x, options.target, bounds, moves, close);
     else
-      rules.gather_around(moved, x, x, options.target, bounds, close);
+      rules.gather_around(moved, x, x, bounds, close);
     gaps.clear();
     bool any_narrow = false;
     for (const ContactRule& rule : close) {
@@ -98,7 +101,7 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
       if (gap.squared_weights > 0) gaps.push_back(gap);
     }
     if (!any_narrow || round == options.max_rounds) return;
-    std::fill(cap.begin(), cap.end(), options.step_cap);
+    cap = step_cap;
     for (const ContactRule& rule : close) {
       const Stencil& s = rule.stencil.stencil;
       for (int i = 0; i < s.size(); ++i) cap[s.v[i]] = std::min(cap[s.v[i]], most_growth * rule.distance);
@@ -116,8 +119,12 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
       changed |= oriented.project(x, moves, p);
     }
     // All displacements are shortened by one factor: with several, a face that is squeezed to a needle may flip.
-    const double longest = std::sqrt(p.colwise().squaredNorm().maxCoeff());
-    if (longest > options.step_cap) p *= options.step_cap / longest;
+    double factor = 1;
+    for (Index v = 0; v < x.cols(); ++v) {
+      const double wanted = p.col(v).norm();
+      if (wanted > step_cap[v]) factor = std::min(factor, step_cap[v] / wanted);
+    }
+    p *= factor;
     // CCD cannot use distances of the order of round-off; the exact guard checks these.
     bool doubtful = false;
     filter.clear();

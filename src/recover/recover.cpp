@@ -57,13 +57,14 @@ double above_gap(double min_gap, double share_of_h, double h, const RecoverOptio
 }
 
 ContactRules contact_rules_of(const Patch& patch, const RecoverOptions& recovery, const std::function<bool()>& stop) {
-  IntersectionFinder at_rest(patch.triangles, patch.active_count);
+  IntersectionFinder at_rest(patch.triangles, patch.active_count, patch.passing());
   ContactRuleOptions options;
   options.roundoff = roundoff_of(patch);
   options.min_gap = std::max(recovery.min_gap, options.roundoff);
   options.reach_gaps = recovery.least_gaps;
+  options.h = edge_length_of(patch);
   if (recovery.knows_sheets)
-    options.one_sheet_within = above_gap(options.min_gap, recovery.activation, edge_length_of(patch), recovery);
+    options.one_sheet_within = above_gap(options.min_gap, recovery.activation, options.h, recovery);
   options.stop = stop;
   return ContactRules(patch, at_rest.find(patch.rest, stop), options);
 }

@@ -136,7 +136,7 @@ void RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
   if (options_.shorten_all) {
     const double longest = std::sqrt(step.colwise().squaredNorm().maxCoeff());
     step *= std::min(1.0, cap / longest);
-    contacts_.follow(patch_.x, spread(step), moving());
+    step *= contacts_.follow(patch_.x, spread(step), moving());
     step *= largest_step(contacts_.in_the_way(), patch_.x, displacement_);
     return;
   }
@@ -167,7 +167,7 @@ void RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
   const std::vector<double> longest = longest_of(step);
   // Faces slide before the contacts are gathered, since sliding may lead to other contacts.
   slide_along_flips(step);
-  contacts_.follow(patch_.x, displacement_, moving());
+  step *= contacts_.follow(patch_.x, displacement_, moving());
   if (!limited) return;
   // A part that goes farther than the cap stops as a whole where one of its vertices would collide.
   std::vector<double> time(parts, 1);

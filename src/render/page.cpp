@@ -160,6 +160,9 @@ std::string make_page(std::string_view page_template, const PageContent& content
                               {"diagonal", units.diagonal()},
                               {"camera", {{"toward", as_json(camera.toward)}, {"up", as_json(camera.up)}}},
                               {"pair_classes", pair_class_names},
+                              {"allowed",
+                               {{"before", content.before.allowed},
+                                {"after", content.after ? content.after->allowed : content.before.allowed}}},
                               {"appearance", appearance},
                               {"report", content.report},
                               {"frames", frames}});

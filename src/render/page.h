@@ -22,6 +22,7 @@ struct PageState {
   std::span<const double> positions;        ///< 3 a vertex
   std::span<const IntersectingPair> pairs;  ///< of faces
   std::vector<std::array<Vec3, 2>> curves;  ///< segments of the intersection curves
+  std::size_t allowed = 0;                  ///< number of pairs that may intersect and do, which are not shown
 };
 
 /// The contents of a page. Everything it views must outlive the call of make_page.

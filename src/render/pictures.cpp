@@ -39,11 +39,12 @@ class AtScale {
 
 }  // namespace
 
-std::string picture_label(std::string_view title, std::size_t pairs) {
+std::string picture_label(std::string_view title, std::size_t pairs, std::size_t allowed) {
   const std::string count = pairs == 0   ? "no self-intersections"
                             : pairs == 1 ? "1 intersecting pair of faces"
                                          : std::to_string(pairs) + " intersecting pairs of faces";
-  return std::string(title) + "\n" + count;
+  const std::string besides = (pairs == 0 ? " but " : " and ") + std::to_string(allowed) + " allowed";
+  return std::string(title) + "\n" + count + (allowed > 0 ? besides : "");
 }
 
 std::string picture_png(const SurfaceView& before, std::span<const std::int32_t> red_before, const SurfaceView& after,

@@ -19,6 +19,7 @@ std::string frame_json(const FrameReport& r) {
                                        {"status", to_string(r.status)},
                                        {"before", pair_counts_json(r.before)},
                                        {"after", pair_counts_json(r.after)},
+                                       {"allowed", allowed_json(r.allowed_before, r.allowed_after)},
                                        {"diagonal", r.diagonal},
                                        {"displacement_mean_rel", r.displacement_mean_rel},
                                        {"displacement_mean", r.displacement_mean_rel * r.diagonal},

@@ -7,8 +7,7 @@ namespace unsnarl {
 
 std::string_view outcome(Status status, std::span<const NestedPair> pairs) {
   const bool nested = std::all_of(pairs.begin(), pairs.end(), [](const NestedPair& pair) { return pair.is_nested; });
-  const bool is_embedded = status == Status::embedded || status == Status::gap_not_met;
-  return is_embedded && !nested ? "not_nested" : to_string(status);
+  return is_resolved(status) && !nested ? "not_nested" : to_string(status);
 }
 
 ExitCode exit_code_of(Status status, std::span<const NestedPair> pairs) {

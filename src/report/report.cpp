@@ -10,6 +10,7 @@ std::string_view to_string(Status status) {
     case Status::reduced: return "reduced";
     case Status::no_progress: return "no_progress";
     case Status::obstructed: return "obstructed";
+    case Status::allowed: return "allowed";
     case Status::time_limit: return "time_limit";
     case Status::memory_limit: return "memory_limit";
     case Status::displacement_exceeded: return "displacement_exceeded";

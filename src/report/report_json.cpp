@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,6 +33,14 @@ std::string strategy_name_of_0_1(const std::string& name) {
   return name;
 }
 
+/// How many faces are of a part that may pass through another, or itself.
+std::ptrdiff_t faces_that_may_pass(const AllowedPairs& allowed) {
+  std::set<std::int32_t> parts;
+  for (const auto& pair : allowed.parts) parts.insert(pair.begin(), pair.end());
+  return std::count_if(allowed.part_of_face.begin(), allowed.part_of_face.end(),
+                       [&](std::int32_t part) { return parts.contains(part); });
+}
+
 Json options_json(const RepairOptions& options) {
   return {{"goal", to_string(options.goal)},
           {"weld", to_string(options.find.weld)},
@@ -42,6 +51,7 @@ Json options_json(const RepairOptions& options) {
           {"rigid_vertices", std::count_if(options.rigid.begin(), options.rigid.end(), [](auto r) { return r >= 0; })},
           {"each_component", options.each_component},
           {"both_diagonals", options.find.both_diagonals},
+          {"allowed_faces", faces_that_may_pass(options.find.allowed)},
           {"min_gap_rel", options.min_gap_rel},
           {"gap_near_conflicts", options.gap_near_conflicts},
           {"min_dihedral_deg", options.min_dihedral_deg},
@@ -144,6 +154,7 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   json["topology"] = topology_json(r.topology);
   json["before"] = pair_counts_json(r.before);
   json["after"] = pair_counts_json(r.after);
+  json["allowed"] = allowed_json(r.allowed_before, r.allowed_after);
   json["obstructions"] = Json::array();
   for (const Obstruction& obstruction : r.obstructions)
     json["obstructions"].push_back(
@@ -214,7 +225,7 @@ std::string pairs_json(const PairCounts& counts) {
 
 std::optional<Status> status_from_name(std::string_view name) {
   for (const Status status :
-       {Status::embedded, Status::reduced, Status::no_progress, Status::obstructed, Status::time_limit,
+       {Status::embedded, Status::reduced, Status::no_progress, Status::obstructed, Status::allowed, Status::time_limit,
         Status::memory_limit, Status::displacement_exceeded, Status::cancelled, Status::gap_not_met})
     if (to_string(status) == name) return status;
   return std::nullopt;

@@ -31,6 +31,27 @@ void measure_motion(std::span<const double> before, std::span<const double> afte
   report.untouched_share = static_cast<double>(untouched) / static_cast<double>(n);
 }
 
+/// Adds pairs of faces to the counts of their files; pairs between two files come after those within, in their order.
+void count(std::span<const IntersectingPair> pairs, PairCounts ScenePairs::*counts, SceneReport& report) {
+  std::vector<SceneFile> files;
+  for (const SceneFileReport& file : report.files) files.push_back(file.file);
+  const std::vector<std::int32_t> file_of = file_of_faces(files);
+  const auto within = report.pairs.begin() + static_cast<std::ptrdiff_t>(files.size());
+  std::map<std::pair<std::size_t, std::size_t>, ScenePairs> between;
+  for (auto it = within; it != report.pairs.end(); ++it) between[{it->a, it->b}] = *it;
+  for (const IntersectingPair& pair : pairs) {
+    const auto a = static_cast<std::size_t>(file_of[pair.a]), b = static_cast<std::size_t>(file_of[pair.b]);
+    ScenePairs& of = a == b ? report.pairs[a] : between[{std::min(a, b), std::max(a, b)}];
+    ++(of.*counts)[pair.kind];
+  }
+  report.pairs.erase(within, report.pairs.end());
+  for (auto& [files_of, of] : between) {
+    of.a = files_of.first;
+    of.b = files_of.second;
+    report.pairs.push_back(of);
+  }
+}
+
 }  // namespace
 
 SceneReport scene_report(const SurfaceView& before, std::span<const SceneFile> files,
@@ -44,24 +65,19 @@ SceneReport scene_report(const SurfaceView& before, std::span<const SceneFile> f
     report.files.emplace_back().file = file;
     if (!after.empty()) measure_motion(before.positions, after, scale, diagonal, report.files.back());
   }
-  const std::vector<std::int32_t> file_of = file_of_faces(files);
-  std::map<std::pair<std::size_t, std::size_t>, ScenePairs> between;
-  for (std::size_t i = 0; i < files.size(); ++i) report.pairs.push_back({.a = i, .b = i, .before = {}, .after = {}});
-  const auto count = [&](std::span<const IntersectingPair> pairs, PairCounts ScenePairs::*counts) {
-    for (const IntersectingPair& pair : pairs) {
-      const auto a = static_cast<std::size_t>(file_of[pair.a]), b = static_cast<std::size_t>(file_of[pair.b]);
-      ScenePairs& of = a == b ? report.pairs[a] : between[{std::min(a, b), std::max(a, b)}];
-      ++(of.*counts)[pair.kind];
-    }
-  };
-  count(pairs_before, &ScenePairs::before);
-  count(pairs_after, &ScenePairs::after);
-  for (auto& [files_of, pairs] : between) {
-    pairs.a = files_of.first;
-    pairs.b = files_of.second;
-    report.pairs.push_back(pairs);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    ScenePairs& within = report.pairs.emplace_back();
+    within.a = within.b = i;
   }
+  count(pairs_before, &ScenePairs::before, report);
+  count(pairs_after, &ScenePairs::after, report);
   return report;
+}
+
+void count_allowed_pairs(std::span<const IntersectingPair> before, std::span<const IntersectingPair> after,
+                         SceneReport& report) {
+  count(before, &ScenePairs::allowed_before, report);
+  count(after, &ScenePairs::allowed_after, report);
 }
 
 }  // namespace unsnarl

@@ -58,16 +58,22 @@ Json overlapping_components_json(std::span<const OverlappingComponent> overlappi
   return list;
 }
 
+Json allowed_json(const PairCounts& before, const PairCounts& after) {
+  return {{"before", pair_counts_json(before)}, {"after", pair_counts_json(after)}};
+}
+
 void add_scene(const SceneReport& scene, bool after, Json& json) {
   if (scene.files.empty()) return;
   const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
   const auto add_pairs = [&](const ScenePairs& pairs, Json& to) {
     if (!after) {
       to["pairs"] = pair_counts_json(pairs.before);
+      to["allowed"] = pair_counts_json(pairs.allowed_before);
       return;
     }
     to["before"] = pair_counts_json(pairs.before);
     to["after"] = pair_counts_json(pairs.after);
+    to["allowed"] = allowed_json(pairs.allowed_before, pairs.allowed_after);
   };
   json["files"] = json["between_files"] = Json::array();
   for (std::size_t i = 0; i < scene.files.size(); ++i) {

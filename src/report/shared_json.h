@@ -17,6 +17,8 @@ nlohmann::ordered_json topology_json(const Topology& topology);
 nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
 /// What "overlapping_components" lists.
 nlohmann::ordered_json overlapping_components_json(std::span<const OverlappingComponent> overlapping);
+/// Pairs that are allowed, before and after a repair.
+nlohmann::ordered_json allowed_json(const PairCounts& before, const PairCounts& after);
 /// The gap, or null.
 nlohmann::ordered_json gap_json(const std::optional<GapReport>& gap);
 /// Adds "files" and "between_files" where there are several files. `after`: with what became of them.

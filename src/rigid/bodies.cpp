@@ -15,10 +15,11 @@ double Body::squared_displacement() const {
 }
 
 Bodies::Bodies(const Positions& rest, std::span<const Triangle> triangles, std::span<const Index> body_of, Index count,
-               std::span<const std::uint8_t> fixed)
+               std::span<const std::uint8_t> fixed, Passing passing)
     : rest_(rest),
       x_(rest),
       triangles_(triangles),
+      passing_(passing),
       bodies_(count),
       body_of_(body_of.begin(), body_of.end()),
       is_present_(count, 1) {
@@ -92,7 +93,8 @@ bool Bodies::is_free(const Body& body) const {
     const Index i = (first + k) % count, t = body.triangles[i];
     const bool meets = tree_.find(box_of(x_, triangles_[t]), [&](Index u) {
       PairClass kind;
-      return is_obstacle_to(body, u) && intersects(x_, triangles_[t], triangles_[u], kind);
+      return is_obstacle_to(body, u) && passing_.meet(triangles_, t, u) &&
+             intersects(x_, triangles_[t], triangles_[u], kind);
     });
     if (!meets) continue;
     last_hit_ = i;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/bvh.h"
+#include "contact/passing.h"
 #include "geometry/types.h"
 #include "rigid/rigid_motion.h"
 #include "unsnarl/intersections.h"
@@ -35,9 +36,9 @@ class Bodies {
  public:
   /// body_of: the body of each vertex, or -1. fixed: one flag a vertex. Triangles with only fixed vertices are
   /// obstacles to all bodies. Other triangles without a vertex of a body are soft: obstacles to bodies with
-  /// avoids_soft. `triangles` must outlive this.
+  /// avoids_soft. Triangles that pass through each other are none to each other. `triangles` must outlive this.
   Bodies(const Positions& rest, std::span<const Triangle> triangles, std::span<const Index> body_of, Index count,
-         std::span<const std::uint8_t> fixed);
+         std::span<const std::uint8_t> fixed, Passing passing = {});
 
   std::span<Body> list() { return bodies_; }
   std::span<const Body> list() const { return bodies_; }
@@ -66,7 +67,7 @@ class Bodies {
   void near_triangles(const Body& body, double reach, Visit&& visit) const {
     for (Index t : body.triangles)
       tree_.query(box_of(x_, triangles_[t]).inflated(reach), [&](Index u) {
-        if (is_obstacle_to(body, u)) visit(t, u);
+        if (is_obstacle_to(body, u) && passing_.meet(triangles_, t, u)) visit(t, u);
       });
   }
   /// The body of a triangle, or `obstacle`, `soft` or `mixed`.
@@ -85,6 +86,7 @@ class Bodies {
 
   Positions rest_, x_;
   std::span<const Triangle> triangles_;
+  Passing passing_;
   std::vector<Body> bodies_;
   std::vector<Index> body_of_;  // of each vertex
   std::vector<Index> owner_;    // of each triangle: its body, or obstacle, soft or mixed

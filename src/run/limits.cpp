@@ -16,6 +16,13 @@ bool Limits::reached() {
   return reason_ != none;
 }
 
+bool Limits::has_passed(double share_of_time) {
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  const bool has = limits_.time_s > 0 && seconds > share_of_time * limits_.time_s;
+  if (has) cut_short_ = true;
+  return has;
+}
+
 void Limits::run_out_of_memory() {
   reason_ = static_cast<int>(Status::memory_limit);
   release_free_memory();
@@ -23,7 +30,8 @@ void Limits::run_out_of_memory() {
 
 Status Limits::status_or(Status status) const {
   const int reason = reason_;
-  return reason == none ? status : static_cast<Status>(reason);
+  if (reason == none) return cut_short_ ? Status::time_limit : status;
+  return static_cast<Status>(reason);
 }
 
 Status Limits::status_of_result(Status status) const {

@@ -1,6 +1,7 @@
 #include "scene/diagnose.h"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,9 +28,28 @@ struct ObstructedFaces {
   std::vector<Index> parts;
 };
 
+/// Any two of these triangles may pass through each other.
+bool all_pass(const PreparedSurface& prepared, std::span<const Index> triangles) {
+  const Passing passing = prepared.passing();
+  for (const Index t : triangles)
+    for (const Index u : triangles)
+      if (t != u && passing.meet(prepared.triangles(), t, u)) return false;
+  return passing.has_parts();
+}
+
+/// Two triangles of the component of each part, or one, which stand for all of it: what passes depends on parts alone.
+std::vector<Index> two_of_each_part(const PreparedSurface& prepared, const Components& components, Index component) {
+  std::map<Index, int> count;
+  std::vector<Index> triangles;
+  for (Index t = 0; t < static_cast<Index>(prepared.part_of.size()); ++t)
+    if (components.component_of_triangle[t] == component && ++count[prepared.part_of[t]] <= 2) triangles.push_back(t);
+  return triangles;
+}
+
 void name_components_without_embedding(const PreparedSurface& prepared, Diagnosis& diagnosis) {
-  for (const Component& component : diagnosis.components.list) {
-    if (!component.obstructed()) continue;
+  for (Index c = 0; c < diagnosis.components.count(); ++c) {
+    const Component& component = diagnosis.components.list[c];
+    if (!component.obstructed() || all_pass(prepared, two_of_each_part(prepared, diagnosis.components, c))) continue;
     const Index face = prepared.triangulation.polygon[component.first_triangle];
     diagnosis.obstructions.push_back(
         {Obstruction::Kind::closed_non_orientable,
@@ -42,6 +62,7 @@ void name_components_without_embedding(const PreparedSurface& prepared, Diagnosi
 void name_duplicates(const PreparedSurface& prepared, Diagnosis& diagnosis) {
   if (diagnosis.topology.duplicate_faces == 0) return;
   for (const std::vector<Index>& group : duplicate_triangles(prepared.triangles())) {
+    if (all_pass(prepared, group)) continue;
     Obstruction obstruction{Obstruction::Kind::duplicate_faces, {}, {}};
     for (const Index t : group) obstruction.faces.push_back(prepared.triangulation.polygon[t]);
     sort_unique(obstruction.faces);

@@ -36,11 +36,12 @@ IndexLists pieces_of_polygons(std::span<const Index> polygon) {
 
 }  // namespace
 
-FacePairFinder::FacePairFinder(const PreparedSurface& surface)
+FacePairFinder::FacePairFinder(const PreparedSurface& surface, Which which)
     : surface_(surface),
       triangles_(joined(surface.triangulation.triangles, surface.other_diagonals.triangles)),
       polygon_(joined(surface.triangulation.polygon, surface.other_diagonals.polygon)),
-      finder_(triangles_.empty() ? surface.triangles() : triangles_) {}
+      part_of_(surface.allowed.of_triangles(polygon())),
+      finder_(triangles(), which == Which::to_resolve ? passing() : passing().only_what_passes()) {}
 
 bool FacePairFinder::are_of_one_quad(const IntersectingPair& pair) const {
   if (triangles_.empty()) return false;
@@ -99,6 +100,16 @@ void FacePairFinder::visit(const Positions& x, const std::function<bool()>& stop
   faces.clear();
   for (const auto& [ids, kind] : of_large_faces) faces.push_back({ids.first, ids.second, kind});
   take(faces);
+}
+
+std::vector<IntersectingPair> find_allowed_pairs(const PreparedSurface& surface,
+                                                 const std::optional<PreparedSurface>& read, const Positions& x) {
+  if (!surface.allowed.any()) return {};
+  const auto find = [&](const PreparedSurface& cut) {
+    return FacePairFinder(cut, FacePairFinder::Which::allowed).find(x);
+  };
+  std::vector<IntersectingPair> pairs = find(surface);
+  return read ? unite_face_pairs(std::move(pairs), find(*read)) : pairs;
 }
 
 }  // namespace unsnarl

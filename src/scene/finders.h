@@ -14,10 +14,9 @@ namespace unsnarl {
 /// between the two would decide all pairs again at every call.
 class Finders {
  public:
-  /// `scale`: of the positions. The triangles, and the groups whose triangles pass through each other, must outlive
-  /// this.
-  Finders(std::span<const Triangle> triangles, const Scale& scale, VertexGroups groups = {})
-      : as_is(triangles, groups), scale_(scale) {}
+  /// `scale`: of the positions. The triangles must outlive this.
+  Finders(std::span<const Triangle> triangles, const Scale& scale, Passing passing = {})
+      : as_is(triangles, passing), scale_(scale) {}
 
   /// They find pairs of these triangles. Takes as long as a look at all of them.
   bool are_of(std::span<const Triangle> triangles) const {

@@ -43,8 +43,13 @@ PairCensus::Pairs PairCensus::of(std::vector<IntersectingPair> triangles, const 
 std::vector<IntersectingPair> PairCensus::by_other_cuts(const Positions& x) {
   std::vector<IntersectingPair> pairs;
   if (any_diagonal_) pairs = any_diagonal_->find(x);
-  const auto read = cut_anew(surface_, prepared_, options_, prepared_.scatter(surface_.positions, x));
+  const auto read = as_read(x);
   return read ? unite_face_pairs(std::move(pairs), FacePairFinder(*read).find(x)) : pairs;
+}
+
+PairCounts PairCensus::allowed_at(const Positions& x) const {
+  if (!prepared_.allowed.any()) return {};
+  return count_by_class(find_allowed_pairs(prepared_, as_read(x), x));
 }
 
 std::vector<IntersectingPair> PairCensus::in_float32(const Positions& x) {

@@ -32,6 +32,8 @@ class PairCensus {
 
   const Pairs& before() const { return before_; }
   Pairs at(const Positions& x);
+  /// The pairs of faces that are allowed, by any cut; no other function here counts them.
+  PairCounts allowed_at(const Positions& x) const;
   /// Pairs of faces by any cut once the positions are rounded to float32; `x` must fit into it (fits_float32).
   std::vector<IntersectingPair> in_float32(const Positions& x);
   /// No two faces intersect once the positions are rounded to float32.
@@ -40,6 +42,9 @@ class PairCensus {
  private:
   Pairs of(std::vector<IntersectingPair> triangles, const Positions& x);
   std::vector<IntersectingPair> by_other_cuts(const Positions& x);
+  std::optional<PreparedSurface> as_read(const Positions& x) const {
+    return cut_anew(surface_, prepared_, options_, prepared_.scatter(surface_.positions, x));
+  }
 
   const SurfaceView surface_;
   const PreparedSurface& prepared_;

@@ -16,7 +16,8 @@ namespace unsnarl {
 /// No motion of the vertices parts two triangles that may stay for this reason.
 bool is_obstruction(LeftReason reason);
 
-/// Decides which intersecting pairs may stay, and why; nothing else does. A reason depends on the options and on what
+/// Decides which intersecting pairs may stay, and why; nothing else does. (Pairs of FindOptions::allowed are none: no
+/// search finds them.) A reason depends on the options and on what
 /// never changes while vertices move: components, corners, and what is held.
 class PairPolicy {
  public:

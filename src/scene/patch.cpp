@@ -8,6 +8,33 @@
 
 namespace unsnarl {
 
+namespace {
+
+/// Triangles of the scene that some of these do not pass through.
+class Obstacles {
+ public:
+  Obstacles(const Scene& scene, std::span<const Index> triangles) : scene_(scene) {
+    // One triangle of each part stands for all of it.
+    std::vector<Index> parts;
+    for (const Index t : triangles) {
+      const Index part = scene.part_of.empty() ? 0 : scene.part_of[t];
+      if (std::find(parts.begin(), parts.end(), part) != parts.end()) continue;
+      parts.push_back(part);
+      of_each_part_.push_back(t);
+    }
+  }
+  bool has(Index u) const {
+    return std::any_of(of_each_part_.begin(), of_each_part_.end(),
+                       [&](Index t) { return scene_.passing().meet(scene_.triangles, t, u); });
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<Index> of_each_part_;
+};
+
+}  // namespace
+
 Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach) {
   Patch patch;
   patch.free_count = static_cast<Index>(free_vertices.size());
@@ -28,9 +55,9 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
   const Bvh active(boxes);
   std::vector<Index> near, obstacles;
   index.query(all, near);
+  const Obstacles possible(scene, patch.faces);
   const auto is_obstacle = [&](Index t) {
-    return scene.groups().meet(scene.triangles[t], scene.triangles[patch.faces.front()]) &&
-           active.overlaps_any(box_of(scene.x, scene.triangles[t]));
+    return possible.has(t) && active.overlaps_any(box_of(scene.x, scene.triangles[t]));
   };
   std::erase_if(near, std::not_fn(is_obstacle));
   std::sort(near.begin(), near.end());
@@ -56,6 +83,9 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
     const Triangle& corners = scene.triangles[t];
     patch.triangles.push_back({local(corners[0]), local(corners[1]), local(corners[2])});
   }
+  patch.parts = scene.parts;
+  if (!scene.part_of.empty())
+    for (const Index t : patch.faces) patch.part_of.push_back(scene.part_of[t]);
   patch.rest.resize(3, patch.vertices.size());
   patch.x.resize(3, patch.vertices.size());
   for (std::size_t k = 0; k < patch.vertices.size(); ++k) {

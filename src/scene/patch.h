@@ -20,18 +20,24 @@ struct Patch {
   Index free_count = 0;
   /// Triangles [0, active_count) have a free vertex; the rest are obstacles nearby.
   Index active_count = 0;
-  Positions rest;                    ///< where the vertices are in the input; for fixed ones equal to x
-  Positions x;                       ///< where they are now
-  std::vector<Triangle> triangles;   ///< of vertices of the patch
-  std::vector<Index> vertices;       ///< patch vertex -> vertex of the whole, ascending within the free and the fixed
-  std::vector<Index> faces;          ///< patch triangle -> triangle of the whole, ascending within active and obstacles
-  double edge_length = 0;            ///< h: mean edge of the intersecting faces at rest (or of all active ones)
-  Trajectory* trajectory = nullptr;  ///< where solvers record their iterations, or null; not owned
-  PatchProgress* progress = nullptr;  ///< where solvers report their progress, or null; not owned
+  Positions rest;                   ///< where the vertices are in the input; for fixed ones equal to x
+  Positions x;                      ///< where they are now
+  std::vector<Triangle> triangles;  ///< of vertices of the patch
+  std::vector<Index> vertices;      ///< patch vertex -> vertex of the whole, ascending within the free and the fixed
+  std::vector<Index> faces;         ///< patch triangle -> triangle of the whole, ascending within active and obstacles
+  std::vector<Index> part_of;       ///< as Scene::part_of, of the patch's triangles
+  const PassingParts* parts = nullptr;  ///< as Scene::parts
+  double edge_length = 0;               ///< h: mean edge of the intersecting faces at rest (or of all active ones)
+  Trajectory* trajectory = nullptr;     ///< where solvers record their iterations, or null; not owned
+  PatchProgress* progress = nullptr;    ///< where solvers report their progress, or null; not owned
+
+  /// Which of its triangles pass through each other.
+  Passing passing() const { return part_of.empty() ? Passing() : Passing({}, part_of, *parts); }
 };
 
 /// Cuts out the patch with these free vertices (ascending, none fixed). Obstacles: all triangles within `reach` (a
-/// length) of the box of an active triangle. `edge_length` is left to the caller.
+/// length) of the box of an active triangle, but those that pass through all active ones. `edge_length` is left to the
+/// caller.
 Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach);
 
 /// Box of everything that cut_patch could include with this reach.

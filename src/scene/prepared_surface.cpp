@@ -66,6 +66,8 @@ PreparedSurface prepare(const SurfaceView& surface, const FindOptions& options) 
   prepared.triangulation = triangulate(surface, prepared.weld_map.vertex_of);
   if (options.both_diagonals)
     prepared.other_diagonals = triangulate_other_diagonals(surface, prepared.weld_map.vertex_of);
+  prepared.allowed = allowed_parts(surface, options.allowed);
+  prepared.part_of = prepared.allowed.of_triangles(prepared.triangulation.polygon);
   prepared.rest = prepared.gather(surface.positions);
   return prepared;
 }
@@ -82,6 +84,7 @@ std::optional<PreparedSurface> cut_anew(const SurfaceView& surface, const Prepar
   PreparedSurface anew = prepared;
   anew.triangulation = std::move(cut);
   anew.other_diagonals = std::move(other_diagonals);
+  anew.part_of = anew.allowed.of_triangles(anew.triangulation.polygon);
   return anew;
 }
 

@@ -10,6 +10,7 @@
 #include "mesh/components.h"
 #include "mesh/triangulation.h"
 #include "mesh/weld_map.h"
+#include "scene/allowed_parts.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/surface.h"
 
@@ -21,10 +22,16 @@ struct PreparedSurface {
   WeldMap weld_map;
   Triangulation triangulation;
   Triangulation other_diagonals;  ///< of the quads; empty unless FindOptions::both_diagonals
+  AllowedParts allowed;           ///< what may pass through each other
+  std::vector<Index> part_of;     ///< of the triangles, among these parts
   Scale scale;                    ///< of all positions x of welded vertices; in(a coordinate of the file)
   Positions rest;                 ///< of the welded vertices
 
   std::span<const Triangle> triangles() const { return triangulation.triangles; }
+  /// Of the triangles; those of two groups of vertices pass too (see Passing).
+  Passing passing(std::span<const Index> group_of_vertex = {}) const {
+    return Passing(group_of_vertex, part_of, allowed.passing);
+  }
   /// Positions of the file's vertices -> of the welded ones (the first of each), at this scale.
   Positions gather(std::span<const double> positions) const { return gather(positions, scale); }
   /// The same at another scale.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "contact/vertex_groups.h"
+#include "contact/passing.h"
 #include "geometry/types.h"
 #include "mesh/adjacency.h"
 
@@ -17,10 +17,12 @@ struct Scene {
   std::vector<Index> face_of;  ///< of each triangle the face of the input that it is a piece of; empty: each is one
   std::vector<std::uint8_t> fixed;  ///< one flag a vertex
   std::vector<Index> group_of;  ///< of each vertex: triangles of two groups pass through each other; empty: all meet
+  std::vector<Index> part_of;   ///< of each triangle: its part in `parts`; empty: none passes through another
+  const PassingParts* parts = nullptr;  ///< not owned
   IndexLists triangles_of_vertex;
   IndexLists neighbours;  ///< of vertices, by edges
 
-  VertexGroups groups() const { return VertexGroups(group_of); }
+  Passing passing() const { return part_of.empty() ? Passing(group_of) : Passing(group_of, part_of, *parts); }
   Index vertex_count() const { return static_cast<Index>(rest.cols()); }
   Index triangle_count() const { return static_cast<Index>(triangles.size()); }
 };

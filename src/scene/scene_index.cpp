@@ -3,7 +3,7 @@
 namespace unsnarl {
 
 SceneIndex::SceneIndex(const Scene& scene)
-    : scene_(scene), own_(std::in_place, scene.triangles, scene.groups()), finder_(*own_) {
+    : scene_(scene), own_(std::in_place, scene.triangles, scene.passing()), finder_(*own_) {
   update();
 }
 

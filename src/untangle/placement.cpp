@@ -103,8 +103,10 @@ class Placement {
     components_ = std::move(sorted);
   }
 
+  /// The two triangles may intersect.
   bool is_tolerated(Index t, Index u) const {
-    return is_among({std::min(t, u), std::max(t, u), PairClass::disjoint}, tolerated_);
+    return !patch_.passing().meet(patch_.triangles, t, u) ||
+           is_among({std::min(t, u), std::max(t, u), PairClass::disjoint}, tolerated_);
   }
 
   /// The component, where it is in x_, meets nothing that is present. Its own triangles are not.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "untangle/coarse/coarse_to_fine.h"
+#include "untangle/free_search.h"
 #include "untangle/local/local_solver.h"
 #include "untangle/placement.h"
 #include "untangle/squeezed_faces.h"
@@ -158,6 +159,7 @@ std::vector<Tier> all_tiers(CoarseMeshes meshes) {
     tiers.push_back(last_resort(far_coarse_to_fine()));
   }
   tiers.push_back(last_resort(coarse_to_fine_of_whole_components(meshes)));
+  if (meshes == CoarseMeshes::until_solved) tiers.push_back(last_resort(free_search()));
   return tiers;
 }
 

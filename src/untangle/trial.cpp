@@ -83,7 +83,7 @@ void run_trial(Trial& trial, const Scene& scene, const SceneIndex& index, const 
     patch.trajectory = &trial.trajectory;
   }
   patch.progress = &progress;
-  IntersectionFinder finder(patch.triangles, patch.active_count);
+  IntersectionFinder finder(patch.triangles, patch.active_count, patch.passing());
   const auto [own, tolerated] = find_patch_pairs(patch, finder, trial.selection.region);
   trial.before = TrialPairs(own);
   task.tolerated = tolerated;
@@ -103,7 +103,7 @@ void run_trial(Trial& trial, const Scene& scene, const SceneIndex& index, const 
 
 std::vector<IntersectingPair> put_among_obstacles(Trial& trial, const Scene& scene, const SceneIndex& index) {
   Patch patch = cut_patch_of(trial, scene, index);
-  IntersectionFinder finder(patch.triangles, patch.active_count);
+  IntersectionFinder finder(patch.triangles, patch.active_count, patch.passing());
   std::vector<IntersectingPair> tolerated = find_patch_pairs(patch, finder, trial.selection.region).tolerated;
   trial.start = patch.x;
   patch.x.leftCols(patch.free_count) = trial.patch.x.leftCols(patch.free_count);
@@ -118,7 +118,7 @@ void look_farther(Trial& trial, const Scene& scene, const SceneIndex& index,
   const std::vector<IntersectingPair> tolerated = put_among_obstacles(trial, scene, index);
   if (trial.is_clean() && recover) {
     recover(trial.patch);
-    IntersectionFinder finder(trial.patch.triangles, trial.patch.active_count);
+    IntersectionFinder finder(trial.patch.triangles, trial.patch.active_count, trial.patch.passing());
     trial.left = TrialPairs(blocking_pairs(finder.find(trial.patch.x), tolerated));
   }
   trial.distance = distances_to_rest(trial.patch).sum();

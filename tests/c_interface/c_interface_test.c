@@ -114,6 +114,37 @@ static void refuses_deep_nesting(void) {
   CHECK(says(unsnarl_error_message(), "nested too deeply"));
 }
 
+/* Parts that may pass through each other: found, checked and repaired apart. */
+static void lets_parts_pass(void) {
+  static const int32_t parts[] = {0, 1}, allowed[] = {1, 0}, wrong[] = {0, -1};
+  unsnarl_surface surface = crossing();
+  unsnarl_result* result = NULL;
+  surface.face_parts = parts;
+  surface.allowed = allowed;
+  surface.allowed_count = 1;
+  CHECK(pairs_of(&surface) == 0);
+  CHECK(unsnarl_check(&surface, NULL, &result) == UNSNARL_OK);
+  CHECK(array(result, "pairs").rows == 0);
+  unsnarl_result_free(result);
+  CHECK(unsnarl_certify(&surface, crossing_positions, 6, NULL, &result) == UNSNARL_OK);
+  CHECK(says(unsnarl_result_report(result), "\"embedded\":false"));
+  CHECK(says(unsnarl_result_report(result), "\"resolved\":true"));
+  unsnarl_result_free(result);
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "allowed") == 0);
+  CHECK(memcmp(array(result, "positions").data, crossing_positions, sizeof crossing_positions) == 0);
+  unsnarl_result_free(result);
+  CHECK(unsnarl_repair_sequence(&surface, 1, NULL, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "allowed") == 0);
+  unsnarl_result_free(result);
+  surface.allowed = wrong;
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  surface.allowed = allowed;
+  surface.face_parts = NULL;
+  CHECK(unsnarl_repair(&surface, NULL, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+  CHECK(says(unsnarl_error_message(), "face_parts"));
+}
+
 static void finds_and_repairs(void) {
   const unsnarl_surface surface = crossing();
   unsnarl_surface moved = surface;
@@ -744,6 +775,7 @@ static void makes_samples(void) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   finds_and_repairs();
+  lets_parts_pass();
   refuses_deep_nesting();
   makes_pages();
   heeds_options();

@@ -77,6 +77,24 @@ TEST_F(Gaps, are_measured_by_check) {
   EXPECT_EQ(run({"check", in, "--absolute"}).exit_code, 2);
 }
 
+TEST_F(Gaps, of_what_may_pass_do_not_count) {
+  const std::string third =
+      "o lowest\nv 0 0 -1.001\nv 1 0 -1.001\nv 0 1 -1.001\nv 0 0 -2\n"
+      "f 9 10 11\nf 9 12 10\nf 10 12 11\nf 9 11 12\n";
+  const std::string in = file("in.obj", near + third), out = folder / "out.obj";
+  const std::vector<std::string> gap = {"--min-gap", "0.02", "--absolute", "--allow", "upper:lower"};
+  const auto with_gap = [&](std::vector<std::string> words) {
+    words.insert(words.end(), gap.begin(), gap.end());
+    return run(words);
+  };
+  EXPECT_EQ(with_gap({"check", in}).exit_code, 10);
+  const Outcome fix = with_gap({"fix", in, "-o", out});
+  EXPECT_EQ(fix.exit_code, 0) << fix.err;
+  EXPECT_EQ(contents(out).substr(0, contents(out).find("o lower")), near.substr(0, near.find("o lower")));
+  EXPECT_EQ(with_gap({"check", out}).exit_code, 0);
+  EXPECT_EQ(run({"check", out, "--min-gap", "0.02", "--absolute"}).exit_code, 10);
+}
+
 TEST_F(Gaps, are_kept_between_files_of_a_scene_too) {
   const std::string split = "o lower\n";
   const std::string upper = near.substr(0, near.find(split));
@@ -101,6 +119,7 @@ TEST_F(Gaps, of_frames_and_of_a_batch_are_met_or_said) {
   EXPECT_EQ(sequence({"--absolute", "--fix-component", "0", "--fix-component", "1", "--quiet"}), 10);
   const Outcome batch = run({"batch", file("list.txt", (folder / "f1.obj") + "\n"), "-o", folder / "batch", "--",
                              "--min-gap", "0.02", "--absolute", "--fix-component", "0", "--fix-component", "1"});
+  EXPECT_EQ(batch.exit_code, 10);
   EXPECT_NE(batch.err.find("1 gap_not_met"), std::string::npos) << batch.err;
 }
 

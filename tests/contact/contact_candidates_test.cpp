@@ -73,11 +73,11 @@ void for_all_stencils(const Soup& soup, const std::vector<std::uint8_t>& moves, 
 }
 
 /// Where vertices go nowhere in particular: what may come near is known exactly.
-std::set<Key> brute_force(const Soup& soup, double radius, const std::vector<double>& around,
+std::set<Key> brute_force(const Soup& soup, const std::vector<double>& radius, const std::vector<double>& around,
                           const std::vector<std::uint8_t>& moves) {
   std::set<Key> result;
   for_all_stencils(soup, moves, [&](const Stencil& s) {
-    if (closest(s, soup.x).distance <= radius + approach(s, around)) result.insert(key_of(s));
+    if (closest(s, soup.x).distance <= radius_of(s, radius) + approach(s, around)) result.insert(key_of(s));
   });
   return result;
 }
@@ -101,7 +101,10 @@ TEST(ContactCandidates, agree_with_brute_force) {
     std::vector<std::uint8_t> moves(25, 0);
     for (Index v = 0; v < 25; ++v) moves[v] = seed % 3 == 0 || v % 4 == 0;
     ContactCandidates candidates(soup.triangles, 25);
-    for (double radius : {0.02, 0.2}) {
+    for (double longest : {0.02, 0.2, 0.3}) {
+      std::vector<double> radius(25, longest);
+      if (longest == 0.3)
+        for (Index v = 0; v < 25; ++v) radius[v] *= v % 4 / 3.0;
       // None, everyone as far, everyone else.
       for (int kind = 0; kind < 3; ++kind) {
         MotionBounds bounds = standing(25);
@@ -113,7 +116,7 @@ TEST(ContactCandidates, agree_with_brute_force) {
           keys.insert(key_of(s.stencil));
           EXPECT_DOUBLE_EQ(s.distance, closest(s.stencil, soup.x).distance);
         }
-        EXPECT_EQ(keys, brute_force(soup, radius, bounds.around, moves)) << "seed " << seed << " radius " << radius;
+        EXPECT_EQ(keys, brute_force(soup, radius, bounds.around, moves)) << "seed " << seed << " radius " << longest;
       }
     }
   }
@@ -140,7 +143,7 @@ TEST(ContactCandidates, miss_nothing_that_comes_near_within_its_bounds) {
     }
     std::vector<NearStencil> found;
     ContactCandidates candidates(soup.triangles, 25);
-    candidates.gather(soup.x, radius, bounds, moves, found);
+    candidates.gather(soup.x, std::vector<double>(25, radius), bounds, moves, found);
     std::set<Key> keys;
     for (const NearStencil& s : found) {
       keys.insert(key_of(s.stencil));
@@ -149,7 +152,7 @@ TEST(ContactCandidates, miss_nothing_that_comes_near_within_its_bounds) {
     listed += keys.size();
     std::vector<double> lengths(25);
     for (Index v = 0; v < 25; ++v) lengths[v] = bounds.along.col(v).norm() + bounds.around[v];
-    listed_by_lengths += brute_force(soup, radius, lengths, moves).size();
+    listed_by_lengths += brute_force(soup, std::vector<double>(25, radius), lengths, moves).size();
     // Every vertex goes its own share of the way, many none of it or all, and as far aside as it may.
     Positions x = soup.x;
     for (int sample = 0; sample < 40; ++sample) {
@@ -174,10 +177,12 @@ TEST(ContactCandidates, around_some_vertices_list_the_same_as_everywhere) {
     Soup soup = random_soup(seed + 200, 60, 60);
     std::mt19937_64 engine(seed);
     const std::vector<std::uint8_t> moves(60, 1);
+    std::vector<double> radius(60, 0.03);
+    if (seed % 2 == 1) radius[seed] = 0.2;
     MotionBounds bounds = standing(60);
     ContactCandidates candidates(soup.triangles, 60);
     std::vector<NearStencil> found;
-    candidates.gather(soup.x, 0.03, bounds, moves, found);
+    candidates.gather(soup.x, radius, bounds, moves, found);
     for (int round = 0; round < 3; ++round) {
       std::vector<Index> vertices;
       std::vector<std::uint8_t> is_around(60, 0);
@@ -189,9 +194,9 @@ TEST(ContactCandidates, around_some_vertices_list_the_same_as_everywhere) {
         bounds.along.col(v) = random_vector(engine, 0.1);
         bounds.around[v] = 0.02;
       }
-      candidates.gather_around(vertices, soup.x, 0.03, bounds, found);
+      candidates.gather_around(vertices, soup.x, radius, bounds, found);
       std::vector<NearStencil> all;
-      ContactCandidates(soup.triangles, 60).gather(soup.x, 0.03, bounds, is_around, all);
+      ContactCandidates(soup.triangles, 60).gather(soup.x, radius, bounds, is_around, all);
       std::set<Key> keys, expected;
       for (const NearStencil& s : found) keys.insert(key_of(s.stencil));
       for (const NearStencil& s : all) expected.insert(key_of(s.stencil));
@@ -206,7 +211,7 @@ TEST(ContactCandidates, list_nothing_twice_where_no_triangle_is) {
   const std::vector<std::uint8_t> moves(200, 1);
   ContactCandidates candidates(soup.triangles, 200);
   std::vector<NearStencil> found;
-  candidates.gather(soup.x, 0.1, standing(200), moves, found);
+  candidates.gather(soup.x, std::vector<double>(200, 0.1), standing(200), moves, found);
   std::set<Key> keys;
   for (const NearStencil& s : found) keys.insert(key_of(s.stencil));
   EXPECT_EQ(keys.size(), found.size());
@@ -217,14 +222,14 @@ TEST(ContactCandidates, follow_motion_and_repeat_themselves) {
   const std::vector<std::uint8_t> moves(30, 1);
   ContactCandidates candidates(soup.triangles, 30);
   std::vector<NearStencil> first, again;
-  candidates.gather(soup.x, 0.1, standing(30), moves, first);
+  candidates.gather(soup.x, std::vector<double>(30, 0.1), standing(30), moves, first);
   soup.x = soup.x.colwise().reverse().eval();
-  candidates.gather(soup.x, 0.05, standing(30), moves, again);
+  candidates.gather(soup.x, std::vector<double>(30, 0.05), standing(30), moves, again);
   std::set<Key> keys;
   for (const NearStencil& s : again) keys.insert(key_of(s.stencil));
-  EXPECT_EQ(keys, brute_force(soup, 0.05, std::vector<double>(30, 0), moves));
+  EXPECT_EQ(keys, brute_force(soup, std::vector<double>(30, 0.05), std::vector<double>(30, 0), moves));
   std::vector<NearStencil> repeated;
-  candidates.gather(soup.x, 0.05, standing(30), moves, repeated);
+  candidates.gather(soup.x, std::vector<double>(30, 0.05), standing(30), moves, repeated);
   EXPECT_EQ(again, repeated);
 }
 
@@ -253,16 +258,17 @@ TEST(ContactCandidates, stop_within_a_long_gathering) {
     triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
   ContactCandidates candidates(triangles, 3 * count);
+  const std::vector<double> radius(static_cast<std::size_t>(3 * count), 10);
   MotionBounds bounds;
   bounds.reset(3 * count);
   const std::vector<std::uint8_t> moves(3 * count, 1);
   std::vector<NearStencil> found, again;
-  candidates.gather(x, 10, bounds, moves, found);
+  candidates.gather(x, radius, bounds, moves, found);
   EXPECT_GT(found.size(), 500000u);
   int asked = 0;
-  EXPECT_THROW(candidates.gather(x, 10, bounds, moves, again, [&] { return ++asked > 0; }), WorkStopped);
+  EXPECT_THROW(candidates.gather(x, radius, bounds, moves, again, [&] { return ++asked > 0; }), WorkStopped);
   EXPECT_EQ(asked, 1);
-  candidates.gather(x, 10, bounds, moves, again);
+  candidates.gather(x, radius, bounds, moves, again);
   EXPECT_TRUE(again == found);
 }
 

@@ -150,10 +150,8 @@ TEST(IntersectionFinder, pairs_of_two_groups_are_left_out) {
   WavySheets sheets(1.99);
   std::vector<Index> group_of(static_cast<std::size_t>(sheets.x.cols()), 0);
   std::fill(group_of.begin() + sheets.x.cols() / 2, group_of.end(), 1);
-  const VertexGroups groups(group_of);
-  const auto are_of_two = [&](const IntersectingPair& pair) {
-    return !groups.meet(sheets.triangles[pair.a], sheets.triangles[pair.b]);
-  };
+  const Passing groups(group_of);
+  const auto are_of_two = [&](const IntersectingPair& pair) { return !groups.meet(sheets.triangles, pair.a, pair.b); };
   IntersectionFinder all(sheets.triangles), apart(sheets.triangles, groups);
   std::size_t left_out = 0, found = 0;
   std::uint64_t state = 3;
@@ -170,6 +168,35 @@ TEST(IntersectionFinder, pairs_of_two_groups_are_left_out) {
   }
   EXPECT_GT(left_out, 1000u);
   EXPECT_GT(found, 500u);
+}
+
+// Parts, unlike groups, have vertices in common: pairs that share some are told apart too.
+TEST(IntersectionFinder, pairs_of_parts_that_pass_are_left_out) {
+  WavySheets sheets(1.99);
+  std::vector<Index> part_of;
+  for (std::size_t t = 0; t < sheets.triangles.size(); ++t) part_of.push_back(static_cast<Index>(t / 2 % 3));
+  const PassingParts parts(3, std::vector<std::array<Index, 2>>{{0, 1}, {2, 2}});
+  const Passing passing({}, part_of, parts);
+  IntersectionFinder all(sheets.triangles), apart(sheets.triangles, passing),
+      others(sheets.triangles, passing.only_what_passes());
+  std::size_t joined = 0;
+  std::uint64_t state = 5;
+  const auto random = [&] { return state = state * 6364136223846793005ULL + 1442695040888963407ULL, state >> 33; };
+  for (const int moved : {0, 3000, 10, 20000, 20000, 20000, 20, 20000}) {
+    for (int k = 0; k < moved; ++k)
+      sheets.x(static_cast<Index>(random() % 3),
+               static_cast<Index>(random() % static_cast<std::uint64_t>(sheets.x.cols()))) +=
+          0.3 * (static_cast<double>(random() % 1000) / 500 - 1);
+    std::vector<IntersectingPair> expected, passed;
+    for (const IntersectingPair& pair : all.find(sheets.x)) {
+      const bool pass = parts.pass(part_of[pair.a], part_of[pair.b]);
+      joined += pass && pair.kind != PairClass::disjoint;
+      (pass ? passed : expected).push_back(pair);
+    }
+    EXPECT_TRUE(apart.find(sheets.x) == expected) << moved << " moved";
+    EXPECT_TRUE(others.find(sheets.x) == passed) << moved << " moved";
+  }
+  EXPECT_GT(joined, 100u);
 }
 
 TEST(IntersectionFinder, from_known_pairs_only_what_moves_is_decided) {

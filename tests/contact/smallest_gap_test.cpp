@@ -86,6 +86,19 @@ TEST(SmallestGap, looks_as_far_as_it_has_to) {
   EXPECT_TRUE(std::isinf(smallest_gap(joined, x).distance));
 }
 
+TEST(SmallestGap, what_passes_through_each_other_does_not_count) {
+  Positions x(3, 9);               // three triangles in planes one above the other, at heights 0, 1 and 3
+  x << 0, 1, 0, 0, 1, 0, 0, 1, 0,  //
+      0, 0, 1, 0, 0, 1, 0, 0, 1,   //
+      0, 0, 0, 1, 1, 1, 3, 3, 3;
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  const std::vector<Index> part_of = {0, 1, 2};
+  const PassingParts parts(3, std::vector<std::array<Index, 2>>{{0, 1}});
+  const SmallestGap gap = smallest_gap(triangles, x, {}, Passing({}, part_of, parts));
+  EXPECT_DOUBLE_EQ(gap.distance, 2);
+  EXPECT_EQ(gap.first, 1);
+}
+
 TEST(SmallestGap, pairs_closer_than_a_distance_are_those_that_measure_less) {
   const LooseTriangles s = loose_triangles(60, 0.05, 5);
   const double distance = 1.5 * smallest_gap(s.triangles, s.x).distance + 0.05;

@@ -1,6 +1,7 @@
-// Memory that runs out anywhere: the status stays true. Replaces operator new of this test program, never inlined, so
-// that compilers see a new with each delete.
+// Memory that runs out anywhere: the status stays true; and how much is needed. Replaces operator new of this test
+// program, never inlined, so that compilers see a new with each delete.
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 #include "contact/intersection_finder.h"
 #include "pipeline/judged.h"
+#include "recover/recover.h"
 #include "scene/shapes.h"
 #include "unsnarl/repair.h"
 #include "unsnarl/sequence.h"
@@ -19,7 +21,8 @@
 namespace unsnarl {
 namespace {
 
-std::atomic<long> allocations_left{-1};  // until one fails; negative: none does
+std::atomic<long> allocations_left{-1};                // until one fails; negative: none does
+std::atomic<std::size_t> bytes_now{0}, most_bytes{0};  // what is allocated; the most since it was set
 
 void* allocate(std::size_t size, std::size_t alignment) {
   if (allocations_left.load(std::memory_order_relaxed) >= 0 && allocations_left.fetch_sub(1) == 0)
@@ -27,7 +30,15 @@ void* allocate(std::size_t size, std::size_t alignment) {
   size = (std::max(size, std::size_t{1}) + alignment - 1) / alignment * alignment;
   void* const memory = std::aligned_alloc(alignment, size);
   if (!memory) throw std::bad_alloc();
+  const std::size_t now = bytes_now += malloc_usable_size(memory);
+  for (std::size_t most = most_bytes; now > most && !most_bytes.compare_exchange_weak(most, now);) {
+  }
   return memory;
+}
+
+void give_back(void* memory) {
+  bytes_now -= malloc_usable_size(memory);
+  std::free(memory);
 }
 
 }  // namespace
@@ -40,22 +51,53 @@ void* allocate(std::size_t size, std::size_t alignment) {
   return unsnarl::allocate(size, static_cast<std::size_t>(alignment));
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
+  unsnarl::give_back(memory);
 }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
+  unsnarl::give_back(memory);
 }
 [[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
+  unsnarl::give_back(memory);
 }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
+  unsnarl::give_back(memory);
 }
 
 namespace unsnarl {
 namespace {
 
 constexpr long many = 1'000'000'000;
+
+/// The most bytes that `work` has allocated at any time.
+template <class Work>
+std::size_t bytes_of(Work&& work) {
+  const std::size_t before = bytes_now;
+  most_bytes = before;
+  work();
+  return most_bytes - before;
+}
+
+/// A fine tube above a face of the mean edge length of both; the tube is shrunk to a fifth.
+Patch shrunk_beside_a_large_face(Index cells) {
+  shapes::Shape shape = shapes::tube(cells, cells, 1);
+  for (Vec3& p : shape.points) p = Vec3(2 * p[0] / cells, p[1], p[2] + 2);
+  const Index fine = static_cast<Index>(shape.points.size());
+  shape.add({{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {{0, 1, 2}}});
+  Patch patch = shapes::patch_of(shape, fine, static_cast<Index>(shape.triangles.size()) - 1);
+  patch.edge_length = 2;
+  for (Index v = 0; v < fine; ++v) patch.x.col(v) = 0.2 * (patch.rest.col(v) - Vec3(0, 0, 2)) + Vec3(0, 0, 2);
+  return patch;
+}
+
+TEST(Memory, of_a_recovery_follows_the_number_of_vertices_even_where_all_are_near) {
+  constexpr std::size_t most_bytes_a_vertex = 100'000;
+  for (const Index cells : {16, 32}) {
+    Patch patch = shrunk_beside_a_large_face(cells);
+    const Positions start = patch.x;
+    EXPECT_LT(bytes_of([&] { recover(patch, {}, {}); }), most_bytes_a_vertex * static_cast<std::size_t>(start.cols()));
+    EXPECT_LT((patch.x - patch.rest).norm(), 0.1 * (start - patch.rest).norm());
+  }
+}
 
 /// The number of allocations that `work` makes.
 template <class Work>
@@ -85,7 +127,7 @@ TEST(FailingAllocation, a_finder_finds_all_when_it_is_asked_again) {
   std::vector<Index> sheet_of(shape.points.size(), 0);
   std::fill(sheet_of.begin() + static_cast<std::ptrdiff_t>(sheet_of.size() / 2), sheet_of.end(), 1);
   for (const bool passes_through : {false, true}) {  // one sheet through the other
-    const VertexGroups groups = passes_through ? VertexGroups(sheet_of) : VertexGroups();
+    const Passing groups = passes_through ? Passing(sheet_of) : Passing();
     const std::vector<IntersectingPair> pairs =
         passes_through ? std::vector<IntersectingPair>() : shapes::pairs_of(shape);
     // The whole comes from afar, a step at a time: from the third on the finder follows what moves.

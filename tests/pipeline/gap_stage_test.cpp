@@ -110,6 +110,56 @@ TEST(GapStage, between_what_is_fixed_it_is_named) {
                          one_moves.positions.begin() + static_cast<std::ptrdiff_t>(surface.positions.size() / 2)));
 }
 
+/// Which box each face of boxes(count, ..., cells) is of.
+std::vector<std::int32_t> box_of_face(const Surface& surface, int count) {
+  const std::size_t faces = surface.view().face_count();
+  std::vector<std::int32_t> boxes(faces);
+  for (std::size_t f = 0; f < faces; ++f) boxes[f] = static_cast<std::int32_t>(f * count / faces);
+  return boxes;
+}
+
+TEST(GapStage, what_may_pass_keeps_no_gap_and_others_do) {
+  const Surface surface = boxes(3, 0.001, 4);
+  const std::size_t size = surface.positions.size() / 3;
+  RepairOptions options = with_gap(surface, 0.05);
+  options.find.allowed = {box_of_face(surface, 3), {{0, 1}}};
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::embedded) << to_string(result.status);
+  EXPECT_TRUE(std::equal(surface.positions.begin(), surface.positions.begin() + static_cast<std::ptrdiff_t>(size),
+                         result.positions.begin()));
+  EXPECT_NEAR(component_gap(surface, result), 0.001, 1e-12);  // of the two that may pass
+  ASSERT_TRUE(result.report.gap);
+  EXPECT_TRUE(result.report.gap->is_met());
+  const GapReport left =
+      measure_gap({result.positions, surface.corners, surface.offsets}, options.min_gap_rel, options.find);
+  EXPECT_TRUE(left.is_met());
+  EXPECT_FALSE(measure_gap(surface, options.min_gap_rel, options.find).is_met());
+
+  options.find.allowed.parts.push_back({1, 2});
+  const RepairResult of_all = repair(surface, options);
+  EXPECT_EQ(of_all.status, Status::embedded);
+  EXPECT_EQ(of_all.positions, surface.positions);
+}
+
+TEST(GapStage, what_passes_comes_before_a_gap_that_is_not_met) {
+  Surface surface = boxes(3, 0.001, 4);
+  const std::size_t size = surface.positions.size() / 3;
+  for (std::size_t k = 0; k < size; k += 3) surface.positions[k] += 0.1;  // into the second
+  RepairOptions options = with_gap(surface, 0.05);
+  options.find.allowed = {box_of_face(surface, 3), {{0, 1}}};
+  const RepairResult result = repair(surface, options);
+  EXPECT_EQ(result.status, Status::allowed) << to_string(result.status);
+  ASSERT_TRUE(result.report.gap);
+  EXPECT_TRUE(result.report.gap->is_met());
+  options.fixed.assign(surface.view().vertex_count(), 1);
+  const RepairResult held = repair(surface, options);
+  EXPECT_EQ(held.status, Status::allowed) << to_string(held.status);
+  EXPECT_EQ(held.positions, surface.positions);
+  ASSERT_TRUE(held.report.gap);
+  EXPECT_FALSE(held.report.gap->is_met());
+  EXPECT_NEAR(held.report.gap->smallest_rel * held.report.diagonal, 0.001, 1e-12);
+}
+
 TEST(GapStage, rigid_parts_go_apart_as_bodies) {
   const Surface surface = boxes(3, 0.001, 2);
   RepairOptions options = with_gap(surface, 0.05);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -110,6 +112,78 @@ TEST(Parts, seams_are_no_boundary) {
       Format::obj);
   EXPECT_EQ(boundary_vertices(document.surface()), (Flags{1, 1, 1, 0, 1, 1, 1, 0, 0}));
   EXPECT_EQ(boundary_vertices(document.surface(), {.weld = Weld::none}), (Flags{1, 1, 1, 1, 1, 1, 1, 1, 0}));
+}
+
+AllowedPairs allowed(const Document& document, const std::vector<std::string>& rules) {
+  return allowed_pairs(document.surface(), document.face_labels(), rules);
+}
+
+/// For each two of the five faces, one row after another: whether they may pass through each other.
+std::string passing_faces(const AllowedPairs& allowed) {
+  std::string rows;
+  for (std::size_t f = 0; f < allowed.part_of_face.size(); ++f, rows += ' ')
+    for (std::size_t g = 0; g < allowed.part_of_face.size(); ++g) {
+      const std::int32_t p = allowed.part_of_face[f], q = allowed.part_of_face[g];
+      rows += std::any_of(
+                  allowed.parts.begin(), allowed.parts.end(),
+                  [&](const auto& pair) { return (pair[0] == p && pair[1] == q) || (pair[0] == q && pair[1] == p); })
+                  ? '1'
+                  : '0';
+    }
+  return rows;
+}
+
+TEST(AllowedPairs, rules_name_parts_of_any_kind) {
+  const Document document = two_squares();
+  EXPECT_TRUE(allowed(document, {}).empty());
+  const std::string body_and_hat = "00001 00001 00001 00001 11110 ";
+  for (const char* rule :
+       {"body:hat", "hat:body", "object=body:hat", "body:group=hat", "0:1", "component=0:component=1"})
+    EXPECT_EQ(passing_faces(allowed(document, {rule})), body_and_hat) << rule;
+  EXPECT_EQ(passing_faces(allowed(document, {"red:blue"})), "00111 00111 11000 11000 11000 ");
+  EXPECT_EQ(passing_faces(allowed(document, {"left"})), "11000 11000 00000 00000 00000 ");
+  // Parts that have faces in common: each rule for itself, none more than it says.
+  EXPECT_EQ(passing_faces(allowed(document, {"left:hat", "material=blue"})), "00001 00001 00111 00111 11111 ");
+}
+
+std::string complaint(const Document& document, const std::string& rule) {
+  try {
+    allowed(document, {rule});
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return {};
+}
+
+TEST(AllowedPairs, what_does_not_exist_or_has_two_meanings_is_refused) {
+  const Document document = two_squares();
+  EXPECT_NE(complaint(document, "body:head").find("there is no part 'head'; there are: objects 'body', 'hat'; groups "),
+            std::string::npos)
+      << complaint(document, "body:head");
+  EXPECT_NE(complaint(document, "object=skin").find("there is no object 'skin'"), std::string::npos);
+  EXPECT_NE(complaint(document, "component=5").find("there is no component 5"), std::string::npos);
+  EXPECT_NE(complaint(document, "component=x").find("is not the number of a component"), std::string::npos);
+  const Document twice = Document::parse(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\no a\nusemtl b\nf 1 2 3\no b\nusemtl a\nf 1 3 2\no a:b\nusemtl c\nf 2 1 3\n",
+      Format::obj);
+  EXPECT_NE(complaint(twice, "a").find("'a' is the name of several parts; say which, as in object=a or material=a"),
+            std::string::npos)
+      << complaint(twice, "a");
+  EXPECT_EQ(complaint(twice, "object=a:material=b"), "");
+  EXPECT_EQ(complaint(twice, "object=a:object=b"), "");
+  const Document colon =
+      Document::parse("v 0 0 0\nv 1 0 0\nv 1 1 0\no x\nf 1 2 3\no y\nf 1 3 2\no x:y\nf 2 1 3\n", Format::obj);
+  EXPECT_NE(complaint(colon, "x:y").find("'x:y' can be read in 2 ways"), std::string::npos) << complaint(colon, "x:y");
+  EXPECT_EQ(complaint(colon, "object=x:object=y"), "");
+}
+
+TEST(AllowedPairs, names_may_hold_colons) {
+  const Document document = Document::parse(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\no rig:body\nf 1 2 3\no rig:coat\nf 1 3 2\no hat\nf 2 1 3\n", Format::obj);
+  const auto passing = [&](const std::string& rule) { return passing_faces(allowed(document, {rule})); };
+  EXPECT_EQ(passing("rig:body:rig:coat"), "010 100 000 ");
+  EXPECT_EQ(passing("rig:body"), "100 000 000 ");
+  EXPECT_EQ(passing("hat:rig:coat"), "000 001 010 ");
 }
 
 }  // namespace

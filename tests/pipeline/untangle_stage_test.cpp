@@ -7,6 +7,7 @@
 
 #include "pipeline/stages.h"
 #include "scene/shapes.h"
+#include "untangle/strategies.h"
 
 namespace unsnarl {
 namespace {
@@ -42,6 +43,27 @@ TEST(UntangleStage, positions_are_those_that_a_reader_will_see) {
   ASSERT_TRUE(repair.state.format.float32());
   EXPECT_EQ(repair.state.format.as_written(repair.state.scene.x), repair.state.scene.x);
   EXPECT_TRUE(repair.finders.find_rounded(repair.state.scene.x).empty());
+}
+
+TEST(UntangleStage, what_is_stuck_does_not_hold_up_the_rest_of_its_component) {
+  // Bumps that the first strategy alone does not part, and far away, tied to one of them, faces a float32 apart.
+  shapes::Shape shape = shapes::crossing_bumps(8, 2);
+  const Index first = static_cast<Index>(shape.points.size());
+  shape.add({{{90, 0, 99}, {91, 0, 99}, {90, 1, 99}, {90, 0, 99 + 1e-7}, {91, 0, 99 + 1e-7}, {90, 1, 99 + 1e-7}},
+             {{0, 1, 2}, {3, 4, 5}}});
+  shape.triangles.push_back({0, 1, first});
+  shape.triangles.push_back({0, 1, first + 3});
+  RepairOptions options;
+  options.precision = Precision::float32;
+  for (const Tier& tier : default_tiers())
+    for (const Strategy& strategy : tier.strategies)
+      if (strategy.name != "push_apart") options.without_strategies.push_back(strategy.name);
+  StagedRepair repair(shape.surface(), options);
+  untangle_stage(repair.task, repair.control, repair.finders, repair.state);
+  EXPECT_GT(repair.pairs(), 0u);
+  for (const IntersectingPair& pair : repair.finders.find_rounded(repair.state.scene.x))
+    for (const Index t : {pair.a, pair.b})
+      for (const Index v : repair.state.scene.triangles[t]) EXPECT_LT(v, first);
 }
 
 TEST(UntangleStage, a_checkpoint_brings_the_state_back) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "scene/shapes.h"
+
 namespace unsnarl {
 namespace {
 
@@ -57,6 +59,20 @@ TEST(ContactRules, a_gap_keeps_the_wanted_one_and_no_more_than_half_of_itself) {
   const ContactRule closed = rule_of_vertex_0(face_over_face(0.004, 0.5), {});
   EXPECT_TRUE(closed.closed);
   EXPECT_DOUBLE_EQ(closed.stencil.separation, 0.002);
+}
+
+TEST(ContactRules, what_passes_through_each_other_has_none) {
+  Patch patch = face_over_face(0.004, 0.5);
+  patch.part_of = {0, 1};
+  for (const bool pass : {true, false}) {
+    const PassingParts parts(2, std::vector<std::array<Index, 2>>{{0, pass ? 1 : 0}});
+    patch.parts = &parts;
+    ContactRules rules(patch, {}, {.min_gap = 0.01, .roundoff = 1e-13});
+    std::vector<ContactRule> found;
+    rules.gather(patch.x, 1, anywhere_within(std::vector<double>(6, 1)), std::vector<std::uint8_t>{1, 1, 1, 0, 0, 0},
+                 found);
+    EXPECT_EQ(std::all_of(found.begin(), found.end(), [](const ContactRule& rule) { return rule.own_altitude; }), pass);
+  }
 }
 
 TEST(ContactRules, the_barrier_leaves_a_rest_shape_without_conflict_alone) {
@@ -180,7 +196,7 @@ TEST(ContactRules, around_a_vertex_judge_closed_where_it_is_now) {
   rules.gather(from, 0.1, bounds, moves, found);
   const std::size_t count = found.size();
   for (Index v : {3, 4, 5}) patch.x(2, v) += 0.195;
-  rules.gather_around(std::vector<Index>{0}, from, patch.x, 0.1, bounds, found);
+  rules.gather_around(std::vector<Index>{0}, from, patch.x, bounds, found);
   EXPECT_EQ(found.size(), count);
   const auto over_face = std::find_if(found.begin(), found.end(), [](const ContactRule& rule) {
     return rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}};
@@ -191,8 +207,27 @@ TEST(ContactRules, around_a_vertex_judge_closed_where_it_is_now) {
   EXPECT_NEAR(over_face->stencil.separation, 0.0025, 1e-12);
   // Where nothing may come any more there is no rule either.
   for (Index v = 0; v < 6; ++v) bounds.around[v] = 0;
-  rules.gather_around(std::vector<Index>{0, 1, 2, 3, 4, 5}, from, from, 0.1, bounds, found);
+  rules.gather_around(std::vector<Index>{0, 1, 2, 3, 4, 5}, from, from, bounds, found);
   EXPECT_TRUE(found.empty());
+}
+
+/// Rules per vertex of a fine tube that is shrunk to a point but for a hundredth, beside edges of length h.
+double rules_a_vertex(Index cells, double h) {
+  Patch patch = shapes::patch_of(shapes::tube(cells, cells, cells / 6.0));
+  patch.x *= 0.01 / cells;
+  ContactRuleOptions options;
+  options.h = h;
+  ContactRules rules(patch, {}, options);
+  std::vector<ContactRule> found;
+  const std::size_t count = static_cast<std::size_t>(patch.x.cols());
+  rules.gather(patch.x, 0.1, anywhere_within(std::vector<double>(count, 0)), std::vector<std::uint8_t>(count, 1),
+               found);
+  return static_cast<double>(found.size()) / static_cast<double>(count);
+}
+
+TEST(ContactRules, of_what_is_shrunk_are_as_many_a_vertex_however_fine_it_is) {
+  EXPECT_LT(rules_a_vertex(24, 1), 1.5 * rules_a_vertex(12, 1));
+  EXPECT_GT(rules_a_vertex(24, 0), 3 * rules_a_vertex(12, 0)) << "without h, all pairs are near";
 }
 
 TEST(ContactRules, faces_guard_their_own_altitudes) {

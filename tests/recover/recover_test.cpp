@@ -118,7 +118,7 @@ double gap_of(const Patch& patch, double radius) {
   std::vector<NearStencil> stencils;
   MotionBounds standing;
   standing.reset(static_cast<Index>(patch.x.cols()));
-  candidates.gather(patch.x, radius, standing, moves, stencils);
+  candidates.gather(patch.x, std::vector<double>(moves.size(), radius), standing, moves, stencils);
   double gap = radius;
   for (const NearStencil& s : stencils) {
     if (!candidates.are_neighbours(s.stencil)) gap = std::min(gap, s.distance);

@@ -22,6 +22,21 @@ TEST(PlaceBodies, the_smaller_one_makes_way_by_about_the_depth) {
   EXPECT_LT(bodies.largest_displacement(bodies.list()[1]), 0.104);
 }
 
+TEST(PlaceBodies, what_may_pass_is_in_no_way) {
+  const Shape large = shapes::box({2, 2, 2}, 3), small = shapes::box({1, 1, 1}, 3);
+  Shape all = large;
+  all.add(small, {1.4, 0.13, 0.07}).add(small, {0.05, 1.3, 0.07});
+  std::vector<Index> part_of(large.triangles.size(), 0);
+  for (const Index part : {1, 2}) part_of.insert(part_of.end(), small.triangles.size(), part);
+  const PassingParts parts(3, std::vector<std::array<Index, 2>>{{0, 1}});
+  Bodies bodies(all.positions(), all.triangles, shapes::parts_of({&large, &small, &small}), 3, {},
+                Passing({}, part_of, parts));
+  EXPECT_FALSE(place_bodies(bodies, {}));
+  EXPECT_TRUE(bodies.list()[1].is_at_rest());
+  EXPECT_FALSE(bodies.list()[2].is_at_rest());
+  for (const Body& body : bodies.list()) EXPECT_TRUE(bodies.is_free(body));
+}
+
 TEST(PlaceBodies, turns_where_that_is_nearer) {
   // A plate that stands askew in a slot.
   const Shape wall = shapes::box({0.6, 2, 2}, 3), plate = shapes::turned(shapes::box({0.7, 1.9, 0.5}, 3), 0.12);

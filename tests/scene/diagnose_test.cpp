@@ -12,9 +12,10 @@ namespace {
 
 using shapes::Shape;
 
-Diagnosis diagnosis_of(const Surface& surface, const std::vector<std::uint8_t>& fixed = {}) {
-  const PreparedSurface prepared = prepare(surface, {});
-  IntersectionFinder finder(prepared.triangles());
+Diagnosis diagnosis_of(const Surface& surface, const std::vector<std::uint8_t>& fixed = {},
+                       const FindOptions& find = {}) {
+  const PreparedSurface prepared = prepare(surface, find);
+  IntersectionFinder finder(prepared.triangles(), prepared.passing());
   return diagnose(surface, prepared, fixed, finder);
 }
 
@@ -47,6 +48,24 @@ TEST(Diagnose, crossings_are_no_obstruction) {
   EXPECT_TRUE(diagnosis.pairs == shapes::pairs_of(shape));
   EXPECT_TRUE(diagnosis.obstructions.empty());
   EXPECT_TRUE(diagnosis.obstructed.empty());
+}
+
+TEST(Diagnose, what_may_intersect_is_no_obstruction) {
+  const Surface bottle = make_sample("klein_bottle", 24);
+  FindOptions find;
+  find.allowed.part_of_face.assign(bottle.view().face_count(), 0);
+  find.allowed.part_of_face.front() = 1;
+  find.allowed.parts = {{0, 0}, {0, 1}, {1, 1}};
+  const Diagnosis diagnosis = diagnosis_of(bottle, {}, find);
+  EXPECT_TRUE(diagnosis.pairs.empty());
+  EXPECT_TRUE(diagnosis.obstructions.empty());
+  find.allowed.parts = {{0, 0}};
+  EXPECT_EQ(diagnosis_of(bottle, {}, find).obstructions.size(), 1u);
+  const Surface twice{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2, 2, 1, 0}, {}};
+  find.allowed = {{0, 1}, {{0, 1}}};
+  EXPECT_TRUE(diagnosis_of(twice, {}, find).obstructions.empty());
+  find.allowed.parts = {{0, 0}};
+  EXPECT_EQ(diagnosis_of(twice, {}, find).obstructions.size(), 1u);
 }
 
 TEST(Diagnose, a_closed_non_orientable_component_is_named_by_its_first_face) {

@@ -83,5 +83,28 @@ TEST(Patch, its_box_holds_whatever_is_cut_out) {
   for (const Triangle& t : patch.triangles) EXPECT_TRUE(box.overlaps(box_of(patch.x, t)));
 }
 
+TEST(Patch, what_passes_through_all_of_it_is_no_obstacle) {
+  Scene scene = shapes::scene_of(shapes::crossing_bumps(10, 0.4));
+  const Index of_sheet = scene.triangle_count() / 2;
+  std::vector<Index> free;
+  for (const Index v : scene.triangles[of_sheet / 2]) free.push_back(v);
+  std::sort(free.begin(), free.end());
+  const auto is_obstacle = [&](const Patch& patch, Index sheet) {
+    return std::any_of(patch.faces.begin() + patch.active_count, patch.faces.end(),
+                       [&](Index t) { return t / of_sheet == sheet; });
+  };
+  ASSERT_TRUE(is_obstacle(cut_patch(scene, SceneIndex(scene), free, 5), 1));
+  const PassingParts parts(2, std::vector<std::array<Index, 2>>{{0, 1}});
+  scene.parts = &parts;
+  for (Index t = 0; t < scene.triangle_count(); ++t) scene.part_of.push_back(t / of_sheet);
+  const Patch patch = cut_patch(scene, SceneIndex(scene), free, 5);
+  EXPECT_FALSE(is_obstacle(patch, 1));
+  EXPECT_TRUE(is_obstacle(patch, 0));
+  ASSERT_EQ(patch.part_of.size(), patch.faces.size());
+  // One triangle that may not pass suffices.
+  scene.part_of[scene.triangles_of_vertex[free[0]].front()] = 1;
+  EXPECT_TRUE(is_obstacle(cut_patch(scene, SceneIndex(scene), free, 5), 1));
+}
+
 }  // namespace
 }  // namespace unsnarl

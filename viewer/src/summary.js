@@ -9,6 +9,7 @@ const statuses = {
   reduced: ['Self-intersections left', 'bad'],
   no_progress: ['No progress', 'bad'],
   obstructed: ['Obstructed', 'fair'],
+  allowed: ['No self-intersections but allowed ones', 'good'],
   not_nested: ['Not nested as asked', 'fair'],
   time_limit: ['Time limit reached', 'fair'],
   memory_limit: ['Memory limit reached', 'fair'],
@@ -18,9 +19,10 @@ const statuses = {
 };
 
 /** The mesh in one phrase, and its mood: by the report, or by the pairs that are left. */
-export function statusOf({ report }, before, after) {
+export function statusOf({ report, allowed }, before, after) {
   if (report && statuses[report.status]) return statuses[report.status];
   const shown = after ?? before;
+  if (shown.count === 0 && (after ? allowed?.after : allowed?.before)) return statuses.allowed;
   return shown.count === 0 ? ['No self-intersections', 'good']
     : [plural(shown.count, 'intersecting pair', 'intersecting pairs'), 'bad'];
 }
@@ -68,8 +70,10 @@ function gapInWords({ gap, min_gap_rel: met, diagonal }) {
 function reportFacts(report) {
   const gap = gapInWords(report);
   const regions = report.regions?.length ?? 0;
+  const allowed = (report.allowed?.before.total ?? 0) + (report.allowed?.after.total ?? 0);
   return facts([
     regions ? ['conflict regions', count(regions)] : null,
+    allowed ? ['pairs that may intersect', `${count(report.allowed.before.total)} before, ${count(report.allowed.after.total)} after`] : null,
     gap ? [report.gap ? 'smallest gap' : 'smallest gap met', gap] : null,
     ['area', `${percent(report.area_change_rel)} change`],
     report.volume_change_rel ? ['volume', `${percent(report.volume_change_rel)} change`] : null,

@@ -88,6 +88,8 @@ void take_report(Record& record, const Record& report) {
   record["components"] = at("/topology/components");
   record["pairs_before"] = at("/before/total");
   record["pairs_left"] = at("/after/total");
+  record["allowed_before"] = at("/allowed/before/total");
+  record["allowed_after"] = at("/allowed/after/total");
   for (const char* side : {"before", "after"}) {
     const Record by_class = at(fmt::format("/{}/by_class", side).c_str());
     for (const auto& [kind, number] : by_class.items()) record[fmt::format("{}_{}", side, kind)] = number;
@@ -109,6 +111,7 @@ const std::vector<std::string>& record_columns() {
     names.insert(names.end(), {"dihedral_deg", "gap_rel"});
     for (const char* side : {"before", "after"})
       for (const auto& kind : pair_class_names) names.push_back(fmt::format("{}_{}", side, kind));
+    names.insert(names.end(), {"allowed_before", "allowed_after"});
     names.insert(names.end(),
                  {"obstructions", "left_because", "message", "output", "partial", "input_sha256", "output_sha256"});
     return names;

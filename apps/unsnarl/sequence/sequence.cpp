@@ -82,7 +82,7 @@ Json jitter_json(const std::optional<Jitter>& jitter) {
 }
 
 bool is_good(Status status) {
-  return status == Status::embedded || status == Status::obstructed || status == Status::gap_not_met;
+  return is_resolved(status) || status == Status::obstructed;
 }
 
 class SequenceRun {
@@ -162,8 +162,15 @@ class SequenceRun {
     Json asked = Json::parse(unsnarl::report_json({}, sequence_.repair))["options"];
     asked.erase("threads");  // they change no byte
     const std::vector<std::uint8_t>& fixed = sequence_.repair.fixed;
-    asked_for_ = sha256(asked.dump() + sha256(std::string(fixed.begin(), fixed.end())) +
+    asked_for_ = sha256(asked.dump() + sha256(std::string(fixed.begin(), fixed.end())) + what_may_pass() +
                         (options_.recompute_normals ? "normals" : "") + sha256_of_file("/proc/self/exe"));
+  }
+
+  /// A text that differs wherever other pairs are allowed; empty: none is.
+  std::string what_may_pass() const {
+    const AllowedPairs& allowed = sequence_.repair.find.allowed;
+    if (allowed.empty()) return {};
+    return sha256(fmt::format("{} {}", fmt::join(allowed.part_of_face, ","), Json(allowed.parts).dump()));
   }
 
   /// Hashes everything that decides what a frame becomes.
@@ -244,17 +251,24 @@ class SequenceRun {
     return status_from_name(report.value("status", std::string()));
   }
 
-  /// The exit code is that of the first frame that is not embedded; frames whose gap is not met give way to others, and
-  /// so do obstructed ones, but to those.
+  /// The exit code is that of the first frame that is not written whole; else of an obstructed one, an allowed one, one
+  /// whose gap is not met.
   void note_status(Status status) {
-    const ExitCode code = exit_code_of(status);
-    const auto weight = [](int of) {
-      return of == exit_embedded ? 0 : of == exit_gap_not_met ? 1 : of == exit_obstructed ? 2 : 3;
+    const auto rank = [](ExitCode code) {
+      switch (code) {
+        case exit_embedded: return 0;
+        case exit_gap_not_met: return 1;
+        case exit_allowed: return 2;
+        case exit_obstructed: return 3;
+        default: return 4;
+      }
     };
-    if (weight(code) > weight(exit_code_)) exit_code_ = code;
+    const ExitCode code = exit_code_of(status);
+    if (rank(code) > rank(exit_code_)) exit_code_ = code;
   }
 
   struct Summary {
+    std::size_t allowed_before = 0, allowed_after = 0;  // pairs
     std::size_t frames = 0, pairs_before = 0, pairs_after = 0, with_pairs = 0, smoothed = 0, jitter_frames = 0;
     double displacement_mean = 0, displacement_max = 0;  // / diagonal of each frame
     double mean_length = 0, max_length = 0;              // the same in the units of the file
@@ -295,6 +309,8 @@ SequenceRun::Summary SequenceRun::summary() const {
     ++sum.frames;
     sum.pairs_before += frame["before"]["total"].get<std::size_t>();
     sum.pairs_after += frame["after"]["total"].get<std::size_t>();
+    sum.allowed_before += frame["allowed"]["before"]["total"].get<std::size_t>();
+    sum.allowed_after += frame["allowed"]["after"]["total"].get<std::size_t>();
     sum.with_pairs += frame["before"]["total"] != 0;
     sum.smoothed += frame["is_smoothed"].get<bool>();
     sum.displacement_mean += report.displacement_mean_rel;
@@ -382,6 +398,8 @@ void SequenceRun::summarise() {
   display_.say("{} frame{} of {} vertices, {} faces{}", frames, s(frames), mesh.vertex_count(), mesh.face_count(),
                done_before_ > 0 ? fmt::format("; {} were done before", done_before_) : "");
   display_.say("  intersecting pairs before: {}, in {} frame{}", sum.pairs_before, sum.with_pairs, s(sum.with_pairs));
+  if (sum.allowed_before + sum.allowed_after > 0)
+    display_.say("  pairs that may intersect:  {} before, {} after", sum.allowed_before, sum.allowed_after);
   display_.say("  intersecting pairs after:  {}", sum.pairs_after == 0 ? "none" : std::to_string(sum.pairs_after));
   if (sum.frames > 0)
     display_.say(

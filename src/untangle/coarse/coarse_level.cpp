@@ -72,7 +72,16 @@ CoarseLevel make_level(const CoarseMesh& coarse, const Patch& patch) {
   }
   level.scene = make_scene(std::move(rest), std::move(triangles), std::move(fixed));
   level.scene.x = std::move(x);
+  level.scene.parts = patch.parts;
+  level.scene.part_of = parts_of(coarse.mesh, patch);
   return level;
+}
+
+std::vector<Index> parts_of(const ProgressiveMesh& mesh, const Patch& patch) {
+  std::vector<Index> parts;
+  if (!patch.part_of.empty())
+    for (const Index t : mesh.faces()) parts.push_back(patch.part_of[t]);
+  return parts;
 }
 
 void take_over(const CoarseLevel& level, CoarseMesh& coarse) {

@@ -26,6 +26,9 @@ struct CoarseMesh {
 /// Simplifies the mesh until it has so many active faces, or as few as it can have. Returns how many it has.
 std::size_t coarsen(CoarseMesh& coarse, const Patch& patch, double faces, const std::function<bool()>& stop);
 
+/// The part (Patch::part_of) of each face of a mesh that the patch was made into; empty where the patch has none.
+std::vector<Index> parts_of(const ProgressiveMesh& mesh, const Patch& patch);
+
 /// A coarse mesh as it is now, as a scene of its own.
 struct CoarseLevel {
   Scene scene;

@@ -183,7 +183,7 @@ CoarseResult solve_on_coarser_mesh(Patch& patch, const Task& task, const CoarseO
   assert(std::is_sorted(task.tolerated.begin(), task.tolerated.end()));
   assert(task.untangle);
   CoarseResult result;
-  IntersectionFinder finder(patch.triangles, patch.active_count);
+  IntersectionFinder finder(patch.triangles, patch.active_count, patch.passing());
   const auto count_pairs = [&](const Positions& x) {
     const std::size_t count = blocking_pairs(finder.find(x), task.tolerated).size();
     record(patch, x, {.pairs = count});

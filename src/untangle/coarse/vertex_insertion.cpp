@@ -9,6 +9,7 @@
 
 #include "contact/intersection_finder.h"
 #include "mesh/areas.h"
+#include "untangle/coarse/coarse_level.h"
 
 namespace unsnarl {
 namespace {
@@ -151,16 +152,16 @@ Places places_for(const Removal& removal, std::span<const Triangle> star, const 
 /// Puts vertices back, each at the first of its places where its star is in no new pair.
 class Insertion {
  public:
-  /// `triangles`: the mesh with these vertices, the first `active_count` of which count; star_of: of each triangle the
-  /// number of the vertex in whose star it is, or -1.
+  /// `triangles`: the mesh with these vertices; `finder`: of its pairs that count; star_of: of each triangle the number
+  /// of the vertex in whose star it is, or -1.
   Insertion(std::span<const Removal> removals, std::vector<Places> places, const std::vector<Triangle>& triangles,
-            std::span<const Index> star_of, Index active_count, const Positions& start)
+            std::span<const Index> star_of, IntersectionFinder finder, const Positions& start)
       : removals_(removals),
         places_(std::move(places)),
         triangles_(triangles),
         star_of_(star_of),
         start_(start),
-        finder_(triangles, active_count),
+        finder_(std::move(finder)),
         searches_(removals.size()) {}
 
   void run(Positions& x) {
@@ -259,6 +260,13 @@ class Insertion {
   std::vector<PlaceSearch> searches_;
 };
 
+/// Finds the pairs of active triangles of a mesh; `triangles` and `parts`: those of the mesh.
+IntersectionFinder finder_of(std::span<const Triangle> triangles, std::span<const Index> parts,
+                             const ProgressiveMesh& mesh, const Patch& patch) {
+  const Passing passing = parts.empty() ? Passing() : Passing({}, parts, *patch.parts);
+  return {triangles, static_cast<Index>(mesh.count_below(patch.active_count)), passing};
+}
+
 }  // namespace
 
 bool is_at(const Triangle& t, const Positions& x, const Positions& other) {
@@ -281,8 +289,9 @@ std::vector<Removal> insert_vertices(const Patch& patch, const ProgressiveMesh& 
   }
   for (const Index t : mesh.faces()) star_of.push_back(star_of_face[t]);
   const std::vector<Triangle> triangles = mesh.triangles();
-  const auto active_count = static_cast<Index>(mesh.count_below(patch.active_count));
-  Insertion insertion(removals, std::move(places), triangles, star_of, active_count, patch.x);
+  const std::vector<Index> parts = parts_of(mesh, patch);
+  Insertion insertion(removals, std::move(places), triangles, star_of, finder_of(triangles, parts, mesh, patch),
+                      patch.x);
   insertion.run(x);
   std::vector<Removal> displaced;
   for (std::size_t r = 0; r < removals.size(); ++r)
@@ -295,7 +304,8 @@ void offer_better_places(const Patch& patch, const ProgressiveMesh& mesh, const 
   const std::vector<Triangle> triangles = mesh.triangles();
   std::vector<Index> number(patch.vertices.size(), -1);
   for (std::size_t r = 0; r < displaced.size(); ++r) number[displaced[r].vertex] = static_cast<Index>(r);
-  IntersectionFinder finder(triangles, static_cast<Index>(mesh.count_below(patch.active_count)));
+  const std::vector<Index> parts = parts_of(mesh, patch);
+  IntersectionFinder finder = finder_of(triangles, parts, mesh, patch);
   for (const double share : {1.0, 0.5}) {
     const Positions before = x;
     std::vector<std::uint8_t> is_trying(displaced.size(), 1);

@@ -212,7 +212,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   const SmoothingMetric metric(patch, edges, strategy.locality * h);
   if (!metric.ok()) return {};
   const LocalProblem problem{patch, strategy, options, tolerated, start, edges, metric};
-  IntersectionFinder finder(patch.triangles, patch.active_count);
+  IntersectionFinder finder(patch.triangles, patch.active_count, patch.passing());
   PenaltyForce penalty(patch, options.margin * h);
   const FlipGuard guard(patch, in_conflict(patch, finder.find(start)));
 

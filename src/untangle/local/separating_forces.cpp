@@ -9,6 +9,7 @@ namespace unsnarl {
 
 PenaltyForce::PenaltyForce(const Patch& patch, double margin)
     : triangles_(patch.triangles),
+      passing_(patch.passing()),
       margin_(margin),
       penalty_(patch.triangles, {.margin = margin}),
       tree_(patch.triangles, patch.active_count) {}
@@ -21,7 +22,9 @@ void PenaltyForce::set_margin(double margin) {
 void PenaltyForce::add(const Positions& x, Positions& force) {
   tree_.update(x, 0.5 * margin_);
   std::vector<std::vector<MinkowskiPenalty::Pair>> found(tree_.task_count());
-  tree_.self_pairs([&](Index task, Index a, Index b) { found[task].push_back({a, b}); });
+  tree_.self_pairs([&](Index task, Index a, Index b) {
+    if (passing_.meet(triangles_, a, b)) found[task].push_back({a, b});
+  });
   gather_sorted(found);
   penalty_.value_and_gradient(x, force, -1);
 }

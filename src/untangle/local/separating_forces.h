@@ -12,7 +12,8 @@
 
 namespace unsnarl {
 
-/// The Minkowski penalty (paper §3.2) of all pairs of a patch's triangles within a margin of each other.
+/// The Minkowski penalty (paper §3.2) of all pairs of a patch's triangles within a margin of each other
+/// that do not pass through each other.
 class PenaltyForce {
  public:
   /// `margin`: a length. The patch must outlive this.
@@ -26,6 +27,7 @@ class PenaltyForce {
   void gather_sorted(const std::vector<std::vector<MinkowskiPenalty::Pair>>& lists);
 
   std::span<const Triangle> triangles_;
+  Passing passing_;
   double margin_;
   std::vector<Index> ends_;  // of the pairs of each first triangle
   MinkowskiPenalty penalty_;
