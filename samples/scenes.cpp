@@ -85,7 +85,7 @@ Surface stool(int resolution, const SampleValues& values) {
   const double depth = values["depth"], thickness = 0.16, leg = 0.11, rung = 0.06, slant = 0.16;
   MeshBuilder builder;
   builder.append(sample_sphere(std::max(2, resolution / 4), FaceKind::quads, [&](const Vec3& d) {
-    const double round = std::pow(std::pow(std::hypot(d[0], d[2]), 6) + std::pow(d[1], 6), 1.0 / 6);
+    const double round = std::pow(std::pow(std::sqrt(d[0] * d[0] + d[2] * d[2]), 6) + std::pow(d[1], 6), 1.0 / 6);
     return Vec3(d[0] / round, thickness * d[1] / round, d[2] / round);
   }));
   const double top = -thickness + depth, length = 1.7;

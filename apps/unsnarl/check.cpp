@@ -7,6 +7,7 @@
 #include <new>
 
 #include "file_places.h"
+#include "gap_words.h"
 #include "memory_guard.h"
 #include "mesh_input.h"
 #include "pair_class_words.h"
@@ -14,6 +15,7 @@
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/check.h"
+#include "unsnarl/clearance.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/parts.h"
 #include "unsnarl/report_json.h"
@@ -96,6 +98,7 @@ std::string as_text(const CheckReport& found, const CheckOptions& options, const
          " (--allow)");
   if (found.counts.total() == 0) {
     line(found.allowed.total() > 0 ? "no other self-intersections" : "no self-intersections");
+    if (found.gap) line(gap_in_words(*found.gap, diagonal_of(surface)));
     return text;
   }
   line(fmt::format("{}: {} in {}; {} within a component, {} between two",
@@ -165,6 +168,11 @@ CheckLimits limits_of(const CheckOptions& options) {
   return limits;
 }
 
+GapReport measured(const CheckOptions& options, const FindOptions& find, const SurfaceView& surface) {
+  const double diagonal = diagonal_of(surface);
+  return measure_gap(surface, options.absolute && diagonal > 0 ? options.min_gap / diagonal : options.min_gap, find);
+}
+
 int checked(const CheckOptions& options, Interruption& interruption) {
   if (options.pairs == standard_stream) throw UsageError("--pairs needs a file name, not '-'");
   const MemoryGuard memory_guard(options.memory_limit_mb);
@@ -179,6 +187,7 @@ int checked(const CheckOptions& options, Interruption& interruption) {
   const FindOptions find = options.find_in(scene);
   CheckReport found = check(scene.surface(), find, limits_of(options));
   name_components(scene, found);
+  if (options.min_gap > 0 && found.counts.total() == 0) found.gap = measured(options, find, scene.surface());
   const ReportFiles files = described(options, scene, found);
   display.clear();
   if (!options.pairs.empty()) write_file(options.pairs, pairs_table(found.pairs), interruption);
@@ -191,7 +200,9 @@ int checked(const CheckOptions& options, Interruption& interruption) {
   const auto is_any = [&](const PairCounts& pairs) {
     return (options.goal_wanted() == Goal::all ? pairs.total() : pairs[PairClass::disjoint]) > 0;
   };
-  return is_any(found.counts) ? exit_intersecting : is_any(found.allowed) ? exit_allowed : exit_embedded;
+  if (is_any(found.counts)) return exit_intersecting;
+  if (is_any(found.allowed)) return exit_allowed;
+  return found.gap && !found.gap->is_met() ? exit_gap_not_met : exit_embedded;
 }
 
 }  // namespace
@@ -203,10 +214,22 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
       .add_option("--pairs", options.pairs,
                   "Write all intersecting pairs of faces: the ids of both, counted from 0, and the class")
       ->type_name("FILE.csv");
+  command
+      .add_option("--min-gap", options.min_gap,
+                  "Find the smallest gap between surfaces, and say whether it is at least this, a fraction of the "
+                  "bounding-box diagonal. 0 (default): no gap is looked for")
+      ->check(not_negative(unit::share_or_length))
+      ->type_name("NUMBER");
+  command.add_flag("--absolute", options.absolute, "--min-gap is a length in the units of the file");
   add_time_limit(command, options.time_limit_s);
   add_memory_limit(command, options.memory_limit_mb);
   add_mesh_options(command, options);
   add_allow(command, options.allow, options_of_reading);
+  command.final_callback([&command, &options] {
+    options.require_effect();
+    if (options.absolute && command.count("--min-gap") == 0)
+      throw UsageError("--absolute has an effect only with --min-gap; add it, or leave --absolute out");
+  });
   command.footer(std::string("Classes of pairs:\n"
                              "  disjoint    the faces share no vertex\n"
                              "  one_vertex  they share one vertex, and meet elsewhere too\n"
@@ -222,7 +245,8 @@ void add_check_options(CLI::App& command, CheckOptions& options) {
                  exit_codes({{exit_embedded, "no self-intersections"},
                              {exit_intersecting, "self-intersections found"},
                              {exit_limit, "limit of time or memory reached"},
-                             {exit_allowed, "only pairs that --allow lets pass intersect"}}));
+                             {exit_allowed, "only pairs that --allow lets pass intersect"},
+                             {exit_gap_not_met, "no self-intersections, but a gap is smaller than --min-gap asks"}}));
 }
 
 int run_check(const CheckOptions& options, Interruption& interruption) {

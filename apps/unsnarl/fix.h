@@ -21,6 +21,7 @@ struct FixOptions : MeshOptions {
   double time_limit_s = 0, memory_limit_mb = 0;
   double min_dihedral_deg = 0;
   double max_displacement = 0, min_gap = 0;  ///< fractions of the diagonal, or lengths if `absolute`
+  bool gap_near_conflicts = false;           ///< min_gap is asked for only there
   bool absolute = false;
   std::string fix_vertices;
   bool fix_boundary = false;

@@ -132,11 +132,15 @@ void add_usual_options(CLI::App& command, FixOptions& options) {
       ->check(not_negative(unit::share_or_length))
       ->type_name("NUMBER");
   command
-      .add_option("--min-gap", options.min_gap,
-                  "Distance to keep between surfaces, as a fraction of the bounding-box diagonal. 0 (default): where "
-                  "they had to be moved apart, as little as is safe")
+      .add_option(
+          "--min-gap", options.min_gap,
+          "Distance to keep between surfaces, as a fraction of the bounding-box diagonal. Where it is less, also "
+          "where nothing intersects, they are moved apart. 0 (default): where they intersected, as little as is "
+          "safe")
       ->check(not_negative(unit::share_or_length))
       ->type_name("NUMBER");
+  command.add_flag("--gap-near-conflicts", options.gap_near_conflicts,
+                   "With --min-gap: keep that distance only around what intersects, and do not measure it");
   command.add_flag("--absolute", options.absolute,
                    "--max-displacement and --min-gap are lengths in the units of the file");
   CLI::Option* const keep_partial = command.add_flag(
@@ -278,6 +282,8 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
       throw UsageError(
           "--absolute has an effect only with --max-displacement or --min-gap; add one of them, or leave "
           "--absolute out");
+    if (options.gap_near_conflicts && command.count("--min-gap") == 0)
+      throw UsageError("--gap-near-conflicts has an effect only with --min-gap; add it, or leave the other out");
   });
   add_outputs_to_look_at(command, options);
   add_what_may_move(command, options);
@@ -306,7 +312,8 @@ void add_fix_options(CLI::App& command, FixOptions& options) {
                   {exit_obstructed,
                    "everything was repaired that can be repaired with these options;\n      or with --nested: a "
                    "surface is on the wrong side"},
-                  {exit_allowed, "no self-intersections but those that --allow lets pass"}}) +
+                  {exit_allowed, "no self-intersections but those that --allow lets pass"},
+                  {exit_gap_not_met, "no self-intersections, but a gap is smaller than --min-gap asks"}}) +
       "\n\n"
       "With --only-... and --each, 0 still means that the whole file has no self-intersections. If only the parts that "
       "these options leave out still intersect, the result is written and the exit code is 7.");
@@ -371,6 +378,7 @@ RepairOptions repair_options(const FixOptions& options, const SceneDocument& sce
   const double unit = options.absolute && diagonal > 0 ? 1 / diagonal : 1;
   result.max_displacement_rel = options.max_displacement * unit;
   result.min_gap_rel = options.min_gap * unit;
+  result.gap_near_conflicts = options.gap_near_conflicts;
   result.min_dihedral_deg = options.min_dihedral_deg;
   result.time_limit_s = options.time_limit_s;
   result.memory_limit_mb = options.memory_limit_mb;

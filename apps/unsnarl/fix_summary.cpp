@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gap_words.h"
 #include "mesh_input.h"
 #include "pair_class_words.h"
 #include "unsnarl/visible_text.h"
@@ -42,6 +43,8 @@ std::string_view explanation(Status status, Goal goal) {
     case Status::displacement_exceeded:
       return "displacement exceeded: the remaining intersections need a vertex to move farther than allowed";
     case Status::cancelled: return "interrupted";
+    case Status::gap_not_met:
+      return "gap not met: no self-intersection is left, but surfaces are closer than --min-gap asks";
   }
   return "unknown status";
 }
@@ -203,6 +206,7 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
   for (const std::string& words : far_regions(r)) line("  " + words);
   for (const std::string& words : changed_in_words(r)) line("  " + words);
   if (!r.overlapping_components.empty()) line("  advice: " + advice_on_overlaps(r.overlapping_components));
+  if (r.gap) line("  " + gap_in_words(*r.gap, r.diagonal));
   if (options.min_dihedral_deg > 0 && files.clearance_after)
     line(dihedral_in_words(*files.clearance_after, options.min_dihedral_deg));
   if (result.status == Status::displacement_exceeded && r.displacement_lower_bound_rel > options.max_displacement_rel)

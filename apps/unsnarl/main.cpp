@@ -106,7 +106,8 @@ int run(int argc, char** argv) {
                              {exit_intersecting, "self-intersections are left (check: found)"},
                              {exit_limit, "limit of time, memory or displacement reached"},
                              {exit_obstructed, "everything was repaired that can be repaired with these options"},
-                             {exit_allowed, "only pairs that --allow lets pass intersect"}}) +
+                             {exit_allowed, "only pairs that --allow lets pass intersect"},
+                             {exit_gap_not_met, "no self-intersections, but a gap is smaller than --min-gap asks"}}) +
                  "\n\n"
                  "'unsnarl COMMAND --help' explains the options of a command.");
   const std::vector<std::string> words = with_usual_spelling({argv + 1, argv + argc});

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,7 @@ struct CheckReport {
   std::size_t closed_non_orientable = 0;                     ///< components that have no embedding in space
   std::size_t intersecting_components = 0;                   ///< with a face in any pair
   std::size_t pairs_within_components = 0;                   ///< of two faces of one component
+  std::optional<GapReport> gap;                              ///< see measure_gap(); none: check() does not measure it
   std::string triangulation;  ///< how the polygons were split into triangles, one sentence
 };
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "unsnarl/intersections.h"
+#include "unsnarl/report.h"
 #include "unsnarl/surface.h"
 
 namespace unsnarl {
@@ -32,5 +33,10 @@ struct Clearance {
 /// false. Throws std::invalid_argument as certify() does.
 Clearance measure_clearance(const SurfaceView& input, std::span<const double> positions,
                             const FindOptions& options = {}, bool is_embedded = false);
+
+/// The smallest gap between two sheets of a surface without self-intersections (see GapReport), as a repair with this
+/// RepairOptions::min_gap_rel measures it that leaves all as it is. asked_rel: a finite number >= 0. Throws
+/// std::invalid_argument as find_intersections does, and where asked_rel is out of range.
+GapReport measure_gap(const SurfaceView& surface, double asked_rel, const FindOptions& options = {});
 
 }  // namespace unsnarl

@@ -16,6 +16,7 @@ enum ExitCode : int {
   exit_obstructed = 7,
   exit_allowed = 8,       ///< nothing intersects but what may pass through each other
   exit_system_error = 9,  ///< the system failed (no descriptors, no memory, a read error); may succeed later
+  exit_gap_not_met = 10,
   exit_internal_error = 70,
 };
 
@@ -31,6 +32,7 @@ constexpr ExitCode exit_code_of(Status status) {
     case Status::memory_limit:
     case Status::displacement_exceeded: return exit_limit;
     case Status::cancelled: return exit_cancelled;
+    case Status::gap_not_met: return exit_gap_not_met;
   }
   return exit_internal_error;
 }

@@ -59,9 +59,11 @@ struct RepairOptions {
   std::vector<std::int32_t> rigid;
   std::vector<std::string> rigid_names;  ///< of these parts, for reports; missing ones are their numbers
   bool each_component = false;  ///< repair every component as if alone; what runs through others may do so still
-  /// Wanted gap between sheets / bounding-box diagonal, at most 8 mean widths of the faces (GapTooWide); 0: a few
-  /// units in the last place of the precision in which the result holds.
+  /// Wanted gap between sheets / bounding-box diagonal, at most 8 mean widths of the faces (GapTooWide). Gaps that are
+  /// too small are opened, also where nothing intersects; see GapReport for what a gap is. 0: where faces intersect, a
+  /// few units in the last place of the precision in which the result holds.
   double min_gap_rel = 0;
+  bool gap_near_conflicts = false;  ///< open gaps only around what intersects, measure none, and promise none
   /// Two faces at an edge that are folded together closer than this angle, in degrees, in [0, 90), are opened to it
   /// after the repair, as far as nothing is in the way; also where nothing intersects. 0: left as they are.
   double min_dihedral_deg = 0;
@@ -92,7 +94,8 @@ struct RepairOptions {
 };
 
 /// RepairOptions::min_gap_rel is more than 8 times as wide as the faces, by the mean side of equilateral triangles of
-/// their areas, and gaps are to be opened: the surface intersects itself, or dihedral angles are to be opened.
+/// their areas; with RepairOptions::gap_near_conflicts only where the surface intersects itself or dihedral angles are
+/// to be opened.
 class GapTooWide : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;

@@ -53,8 +53,9 @@ struct RepairedFiles {
 
 /// Repairs a mesh file. `out` is given the format of `in`; empty with RepairFileOptions::in_place.
 ///
-/// An embedded result is written, an allowed one, and one that is obstructed, where it is not the input. Any other goes
-/// to OUT.partial.EXT where it is better than the input, and `out` is not touched (see keep_partial, no_partial).
+/// An embedded result is written (also where a gap is not met), an allowed one, and one that is obstructed, where it is
+/// not the input. Any other goes to OUT.partial.EXT where it is better than the input, and `out` is not touched (see
+/// keep_partial, no_partial).
 ///
 /// Throws before the work: std::invalid_argument for options and places that make no sense (another format, an output
 /// that would overwrite an input), FileError for an input that cannot be read, WriteError for a place that cannot be

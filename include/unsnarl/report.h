@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,8 +16,8 @@
 
 namespace unsnarl {
 
-/// How a repair ended. Only `embedded` promises a surface without self-intersections, `allowed` one that has none but
-/// those of FindOptions::allowed.
+/// How a repair ended. Only `embedded` and `gap_not_met` promise a surface without self-intersections, `allowed` one
+/// that has none but those of FindOptions::allowed.
 enum class Status : std::uint8_t {
   embedded,     ///< no two faces meet anywhere but in the hull of the vertices they share
   reduced,      ///< fewer intersecting pairs than the input, but not none
@@ -30,12 +31,13 @@ enum class Status : std::uint8_t {
   /// Some self-intersections are left, since resolving them moves a vertex too far; or a vertex of the result is
   /// farther away than allowed, also where no self-intersection is left.
   displacement_exceeded,
-  cancelled,  ///< stopped by Context::cancel
+  cancelled,    ///< stopped by Context::cancel
+  gap_not_met,  ///< embedded, but the smallest gap fell short of RepairOptions::min_gap_rel by more than 1 %
 };
 std::string_view to_string(Status status);
-/// No pair is left that had to be resolved: embedded, or allowed.
+/// No pair is left that had to be resolved: embedded, whatever the gaps, or allowed.
 constexpr bool is_resolved(Status status) {
-  return status == Status::embedded || status == Status::allowed;
+  return status == Status::embedded || status == Status::gap_not_met || status == Status::allowed;
 }
 
 /// Number format the repaired positions must stay embedded in.
@@ -181,6 +183,23 @@ struct LeftPair {
 /// report_json() lists so many of the pairs that are left at most; it counts all.
 inline constexpr std::size_t most_left_pairs_listed = 1000;
 
+/// The smallest gap between two sheets of the result, where RepairOptions asks for gaps everywhere. Two sheets are two
+/// components, or parts of one that are not near along the surface in the input. Of one sheet are faces that share a
+/// vertex or that a third one joins, and those that the surface joins within a ball around the middle between them; its
+/// radius is the gap asked for, or 4 times their distance if that is more.
+struct GapReport {
+  double asked_rel = 0;  ///< RepairOptions::min_gap_rel
+  /// Computed in double from the positions as they are written / bounding-box diagonal; infinite: no gap is less than
+  /// twice what was asked for.
+  double smallest_rel = std::numeric_limits<double>::infinity();
+  std::array<std::int32_t, 2> faces = {-1, -1};  ///< the two; -1: there are none
+  std::array<double, 3> position = {0, 0, 0};    ///< the middle between their closest points
+  bool is_between_held = false;                  ///< none of their vertices may move, or all are of one rigid part
+
+  /// Falls short by 1 % at most.
+  bool is_met() const { return smallest_rel >= 0.99 * asked_rel; }
+};
+
 struct StageReport {
   std::string name;
   double seconds = 0;         ///< of the clock
@@ -206,6 +225,7 @@ struct RepairReport {
   std::size_t flipped_triangles = 0;                   ///< normals rotated by more than 90 degrees
   std::size_t flipped_triangles_without_conflict = 0;  ///< of these: not in an intersecting pair of the input
   double min_gap_rel = 0;                              ///< smallest gap met in recovery; 0: no contact was active
+  std::optional<GapReport> gap;                        ///< none: no gap was asked for everywhere
   double volume_change_rel = 0;                        ///< of signed volumes, after / before - 1: of the closed,
                                                        ///< orientable component where it changed most
   double area_change_rel = 0;

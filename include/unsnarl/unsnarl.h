@@ -137,7 +137,8 @@ typedef struct unsnarl_options {
   const char* precision;   /* numbers the result must hold in: "float32", "float64", "auto": float32 where the
                               coordinates allow it (default) */
   double min_gap;          /* wanted gap between sheets, a fraction of the diagonal of the bounding box, >= 0 and no
-                              more than 8 mean widths of the faces; 0: just enough to be safe (default) */
+                              more than 8 mean widths of the faces: smaller ones are opened; 0: just enough to be safe
+                              where faces intersect (default) */
   double max_displacement; /* how far any vertex may move, a fraction of the diagonal, >= 0; 0: any distance. Default
                               0 */
   int32_t absolute;        /* min_gap and max_displacement are lengths in the units of the positions. Default 0 */
@@ -193,6 +194,9 @@ typedef struct unsnarl_options {
   /* unsnarl_document_repair */
   int32_t keep_partial; /* write an unfinished result to its place. Default 0 */
   int32_t no_partial;   /* do not keep an unfinished result beside its place. Default 0 */
+
+  /* unsnarl_repair, unsnarl_repair_sequence, unsnarl_document_repair */
+  int32_t gap_near_conflicts; /* open gaps to min_gap only around what intersects, and promise none. Default 0 */
 } unsnarl_options;
 
 /* Sets all options to their defaults. size: sizeof(unsnarl_options). */
@@ -235,9 +239,10 @@ typedef struct unsnarl_array {
 } unsnarl_array;
 
 /* How the work ended: "embedded", "reduced", "no_progress", "obstructed", "allowed", "not_nested", "time_limit",
- * "memory_limit", "displacement_exceeded" or "cancelled"; only "embedded" promises that nothing intersects and meshes
- * lie inside each other as `nested` asks; "allowed" promises that nothing intersects but pairs of `allowed`; of
- * "not_nested" it holds that nothing intersects. "" where nothing was to be moved. */
+ * "memory_limit", "displacement_exceeded", "gap_not_met" or "cancelled"; only "embedded" promises that nothing
+ * intersects, gaps are as min_gap asks and meshes lie inside each other as `nested` asks; "allowed" promises that
+ * nothing intersects but pairs of `allowed`; of "not_nested" and "gap_not_met" it holds that nothing intersects. ""
+ * where nothing was to be moved. */
 UNSNARL_EXPORT const char* unsnarl_result_status(const unsnarl_result* result);
 /* What was found, as JSON: an object, or for sequences an array of them. */
 UNSNARL_EXPORT const char* unsnarl_result_report(const unsnarl_result* result);
@@ -289,8 +294,8 @@ UNSNARL_EXPORT int unsnarl_repair(const unsnarl_surface* surface, const unsnarl_
  * (docs/sequences.md). surface->positions holds frame_count times vertex_count positions, one frame after another.
  *
  * Arrays: "positions" (frames wanted * n, 3) float64. Report: an array of one object a frame, as the list of the report
- * of `unsnarl fix --sequence` has it. Status: that of the first frame that is neither "embedded" nor "allowed"; where
- * all are, "allowed" if one is. */
+ * of `unsnarl fix --sequence` has it. Status: that of the first frame that is none of "embedded", "allowed" and
+ * "gap_not_met"; where all are, "allowed" if one is, else "gap_not_met" if one is. */
 UNSNARL_EXPORT int unsnarl_repair_sequence(const unsnarl_surface* surface, size_t frame_count,
                                            const unsnarl_options* options, unsnarl_context* context,
                                            unsnarl_result** result);
@@ -369,11 +374,11 @@ UNSNARL_EXPORT int unsnarl_document_recompute_normals(unsnarl_document* document
  *
  * path: the file, which gets the format of the input; of several files the folder where all go under their names, made
  * where it is missing; NULL: the input is overwritten (not of several files). surface: of unsnarl_document_surface,
- * with what must not move, is rigid, nested or may pass. An embedded result is written, an allowed one, and one that is
- * obstructed, where it is not the input; any other goes beside path where it is better than the input, in
- * out.partial.obj for out.obj (unless options->no_partial; with options->keep_partial to path). Places are checked
- * before the work. A file to be overwritten that somebody has changed since it was read is left as it is, the result is
- * kept beside it, and the error says so.
+ * with what must not move, is rigid, nested or may pass. An embedded result is written (also with "gap_not_met"), an
+ * allowed one, and one that is obstructed, where it is not the input; any other goes beside path where it is better
+ * than the input, in out.partial.obj for out.obj (unless options->no_partial; with options->keep_partial to path).
+ * Places are checked before the work. A file to be overwritten that somebody has changed since it was read is left as
+ * it is, the result is kept beside it, and the error says so.
  *
  * Array and report as of unsnarl_repair; the report's "output" tells what was written. See unsnarl_document_partial. */
 UNSNARL_EXPORT int unsnarl_document_repair(unsnarl_document* document, const unsnarl_surface* surface, const char* path,

@@ -71,6 +71,27 @@ def test_same_as_the_command_line_with_quads_and_fixed_vertices(tmp_path, sheets
     assert_same_report(result.report, report, exact=True)
 
 
+def two_sheets(apart):
+    grid = [(i / 4, j / 4) for i in range(5) for j in range(5)]
+    V = np.array([(x, y, z) for z in (0.0, apart) for x, y in grid])
+    quads = [(5 * i + j, 5 * i + j + 5, 5 * i + j + 6, 5 * i + j + 1) for i in range(4) for j in range(4)]
+    return V, np.array(quads + [tuple(v + 25 for v in q) for q in quads])
+
+
+def test_gaps_are_kept_wherever_sheets_are_near():
+    V, F = two_sheets(0.001)
+    result = unsnarl.repair(V, F, min_gap=0.02, absolute=True)
+    assert result.status == "embedded" and result.report["gap"]["met"]
+    assert result.V[25:, 2].min() - result.V[:25, 2].max() >= 0.0198
+    held = unsnarl.repair(V, F, np.ones(len(V), bool), min_gap=0.02, absolute=True)
+    assert held.status == "gap_not_met" and held.report["exit_code"] == 10
+    assert held.report["gap"]["between_held"]
+    assert held.report["gap"]["smallest"] == pytest.approx(0.001)
+    near = unsnarl.repair(V, F, min_gap=0.02, absolute=True, gap_near_conflicts=True)
+    assert near.status == "embedded" and near.report["gap"] is None
+    assert_same_bits(near.V, V)
+
+
 def test_same_as_the_command_line_in_float32(tmp_path, sheets):
     V, F = sheets
     source, target = tmp_path / "in.ply", tmp_path / "out.ply"

@@ -64,6 +64,7 @@ def batch(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -91,7 +92,7 @@ def batch(
     summary
         Repair nothing: read what is there, of all parts.
     retry
-        Try again what has not ended embedded, allowed or obstructed.
+        Try again what has not ended embedded, allowed, obstructed or gap_not_met.
     attempts
         How often a mesh is tried whose process dies, 1 to 100.
     thumbnails
@@ -101,8 +102,8 @@ def batch(
     threads
         For each mesh. 0: the processors divided by jobs.
     keep_partial, recompute_normals, format, fix_group, fix_object, fix_material, fix_component, fix_boundary, \
-only_group, only_object, only_material, only_component, allow, goal, precision, min_gap, min_dihedral, max_displacement, \
-absolute, weld, weld_tolerance, both_diagonals, each_component
+only_group, only_object, only_material, only_component, allow, goal, precision, min_gap, gap_near_conflicts, \
+min_dihedral, max_displacement, absolute, weld, weld_tolerance, both_diagonals, each_component
         As for fix, the same for every mesh.
 
     Raises ValueError for options that make no sense, OSError where the folder or the list cannot be read, or the folder
@@ -116,6 +117,7 @@ absolute, weld, weld_tolerance, both_diagonals, each_component
         goal=goal,
         precision=precision,
         min_gap=min_gap,
+        gap_near_conflicts=gap_near_conflicts,
         min_dihedral=min_dihedral,
         max_displacement=max_displacement,
         absolute=absolute,

@@ -36,6 +36,7 @@ class Status(str, enum.Enum):
     time_limit = "time_limit"  #: stopped by time_limit
     memory_limit = "memory_limit"  #: stopped by memory_limit
     displacement_exceeded = "displacement_exceeded"  #: some vertex had to move further than max_displacement
+    gap_not_met = "gap_not_met"  #: no two faces meet, but report["gap"] falls short of min_gap by more than 1 %
     cancelled = "cancelled"  #: not seen from Python, where what cancels is raised
 
     __str__ = str.__str__

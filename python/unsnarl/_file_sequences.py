@@ -57,6 +57,7 @@ def fix_sequence(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     max_displacement: float = 0.0,
     absolute: bool = False,
     time_limit: float = 0.0,
@@ -89,8 +90,8 @@ def fix_sequence(
     recompute_normals, format, fix_group, fix_object, fix_material, fix_component, fix_boundary, only_group, \
 only_object, only_material, only_component, allow
         As for fix.
-    goal, precision, min_gap, max_displacement, absolute, time_limit, memory_limit, weld, weld_tolerance, \
-both_diagonals, each_component, threads
+    goal, precision, min_gap, gap_near_conflicts, max_displacement, absolute, time_limit, memory_limit, weld, \
+weld_tolerance, both_diagonals, each_component, threads
         As for repair, of each frame.
     progress
         Called with a Progress now and then; True draws a bar.
@@ -115,6 +116,7 @@ both_diagonals, each_component, threads
         goal=goal,
         precision=precision,
         min_gap=min_gap,
+        gap_near_conflicts=gap_near_conflicts,
         max_displacement=max_displacement,
         absolute=absolute,
         time_limit=time_limit,

@@ -128,6 +128,7 @@ def fix(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -177,6 +178,7 @@ def fix(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -225,6 +227,7 @@ def fix(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -247,9 +250,9 @@ def fix(
     path, output
         Files of one format; output must be another file. Or a list of files, which are one scene (meshes are also
         separated from each other), and the folder where they go under their names, made where it is missing. Where the
-        result is neither embedded nor allowed, they are not written, but for obstructed, where something else was
-        repaired. The best state that was reached goes to a file beside each, out.partial.obj for out.obj, unless
-        nothing better than the input was found.
+        result is neither embedded nor allowed, they are not written, but for gap_not_met, and for obstructed where
+        something else was repaired. The best state that was reached goes to a file beside each, out.partial.obj for
+        out.obj, unless nothing better than the input was found.
     fixed
         Vertices that must not move, as for repair; of several files a list of the same length, with None where all may
         move.
@@ -280,8 +283,8 @@ def fix(
     nested
         Which surfaces lie inside which, from the innermost out: names of files, or of one file's objects, as in
         ["inner.off", "outer.off"], or a list of such chains; see repair.
-    goal, precision, min_gap, min_dihedral, max_displacement, absolute, time_limit, memory_limit, weld, \
-weld_tolerance, both_diagonals, each_component, threads, recover, paper, progress
+    goal, precision, min_gap, gap_near_conflicts, min_dihedral, max_displacement, absolute, time_limit, \
+memory_limit, weld, weld_tolerance, both_diagonals, each_component, threads, recover, paper, progress
         As for repair.
 
     Returns a Result; its `output` is the file that was written (of several files the folder), or None, its `partial` the
@@ -304,6 +307,7 @@ weld_tolerance, both_diagonals, each_component, threads, recover, paper, progres
         goal=goal,
         precision=precision,
         min_gap=min_gap,
+        gap_near_conflicts=gap_near_conflicts,
         min_dihedral=min_dihedral,
         max_displacement=max_displacement,
         absolute=absolute,

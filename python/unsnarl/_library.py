@@ -118,6 +118,7 @@ class OptionsStruct(_Struct):
         ("handles", c_int32),
         ("keep_partial", c_int32),
         ("no_partial", c_int32),
+        ("gap_near_conflicts", c_int32),
     ]
 
 

@@ -31,6 +31,7 @@ def repair(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -59,6 +60,7 @@ def repair(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -87,6 +89,7 @@ def repair(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -114,6 +117,7 @@ def repair(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     min_dihedral: float = 0.0,
     max_displacement: float = 0.0,
     absolute: bool = False,
@@ -168,7 +172,10 @@ def repair(
         conflicts lie on coordinates coarse enough for it.
     min_gap
         Wanted gap between sheets, as a fraction of the bounding-box diagonal; at most 8 times as wide as the faces.
-        0: just enough to be safe.
+        Gaps that are too small are opened wherever they are; report["gap"] names the smallest one, and status is
+        "gap_not_met" where it falls short by more than 1 %. 0: just enough to be safe where faces intersect.
+    gap_near_conflicts
+        Open gaps only around what intersects, and promise none.
     min_dihedral
         Degrees, below 90: two faces at an edge that are folded together closer are opened to this angle, as far as
         nothing is in the way. 0: left as they are.
@@ -207,6 +214,7 @@ def repair(
         goal=goal,
         precision=precision,
         min_gap=min_gap,
+        gap_near_conflicts=gap_near_conflicts,
         min_dihedral=min_dihedral,
         max_displacement=max_displacement,
         absolute=absolute,
@@ -251,7 +259,7 @@ def _put_back(scene: Scene, repaired: Outcome, moved: Any, find_options: Any) ->
         flat = np.ascontiguousarray(positions).ravel()
         pointer, count = ctypes.c_void_p(flat.ctypes.data), ctypes.c_size_t(len(positions))
         certificate = call("certify", scene.surface.struct(), pointer, count, find_options).report
-        if status in ("embedded", "allowed") and not certificate["resolved"]:
+        if status in ("embedded", "allowed", "gap_not_met") and not certificate["resolved"]:
             status = Status.reduced
             notes.append("rounding in the frames of the geometries made faces meet again; give a min_gap")
             pairs = certificate["pairs"]

@@ -49,7 +49,8 @@ class Result(Repaired, Generic[V_]):
     #: What did not have to move is bit-identical. Never has more intersecting pairs than the input, but for
     #: allowed ones. Of a list of meshes: a list of such arrays.
     V: V_
-    #: Only "embedded" promises a surface without self-intersections, "allowed" one that has none but those allowed.
+    #: Only "embedded" and "gap_not_met" promise a surface without self-intersections, "allowed" one that has none but
+    #: those allowed.
     status: Status
     #: The document that the command line writes with --report, see docs/report.md.
     report: dict[str, Any]

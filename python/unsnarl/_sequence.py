@@ -30,7 +30,7 @@ class Frame:
     """What became of a frame. Lengths are relative to the diagonal of its bounding box."""
 
     frame: int
-    status: Status  #: only "embedded" promises a frame without self-intersections
+    status: Status  #: only "embedded" and "gap_not_met" promise a frame without self-intersections
     before: dict[str, int]  #: intersecting pairs of faces by kind, see Intersections.kinds
     after: dict[str, int]
     allowed_before: dict[str, int]  #: pairs that may intersect and do, which the others leave out
@@ -66,6 +66,7 @@ def repair_sequence(
     goal: Goal = "all",
     precision: Precision = "auto",
     min_gap: float = 0.0,
+    gap_near_conflicts: bool = False,
     max_displacement: float = 0.0,
     time_limit: float = 0.0,
     weld: Weld = "seams",
@@ -90,7 +91,7 @@ def repair_sequence(
     frames
         The range wanted, (first, last) with last excluded. Those around it are seen, so that the result of a frame does
         not depend on the range. None: all.
-    goal, precision, min_gap, max_displacement, time_limit
+    goal, precision, min_gap, gap_near_conflicts, max_displacement, time_limit
         As for repair, of each frame.
     weld, weld_tolerance, both_diagonals, threads
         As for find_intersections.
@@ -118,6 +119,7 @@ def repair_sequence(
         goal=goal,
         precision=precision,
         min_gap=min_gap,
+        gap_near_conflicts=gap_near_conflicts,
         max_displacement=max_displacement,
         time_limit=time_limit,
         weld=weld,

@@ -106,6 +106,7 @@ unsnarl_options default_options() {
   options.goal = to_string(repair.goal).data();
   options.precision = "auto";
   options.min_gap = repair.min_gap_rel;
+  options.gap_near_conflicts = repair.gap_near_conflicts;
   options.max_displacement = repair.max_displacement_rel;
   options.min_dihedral = repair.min_dihedral_deg;
   options.memory_limit = repair.memory_limit_mb;
@@ -203,6 +204,7 @@ RepairOptions frame_options(const unsnarl_options& options, const unsnarl_surfac
   if (options.precision != std::string_view("auto"))
     repair.precision = named("precision", options.precision, {Precision::float32, Precision::float64});
   repair.min_gap_rel = options.min_gap;
+  repair.gap_near_conflicts = options.gap_near_conflicts != 0;
   repair.max_displacement_rel = options.max_displacement;
   repair.time_limit_s = options.time_limit;
   if (surface.fixed != nullptr) repair.fixed.assign(surface.fixed, surface.fixed + surface.vertex_count);

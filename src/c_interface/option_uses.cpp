@@ -71,6 +71,7 @@ constexpr auto option_uses = [] {
       UNSNARL_OPTION(handles, seifert, check_seifert),
       UNSNARL_OPTION(keep_partial, document),
       UNSNARL_OPTION(no_partial, document),
+      UNSNARL_OPTION(gap_near_conflicts, search, repair, document, sequence),
   });
 }();
 #undef UNSNARL_OPTION

@@ -126,14 +126,19 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
   return result_of_repair(std::move(repaired), std::move(asked), files);
 }
 
-/// That of the first frame that has something left, else of the first that is not embedded. `all`: no frame is missing.
+/// That of the first frame that has something left, else of an allowed one, else of one whose gap is not met. `all`: no
+/// frame is missing.
 Status status_of(std::span<const FrameReport> reports, bool all) {
   for (const FrameReport& frame : reports)
     if (!is_resolved(frame.status)) return frame.status;
   if (!all) return Status::cancelled;
-  const auto allowed = std::find_if(reports.begin(), reports.end(),
-                                    [](const FrameReport& frame) { return frame.status != Status::embedded; });
-  return allowed == reports.end() ? Status::embedded : allowed->status;
+  const auto is_any = [&](Status status) {
+    return std::any_of(reports.begin(), reports.end(),
+                       [&](const FrameReport& frame) { return frame.status == status; });
+  };
+  for (const Status status : {Status::allowed, Status::gap_not_met})
+    if (is_any(status)) return status;
+  return Status::embedded;
 }
 
 unsnarl_result repaired_sequence(const unsnarl_surface& given, std::size_t frame_count,

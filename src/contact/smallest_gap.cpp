@@ -22,23 +22,6 @@ double gap_along(const Positions& x, const Triangle& s, const Triangle& t, const
   return std::max(t_least - s_most, s_least - t_most);
 }
 
-/// Whether the projections of the triangles onto some line are at least this far apart, so that the triangles are too.
-/// The lines tried: through both centres, the normals, and in either plane across each edge. Long needles side by side
-/// are separated by one of these although their boxes overlap.
-bool are_apart(const Positions& x, const Triangle& s, const Triangle& t, double distance) {
-  const Vec3 centres = x.col(t[0]) + x.col(t[1]) + x.col(t[2]) - x.col(s[0]) - x.col(s[1]) - x.col(s[2]);
-  if (gap_along(x, s, t, centres.normalized()) >= distance) return true;
-  for (const Triangle& face : {s, t}) {
-    const Vec3 normal = area_vector(x, face).normalized();
-    if (gap_along(x, s, t, normal) >= distance) return true;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 edge = x.col(face[(k + 1) % 3]) - x.col(face[k]);
-      if (gap_along(x, s, t, normal.cross(edge).normalized()) >= distance) return true;
-    }
-  }
-  return false;
-}
-
 /// The distance of two triangles that do not intersect.
 double distance_of(const Positions& x, const Triangle& s, const Triangle& t) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -171,6 +154,20 @@ class Search {
 };
 
 }  // namespace
+
+bool are_apart(const Positions& x, const Triangle& s, const Triangle& t, double distance) {
+  const Vec3 centres = x.col(t[0]) + x.col(t[1]) + x.col(t[2]) - x.col(s[0]) - x.col(s[1]) - x.col(s[2]);
+  if (gap_along(x, s, t, centres.normalized()) >= distance) return true;
+  for (const Triangle& face : {s, t}) {
+    const Vec3 normal = area_vector(x, face).normalized();
+    if (gap_along(x, s, t, normal) >= distance) return true;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 edge = x.col(face[(k + 1) % 3]) - x.col(face[k]);
+      if (gap_along(x, s, t, normal.cross(edge).normalized()) >= distance) return true;
+    }
+  }
+  return false;
+}
 
 SmallestGap smallest_gap(std::span<const Triangle> triangles, const Positions& x, std::span<const Index> group,
                          Passing passing) {

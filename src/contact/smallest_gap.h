@@ -10,6 +10,11 @@
 
 namespace unsnarl {
 
+/// Whether the projections of the triangles onto some line are at least this far apart, so that the triangles are too.
+/// The lines tried: through both centres, the normals, and in either plane across each edge. Long needles side by side
+/// are separated by one of these although their boxes overlap.
+bool are_apart(const Positions& x, const Triangle& s, const Triangle& t, double distance);
+
 /// The two triangles that are nearest to each other among those that share no vertex.
 struct SmallestGap {
   double distance = 0;  ///< infinite where all share vertices

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "mesh/areas.h"
+#include "pipeline/gap_stage.h"
 #include "report/changed_components.h"
 #include "report/left_pairs.h"
 #include "report/measure.h"
@@ -68,7 +70,9 @@ Status final_status(const RepairTask& task, const RepairControl& control, Status
     status = control.limits.status_or(displacement_is_exceeded ? Status::displacement_exceeded : status);
   const PairCounts& allowed = report.allowed_after;
   const bool is_any_allowed = (task.options.goal == Goal::all ? allowed.total() : allowed[PairClass::disjoint]) > 0;
-  if (status == Status::embedded && is_any_allowed) status = Status::allowed;
+  if (status == Status::embedded && report.gap && !report.gap->is_met())
+    status = control.limits.status_or(Status::gap_not_met);
+  if (is_resolved(status) && is_any_allowed) status = Status::allowed;
   return control.limits.status_of_result(status);
 }
 
@@ -163,6 +167,7 @@ RepairResult conclude(const RepairTask& task, const RepairControl& control, Pair
   report.regions = state.regions;
   measure_change(task.surface, task.prepared, task.diagnosis, result.positions, report);
   report.min_gap_rel = std::isfinite(state.smallest_gap) && task.diagonal > 0 ? state.smallest_gap / task.diagonal : 0;
+  report.gap = measured_gap(task, state, reached.x, reached.left.triangles);
   result.status = final_status(task, control, status_at(task, census, reached.left, reached.x),
                                state.displacement_is_exceeded, report);
   measure_components(task.prepared, task.diagnosis, reached.left.triangles, report);

@@ -62,6 +62,10 @@ Jitter jitter_at(std::size_t t, std::span<const SequenceFrame> frames, const Res
   return {differences.mean() / diagonal, differences.maxCoeff() / diagonal};
 }
 
+bool lacks_a_gap(const RepairResult& result) {
+  return result.report.gap && !result.report.gap->is_met();
+}
+
 FrameReport report_of_repair_alone(std::size_t t, const RepairResult& alone) {
   return {.frame = t,
           .status = alone.status,
@@ -179,6 +183,7 @@ void FrameRepair::smooth(std::size_t t, std::span<const SequenceFrame> frames, F
   RepairResult smoothed = repair_from(surface(target), frame.seen->known(), finders, own, &context);
   if (smoothed.status == Status::memory_limit) result.report.status = smoothed.status;
   if (!is_resolved(smoothed.status)) return;
+  if (lacks_a_gap(smoothed) && !lacks_a_gap(frame.alone)) return;
   // A layer that came out on another side would pop.
   if (largest(distances(smoothed.positions, target, prepared.scale)) >
       largest(distances(result.positions, target, prepared.scale)))

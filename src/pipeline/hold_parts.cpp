@@ -112,15 +112,15 @@ std::vector<Index> free_of(const Scene& scene, std::span<const Index> vertices) 
 }
 
 /// Recovers clusters again that were repaired again, until that brings them no nearer.
-void recover_on(const RepairControl& control, std::span<const Cluster> clusters, SceneIndex& index,
-                RepairState& state) {
+void recover_on(const RepairTask& task, const RepairControl& control, std::span<const Cluster> clusters,
+                SceneIndex& index, RepairState& state) {
   std::vector<std::vector<Index>> sets;
   for (const Cluster& cluster : clusters)
     if (cluster.was_open) sets.push_back(free_of(state.scene, cluster.vertices));
   for (int k = 0; k < most_recoveries && !sets.empty() && !control.limits.reached(); ++k) {
     std::vector<double> before;
     for (const std::vector<Index>& set : sets) before.push_back(motion_of(state.scene, state.scene.x, set));
-    recover_sets(control, sets, RecoverOptions(), index, state);
+    recover_sets(task, control, sets, index, state);
     std::vector<std::vector<Index>> nearer;
     for (std::size_t s = 0; s < sets.size(); ++s)
       if (is_nearer(motion_of(state.scene, state.scene.x, sets[s]), before[s])) nearer.push_back(std::move(sets[s]));
@@ -212,7 +212,7 @@ EscalationResult repair_again(const RepairTask& task, const RepairControl& contr
   std::vector<std::vector<Index>> sets = result.moved;
   for (const Cluster& cluster : clusters)
     if (cluster.is_open) sets.push_back(free_of(scene, cluster.vertices));
-  recover_sets(control, std::move(sets), RecoverOptions(), index, state);
+  recover_sets(task, control, std::move(sets), index, state);
   return result;
 }
 
@@ -340,7 +340,7 @@ std::vector<IntersectingPair> hold_parts(const RepairTask& task, const RepairCon
     keep_better(task, state, first, cluster_of, clusters, index, state.scene, left);
     take_over(second, clusters, cluster_of, state);
   }
-  recover_on(control, clusters, index, state);
+  recover_on(task, control, clusters, index, state);
   index.update();
   list_unresolved(left, state);
   return left;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "pipeline/gap_stage.h"
 #include "recover/recover.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/strategies.h"
@@ -9,8 +10,9 @@
 namespace unsnarl {
 namespace {
 
-void recover_patch(const RepairControl& control, const RepairState& state, Patch& patch) {
+void recover_patch(const RepairTask& task, const RepairControl& control, const RepairState& state, Patch& patch) {
   RecoverOptions options;
+  options.knows_sheets = gap_wanted_everywhere(task) > 0;
   options.min_gap =
       state.format.wanted_gap(state.scene, {patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
   recover(patch, options, control.limits.stopper());
@@ -33,11 +35,11 @@ EscalationOptions escalation_options(const RepairTask& task, const RepairControl
   options.stop = control.limits.stopper();
   options.recorder = &state.recorder;
   options.first_region = state.regions.size();
-  if (task.options.recover) options.recover = [&](Patch& patch) { recover_patch(control, state, patch); };
+  if (task.options.recover) options.recover = [&](Patch& patch) { recover_patch(task, control, state, patch); };
   if (most_motion > 0)
     options.accept = [&task, &control, &state, &is_exceeded, most_motion](Patch& patch) {
       if (is_within(patch, state.scene.rest, most_motion)) return true;
-      if (task.options.recover) recover_patch(control, state, patch);
+      if (task.options.recover) recover_patch(task, control, state, patch);
       if (task.options.recover && is_within(patch, state.scene.rest, most_motion)) return true;
       is_exceeded = true;
       return false;
@@ -45,10 +47,11 @@ EscalationOptions escalation_options(const RepairTask& task, const RepairControl
   return options;
 }
 
-double recover_sets(const RepairControl& control, std::vector<std::vector<Index>> sets, const RecoverOptions& recovery,
+double recover_sets(const RepairTask& task, const RepairControl& control, std::vector<std::vector<Index>> sets,
                     SceneIndex& index, RepairState& state, std::function<void(double)> on_progress) {
   RecoverRegionsOptions options;
-  options.recover = recovery;
+  if (task.options.paper) options.recover = RecoverOptions::paper();
+  options.recover.knows_sheets = gap_wanted_everywhere(task) > 0;
   options.min_gap = [&](std::span<const Index> vertices) { return state.format.wanted_gap(state.scene, vertices); };
   options.stop = control.limits.stopper();
   options.on_progress = std::move(on_progress);

@@ -21,7 +21,7 @@ EscalationOptions escalation_options(const RepairTask& task, const RepairControl
 
 /// Recovers sets of vertices, those that overlap as one. Returns the least gap that was reached, or infinity.
 /// `on_progress`: see RecoverRegionsOptions; may be empty.
-double recover_sets(const RepairControl& control, std::vector<std::vector<Index>> sets, const RecoverOptions& recovery,
+double recover_sets(const RepairTask& task, const RepairControl& control, std::vector<std::vector<Index>> sets,
                     SceneIndex& index, RepairState& state, std::function<void(double)> on_progress = {});
 
 }  // namespace unsnarl

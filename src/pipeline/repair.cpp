@@ -13,6 +13,7 @@
 #include "mesh/areas.h"
 #include "pipeline/conclude.h"
 #include "pipeline/dihedral_stage.h"
+#include "pipeline/gap_stage.h"
 #include "pipeline/nesting_stage.h"
 #include "pipeline/repair_from.h"
 #include "pipeline/repair_state.h"
@@ -36,7 +37,8 @@ constexpr double widest_gap_in_sides = 8;
 
 /// Throws GapTooWide where a gap is to be opened that is too wide for the faces.
 void check_gap(const RepairTask& task, const RepairState& state) {
-  if (state.pairs_at_rest.empty() && !(task.options.min_dihedral_deg > 0)) return;  // no gap is opened
+  if (task.options.gap_near_conflicts && state.pairs_at_rest.empty() && !(task.options.min_dihedral_deg > 0))
+    return;  // no gap is opened
   const double gap = task.options.min_gap_rel * task.diagonal;
   const double side = mean_equilateral_side(task.prepared.rest, task.prepared.triangles());
   if (gap > widest_gap_in_sides * side)
@@ -63,6 +65,7 @@ void repair_shapes(const RepairTask& task, const RepairControl& control, Finders
     untangle_stage(task, control, finders, state);
     triangulation_stage(task, control, finders, state);
   }
+  gap_stage(task, control, state);
   dihedral_stage(task, control, state);
 }
 

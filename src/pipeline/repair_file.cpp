@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 bool is_to_be_written(const RepairResult& result, const Surface& input, bool keep_partial) {
   switch (result.status) {
     case Status::embedded:
-    case Status::allowed: return true;
+    case Status::allowed:
+    case Status::gap_not_met: return true;
     // Nothing to repair but what cannot be: a refusal.
     case Status::obstructed: return result.positions != input.positions;
     default: return keep_partial;
@@ -31,6 +32,7 @@ bool is_partial(const RepairResult& result, const Surface& input) {
   switch (result.status) {
     case Status::embedded:
     case Status::allowed:
+    case Status::gap_not_met:
     case Status::obstructed:
     case Status::no_progress: return false;
     default: return result.positions != input.positions;
@@ -51,7 +53,7 @@ std::string broken_promise(const RepairResult& result, Goal goal, const Surface&
   if (is_resolved(result.status) && (all ? after.total() : disjoint) > 0)
     return fmt::format("{} pairs of faces intersect", all ? after.total() : disjoint);
   const std::size_t allowed = all ? certificate.allowed.total() : certificate.allowed[PairClass::disjoint];
-  if (result.status == Status::embedded && allowed > 0)
+  if (is_resolved(result.status) && result.status != Status::allowed && allowed > 0)
     return fmt::format("{} pairs of faces intersect that may pass through each other", allowed);
   if (is_resolved(result.status) && all && !certificate.resolved())
     return fmt::format("{} faces have lost their area", certificate.new_zero_area_faces);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/sort_unique.h"
+#include "pipeline/gap_stage.h"
 #include "rigid/bodies.h"
 #include "rigid/place_bodies.h"
 #include "rigid/recover_bodies.h"
@@ -25,6 +26,7 @@ bool place(const RepairTask& task, const RepairControl& control, const RepairSta
   PlaceBodiesOptions places;
   RecoverBodiesOptions recovery;
   if (limit > 0) places.most_motion = recovery.most_motion = limit;
+  recovery.opens_gaps_at_rest = gap_wanted_everywhere(task) > 0;
   places.stop = recovery.stop = control.limits.stopper();
   const bool is_too_far = place_bodies(bodies, places);
   if (const std::vector<Index> vertices = vertices_of(bodies); !vertices.empty())

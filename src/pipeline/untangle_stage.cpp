@@ -76,8 +76,7 @@ void recover_moved(const RepairTask& task, const RepairControl& control, std::sp
                    SceneIndex& index, RepairState& state) {
   std::vector<std::vector<Index>> sets;
   for (std::size_t k = state.recovered; k < state.moved.size(); ++k) sets.push_back(state.moved[k].vertices);
-  const RecoverOptions recovery = task.options.paper ? RecoverOptions::paper() : RecoverOptions();
-  const double gap = recover_sets(control, std::move(sets), recovery, index, state, [&](double share) {
+  const double gap = recover_sets(task, control, std::move(sets), index, state, [&](double share) {
     report_progress(task, control, state, untangled_fraction + (recovered_fraction - untangled_fraction) * share, left);
   });
   state.smallest_gap = std::min(state.smallest_gap, gap);

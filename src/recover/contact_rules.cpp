@@ -23,6 +23,13 @@ Stencil altitude_of(const Triangle& f, int k) {
   return {StencilKind::vertex_edge, {f[k], f[(k + 1) % 3], f[(k + 2) % 3], -1}};
 }
 
+/// Kind and primitives of a stencil, whichever edge comes first.
+std::array<Index, 3> key_of(const Stencil& s) {
+  auto [first, second] = s.primitives;
+  if (s.kind == StencilKind::edge_edge && second < first) std::swap(first, second);
+  return {static_cast<Index>(s.kind), first, second};
+}
+
 /// Moves the rules of `from` to the end of `to`, which grows no more than it needs: lists are the most memory that a
 /// recovery takes.
 void take_over(std::vector<ContactRule>&& from, std::vector<ContactRule>& to) {
@@ -62,6 +69,35 @@ ContactRules::ContactRules(const Patch& patch, std::span<const IntersectingPair>
     for (Index e : candidates_.edges().edges_of_triangle[t])
       if (e >= 0) edge_in_conflict_[e] = 1;
   }
+  if (options_.one_sheet_within > 0) find_sheets();
+}
+
+void ContactRules::find_sheets() {
+  MotionBounds still;
+  still.reset(static_cast<Index>(patch_.rest.cols()));
+  const std::vector<std::uint8_t> all(static_cast<std::size_t>(patch_.rest.cols()), 1);
+  const std::vector<double> radius(all.size(), options_.one_sheet_within);
+  std::vector<NearStencil> stencils;
+  candidates_.gather(patch_.rest, radius, still, all, stencils, options_.stop);
+  std::erase_if(stencils, [&](const NearStencil& near) {
+    return in_conflict(near.stencil) != std::array{false, false} || candidates_.are_neighbours(near.stencil) ||
+           pass(near.stencil);
+  });
+  const auto triangle_at = [&](const Stencil& s, int side) {
+    if (s.kind == StencilKind::edge_edge) return candidates_.edges().triangles_of_edge[s.primitives[side]][0];
+    return side == 0 ? candidates_.triangles_of_vertex()[s.primitives[0]][0] : s.primitives[1];
+  };
+  std::vector<std::array<Index, 3>> order;  // triangles at the two, number of the stencil
+  for (std::size_t k = 0; k < stencils.size(); ++k)
+    order.push_back({triangle_at(stencils[k].stencil, 0), triangle_at(stencils[k].stencil, 1), static_cast<Index>(k)});
+  std::sort(order.begin(), order.end());
+  OneSheet one_sheet(patch_.triangles, patch_.rest, candidates_.edges(), options_.min_gap);
+  for (const auto& [first, second, k] : order) {
+    end_long_work_if(options_.stop, order.size());
+    const Stencil& s = stencils[k].stencil;
+    if (one_sheet.holds(s, first, second)) of_one_sheet_.push_back(key_of(s));
+  }
+  std::sort(of_one_sheet_.begin(), of_one_sheet_.end());
 }
 
 std::vector<double> ContactRules::shares_of_h(const Positions& x) const {
@@ -122,13 +158,22 @@ void ContactRules::add_rules(std::vector<NearStencil>&& stencils, const Position
   take_over(std::move(added), rules);
 }
 
-bool ContactRules::are_neighbours(const Stencil& s) const {
+bool ContactRules::are_neighbours(const Stencil& s, double rest_distance) const {
   if (candidates_.are_neighbours(s)) return true;
+  if (rest_distance <= options_.one_sheet_within && in_conflict(s) == std::array{false, false})
+    return std::binary_search(of_one_sheet_.begin(), of_one_sheet_.end(), key_of(s));
   const int first = s.kind == StencilKind::edge_edge ? 2 : 1;
   for (int i = 0; i < first; ++i)
     for (int j = first; j < s.size(); ++j)
       if (std::binary_search(joined_[s.v[i]].begin(), joined_[s.v[i]].end(), s.v[j])) return true;
   return false;
+}
+
+std::array<bool, 2> ContactRules::in_conflict(const Stencil& s) const {
+  const auto [first, second] = s.primitives;
+  const bool is_edge = s.kind == StencilKind::edge_edge;
+  return {(is_edge ? edge_in_conflict_[first] : vertex_in_conflict_[first]) != 0,
+          (is_edge ? edge_in_conflict_[second] : in_conflict_[second]) != 0};
 }
 
 template <class IsWanted>
@@ -160,11 +205,8 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, ContactRule
   rule.distance = near.distance;
   rule.direction = near.direction;
   rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
-  const auto [first, second] = s.primitives;
-  const bool is_edge = s.kind == StencilKind::edge_edge;
-  const bool first_in_conflict = (is_edge ? edge_in_conflict_[first] : vertex_in_conflict_[first]) != 0;
-  const bool second_in_conflict = (is_edge ? edge_in_conflict_[second] : in_conflict_[second]) != 0;
-  const bool neighbours = are_neighbours(s);
+  const auto [first_in_conflict, second_in_conflict] = in_conflict(s);
+  const bool neighbours = are_neighbours(s, rule.rest_distance);
   const bool conflict = neighbours ? first_in_conflict && second_in_conflict && intersect_at_rest(s)
                                    : first_in_conflict || second_in_conflict;
   rule.neighbours = neighbours && !conflict;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -9,6 +10,7 @@
 
 #include "contact/ccd.h"
 #include "contact/contact_candidates.h"
+#include "contact/sheet_gaps.h"
 #include "energy/ipc_barrier.h"
 #include "recover/recover_options.h"
 #include "scene/patch.h"
@@ -32,6 +34,9 @@ struct ContactRuleOptions {
   /// Primitives up to this far apart along the edges at rest are neighbours. More than 1.41: in a grid of squares cut
   /// in two, points at a distance of 1 are up to 1.41 apart along the edges (unit: min_gap)
   double joined_gaps = 2;
+  /// Primitives that are this near at rest are neighbours by OneSheet instead, unless one is in conflict: a length; 0:
+  /// none are
+  double one_sheet_within = 0;
   /// Neighbours keep at least this share of their rest distance, where that is less than min_gap (no unit)
   double kept_rest_share = 0.25;
   /// A face's own barrier, which keeps it from being squeezed, sets in below this share of its rest altitude (no unit)
@@ -52,8 +57,8 @@ struct ContactRuleOptions {
 /// Separation of a stencil:
 /// - min_gap, in general.
 /// - Neighbours (primitives of triangles that share a vertex, or that are at most joined_gaps min_gap apart along the
-///   edges at rest) keep at least a share of their rest distance if that is less, unless their triangles intersect each
-///   other at rest.
+///   edges at rest, or of one sheet) keep at least a share of their rest distance if that is less, unless their
+///   triangles intersect each other at rest.
 /// - No stencil has to keep more than half its present distance: faces that were shrunk below min_gap can grow again,
 ///   and stencils that end too close are opened last.
 /// A stencil without distance at rest whose triangles do not intersect there (around zero-area faces) has no rule, nor
@@ -87,7 +92,11 @@ class ContactRules {
   void add_rules(std::vector<NearStencil>&& stencils, const Positions& from, const Positions& x,
                  const MotionBounds& bounds, std::span<const std::uint8_t> moves,
                  std::vector<ContactRule>& rules) const;
-  bool are_neighbours(const Stencil& stencil) const;
+  bool are_neighbours(const Stencil& stencil, double rest_distance) const;
+  /// Lists the neighbours by OneSheet.
+  void find_sheets();
+  /// Of each primitive: a triangle there intersects another one at rest.
+  std::array<bool, 2> in_conflict(const Stencil& stencil) const;
   /// Whether triangles t at the one primitive and u at the other are a pair for which is_wanted(t, u).
   template <class IsWanted>
   bool any_pair(const Stencil& stencil, IsWanted&& is_wanted) const;
@@ -109,6 +118,7 @@ class ContactRules {
   ContactCandidates candidates_;
   std::vector<std::uint8_t> vertex_in_conflict_, edge_in_conflict_;  // one flag each: a triangle there is in conflict
   IndexLists joined_;  // per vertex: those within joined_gaps along the edges, ascending; empty lists where none is
+  std::vector<std::array<Index, 3>> of_one_sheet_;     // kind and primitives of stencils, ascending
   std::vector<std::array<double, 3>> rest_altitudes_;  // of the active triangles; 0 where corners are equal
   std::vector<double> radius_;         // per vertex, of the last gather(): see ContactCandidates::gather
   std::vector<std::uint8_t> is_anew_;  // per vertex

@@ -51,6 +51,11 @@ bool is_below_roundoff(const Patch& patch) {
   return *middle < roundoff_of(patch);
 }
 
+/// Least activation distance of a barrier, and least distance to which gaps are opened, for this share of h.
+double above_gap(double min_gap, double share_of_h, double h, const RecoverOptions& options) {
+  return std::min(options.least_gaps * min_gap, min_gap + share_of_h * h);
+}
+
 ContactRules contact_rules_of(const Patch& patch, const RecoverOptions& recovery, const std::function<bool()>& stop) {
   IntersectionFinder at_rest(patch.triangles, patch.active_count, patch.passing());
   ContactRuleOptions options;
@@ -58,6 +63,8 @@ ContactRules contact_rules_of(const Patch& patch, const RecoverOptions& recovery
   options.min_gap = std::max(recovery.min_gap, options.roundoff);
   options.reach_gaps = recovery.least_gaps;
   options.h = edge_length_of(patch);
+  if (recovery.knows_sheets)
+    options.one_sheet_within = above_gap(options.min_gap, recovery.activation, options.h, recovery);
   options.stop = stop;
   return ContactRules(patch, at_rest.find(patch.rest, stop), options);
 }
@@ -80,10 +87,8 @@ class Recovery {
   int step(const std::vector<std::uint8_t>& moves, double activation, int most, double decrease);
   /// Takes Newton steps with these vertices, at most as many as max_steps leaves.
   void stage(const std::vector<std::uint8_t>& moves, double activation);
-  /// Least activation distance of a barrier, and least distance to which gaps are opened, for this share of h.
   double above_min_gap(double share_of_h) const {
-    const double min_gap = rules_.options().min_gap;
-    return std::min(options_.least_gaps * min_gap, min_gap + share_of_h * h_);
+    return above_gap(rules_.options().min_gap, share_of_h, h_, options_);
   }
   /// Opens gaps to `target`, or to what the barrier needs if that is more; ends at an exactly checked state.
   void open(double target);

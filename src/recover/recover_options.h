@@ -51,6 +51,8 @@ struct RecoverOptions {
   /// place of the largest coordinate. Callers give a few units in the last place of the format to be written.
   double min_gap = 0;
 
+  bool knows_sheets = false;  ///< what is of one sheet (see OneSheet) need not keep min_gap
+
   ObjectiveOptions objective;
   StepOptions step;
 

@@ -21,14 +21,15 @@ constexpr int obstacle_reach = 2;
 double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::vector<Index>>& regions,
                        const RecoverRegionsOptions& options, Recorder& recorder) {
   index.update();
-  std::vector<double> edge_length(regions.size()), gap(regions.size());
+  std::vector<double> edge_length(regions.size()), reach(regions.size()), gap(regions.size());
   std::vector<Box> boxes(regions.size());
   for (std::size_t r = 0; r < regions.size(); ++r) {
     std::vector<Triangle> faces;
     for (Index v : regions[r])
       for (Index t : scene.triangles_of_vertex[v]) faces.push_back(scene.triangles[t]);
     edge_length[r] = mean_edge_length(scene.rest, faces);
-    boxes[r] = patch_box(scene, regions[r], obstacle_reach * edge_length[r]);
+    reach[r] = std::max(obstacle_reach * edge_length[r], options.least_reach);
+    boxes[r] = patch_box(scene, regions[r], reach[r]);
   }
   std::vector<Patch> patches(regions.size());
   std::vector<Trajectory> trajectories(regions.size(), recorder.new_trajectory());
@@ -51,7 +52,7 @@ double recover_regions(Scene& scene, SceneIndex& index, const std::vector<std::v
       boxes,
       [&](std::size_t r) {
         if (options.stop()) return;
-        patches[r] = cut_patch(scene, index, regions[r], obstacle_reach * edge_length[r]);
+        patches[r] = cut_patch(scene, index, regions[r], reach[r]);
         patches[r].edge_length = edge_length[r];
         if (recorder.is_on()) patches[r].trajectory = &trajectories[r];
         RecoverOptions recovery = options.recover;

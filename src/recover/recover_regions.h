@@ -13,6 +13,7 @@ namespace unsnarl {
 struct RecoverRegionsOptions {
   RecoverOptions recover;  ///< all but min_gap
   std::function<double(std::span<const Index> vertices)> min_gap;
+  double least_reach = 0;  ///< faces this near to a region are its obstacles, others only a few edges away: a length
   std::function<bool()> stop;
   std::function<void(double share_done)> on_progress;  ///< a few times a second, from any thread; may be empty
 };

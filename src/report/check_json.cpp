@@ -27,6 +27,7 @@ std::string check_json(const CheckReport& found, Goal goal, const FindOptions& o
                      {"both_diagonals", options.both_diagonals}};
   json["pairs"] = pair_counts_json(found.counts);
   json["allowed"] = pair_counts_json(found.allowed);
+  json["gap"] = gap_json(found.gap);
   json["intersecting_faces"] = found.faces.size();
   json["components"] = {{"total", found.topology.components},
                         {"intersecting", found.intersecting_components},

@@ -7,7 +7,7 @@ namespace unsnarl {
 
 std::string_view outcome(Status status, std::span<const NestedPair> pairs) {
   const bool nested = std::all_of(pairs.begin(), pairs.end(), [](const NestedPair& pair) { return pair.is_nested; });
-  return status == Status::embedded && !nested ? "not_nested" : to_string(status);
+  return is_resolved(status) && !nested ? "not_nested" : to_string(status);
 }
 
 ExitCode exit_code_of(Status status, std::span<const NestedPair> pairs) {

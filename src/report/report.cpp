@@ -15,6 +15,7 @@ std::string_view to_string(Status status) {
     case Status::memory_limit: return "memory_limit";
     case Status::displacement_exceeded: return "displacement_exceeded";
     case Status::cancelled: return "cancelled";
+    case Status::gap_not_met: return "gap_not_met";
   }
   return "unknown";
 }

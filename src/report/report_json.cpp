@@ -53,6 +53,7 @@ Json options_json(const RepairOptions& options) {
           {"both_diagonals", options.find.both_diagonals},
           {"allowed_faces", faces_that_may_pass(options.find.allowed)},
           {"min_gap_rel", options.min_gap_rel},
+          {"gap_near_conflicts", options.gap_near_conflicts},
           {"min_dihedral_deg", options.min_dihedral_deg},
           {"max_displacement_rel", options.max_displacement_rel},
           {"time_limit_s", options.time_limit_s},
@@ -168,6 +169,7 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   json["flipped_triangles"] = r.flipped_triangles;
   json["flipped_triangles_without_conflict"] = r.flipped_triangles_without_conflict;
   json["min_gap_rel"] = r.min_gap_rel;
+  json["gap"] = gap_json(r.gap);
   json["volume_change_rel"] = r.volume_change_rel;
   json["area_change_rel"] = r.area_change_rel;
   json["edge_stretch_max"] = r.edge_stretch_max;
@@ -224,7 +226,7 @@ std::string pairs_json(const PairCounts& counts) {
 std::optional<Status> status_from_name(std::string_view name) {
   for (const Status status :
        {Status::embedded, Status::reduced, Status::no_progress, Status::obstructed, Status::allowed, Status::time_limit,
-        Status::memory_limit, Status::displacement_exceeded, Status::cancelled})
+        Status::memory_limit, Status::displacement_exceeded, Status::cancelled, Status::gap_not_met})
     if (to_string(status) == name) return status;
   return std::nullopt;
 }

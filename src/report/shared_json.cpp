@@ -102,6 +102,17 @@ void add_scene(const SceneReport& scene, bool after, Json& json) {
   }
 }
 
+Json gap_json(const std::optional<GapReport>& gap) {
+  if (!gap) return {};
+  const bool is_known = gap->faces[0] >= 0;
+  return {{"asked_rel", gap->asked_rel},
+          {"smallest_rel", is_known ? Json(gap->smallest_rel) : Json()},
+          {"met", gap->is_met()},
+          {"faces", is_known ? Json(gap->faces) : Json()},
+          {"position", is_known ? Json(gap->position) : Json()},
+          {"between_held", gap->is_between_held}};
+}
+
 void add_lengths(Json& json, double diagonal) {
   if (json.is_array())
     for (Json& entry : json) add_lengths(entry, diagonal);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -18,6 +19,8 @@ nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
 nlohmann::ordered_json overlapping_components_json(std::span<const OverlappingComponent> overlapping);
 /// Pairs that are allowed, before and after a repair.
 nlohmann::ordered_json allowed_json(const PairCounts& before, const PairCounts& after);
+/// The gap, or null.
+nlohmann::ordered_json gap_json(const std::optional<GapReport>& gap);
 /// Adds "files" and "between_files" where there are several files. `after`: with what became of them.
 void add_scene(const SceneReport& scene, bool after, nlohmann::ordered_json& json);
 /// Beside each length relative to the diagonal ("displacement_max_rel") the same in the units of the positions, under

@@ -67,9 +67,11 @@ class BodyRecovery {
   }
 
   void run() {
-    const double scale = largest_displacement();
+    double scale = largest_displacement();
+    contact_gap_ = options_.min_gap;
+    if (options_.opens_gaps_at_rest) scale = std::max(scale, lack_of_gap(contacts_within(0)));
     if (!(scale > 0)) return;
-    contact_gap_ = options_.min_gap + contact_share * scale;
+    contact_gap_ += contact_share * scale;
     double reach = first_reach * scale, cost = squared_displacement();
     std::vector<BodyContact> contacts = contacts_within(reach);
     for (int step = 0; step < most_steps && reach > least_reach * scale; ++step) {
@@ -178,7 +180,7 @@ class BodyRecovery {
       contact.gradient[side].head<3>() += force;
       contact.gradient[side].tail<3>() += Vec3(bodies_.x().col(stencil.v[i]) - body.centre).cross(force);
     }
-    contact.gap = are_at_rest ? std::min(contact_gap_, contact.distance) : contact_gap_;
+    contact.gap = are_at_rest && !options_.opens_gaps_at_rest ? std::min(contact_gap_, contact.distance) : contact_gap_;
     return contact;
   }
 

@@ -13,6 +13,8 @@ namespace {
 /// Gap wanted between surfaces. Rounding moves each of the two by half a unit in every coordinate, less than two units
 /// of distance; the rest is reserve (unit: units in the last place of the format)
 constexpr double gap_units = 8;
+/// What rounding takes from a gap, at most (unit: units in the last place of the format)
+constexpr double rounding_units = 2;
 /// float32 is asked for only where the gap that it needs is at most this, so that its coordinates are fine enough for
 /// the faces (unit: mean altitude of the faces)
 constexpr double largest_gap_of_altitude = 0.02;
@@ -96,7 +98,9 @@ Positions OutputFormat::as_written(const Positions& x) const {
 }
 
 double OutputFormat::wanted_gap(const Scene& scene, std::span<const Index> vertices) const {
-  return std::max(gap_of_format(scene, vertices, float32_, prepared_->scale), least_gap_);
+  const double least = gap_of_format(scene, vertices, float32_, prepared_->scale);
+  if (options_->gap_near_conflicts || !(least_gap_ > 0)) return std::max(least, least_gap_);
+  return std::max(least, least_gap_ + rounding_units / gap_units * least);
 }
 
 }  // namespace unsnarl

@@ -208,6 +208,32 @@ static void heeds_options(void) {
   unsnarl_result_free(result);
 }
 
+static void keeps_gaps(void) {
+  const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.001, 1, 0, 0.001, 0, 1, 0.001};
+  const int32_t corners[] = {0, 1, 2, 3, 4, 5};
+  const uint8_t all[] = {1, 1, 1, 1, 1, 1};
+  unsnarl_surface surface = crossing();
+  surface.positions = positions;
+  surface.vertex_count = 6;
+  surface.corners = corners;
+  surface.corner_count = 6;
+  unsnarl_options options = defaults();
+  options.min_gap = 0.02;
+  unsnarl_result* result = NULL;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  CHECK(says(unsnarl_result_report(result), "\"met\": true"));
+  unsnarl_result_free(result);
+  surface.fixed = all;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "gap_not_met") == 0);
+  unsnarl_result_free(result);
+  options.gap_near_conflicts = 1;
+  CHECK(unsnarl_repair(&surface, &options, NULL, &result) == UNSNARL_OK);
+  CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
+  unsnarl_result_free(result);
+}
+
 static void refuses_options_that_it_does_not_use(void) {
   unsnarl_surface surface = crossing();
   unsnarl_options options = defaults();
@@ -753,6 +779,7 @@ int main(int count, char** arguments) {
   refuses_deep_nesting();
   makes_pages();
   heeds_options();
+  keeps_gaps();
   refuses_options_that_it_does_not_use();
   takes_structs_of_older_callers();
   says_what_is_wrong();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "contact/smallest_gap.h"
 #include "rigid/boxes.h"
 #include "rigid/place_bodies.h"
 
@@ -9,6 +10,13 @@ namespace unsnarl {
 namespace {
 
 using shapes::Shape;
+
+std::vector<Index> bodies_of_triangles(const Bodies& bodies) {
+  std::vector<Index> owners;
+  for (Index t = 0; t < static_cast<Index>(bodies.triangles().size()); ++t)
+    owners.push_back(bodies.owner_of_triangle(t));
+  return owners;
+}
 
 double sum_of_squares(const Bodies& bodies) {
   return (bodies.x() - bodies.rest()).squaredNorm();
@@ -66,6 +74,18 @@ TEST(RecoverBodies, keeps_the_gap_that_is_asked_for) {
     EXPECT_GT(nearest, gap);
     EXPECT_LT(nearest, gap + 0.002);
   }
+}
+
+TEST(RecoverBodies, opens_gaps_at_rest_where_that_is_asked_for) {
+  const Shape box = shapes::box({1, 1, 1}, 2);
+  Shape three = box;
+  three.add(box, {1.001, 0.13, 0.07}).add(box, {2.003, -0.06, 0.1});
+  Bodies bodies(three.positions(), three.triangles, shapes::parts_of({&box, &box, &box}), 3, {});
+  recover_bodies(bodies, {.min_gap = 0.05});
+  for (const Body& body : bodies.list()) EXPECT_TRUE(body.is_at_rest());
+  recover_bodies(bodies, {.min_gap = 0.05, .opens_gaps_at_rest = true});
+  EXPECT_GE(smallest_gap(three.triangles, bodies.x(), bodies_of_triangles(bodies)).distance, 0.05);
+  for (const Body& body : bodies.list()) EXPECT_LT(bodies.largest_displacement(body), 0.06);
 }
 
 TEST(RecoverBodies, what_is_near_at_rest_is_not_pushed) {

@@ -14,6 +14,7 @@ const statuses = {
   time_limit: ['Time limit reached', 'fair'],
   memory_limit: ['Memory limit reached', 'fair'],
   displacement_exceeded: ['Displacement exceeded', 'fair'],
+  gap_not_met: ['Gap not met', 'fair'],
   cancelled: ['Interrupted', 'fair'],
 };
 
@@ -58,14 +59,22 @@ function motion(page) {
   ]);
 }
 
+/** The smallest gap of the result and where it is, if one was asked for; else the smallest of the recovery. */
+function gapInWords({ gap, min_gap_rel: met, diagonal }) {
+  if (!gap) return met > 0 ? percentAndLength(met, diagonal) : null;
+  const asked = `asked for ${percentAndLength(gap.asked_rel, diagonal)}`;
+  if (!gap.faces) return `more than ${percentAndLength(2 * gap.asked_rel, diagonal)}, ${asked}`;
+  return `${percentAndLength(gap.smallest_rel, diagonal)}, ${asked}; faces ${gap.faces.map(count).join(' and ')}, at ${gap.position.map(short).join(', ')}`;
+}
+
 function reportFacts(report) {
-  const gap = report.min_gap_rel > 0 ? percentAndLength(report.min_gap_rel, report.diagonal) : null;
+  const gap = gapInWords(report);
   const regions = report.regions?.length ?? 0;
   const allowed = (report.allowed?.before.total ?? 0) + (report.allowed?.after.total ?? 0);
   return facts([
     regions ? ['conflict regions', count(regions)] : null,
     allowed ? ['pairs that may intersect', `${count(report.allowed.before.total)} before, ${count(report.allowed.after.total)} after`] : null,
-    gap ? ['smallest gap met', gap] : null,
+    gap ? [report.gap ? 'smallest gap' : 'smallest gap met', gap] : null,
     ['area', `${percent(report.area_change_rel)} change`],
     report.volume_change_rel ? ['volume', `${percent(report.volume_change_rel)} change`] : null,
     report.flipped_triangles ? ['flipped', plural(report.flipped_triangles, 'triangle', 'triangles')] : null,

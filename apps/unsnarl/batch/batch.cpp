@@ -26,6 +26,7 @@
 #include "fix.h"
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/report_json.h"
 #include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
@@ -83,8 +84,8 @@ std::string host_name() {
 }
 
 bool is_success(const std::string& status) {
-  return status == to_string(Status::embedded) || status == to_string(Status::allowed) ||
-         status == to_string(Status::obstructed);
+  const std::optional<Status> known = status_from_name(status);
+  return known && (is_resolved(*known) || *known == Status::obstructed);
 }
 
 /// Everything around one call of `batch`.
@@ -135,8 +136,9 @@ class Batch {
         return std::any_of(statuses.begin(), statuses.end(), [&](Status s) { return count.first == to_string(s); });
       });
     };
-    if (counts.empty() || !are_all({Status::embedded, Status::allowed})) return exit_intersecting;
-    return are_all({Status::embedded}) ? exit_embedded : exit_allowed;
+    if (counts.empty() || !are_all({Status::embedded, Status::allowed, Status::gap_not_met})) return exit_intersecting;
+    if (counts.contains(std::string(to_string(Status::allowed)))) return exit_allowed;
+    return are_all({Status::embedded}) ? exit_embedded : exit_gap_not_met;
   }
 
  private:
@@ -485,7 +487,7 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
       "Only write the summary of what is done. Needed with --shard; else the summary is written at the end");
   command.add_flag("--thumbnails", options.thumbnails, "Draw each mesh before and after for the summary page");
   command.add_flag("--retry", options.retry,
-                   "Repair again the meshes that did not end as embedded, allowed or obstructed");
+                   "Repair again the meshes that did not end as embedded, allowed, obstructed or gap_not_met");
   const std::string limits = "Limits for each mesh";
   command
       .add_option("--time-limit", options.time_limit_s,
@@ -518,7 +520,8 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
                              "skipped.\n\n") +
                  exit_codes({{exit_embedded, "all meshes are embedded (no self-intersections)"},
                              {exit_intersecting, "all were tried, but not all are embedded; results.csv says why"},
-                             {exit_allowed, "all are embedded but for pairs that --allow lets pass"}}));
+                             {exit_allowed, "all are embedded but for pairs that --allow lets pass"},
+                             {exit_gap_not_met, "all are embedded, but gaps are smaller than --min-gap asks"}}));
 }
 
 int run_batch(const BatchOptions& options, Interruption& interruption) {

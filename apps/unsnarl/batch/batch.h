@@ -22,9 +22,9 @@ struct BatchOptions {
 void add_batch_options(CLI::App& command, BatchOptions& options);
 
 /// Repairs each mesh of a list or folder in a process of its own and keeps a record of it. Returns the exit code:
-/// exit_embedded, exit_allowed (all are, but for pairs that may pass), exit_intersecting (all have been worked on, not
-/// all are embedded) or exit_cancelled.
-/// Throws FileError, WriteError, UsageError.
+/// exit_embedded, exit_gap_not_met (all are, but not all gaps are as wide as asked), exit_allowed (all are, but for
+/// pairs that may pass), exit_intersecting (all have been worked on, not all are embedded) or exit_cancelled. Throws
+/// FileError, WriteError, UsageError.
 int run_batch(const BatchOptions& options, Interruption& interruption);
 
 }  // namespace unsnarl::app

@@ -251,10 +251,17 @@ class SequenceRun {
     return status_from_name(report.value("status", std::string()));
   }
 
-  /// The exit code is that of the first frame that is not written whole; else of an obstructed one, an allowed one.
+  /// The exit code is that of the first frame that is not written whole; else of an obstructed one, an allowed one, one
+  /// whose gap is not met.
   void note_status(Status status) {
     const auto rank = [](ExitCode code) {
-      return code == exit_embedded ? 0 : code == exit_allowed ? 1 : code == exit_obstructed ? 2 : 3;
+      switch (code) {
+        case exit_embedded: return 0;
+        case exit_gap_not_met: return 1;
+        case exit_allowed: return 2;
+        case exit_obstructed: return 3;
+        default: return 4;
+      }
     };
     const ExitCode code = exit_code_of(status);
     if (rank(code) > rank(exit_code_)) exit_code_ = code;
