@@ -20,14 +20,14 @@
 namespace unsnarl {
 namespace {
 
-/// A component that bears less of its cluster's squared motion is not held [E209] (no unit)
+/// A component that bears less of its cluster's squared motion is not held [E213] (no unit)
 constexpr double least_share = 0.2;
 /// A component is held where its edges are longer than this many times those of another one, which can give way
-/// [E209] (no unit)
+/// [E214] (no unit)
 constexpr double coarser = 2;
 /// A result is nearer where its motion by area is below this share of the one before (no unit)
 constexpr double nearer_share = 0.98;
-/// Recoveries of a cluster that went far, beyond the first, at most [E210] (unit: recoveries)
+/// Recoveries of a cluster that went far, beyond the first, at most [E215] (unit: recoveries)
 constexpr int most_recoveries = 2;
 
 /// Conflicts that hang together, and all vertices that were moved for them.
