@@ -80,7 +80,7 @@ std::vector<std::vector<Index>> sets_around(const RepairTask& task, const Scene&
 /// Puts sets with a vertex that went farther than allowed back to where they were.
 void take_back_what_is_too_far(const RepairTask& task, std::span<const std::vector<Index>> sets,
                                const Positions& before, Scene& scene) {
-  const double limit = task.options.max_displacement_rel * task.diagonal;
+  const double limit = task.most_motion();
   if (!(limit > 0)) return;
   for (const std::vector<Index>& set : sets) {
     const auto is_too_far = [&](Index v) { return (scene.x.col(v) - scene.rest.col(v)).norm() > limit; };
@@ -119,8 +119,8 @@ class Kept {
   std::size_t lost_areas_;
 };
 
-void recover_sets(const RepairTask& task, const RepairControl& control, const std::vector<std::vector<Index>>& sets,
-                  RepairState& state) {
+void open_sets(const RepairTask& task, const RepairControl& control, const std::vector<std::vector<Index>>& sets,
+               RepairState& state) {
   RecoverRegionsOptions options;
   options.recover.knows_sheets = true;
   options.least_reach = obstacle_gaps * gap_wanted_everywhere(task);
@@ -160,7 +160,7 @@ void open_all(const RepairTask& task, const RepairControl& control, std::vector<
     const std::vector<std::vector<Index>> sets = sets_around(task, state.scene, gaps);
     if (sets.empty()) return;
     const RepairState::Checkpoint before = state.checkpoint();
-    recover_sets(task, control, sets, state);
+    open_sets(task, control, sets, state);
     bool gets_on = round_gaps(kept, state);
     if (gets_on) {
       std::vector<SheetGap> now = sheets.narrow(state.scene.x, wanted);
