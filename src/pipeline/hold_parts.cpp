@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <new>
 #include <optional>
 #include <span>
 #include <utility>
@@ -178,10 +179,26 @@ Held choose_held(const RepairTask& task, const Scene& scene, const Held& was_hel
   return held;
 }
 
+/// The pairs that are let be while the open clusters are untangled: also those of `left` that lie elsewhere.
+std::vector<IntersectingPair> ignored_around(const RepairState& state, std::span<const IntersectingPair> left,
+                                             std::span<const Cluster> clusters) {
+  std::vector<std::uint8_t> is_tried(static_cast<std::size_t>(state.scene.vertex_count()), 0);
+  for (const Cluster& cluster : clusters)
+    for (const Index v : cluster.vertices) is_tried[v] = cluster.is_open;
+  const auto is_of_tried = [&](Index t) {
+    return std::ranges::any_of(state.scene.triangles[t], [&](Index v) { return is_tried[v] != 0; });
+  };
+  std::vector<IntersectingPair> ignored = state.ignored;
+  std::ranges::copy_if(left, std::back_inserter(ignored),
+                       [&](const IntersectingPair& pair) { return !is_of_tried(pair.a) && !is_of_tried(pair.b); });
+  sort_unique(ignored);
+  return ignored;
+}
+
 /// Untangles the open clusters from rest, without the last resorts. `most_motion`: escalation_options().
 EscalationResult untangle_from_rest(const RepairTask& task, const RepairControl& control,
-                                    std::span<const Cluster> clusters, double most_motion, SceneIndex& index,
-                                    RepairState& state) {
+                                    std::span<const IntersectingPair> ignored, std::span<const Cluster> clusters,
+                                    double most_motion, SceneIndex& index, RepairState& state) {
   for (const Cluster& cluster : clusters)
     if (cluster.is_open) state.restore_to_rest(cluster.vertices);
   index.update();
@@ -190,25 +207,27 @@ EscalationResult untangle_from_rest(const RepairTask& task, const RepairControl&
   options.tiers = tiers_before_last_resorts();
   options.recorder = nullptr;
   options.recover = {};
-  return escalate(state.scene, index, state.ignored, options);
+  return escalate(state.scene, index, ignored, options);
 }
 
 /// Untangles the open clusters again while components are held, and recovers them with these free. Where that leaves
 /// pairs, it does so once more, no farther than the first result went: a candidate that goes far may stand in the way.
-EscalationResult repair_again(const RepairTask& task, const RepairControl& control, std::span<const Cluster> clusters,
+EscalationResult repair_again(const RepairTask& task, const RepairControl& control,
+                              std::span<const IntersectingPair> left, std::span<const Cluster> clusters,
                               const Held& held, SceneIndex& index, RepairState& state) {
   Scene& scene = state.scene;
+  const std::vector<IntersectingPair> ignored = ignored_around(state, left, clusters);
   const Positions first = scene.x;
-  std::vector<std::uint8_t> fixed = scene.fixed;
+  const std::vector<std::uint8_t> fixed = scene.fixed;
   for (Index v = 0; v < scene.vertex_count(); ++v)
     if (held[component_of(task, v)]) scene.fixed[v] = 1;
-  EscalationResult result = untangle_from_rest(task, control, clusters, task.most_motion(), index, state);
+  EscalationResult result = untangle_from_rest(task, control, ignored, clusters, task.most_motion(), index, state);
   if (!result.left.empty() && !control.limits.reached()) {
-    const double farthest = farthest_of(scene, first, clusters);
     scene.x = first;
-    result = untangle_from_rest(task, control, clusters, farthest, index, state);
+    const double farthest = farthest_of(scene, first, clusters);
+    result = untangle_from_rest(task, control, ignored, clusters, farthest, index, state);
   }
-  scene.fixed = std::move(fixed);
+  scene.fixed = fixed;
   std::vector<std::vector<Index>> sets = result.moved;
   for (const Cluster& cluster : clusters)
     if (cluster.is_open) sets.push_back(free_of(scene, cluster.vertices));
@@ -244,10 +263,12 @@ std::vector<std::size_t> count_pairs(const Scene& scene, std::span<const Interse
 }
 
 /// Closes clusters whose second result is no better, and those whose second result meets the first one of others; they
-/// go back to `first`. `left`: the pairs of the first result, then those that remain.
-void keep_better(const RepairTask& task, const RepairState& state, const Positions& first,
-                 std::span<const Index> cluster_of, std::vector<Cluster>& clusters, SceneIndex& index, Scene& scene,
+/// go back to `first`. Open are those that keep the second one. `left`: the pairs of the first result, then those that
+/// remain.
+void keep_better(const RepairTask& task, const Positions& first, std::span<const Index> cluster_of,
+                 std::vector<Cluster>& clusters, SceneIndex& index, RepairState& state,
                  std::vector<IntersectingPair>& left) {
+  Scene& scene = state.scene;
   const auto go_back = [&](Cluster& cluster) {
     cluster.is_open = false;
     for (const Index v : cluster.vertices) scene.x.col(v) = first.col(v);
@@ -260,7 +281,8 @@ void keep_better(const RepairTask& task, const RepairState& state, const Positio
     const std::vector<Index>& vertices = clusters[k].vertices;
     const bool is_better = now[k] < before[k] || (now[k] == before[k] && is_nearer(motion_of(scene, scene.x, vertices),
                                                                                    motion_of(scene, first, vertices)));
-    if (!is_better || !is_within_limit(task, scene, vertices)) go_back(clusters[k]);
+    clusters[k].is_open = is_better && is_within_limit(task, scene, vertices);
+    if (!clusters[k].is_open) go_back(clusters[k]);
   }
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
@@ -320,26 +342,41 @@ void list_unresolved(std::span<const IntersectingPair> left, RepairState& state)
   }
 }
 
+/// Repairs the open clusters again while components are held, and keeps the better results; clusters that keep the
+/// first one are closed. Where memory runs out, all keep it.
+void try_held(const RepairTask& task, const RepairControl& control, const Held& held, std::vector<Cluster>& clusters,
+              SceneIndex& index, RepairState& state, std::vector<IntersectingPair>& left) {
+  const Positions first = state.scene.x;
+  const std::vector<std::uint8_t> fixed = state.scene.fixed;
+  try {
+    Recorder::Stages recorded = state.recorder.stages();
+    EscalationResult second = repair_again(task, control, left, clusters, held, index, state);
+    std::vector<Index> cluster_of;
+    clusters = join(state.scene, clusters, second.moved, cluster_of);
+    keep_better(task, first, cluster_of, clusters, index, state, left);
+    state.recorder.restore(std::move(recorded));
+    take_over(second, clusters, cluster_of, state);
+  } catch (const std::bad_alloc&) {
+    state.scene.x = first;
+    state.scene.fixed = fixed;
+    throw;
+  }
+}
+
 }  // namespace
 
 std::vector<IntersectingPair> hold_parts(const RepairTask& task, const RepairControl& control,
                                          std::vector<IntersectingPair> left, SceneIndex& index, RepairState& state) {
   if (task.diagnosis.components.count() < 2 || task.nested || task.options.paper) return left;
   std::vector<Cluster> clusters = clusters_of(task, state);
-  const auto is_open = [](const Cluster& cluster) { return cluster.is_open; };
-  if (std::ranges::none_of(clusters, is_open)) return left;
   Held was_held(task.diagnosis.components.count(), 0);
   while (!control.limits.reached()) {
     const Held held = choose_held(task, state.scene, was_held, clusters);
-    if (std::ranges::none_of(clusters, is_open)) break;
+    if (std::ranges::none_of(clusters, [](const Cluster& cluster) { return cluster.is_open; })) break;
     for (std::size_t c = 0; c < held.size(); ++c) was_held[c] |= held[c];
-    const Positions first = state.scene.x;
-    EscalationResult second = repair_again(task, control, clusters, held, index, state);
-    std::vector<Index> cluster_of;
-    clusters = join(state.scene, clusters, second.moved, cluster_of);
-    keep_better(task, state, first, cluster_of, clusters, index, state.scene, left);
-    take_over(second, clusters, cluster_of, state);
+    try_held(task, control, held, clusters, index, state, left);
   }
+  if (std::ranges::none_of(was_held, [](std::uint8_t held) { return held != 0; })) return left;
   recover_on(task, control, clusters, index, state);
   index.update();
   list_unresolved(left, state);
