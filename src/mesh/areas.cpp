@@ -19,6 +19,12 @@ std::vector<double> triangle_areas(const Positions& x, std::span<const Triangle>
   return areas;
 }
 
+double squared_motion(const Positions& rest, const Positions& x, const Triangle& t) {
+  const Vec3 a = x.col(t[0]) - rest.col(t[0]), b = x.col(t[1]) - rest.col(t[1]), c = x.col(t[2]) - rest.col(t[2]);
+  const double squares = a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + a.dot(b) + b.dot(c) + c.dot(a);
+  return triangle_area(rest, t) * squares / 6;
+}
+
 double total_area(const Positions& x, std::span<const Triangle> triangles) {
   double sum = 0;
   for (const Triangle& t : triangles) sum += triangle_area(x, t);

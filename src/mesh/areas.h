@@ -22,6 +22,10 @@ std::vector<double> triangle_areas(const Positions& x, std::span<const Triangle>
 /// Sum of the areas of all triangles.
 double total_area(const Positions& x, std::span<const Triangle> triangles);
 
+/// Integral over the triangle at rest of the squared distance between x and rest, both linear on it. The motion by area
+/// of a surface is the root of the sum of these over its area: a length.
+double squared_motion(const Positions& rest, const Positions& x, const Triangle& t);
+
 /// Number of triangles that have exactly no area at x, but had some at rest.
 std::size_t count_lost_areas(const Positions& rest, const Positions& x, std::span<const Triangle> triangles);
 

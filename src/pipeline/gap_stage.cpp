@@ -23,7 +23,7 @@ namespace {
 
 /// Rounds of opening what is too small, at most: in each, a vertex goes a few edge lengths at most (unit: rounds)
 constexpr int gap_rounds = 6;
-/// Vertices this far along the edges from a gap that is opened make way too [E211] (unit: wanted gap)
+/// Vertices this far along the edges from a gap that is opened make way too [E212] (unit: wanted gap)
 constexpr double way_gaps = 2;
 /// Obstacles of a recovery are listed up to this distance (unit: wanted gap)
 constexpr double obstacle_gaps = 2;
@@ -119,8 +119,8 @@ class Kept {
   std::size_t lost_areas_;
 };
 
-void recover_sets(const RepairTask& task, const RepairControl& control, const std::vector<std::vector<Index>>& sets,
-                  RepairState& state) {
+void open_sets(const RepairTask& task, const RepairControl& control, const std::vector<std::vector<Index>>& sets,
+               RepairState& state) {
   RecoverRegionsOptions options;
   options.recover.knows_sheets = true;
   options.least_reach = obstacle_gaps * gap_wanted_everywhere(task);
@@ -160,7 +160,7 @@ void open_all(const RepairTask& task, const RepairControl& control, std::vector<
     const std::vector<std::vector<Index>> sets = sets_around(task, state.scene, gaps);
     if (sets.empty()) return;
     const RepairState::Checkpoint before = state.checkpoint();
-    recover_sets(task, control, sets, state);
+    open_sets(task, control, sets, state);
     bool gets_on = round_gaps(kept, state);
     if (gets_on) {
       std::vector<SheetGap> now = sheets.narrow(state.scene.x, wanted);

@@ -9,10 +9,9 @@
 #include <utility>
 
 #include "contact/blocking_pairs.h"
-#include "pipeline/gap_stage.h"
+#include "pipeline/hold_parts.h"
+#include "pipeline/region_work.h"
 #include "pipeline/restore_to_rest.h"
-#include "recover/recover.h"
-#include "recover/recover_regions.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/escalation.h"
 #include "untangle/strategies.h"
@@ -48,48 +47,6 @@ double most_motion(const RepairTask& task) {
   return task.options.max_displacement_rel * task.diagonal;
 }
 
-void recover_patch(const RepairTask& task, const RepairControl& control, const RepairState& state, Patch& patch) {
-  RecoverOptions options;
-  options.knows_sheets = gap_wanted_everywhere(task) > 0;
-  options.min_gap =
-      state.format.wanted_gap(state.scene, {patch.vertices.data(), static_cast<std::size_t>(patch.free_count)});
-  recover(patch, options, control.limits.stopper());
-}
-
-bool is_within(const Patch& patch, const Positions& rest, double limit) {
-  for (Index v = 0; v < patch.free_count; ++v)
-    if ((patch.x.col(v) - rest.col(patch.vertices[v])).norm() > limit) return false;
-  return true;
-}
-
-/// `is_exceeded`: set where a candidate goes too far; both must outlive the options.
-EscalationOptions escalation_options(const RepairTask& task, const RepairControl& control, RepairState& state,
-                                     std::atomic<bool>& is_exceeded) {
-  EscalationOptions options;
-  options.tiers = default_tiers();
-  options.left_out = task.options.without_strategies;
-  if (task.nested) options.left_out.emplace_back("placement");  // it begins at rest, where the surfaces cross
-  options.stop = control.limits.stopper();
-  options.recorder = &state.recorder;
-  options.first_region = state.regions.size();
-  options.attempts = &state.attempts;
-  if (task.options.recover) options.recover = [&](Patch& patch) { recover_patch(task, control, state, patch); };
-  if (task.options.max_displacement_rel > 0)
-    options.accept = [&](Patch& patch) {
-      if (is_within(patch, state.scene.rest, most_motion(task))) return true;
-      if (task.options.recover) recover_patch(task, control, state, patch);
-      if (task.options.recover && is_within(patch, state.scene.rest, most_motion(task))) return true;
-      is_exceeded = true;
-      return false;
-    };
-  options.on_progress = [&](const EscalationProgress& progress) {
-    const double all = static_cast<double>(std::max<std::size_t>(1, state.pairs_at_rest.size()));
-    report_progress(task, control, state, untangled_fraction * (1 - std::min(1.0, progress.work_left / all)),
-                    progress.left, progress.pairs_now);
-  };
-  return options;
-}
-
 /// Untangles the scene. Pairs that rounding brought (in rounds after the first) separate only where they are given a
 /// gap; where float32 is optional, only local strategies try. Returns the pairs that are left; none: it was given up.
 std::optional<std::vector<IntersectingPair>> untangle(const RepairTask& task, const RepairControl& control,
@@ -97,6 +54,12 @@ std::optional<std::vector<IntersectingPair>> untangle(const RepairTask& task, co
   std::atomic<bool> is_exceeded{false};
   EscalationOptions options = escalation_options(task, control, state, is_exceeded);
   if (is_first && task.options.recover) options.stop = control.limits.stopper_at(untangling_time);
+  options.attempts = &state.attempts;
+  options.on_progress = [&](const EscalationProgress& progress) {
+    const double all = static_cast<double>(std::max<std::size_t>(1, state.pairs_at_rest.size()));
+    report_progress(task, control, state, untangled_fraction * (1 - std::min(1.0, progress.work_left / all)),
+                    progress.left, progress.pairs_now);
+  };
   const bool may_fail = !is_first && state.format.may_give_up_float32();
   if (!is_first)
     options.min_gap = [&](std::span<const Index> vertices) { return state.format.wanted_gap(state.scene, vertices); };
@@ -117,16 +80,9 @@ void recover_moved(const RepairTask& task, const RepairControl& control, std::sp
                    SceneIndex& index, RepairState& state) {
   std::vector<std::vector<Index>> sets;
   for (std::size_t k = state.recovered; k < state.moved.size(); ++k) sets.push_back(state.moved[k].vertices);
-  RecoverRegionsOptions options;
-  if (task.options.paper) options.recover = RecoverOptions::paper();
-  options.recover.knows_sheets = gap_wanted_everywhere(task) > 0;
-  options.min_gap = [&](std::span<const Index> vertices) { return state.format.wanted_gap(state.scene, vertices); };
-  options.stop = control.limits.stopper();
-  options.on_progress = [&](double share) {
+  const double gap = recover_sets(task, control, std::move(sets), index, state, [&](double share) {
     report_progress(task, control, state, untangled_fraction + (recovered_fraction - untangled_fraction) * share, left);
-  };
-  const double gap = recover_regions(state.scene, index, merge_overlapping(std::move(sets), state.scene.vertex_count()),
-                                     options, state.recorder);
+  });
   state.smallest_gap = std::min(state.smallest_gap, gap);
 }
 
@@ -212,12 +168,13 @@ Rounds work_in_rounds(const RepairTask& task, const RepairControl& control, Find
   StuckFaces stuck(state.scene);
   for (int round = 0; round < rounding_rounds && !control.limits.reached(); ++round) {
     control.phases.start("untangle");
-    const auto left = untangle(task, control, index, state, round == 0);
+    auto left = untangle(task, control, index, state, round == 0);
     if (!left) break;
     if (task.options.recover) {
       control.phases.start("recover");
       report_progress(task, control, state, untangled_fraction, *left);
       recover_moved(task, control, *left, index, state);
+      if (round == 0) left = hold_parts(task, control, std::move(*left), index, state);
     }
     measure_regions(task, state);
     state.recovered = state.moved.size();

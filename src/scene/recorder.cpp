@@ -51,6 +51,15 @@ void Recorder::thin_out() {
     }
 }
 
+void Recorder::renumber(std::span<const std::size_t> number) {
+  for (std::shared_ptr<Stage>& stage : stages_) {
+    if (stage->phase != "untangle") continue;
+    stage = std::make_shared<Stage>(*stage);  // earlier copies of the list keep theirs
+    for (Track& track : stage->tracks)
+      if (track.region < number.size()) track.region = number[track.region];
+  }
+}
+
 std::vector<RegionHistory> Recorder::history() const {
   std::vector<RegionHistory> history;
   for (const auto& stage : stages_)

@@ -49,6 +49,8 @@ class Recorder {
   /// Positions at the start.
   const Positions& input() const { return input_; }
   const RecordOptions& options() const { return options_; }
+  /// Region r of the report becomes number[r], or leaves the history (no_region).
+  void renumber(std::span<const std::size_t> number);
   /// Goes back to stages that were taken earlier.
   void restore(Stages stages) { stages_ = std::move(stages); }
 

@@ -69,6 +69,10 @@ class PairsOfFaces {
       if (pair.a < patch.active_count) is_tolerated_[at(pair.a, pair.b)] = 1;
       if (pair.b < patch.active_count) is_tolerated_[at(pair.b, pair.a)] = 1;
     }
+    const Passing passing = patch.passing();
+    for (Index t = 0; t < patch.active_count; ++t)
+      for (Index u = 0; u < face_count(); ++u)
+        if (!passing.meet(patch.triangles, t, u)) is_tolerated_[at(t, u)] = 1;
     boxes_.resize(count);
     of_face_.assign(count, 0);
     for (Index t = 0; t < face_count(); ++t) boxes_[t] = box_of(patch_.x, patch_.triangles[t]);

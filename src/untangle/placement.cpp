@@ -109,16 +109,21 @@ class Placement {
            is_among({std::min(t, u), std::max(t, u), PairClass::disjoint}, tolerated_);
   }
 
-  /// The component, where it is in x_, meets nothing that is present. Its own triangles are not.
-  bool is_free(const Component& component) const {
-    for (Index t : component.triangles) {
-      PairClass kind;
-      const auto meets = [&](Index u) {
-        return is_present_[u] && !is_tolerated(t, u) && intersects(x_, patch_.triangles[t], patch_.triangles[u], kind);
-      };
-      if (tree_.find(box_of(x_, patch_.triangles[t]), meets)) return false;
-    }
-    return true;
+  bool meets_something(Index t) const {
+    PairClass kind;
+    return tree_.find(box_of(x_, patch_.triangles[t]), [&](Index u) {
+      return is_present_[u] && !is_tolerated(t, u) && intersects(x_, patch_.triangles[t], patch_.triangles[u], kind);
+    });
+  }
+
+  /// The component, where it is in x_, meets nothing that is present. Its own triangles are not. `met`: one of its
+  /// triangles, tried first; becomes one that meets something.
+  bool is_free(const Component& component, Index& met) const {
+    if (meets_something(met)) return false;
+    const auto found = std::ranges::find_if(component.triangles, [&](Index t) { return meets_something(t); });
+    if (found == component.triangles.end()) return true;
+    met = *found;
+    return false;
   }
 
   std::vector<IntersectingPair> contacts_of(const Component& component) const {
@@ -199,9 +204,10 @@ class Placement {
     const std::vector<Motion> motions = motions_of(component, contacts);
     std::vector<MotionFamily> families;
     for (const Motion& motion : motions) families.push_back(family_of(motion, from, component.diagonal));
+    Index met = component.triangles.front();
     const auto is_free_at = [&](std::size_t k, double parameter) {
       move(component, from, motions[k], parameter);
-      return is_free(component);
+      return is_free(component, met);
     };
     const std::optional<FreePlace> found = nearest_free_place(families, is_free_at, {margin, false, stop_});
     if (found)

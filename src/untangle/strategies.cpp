@@ -183,6 +183,12 @@ std::span<const Tier> default_tiers() {
   return tiers;
 }
 
+std::span<const Tier> tiers_before_last_resorts() {
+  const std::span<const Tier> all = default_tiers();
+  const auto last = std::ranges::find_if(all, [](const Tier& tier) { return tier.is_last_resort; });
+  return all.first(static_cast<std::size_t>(last - all.begin()));
+}
+
 std::span<const Tier> coarse_mesh_tiers() {
   static const std::vector<Tier> tiers = all_tiers(CoarseMeshes::one);
   return tiers;

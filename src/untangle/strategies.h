@@ -15,6 +15,9 @@ namespace unsnarl {
 /// last for whole components.
 std::span<const Tier> default_tiers();
 
+/// The default without the last resorts.
+std::span<const Tier> tiers_before_last_resorts();
+
 /// The default of coarse meshes: without the wider surroundings, and with one mesh that is coarser still, not several.
 std::span<const Tier> coarse_mesh_tiers();
 

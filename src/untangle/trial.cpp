@@ -8,6 +8,7 @@
 
 #include "contact/blocking_pairs.h"
 #include "contact/intersection_finder.h"
+#include "mesh/areas.h"
 #include "recover/recover_options.h"
 #include "untangle/conflict_regions.h"
 
@@ -121,7 +122,9 @@ void look_farther(Trial& trial, const Scene& scene, const SceneIndex& index,
     IntersectionFinder finder(trial.patch.triangles, trial.patch.active_count, trial.patch.passing());
     trial.left = TrialPairs(blocking_pairs(finder.find(trial.patch.x), tolerated));
   }
-  trial.distance = distances_to_rest(trial.patch).sum();
+  trial.distance = 0;
+  for (Index t = 0; t < trial.patch.active_count; ++t)
+    trial.distance += squared_motion(trial.patch.rest, trial.patch.x, trial.patch.triangles[t]);
 }
 
 bool is_current(const Trial& trial, const Scene& scene) {

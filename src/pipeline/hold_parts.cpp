@@ -1,0 +1,323 @@
+#include "pipeline/hold_parts.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "contact/blocking_pairs.h"
+#include "geometry/sort_unique.h"
+#include "mesh/areas.h"
+#include "pipeline/region_work.h"
+#include "untangle/conflict_regions.h"
+#include "untangle/strategies.h"
+
+namespace unsnarl {
+namespace {
+
+/// A component that bears less of its cluster's squared motion is not held [E209] (no unit)
+constexpr double least_share = 0.2;
+/// A component is held where its edges are longer than this many times those of another one, which can give way
+/// [E209] (no unit)
+constexpr double coarser = 2;
+/// A result is nearer where its motion by area is below this share of the one before (no unit)
+constexpr double nearer_share = 0.98;
+/// Recoveries of a cluster that went far, beyond the first, at most [E210] (unit: recoveries)
+constexpr int most_recoveries = 2;
+
+/// Conflicts that hang together, and all vertices that were moved for them.
+struct Cluster {
+  std::vector<Index> vertices;  ///< ascending
+  bool was_open = false;        ///< a component has been held for it
+  bool is_open = false;         ///< a nearer result may be looked for
+};
+
+/// One flag a component.
+using Held = std::vector<std::uint8_t>;
+
+Index component_of(const RepairTask& task, Index v) {
+  return task.diagnosis.components.component_of_vertex[v];
+}
+
+std::vector<Index> triangles_of(const Scene& scene, std::span<const Index> vertices) {
+  std::vector<Index> triangles;
+  for (const Index v : vertices)
+    triangles.insert(triangles.end(), scene.triangles_of_vertex[v].begin(), scene.triangles_of_vertex[v].end());
+  sort_unique(triangles);
+  return triangles;
+}
+
+/// squared_motion() of the triangles of these vertices, summed.
+double motion_of(const Scene& scene, const Positions& x, std::span<const Index> vertices) {
+  double sum = 0;
+  for (const Index t : triangles_of(scene, vertices)) sum += squared_motion(scene.rest, x, scene.triangles[t]);
+  return sum;
+}
+
+bool is_within(const RepairTask& task, const Scene& scene, std::span<const Index> vertices) {
+  const double most = task.options.max_displacement_rel * task.diagonal;
+  return !(most > 0) ||
+         std::ranges::all_of(vertices, [&](Index v) { return (scene.x.col(v) - scene.rest.col(v)).norm() <= most; });
+}
+
+bool is_nearer(double motion, double before) {
+  return motion < nearer_share * nearer_share * before;
+}
+
+bool has_two_free_components(const RepairTask& task, const Scene& scene, std::span<const Index> vertices) {
+  Index first = -1;
+  for (const Index v : vertices) {
+    if (scene.fixed[v]) continue;
+    if (first >= 0 && component_of(task, v) != first) return true;
+    first = component_of(task, v);
+  }
+  return false;
+}
+
+/// The clusters of what was moved since the last recovery but one. Open: two components could give way.
+std::vector<Cluster> clusters_of(const RepairTask& task, const RepairState& state) {
+  const Scene& scene = state.scene;
+  std::vector<std::vector<Index>> sets;
+  for (std::size_t k = state.recovered; k < state.moved.size(); ++k) sets.push_back(state.moved[k].vertices);
+  std::vector<Cluster> clusters;
+  for (std::vector<Index>& vertices : merge_overlapping(std::move(sets), scene.vertex_count())) {
+    const bool may_give_way = has_two_free_components(task, scene, vertices);
+    clusters.push_back({.vertices = std::move(vertices), .is_open = may_give_way});
+  }
+  return clusters;
+}
+
+std::vector<Index> free_of(const Scene& scene, std::span<const Index> vertices) {
+  std::vector<Index> free;
+  std::ranges::copy_if(vertices, std::back_inserter(free), [&](Index v) { return !scene.fixed[v]; });
+  return free;
+}
+
+/// Recovers clusters again that were repaired again, until that brings them no nearer.
+void recover_on(const RepairTask& task, const RepairControl& control, std::span<const Cluster> clusters,
+                SceneIndex& index, RepairState& state) {
+  std::vector<std::vector<Index>> sets;
+  for (const Cluster& cluster : clusters)
+    if (cluster.was_open) sets.push_back(free_of(state.scene, cluster.vertices));
+  for (int k = 0; k < most_recoveries && !sets.empty() && !control.limits.reached(); ++k) {
+    std::vector<double> before;
+    for (const std::vector<Index>& set : sets) before.push_back(motion_of(state.scene, state.scene.x, set));
+    recover_sets(task, control, sets, index, state);
+    std::vector<std::vector<Index>> nearer;
+    for (std::size_t s = 0; s < sets.size(); ++s)
+      if (is_nearer(motion_of(state.scene, state.scene.x, sets[s]), before[s])) nearer.push_back(std::move(sets[s]));
+    sets = std::move(nearer);
+  }
+}
+
+/// What a component bears of a cluster's motion, and how coarse it is there.
+struct Bearing {
+  double motion = 0;            ///< squared_motion(), summed
+  std::vector<Triangle> faces;  ///< of the cluster
+  double edge_length = 0;       ///< mean of these faces at rest
+};
+
+std::map<Index, Bearing> bearings_of(const RepairTask& task, const Scene& scene, const Cluster& cluster) {
+  std::map<Index, Bearing> bearings;
+  for (const Index t : triangles_of(scene, cluster.vertices)) {
+    Bearing& bearing = bearings[component_of(task, scene.triangles[t][0])];
+    bearing.motion += squared_motion(scene.rest, scene.x, scene.triangles[t]);
+    bearing.faces.push_back(scene.triangles[t]);
+  }
+  for (auto& [component, bearing] : bearings) bearing.edge_length = mean_edge_length(scene.rest, bearing.faces);
+  return bearings;
+}
+
+/// Of the components that are coarser than another one, the one that bears most of a cluster's motion; none: it has
+/// been held, or all bear little.
+std::optional<Index> heaviest_component(const RepairTask& task, const Scene& scene, const Cluster& cluster,
+                                        const Held& was_held) {
+  const std::map<Index, Bearing> bearings = bearings_of(task, scene, cluster);
+  double all = 0, finest = std::numeric_limits<double>::infinity();
+  for (const auto& [component, bearing] : bearings) {
+    all += bearing.motion;
+    finest = std::min(finest, bearing.edge_length);
+  }
+  std::optional<Index> heaviest;
+  for (const auto& [component, bearing] : bearings) {
+    const bool is_coarse = bearing.edge_length > coarser * finest;
+    if (was_held[component] || !is_coarse || !(bearing.motion > least_share * all)) continue;
+    if (!heaviest || bearing.motion > bearings.at(*heaviest).motion) heaviest = component;
+  }
+  return heaviest;
+}
+
+/// Chooses the component of each open cluster to be held next; clusters without one are closed.
+Held choose_held(const RepairTask& task, const Scene& scene, const Held& was_held, std::vector<Cluster>& clusters) {
+  Held held(task.diagnosis.components.count(), 0);
+  for (Cluster& cluster : clusters) {
+    if (!cluster.is_open) continue;
+    const std::optional<Index> heaviest = heaviest_component(task, scene, cluster, was_held);
+    cluster.is_open = heaviest.has_value();
+    cluster.was_open |= cluster.is_open;
+    if (heaviest) held[*heaviest] = 1;
+  }
+  return held;
+}
+
+/// Untangles the open clusters again from rest while components are held, without the last resorts, and recovers them
+/// with these free.
+EscalationResult repair_again(const RepairTask& task, const RepairControl& control, std::span<const Cluster> clusters,
+                              const Held& held, SceneIndex& index, RepairState& state) {
+  Scene& scene = state.scene;
+  std::vector<std::uint8_t> fixed = scene.fixed;
+  for (const Cluster& cluster : clusters)
+    if (cluster.is_open) state.restore_to_rest(cluster.vertices);
+  for (Index v = 0; v < scene.vertex_count(); ++v)
+    if (held[component_of(task, v)]) scene.fixed[v] = 1;
+  index.update();
+  std::atomic<bool> is_exceeded{false};
+  EscalationOptions options = escalation_options(task, control, state, is_exceeded);
+  options.tiers = tiers_before_last_resorts();
+  options.recorder = nullptr;
+  options.recover = {};
+  EscalationResult result = escalate(scene, index, state.ignored, options);
+  scene.fixed = std::move(fixed);
+  std::vector<std::vector<Index>> sets = result.moved;
+  for (const Cluster& cluster : clusters)
+    if (cluster.is_open) sets.push_back(free_of(scene, cluster.vertices));
+  recover_sets(task, control, std::move(sets), index, state);
+  return result;
+}
+
+/// The clusters that hang together once the second result has moved more.
+std::vector<Cluster> join(const Scene& scene, std::span<const Cluster> clusters,
+                          std::span<const std::vector<Index>> moved, std::vector<Index>& cluster_of) {
+  std::vector<std::vector<Index>> sets(moved.begin(), moved.end());
+  for (const Cluster& cluster : clusters) sets.push_back(cluster.vertices);
+  std::vector<Cluster> joined;
+  cluster_of.assign(static_cast<std::size_t>(scene.vertex_count()), -1);
+  for (std::vector<Index>& vertices : merge_overlapping(std::move(sets), scene.vertex_count())) {
+    for (const Index v : vertices) cluster_of[v] = static_cast<Index>(joined.size());
+    joined.push_back({std::move(vertices)});
+  }
+  for (const Cluster& cluster : clusters) {
+    Cluster& whole = joined[cluster_of[cluster.vertices.front()]];
+    whole.was_open |= cluster.was_open;
+    whole.is_open |= cluster.is_open;
+  }
+  return joined;
+}
+
+std::vector<std::size_t> count_pairs(const Scene& scene, std::span<const IntersectingPair> pairs,
+                                     std::span<const Index> cluster_of, std::size_t clusters) {
+  std::vector<std::size_t> counts(clusters, 0);
+  for (const IntersectingPair& pair : pairs)
+    if (const Index k = cluster_of[scene.triangles[pair.a][0]]; k >= 0) ++counts[k];
+  return counts;
+}
+
+/// Closes clusters whose second result is no better, and those whose second result meets the first one of others; they
+/// go back to `first`. `left`: the pairs of the first result, then those that remain.
+void keep_better(const RepairTask& task, const RepairState& state, const Positions& first,
+                 std::span<const Index> cluster_of, std::vector<Cluster>& clusters, SceneIndex& index, Scene& scene,
+                 std::vector<IntersectingPair>& left) {
+  const auto go_back = [&](Cluster& cluster) {
+    cluster.is_open = false;
+    for (const Index v : cluster.vertices) scene.x.col(v) = first.col(v);
+  };
+  const auto find_pairs = [&] { return blocking_pairs(index.find_pairs(), state.ignored); };
+  const std::vector<IntersectingPair> second = find_pairs();
+  const std::vector<std::size_t> before = count_pairs(scene, left, cluster_of, clusters.size());
+  const std::vector<std::size_t> now = count_pairs(scene, second, cluster_of, clusters.size());
+  for (std::size_t k = 0; k < clusters.size(); ++k) {
+    const std::vector<Index>& vertices = clusters[k].vertices;
+    const bool is_better = now[k] < before[k] || (now[k] == before[k] && is_nearer(motion_of(scene, scene.x, vertices),
+                                                                                   motion_of(scene, first, vertices)));
+    if (!is_better || !is_within(task, scene, vertices)) go_back(clusters[k]);
+  }
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    left = find_pairs();
+    for (const IntersectingPair& pair : left) {
+      if (std::ranges::binary_search(second, pair)) continue;
+      for (const Index t : {pair.a, pair.b})
+        for (const Index v : scene.triangles[t]) {
+          if (cluster_of[v] < 0 || !clusters[cluster_of[v]].is_open) continue;
+          go_back(clusters[cluster_of[v]]);
+          has_changed = true;
+        }
+    }
+  }
+}
+
+/// Enters what the second result of the open clusters moved in place of what the first one did.
+void take_over(EscalationResult& second, std::span<const Cluster> clusters, std::span<const Index> cluster_of,
+               RepairState& state) {
+  const auto is_open = [&](const std::vector<Index>& vertices) {
+    const Index k = cluster_of[vertices.front()];
+    return k >= 0 && clusters[k].is_open;
+  };
+  std::vector<std::uint8_t> is_replaced(state.regions.size(), 0);
+  for (const RepairState::Moved& moved : state.moved) is_replaced[moved.region] = is_open(moved.vertices);
+  std::vector<std::size_t> number(state.regions.size(), Recorder::no_region);
+  std::vector<RegionReport> regions;
+  for (std::size_t r = 0; r < number.size(); ++r) {
+    if (is_replaced[r]) continue;
+    number[r] = regions.size();
+    regions.push_back(std::move(state.regions[r]));
+  }
+  std::erase_if(state.moved, [&](const RepairState::Moved& moved) { return is_replaced[moved.region] != 0; });
+  for (RepairState::Moved& moved : state.moved) moved.region = number[moved.region];
+  for (std::size_t k = 0; k < second.moved.size(); ++k) {
+    if (!is_open(second.moved[k])) continue;
+    state.moved.push_back({std::move(second.moved[k]), second.depths[k], regions.size()});
+    regions.push_back(std::move(second.regions[k]));
+  }
+  state.regions = std::move(regions);
+  state.recovered = 0;  // their numbers have changed
+  state.recorder.renumber(number);
+  std::vector<Index> changed;
+  for (const Cluster& cluster : clusters)
+    if (cluster.is_open) changed.insert(changed.end(), cluster.vertices.begin(), cluster.vertices.end());
+  if (changed.empty()) return;
+  state.recorder.begin_stage("recover");
+  state.recorder.add(state.recorder.new_trajectory(), "", Recorder::no_region, changed, state.scene.x);
+}
+
+/// Regions that no strategy resolved, as they are now.
+void list_unresolved(std::span<const IntersectingPair> left, RepairState& state) {
+  std::erase_if(state.regions, [](const RegionReport& region) { return region.strategy == "none"; });
+  for (const ConflictRegion& region : conflict_regions(state.scene, left)) {
+    state.regions.emplace_back().strategy = "none";
+    state.regions.back().pairs = region.pairs.size();
+  }
+}
+
+}  // namespace
+
+std::vector<IntersectingPair> hold_parts(const RepairTask& task, const RepairControl& control,
+                                         std::vector<IntersectingPair> left, SceneIndex& index, RepairState& state) {
+  if (task.diagnosis.components.count() < 2 || task.nested || task.options.paper) return left;
+  std::vector<Cluster> clusters = clusters_of(task, state);
+  const auto is_open = [](const Cluster& cluster) { return cluster.is_open; };
+  if (std::ranges::none_of(clusters, is_open)) return left;
+  Held was_held(task.diagnosis.components.count(), 0);
+  while (!control.limits.reached()) {
+    const Held held = choose_held(task, state.scene, was_held, clusters);
+    if (std::ranges::none_of(clusters, is_open)) break;
+    for (std::size_t c = 0; c < held.size(); ++c) was_held[c] |= held[c];
+    const Positions first = state.scene.x;
+    EscalationResult second = repair_again(task, control, clusters, held, index, state);
+    std::vector<Index> cluster_of;
+    clusters = join(state.scene, clusters, second.moved, cluster_of);
+    keep_better(task, state, first, cluster_of, clusters, index, state.scene, left);
+    take_over(second, clusters, cluster_of, state);
+  }
+  recover_on(task, control, clusters, index, state);
+  index.update();
+  list_unresolved(left, state);
+  return left;
+}
+
+}  // namespace unsnarl

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+#include "pipeline/repair_control.h"
+#include "pipeline/repair_state.h"
+#include "pipeline/repair_task.h"
+#include "recover/recover_regions.h"
+#include "scene/scene_index.h"
+#include "untangle/escalation.h"
+
+namespace unsnarl {
+
+/// How regions of the state are untangled within the limits and the displacement that the task allows, without a word
+/// of progress. `is_exceeded`: set where a candidate goes too far. All must outlive the options.
+EscalationOptions escalation_options(const RepairTask& task, const RepairControl& control, RepairState& state,
+                                     std::atomic<bool>& is_exceeded);
+
+/// Recovers sets of vertices, those that overlap as one. Returns the least gap that was reached, or infinity.
+/// `on_progress`: see RecoverRegionsOptions; may be empty.
+double recover_sets(const RepairTask& task, const RepairControl& control, std::vector<std::vector<Index>> sets,
+                    SceneIndex& index, RepairState& state, std::function<void(double)> on_progress = {});
+
+}  // namespace unsnarl
