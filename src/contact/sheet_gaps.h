@@ -19,7 +19,7 @@ namespace unsnarl {
 /// The ball that joins one sheet: as far as the gap, so that what bends by 90 degrees is one (unit: wanted gap)
 constexpr double one_sheet_gaps = 1;
 /// The ball that joins one sheet: what lies to both sides of a crease of 15 degrees or more does, where no gap opens
-/// unless the angle does [E211] (unit: distance of the two at rest)
+/// unless the angle does [E210] (unit: distance of the two at rest)
 constexpr double one_sheet_distances = 4;
 
 /// Decides which primitives are of one sheet.

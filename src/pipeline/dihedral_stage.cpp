@@ -14,7 +14,7 @@ void dihedral_stage(const RepairTask& task, const RepairControl& control, Repair
   Finders finders = make_finders(task, state);
   OpenDihedralsOptions options;
   options.least_radians = task.options.min_dihedral_deg * std::numbers::pi / 180;
-  options.most_motion = task.options.max_displacement_rel * task.diagonal;
+  options.most_motion = task.most_motion();
   options.least_gap = task.options.min_gap_rel * task.diagonal;
   options.as_written = [&](const Positions& x) { return state.format.as_written(x); };
   options.pairs_at = [&](const Positions& x) {

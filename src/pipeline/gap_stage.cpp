@@ -23,7 +23,7 @@ namespace {
 
 /// Rounds of opening what is too small, at most: in each, a vertex goes a few edge lengths at most (unit: rounds)
 constexpr int gap_rounds = 6;
-/// Vertices this far along the edges from a gap that is opened make way too [E212] (unit: wanted gap)
+/// Vertices this far along the edges from a gap that is opened make way too [E211] (unit: wanted gap)
 constexpr double way_gaps = 2;
 /// Obstacles of a recovery are listed up to this distance (unit: wanted gap)
 constexpr double obstacle_gaps = 2;
@@ -80,7 +80,7 @@ std::vector<std::vector<Index>> sets_around(const RepairTask& task, const Scene&
 /// Puts sets with a vertex that went farther than allowed back to where they were.
 void take_back_what_is_too_far(const RepairTask& task, std::span<const std::vector<Index>> sets,
                                const Positions& before, Scene& scene) {
-  const double limit = task.options.max_displacement_rel * task.diagonal;
+  const double limit = task.most_motion();
   if (!(limit > 0)) return;
   for (const std::vector<Index>& set : sets) {
     const auto is_too_far = [&](Index v) { return (scene.x.col(v) - scene.rest.col(v)).norm() > limit; };

@@ -20,14 +20,14 @@
 namespace unsnarl {
 namespace {
 
-/// A component that bears less of its cluster's squared motion is not held [E209] (no unit)
+/// A component that bears less of its cluster's squared motion is not held [E213] (no unit)
 constexpr double least_share = 0.2;
 /// A component is held where its edges are longer than this many times those of another one, which can give way
-/// [E209] (no unit)
+/// [E214] (no unit)
 constexpr double coarser = 2;
 /// A result is nearer where its motion by area is below this share of the one before (no unit)
 constexpr double nearer_share = 0.98;
-/// Recoveries of a cluster that went far, beyond the first, at most [E210] (unit: recoveries)
+/// Recoveries of a cluster that went far, beyond the first, at most [E215] (unit: recoveries)
 constexpr int most_recoveries = 2;
 
 /// Conflicts that hang together, and all vertices that were moved for them.
@@ -59,10 +59,23 @@ double motion_of(const Scene& scene, const Positions& x, std::span<const Index> 
   return sum;
 }
 
-bool is_within(const RepairTask& task, const Scene& scene, std::span<const Index> vertices) {
-  const double most = task.options.max_displacement_rel * task.diagonal;
-  return !(most > 0) ||
-         std::ranges::all_of(vertices, [&](Index v) { return (scene.x.col(v) - scene.rest.col(v)).norm() <= most; });
+/// The largest distance from rest of these vertices.
+double farthest_of(const Scene& scene, const Positions& x, std::span<const Index> vertices) {
+  double farthest = 0;
+  for (const Index v : vertices) farthest = std::max(farthest, (x.col(v) - scene.rest.col(v)).norm());
+  return farthest;
+}
+
+/// The same of all open clusters.
+double farthest_of(const Scene& scene, const Positions& x, std::span<const Cluster> clusters) {
+  double farthest = 0;
+  for (const Cluster& cluster : clusters)
+    if (cluster.is_open) farthest = std::max(farthest, farthest_of(scene, x, cluster.vertices));
+  return farthest;
+}
+
+bool is_within_limit(const RepairTask& task, const Scene& scene, std::span<const Index> vertices) {
+  return !(task.most_motion() > 0) || farthest_of(scene, scene.x, vertices) <= task.most_motion();
 }
 
 bool is_nearer(double motion, double before) {
@@ -165,23 +178,36 @@ Held choose_held(const RepairTask& task, const Scene& scene, const Held& was_hel
   return held;
 }
 
-/// Untangles the open clusters again from rest while components are held, without the last resorts, and recovers them
-/// with these free.
-EscalationResult repair_again(const RepairTask& task, const RepairControl& control, std::span<const Cluster> clusters,
-                              const Held& held, SceneIndex& index, RepairState& state) {
-  Scene& scene = state.scene;
-  std::vector<std::uint8_t> fixed = scene.fixed;
+/// Untangles the open clusters from rest, without the last resorts. `most_motion`: escalation_options().
+EscalationResult untangle_from_rest(const RepairTask& task, const RepairControl& control,
+                                    std::span<const Cluster> clusters, double most_motion, SceneIndex& index,
+                                    RepairState& state) {
   for (const Cluster& cluster : clusters)
     if (cluster.is_open) state.restore_to_rest(cluster.vertices);
-  for (Index v = 0; v < scene.vertex_count(); ++v)
-    if (held[component_of(task, v)]) scene.fixed[v] = 1;
   index.update();
   std::atomic<bool> is_exceeded{false};
-  EscalationOptions options = escalation_options(task, control, state, is_exceeded);
+  EscalationOptions options = escalation_options(task, control, state, most_motion, is_exceeded);
   options.tiers = tiers_before_last_resorts();
   options.recorder = nullptr;
   options.recover = {};
-  EscalationResult result = escalate(scene, index, state.ignored, options);
+  return escalate(state.scene, index, state.ignored, options);
+}
+
+/// Untangles the open clusters again while components are held, and recovers them with these free. Where that leaves
+/// pairs, it does so once more, no farther than the first result went: a candidate that goes far may stand in the way.
+EscalationResult repair_again(const RepairTask& task, const RepairControl& control, std::span<const Cluster> clusters,
+                              const Held& held, SceneIndex& index, RepairState& state) {
+  Scene& scene = state.scene;
+  const Positions first = scene.x;
+  std::vector<std::uint8_t> fixed = scene.fixed;
+  for (Index v = 0; v < scene.vertex_count(); ++v)
+    if (held[component_of(task, v)]) scene.fixed[v] = 1;
+  EscalationResult result = untangle_from_rest(task, control, clusters, task.most_motion(), index, state);
+  if (!result.left.empty() && !control.limits.reached()) {
+    const double farthest = farthest_of(scene, first, clusters);
+    scene.x = first;
+    result = untangle_from_rest(task, control, clusters, farthest, index, state);
+  }
   scene.fixed = std::move(fixed);
   std::vector<std::vector<Index>> sets = result.moved;
   for (const Cluster& cluster : clusters)
@@ -234,7 +260,7 @@ void keep_better(const RepairTask& task, const RepairState& state, const Positio
     const std::vector<Index>& vertices = clusters[k].vertices;
     const bool is_better = now[k] < before[k] || (now[k] == before[k] && is_nearer(motion_of(scene, scene.x, vertices),
                                                                                    motion_of(scene, first, vertices)));
-    if (!is_better || !is_within(task, scene, vertices)) go_back(clusters[k]);
+    if (!is_better || !is_within_limit(task, scene, vertices)) go_back(clusters[k]);
   }
   for (bool has_changed = true; has_changed;) {
     has_changed = false;

@@ -9,10 +9,13 @@
 
 namespace unsnarl {
 
-/// Looks for nearer results where components were moved far: their conflicts are repaired again while the component
-/// that bears most of the motion is held, then what moved is recovered with it. The nearer result by area is kept
-/// (motion by area, mesh/areas.h), or the one that leaves fewer pairs; and so on with the next component while that
-/// helps. \pre what moved has been recovered. Returns the pairs that are left.
+/// Looks for nearer results where coarse components moved: faces that cannot dent move as a whole, while finer ones
+/// could give way. The conflicts that hang together are repaired again from rest while the component that bears most of
+/// the motion is held, then what moved is recovered with it. The nearer result is kept, by area (squared_motion()), or
+/// the one that leaves fewer pairs; and so on with the next component while that helps. A component is held only where
+/// its edges are much longer than those of another one. Nested surfaces are left as they are: their repair does not
+/// begin at rest. \pre what moved since state.recovered has been recovered; `left`: the pairs that are left. Returns
+/// those that are left now.
 std::vector<IntersectingPair> hold_parts(const RepairTask& task, const RepairControl& control,
                                          std::vector<IntersectingPair> left, SceneIndex& index, RepairState& state);
 

@@ -10,10 +10,6 @@
 namespace unsnarl {
 namespace {
 
-double most_motion(const RepairTask& task) {
-  return task.options.max_displacement_rel * task.diagonal;
-}
-
 void recover_patch(const RepairTask& task, const RepairControl& control, const RepairState& state, Patch& patch) {
   RecoverOptions options;
   options.knows_sheets = gap_wanted_everywhere(task) > 0;
@@ -31,7 +27,7 @@ bool is_within(const Patch& patch, const Positions& rest, double limit) {
 }  // namespace
 
 EscalationOptions escalation_options(const RepairTask& task, const RepairControl& control, RepairState& state,
-                                     std::atomic<bool>& is_exceeded) {
+                                     double most_motion, std::atomic<bool>& is_exceeded) {
   EscalationOptions options;
   options.tiers = default_tiers();
   options.left_out = task.options.without_strategies;
@@ -40,11 +36,11 @@ EscalationOptions escalation_options(const RepairTask& task, const RepairControl
   options.recorder = &state.recorder;
   options.first_region = state.regions.size();
   if (task.options.recover) options.recover = [&](Patch& patch) { recover_patch(task, control, state, patch); };
-  if (task.options.max_displacement_rel > 0)
-    options.accept = [&](Patch& patch) {
-      if (is_within(patch, state.scene.rest, most_motion(task))) return true;
+  if (most_motion > 0)
+    options.accept = [&task, &control, &state, &is_exceeded, most_motion](Patch& patch) {
+      if (is_within(patch, state.scene.rest, most_motion)) return true;
       if (task.options.recover) recover_patch(task, control, state, patch);
-      if (task.options.recover && is_within(patch, state.scene.rest, most_motion(task))) return true;
+      if (task.options.recover && is_within(patch, state.scene.rest, most_motion)) return true;
       is_exceeded = true;
       return false;
     };

@@ -13,10 +13,11 @@
 
 namespace unsnarl {
 
-/// How regions of the state are untangled within the limits and the displacement that the task allows, without a word
-/// of progress. `is_exceeded`: set where a candidate goes too far. All must outlive the options.
+/// How regions of the state are untangled within the task's limits, without a word of progress. `most_motion`: how far
+/// a vertex may end from rest, a length; 0: any. `is_exceeded`: set where a candidate goes farther. All must outlive
+/// the options.
 EscalationOptions escalation_options(const RepairTask& task, const RepairControl& control, RepairState& state,
-                                     std::atomic<bool>& is_exceeded);
+                                     double most_motion, std::atomic<bool>& is_exceeded);
 
 /// Recovers sets of vertices, those that overlap as one. Returns the least gap that was reached, or infinity.
 /// `on_progress`: see RecoverRegionsOptions; may be empty.

@@ -27,6 +27,9 @@ struct RepairTask {
   /// so.
   void diagnose(IntersectionFinder& finder, const std::function<bool()>& stop);
 
+  /// How far a vertex may end from rest, a length; 0: any.
+  double most_motion() const { return options.max_displacement_rel * diagonal; }
+
   const SurfaceView surface;
   const RepairOptions& options;
   const PreparedSurface prepared;

@@ -22,7 +22,7 @@ std::vector<Index> vertices_of(const Bodies& bodies) {
 
 /// Puts the bodies in their places. Returns whether one had none within the displacement that is allowed.
 bool place(const RepairTask& task, const RepairControl& control, const RepairState& state, Bodies& bodies) {
-  const double limit = task.options.max_displacement_rel * task.diagonal;
+  const double limit = task.most_motion();
   PlaceBodiesOptions places;
   RecoverBodiesOptions recovery;
   if (limit > 0) places.most_motion = recovery.most_motion = limit;

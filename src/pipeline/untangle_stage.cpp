@@ -43,16 +43,12 @@ void report_progress(const RepairTask& task, const RepairControl& control, const
   control.phases.report(fraction, pairs_left, state.scene.x, task.prepared.rest, task.diagonal);
 }
 
-double most_motion(const RepairTask& task) {
-  return task.options.max_displacement_rel * task.diagonal;
-}
-
 /// Untangles the scene. Pairs that rounding brought (in rounds after the first) separate only where they are given a
 /// gap; where float32 is optional, only local strategies try. Returns the pairs that are left; none: it was given up.
 std::optional<std::vector<IntersectingPair>> untangle(const RepairTask& task, const RepairControl& control,
                                                       SceneIndex& index, RepairState& state, bool is_first) {
   std::atomic<bool> is_exceeded{false};
-  EscalationOptions options = escalation_options(task, control, state, is_exceeded);
+  EscalationOptions options = escalation_options(task, control, state, task.most_motion(), is_exceeded);
   if (is_first && task.options.recover) options.stop = control.limits.stopper_at(untangling_time);
   options.attempts = &state.attempts;
   options.on_progress = [&](const EscalationProgress& progress) {
@@ -214,12 +210,12 @@ void untangle_stage(const RepairTask& task, const RepairControl& control, Finder
 }
 
 void keep_within_displacement(const RepairTask& task, IntersectionFinder& finder, RepairState& state) {
-  if (!(task.options.max_displacement_rel > 0)) return;
+  if (!(task.most_motion() > 0)) return;
   const Positions before = state.scene.x;
   std::vector<std::vector<Index>> sets;
   for (const RepairState::Moved& moved : state.moved) sets.push_back(moved.vertices);
   sets = merge_overlapping(std::move(sets), state.scene.vertex_count());
-  if (!restore_what_is_too_far(state.scene, sets, most_motion(task), state.pairs_at_rest, finder)) return;
+  if (!restore_what_is_too_far(state.scene, sets, task.most_motion(), state.pairs_at_rest, finder)) return;
   state.displacement_is_exceeded = true;
   for (Index v = 0; v < state.scene.vertex_count(); ++v)
     if (state.scene.x.col(v) != before.col(v)) state.attempts.is_too_far[v] = 1;

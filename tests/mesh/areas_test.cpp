@@ -23,6 +23,19 @@ TEST(Areas, of_the_unit_cube) {
   EXPECT_DOUBLE_EQ(signed_volume(x, triangles), -8);
 }
 
+TEST(Areas, squared_motion_integrates_over_the_triangle) {
+  Positions rest(3, 3), x;
+  rest << 0, 2, 0, 0, 0, 3, 1, 1, 1;  // area 3
+  x = rest;
+  x.colwise() += Vec3(1, -2, 2);
+  EXPECT_DOUBLE_EQ(squared_motion(rest, x, {0, 1, 2}), 3 * 9.0);
+  // Where one corner moves by d, the mean of the squares of a linear function is d^2 / 6.
+  x = rest;
+  x.col(2) += Vec3(0, 0, 4);
+  EXPECT_DOUBLE_EQ(squared_motion(rest, x, {0, 1, 2}), 3 * 16.0 / 6);
+  EXPECT_EQ(squared_motion(rest, rest, {0, 1, 2}), 0);
+}
+
 TEST(Areas, normals_point_outward_and_vanish_without_area) {
   Positions x(3, 4);
   x << 0, 1, 0, 2, 0, 0, 1, 0, 0, 0, 0, 0;

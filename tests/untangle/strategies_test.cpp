@@ -29,6 +29,14 @@ int solve(const std::string& name, Patch& patch) {
   return strategy(name).solve(patch, Task{.untangle = make_untangler({}, {})});
 }
 
+TEST(Strategies, before_the_last_resorts_are_all_that_are_none) {
+  const std::span<const Tier> first = tiers_before_last_resorts();
+  ASSERT_LT(first.size(), default_tiers().size());
+  EXPECT_EQ(first.data(), default_tiers().data());
+  for (std::size_t k = 0; k < default_tiers().size(); ++k)
+    EXPECT_EQ(default_tiers()[k].is_last_resort, k >= first.size()) << k;
+}
+
 TEST(Strategies, whole_components_go_from_coarse_to_fine) {
   for (const Index size : {12, 26}) {
     Patch patch = shapes::patch_of(shapes::two_spheres(size));
