@@ -317,8 +317,12 @@ void take_over(EscalationResult& second, std::span<const Cluster> clusters, std:
   }
   std::erase_if(state.moved, [&](const RepairState::Moved& moved) { return is_replaced[moved.region] != 0; });
   for (RepairState::Moved& moved : state.moved) moved.region = number[moved.region];
+  std::vector<std::uint8_t> is_listed(clusters.size(), 0);
   for (std::size_t k = 0; k < second.moved.size(); ++k) {
     if (!is_open(second.moved[k])) continue;
+    const auto cluster = static_cast<std::size_t>(cluster_of[second.moved[k].front()]);
+    // The recovery moved all of the cluster.
+    if (!std::exchange(is_listed[cluster], std::uint8_t{1})) second.moved[k] = clusters[cluster].vertices;
     state.moved.push_back({std::move(second.moved[k]), second.depths[k], regions.size()});
     regions.push_back(std::move(second.regions[k]));
   }
