@@ -29,8 +29,8 @@ constexpr int iterations = 60;
 
 /// Bound of the motion of layers [E8] (unit: h)
 constexpr double reach_of_layers = 20;
-/// Bound of the motion of components that are placed (unit: h)
-constexpr double reach_of_placement = 20;
+/// Bound of the motion of components that are placed; what went farther waits for nearer candidates [E218] (unit: h)
+constexpr double reach_of_placement = 5;
 /// Bound of the motion of whole components (unit: h)
 constexpr double reach_of_whole = 20;
 

@@ -45,7 +45,7 @@ struct Trial {
   double seconds = 0;
   TrialPairs before, left;   ///< of the region, at the start and of the candidate
   bool is_rejected = false;  ///< it has no pairs, but was not accepted
-  double distance = 0;       ///< length: of its vertices to rest after recovery, summed; known after look_farther()
+  double distance = 0;       ///< from rest after recovery: squared_motion(), summed; known after look_farther()
 
   bool is_clean() const { return left.total == 0; }
   std::size_t resolved() const { return before.total - left.total; }
