@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <new>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -15,13 +15,14 @@
 #include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "pipeline/region_work.h"
+#include "scene/overlapping_components.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/strategies.h"
 
 namespace unsnarl {
 namespace {
 
-/// A component that bears less of its cluster's squared motion is not held [E213] (no unit)
+/// A component that bears less of the squared motion of itself and those that it meets is not held [E213] (no unit)
 constexpr double least_share = 0.2;
 /// A component is held where its edges are longer than this many times those of another one, which can give way
 /// [E214] (no unit)
@@ -147,34 +148,53 @@ std::map<Index, Bearing> bearings_of(const RepairTask& task, const Scene& scene,
   return bearings;
 }
 
-/// Of the components that are coarser than another one, the one that bears most of a cluster's motion; none: it has
-/// been held, or all bear little.
-std::optional<Index> heaviest_component(const RepairTask& task, const Scene& scene, const Cluster& cluster,
-                                        const Held& was_held) {
-  const std::map<Index, Bearing> bearings = bearings_of(task, scene, cluster);
-  double all = 0, finest = std::numeric_limits<double>::infinity();
-  for (const auto& [component, bearing] : bearings) {
-    all += bearing.motion;
-    finest = std::min(finest, bearing.edge_length);
+/// Per component, those that it intersects in the input.
+using Met = std::map<Index, std::vector<Index>>;
+
+Met met_components(const RepairTask& task) {
+  Met met;
+  for (const auto& [a, b] : meeting_components(task.diagnosis.components, task.diagnosis.pairs)) {
+    met[a].push_back(b);
+    met[b].push_back(a);
   }
-  std::optional<Index> heaviest;
-  for (const auto& [component, bearing] : bearings) {
-    const bool is_coarse = bearing.edge_length > coarser * finest;
-    if (was_held[component] || !is_coarse || !(bearing.motion > least_share * all)) continue;
-    if (!heaviest || bearing.motion > bearings.at(*heaviest).motion) heaviest = component;
-  }
-  return heaviest;
+  return met;
 }
 
-/// Chooses the component of each open cluster to be held next; clusters without one are closed.
-Held choose_held(const RepairTask& task, const Scene& scene, const Held& was_held, std::vector<Cluster>& clusters) {
+/// The components of a cluster that are worth holding, the one that bears most first: coarser than one that they meet,
+/// and bearing a share of what they and those that they meet bear. No two of them meet.
+std::vector<Index> heaviest_components(const std::map<Index, Bearing>& bearings, const Met& met, const Held& was_held) {
+  std::vector<Index> heaviest;
+  for (const auto& [component, bearing] : bearings) {
+    const auto found = met.find(component);
+    if (was_held[component] || found == met.end()) continue;
+    double all = bearing.motion, finest = std::numeric_limits<double>::infinity();
+    for (const Index other : found->second) {
+      const auto of_other = bearings.find(other);
+      if (of_other == bearings.end()) continue;
+      all += of_other->second.motion;
+      finest = std::min(finest, of_other->second.edge_length);
+    }
+    if (bearing.edge_length > coarser * finest && bearing.motion > least_share * all) heaviest.push_back(component);
+  }
+  std::ranges::stable_sort(heaviest, std::greater(), [&](Index component) { return bearings.at(component).motion; });
+  std::vector<Index> apart;
+  for (const Index component : heaviest) {
+    const std::vector<Index>& others = met.at(component);
+    if (std::ranges::find_first_of(apart, others) == apart.end()) apart.push_back(component);
+  }
+  return apart;
+}
+
+/// Chooses the components of the open clusters to be held next; clusters without one are closed.
+Held choose_held(const RepairTask& task, const Scene& scene, const Met& met, const Held& was_held,
+                 std::vector<Cluster>& clusters) {
   Held held(task.diagnosis.components.count(), 0);
   for (Cluster& cluster : clusters) {
     if (!cluster.is_open) continue;
-    const std::optional<Index> heaviest = heaviest_component(task, scene, cluster, was_held);
-    cluster.is_open = heaviest.has_value();
+    const std::vector<Index> heaviest = heaviest_components(bearings_of(task, scene, cluster), met, was_held);
+    cluster.is_open = !heaviest.empty();
     cluster.was_open |= cluster.is_open;
-    if (heaviest) held[*heaviest] = 1;
+    for (const Index component : heaviest) held[component] = 1;
   }
   return held;
 }
@@ -373,9 +393,10 @@ std::vector<IntersectingPair> hold_parts(const RepairTask& task, const RepairCon
                                          std::vector<IntersectingPair> left, SceneIndex& index, RepairState& state) {
   if (task.diagnosis.components.count() < 2 || task.nested || task.options.paper) return left;
   std::vector<Cluster> clusters = clusters_of(task, state);
+  const Met met = met_components(task);
   Held was_held(task.diagnosis.components.count(), 0);
   while (!control.limits.reached()) {
-    const Held held = choose_held(task, state.scene, was_held, clusters);
+    const Held held = choose_held(task, state.scene, met, was_held, clusters);
     if (std::ranges::none_of(clusters, [](const Cluster& cluster) { return cluster.is_open; })) break;
     for (std::size_t c = 0; c < held.size(); ++c) was_held[c] |= held[c];
     try_held(task, control, held, clusters, index, state, left);

@@ -10,12 +10,12 @@
 namespace unsnarl {
 
 /// Looks for nearer results where coarse components moved: faces that cannot dent move as a whole, while finer ones
-/// could give way. The conflicts that hang together are repaired again from rest while the component that bears most of
-/// the motion is held, then what moved is recovered with it. The nearer result is kept, by area (squared_motion()), or
-/// the one that leaves fewer pairs; and so on with the next component while that helps. A component is held only where
-/// its edges are much longer than those of another one. Nested surfaces are left as they are: their repair does not
-/// begin at rest. \pre what moved since state.recovered has been recovered; `left`: the pairs that are left. Returns
-/// those that are left now.
+/// could give way. The conflicts that hang together are repaired again from rest while the components that bear most of
+/// the motion are held, of those that meet each other one; then what moved is recovered with them. The nearer result is
+/// kept, by area (squared_motion()), or the one that leaves fewer pairs; and so on with the next components while that
+/// helps. A component is held only where its edges are much longer than those of another one that it meets. Nested
+/// surfaces are left as they are: their repair does not begin at rest. \pre what moved since state.recovered has been
+/// recovered; `left`: the pairs that are left. Returns those that are left now.
 std::vector<IntersectingPair> hold_parts(const RepairTask& task, const RepairControl& control,
                                          std::vector<IntersectingPair> left, SceneIndex& index, RepairState& state);
 

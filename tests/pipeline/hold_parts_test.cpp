@@ -61,6 +61,24 @@ TEST(HoldParts, finer_components_give_way_to_a_coarse_one) {
   EXPECT_GT(signed_volume(x, box), 0.95 * signed_volume(shape.positions(), box));
 }
 
+TEST(HoldParts, of_many_parts_all_coarse_ones_keep_their_shape) {
+  // A row of boxes and balls that hang together: none of the boxes bears a large share of the motion of all.
+  shapes::Shape row;
+  constexpr int boxes = 7;
+  for (int k = 0; k < boxes; ++k) {
+    row.add(coarse_box({0.5, 0.45, 0.4}), {2.0 * k, 0, 0});
+    row.add(shapes::sphere(Vec3::Zero(), 0.6, 12), {2.0 * k + 1, 0.1, 0.05});
+  }
+  const RepairResult result = repaired(row);
+  ASSERT_EQ(result.status, Status::embedded);
+  const Positions x = Eigen::Map<const Positions>(result.positions.data(), 3, row.positions().cols());
+  for (std::size_t t = 0; t < row.triangles.size();) {
+    const std::vector<Triangle> box(row.triangles.begin() + t, row.triangles.begin() + t + 12);
+    EXPECT_GT(signed_volume(x, box), 0.9 * signed_volume(row.positions(), box)) << t;
+    t += row.triangles.size() / boxes;
+  }
+}
+
 TEST(HoldParts, what_is_entered_as_moved_is_all_that_has_moved) {
   StagedRepair repair(box_and_balls().surface());
   untangle_stage(repair.task, repair.control, repair.finders, repair.state);
