@@ -48,8 +48,8 @@ std::string_view to_string(NamedPart::Kind kind);  ///< as options name it: "obj
 /// Those without faces too.
 std::vector<NamedPart> named_parts(const SurfaceView& surface, std::span<const FaceLabels> labels);
 
-/// What the file calls the part that a face is of: its object, else its group, else, of several files, its file; empty:
-/// it has no name.
+/// The name that the file gives to the part of a face: that of its object, else of its group, else, where there are
+/// several files, of its file; empty: none.
 std::string part_of_face(std::span<const FaceLabels> labels, std::int32_t face);
 
 /// Component of each face (faces joined by a shared vertex, after welding), numbered from 0 in the order of

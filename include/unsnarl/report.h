@@ -100,7 +100,7 @@ struct ComponentReport {
 struct OverlappingComponent {
   std::size_t component = 0;  ///< number in the order of the first faces (see component_of_faces)
   std::int32_t first_face = 0;
-  /// What the file calls the part that its first face is of, see part_of_face(); empty: it has no name.
+  /// The name that the file gives to the part of its first face, see part_of_face(); empty: none.
   std::string name = {};
   double volume_share = 0;  ///< of its volume inside others; estimated, some hundredths off
 };
@@ -119,8 +119,8 @@ struct ChangedComponent {
   std::string name = {};  ///< as of OverlappingComponent
   bool has_shrunk = false, is_turned = false, is_far = false;
   bool is_closed = false;  ///< and orientable, so that it has a volume
-  /// Of a closed component the signed volume, of any other the area: after / before - 1. -1: nothing is left; less:
-  /// turned inside out.
+  /// Change of the signed volume of a closed component, of the area of any other: after / before - 1. -1: nothing is
+  /// left; less: it is turned inside out.
   double size_change_rel = 0;
   double rotation_deg = 0;      ///< of the rigid motion that fits best, by squared distances over the area; in [0, 180]
   double displacement_rel = 0;  ///< of the vertex that moved farthest / bounding-box diagonal

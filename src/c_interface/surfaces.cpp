@@ -126,8 +126,8 @@ unsnarl_result repaired(const unsnarl_surface& given, const unsnarl_options& giv
   return result_of_repair(std::move(repaired), std::move(asked), files);
 }
 
-/// That of the first frame that has something left, else of an allowed one, else of one whose gap is not met. `all`: no
-/// frame is missing.
+/// The status of a sequence: that of the first frame that has something left, else of an allowed one, else of one whose
+/// gap is not met. `all`: no frame is missing.
 Status status_of(std::span<const FrameReport> reports, bool all) {
   for (const FrameReport& frame : reports)
     if (!is_resolved(frame.status)) return frame.status;

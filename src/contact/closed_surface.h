@@ -30,8 +30,8 @@ class ClosedSurface {
   /// along x, from p shifted by (0, e, e^2) for an infinitely small e, so that it meets no edge.
   Side side_of(const Vec3& p) const;
 
-  /// Where the line along x through (y, z) crosses the triangles, ascending: it is inside between the first and the
-  /// second place, the third and the fourth, and so on. Which triangles it crosses is exact, as of the ray of
+  /// The places where the line along x through (y, z) crosses the triangles, ascending: it is inside between the first
+  /// and the second place, the third and the fourth, and so on. Which triangles it crosses is exact, as of the ray of
   /// side_of(); the places are rounded.
   std::vector<double> crossings(double y, double z) const;
 

@@ -8,6 +8,7 @@
 namespace unsnarl {
 namespace {
 
+/// The radius where no ball joins two places (unit: length)
 constexpr double no_ball = std::numeric_limits<double>::infinity();
 
 }  // namespace

@@ -41,7 +41,7 @@ class Passing {
   Passing(std::span<const Index> group_of_vertex, std::span<const Index> part_of_triangle, const PassingParts& parts)
       : group_of_(group_of_vertex), part_of_(part_of_triangle), parts_(&parts) {}
 
-  /// Of triangles of parts only those that pass through each other are looked for.
+  /// The same the other way round: finders look only for pairs of parts that pass through each other.
   Passing only_what_passes() const {
     Passing inverse = *this;
     inverse.is_looked_for_ = true;

@@ -29,7 +29,8 @@ class OneSheet {
   OneSheet(std::span<const Triangle> triangles, const Positions& rest, const EdgeTable& edges, double wanted)
       : triangles_(triangles), ways_(triangles, rest, edges), rest_(rest), wanted_(wanted) {}
 
-  /// Of primitives of two triangles that share no vertex. Fastest where the first triangle is that of the last call.
+  /// Whether two primitives of triangles that share no vertex are of one sheet. Fastest where the first triangle is
+  /// that of the last call.
   bool holds(const Stencil& stencil, Index of_first, Index of_second);
   /// Whether it is certain that this holds for all primitives of the two triangles; false where it is not known.
   bool holds_for_all(Index first, Index second);

@@ -1,5 +1,6 @@
-// What the assertions of the C++ library call, where they are on (UNSNARL_CHECKED): the layers from this one up. That
-// of libstdc++ came with GCC 12; with one of our own, program and wheel run where there is an older one (RHEL 9).
+// The function that assertions of the C++ library call where they are on (UNSNARL_CHECKED): the layers from this one
+// up. The one of libstdc++ came with GCC 12; with one of our own, program and wheel run where there is an older one
+// (RHEL 9).
 #include <cstdio>
 #include <cstdlib>
 

@@ -6,6 +6,7 @@
 namespace unsnarl {
 namespace {
 
+/// The length of a way that does not exist (unit: length)
 constexpr double no_way = std::numeric_limits<double>::infinity();
 
 }  // namespace

@@ -89,7 +89,7 @@ void take_back_what_is_too_far(const RepairTask& task, std::span<const std::vect
   }
 }
 
-/// What holds of positions as they are written, and must go on to hold while gaps are opened.
+/// The properties of the written positions that must not get worse while gaps are opened: pairs and lost areas.
 class Kept {
  public:
   Kept(const RepairTask& task, const RepairState& state)

@@ -94,7 +94,7 @@ bool has_two_free_components(const RepairTask& task, const Scene& scene, std::sp
   return false;
 }
 
-/// The clusters of what was moved since the last recovery but one. Open: two components could give way.
+/// The clusters of what was moved from state.recovered on. Open: two components could give way.
 std::vector<Cluster> clusters_of(const RepairTask& task, const RepairState& state) {
   const Scene& scene = state.scene;
   std::vector<std::vector<Index>> sets;
@@ -130,7 +130,7 @@ void recover_on(const RepairTask& task, const RepairControl& control, std::span<
   }
 }
 
-/// What a component bears of a cluster's motion, and how coarse it is there.
+/// A component in a cluster: its part of the motion, and how coarse it is there.
 struct Bearing {
   double motion = 0;            ///< squared_motion(), summed
   std::vector<Triangle> faces;  ///< of the cluster

@@ -170,7 +170,7 @@ const std::array<RuleNames::Kind, 5> RuleNames::kinds = {{
 /// Two sets of faces that may pass through each other; the same set twice: through itself.
 using Rule = std::array<FaceFlags, 2>;
 
-/// What a rule says. Names may hold colons: of all ways to read it, the one counts in which all parts are known.
+/// The sets of faces that a rule names. Names may hold colons: the way to read it counts in which all parts are known.
 Rule rule_of(const RuleNames& names, const std::string& text) {
   std::vector<Rule> readings;
   if (const auto faces = names.faces_of(text)) readings.push_back({*faces, *faces});

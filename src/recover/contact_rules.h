@@ -95,7 +95,7 @@ class ContactRules {
   bool are_neighbours(const Stencil& stencil, double rest_distance) const;
   /// Lists the neighbours by OneSheet.
   void find_sheets();
-  /// Of each primitive: a triangle there intersects another one at rest.
+  /// Flags of the two primitives: a triangle there intersects another one at rest.
   std::array<bool, 2> in_conflict(const Stencil& stencil) const;
   /// Whether triangles t at the one primitive and u at the other are a pair for which is_wanted(t, u).
   template <class IsWanted>
