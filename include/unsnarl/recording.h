@@ -27,12 +27,13 @@ enum class EnergyTerm : std::uint8_t {
   bending,
   pull,
   orientation,
+  volume,
   barrier,
   count,  ///< no term: how many there are; a new one comes before it
 };
 inline constexpr auto energy_term_count = static_cast<std::size_t>(EnergyTerm::count);
 inline constexpr std::array<std::string_view, energy_term_count> energy_term_names = {
-    "gaussian", "minkowski", "arap", "bending", "pull", "orientation", "barrier"};
+    "gaussian", "minkowski", "arap", "bending", "pull", "orientation", "volume", "barrier"};
 static_assert(!energy_term_names.back().empty(), "every EnergyTerm has a name");
 
 /// One iteration: the state reached, and the step that led to it. Of a long try of a strategy those alone at which all

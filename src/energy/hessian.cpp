@@ -57,6 +57,28 @@ void add_rank_one(const HessianTerms::RankOne& t, const Eigen::Matrix3Xd& v, Eig
   }
 }
 
+/// The term over the unknowns alone.
+HessianTerms::Dense over_unknowns(const HessianTerms::Dense& of_vertices, std::span<const Index> slot) {
+  HessianTerms::Dense term;
+  term.g.resize(3, of_vertices.g.cols());
+  for (std::size_t k = 0; k < of_vertices.vertices.size(); ++k) {
+    const Index unknown = slot[of_vertices.vertices[k]];
+    if (unknown < 0) continue;
+    term.g.col(static_cast<Index>(term.vertices.size())) = of_vertices.g.col(static_cast<Index>(k));
+    term.vertices.push_back(unknown);
+  }
+  term.g.conservativeResize(3, static_cast<Index>(term.vertices.size()));
+  term.stiffness = of_vertices.stiffness;
+  return term;
+}
+
+void add_dense(const HessianTerms::Dense& t, const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) {
+  double dot = 0;
+  for (std::size_t k = 0; k < t.vertices.size(); ++k) dot += t.g.col(static_cast<Index>(k)).dot(v.col(t.vertices[k]));
+  dot *= t.stiffness;
+  for (std::size_t k = 0; k < t.vertices.size(); ++k) result.col(t.vertices[k]) += dot * t.g.col(static_cast<Index>(k));
+}
+
 }  // namespace
 
 Eigen::Vector4d HessianTerms::Strain::turn_of(const Eigen::Matrix<double, 2, 3>& e0) {
@@ -92,6 +114,7 @@ void HessianTerms::clear() {
   diagonals.clear();
   rank_ones.clear();
   strains.clear();
+  dense.clear();
 }
 
 void Hessian::assemble(std::span<const HessianTerms> parts, std::span<const Index> slot, Index unknowns) {
@@ -109,6 +132,7 @@ void Hessian::assemble(std::span<const HessianTerms> parts, std::span<const Inde
       if (slot[term.vertex] >= 0) diagonal_[slot[term.vertex]] += term.factor;
     take(part.rank_ones, terms_.rank_ones);
     take(part.strains, terms_.strains);
+    for (const HessianTerms::Dense& term : part.dense) terms_.dense.push_back(over_unknowns(term, slot));
   }
 }
 
@@ -125,6 +149,7 @@ void Hessian::apply(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const {
     for (Index k = std::max(begin, strain_count); k < end; ++k)
       add_rank_one(terms_.rank_ones[k - strain_count], v, out);
   });
+  for (const HessianTerms::Dense& t : terms_.dense) add_dense(t, v, result);
 }
 
 void Hessian::inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const {
@@ -139,6 +164,12 @@ void Hessian::inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& b
   for (const HessianTerms::RankOne& t : terms_.rank_ones) {
     for (int k = 0; k < 4; ++k) {
       if (t.vertices[k] >= 0) blocks[t.vertices[k]].noalias() += t.stiffness * t.g.col(k) * t.g.col(k).transpose();
+    }
+  }
+  for (const HessianTerms::Dense& t : terms_.dense) {
+    for (std::size_t k = 0; k < t.vertices.size(); ++k) {
+      const Vec3 g = t.g.col(static_cast<Index>(k));
+      blocks[t.vertices[k]].noalias() += t.stiffness * g * g.transpose();
     }
   }
   for_chunks(n, chunk, [&](Index begin, Index end) {

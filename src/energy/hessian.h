@@ -23,6 +23,12 @@ struct HessianTerms {
     Eigen::Matrix<double, 3, 4> g = Eigen::Matrix<double, 3, 4>::Zero();
     double stiffness = 0;
   };
+  /// stiffness * g g^T over any number of vertices, a column of g for each.
+  struct Dense {
+    std::vector<Index> vertices;
+    Eigen::Matrix3Xd g;
+    double stiffness = 0;
+  };
   /// Stiffness of a triangle's edges: a share `uniform` of it against every change of an edge vector, the rest against
   /// strains in the plane of the triangle alone (motions along the normal and rotations in the plane cost nothing).
   struct Strain {
@@ -44,6 +50,7 @@ struct HessianTerms {
   std::vector<Diagonal> diagonals;
   std::vector<RankOne> rank_ones;
   std::vector<Strain> strains;
+  std::vector<Dense> dense;
 
   void clear();
 };

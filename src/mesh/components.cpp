@@ -32,12 +32,14 @@ void find_orientability(std::span<const Triangle> triangles, const EdgeTable& ed
         if (e < 0 || edges.triangles_of_edge[e].size() != 2) continue;
         const Index other = edges.triangles_of_edge[e][edges.triangles_of_edge[e][0] == t ? 1 : 0];
         const bool clash = runs_forward(triangles[t], edges.edges[e]) == runs_forward(triangles[other], edges.edges[e]);
+        Component& component = components.list[components.component_of_triangle[t]];
+        component.is_oriented &= !clash;
         const auto wanted = static_cast<std::int8_t>(clash ? 1 - turned[t] : turned[t]);
         if (turned[other] < 0) {
           turned[other] = wanted;
           stack.push_back(other);
         } else if (turned[other] != wanted) {
-          components.list[components.component_of_triangle[t]].orientable = false;
+          component.orientable = false;
         }
       }
     }

@@ -21,12 +21,19 @@ struct Component {
   Index non_manifold_edges = 0;  ///< edges of three or more
   bool orientable = true;        ///< its triangles can be turned so that all edges of two triangles run both ways
 
+  bool is_oriented = true;  ///< they run both ways already
+
   Index euler_characteristic() const { return vertices - edges + triangles; }
   /// Every edge has exactly two triangles.
   bool closed() const { return edges > 0 && boundary_edges == 0 && non_manifold_edges == 0; }
   /// Such a surface has no embedding in space: no motion of its vertices can resolve it.
   bool obstructed() const { return closed() && !orientable; }
 };
+
+/// Closed, with triangles that agree on what is inside.
+inline bool has_volume(const Component& component) {
+  return component.closed() && component.is_oriented;
+}
 
 struct Components {
   std::vector<Component> list;  ///< in the order of their first faces

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <new>
 #include <span>
@@ -22,8 +21,9 @@
 namespace unsnarl {
 namespace {
 
-/// A component that bears less of the squared motion of itself and those that it meets is not held [E213] (no unit)
-constexpr double least_share = 0.2;
+/// Components are not held where they bear less than this share of the squared motion of their cluster together [E213]
+/// (no unit)
+constexpr double least_share = 0.3;
 /// A component is held where its edges are longer than this many times those of another one, which can give way
 /// [E214] (no unit)
 constexpr double coarser = 2;
@@ -160,29 +160,34 @@ Met met_components(const RepairTask& task) {
   return met;
 }
 
-/// The components of a cluster that are worth holding, the one that bears most first: coarser than one that they meet,
-/// and bearing a share of what they and those that they meet bear. No two of them meet.
+/// Whether a component is coarser than one that it meets in the cluster.
+bool is_coarse(Index component, const std::map<Index, Bearing>& bearings, const Met& met) {
+  const auto found = met.find(component);
+  return found != met.end() && std::ranges::any_of(found->second, [&](Index other) {
+           const auto of_other = bearings.find(other);
+           return of_other != bearings.end() &&
+                  bearings.at(component).edge_length > coarser * of_other->second.edge_length;
+         });
+}
+
+/// The components of a cluster that are worth holding, the one that bears most first: coarse, not held before, no two
+/// of them meet, and together they bear a share of the motion.
 std::vector<Index> heaviest_components(const std::map<Index, Bearing>& bearings, const Met& met, const Held& was_held) {
   std::vector<Index> heaviest;
+  double all = 0, held = 0;
   for (const auto& [component, bearing] : bearings) {
-    const auto found = met.find(component);
-    if (was_held[component] || found == met.end()) continue;
-    double all = bearing.motion, finest = std::numeric_limits<double>::infinity();
-    for (const Index other : found->second) {
-      const auto of_other = bearings.find(other);
-      if (of_other == bearings.end()) continue;
-      all += of_other->second.motion;
-      finest = std::min(finest, of_other->second.edge_length);
-    }
-    if (bearing.edge_length > coarser * finest && bearing.motion > least_share * all) heaviest.push_back(component);
+    all += bearing.motion;
+    if (!was_held[component] && is_coarse(component, bearings, met)) heaviest.push_back(component);
   }
   std::ranges::stable_sort(heaviest, std::greater(), [&](Index component) { return bearings.at(component).motion; });
   std::vector<Index> apart;
   for (const Index component : heaviest) {
     const std::vector<Index>& others = met.at(component);
-    if (std::ranges::find_first_of(apart, others) == apart.end()) apart.push_back(component);
+    if (std::ranges::find_first_of(apart, others) != apart.end()) continue;
+    apart.push_back(component);
+    held += bearings.at(component).motion;
   }
-  return apart;
+  return held > least_share * all ? apart : std::vector<Index>();
 }
 
 /// Chooses the components of the open clusters to be held next; clusters without one are closed.

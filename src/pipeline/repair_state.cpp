@@ -19,6 +19,7 @@ Scene scene_at_rest(const RepairTask& task) {
   scene.face_of = task.prepared.triangulation.polygon;
   scene.part_of = task.prepared.part_of;
   scene.parts = &task.prepared.allowed.passing;
+  scene.solids = find_solids(scene.rest, scene.triangles, task.diagnosis.components);
   if (task.options.each_component) scene.group_of = task.diagnosis.components.component_of_vertex;
   return scene;
 }

@@ -36,6 +36,7 @@ void take(const RepairTask& task, const UnitedTriangulations& cuts, RepairState&
   scene.group_of = std::move(state.scene.group_of);
   scene.part_of = task.prepared.allowed.of_triangles(cuts.all.polygon);
   scene.parts = state.scene.parts;
+  scene.solids = find_solids(scene.rest, std::span(scene.triangles).first(cuts.of_first), task.diagnosis.components);
   state.scene = std::move(scene);
 }
 

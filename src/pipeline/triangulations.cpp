@@ -50,6 +50,7 @@ void add(const Triangulation& cut, UnitedTriangulations& united) {
 
 UnitedTriangulations unite(const std::vector<Triangulation>& cuts) {
   UnitedTriangulations united;
+  united.of_first = cuts.front().triangles.size();
   for (const Triangulation& cut : cuts) add(cut, united);
   std::sort(united.exclusive.begin(), united.exclusive.end());
   return united;

@@ -11,6 +11,7 @@ namespace unsnarl {
 /// The triangles of several cuts of the same polygons, each once, those of earlier cuts first.
 struct UnitedTriangulations {
   Triangulation all;
+  std::size_t of_first = 0;  ///< triangles of the first cut
   /// Pairs of triangles of one polygon that no cut holds both, sorted: they may meet. Their class says nothing.
   std::vector<IntersectingPair> exclusive;
 };

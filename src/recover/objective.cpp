@@ -16,6 +16,16 @@ Bending bending_of(const Patch& patch, const EdgeTable& edges, double h) {
   return Bending(patch.rest, patch.x, hinges, options);
 }
 
+std::vector<VolumeLoss::Surface> closed_surfaces_of(const Patch& patch) {
+  std::vector<VolumeLoss::Surface> surfaces;
+  for (const Solid& solid : patch.solids.list)
+    surfaces.push_back({.triangles = {}, .volume = solid.volume, .area = solid.area});
+  for (std::size_t t = 0; t < patch.solids.of_triangle.size(); ++t)
+    if (const Index solid = patch.solids.of_triangle[t]; solid >= 0)
+      surfaces[solid].triangles.push_back(patch.triangles[t]);
+  return surfaces;
+}
+
 }  // namespace
 
 Objective::Objective(const Patch& patch, const EdgeTable& edges, const ObjectiveOptions& options, double h) {
@@ -38,6 +48,9 @@ Objective::Objective(const Patch& patch, const EdgeTable& edges, const Objective
   flips.activation = options.flip_activation;
   orientation.energy = OrientationPenalty(patch.rest, active, flips);
   orientation.weight = flip_weight_ = options.flip_weight * contact_force;
+  auto& volumes = sum_.part<VolumeLoss>();
+  volumes.energy = VolumeLoss(patch.rest, closed_surfaces_of(patch), options.kept_volume);
+  volumes.weight = options.volume_weight;
   sum_.part<IpcBarrier>().weight = contact_force;
 }
 
@@ -47,6 +60,7 @@ void Objective::restrict_to(MovingVertices moving) {
   sum_.part<ArapTriangle>().restrict_to(moving_.moves);
   sum_.part<Bending>().restrict_to(moving_.moves);
   sum_.part<OrientationPenalty>().restrict_to(moving_.moves);
+  sum_.part<VolumeLoss>().restrict_to(moving_.moves);
 }
 
 double Objective::value(const Positions& x) {
@@ -65,6 +79,7 @@ IterationRecord Objective::terms() const {
   record[EnergyTerm::arap] = sum_.last<ArapTriangle>();
   record[EnergyTerm::bending] = sum_.last<Bending>();
   record[EnergyTerm::orientation] = sum_.last<OrientationPenalty>();
+  record[EnergyTerm::volume] = sum_.last<VolumeLoss>();
   record[EnergyTerm::barrier] = sum_.last<IpcBarrier>();
   return record;
 }

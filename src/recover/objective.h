@@ -9,6 +9,7 @@
 #include "energy/ipc_barrier.h"
 #include "energy/orientation_penalty.h"
 #include "energy/quadratic_pull.h"
+#include "energy/volume_loss.h"
 #include "recover/moving_vertices.h"
 #include "recover/recover_options.h"
 #include "scene/patch.h"
@@ -17,7 +18,8 @@
 namespace unsnarl {
 
 /// The objective of the recovery (paper eq. 12): pull to the rest positions + (arap_length h)^2 ARAP
-/// + (bending_length h)^4 bending + penalty of flipped faces + barrier of contacts, over the vertices that move.
+/// + (bending_length h)^4 bending + penalty of flipped faces + penalty of lost volume + barrier of contacts, over the
+/// vertices that move.
 class Objective {
  public:
   /// h: the patch's edge length. The patch must outlive this.
@@ -43,7 +45,7 @@ class Objective {
   IterationRecord terms() const;
 
  private:
-  EnergySum<QuadraticPull, ArapTriangle, Bending, OrientationPenalty, IpcBarrier> sum_;
+  EnergySum<QuadraticPull, ArapTriangle, Bending, OrientationPenalty, VolumeLoss, IpcBarrier> sum_;
   MovingVertices moving_;
   double flip_weight_ = 0;  // of the options
 };

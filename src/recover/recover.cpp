@@ -311,6 +311,7 @@ RecoverOptions RecoverOptions::paper() {
   options.objective.time_step = 1;
   // The default adds these to the paper.
   options.objective.flip_weight = 0;
+  options.objective.volume_weight = 0;
   options.step.kept_area = -std::numeric_limits<double>::infinity();
   options.step.cap = std::numeric_limits<double>::infinity();
   options.snaps = false;

@@ -25,6 +25,9 @@ struct ObjectiveOptions {
   /// A face is penalised where its area along its rest normal is below this [E152] (unit: share of its rest area)
   double flip_activation = 0.2;
   double flip_weight = 0.3;  ///< Weight of the penalty of flipped faces [E153] (unit: contact forces)
+  /// The volume of a closed component is penalised below this [E219] (unit: share of its volume at rest)
+  double kept_volume = 0.85;
+  double volume_weight = 100;  ///< Weight of the penalty of lost volume [E220] (no unit)
   /// Share of ARAP's Hessian with the rotations held; the rest is Gauss-Newton, in [0, 1] [E154] (no unit)
   double rotation_damping = 0.1;
   /// Artificial time step of the paper's variant: each step also pays |x - x_last|^2 / (2 time_step) per mass, in the
@@ -103,7 +106,7 @@ struct RecoverOptions {
   /// The recovery of Minarčík, Liu, Crane, Li: Untangling Surfaces via Shape and Mesh Repulsion, §3.5.1: up to 500
   /// Newton steps with artificial time steps (the paper names no size; 1 weighs as much as the pull), PCG with a
   /// diagonal Jacobi preconditioner at relative tolerance 1e-6, one activation distance, no active region, nothing
-  /// against flipped faces, no cap of a step but collisions; ends early only where no step lowers the energy any more.
+  /// against flipped faces or for volumes, no cap of a step but collisions; ends early only where no step lowers the energy any more.
   static RecoverOptions paper();
 };
 

@@ -12,11 +12,6 @@ namespace unsnarl {
 /// Numbers of two components, the smaller first.
 using ComponentPair = std::array<Index, 2>;
 
-/// Closed and orientable.
-inline bool has_volume(const Component& component) {
-  return component.closed() && component.orientable;
-}
-
 /// Pairs of components with a pair of triangles in this list, sorted, each once.
 std::vector<ComponentPair> meeting_components(const Components& components, std::span<const IntersectingPair> pairs);
 

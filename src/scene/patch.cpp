@@ -86,6 +86,7 @@ Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Ind
   patch.parts = scene.parts;
   if (!scene.part_of.empty())
     for (const Index t : patch.faces) patch.part_of.push_back(scene.part_of[t]);
+  patch.solids = solids_of(scene.solids, {patch.faces.data(), static_cast<std::size_t>(patch.active_count)});
   patch.rest.resize(3, patch.vertices.size());
   patch.x.resize(3, patch.vertices.size());
   for (std::size_t k = 0; k < patch.vertices.size(); ++k) {

@@ -27,6 +27,7 @@ struct Patch {
   std::vector<Index> faces;         ///< patch triangle -> triangle of the whole, ascending within active and obstacles
   std::vector<Index> part_of;       ///< as Scene::part_of, of the patch's triangles
   const PassingParts* parts = nullptr;  ///< as Scene::parts
+  Solids solids;                        ///< those of its active triangles, whole ones
   double edge_length = 0;               ///< h: mean edge of the intersecting faces at rest (or of all active ones)
   Trajectory* trajectory = nullptr;     ///< where solvers record their iterations, or null; not owned
   PatchProgress* progress = nullptr;    ///< where solvers report their progress, or null; not owned

@@ -6,6 +6,7 @@
 #include "contact/passing.h"
 #include "geometry/types.h"
 #include "mesh/adjacency.h"
+#include "scene/solids.h"
 
 namespace unsnarl {
 
@@ -19,6 +20,7 @@ struct Scene {
   std::vector<Index> group_of;  ///< of each vertex: triangles of two groups pass through each other; empty: all meet
   std::vector<Index> part_of;   ///< of each triangle: its part in `parts`; empty: none passes through another
   const PassingParts* parts = nullptr;  ///< not owned
+  Solids solids;                        ///< whose volumes are to be kept
   IndexLists triangles_of_vertex;
   IndexLists neighbours;  ///< of vertices, by edges
 

@@ -65,5 +65,31 @@ TEST(Hessian, vertices_that_do_not_move_are_left_out) {
   EXPECT_EQ(image, Eigen::Matrix3Xd(Vec3(8, 5, 0)));
 }
 
+TEST(Hessian, terms_over_many_vertices_leave_out_those_that_do_not_move) {
+  HessianTerms terms;
+  terms.diagonals = {{0, 1}, {2, 1}, {4, 1}};
+  HessianTerms::Dense& term = terms.dense.emplace_back();
+  term.vertices = {0, 1, 2, 3, 4};
+  term.g.resize(3, 5);
+  term.g << 1, 2, 3, 4, 5, 0, 0, 1, 0, 0, 0, 0, 0, 0, -1;
+  term.stiffness = 2;
+  const std::vector<Index> slot = {-1, -1, 1, -1, 0};
+  Hessian hessian;
+  hessian.assemble({&terms, 1}, slot, 2);
+  Eigen::VectorXd g(6);
+  g << 5, 0, -1, 3, 1, 0;
+  const Eigen::MatrixXd expected = Eigen::MatrixXd::Identity(6, 6) + 2 * g * g.transpose();
+  Eigen::Matrix3Xd unit(3, 2), image(3, 2);
+  for (Index k = 0; k < 6; ++k) {
+    unit.setZero();
+    unit(k % 3, k / 3) = 1;
+    hessian.apply(unit, image);
+    EXPECT_EQ(Eigen::VectorXd(image.reshaped()), Eigen::VectorXd(expected.col(k)));
+  }
+  std::vector<Eigen::Matrix3d> inverse;
+  hessian.inverse_blocks(false, inverse);
+  EXPECT_LT((inverse[0] * expected.topLeftCorner(3, 3) - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace unsnarl

@@ -17,14 +17,9 @@ namespace {
 
 constexpr Index box_vertices = 8;
 
-/// A box of 12 faces, with its middle at the origin.
+/// A box with its middle at the origin.
 shapes::Shape coarse_box(const Vec3& half) {
-  shapes::Shape box;
-  for (int i = 0; i < box_vertices; ++i)
-    box.points.emplace_back(i & 4 ? half.x() : -half.x(), i & 2 ? half.y() : -half.y(), i & 1 ? half.z() : -half.z());
-  box.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
-                   {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
-  return box;
+  return shapes::Shape().add(shapes::box(2 * half), -half);
 }
 
 /// A coarse box, with fine balls that its sides cut.

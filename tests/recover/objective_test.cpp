@@ -127,8 +127,8 @@ TEST(Objective, terms_sum_to_the_value) {
   const double value = assembled.objective.linearise(x, g, hessian);
   const IterationRecord terms = assembled.objective.terms();
   double sum = 0;
-  for (EnergyTerm term :
-       {EnergyTerm::pull, EnergyTerm::arap, EnergyTerm::bending, EnergyTerm::orientation, EnergyTerm::barrier})
+  for (EnergyTerm term : {EnergyTerm::pull, EnergyTerm::arap, EnergyTerm::bending, EnergyTerm::orientation,
+                          EnergyTerm::volume, EnergyTerm::barrier})
     sum += terms[term];
   EXPECT_NEAR(sum, value, 1e-12 * value);
 }

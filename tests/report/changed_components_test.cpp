@@ -11,12 +11,7 @@ namespace unsnarl {
 namespace {
 
 shapes::Shape cube(double side) {
-  shapes::Shape shape;
-  for (int i = 0; i < 8; ++i) shape.points.emplace_back(i & 1 ? side : 0, i & 2 ? side : 0, i & 4 ? side : 0);
-  for (const auto& q :
-       {std::array<Index, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
-    shape.triangles.insert(shape.triangles.end(), {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}});
-  return shape;
+  return shapes::box(Vec3::Constant(side));
 }
 
 /// Two cubes of side 1; the second begins `overlap` before the end of the first, along x, and 0.1 higher.

@@ -11,14 +11,11 @@
 namespace unsnarl {
 namespace {
 
-/// A box of twelve triangles from 0 to `size`; inward: its normals point inward.
-shapes::Shape box(const Vec3& size, bool inward = false) {
-  shapes::Shape shape;
-  for (int i = 0; i < 8; ++i) shape.points.emplace_back(i & 1 ? size[0] : 0, i & 2 ? size[1] : 0, i & 4 ? size[2] : 0);
-  for (const auto& q :
-       {std::array<Index, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
-    for (const Triangle& t : {Triangle{q[0], q[1], q[2]}, Triangle{q[0], q[2], q[3]}})
-      shape.triangles.push_back(inward ? Triangle{t[0], t[2], t[1]} : t);
+using shapes::box;
+
+/// The same with its normals turned.
+shapes::Shape inward(shapes::Shape shape) {
+  for (Triangle& t : shape.triangles) std::swap(t[1], t[2]);
   return shape;
 }
 
@@ -54,7 +51,7 @@ TEST(OverlappingComponents, open_surfaces_hollows_and_what_only_lies_inside_are_
   shapes::Shape in_a_sheet = shapes::bumpy_sheet(4, 0);
   EXPECT_TRUE(overlapping(in_a_sheet.add(box(Vec3(1, 1, 1)), Vec3(-0.4, -0.4, -0.4))).empty());
   shapes::Shape hollow = box(Vec3(3, 3, 3));
-  EXPECT_TRUE(overlapping(hollow.add(box(Vec3(2.5, 2, 2), true), Vec3(0.9, 0.5, 0.5))).empty());
+  EXPECT_TRUE(overlapping(hollow.add(inward(box(Vec3(2.5, 2, 2))), Vec3(0.9, 0.5, 0.5))).empty());
   shapes::Shape nested = box(Vec3(3, 3, 3));
   EXPECT_TRUE(overlapping(nested.add(box(Vec3(1, 1, 1)), Vec3(1, 1, 1))).empty());
 }

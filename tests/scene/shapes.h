@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -39,6 +40,16 @@ struct Shape {
 };
 
 /// A grid of m x n cells over f(i, j), closed in the second direction where asked for.
+/// A box from 0 to `size`, of 8 vertices and 12 triangles; its normals point outward.
+inline Shape box(const Vec3& size) {
+  Shape shape;
+  for (int i = 0; i < 8; ++i) shape.points.emplace_back(i & 1 ? size[0] : 0, i & 2 ? size[1] : 0, i & 4 ? size[2] : 0);
+  for (const auto& q :
+       {std::array<Index, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+    shape.triangles.insert(shape.triangles.end(), {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}});
+  return shape;
+}
+
 inline Shape grid(Index m, Index n, bool closed, const std::function<Vec3(double, double)>& f) {
   Shape shape;
   const Index columns = closed ? n : n + 1;
