@@ -5,20 +5,9 @@
 #include <utility>
 
 #include "geometry/sort_unique.h"
+#include "mesh/areas.h"
 
 namespace unsnarl {
-namespace {
-
-/// Signed volume between the triangles and a point.
-double volume_over(const Positions& x, std::span<const Triangle> triangles, const Vec3& point) {
-  double sum = 0;
-  for (const Triangle& t : triangles)
-    sum += (x.col(t[0]) - point).dot((x.col(t[1]) - point).cross(x.col(t[2]) - point));
-  return sum / 6;
-}
-
-}  // namespace
-
 VolumeLoss::VolumeLoss(const Positions& rest, std::vector<Surface> surfaces, double least) {
   for (Surface& surface : surfaces) {
     Kept kept;

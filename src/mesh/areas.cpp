@@ -40,15 +40,17 @@ std::size_t count_lost_areas(const Positions& rest, const Positions& x, std::spa
   }));
 }
 
-double signed_volume(const Positions& x, std::span<const Triangle> triangles) {
-  if (triangles.empty()) return 0;
-  const Vec3 origin = x.col(triangles[0][0]);
+double volume_over(const Positions& x, std::span<const Triangle> triangles, const Vec3& point) {
   double sum = 0;
   for (const Triangle& t : triangles) {
-    const Vec3 a = x.col(t[0]) - origin, b = x.col(t[1]) - origin, c = x.col(t[2]) - origin;
+    const Vec3 a = x.col(t[0]) - point, b = x.col(t[1]) - point, c = x.col(t[2]) - point;
     sum += a.dot(b.cross(c));
   }
   return sum / 6;
+}
+
+double signed_volume(const Positions& x, std::span<const Triangle> triangles) {
+  return triangles.empty() ? 0 : volume_over(x, triangles, x.col(triangles[0][0]));
 }
 
 double mean_edge_length(const Positions& x, std::span<const Triangle> triangles) {

@@ -29,6 +29,9 @@ double squared_motion(const Positions& rest, const Positions& x, const Triangle&
 /// Number of triangles that have exactly no area at x, but had some at rest.
 std::size_t count_lost_areas(const Positions& rest, const Positions& x, std::span<const Triangle> triangles);
 
+/// Signed volume between the triangles and a point, positive where their normals point away from it.
+double volume_over(const Positions& x, std::span<const Triangle> triangles, const Vec3& point);
+
 /// Signed volume enclosed by the triangles, positive where their normals point outward. Meaningful for closed oriented
 /// sets only; taken about the first vertex, so that distance from the origin costs no digits.
 double signed_volume(const Positions& x, std::span<const Triangle> triangles);

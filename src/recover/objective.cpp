@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace unsnarl {
 namespace {
@@ -17,12 +18,10 @@ Bending bending_of(const Patch& patch, const EdgeTable& edges, double h) {
 }
 
 std::vector<VolumeLoss::Surface> closed_surfaces_of(const Patch& patch) {
+  std::vector<std::vector<Triangle>> triangles = triangles_of_solids(patch);
   std::vector<VolumeLoss::Surface> surfaces;
-  for (const Solid& solid : patch.solids.list)
-    surfaces.push_back({.triangles = {}, .volume = solid.volume, .area = solid.area});
-  for (std::size_t t = 0; t < patch.solids.of_triangle.size(); ++t)
-    if (const Index solid = patch.solids.of_triangle[t]; solid >= 0)
-      surfaces[solid].triangles.push_back(patch.triangles[t]);
+  for (std::size_t s = 0; s < triangles.size(); ++s)
+    surfaces.push_back({std::move(triangles[s]), patch.solids.list[s].volume, patch.solids.list[s].area});
   return surfaces;
 }
 

@@ -5,6 +5,7 @@
 
 #include "contact/bvh.h"
 #include "geometry/sort_unique.h"
+#include "mesh/areas.h"
 
 namespace unsnarl {
 
@@ -34,6 +35,24 @@ class Obstacles {
 };
 
 }  // namespace
+
+std::vector<std::vector<Triangle>> triangles_of_solids(const Patch& patch) {
+  std::vector<std::vector<Triangle>> triangles(patch.solids.list.size());
+  for (std::size_t t = 0; t < patch.solids.of_triangle.size(); ++t)
+    if (const Index solid = patch.solids.of_triangle[t]; solid >= 0) triangles[solid].push_back(patch.triangles[t]);
+  return triangles;
+}
+
+bool turns_a_solid_inside_out(const Patch& patch) {
+  const std::vector<std::vector<Triangle>> triangles = triangles_of_solids(patch);
+  for (std::size_t s = 0; s < triangles.size(); ++s) {
+    const Vec3 near = patch.rest.col(triangles[s].front()[0]);
+    const double at_rest = patch.solids.list[s].volume;
+    const double gained = volume_over(patch.x, triangles[s], near) - volume_over(patch.rest, triangles[s], near);
+    if ((at_rest + gained) * at_rest < 0) return true;
+  }
+  return false;
+}
 
 Patch cut_patch(const Scene& scene, const SceneIndex& index, std::span<const Index> free_vertices, double reach) {
   Patch patch;

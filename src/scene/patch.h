@@ -36,6 +36,12 @@ struct Patch {
   Passing passing() const { return part_of.empty() ? Passing() : Passing({}, part_of, *parts); }
 };
 
+/// The active triangles of each of the patch's solids.
+std::vector<std::vector<Triangle>> triangles_of_solids(const Patch& patch);
+
+/// Whether a solid of which triangles are active is turned inside out: its volume has the other sign than at rest.
+bool turns_a_solid_inside_out(const Patch& patch);
+
 /// Cuts out the patch with these free vertices (ascending, none fixed). Obstacles: all triangles within `reach` (a
 /// length) of the box of an active triangle, but those that pass through all active ones. `edge_length` is left to the
 /// caller.

@@ -12,18 +12,23 @@ Verdict worth(const Trial& trial) {
   return trial.is_clean() || trial.left.is_below(kept_at_once, trial.before) ? Verdict::keep : Verdict::remember;
 }
 
+bool is_nearer(const Trial& trial, const Trial& rival) {
+  if (trial.is_inside_out != rival.is_inside_out) return rival.is_inside_out;
+  return trial.distance < rival.distance;
+}
+
 }  // namespace
 
 Verdict judge(const Trial& trial, bool must_be_clean, const Trial* rival) {
   if (!trial.left.fell_from(trial.before) || trial.is_rejected) return Verdict::drop;
   if (must_be_clean && !trial.is_clean()) return Verdict::drop;
-  return rival || largest_motion(trial) > trial.reach ? Verdict::compare : worth(trial);
+  return rival || trial.is_inside_out || largest_motion(trial) > trial.reach ? Verdict::compare : worth(trial);
 }
 
 Verdict judge_far(const Trial& trial, const Trial* rival) {
   if (!trial.left.fell_from(trial.before)) return Verdict::drop;
-  if (rival && (!trial.is_clean() || trial.distance >= rival->distance)) return Verdict::drop;
-  if (largest_distance(trial) <= trial.selection.bound) return worth(trial);
+  if (rival && (!trial.is_clean() || !is_nearer(trial, *rival))) return Verdict::drop;
+  if (!trial.is_inside_out && largest_distance(trial) <= trial.selection.bound) return worth(trial);
   // Pairs that it leaves would have to be resolved from far away.
   return trial.is_clean() ? Verdict::wait : Verdict::drop;
 }

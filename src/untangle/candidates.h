@@ -21,7 +21,8 @@ enum class Verdict {
   wait,      ///< it went far: kept if no nearer one comes
 };
 
-/// Judges a candidate by its progress. `must_be_clean`: one that leaves pairs is dropped. `rival`: the candidate of the
+/// Judges a candidate by its progress. One that turns a closed component inside out counts as far, and as farther than
+/// all that do not. `must_be_clean`: one that leaves pairs is dropped. `rival`: the candidate of the
 /// same region that waits; may be null.
 Verdict judge(const Trial& trial, bool must_be_clean, const Trial* rival);
 

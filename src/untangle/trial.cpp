@@ -96,6 +96,7 @@ void run_trial(Trial& trial, const Scene& scene, const SceneIndex& index, const 
   const bool is_finite = patch.x.allFinite();
   if (!is_finite) patch.x = trial.start;
   trial.left = TrialPairs(blocking_pairs(finder.find(patch.x), tolerated));
+  trial.is_inside_out = turns_a_solid_inside_out(patch);
   const bool is_refused = is_finite && trial.is_clean() && options.accept && !options.accept(patch);
   trial.is_rejected = is_refused && trial.left.fell_from(trial.before);
   patch.trajectory = nullptr;
@@ -122,6 +123,7 @@ void look_farther(Trial& trial, const Scene& scene, const SceneIndex& index,
     IntersectionFinder finder(trial.patch.triangles, trial.patch.active_count, trial.patch.passing());
     trial.left = TrialPairs(blocking_pairs(finder.find(trial.patch.x), tolerated));
   }
+  trial.is_inside_out = turns_a_solid_inside_out(trial.patch);
   trial.distance = 0;
   for (Index t = 0; t < trial.patch.active_count; ++t)
     trial.distance += squared_motion(trial.patch.rest, trial.patch.x, trial.patch.triangles[t]);

@@ -43,9 +43,10 @@ struct Trial {
   Trajectory trajectory;
   int iterations = 0;
   double seconds = 0;
-  TrialPairs before, left;   ///< of the region, at the start and of the candidate
-  bool is_rejected = false;  ///< it has no pairs, but was not accepted
-  double distance = 0;       ///< from rest after recovery: squared_motion(), summed; known after look_farther()
+  TrialPairs before, left;     ///< of the region, at the start and of the candidate
+  bool is_rejected = false;    ///< it has no pairs, but was not accepted
+  bool is_inside_out = false;  ///< it turns a closed component inside out
+  double distance = 0;         ///< from rest after recovery: squared_motion(), summed; known after look_farther()
 
   bool is_clean() const { return left.total == 0; }
   std::size_t resolved() const { return before.total - left.total; }

@@ -23,9 +23,10 @@ TEST(Cuts, the_same_cut_adds_nothing) {
 TEST(Cuts, the_other_diagonal_of_a_quad) {
   // A triangle, and a quad beside it that is cut the other way.
   const Triangulation cut = cut_of({{4, 1, 0}, {0, 1, 2}, {0, 2, 3}}, {0, 1, 1});
-  const auto [all, exclusive] = unite({cut, cut_of({{4, 1, 0}, {1, 2, 3}, {1, 3, 0}}, {0, 1, 1})});
+  const auto [all, of_first, exclusive] = unite({cut, cut_of({{4, 1, 0}, {1, 2, 3}, {1, 3, 0}}, {0, 1, 1})});
   EXPECT_EQ(all.triangles, (std::vector<Triangle>{{4, 1, 0}, {0, 1, 2}, {0, 2, 3}, {1, 2, 3}, {1, 3, 0}}));
   EXPECT_EQ(all.polygon, (std::vector<Index>{0, 1, 1, 1, 1}));
+  EXPECT_EQ(of_first, 3u);
   ASSERT_EQ(exclusive.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(exclusive[k].a, 1 + static_cast<Index>(k / 2));
@@ -35,8 +36,9 @@ TEST(Cuts, the_other_diagonal_of_a_quad) {
 
 TEST(Cuts, what_both_cuts_hold_is_no_stranger_to_either) {
   const Triangulation cut = cut_of({{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}, {0, 0, 0});
-  const auto [all, exclusive] = unite({cut, cut_of({{0, 1, 2}, {0, 2, 4}, {2, 3, 4}}, {0, 0, 0})});
+  const auto [all, of_first, exclusive] = unite({cut, cut_of({{0, 1, 2}, {0, 2, 4}, {2, 3, 4}}, {0, 0, 0})});
   EXPECT_EQ(all.triangles.size(), 5u);
+  EXPECT_EQ(of_first, 3u);
   ASSERT_EQ(exclusive.size(), 4u);
   for (const IntersectingPair& pair : exclusive) {
     EXPECT_GT(pair.a, 0) << "the triangle that stayed must not meet the new ones";

@@ -106,5 +106,20 @@ TEST(Patch, what_passes_through_all_of_it_is_no_obstacle) {
   EXPECT_TRUE(is_obstacle(cut_patch(scene, SceneIndex(scene), free, 5), 1));
 }
 
+TEST(Patch, knows_whether_a_solid_is_inside_out) {
+  Scene scene = shapes::scene_of(shapes::box({1, 2, 3}));
+  scene.solids = {.list = {{6, 22}}, .of_triangle = std::vector<Index>(scene.triangles.size(), 0)};
+  const SceneIndex index(scene);
+  // One corner is free: the volume is 0 where it meets the opposite one.
+  Patch patch = cut_patch(scene, index, std::vector<Index>{0}, 0);
+  EXPECT_EQ(patch.solids.list.size(), 1u);
+  EXPECT_EQ(triangles_of_solids(patch).front().size(), static_cast<std::size_t>(patch.active_count));
+  EXPECT_FALSE(turns_a_solid_inside_out(patch));
+  patch.x.col(0) = Vec3(0.9, 1.8, 2.7);
+  EXPECT_FALSE(turns_a_solid_inside_out(patch));
+  patch.x.col(0) = Vec3(1.1, 2.2, 3.3);
+  EXPECT_TRUE(turns_a_solid_inside_out(patch));
+}
+
 }  // namespace
 }  // namespace unsnarl

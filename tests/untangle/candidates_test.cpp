@@ -74,6 +74,17 @@ TEST(Judge, of_two_that_went_far_only_the_nearer_waits) {
   EXPECT_EQ(judge_far(trial_of(scene, {.motion = 1, .left = 5}), nullptr), Verdict::remember);
 }
 
+TEST(Judge, what_turns_a_component_inside_out_waits_for_any_other) {
+  const Scene scene = small_scene();
+  Trial turned = trial_of(scene, {.motion = 1});
+  turned.is_inside_out = true;
+  const Trial far = trial_of(scene, {.motion = 3});
+  EXPECT_EQ(judge(turned, false, nullptr), Verdict::compare);
+  EXPECT_EQ(judge_far(turned, nullptr), Verdict::wait);
+  EXPECT_EQ(judge_far(far, &turned), Verdict::wait) << "in its place";
+  EXPECT_EQ(judge_far(turned, &far), Verdict::drop);
+}
+
 TEST(Candidates, that_wait_are_taken_nearest_first) {
   const Scene scene = small_scene();
   Candidates candidates;
