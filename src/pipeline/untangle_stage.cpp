@@ -25,6 +25,8 @@ constexpr int rounding_rounds = 4;
 
 /// Share of a time limit after which what is resolved is recovered, and the rest left (no unit)
 constexpr double untangling_time = 0.7;
+/// What is left is untangled once more where it is at most this share of the pairs at rest [E241] (no unit)
+constexpr double few_left = 0.1;
 /// Share of the progress reported when recovery begins (no unit)
 constexpr double untangled_fraction = 0.6;
 /// Share of the progress reported when recovery ends (no unit)
@@ -71,6 +73,27 @@ std::optional<std::vector<IntersectingPair>> untangle(const RepairTask& task, co
   return std::move(result.left);
 }
 
+/// While it lives, the scene is at rest where it is.
+class AtRestNow {
+ public:
+  explicit AtRestNow(Scene& scene) : scene_(scene), rest_(std::exchange(scene.rest, scene.x)) {}
+  ~AtRestNow() { scene_.rest.swap(rest_); }
+  AtRestNow(const AtRestNow&) = delete;
+  AtRestNow& operator=(const AtRestNow&) = delete;
+
+ private:
+  Scene& scene_;
+  Positions rest_;
+};
+
+/// The input is a poor guide for a few pairs that are left of many: where it draws to, everything intersects.
+bool is_worth_untangling_from_here(const RepairTask& task, const RepairControl& control, const RepairState& state,
+                                   std::span<const IntersectingPair> left) {
+  const double most = few_left * static_cast<double>(state.pairs_at_rest.size());
+  return !left.empty() && static_cast<double>(left.size()) <= most && !(task.most_motion() > 0) &&
+         !task.options.paper && !control.limits.reached();
+}
+
 /// Recovers what moved since the last time. `left`: pairs of triangles that could not be untangled.
 void recover_moved(const RepairTask& task, const RepairControl& control, std::span<const IntersectingPair> left,
                    SceneIndex& index, RepairState& state) {
@@ -95,6 +118,31 @@ void measure_regions(const RepairTask& task, RepairState& state) {
       region.farthest_vertex = task.prepared.weld_map.first[v];
     }
   }
+}
+
+void note_recovered(const RepairTask& task, RepairState& state) {
+  measure_regions(task, state);
+  state.recovered = state.moved.size();
+}
+
+/// Untangles a few pairs that are left of many as if the surface were the input as it is now, and recovers what that
+/// moved. Returns what is left then.
+std::vector<IntersectingPair> untangle_from_here(const RepairTask& task, const RepairControl& control,
+                                                 std::vector<IntersectingPair> left, SceneIndex& index,
+                                                 RepairState& state) {
+  if (!is_worth_untangling_from_here(task, control, state, left)) return left;
+  std::erase_if(state.regions, [](const RegionReport& region) { return region.strategy == "none"; });
+  control.phases.start("untangle");
+  {
+    const AtRestNow at_rest(state.scene);
+    left = *untangle(task, control, index, state, true);
+  }
+  if (task.options.recover) {
+    control.phases.start("recover");
+    recover_moved(task, control, left, index, state);
+  }
+  note_recovered(task, state);
+  return left;
 }
 
 bool has_moved(const Scene& scene, Index t, const Positions& x) {
@@ -172,8 +220,8 @@ Rounds work_in_rounds(const RepairTask& task, const RepairControl& control, Find
       recover_moved(task, control, *left, index, state);
       if (round == 0) left = hold_parts(task, control, std::move(*left), index, state);
     }
-    measure_regions(task, state);
-    state.recovered = state.moved.size();
+    note_recovered(task, state);
+    if (round == 0) left = untangle_from_here(task, control, std::move(*left), index, state);
     control.phases.start("certify");
     report_progress(task, control, state, recovered_fraction, *left);
     state.attempts.solved = state.scene.x;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "untangle/alone_first.h"
 #include "untangle/coarse/coarse_to_fine.h"
 #include "untangle/free_search.h"
 #include "untangle/local/local_solver.h"
@@ -109,6 +110,13 @@ Strategy far_coarse_to_fine() {
   return {.name = "coarse_to_fine_far", .select = select_by_depth(freed), .solve = solve};
 }
 
+Strategy alone_first() {
+  const auto solve = [](Patch& patch, const Task& task) {
+    return untangle_alone_first(patch, task, tiers_before_last_resorts());
+  };
+  return {.name = "alone_first", .select = select_whole_components(reach_of_whole), .solve = solve};
+}
+
 Strategy coarse_to_fine_of_whole_components(CoarseMeshes meshes) {
   return {.name = "coarse_to_fine_whole",
           .select = select_whole_components(reach_of_whole),
@@ -155,6 +163,7 @@ std::vector<Tier> all_tiers(CoarseMeshes meshes) {
   };
   // On a coarse mesh, wider surroundings are soon the whole.
   if (meshes == CoarseMeshes::until_solved) {
+    tiers.push_back(last_resort(alone_first()));
     tiers.push_back(last_resort(wide_coarse_to_fine()));
     tiers.push_back(last_resort(far_coarse_to_fine()));
   }

@@ -7,7 +7,9 @@
 
 #include "pipeline/stages.h"
 #include "scene/shapes.h"
+#include "untangle/escalation.h"
 #include "untangle/strategies.h"
+#include "untangle/tangled_shapes.h"
 
 namespace unsnarl {
 namespace {
@@ -64,6 +66,27 @@ TEST(UntangleStage, what_is_stuck_does_not_hold_up_the_rest_of_its_component) {
   for (const IntersectingPair& pair : repair.finders.find_rounded(repair.state.scene.x))
     for (const Index t : {pair.a, pair.b})
       for (const Index v : repair.state.scene.triangles[t]) EXPECT_LT(v, first);
+}
+
+TEST(UntangleStage, a_few_pairs_that_are_left_are_untangled_from_where_the_others_are_resolved) {
+  shapes::Shape shape = shapes::crossing_bumps(12, 5);
+  for (int k = 0; k < 10; ++k) shape.add(shapes::two_spheres(16), Vec3(50 + 10 * k, 0, 0));
+  RepairOptions options;
+  for (const Tier& tier : default_tiers())
+    for (const Strategy& strategy : tier.strategies)
+      if (strategy.name != "push_apart") options.without_strategies.push_back(strategy.name);
+  StagedRepair once(shape.surface(), options);
+  EscalationOptions from_input;
+  from_input.tiers = default_tiers();
+  from_input.left_out = options.without_strategies;
+  SceneIndex index(once.state.scene);
+  ASSERT_FALSE(escalate(once.state.scene, index, {}, from_input).left.empty());
+  StagedRepair repair(shape.surface(), options);
+  const Positions rest = repair.state.scene.rest;
+  untangle_stage(repair.task, repair.control, repair.finders, repair.state);
+  EXPECT_EQ(repair.pairs(), 0u);
+  EXPECT_EQ(repair.state.scene.rest, rest);
+  for (const RegionReport& region : repair.state.regions) EXPECT_NE(region.strategy, "none");
 }
 
 TEST(UntangleStage, a_checkpoint_brings_the_state_back) {
