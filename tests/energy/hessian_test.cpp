@@ -66,7 +66,8 @@ TEST(Hessian, vertices_that_do_not_move_are_left_out) {
 }
 
 TEST(Hessian, terms_over_many_vertices_leave_out_those_that_do_not_move) {
-  HessianTerms terms;
+  Hessian hessian;
+  HessianTerms& terms = hessian.begin(1)[0];
   terms.diagonals = {{0, 1}, {2, 1}, {4, 1}};
   HessianTerms::Dense& term = terms.dense.emplace_back();
   term.vertices = {0, 1, 2, 3, 4};
@@ -74,8 +75,7 @@ TEST(Hessian, terms_over_many_vertices_leave_out_those_that_do_not_move) {
   term.g << 1, 2, 3, 4, 5, 0, 0, 1, 0, 0, 0, 0, 0, 0, -1;
   term.stiffness = 2;
   const std::vector<Index> slot = {-1, -1, 1, -1, 0};
-  Hessian hessian;
-  hessian.assemble({&terms, 1}, slot, 2);
+  hessian.assemble(slot, 2);
   Eigen::VectorXd g(6);
   g << 5, 0, -1, 3, 1, 0;
   const Eigen::MatrixXd expected = Eigen::MatrixXd::Identity(6, 6) + 2 * g * g.transpose();
