@@ -198,9 +198,10 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
     if (r.left_by_reason[i] > 0)
       line(fmt::format("    {} {}", r.left_by_reason[i], describe(static_cast<LeftReason>(i))));
   if (r.untouched_share < 1)
-    line(fmt::format("  moved {:.3g} % of the vertices, by {} at most, {} on average", 100 * (1 - r.untouched_share),
-                     length_in_words(r.displacement_max_rel, r.diagonal),
-                     length_in_words(r.displacement_mean_rel, r.diagonal, "")));
+    line(fmt::format("  moved {:.3g} % of the vertices, by {} at most, {} on average, {} by area",
+                     100 * (1 - r.untouched_share), length_in_words(r.displacement_max_rel, r.diagonal),
+                     length_in_words(r.displacement_mean_rel, r.diagonal, ""),
+                     length_in_words(r.displacement_area_rms_rel, r.diagonal, "")));
   for (const NestedPair& pair : files.nested) line("  " + nested_in_words(pair));
   for (const RigidPartReport& part : r.rigid_parts) line("  " + rigid_part_in_words(part, r.diagonal));
   for (const std::string& words : far_regions(r)) line("  " + words);

@@ -29,7 +29,7 @@ class Context {
  public:
   struct Progress {
     double fraction = 0;          ///< in [0, 1], never decreases
-    std::string_view phase;       ///< "diagnose", "place" (rigid parts), "untangle", "recover", "certify"
+    std::string_view phase;       ///< "diagnose", "place" (rigid parts), "untangle", "recover", "open_gaps", "certify"
     std::size_t pairs_left = 0;   ///< intersecting pairs of faces at this moment, as reports count them
     double displacement_rel = 0;  ///< largest displacement at this moment / bounding-box diagonal
   };

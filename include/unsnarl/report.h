@@ -217,7 +217,10 @@ struct RepairReport {
   std::vector<LeftPair> left;
   std::array<std::size_t, left_reason_count> left_by_reason{};  ///< of all, indexed by LeftReason
   double diagonal = 0;                                          ///< of the input's bounding box; unit of every *_rel
-  double displacement_mean_rel = 0, displacement_rms_rel = 0, displacement_max_rel = 0;
+  double displacement_mean_rel = 0, displacement_rms_rel = 0, displacement_max_rel = 0;  ///< over the vertices
+  /// Root of the mean over the input's area of the squared motion, which is linear on each triangle: it does not depend
+  /// on where vertices are many. Results are compared by it. 0 where the input has no area.
+  double displacement_area_rms_rel = 0;
   /// No embedded result has a smaller displacement_max_rel: half the depth of the deepest single pair of triangles that
   /// share no vertex (obstructions aside). Seldom reached, because a whole neighbourhood has to make way.
   double displacement_lower_bound_rel = 0;

@@ -46,6 +46,8 @@ struct FrameReport {
   bool float32_embedded = false;             ///< see RepairReport
   Precision precision = Precision::float64;  ///< see RepairReport
   bool is_smoothed = false;                  ///< false: as it came out of a repair by itself
+  /// See RepairReport: of the repair of this frame by itself, before corrections are made smooth in time.
+  std::vector<ChangedComponent> changed_components = {};
   std::optional<Jitter> alone;   ///< if this frame and those beside it were repaired each by itself; unset at the ends
   std::optional<Jitter> jitter;  ///< of the results; unset where one beside it is not known. Not yet known in `take`
 };

@@ -12,7 +12,7 @@ class Progress(NamedTuple):
     """How far a repair has come."""
 
     fraction: float  #: in [0, 1], never decreases
-    phase: str  #: "diagnose", "place" (rigid parts), "untangle", "recover", "certify"
+    phase: str  #: "diagnose", "place" (rigid parts), "untangle", "recover", "open_gaps", "certify"
     pairs_left: int  #: intersecting pairs of faces (of curves: of segments) at this moment
     displacement_rel: float  #: largest displacement at this moment / bounding-box diagonal
 

@@ -42,6 +42,7 @@ class Frame:
     float32_embedded: bool
     precision: str
     is_smoothed: bool  #: False: as it came out of a repair by itself
+    changed_components: list[dict[str, Any]]  #: as in Result.report, of the repair of this frame by itself
     alone: Optional[Jitter]  #: if this frame and those beside it were repaired each by itself; None at the ends
     jitter: Optional[Jitter]  #: of the results; None at the ends of the range
 
@@ -158,6 +159,7 @@ def frame_of(report: dict[str, Any]) -> Frame:
         float32_embedded=report["float32_embedded"],
         precision=report["precision"],
         is_smoothed=report["is_smoothed"],
+        changed_components=report["changed_components"],
         alone=jitter("jitter_alone"),
         jitter=jitter("jitter"),
     )

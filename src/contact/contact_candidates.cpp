@@ -172,9 +172,8 @@ void ContactCandidates::update_triangle(const Positions& x, std::span<const doub
   slab.hi = range.hi;
 }
 
-void ContactCandidates::gather(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
-                               std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils,
-                               const std::function<bool()>& stop) {
+void ContactCandidates::start(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
+                              std::span<const std::uint8_t> moves) {
   // Only pairs with a moving triangle are visited, so that the cost does not grow with what stands still.
   const Index triangle_count = static_cast<Index>(triangles_.size());
   moving_.resize(triangles_.size());
@@ -192,13 +191,10 @@ void ContactCandidates::gather(const Positions& x, std::span<const double> radiu
     built_ = true;
   }
   bvh_.set_active(moving_);
-  gather_active(x, radius, bounds, moves, stencils, stop, std::numeric_limits<std::size_t>::max());
 }
 
-bool ContactCandidates::gather_around(std::span<const Index> vertices, const Positions& x,
-                                      std::span<const double> radius, const MotionBounds& bounds,
-                                      std::vector<NearStencil>& stencils, const std::function<bool()>& stop,
-                                      std::size_t most) {
+void ContactCandidates::start_around(std::span<const Index> vertices, const Positions& x,
+                                     std::span<const double> radius, const MotionBounds& bounds) {
   around_.assign(around_vertex_.size(), 0);
   std::fill(moving_.begin(), moving_.end(), std::uint8_t{0});
   std::vector<Index> touched;
@@ -214,34 +210,32 @@ bool ContactCandidates::gather_around(std::span<const Index> vertices, const Pos
   });
   bvh_.refit(boxes_, touched);
   bvh_.set_only_active(touched);
-  return gather_active(x, radius, bounds, around_, stencils, stop, most);
 }
 
-bool ContactCandidates::gather_active(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
-                                      std::span<const std::uint8_t> moves, std::vector<NearStencil>& stencils,
-                                      const std::function<bool()>& stop, std::size_t most) {
-  std::vector<std::vector<NearStencil>> lists(bvh_.task_count());
-  std::atomic<std::size_t> listed{0};
-  StopCheck check(stop, lists.size(), candidates_between_looks);
+bool ContactCandidates::visit_active(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
+                                     std::span<const std::uint8_t> moves, const OnStencil& on_stencil,
+                                     const std::function<bool()>& stop, const ListLimit& limit) const {
+  std::atomic<std::size_t> found{0};
+  StopCheck check(stop, static_cast<std::size_t>(bvh_.task_count()), candidates_between_looks);
   bvh_.self_pairs_parallel([&](Index task, Index a, Index b) {
     check.step(task);
-    if (listed.load(std::memory_order_relaxed) > most) return;
-    const std::size_t before = lists[task].size();
-    gather_pair(x, radius, bounds, moves, a, b, lists[task]);
-    const std::size_t after = lists[task].size();
-    if (after > before) listed.fetch_add(after - before, std::memory_order_relaxed);
+    if (found.load(std::memory_order_relaxed) > limit.most) return;
+    const std::size_t here = visit_pair(x, radius, bounds, moves, a, b, task, on_stencil, limit.counts_listed);
+    if (here > 0) found.fetch_add(here, std::memory_order_relaxed);
   });
-  join_lists(std::move(lists), stencils);
-  return listed <= most;
+  return found <= limit.most;
 }
 
-void ContactCandidates::gather_pair(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
-                                    std::span<const std::uint8_t> moves, Index a, Index b,
-                                    std::vector<NearStencil>& stencils) const {
-  const auto append = [&](const Stencil& stencil) {
+std::size_t ContactCandidates::visit_pair(const Positions& x, std::span<const double> radius,
+                                          const MotionBounds& bounds, std::span<const std::uint8_t> moves, Index a,
+                                          Index b, Index task, const OnStencil& on_stencil, bool counts_listed) const {
+  std::size_t found = 0;
+  const auto visit = [&](const Stencil& stencil) {
     const Closest at = closest(stencil, x);
     const double least = least_distance(stencil, x, bounds, at.direction);
-    if (least <= radius_of(stencil, radius)) stencils.push_back({stencil, at.distance, at.direction, least});
+    if (!(least <= radius_of(stencil, radius))) return;
+    const bool is_listed = on_stencil(task, {stencil, at.distance, at.direction, least});
+    found += is_listed || !counts_listed;
   };
   const Shared& shared = shared_of_corners[equal_corners(corners_[a], corners_[b])];
   const auto gather_corners = [&](Index t, Index other, unsigned corners_of_other) {
@@ -257,7 +251,7 @@ void ContactCandidates::gather_pair(const Positions& x, std::span<const double> 
       const Interval range(slab.normal.dot(to), slab.normal.dot(bounds.along.col(v)));
       if (std::max(range.lo - slab.hi, slab.lo - range.hi) > reach + length_rounding * (reach + to.cwiseAbs().sum()))
         return;
-      append({StencilKind::vertex_face, {v, f[0], f[1], f[2]}, {v, other}});
+      visit(stencil_of(StencilKind::vertex_face, {v, other}));
     });
   };
   gather_corners(a, b, shared.corners_a);
@@ -274,9 +268,20 @@ void ContactCandidates::gather_pair(const Positions& x, std::span<const double> 
       const double reach =
           0.5 * (most(radius, e) + most(radius, g)) + (most(bounds.around, e) + most(bounds.around, g));
       if (stay_apart_along_normal(reach, x, bounds.along, e, g)) return;
-      append({StencilKind::edge_edge, {e[0], e[1], g[0], g[1]}, {edge_a, edge_b}});
+      visit(stencil_of(StencilKind::edge_edge, {edge_a, edge_b}));
     });
   }
+  return found;
+}
+
+Stencil ContactCandidates::stencil_of(StencilKind kind, const std::array<Index, 2>& primitives) const {
+  const auto [first, second] = primitives;
+  if (kind == StencilKind::vertex_face) {
+    const Triangle& f = triangles_[second];
+    return {kind, {first, f[0], f[1], f[2]}, primitives};
+  }
+  const Edge &e = edges_.edges[first], &g = edges_.edges[second];
+  return {kind, {e[0], e[1], g[0], g[1]}, primitives};
 }
 
 bool ContactCandidates::are_neighbours(const Stencil& stencil) const {

@@ -86,10 +86,10 @@ class EnergySum {
   double linearise(const Positions& x, std::span<const Index> slot, Index unknowns, Positions& gradient,
                    Hessian& hessian) {
     gradient.setZero();
-    for (HessianTerms& terms : terms_) terms.clear();
     sums_ = {};
-    std::apply([&](const auto&... parts) { linearise_parts(x, gradient, parts...); }, parts_);
-    hessian.assemble(terms_, slot, unknowns);
+    const std::span<HessianTerms> terms = hessian.begin(most_parts);
+    std::apply([&](const auto&... parts) { linearise_parts(x, gradient, terms, parts...); }, parts_);
+    hessian.assemble(slot, unknowns);
     double total = 0;
     for (std::size_t k = 0; k < count; ++k) total += sum_of(k);
     return total;
@@ -121,7 +121,7 @@ class EnergySum {
   }
 
   /// All elements are numbered one after the other, so that one scattered sum does for all.
-  void linearise_parts(const Positions& x, Positions& gradient, const auto&... parts) {
+  void linearise_parts(const Positions& x, Positions& gradient, std::span<HessianTerms> terms, const auto&... parts) {
     const Index total = (Index{0} + ... + size_of(parts));
     scattered_(total, chunk, gradient, [&](Index begin, Index end, Positions& sums, Index task) {
       Index offset = 0;
@@ -129,7 +129,7 @@ class EnergySum {
       const auto add = [&](const auto& part) {
         const Index first = std::max(begin - offset, Index{0}), last = std::min(end - offset, size_of(part));
         for (Index i = first; i < last; ++i)
-          sums_[task][k] += part.energy.linearise(x, part.elements[i], part.weight, sums, terms_[task]);
+          sums_[task][k] += part.energy.linearise(x, part.elements[i], part.weight, sums, terms[task]);
         offset += size_of(part);
         ++k;
       };
@@ -138,8 +138,7 @@ class EnergySum {
   }
 
   std::tuple<Part<Energies>...> parts_;
-  std::array<HessianTerms, most_parts> terms_;                   // of each task
-  std::array<std::array<double, count>, most_parts> sums_ = {};  // the same
+  std::array<std::array<double, count>, most_parts> sums_ = {};  // of each task
   ScatteredSum scattered_;
 };
 

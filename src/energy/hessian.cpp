@@ -117,22 +117,25 @@ void HessianTerms::clear() {
   dense.clear();
 }
 
-void Hessian::assemble(std::span<const HessianTerms> parts, std::span<const Index> slot, Index unknowns) {
-  terms_.clear();
+std::span<HessianTerms> Hessian::begin(std::size_t parts) {
+  parts_.resize(parts);
+  for (HessianTerms& part : parts_) part.clear();
+  return parts_;
+}
+
+void Hessian::assemble(std::span<const Index> slot, Index unknowns) {
   diagonal_.assign(static_cast<std::size_t>(unknowns), 0);
-  const auto take = [&](const auto& from, auto& to) {
-    for (auto term : from) {
+  const auto number = [&](auto& terms) {
+    for (auto& term : terms)
       for (Index& v : term.vertices)
         if (v >= 0) v = slot[v];
-      to.push_back(term);
-    }
   };
-  for (const HessianTerms& part : parts) {
+  for (HessianTerms& part : parts_) {
     for (const HessianTerms::Diagonal& term : part.diagonals)
       if (slot[term.vertex] >= 0) diagonal_[slot[term.vertex]] += term.factor;
-    take(part.rank_ones, terms_.rank_ones);
-    take(part.strains, terms_.strains);
-    for (const HessianTerms::Dense& term : part.dense) terms_.dense.push_back(over_unknowns(term, slot));
+    number(part.rank_ones);
+    number(part.strains);
+    for (HessianTerms::Dense& term : part.dense) term = over_unknowns(term, slot);
   }
 }
 
@@ -141,37 +144,43 @@ void Hessian::apply(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const {
   for_chunks(n, chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) result.col(i) = diagonal_[i] * v.col(i);
   });
-  // One range for both, so that one sum over the parts does.
-  const Index strain_count = static_cast<Index>(terms_.strains.size());
-  const Index count = strain_count + static_cast<Index>(terms_.rank_ones.size());
-  scattered_(count, 2 * chunk, result, [&](Index begin, Index end, Eigen::Matrix3Xd& out) {
-    for (Index k = begin; k < std::min(end, strain_count); ++k) add_strain(terms_.strains[k], v, out);
-    for (Index k = std::max(begin, strain_count); k < end; ++k)
-      add_rank_one(terms_.rank_ones[k - strain_count], v, out);
+  // One range for all, so that one sum does: the strains of each part, then the others of each.
+  std::size_t count = 0;
+  for (const HessianTerms& part : parts_) count += part.strains.size() + part.rank_ones.size();
+  scattered_(static_cast<Index>(count), 2 * chunk, result, [&](Index begin, Index end, Eigen::Matrix3Xd& out) {
+    Index offset = 0;
+    const auto add_all = [&](const auto& terms, auto&& add) {
+      const Index size = static_cast<Index>(terms.size());
+      for (Index k = std::max(begin - offset, Index{0}); k < std::min(end - offset, size); ++k) add(terms[k], v, out);
+      offset += size;
+    };
+    for (const HessianTerms& part : parts_) add_all(part.strains, add_strain);
+    for (const HessianTerms& part : parts_) add_all(part.rank_ones, add_rank_one);
   });
-  for (const HessianTerms::Dense& t : terms_.dense) add_dense(t, v, result);
+  for (const HessianTerms& part : parts_)
+    for (const HessianTerms::Dense& t : part.dense) add_dense(t, v, result);
 }
 
 void Hessian::inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const {
   const Index n = static_cast<Index>(diagonal_.size());
   blocks.resize(n);
   for (Index i = 0; i < n; ++i) blocks[i] = diagonal_[i] * Eigen::Matrix3d::Identity();
-  for (const HessianTerms::Strain& t : terms_.strains) {
-    for (int k = 0; k < 3; ++k) {
-      if (t.vertices[k] >= 0) blocks[t.vertices[k]] += t.block(k);
-    }
-  }
-  for (const HessianTerms::RankOne& t : terms_.rank_ones) {
-    for (int k = 0; k < 4; ++k) {
-      if (t.vertices[k] >= 0) blocks[t.vertices[k]].noalias() += t.stiffness * t.g.col(k) * t.g.col(k).transpose();
-    }
-  }
-  for (const HessianTerms::Dense& t : terms_.dense) {
-    for (std::size_t k = 0; k < t.vertices.size(); ++k) {
-      const Vec3 g = t.g.col(static_cast<Index>(k));
-      blocks[t.vertices[k]].noalias() += t.stiffness * g * g.transpose();
-    }
-  }
+  for (const HessianTerms& part : parts_)
+    for (const HessianTerms::Strain& t : part.strains)
+      for (int k = 0; k < 3; ++k) {
+        if (t.vertices[k] >= 0) blocks[t.vertices[k]] += t.block(k);
+      }
+  for (const HessianTerms& part : parts_)
+    for (const HessianTerms::RankOne& t : part.rank_ones)
+      for (int k = 0; k < 4; ++k) {
+        if (t.vertices[k] >= 0) blocks[t.vertices[k]].noalias() += t.stiffness * t.g.col(k) * t.g.col(k).transpose();
+      }
+  for (const HessianTerms& part : parts_)
+    for (const HessianTerms::Dense& t : part.dense)
+      for (std::size_t k = 0; k < t.vertices.size(); ++k) {
+        const Vec3 g = t.g.col(static_cast<Index>(k));
+        blocks[t.vertices[k]].noalias() += t.stiffness * g * g.transpose();
+      }
   for_chunks(n, chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       Eigen::Matrix3d& block = blocks[i];

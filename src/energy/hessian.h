@@ -58,8 +58,11 @@ struct HessianTerms {
 /// The Hessian over the vertices that move ("unknowns"), as a sum of terms that is never assembled to a matrix.
 class Hessian {
  public:
-  /// Takes over the terms, in order. slot: vertex -> unknown, or -1 where the vertex does not move.
-  void assemble(std::span<const HessianTerms> parts, std::span<const Index> slot, Index unknowns);
+  /// So many empty lists of terms, to be filled; assemble() takes them in order. They stay here, since they may be most
+  /// of the memory of a solve.
+  std::span<HessianTerms> begin(std::size_t parts);
+  /// slot: vertex -> unknown, or -1 where the vertex does not move.
+  void assemble(std::span<const Index> slot, Index unknowns);
 
   void apply(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const;
   /// Inverses of the 3 x 3 blocks on the diagonal, or of the diagonals of these.
@@ -67,7 +70,7 @@ class Hessian {
 
  private:
   std::vector<double> diagonal_;
-  HessianTerms terms_;  // with unknowns in place of vertices
+  std::vector<HessianTerms> parts_;  // with unknowns in place of vertices once they are assembled
   mutable ScatteredSum scattered_;
 };
 

@@ -10,21 +10,22 @@
 
 namespace unsnarl {
 
-/// Appends the lists, one after the other. Each is given back at once: there is never room for all twice.
-template <class Item>
-void append_lists(std::vector<std::vector<Item>>&& lists, std::vector<Item>& out) {
+/// Appends the lists (vectors, deques), one after the other. Each is given back at once: there is never room for all
+/// twice.
+template <class List, class Item>
+void append_lists(std::vector<List>&& lists, std::vector<Item>& out) {
   std::size_t size = out.size();
   for (const auto& list : lists) size += list.size();
   out.reserve(size);
   for (auto& list : lists) {
     out.insert(out.end(), list.begin(), list.end());
-    std::vector<Item>().swap(list);
+    List().swap(list);
   }
 }
 
 /// Replaces `out` by the lists.
-template <class Item>
-void join_lists(std::vector<std::vector<Item>>&& lists, std::vector<Item>& out) {
+template <class List, class Item>
+void join_lists(std::vector<List>&& lists, std::vector<Item>& out) {
   out.clear();
   append_lists(std::move(lists), out);
 }

@@ -76,6 +76,7 @@ FrameReport report_of_repair_alone(std::size_t t, const RepairResult& alone) {
           .diagonal = alone.report.diagonal,
           .float32_embedded = alone.report.float32_embedded,
           .precision = alone.report.precision,
+          .changed_components = alone.report.changed_components,
           .alone = {},
           .jitter = {}};
 }

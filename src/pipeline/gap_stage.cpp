@@ -13,6 +13,7 @@
 #include "mesh/areas.h"
 #include "mesh/edge_ways.h"
 #include "mesh/union_find.h"
+#include "pipeline/region_work.h"
 #include "recover/recover_regions.h"
 #include "run/thread_limit.h"
 #include "unsnarl/clearance.h"
@@ -21,14 +22,17 @@
 namespace unsnarl {
 namespace {
 
-/// Rounds of opening what is too small, at most: in each, a vertex goes a few edge lengths at most (unit: rounds)
+/// Rounds of opening what is too small, at most: in each, a vertex goes a few edge lengths at most [E227] (unit:
+/// rounds)
 constexpr int gap_rounds = 6;
 /// Vertices this far along the edges from a gap that is opened make way too [E211] (unit: wanted gap)
 constexpr double way_gaps = 2;
-/// Obstacles of a recovery are listed up to this distance (unit: wanted gap)
+/// Obstacles of a recovery are listed up to this distance [E228] (unit: wanted gap)
 constexpr double obstacle_gaps = 2;
-/// Gaps are looked for up to this distance where the smallest is to be named (unit: wanted gap)
+/// Gaps are looked for up to this distance where the smallest is to be named (fixed by GapReport)
 constexpr double named_gaps = 2;
+/// Share of the progress reported when gaps are open (no unit)
+constexpr double opened_fraction = 0.97;
 /// A round that neither leaves fewer gaps too small nor widens the smallest by this share is the last one (no unit)
 constexpr double least_widening = 0.01;
 
@@ -83,8 +87,7 @@ void take_back_what_is_too_far(const RepairTask& task, std::span<const std::vect
   const double limit = task.most_motion();
   if (!(limit > 0)) return;
   for (const std::vector<Index>& set : sets) {
-    const auto is_too_far = [&](Index v) { return (scene.x.col(v) - scene.rest.col(v)).norm() > limit; };
-    if (std::none_of(set.begin(), set.end(), is_too_far)) continue;
+    if (are_within(scene.x, scene.rest, set, limit)) continue;
     for (const Index v : set) scene.x.col(v) = before.col(v);
   }
 }
@@ -150,13 +153,22 @@ double smallest_of(std::span<const SheetGap> gaps) {
   return smallest;
 }
 
+/// `narrow`: gaps that are too small now, `at_first`: when the first round began.
+void report_progress(const RepairTask& task, const RepairControl& control, const RepairState& state,
+                     std::size_t pairs_left, std::size_t narrow, std::size_t at_first) {
+  const double done = 1 - std::min(1.0, static_cast<double>(narrow) / static_cast<double>(at_first));
+  control.phases.report(opened_fraction * done, pairs_left, state.scene.x, task.prepared.rest, task.diagonal);
+}
+
 /// Opens these gaps, round by round, while that gets on.
 void open_all(const RepairTask& task, const RepairControl& control, std::vector<SheetGap> gaps, RepairState& state) {
   const double wanted = gap_wanted_everywhere(task);
   Kept kept(task, state);
   const SheetGaps sheets = sheet_gaps(task, state, kept.pairs(), control.limits.stopper());
   if (!kept.pairs().empty()) gaps = sheets.narrow(state.scene.x, wanted);
+  const std::size_t at_first = gaps.size();
   for (int round = 0; round < gap_rounds && !gaps.empty() && !control.limits.reached(); ++round) {
+    report_progress(task, control, state, kept.pairs().size(), gaps.size(), at_first);
     const std::vector<std::vector<Index>> sets = sets_around(task, state.scene, gaps);
     if (sets.empty()) return;
     const RepairState::Checkpoint before = state.checkpoint();
@@ -208,7 +220,7 @@ void gap_stage(const RepairTask& task, const RepairControl& control, RepairState
   try {
     std::vector<SheetGap> gaps = sheet_gaps(task, state, {}, control.limits.stopper()).narrow(state.scene.x, wanted);
     if (gaps.empty()) return;
-    control.phases.start("recover");
+    control.phases.start("open_gaps");
     open_all(task, control, std::move(gaps), state);
   } catch (const WorkStopped&) {  // the state is as it was before the round, or written and certified
     state.scene.x = state.format.as_written(state.scene.x);

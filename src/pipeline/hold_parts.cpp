@@ -14,7 +14,7 @@
 #include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "pipeline/region_work.h"
-#include "scene/overlapping_components.h"
+#include "scene/meeting_components.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/strategies.h"
 

@@ -1,5 +1,6 @@
 #include "pipeline/region_work.h"
 
+#include <ranges>
 #include <utility>
 
 #include "pipeline/gap_stage.h"
@@ -18,12 +19,6 @@ void recover_patch(const RepairTask& task, const RepairControl& control, const R
   recover(patch, options, control.limits.stopper());
 }
 
-bool is_within(const Patch& patch, const Positions& rest, double limit) {
-  for (Index v = 0; v < patch.free_count; ++v)
-    if ((patch.x.col(v) - rest.col(patch.vertices[v])).norm() > limit) return false;
-  return true;
-}
-
 }  // namespace
 
 EscalationOptions escalation_options(const RepairTask& task, const RepairControl& control, RepairState& state,
@@ -38,9 +33,12 @@ EscalationOptions escalation_options(const RepairTask& task, const RepairControl
   if (task.options.recover) options.recover = [&](Patch& patch) { recover_patch(task, control, state, patch); };
   if (most_motion > 0)
     options.accept = [&task, &control, &state, &is_exceeded, most_motion](Patch& patch) {
-      if (is_within(patch, state.scene.rest, most_motion)) return true;
+      const auto is_allowed = [&] {
+        return are_within(patch.x, patch.rest, std::views::iota(Index{0}, patch.free_count), most_motion);
+      };
+      if (is_allowed()) return true;
       if (task.options.recover) recover_patch(task, control, state, patch);
-      if (task.options.recover && is_within(patch, state.scene.rest, most_motion)) return true;
+      if (task.options.recover && is_allowed()) return true;
       is_exceeded = true;
       return false;
     };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <vector>
@@ -12,6 +13,13 @@
 #include "untangle/escalation.h"
 
 namespace unsnarl {
+
+/// Whether none of these vertices (a range of columns of both) is farther from rest than `limit`, a length.
+template <class Vertices>
+bool are_within(const Positions& x, const Positions& rest, const Vertices& vertices, double limit) {
+  return std::all_of(vertices.begin(), vertices.end(),
+                     [&](Index v) { return (x.col(v) - rest.col(v)).norm() <= limit; });
+}
 
 /// How regions of the state are untangled within the task's limits, without a word of progress. `most_motion`: how far
 /// a vertex may end from rest, a length; 0: any. `is_exceeded`: set where a candidate goes farther. All must outlive

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact/stop_check.h"
 #include "geometry/parallel_lists.h"
@@ -17,6 +16,9 @@ constexpr double list_margin = 0.02;
 /// A step is halved where its list would be longer: what grows from a point meets all of itself [E208] (unit: stencils
 /// a vertex)
 constexpr std::size_t most_a_vertex = 150;
+/// The same where a gap is asked for everywhere, but of rules: within a wide gap are many stencils of one sheet, which
+/// have none [E226] (unit: rules a vertex)
+constexpr std::size_t most_rules_a_vertex = 40;
 /// Lists of a few vertices may be so long all the same (unit: stencils)
 constexpr std::size_t always_allowed = 20'000;
 /// How often a step is halved at most (unit: times)
@@ -35,8 +37,15 @@ void ContactList::gather(const Positions& x, double activation, const MovingVert
   rules_.gather(x, activation, bounds_, moving.moves, list_);
 }
 
+void ContactList::clear() {
+  std::vector<ContactRule>().swap(list_);
+  std::vector<SeparatedStencil>().swap(in_the_way_);
+}
+
 double ContactList::gather_around_leaving(const Positions& x, Positions& p) {
-  const std::size_t most = std::max(always_allowed, most_a_vertex * static_cast<std::size_t>(x.cols()));
+  const bool has_wide_gap = rules_.options().one_sheet_within > 0;
+  const std::size_t most_here = has_wide_gap ? most_rules_a_vertex : most_a_vertex;
+  const ListLimit limit = {std::max(always_allowed, most_here * static_cast<std::size_t>(x.cols())), has_wide_gap};
   for (const Index v : leaving_) {
     gathered_at_.col(v) = x.col(v);
     bounds_.around[v] = margins_[v];
@@ -44,9 +53,8 @@ double ContactList::gather_around_leaving(const Positions& x, Positions& p) {
   double share = 1;
   for (int halvings = 0;; ++halvings) {
     for (const Index v : leaving_) bounds_.along.col(v) = p.col(v);
-    const bool is_last = halvings == most_halvings;
-    if (rules_.gather_around(leaving_, gathered_at_, x, bounds_, list_,
-                             is_last ? std::numeric_limits<std::size_t>::max() : most))
+    const ListLimit any;
+    if (rules_.gather_around(leaving_, gathered_at_, x, bounds_, list_, halvings == most_halvings ? any : limit))
       return share;
     p *= 0.5;
     share *= 0.5;

@@ -24,6 +24,9 @@ class ContactList {
   /// Replaces `near` by the stencils of the list that may be active at x.
   void pick_near(const Positions& x, const MovingVertices& moving, std::vector<BarrierStencil>& near);
 
+  /// Gives the lists back; the next call is gather().
+  void clear();
+
   /// Stencils that may collide in the step of follow().
   std::span<const SeparatedStencil> in_the_way() const { return in_the_way_; }
   const std::function<bool()>& stop() const { return rules_.options().stop; }

@@ -1,5 +1,7 @@
 #include "recover/contact_rules.h"
 
+#include <oneapi/tbb/combinable.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +17,7 @@ namespace {
 constexpr double least_activation = 1.5;
 
 /// At a vertex, h counts as no more than this many of its longest edge: parts much finer than the others, or shrunk on
-/// the way, would list and push apart everything that is within many edges [E208, E242] (unit: edges)
+/// the way, would list and push apart everything that is within many edges [E208, E224] (unit: edges)
 constexpr double most_edges = 3;
 
 /// Corner k of a triangle against the opposite edge.
@@ -77,24 +79,29 @@ void ContactRules::find_sheets() {
   still.reset(static_cast<Index>(patch_.rest.cols()));
   const std::vector<std::uint8_t> all(static_cast<std::size_t>(patch_.rest.cols()), 1);
   const std::vector<double> radius(all.size(), options_.one_sheet_within);
-  std::vector<NearStencil> stencils;
-  candidates_.gather(patch_.rest, radius, still, all, stencils, options_.stop);
-  std::erase_if(stencils, [&](const NearStencil& near) {
-    return in_conflict(near.stencil) != std::array{false, false} || candidates_.are_neighbours(near.stencil) ||
-           pass(near.stencil);
-  });
   const auto triangle_at = [&](const Stencil& s, int side) {
     if (s.kind == StencilKind::edge_edge) return candidates_.edges().triangles_of_edge[s.primitives[side]][0];
     return side == 0 ? candidates_.triangles_of_vertex()[s.primitives[0]][0] : s.primitives[1];
   };
-  std::vector<std::array<Index, 3>> order;  // triangles at the two, number of the stencil
-  for (std::size_t k = 0; k < stencils.size(); ++k)
-    order.push_back({triangle_at(stencils[k].stencil, 0), triangle_at(stencils[k].stencil, 1), static_cast<Index>(k)});
-  std::sort(order.begin(), order.end());
+  struct Asked {
+    Index first, second;  // triangles at the two primitives
+    StencilKind kind;
+    std::array<Index, 2> primitives;
+    auto operator<=>(const Asked&) const = default;
+  };
+  std::vector<Asked> asked;
+  const auto ask = [&](const NearStencil& near, Asked& item) {
+    const Stencil& s = near.stencil;
+    if (in_conflict(s) != std::array{false, false} || candidates_.are_neighbours(s) || pass(s)) return false;
+    item = {triangle_at(s, 0), triangle_at(s, 1), s.kind, s.primitives};
+    return true;
+  };
+  candidates_.gather(patch_.rest, radius, still, all, ask, asked, options_.stop);
+  std::sort(asked.begin(), asked.end());
   OneSheet one_sheet(patch_.triangles, patch_.rest, candidates_.edges(), options_.min_gap);
-  for (const auto& [first, second, k] : order) {
-    end_long_work_if(options_.stop, order.size());
-    const Stencil& s = stencils[k].stencil;
+  for (const auto& [first, second, kind, primitives] : asked) {
+    end_long_work_if(options_.stop, asked.size());
+    const Stencil s = candidates_.stencil_of(kind, primitives);
     if (one_sheet.holds(s, first, second)) of_one_sheet_.push_back(key_of(s));
   }
   std::sort(of_one_sheet_.begin(), of_one_sheet_.end());
@@ -117,43 +124,56 @@ void ContactRules::gather(const Positions& x, double activation, const MotionBou
   const double least = std::min(activation, options_.reach_gaps * options_.min_gap);
   radius_ = shares_of_h(x);
   for (double& radius : radius_) radius = std::max(least, activation * radius);
-  std::vector<NearStencil> stencils;
-  candidates_.gather(x, radius_, bounds, moves, stencils, options_.stop);
-  add_rules(std::move(stencils), x, x, bounds, moves, rules);
+  const auto make = [&](const NearStencil& near, ContactRule& rule) { return rule_of(near, near.distance, rule); };
+  candidates_.gather(x, radius_, bounds, moves, make, rules, options_.stop);
+  add_altitudes(x, x, bounds, moves, rules);
 }
 
 bool ContactRules::gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
-                                 const MotionBounds& bounds, std::vector<ContactRule>& rules, std::size_t most) {
+                                 const MotionBounds& bounds, std::vector<ContactRule>& rules, const ListLimit& limit) {
   is_anew_.assign(static_cast<std::size_t>(x.cols()), 0);
   for (Index v : vertices) is_anew_[v] = 1;
   std::erase_if(rules, [&](const ContactRule& rule) {
     const Stencil& s = rule.stencil.stencil;
     return std::any_of(s.v.begin(), s.v.begin() + s.size(), [&](Index v) { return is_anew_[v] != 0; });
   });
-  std::vector<NearStencil> stencils;
-  if (!candidates_.gather_around(vertices, from, radius_, bounds, stencils, options_.stop, most)) return false;
-  add_rules(std::move(stencils), from, x, bounds, is_anew_, rules);
+  if (rules.empty()) std::vector<ContactRule>().swap(rules);  // what it has room for is much
+  const auto make = [&](const NearStencil& near, ContactRule& rule) {
+    return rule_of(near, &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x)), rule);
+  };
+  if (!candidates_.gather_around(vertices, from, radius_, bounds, make, rules, options_.stop, limit)) return false;
+  add_altitudes(from, x, bounds, is_anew_, rules);
   return true;
 }
 
-void ContactRules::add_rules(std::vector<NearStencil>&& stencils, const Positions& from, const Positions& x,
-                             const MotionBounds& bounds, std::span<const std::uint8_t> moves,
-                             std::vector<ContactRule>& rules) const {
+ContactRules::Close ContactRules::measure(const Positions& x, double around, std::span<const std::uint8_t> moves) {
+  radius_.assign(static_cast<std::size_t>(x.cols()), 0);
+  MotionBounds bounds;
+  bounds.reset(static_cast<Index>(x.cols()));
+  bounds.around.assign(radius_.size(), around);
+  oneapi::tbb::combinable<Close> close;
+  std::vector<ContactRule> none;
+  const auto count = [&](const NearStencil& near, ContactRule& rule) {
+    if (!rule_of(near, near.distance, rule)) return false;
+    Close& here = close.local();
+    here.least = std::min(here.least, rule.distance);
+    here.closed += rule.closed;
+    return false;
+  };
+  candidates_.gather(x, radius_, bounds, moves, count, none, options_.stop);
+  Close all;
+  close.combine_each([&](const Close& here) {
+    all.least = std::min(all.least, here.least);
+    all.closed += here.closed;
+  });
+  return all;
+}
+
+void ContactRules::add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
+                                 std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) const {
   std::vector<ContactRule> added;
-  gather_in_chunks(
-      static_cast<Index>(stencils.size()), added, [&](Index begin, Index end, std::vector<ContactRule>& list) {
-        end_long_work_if(options_.stop, stencils.size());
-        for (Index k = begin; k < end; ++k) {
-          const NearStencil& near = stencils[k];
-          const double distance = &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x));
-          ContactRule rule;
-          if (rule_of(near, distance, rule)) list.push_back(rule);
-        }
-      });
-  std::vector<NearStencil>().swap(stencils);
-  take_over(std::move(added), rules);
   gather_in_chunks(patch_.active_count, added, [&](Index begin, Index end, std::vector<ContactRule>& list) {
-    add_altitudes(from, x, bounds, moves, begin, end, list);
+    add_altitudes_of(from, x, bounds, moves, begin, end, list);
   });
   take_over(std::move(added), rules);
 }
@@ -232,9 +252,9 @@ bool ContactRules::rule_of(const NearStencil& near, double distance, ContactRule
   return true;
 }
 
-void ContactRules::add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
-                                 std::span<const std::uint8_t> moves, Index begin, Index end,
-                                 std::vector<ContactRule>& rules) const {
+void ContactRules::add_altitudes_of(const Positions& from, const Positions& x, const MotionBounds& bounds,
+                                    std::span<const std::uint8_t> moves, Index begin, Index end,
+                                    std::vector<ContactRule>& rules) const {
   for (Index t = begin; t < end; ++t) {
     const Triangle& f = patch_.triangles[t];
     if (!moves[f[0]] && !moves[f[1]] && !moves[f[2]]) continue;

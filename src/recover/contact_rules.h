@@ -79,19 +79,25 @@ class ContactRules {
 
   /// Gathers the rules of stencils at `vertices` again, after these vertices got new bounds that start at x. The cost
   /// grows with their number. `from`: where each vertex's bounds start; activation distances as before. Returns false
-  /// where that lists more than `most` stencils: they have to be gathered again, with other bounds.
+  /// where they are more than the limit: they have to be gathered again, with other bounds.
   bool gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
-                     const MotionBounds& bounds, std::vector<ContactRule>& rules,
-                     std::size_t most = std::numeric_limits<std::size_t>::max());
+                     const MotionBounds& bounds, std::vector<ContactRule>& rules, const ListLimit& limit = {});
+
+  /// Stencils that are close, own altitudes apart.
+  struct Close {
+    double least = std::numeric_limits<double>::infinity();  ///< the least distance
+    Index closed = 0;                                        ///< how many are closer than they should be
+  };
+  /// Of all stencils with a moving vertex that would have a rule if their vertices might go `around` from x.
+  Close measure(const Positions& x, double around, std::span<const std::uint8_t> moves);
 
   const ContactCandidates& candidates() const { return candidates_; }
   const ContactRuleOptions& options() const { return options_; }
 
  private:
-  /// Adds the rules of the stencils, which it gives back, and of altitudes with a moving vertex.
-  void add_rules(std::vector<NearStencil>&& stencils, const Positions& from, const Positions& x,
-                 const MotionBounds& bounds, std::span<const std::uint8_t> moves,
-                 std::vector<ContactRule>& rules) const;
+  /// Adds the rules of altitudes with a moving vertex.
+  void add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
+                     std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) const;
   bool are_neighbours(const Stencil& stencil, double rest_distance) const;
   /// Lists the neighbours by OneSheet.
   void find_sheets();
@@ -107,9 +113,9 @@ class ContactRules {
   /// Rule of a stencil that is `distance` wide now; false where there is none or it cannot come that close.
   bool rule_of(const NearStencil& near, double distance, ContactRule& rule) const;
   /// The corners of triangles [begin, end) that move against their opposite edges.
-  void add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
-                     std::span<const std::uint8_t> moves, Index begin, Index end,
-                     std::vector<ContactRule>& rules) const;
+  void add_altitudes_of(const Positions& from, const Positions& x, const MotionBounds& bounds,
+                        std::span<const std::uint8_t> moves, Index begin, Index end,
+                        std::vector<ContactRule>& rules) const;
 
   const Patch& patch_;
   std::vector<Edge> pairs_;                // ascending, as are the triangles of each

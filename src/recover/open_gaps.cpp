@@ -15,11 +15,10 @@ namespace {
 constexpr double most_growth = 10;
 constexpr int opening_sweeps = 10;  ///< Sweeps over the gaps in one round, at most (unit: sweeps)
 
-/// The distance wanted for a stencil.
-double target_of(const ContactRule& rule, double target, double min_gap) {
-  const double least = rule.stencil.separation + std::min(rule.stencil.separation, target - min_gap);
-  if (rule.neighbours) target -= min_gap;
-  target = std::min(target, rule.stencil.activation);
+/// The distance wanted for a stencil. `beyond`: what the whole target is more than min_gap.
+double target_of(const ContactRule& rule, double target, double beyond) {
+  const double least = rule.stencil.separation + std::min(rule.stencil.separation, beyond);
+  target = std::min(rule.neighbours ? beyond : target, rule.stencil.activation);
   return std::max(least, std::min(std::max(target, least), rule.reach));
 }
 
@@ -73,7 +72,8 @@ bool widen(const Widening& gap, Positions& p) {
 
 void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented, EmbeddingGuard& guard,
                std::span<const std::uint8_t> moves, const OpenGapsOptions& options) {
-  const double roundoff = rules.options().roundoff;
+  const double roundoff = rules.options().roundoff, beyond = options.target - rules.options().min_gap;
+  double target = 0;  // of the last round
   std::vector<ContactRule> close;
   std::vector<SeparatedStencil> filter;
   std::vector<Widening> gaps;
@@ -88,19 +88,22 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
   std::vector<Index> moved;  // in the last round
   for (int round = 0;; ++round) {
     if (options.stop && options.stop()) return;
-    if (round == 0)
-      rules.gather(x, options.target, bounds, moves, close);
-    else
+    std::vector<Widening>().swap(gaps);
+    if (target < options.target) {
+      target = std::min(options.target, target + 2 * options.step_cap);
+      rules.gather(x, target, bounds, moves, close);
+    } else {
       rules.gather_around(moved, x, x, bounds, close);
-    gaps.clear();
+    }
+    gaps.reserve(close.size());
     bool any_narrow = false;
     for (const ContactRule& rule : close) {
-      const double target = target_of(rule, options.target, rules.options().min_gap);
-      any_narrow |= rule.distance < target;
-      const Widening gap = widening_of(rule, target - rule.distance, x, roundoff, moves);
+      const double missing = target_of(rule, target, beyond) - rule.distance;
+      any_narrow |= missing > 0;
+      const Widening gap = widening_of(rule, missing, x, roundoff, moves);
       if (gap.squared_weights > 0) gaps.push_back(gap);
     }
-    if (!any_narrow || round == options.max_rounds) return;
+    if (round == options.max_rounds || (!any_narrow && target == options.target)) return;
     cap = step_cap;
     for (const ContactRule& rule : close) {
       const Stencil& s = rule.stencil.stencil;

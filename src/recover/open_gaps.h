@@ -18,7 +18,9 @@ struct OpenGapsOptions {
   std::function<bool()> stop;  ///< asked before each round; true ends it
 };
 
-/// Opens all stencils that are closer than the target, round by round. Each round:
+/// Opens all stencils that are closer than the target, round by round. The first round opens them to two step caps, as
+/// far apart as two vertices can go, and each of the next ones to as much more until the target is reached: so each
+/// lists only what it can open. Each round:
 /// 1. Displacements are projected onto one linearised constraint after the other: each gap reaches its target along the
 ///    line between its closest points (if round-off hides that line, along the normal, on the side that the exact
 ///    orientation predicate gives), and each face keeps its share of area. Unlike the mean of all pushes at a vertex,

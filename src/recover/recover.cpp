@@ -184,6 +184,7 @@ int Recovery::step(const std::vector<std::uint8_t>& moves, double activation, in
     ++taken;
     return stop_ && stop_();
   });
+  problem_.finish();
   result_.iterations += done.iterations;
   result_.solver_iterations += done.solver_iterations;
   result_.stopped |= done.stopped;
@@ -198,9 +199,8 @@ void Recovery::stage(const std::vector<std::uint8_t>& moves, double activation) 
 void Recovery::open(double target) {
   OpenGapsOptions open;
   open.target = std::max(target, above_min_gap(options_.last_activation));
-  open.max_rounds = options_.open_rounds;
-  // Stencils are gathered as far around as two steps may go: with a longer cap they are many, and take much memory.
-  open.step_cap = std::min(open.target, options_.step.cap * h_);
+  open.step_cap = std::min(open.target, options_.open_cap * h_);
+  open.max_rounds = options_.open_rounds + static_cast<int>(std::ceil(open.target / (2 * open.step_cap))) - 1;
   open.stop = stop_;
   open_gaps(patch_.x, rules_, orientation_of_all(), guard_, everything(), open);
   guard_.roll_back(patch_.x, safe_);
@@ -235,19 +235,9 @@ void Recovery::snap(std::span<const std::uint8_t> moves) {
 }
 
 void Recovery::measure_gap(double radius) {
-  MotionBounds bounds;
-  bounds.reset(static_cast<Index>(patch_.x.cols()));
-  std::vector<ContactRule> rules;
-  const std::vector<std::uint8_t> moves = everything();
-  bounds.around.assign(moves.size(), radius);
-  rules_.gather(patch_.x, 0, bounds, moves, rules);
-  result_.min_gap = std::numeric_limits<double>::infinity();
-  result_.closed = 0;
-  for (const ContactRule& rule : rules) {
-    if (rule.own_altitude) continue;
-    result_.min_gap = std::min(result_.min_gap, rule.distance);
-    result_.closed += rule.closed;
-  }
+  const ContactRules::Close close = rules_.measure(patch_.x, radius, everything());
+  result_.min_gap = close.least;
+  result_.closed = close.closed;
 }
 
 RecoverResult Recovery::run() {

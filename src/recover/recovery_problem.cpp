@@ -39,6 +39,12 @@ bool RecoveryProblem::start(std::vector<std::uint8_t> moves, double activation, 
   return unknowns() > 0;
 }
 
+void RecoveryProblem::finish() {
+  contacts_.clear();
+  std::vector<BarrierStencil>().swap(objective_.contacts());
+  hessian_ = {};
+}
+
 void RecoveryProblem::set_moving(std::vector<std::uint8_t> moves) {
   objective_.restrict_to(MovingVertices(std::move(moves)));
   const MovingVertices& now = moving();
@@ -128,6 +134,7 @@ std::vector<std::uint8_t> RecoveryProblem::touched_parts() {
 }
 
 void RecoveryProblem::limit(Eigen::Matrix3Xd& step) {
+  hessian_ = {};  // it has given the step: the lists of contacts need room now
   for (Index i = 0; i < unknowns(); ++i) {
     int& small_steps = small_steps_[moving().vertices[i]];
     small_steps = step.col(i).norm() < stationary_ ? small_steps + 1 : 0;

@@ -25,6 +25,8 @@ class RecoveryProblem final : public NewtonProblem {
   /// something than round-off. Vertices that `stationary_steps` Newton steps in a row move by less than the length
   /// `stationary` are held. Returns false if no vertex is left to move.
   bool start(std::vector<std::uint8_t> moves, double activation, double stationary, int stationary_steps);
+  /// Ends a stage: gives its lists back.
+  void finish();
   const MovingVertices& moving() const { return objective_.moving(); }
 
   Index unknowns() const override { return moving().count(); }

@@ -127,9 +127,9 @@ std::vector<double> seconds_of(std::span<const RecordedFrame> frames, std::span<
 }
 
 std::string caption(const RecordedFrame& frame) {
-  if (frame.phase == "input" || frame.phase == "result") return picture_label(frame.phase, frame.pairs);
+  if (frame.phase == "input" || frame.phase == "result") return picture_label(frame.phase, frame.pairs, frame.allowed);
   const std::string strategy = frame.strategy.empty() ? "" : " of " + frame.strategy;
-  return picture_label(frame.phase == "recover" ? "back towards the input" : "untangling", frame.pairs) +
+  return picture_label(frame.phase == "recover" ? "back towards the input" : "untangling", frame.pairs, frame.allowed) +
          ", iteration " + std::to_string(frame.iteration) + strategy;
 }
 

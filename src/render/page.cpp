@@ -111,6 +111,7 @@ Json add_frames(std::span<const RecordedFrame> frames, const PageUnits& units, P
                          {"strategy", frame.strategy},
                          {"iteration", frame.iteration},
                          {"pairs", frame.pairs},
+                         {"allowed", frame.allowed},
                          {"moved", frame.vertices.size()},
                          {"faces", frame.intersecting.size()}});
     vertices.insert(vertices.end(), frame.vertices.begin(), frame.vertices.end());

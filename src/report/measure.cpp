@@ -38,6 +38,13 @@ void measure_displacement(std::span<const double> before, std::span<const double
   report.untouched_share = static_cast<double>(untouched) / static_cast<double>(n);
 }
 
+/// Root mean square of the motion over `area`, that of the triangles at rest: a length.
+double motion_by_area(const PreparedSurface& prepared, const Positions& x, double area) {
+  double sum = 0;
+  for (const Triangle& t : prepared.triangles()) sum += squared_motion(prepared.rest, x, t);
+  return area > 0 ? std::sqrt(sum / area) : 0;
+}
+
 /// Signed volume after / before - 1 of the closed orientable component for which it is largest in magnitude.
 double volume_change(const PreparedSurface& prepared, const Components& components, const Positions& x) {
   std::vector<std::vector<Triangle>> lists(components.count());
@@ -114,6 +121,7 @@ void measure_change(const SurfaceView& surface, const PreparedSurface& prepared,
   }
   report.volume_change_rel = volume_change(prepared, diagnosis.components, x);
   const double area = total_area(prepared.rest, triangles);
+  report.displacement_area_rms_rel = diagonal > 0 ? motion_by_area(prepared, x, area) / diagonal : 0;
   report.displacement_lower_bound_rel = diagonal > 0 ? 0.5 * deepest_overlap(prepared, diagnosis) / diagonal : 0;
   measure_stretch(prepared, diagnosis.edges.size(), x, report);
   report.area_change_rel = area > 0 ? total_area(x, triangles) / area - 1 : 0;

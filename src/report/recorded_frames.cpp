@@ -175,6 +175,7 @@ std::vector<RecordedFrame> recorded_frames(const Recorder& recorder, const Surfa
     const bool is_result = &frame == &shot.back();
     const PairCensus::Pairs pairs = census.at(is_result ? end : x);
     out.pairs = pairs.faces.total();
+    out.allowed = census.allowed_at(is_result ? end : x).total();
     for (const IntersectingPair& pair : pairs.of_faces)
       out.intersecting.insert(out.intersecting.end(), {pair.a, pair.b});
     sort_unique(out.intersecting);

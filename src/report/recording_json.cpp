@@ -31,6 +31,7 @@ Json frames_json(std::span<const RecordedFrame> frames) {
                     {"strategy", frame.strategy},
                     {"iteration", frame.iteration},
                     {"pairs", frame.pairs},
+                    {"allowed", frame.allowed},
                     {"intersecting", packed<std::int32_t>(frame.intersecting)},
                     {"vertices", packed<std::int32_t>(frame.vertices)},
                     {"displacements", packed<float>(frame.displacements)}});

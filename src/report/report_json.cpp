@@ -104,27 +104,6 @@ Json left_json(const RepairReport& report) {
   return {{"by_reason", by_reason}, {"pairs", pairs}};
 }
 
-Json changed_components_json(const RepairReport& report) {
-  Json list = Json::array();
-  for (const ChangedComponent& component : report.changed_components) {
-    Json why = Json::array();
-    for (const auto& [holds, name] :
-         {std::pair{component.has_shrunk, "shrunk"}, {component.is_turned, "turned"}, {component.is_far, "far"}})
-      if (holds) why.push_back(name);
-    list.push_back({{"component", component.component},
-                    {"first_face", component.first_face},
-                    {"name", component.name.empty() ? Json() : Json(component.name)},
-                    {"why", why},
-                    {component.is_closed ? "volume_change_rel" : "area_change_rel", component.size_change_rel},
-                    {"rotation_deg", component.rotation_deg},
-                    {"displacement_rel", component.displacement_rel},
-                    {"farthest_vertex", component.farthest_vertex},
-                    {"depth_rel", component.depth_rel ? Json(*component.depth_rel) : Json()},
-                    {"message", describe(component, report.diagonal)}});
-  }
-  return list;
-}
-
 }  // namespace
 
 std::string report_json(const RepairResult& result, const RepairOptions& options, const ReportFiles& files) {
@@ -163,6 +142,7 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
   json["diagonal"] = r.diagonal;
   json["displacement_mean_rel"] = r.displacement_mean_rel;
   json["displacement_rms_rel"] = r.displacement_rms_rel;
+  json["displacement_area_rms_rel"] = r.displacement_area_rms_rel;
   json["displacement_max_rel"] = r.displacement_max_rel;
   json["displacement_lower_bound_rel"] = r.displacement_lower_bound_rel;
   json["untouched_share"] = r.untouched_share;
@@ -198,7 +178,7 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
                                   {"pairs_before", component.pairs_before},
                                   {"pairs_after", component.pairs_after}});
   json["overlapping_components"] = overlapping_components_json(r.overlapping_components);
-  json["changed_components"] = changed_components_json(r);
+  json["changed_components"] = changed_components_json(r.changed_components, r.diagonal);
   json["advice"] = Json::array();
   if (!r.overlapping_components.empty()) json["advice"].push_back(advice_on_overlaps(r.overlapping_components));
   json["rigid_parts"] = Json::array();

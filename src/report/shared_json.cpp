@@ -58,6 +58,27 @@ Json overlapping_components_json(std::span<const OverlappingComponent> overlappi
   return list;
 }
 
+Json changed_components_json(std::span<const ChangedComponent> changed, double diagonal) {
+  Json list = Json::array();
+  for (const ChangedComponent& component : changed) {
+    Json why = Json::array();
+    for (const auto& [holds, name] :
+         {std::pair{component.has_shrunk, "shrunk"}, {component.is_turned, "turned"}, {component.is_far, "far"}})
+      if (holds) why.push_back(name);
+    list.push_back({{"component", component.component},
+                    {"first_face", component.first_face},
+                    {"name", component.name.empty() ? Json() : Json(component.name)},
+                    {"why", why},
+                    {component.is_closed ? "volume_change_rel" : "area_change_rel", component.size_change_rel},
+                    {"rotation_deg", component.rotation_deg},
+                    {"displacement_rel", component.displacement_rel},
+                    {"farthest_vertex", component.farthest_vertex},
+                    {"depth_rel", component.depth_rel ? Json(*component.depth_rel) : Json()},
+                    {"message", describe(component, diagonal)}});
+  }
+  return list;
+}
+
 Json allowed_json(const PairCounts& before, const PairCounts& after) {
   return {{"before", pair_counts_json(before)}, {"after", pair_counts_json(after)}};
 }

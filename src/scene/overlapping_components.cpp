@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "scene/component_mesh.h"
 
@@ -90,16 +89,6 @@ double share_inside(const SolidComponent& solid, std::span<const SolidComponent*
 }
 
 }  // namespace
-
-std::vector<ComponentPair> meeting_components(const Components& components, std::span<const IntersectingPair> pairs) {
-  std::vector<ComponentPair> meeting;
-  for (const IntersectingPair& pair : pairs) {
-    const auto [a, b] = std::minmax(components.component_of_triangle[pair.a], components.component_of_triangle[pair.b]);
-    if (a != b && (meeting.empty() || meeting.back() != ComponentPair{a, b})) meeting.push_back({a, b});
-  }
-  sort_unique(meeting);
-  return meeting;
-}
 
 std::vector<OverlappingComponent> overlapping_components(const PreparedSurface& prepared, const Components& components,
                                                          std::span<const ComponentPair> meeting) {

@@ -1,19 +1,13 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
+#include "scene/meeting_components.h"
 #include "scene/prepared_surface.h"
 #include "unsnarl/report.h"
 
 namespace unsnarl {
-
-/// Numbers of two components, the smaller first.
-using ComponentPair = std::array<Index, 2>;
-
-/// Pairs of components with a pair of triangles in this list, sorted, each once.
-std::vector<ComponentPair> meeting_components(const Components& components, std::span<const IntersectingPair> pairs);
 
 /// The closed orientable components of which more than large_overlap_share lies inside others that they meet, in the
 /// order of their numbers. A component whose normals point inward bounds a hollow; it is compared with other hollows

@@ -14,7 +14,7 @@
 namespace unsnarl {
 namespace {
 
-/// The patch as if it were the input. Where most pairs are resolved, its rest is the worse guide. [E240]
+/// The patch as if it were the input. Where most pairs are resolved, its rest is the worse guide. [E222]
 Scene scene_at_rest_now(const Patch& patch) {
   std::vector<std::uint8_t> fixed(patch.vertices.size(), 1);
   std::fill_n(fixed.begin(), patch.free_count, std::uint8_t{0});

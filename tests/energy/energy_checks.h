@@ -44,7 +44,8 @@ inline Eigen::MatrixXd dense(const HessianTerms& terms, Index vertex_count) {
   std::vector<Index> slot(static_cast<std::size_t>(vertex_count));
   for (Index v = 0; v < vertex_count; ++v) slot[v] = v;
   Hessian hessian;
-  hessian.assemble({&terms, 1}, slot, vertex_count);
+  hessian.begin(1)[0] = terms;
+  hessian.assemble(slot, vertex_count);
   Eigen::MatrixXd result(3 * vertex_count, 3 * vertex_count);
   Eigen::Matrix3Xd unit(3, vertex_count), image(3, vertex_count);
   for (Index k = 0; k < 3 * vertex_count; ++k) {

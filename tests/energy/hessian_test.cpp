@@ -9,7 +9,8 @@ namespace {
 
 /// One vertex of mass 1, held by springs along directions.
 Hessian one_vertex(const std::vector<std::pair<Vec3, double>>& springs) {
-  HessianTerms terms;
+  Hessian result;
+  HessianTerms& terms = result.begin(1)[0];
   terms.diagonals.push_back({7, 1});
   for (const auto& [direction, stiffness] : springs) {
     HessianTerms::RankOne& term = terms.rank_ones.emplace_back();
@@ -19,8 +20,7 @@ Hessian one_vertex(const std::vector<std::pair<Vec3, double>>& springs) {
   }
   std::vector<Index> slot(8, -1);
   slot[7] = 0;
-  Hessian result;
-  result.assemble({&terms, 1}, slot, 1);
+  result.assemble(slot, 1);
   return result;
 }
 
@@ -50,7 +50,8 @@ TEST(Hessian, inverses_of_stiff_blocks_are_positive_definite) {
 }
 
 TEST(Hessian, vertices_that_do_not_move_are_left_out) {
-  HessianTerms terms;
+  Hessian result;
+  HessianTerms& terms = result.begin(1)[0];
   terms.diagonals = {{0, 2}, {1, 5}};
   HessianTerms::RankOne& term = terms.rank_ones.emplace_back();
   term.vertices = {0, 1, -1, -1};
@@ -58,15 +59,15 @@ TEST(Hessian, vertices_that_do_not_move_are_left_out) {
   term.g.col(1) = Vec3(-1, 0, 0);
   term.stiffness = 3;
   const std::vector<Index> slot = {-1, 0};
-  Hessian hessian;
-  hessian.assemble({&terms, 1}, slot, 1);
+  result.assemble(slot, 1);
   Eigen::Matrix3Xd image(3, 1);
-  hessian.apply(Vec3(1, 1, 0), image);
+  result.apply(Vec3(1, 1, 0), image);
   EXPECT_EQ(image, Eigen::Matrix3Xd(Vec3(8, 5, 0)));
 }
 
 TEST(Hessian, terms_over_many_vertices_leave_out_those_that_do_not_move) {
-  HessianTerms terms;
+  Hessian hessian;
+  HessianTerms& terms = hessian.begin(1)[0];
   terms.diagonals = {{0, 1}, {2, 1}, {4, 1}};
   HessianTerms::Dense& term = terms.dense.emplace_back();
   term.vertices = {0, 1, 2, 3, 4};
@@ -74,8 +75,7 @@ TEST(Hessian, terms_over_many_vertices_leave_out_those_that_do_not_move) {
   term.g << 1, 2, 3, 4, 5, 0, 0, 1, 0, 0, 0, 0, 0, 0, -1;
   term.stiffness = 2;
   const std::vector<Index> slot = {-1, -1, 1, -1, 0};
-  Hessian hessian;
-  hessian.assemble({&terms, 1}, slot, 2);
+  hessian.assemble(slot, 2);
   Eigen::VectorXd g(6);
   g << 5, 0, -1, 3, 1, 0;
   const Eigen::MatrixXd expected = Eigen::MatrixXd::Identity(6, 6) + 2 * g * g.transpose();

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <map>
 #include <new>
+#include <numbers>
 
 #include "contact/intersection_finder.h"
 #include "pipeline/judged.h"
@@ -96,6 +98,27 @@ TEST(Memory, of_a_recovery_follows_the_number_of_vertices_even_where_all_are_nea
     const Positions start = patch.x;
     EXPECT_LT(bytes_of([&] { recover(patch, {}, {}); }), most_bytes_a_vertex * static_cast<std::size_t>(start.cols()));
     EXPECT_LT((patch.x - patch.rest).norm(), 0.1 * (start - patch.rest).norm());
+  }
+}
+
+/// A tube and a wider one around it, half an edge apart.
+shapes::Shape nested_tubes(Index cells) {
+  const double radius = cells / (2 * std::numbers::pi);
+  return shapes::tube(cells, cells, radius).add(shapes::tube(cells, cells, radius - 0.5));
+}
+
+TEST(Memory, of_gaps_opened_everywhere_follows_the_number_of_vertices) {
+  constexpr std::size_t most_bytes_a_vertex = 40'000;
+  for (const Index cells : {16, 32}) {
+    const shapes::Shape shape = nested_tubes(cells);
+    const Surface surface = shape.surface();
+    RepairOptions options;
+    const double diagonal = std::hypot(cells, cells / std::numbers::pi, cells / std::numbers::pi);
+    options.min_gap_rel = 1.5 / diagonal;
+    RepairResult result;
+    EXPECT_LT(bytes_of([&] { result = repair(surface, options); }), most_bytes_a_vertex * shape.points.size());
+    ASSERT_TRUE(result.report.gap);
+    EXPECT_TRUE(result.report.gap->is_met());
   }
 }
 

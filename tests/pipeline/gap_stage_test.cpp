@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/judged.h"
@@ -116,6 +118,22 @@ std::vector<std::int32_t> box_of_face(const Surface& surface, int count) {
   std::vector<std::int32_t> boxes(faces);
   for (std::size_t f = 0; f < faces; ++f) boxes[f] = static_cast<std::int32_t>(f * count / faces);
   return boxes;
+}
+
+TEST(GapStage, progress_names_the_stage) {
+  const Surface surface = boxes(2, 0.001, 4);
+  std::vector<std::string_view> phases;
+  std::vector<double> fractions;
+  Context context;
+  context.on_progress = [&](const Context::Progress& progress) {
+    phases.push_back(progress.phase);
+    fractions.push_back(progress.fraction);
+  };
+  const RepairResult result = repair(surface, with_gap(surface, 0.05), &context);
+  EXPECT_NE(std::find(phases.begin(), phases.end(), "open_gaps"), phases.end());
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  const auto is_named = [](const StageReport& stage) { return stage.name == "open_gaps"; };
+  EXPECT_TRUE(std::any_of(result.report.stages.begin(), result.report.stages.end(), is_named));
 }
 
 TEST(GapStage, what_may_pass_keeps_no_gap_and_others_do) {

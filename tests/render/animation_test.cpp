@@ -84,6 +84,15 @@ TEST(Animation, nothing_red_is_drawn_as_well) {
   EXPECT_TRUE(drawn(triangulated_plate(4), {}).empty());
 }
 
+TEST(Animation, captions_tell_pairs_that_are_allowed) {
+  std::vector<RecordedFrame> frames = frames_of({});
+  const std::vector<Image> without = drawn(triangulated_plate(4), frames);
+  frames.back().allowed = 3;
+  const std::vector<Image> with = drawn(triangulated_plate(4), frames);
+  EXPECT_EQ(with.front().pixels, without.front().pixels);
+  EXPECT_NE(with.back().pixels, without.back().pixels);
+}
+
 TEST(Animation, refuses_what_it_cannot_draw) {
   EXPECT_THROW(drawn(triangulated_plate(4), frames_of({}), {64, 200}), std::invalid_argument);
   EXPECT_THROW(drawn(triangulated_plate(4), frames_of({400})), std::invalid_argument);

@@ -51,6 +51,20 @@ TEST(Measure, displacement_relative_to_the_diagonal) {
   EXPECT_DOUBLE_EQ(report.untouched_share, 7.0 / 8);
 }
 
+TEST(Measure, the_motion_by_area_does_not_depend_on_where_vertices_are) {
+  const auto square_and_fine = [](Index cells) {
+    return shapes::grid(cells, cells, false, [&](double i, double j) { return Vec3(i / cells, j / cells, 0); });
+  };
+  for (const Index cells : {1, 8}) {  // one of two squares goes up by 0.5
+    const shapes::Shape still = square_and_fine(3), lifted = square_and_fine(cells);
+    const Surface surface = shapes::Shape(still).add(lifted, Vec3(2, 0, 0)).surface();
+    std::vector<double> moved = surface.positions;
+    for (std::size_t v = still.points.size(); v < moved.size() / 3; ++v) moved[3 * v + 2] += 0.5;
+    const RepairReport report = measured(surface, moved);
+    EXPECT_NEAR(report.displacement_area_rms_rel * report.diagonal, 0.5 / std::sqrt(2.0), 1e-12);
+  }
+}
+
 TEST(Measure, volume_and_area) {
   const Surface surface = cube();
   std::vector<double> grown = surface.positions;

@@ -103,6 +103,8 @@ TEST(FrameJson, holds_what_became_of_a_frame) {
   frame.diagonal = 2;
   frame.displacement_max_rel = 0.25;
   frame.jitter = Jitter{0.5, 1};
+  frame.changed_components = {
+      {.component = 3, .name = "jaw", .has_shrunk = true, .is_closed = true, .size_change_rel = -0.5}};
   const auto json = parsed(frame_json(frame));
   EXPECT_EQ(json["frame"], 7);
   EXPECT_EQ(json["status"], "reduced");
@@ -111,6 +113,8 @@ TEST(FrameJson, holds_what_became_of_a_frame) {
   EXPECT_EQ(json["displacement_max"], 0.5);
   EXPECT_TRUE(json["jitter_alone"].is_null());
   EXPECT_EQ(json["jitter"]["max_rel"], 1);
+  ASSERT_EQ(json["changed_components"].size(), 1u);
+  EXPECT_EQ(json["changed_components"][0]["message"], describe(frame.changed_components[0], frame.diagonal));
 }
 
 TEST(StatusFromName, finds_the_status_that_reports_call_so) {

@@ -255,18 +255,19 @@ export class Viewer {
 
   #showCaptions() {
     const { layout } = this.state;
-    const pairs = (conflicts) => (conflicts.count === 0 ? 'no self-intersections'
-      : plural(conflicts.count, 'intersecting pair', 'intersecting pairs'));
+    const { allowed } = this.page.scene;
+    const words = (pairs, passing) => (pairs ? plural(pairs, 'intersecting pair', 'intersecting pairs') : 'no self-intersections')
+      + (passing ? ` ${pairs ? 'and' : 'but'} ${passing} allowed` : '');
     const captions = { first: null, second: null };
     if (layout === 'pair' || layout === 'wipe') {
-      captions.first = ['before', pairs(this.before)];
-      captions.second = ['after', pairs(this.after)];
+      captions.first = ['before', words(this.before.count, allowed?.before)];
+      captions.second = ['after', words(this.after.count, allowed?.after)];
     } else if (layout === 'single') {
-      captions.first = [this.page.scene.input, pairs(this.before)];
+      captions.first = [this.page.scene.input, words(this.before.count, allowed?.before)];
     } else if (layout === 'replay') {
-      const { phase, strategy, iteration, pairs: left } = this.page.frames[this.state.frame];
-      const words = phase === 'input' ? 'before' : phase === 'result' ? 'after' : `${phase}${strategy ? `, ${strategy}` : ''}, iteration ${iteration}`;
-      captions.first = [words, left ? plural(left, 'intersecting pair', 'intersecting pairs') : 'no self-intersections'];
+      const { phase, strategy, iteration, pairs, allowed: passing } = this.page.frames[this.state.frame];
+      const moment = phase === 'input' ? 'before' : phase === 'result' ? 'after' : `${phase}${strategy ? `, ${strategy}` : ''}, iteration ${iteration}`;
+      captions.first = [moment, words(pairs, passing)];
     }
     for (const [name, text] of Object.entries(captions)) {
       const node = byId(`caption-${name}`);

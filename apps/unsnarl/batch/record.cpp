@@ -19,6 +19,7 @@ namespace {
 const std::vector<std::string> measured = {"diagonal",
                                            "displacement_mean_rel",
                                            "displacement_rms_rel",
+                                           "displacement_area_rms_rel",
                                            "displacement_max_rel",
                                            "displacement_lower_bound_rel",
                                            "untouched_share",
@@ -71,6 +72,13 @@ std::string kinds(const Record& list) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// "message; message" of the objects in a list.
+std::string messages(const Record& list) {
+  std::string text;
+  for (const Record& entry : list) text += (text.empty() ? "" : "; ") + entry.value("message", "?");
+  return text;
+}
+
 std::string counted(const Record& numbers) {
   std::string text;
   for (const auto& [name, number] : numbers.items())
@@ -99,6 +107,7 @@ void take_report(Record& record, const Record& report) {
   record["gap_rel"] = at("/clearance/after/gap_rel/value");
   record["obstructions"] = kinds(at("/obstructions"));
   record["left_because"] = counted(at("/left/by_reason"));
+  record["changed_components"] = messages(at("/changed_components"));
 }
 
 }  // namespace
@@ -112,8 +121,8 @@ const std::vector<std::string>& record_columns() {
     for (const char* side : {"before", "after"})
       for (const auto& kind : pair_class_names) names.push_back(fmt::format("{}_{}", side, kind));
     names.insert(names.end(), {"allowed_before", "allowed_after"});
-    names.insert(names.end(),
-                 {"obstructions", "left_because", "message", "output", "partial", "input_sha256", "output_sha256"});
+    names.insert(names.end(), {"obstructions", "left_because", "changed_components", "message", "output", "partial",
+                               "input_sha256", "output_sha256"});
     return names;
   }();
   return columns;
