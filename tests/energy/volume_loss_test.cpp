@@ -9,8 +9,8 @@ namespace unsnarl {
 namespace {
 
 // A regular tetrahedron and a smaller one elsewhere, normals outward.
-const std::vector<Triangle> first = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
-const std::vector<Triangle> second = {{4, 5, 6}, {4, 6, 7}, {4, 7, 5}, {5, 7, 6}};
+const std::vector<Triangle> large_one = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+const std::vector<Triangle> small_one = {{4, 5, 6}, {4, 6, 7}, {4, 7, 5}, {5, 7, 6}};
 
 Positions two_tetrahedra() {
   Positions x(3, 8);
@@ -34,8 +34,8 @@ Positions shrunk(const Positions& x, double factor) {
 
 TEST(VolumeLoss, sets_in_below_the_least_share) {
   const Positions rest = two_tetrahedra();
-  const VolumeLoss energy(rest, {closed(rest, first), closed(rest, second)}, 0.5);
-  const double volume = signed_volume(rest, first), area = total_area(rest, first);
+  const VolumeLoss energy(rest, {closed(rest, large_one), closed(rest, small_one)}, 0.5);
+  const double volume = signed_volume(rest, large_one), area = total_area(rest, large_one);
   EXPECT_EQ(total_value(energy, shrunk(rest, std::cbrt(0.51))), 0);
   EXPECT_EQ(total_value(energy, shrunk(rest, 1.5)), 0);
   EXPECT_TRUE(linearise_all(energy, shrunk(rest, std::cbrt(0.51)), 1).hessian.dense.empty());
@@ -47,9 +47,9 @@ TEST(VolumeLoss, sets_in_below_the_least_share) {
 
 TEST(VolumeLoss, normals_that_point_inward_bound_a_hollow) {
   const Positions rest = two_tetrahedra();
-  std::vector<Triangle> inward = first;
+  std::vector<Triangle> inward = large_one;
   for (Triangle& t : inward) std::swap(t[1], t[2]);
-  const VolumeLoss outward_energy(rest, {closed(rest, first)}, 0.9), inward_energy(rest, {closed(rest, inward)}, 0.9);
+  const VolumeLoss outward_energy(rest, {closed(rest, large_one)}, 0.9), inward_energy(rest, {closed(rest, inward)}, 0.9);
   const Positions x = shrunk(rest, 0.7);
   EXPECT_GT(outward_energy.value(x, 0), 0);
   EXPECT_NEAR(inward_energy.value(x, 0), outward_energy.value(x, 0), 1e-12);
@@ -57,25 +57,25 @@ TEST(VolumeLoss, normals_that_point_inward_bound_a_hollow) {
 
 TEST(VolumeLoss, a_piece_stands_for_the_whole) {
   const Positions rest = two_tetrahedra();
-  VolumeLoss::Surface piece = closed(rest, first);
+  VolumeLoss::Surface piece = closed(rest, large_one);
   piece.triangles.pop_back();  // the one without vertex 0
   Positions x = rest;
   x.col(0) = -0.2 * rest.col(0);
-  const VolumeLoss whole(rest, {closed(rest, first)}, 0.9), of_piece(rest, {piece}, 0.9);
+  const VolumeLoss whole(rest, {closed(rest, large_one)}, 0.9), of_piece(rest, {piece}, 0.9);
   EXPECT_GT(whole.value(x, 0), 0);
   EXPECT_NEAR(of_piece.value(x, 0), whole.value(x, 0), 1e-12);
 }
 
 TEST(VolumeLoss, derivatives_agree_with_finite_differences) {
   const Positions rest = two_tetrahedra();
-  const VolumeLoss energy(rest, {closed(rest, first), closed(rest, second)}, 0.9);
+  const VolumeLoss energy(rest, {closed(rest, large_one), closed(rest, small_one)}, 0.9);
   const Positions x = shrunk(rest, 0.6) + 0.1 * random_positions(1, 8);
   expect_derivatives(energy, x, 1e-6, 1e-6);
 }
 
 TEST(VolumeLoss, hessian_is_gauss_newton) {
   const Positions rest = two_tetrahedra();
-  const VolumeLoss energy(rest, {closed(rest, first)}, 0.9);
+  const VolumeLoss energy(rest, {closed(rest, large_one)}, 0.9);
   const Positions x = shrunk(rest, 0.8);
   const Linearised at = linearise_all(energy, x, 2);
   // E = s loss^2 / 2: its gradient g = s loss l has the Gauss-Newton Hessian s l l^T = g g^T / (2 E).

@@ -124,13 +124,13 @@ TEST(Page, pairs_and_curves_of_both_states) {
 TEST(Page, recorded_frames_end_to_end) {
   PageContent content = content_of(surface);
   std::vector<RecordedFrame> frames(2);
-  frames[0] = {"input", "", 0, 7, {0, 1}, {}, {}};
-  frames[1] = {"untangle", "slide", 3, 2, {1}, {2, 4}, {std::sqrt(8.0), 0, 0, 0, 0, -std::sqrt(2.0)}};
+  frames[0] = {"input", "", 0, 7, 0, {0, 1}, {}, {}};
+  frames[1] = {"untangle", "slide", 3, 2, 4, {1}, {2, 4}, {std::sqrt(8.0), 0, 0, 0, 0, -std::sqrt(2.0)}};
   content.frames = frames;
   const std::string page = make_page(page_template, content);
   EXPECT_EQ(
       Json::parse(text_of(page, "scene"))["frames"][1],
-      Json({{"phase", "untangle"}, {"strategy", "slide"}, {"iteration", 3}, {"pairs", 2}, {"moved", 2}, {"faces", 1}}));
+      Json({{"phase", "untangle"}, {"strategy", "slide"}, {"iteration", 3}, {"pairs", 2}, {"allowed", 4}, {"moved", 2}, {"faces", 1}}));
   EXPECT_EQ(text_of(page, "frame_vertices"), packed<Index>({2, 4}, 1));
   EXPECT_EQ(text_of(page, "frame_displacements"), packed<float>({1, 0, 0, 0, 0, -0.5}, 3));
   EXPECT_EQ(text_of(page, "frame_faces"), packed<Index>({0, 1, 1}, 1));
