@@ -22,12 +22,12 @@
 namespace unsnarl {
 namespace {
 
-/// Rounds of opening what is too small, at most: in each, a vertex goes a few edge lengths at most [E227] (unit:
+/// Rounds of opening what is too small, at most: in each, a vertex goes a few edge lengths at most [E226] (unit:
 /// rounds)
 constexpr int gap_rounds = 6;
 /// Vertices this far along the edges from a gap that is opened make way too [E211] (unit: wanted gap)
 constexpr double way_gaps = 2;
-/// Obstacles of a recovery are listed up to this distance [E228] (unit: wanted gap)
+/// Obstacles of a recovery are listed up to this distance [E227] (unit: wanted gap)
 constexpr double obstacle_gaps = 2;
 /// Gaps are looked for up to this distance where the smallest is to be named (fixed by GapReport)
 constexpr double named_gaps = 2;

@@ -17,7 +17,7 @@ constexpr double list_margin = 0.02;
 /// a vertex)
 constexpr std::size_t most_a_vertex = 150;
 /// The same where a gap is asked for everywhere, but of rules: within a wide gap are many stencils of one sheet, which
-/// have none [E226] (unit: rules a vertex)
+/// have none [E225] (unit: rules a vertex)
 constexpr std::size_t most_rules_a_vertex = 40;
 /// Lists of a few vertices may be so long all the same (unit: stencils)
 constexpr std::size_t always_allowed = 20'000;

@@ -17,8 +17,8 @@ namespace {
 constexpr double least_activation = 1.5;
 
 /// At a vertex, h counts as no more than this many of its longest edge: parts much finer than the others, or shrunk on
-/// the way, would list and push apart everything that is within many edges [E208, E224] (unit: edges)
-constexpr double most_edges = 3;
+/// the way, would list and push apart everything that is within many edges [E208] (unit: edges)
+constexpr double most_edges = 6;
 
 /// Corner k of a triangle against the opposite edge.
 Stencil altitude_of(const Triangle& f, int k) {

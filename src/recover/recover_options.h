@@ -74,7 +74,7 @@ struct RecoverOptions {
   /// Rounds of opening gaps, at most, not counting those before the target is reached [E162] (unit: rounds)
   int open_rounds = 12;
   /// Longest motion of a vertex in one of these rounds: what is near it is listed, and with a longer one that is much
-  /// where the gap is wide [E225] (unit: h)
+  /// where the gap is wide [E224] (unit: h)
   double open_cap = 0.05;
   bool snaps = true;           ///< vertices near their rest positions may go straight there
   double snap_distance = 0.1;  ///< A vertex this near to its rest position may go straight there (unit: h)
