@@ -118,7 +118,7 @@ struct ChangedComponent {
   std::int32_t first_face = 0;
   std::string name = {};  ///< as of OverlappingComponent
   bool has_shrunk = false, is_turned = false, is_far = false;
-  bool is_closed = false;  ///< and orientable, so that it has a volume
+  bool is_closed = false;  ///< and its faces agree on what is inside: it has a volume
   /// Change of the signed volume of a closed component, of the area of any other: after / before - 1. -1: nothing is
   /// left; less: it is turned inside out.
   double size_change_rel = 0;
@@ -229,8 +229,8 @@ struct RepairReport {
   std::size_t flipped_triangles_without_conflict = 0;  ///< of these: not in an intersecting pair of the input
   double min_gap_rel = 0;                              ///< smallest gap met in recovery; 0: no contact was active
   std::optional<GapReport> gap;                        ///< none: no gap was asked for everywhere
-  double volume_change_rel = 0;                        ///< of signed volumes, after / before - 1: of the closed,
-                                                       ///< orientable component where it changed most
+  double volume_change_rel = 0;                        ///< of signed volumes, after / before - 1: of the component
+                                                       ///< with a volume where it changed most
   double area_change_rel = 0;
   /// Edge lengths, max(after / before, before / after) over the edges of the triangles that the faces are split into:
   /// the largest, and the 99.9th percentile, which single needles do not decide. Edges without length in the input do

@@ -77,7 +77,7 @@ double farthest_of(const Scene& scene, const Positions& x, std::span<const Clust
 }
 
 bool is_within_limit(const RepairTask& task, const Scene& scene, std::span<const Index> vertices) {
-  return !(task.most_motion() > 0) || farthest_of(scene, scene.x, vertices) <= task.most_motion();
+  return !(task.most_motion() > 0) || are_within(scene.x, scene.rest, vertices, task.most_motion());
 }
 
 bool is_nearer(double motion, double before) {

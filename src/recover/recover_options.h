@@ -110,7 +110,8 @@ struct RecoverOptions {
   /// The recovery of Minarčík, Liu, Crane, Li: Untangling Surfaces via Shape and Mesh Repulsion, §3.5.1: up to 500
   /// Newton steps with artificial time steps (the paper names no size; 1 weighs as much as the pull), PCG with a
   /// diagonal Jacobi preconditioner at relative tolerance 1e-6, one activation distance, no active region, nothing
-  /// against flipped faces or for volumes, no cap of a step but collisions; ends early only where no step lowers the energy any more.
+  /// against flipped faces or for volumes, no cap of a step but collisions; ends early only where no step lowers the
+  /// energy any more.
   static RecoverOptions paper();
 };
 

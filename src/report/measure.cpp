@@ -10,6 +10,7 @@
 #include "energy/minkowski_penalty.h"
 #include "geometry/sort_unique.h"
 #include "mesh/areas.h"
+#include "scene/component_mesh.h"
 
 namespace unsnarl {
 namespace {
@@ -45,19 +46,15 @@ double motion_by_area(const PreparedSurface& prepared, const Positions& x, doubl
   return area > 0 ? std::sqrt(sum / area) : 0;
 }
 
-/// Signed volume after / before - 1 of the closed orientable component for which it is largest in magnitude.
+/// Signed volume after / before - 1 of the component with a volume for which it is largest in magnitude.
 double volume_change(const PreparedSurface& prepared, const Components& components, const Positions& x) {
-  std::vector<std::vector<Triangle>> lists(components.count());
-  for (std::size_t t = 0; t < prepared.triangles().size(); ++t) {
-    const Index c = components.component_of_triangle[t];
-    if (components.list[c].closed() && components.list[c].orientable) lists[c].push_back(prepared.triangles()[t]);
-  }
+  const std::vector<std::vector<Triangle>> triangles = triangles_by_component(prepared.triangles(), components);
   double worst = 0;
-  for (const auto& list : lists) {
-    if (list.empty()) continue;
-    const double before = signed_volume(prepared.rest, list);
+  for (Index c = 0; c < components.count(); ++c) {
+    if (!has_volume(components.list[c])) continue;
+    const double before = signed_volume(prepared.rest, triangles[c]);
     if (before == 0) continue;
-    const double change = signed_volume(x, list) / before - 1;
+    const double change = signed_volume(x, triangles[c]) / before - 1;
     if (std::abs(change) > std::abs(worst)) worst = change;
   }
   return worst;

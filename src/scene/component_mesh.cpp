@@ -22,7 +22,7 @@ ComponentMesh component_mesh(const Positions& x, std::span<const Triangle> trian
 std::vector<std::vector<Triangle>> triangles_by_component(std::span<const Triangle> triangles,
                                                           const Components& components) {
   std::vector<std::vector<Triangle>> lists(components.list.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) lists[components.component_of_triangle[t]].push_back(triangles[t]);
+  for (const Triangle& t : triangles) lists[components.component_of_vertex[t[0]]].push_back(t);
   return lists;
 }
 

@@ -18,7 +18,7 @@ struct ComponentMesh {
 /// `triangles`: of one component, over the columns of x.
 ComponentMesh component_mesh(const Positions& x, std::span<const Triangle> triangles);
 
-/// The triangles of each component, by its number.
+/// The triangles of each component, by its number; they may be another cut of the faces than the components know.
 std::vector<std::vector<Triangle>> triangles_by_component(std::span<const Triangle> triangles,
                                                           const Components& components);
 

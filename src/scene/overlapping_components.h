@@ -9,7 +9,7 @@
 
 namespace unsnarl {
 
-/// The closed orientable components of which more than large_overlap_share lies inside others that they meet, in the
+/// The components with a volume of which more than large_overlap_share lies inside others that they meet, in the
 /// order of their numbers. A component whose normals point inward bounds a hollow; it is compared with other hollows
 /// alone. Shares are estimated: of each component by the same number of lines through it, along which the lengths
 /// inside are measured. What lies twice inside a component that intersects itself counts as outside. `meeting`: as of

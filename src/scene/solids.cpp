@@ -4,12 +4,12 @@
 
 #include "geometry/sort_unique.h"
 #include "mesh/areas.h"
+#include "scene/component_mesh.h"
 
 namespace unsnarl {
 
 Solids find_solids(const Positions& rest, std::span<const Triangle> triangles, const Components& components) {
-  std::vector<std::vector<Triangle>> of_component(components.list.size());
-  for (const Triangle& t : triangles) of_component[components.component_of_vertex[t[0]]].push_back(t);
+  const std::vector<std::vector<Triangle>> of_component = triangles_by_component(triangles, components);
   Solids solids;
   std::vector<Index> number(components.list.size(), -1);
   for (Index c = 0; c < components.count(); ++c) {

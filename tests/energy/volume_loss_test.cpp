@@ -49,7 +49,8 @@ TEST(VolumeLoss, normals_that_point_inward_bound_a_hollow) {
   const Positions rest = two_tetrahedra();
   std::vector<Triangle> inward = large_one;
   for (Triangle& t : inward) std::swap(t[1], t[2]);
-  const VolumeLoss outward_energy(rest, {closed(rest, large_one)}, 0.9), inward_energy(rest, {closed(rest, inward)}, 0.9);
+  const VolumeLoss outward_energy(rest, {closed(rest, large_one)}, 0.9),
+      inward_energy(rest, {closed(rest, inward)}, 0.9);
   const Positions x = shrunk(rest, 0.7);
   EXPECT_GT(outward_energy.value(x, 0), 0);
   EXPECT_NEAR(inward_energy.value(x, 0), outward_energy.value(x, 0), 1e-12);
