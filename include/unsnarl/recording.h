@@ -79,8 +79,8 @@ struct RecordedFrame {
   std::string phase;                       ///< "input" (the first), "untangle", "recover", "result" (the last)
   std::string strategy;                    ///< untangle: the strategy at work
   int iteration = 0;                       ///< of the regions at work
-  std::size_t pairs = 0;                   ///< intersecting pairs of faces, of all classes, at this moment, without
-  std::size_t allowed = 0;                 ///< those that the options allow
+  std::size_t pairs = 0;                   ///< intersecting pairs of faces, of all classes, that may not stay
+  std::size_t allowed = 0;                 ///< and those that the options allow
   std::vector<std::int32_t> intersecting;  ///< ids of the faces in these pairs, ascending
   std::vector<std::int32_t> vertices;      ///< that moved since the frame before, ids of the input, ascending
   std::vector<double> displacements;       ///< 3 a vertex: where they are, minus where they are in the input

@@ -13,8 +13,8 @@ namespace {
 /// gathered (unit: h)
 constexpr double list_margin = 0.02;
 
-/// A step is halved where its list would be longer: what grows from a point meets all of itself [E208] (unit: stencils
-/// a vertex)
+/// A step is halved where its list would be longer: what grows from a point meets all of itself (unit: stencils a
+/// vertex)
 constexpr std::size_t most_a_vertex = 150;
 /// The same where a gap is asked for everywhere, but of rules: within a wide gap are many stencils of one sheet, which
 /// have none [E225] (unit: rules a vertex)
