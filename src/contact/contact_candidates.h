@@ -68,8 +68,8 @@ class ContactCandidates {
   }
 
   /// The same for the stencils with one of `vertices`, after only the positions and bounds of these have changed since
-  /// the last gathering. The cost grows with their number. Finds each stencil once, and adds to
-  /// `items`. Returns false, and adds nothing, where they are more than the limit.
+  /// the last gathering. The cost grows with their number. Finds each stencil once, and adds to `items`. Returns false,
+  /// and adds nothing, where they are more than the limit.
   template <class Item, class Make>
   bool gather_around(std::span<const Index> vertices, const Positions& x, std::span<const double> radius,
                      const MotionBounds& bounds, Make&& make, std::vector<Item>& items,
@@ -95,8 +95,8 @@ class ContactCandidates {
  private:
   /// Updates where triangle t may be.
   void update_triangle(const Positions& x, std::span<const double> radius, const MotionBounds& bounds, Index t);
-  /// Of each stencil, and of the task that finds it; the tasks [0, bvh_.task_count()) run in parallel. Returns whether
-  /// the stencil is listed.
+  /// Gets each stencil, with the number of the task that finds it, in [0, bvh_.task_count()); tasks run in parallel.
+  /// Returns whether it lists the stencil.
   using OnStencil = std::function<bool(Index task, const NearStencil& near)>;
   static bool list_as_is(const NearStencil& near, NearStencil& item) {
     item = near;

@@ -15,6 +15,7 @@
 #include "mesh/areas.h"
 #include "pipeline/region_work.h"
 #include "scene/meeting_components.h"
+#include "scene/patch.h"
 #include "untangle/conflict_regions.h"
 #include "untangle/strategies.h"
 
@@ -304,8 +305,11 @@ void keep_better(const RepairTask& task, const Positions& first, std::span<const
   const std::vector<std::size_t> now = count_pairs(scene, second, cluster_of, clusters.size());
   for (std::size_t k = 0; k < clusters.size(); ++k) {
     const std::vector<Index>& vertices = clusters[k].vertices;
-    const bool is_better = now[k] < before[k] || (now[k] == before[k] && is_nearer(motion_of(scene, scene.x, vertices),
-                                                                                   motion_of(scene, first, vertices)));
+    const auto is_kept_if_equal = [&] {
+      return is_nearer(motion_of(scene, scene.x, vertices), motion_of(scene, first, vertices)) &&
+             !turns_a_solid_inside_out(cut_patch(scene, index, free_of(scene, vertices), 0));
+    };
+    const bool is_better = now[k] < before[k] || (now[k] == before[k] && is_kept_if_equal());
     clusters[k].is_open = is_better && is_within_limit(task, scene, vertices);
     if (!clusters[k].is_open) go_back(clusters[k]);
   }

@@ -25,7 +25,7 @@ constexpr int rounding_rounds = 4;
 
 /// Share of a time limit after which what is resolved is recovered, and the rest left (no unit)
 constexpr double untangling_time = 0.7;
-/// What is left is untangled once more where it is at most this share of the pairs at rest [E223] (no unit)
+/// The stage untangles pairs once more where it has left at most this share of those at rest [E223] (no unit)
 constexpr double few_left = 0.1;
 /// Share of the progress reported when recovery begins (no unit)
 constexpr double untangled_fraction = 0.6;

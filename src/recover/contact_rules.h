@@ -88,7 +88,8 @@ class ContactRules {
     double least = std::numeric_limits<double>::infinity();  ///< the least distance
     Index closed = 0;                                        ///< how many are closer than they should be
   };
-  /// Of all stencils with a moving vertex that would have a rule if their vertices might go `around` from x.
+  /// Measures all stencils with a moving vertex that would have a rule if their vertices might go `around`, a length,
+  /// from x.
   Close measure(const Positions& x, double around, std::span<const std::uint8_t> moves);
 
   const ContactCandidates& candidates() const { return candidates_; }

@@ -17,7 +17,7 @@ nlohmann::ordered_json topology_json(const Topology& topology);
 nlohmann::ordered_json pair_counts_json(const PairCounts& counts);
 /// What "overlapping_components" lists.
 nlohmann::ordered_json overlapping_components_json(std::span<const OverlappingComponent> overlapping);
-/// What "changed_components" lists. `diagonal`: RepairReport::diagonal.
+/// Makes the list "changed_components". `diagonal`: RepairReport::diagonal.
 nlohmann::ordered_json changed_components_json(std::span<const ChangedComponent> changed, double diagonal);
 /// Pairs that are allowed, before and after a repair.
 nlohmann::ordered_json allowed_json(const PairCounts& before, const PairCounts& after);

@@ -13,7 +13,7 @@ namespace {
 /// Gap wanted between surfaces. Rounding moves each of the two by half a unit in every coordinate, less than two units
 /// of distance; the rest is reserve (unit: units in the last place of the format)
 constexpr double gap_units = 8;
-/// What rounding takes from a gap, at most (unit: units in the last place of the format)
+/// Rounding makes a gap narrower by this at most (unit: units in the last place of the format)
 constexpr double rounding_units = 2;
 /// float32 is asked for only where the gap that it needs is at most this, so that its coordinates are fine enough for
 /// the faces (unit: mean altitude of the faces)

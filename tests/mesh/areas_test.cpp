@@ -29,7 +29,7 @@ TEST(Areas, squared_motion_integrates_over_the_triangle) {
   x = rest;
   x.colwise() += Vec3(1, -2, 2);
   EXPECT_DOUBLE_EQ(squared_motion(rest, x, {0, 1, 2}), 3 * 9.0);
-  // Where one corner moves by d, the mean of the squares of a linear function is d^2 / 6.
+  // The mean of the squares of a linear function is d^2 / 6 where one corner moves by d.
   x = rest;
   x.col(2) += Vec3(0, 0, 4);
   EXPECT_DOUBLE_EQ(squared_motion(rest, x, {0, 1, 2}), 3 * 16.0 / 6);

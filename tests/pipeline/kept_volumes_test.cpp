@@ -1,4 +1,4 @@
-// What is squeezed keeps most of its volume.
+// Recovery keeps most of the volume of closed components.
 #include <gtest/gtest.h>
 
 #include <vector>

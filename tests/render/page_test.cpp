@@ -128,9 +128,13 @@ TEST(Page, recorded_frames_end_to_end) {
   frames[1] = {"untangle", "slide", 3, 2, 4, {1}, {2, 4}, {std::sqrt(8.0), 0, 0, 0, 0, -std::sqrt(2.0)}};
   content.frames = frames;
   const std::string page = make_page(page_template, content);
-  EXPECT_EQ(
-      Json::parse(text_of(page, "scene"))["frames"][1],
-      Json({{"phase", "untangle"}, {"strategy", "slide"}, {"iteration", 3}, {"pairs", 2}, {"allowed", 4}, {"moved", 2}, {"faces", 1}}));
+  EXPECT_EQ(Json::parse(text_of(page, "scene"))["frames"][1], Json({{"phase", "untangle"},
+                                                                    {"strategy", "slide"},
+                                                                    {"iteration", 3},
+                                                                    {"pairs", 2},
+                                                                    {"allowed", 4},
+                                                                    {"moved", 2},
+                                                                    {"faces", 1}}));
   EXPECT_EQ(text_of(page, "frame_vertices"), packed<Index>({2, 4}, 1));
   EXPECT_EQ(text_of(page, "frame_displacements"), packed<float>({1, 0, 0, 0, 0, -0.5}, 3));
   EXPECT_EQ(text_of(page, "frame_faces"), packed<Index>({0, 1, 1}, 1));

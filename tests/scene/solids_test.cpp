@@ -10,7 +10,7 @@
 namespace unsnarl {
 namespace {
 
-/// Of a box, a triangle and a box twice as large.
+/// A scene of a box, a triangle and a box twice as large.
 shapes::Shape boxes_and_sheet() {
   shapes::Shape shape = shapes::box({1, 2, 3}), sheet;
   sheet.points = {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
