@@ -35,7 +35,7 @@ constexpr double reach_of_placement = 5;
 /// Bound of the motion of whole components (unit: h)
 constexpr double reach_of_whole = 20;
 
-/// Tangles at least so deep go from coarse to fine before layers are parted [E133] (unit: edges)
+/// Tangles at least so deep go from coarse to fine before anything else [E133, E233] (unit: edges)
 constexpr int deep = 4;
 /// Edges freed around a tangle for each edge of its depth [E134] (unit: edges / edge)
 constexpr double rings_per_depth = 1.5;
@@ -46,8 +46,9 @@ constexpr int wide_depths = 2;
 /// `coarse_to_fine_far` takes tangles to be so many times as deep as they are [E65, E66] (no unit)
 constexpr int far_depths = 8;
 
-/// CoarseOptions::factor for each edge of a tangle's depth [E40] (no unit)
-constexpr double factor_per_depth = 0.7;
+/// CoarseOptions::factor of deep tangles: those that are deep on the coarse mesh too go to one that is coarser still
+/// [E229] (no unit)
+constexpr double factor_of_deep = 2;
 /// CoarseOptions::factor of whole components and what comes close to them, at least [E135] (no unit)
 constexpr double factor_of_whole = 1.6;
 /// The first coarse mesh of these has so many at most [E52] (unit: faces)
@@ -75,8 +76,7 @@ constexpr DepthOptions around_deep = {.rings_per_edge = rings_per_depth, .reach 
 /// turned inside out between two curves); coarser meshes rarely help there and are slow.
 Strategy coarse_to_fine(std::string name, const DepthOptions& freed) {
   const auto solve = [](Patch& patch, const Task& task) {
-    return solve_on_coarser_mesh(patch, task, coarse_options(factor_per_depth * task.depth, CoarseMeshes::one))
-        .iterations;
+    return solve_on_coarser_mesh(patch, task, coarse_options(factor_of_deep, CoarseMeshes::one)).iterations;
   };
   return {.name = std::move(name), .select = select_by_depth(freed), .solve = solve};
 }
@@ -85,7 +85,7 @@ Strategy deep_coarse_to_fine() {
   return coarse_to_fine("coarse_to_fine", around_deep);
 }
 
-/// What the others have left is taken to be twice as deep, and so resolved in wider surroundings on a coarser mesh.
+/// What the others have left is taken to be twice as deep, and so resolved in wider surroundings.
 Strategy wide_coarse_to_fine() {
   DepthOptions freed = around_deep;
   freed.factor = wide_depths;
@@ -156,9 +156,9 @@ Tier last_resort(Strategy strategy) {
 /// The table.
 std::vector<Tier> all_tiers(CoarseMeshes meshes) {
   std::vector<Tier> tiers = {
+      {{deep_coarse_to_fine()}},
       shallow_tier(),
       {{placing()}},
-      {{deep_coarse_to_fine()}},
       layers_tier(),
   };
   // On a coarse mesh, wider surroundings are soon the whole.

@@ -120,5 +120,68 @@ TEST(Newton, starts_anew_without_the_unknowns_that_are_blocked) {
   EXPECT_LT((freed.x - freed.target).norm(), 1e-8);
 }
 
+/// f = 1/2 sum of |x_i - i|^2 + |x_i - x_i+1|^2: a chain of springs. Unknown 0 may not go farther than `cap`.
+struct Chain final : NewtonProblem {
+  Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, 4), last_step;
+  double cap = std::numeric_limits<double>::infinity();
+
+  Index unknowns() const override { return static_cast<Index>(x.cols()); }
+  double at(const Eigen::Matrix3Xd& y, Eigen::Matrix3Xd* gradient = nullptr) const {
+    Eigen::Matrix3Xd slope = y;
+    for (Index i = 0; i < y.cols(); ++i) slope.col(i).array() -= static_cast<double>(i);
+    double sum = 0.5 * slope.squaredNorm();
+    for (Index i = 0; i + 1 < y.cols(); ++i) {
+      const Eigen::Vector3d d = y.col(i) - y.col(i + 1);
+      sum += 0.5 * d.squaredNorm();
+      slope.col(i) += d;
+      slope.col(i + 1) -= d;
+    }
+    if (gradient) *gradient = slope;
+    return sum;
+  }
+  double linearise(Eigen::Matrix3Xd& gradient) override { return at(x, &gradient); }
+  void apply_hessian(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const override {
+    result = v;
+    for (Index i = 0; i + 1 < v.cols(); ++i) {
+      result.col(i) += v.col(i) - v.col(i + 1);
+      result.col(i + 1) += v.col(i + 1) - v.col(i);
+    }
+  }
+  void inverse_blocks(bool, std::vector<Eigen::Matrix3d>& blocks) const override {
+    blocks.assign(unknowns(), Eigen::Matrix3d::Identity() / 3);
+  }
+  bool prescribe(Eigen::Matrix3Xd& step, std::vector<std::uint8_t>& is_prescribed) override {
+    if (is_prescribed[0] || !(step.col(0).norm() > cap)) return false;
+    step.col(0) *= cap / step.col(0).norm();
+    is_prescribed[0] = 1;
+    return true;
+  }
+  void limit(Eigen::Matrix3Xd& step) override { last_step = step; }
+  void filter(Eigen::Matrix3Xd&) override {}
+  double value(const Eigen::Matrix3Xd& step) override { return at(x + step); }
+  void accept(const Eigen::Matrix3Xd& step) override { x += step; }
+  bool remove_blocked() override { return false; }
+};
+
+TEST(Newton, unknowns_that_are_not_prescribed_go_where_these_leave_them) {
+  Chain chain;
+  chain.cap = 0.1;
+  NewtonOptions options;
+  options.solver = {1e-12, 100};
+  options.max_steps = 1;
+  minimise_newton(chain, options);
+  EXPECT_NEAR(chain.last_step.col(0).norm(), 0.1, 1e-12);
+  Eigen::Matrix3Xd gradient;
+  chain.linearise(gradient);
+  EXPECT_LT(gradient.rightCols(3).norm(), 1e-9);
+  EXPECT_GT(gradient.col(0).norm(), 0.1);
+
+  options.max_steps = 100;
+  options.motion = 1e-12;
+  minimise_newton(chain, options);  // a cap only takes more steps
+  chain.linearise(gradient);
+  EXPECT_LT(gradient.norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace unsnarl

@@ -48,6 +48,15 @@ TEST(Strategies, whole_components_go_from_coarse_to_fine) {
   }
 }
 
+TEST(Strategies, deep_tangles_go_to_coarser_meshes_before_anything_else) {
+  for (const std::span<const Tier> tiers : {default_tiers(), coarse_mesh_tiers()}) {
+    ASSERT_EQ(tiers.front().strategies.size(), 1u);
+    EXPECT_EQ(tiers.front().strategies.front().name, "coarse_to_fine");
+  }
+  for (const Tier& tier : local_tiers())
+    for (const Strategy& strategy : tier.strategies) EXPECT_NE(strategy.name, "coarse_to_fine");
+}
+
 TEST(Strategies, names_and_numbers_belong_together) {
   std::set<std::string> names;
   for (int number = 0; number <= last_strategy(); ++number) {
