@@ -45,10 +45,10 @@ struct FrameReport {
   double untouched_share = 1;                ///< share of vertices that are bit-identical to the input
   bool float32_embedded = false;             ///< see RepairReport
   Precision precision = Precision::float64;  ///< see RepairReport
-  bool is_smoothed = false;                  ///< false: as it came out of a repair by itself
-  /// See RepairReport: of the repair of this frame by itself, before corrections are made smooth in time.
+  bool is_smoothed = false;                  ///< false: as it came out before corrections were averaged
+  /// See RepairReport: of the repair of this frame before corrections are averaged.
   std::vector<ChangedComponent> changed_components = {};
-  std::optional<Jitter> alone;   ///< if this frame and those beside it were repaired each by itself; unset at the ends
+  std::optional<Jitter> alone;   ///< of the repairs before corrections are averaged; unset at the ends
   std::optional<Jitter> jitter;  ///< of the results; unset where one beside it is not known. Not yet known in `take`
 };
 
@@ -65,16 +65,30 @@ struct SequenceOptions {
   std::size_t first = 0, last = static_cast<std::size_t>(-1);
 };
 
-/// So many frames before and after have an influence on a frame.
+/// The corrections of so many frames before and after are averaged.
 inline constexpr std::size_t sequence_reach = 4;
+/// The frames whose number is a multiple of this are repaired by themselves, the others from the correction of the
+/// frame before.
+inline constexpr std::size_t sequence_block = 8;
+
+/// The frames [first, last) that have an influence on frame t; `last` may be beyond the end of the sequence.
+struct DecidingFrames {
+  std::size_t first, last;
+};
+constexpr DecidingFrames deciding_frames(std::size_t t) {
+  const std::size_t averaged = t < sequence_reach ? 0 : t - sequence_reach;
+  return {averaged - averaged % sequence_block, t + sequence_reach + 1};
+}
 
 /// Repairs frame by frame so that corrections go on smoothly in time.
 ///
-/// Every frame is repaired by itself; then each is moved by the average of the corrections of the frames around it
+/// Every frame is repaired, the first of each sequence_block by itself, the others from the correction of the frame
+/// before, turned with the surface around each vertex: what intersects there is resolved with little motion, then goes
+/// back toward the input. Then each frame is moved by the average of the corrections of the frames around it
 /// (binomial weights over sequence_reach to either side, turned with the surface around each vertex), and what that
 /// makes intersect is resolved from there. Frames without self-intersections stay as they are. A frame is certified in
 /// the welding of its own input, polygons split as there and as in the result; where its smoothed version does not
-/// hold, the one repaired by itself is its result.
+/// hold, the one before averaging is its result.
 ///
 /// take: gets each wanted frame that is not done, in order, as soon as its result is certain; called by one thread at a
 /// time. What it throws ends the work and is thrown again.
