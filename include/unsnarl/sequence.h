@@ -67,24 +67,32 @@ struct SequenceOptions {
 
 /// The corrections of so many frames before and after are averaged.
 inline constexpr std::size_t sequence_reach = 4;
-/// The frames whose number is a multiple of this are repaired by themselves, the others from the correction of the
-/// frame before.
-inline constexpr std::size_t sequence_block = 8;
+/// Frames whose number is a multiple of this are repaired by themselves: key frames [E271] (unit: frames)
+inline constexpr std::size_t key_frame_distance = 16;
 
-/// The frames [first, last) that have an influence on frame t; `last` may be beyond the end of the sequence.
+/// The key frame nearest to frame t of so many. Repairs start from each other from there on to
+/// either side [E272].
+constexpr std::size_t key_frame_of(std::size_t t, std::size_t frames) {
+  const std::size_t nearest = t + key_frame_distance / 2 - 1 - (t + key_frame_distance / 2 - 1) % key_frame_distance;
+  return nearest < frames ? nearest : nearest - key_frame_distance;
+}
+
+/// The frames [first, last) that have an influence on frame t of so many.
 struct DecidingFrames {
   std::size_t first, last;
 };
-constexpr DecidingFrames deciding_frames(std::size_t t) {
-  const std::size_t averaged = t < sequence_reach ? 0 : t - sequence_reach;
-  return {averaged - averaged % sequence_block, t + sequence_reach + 1};
+constexpr DecidingFrames deciding_frames(std::size_t t, std::size_t frames) {
+  const std::size_t first = t < sequence_reach ? 0 : t - sequence_reach;
+  const std::size_t last = t + sequence_reach < frames ? t + sequence_reach : frames - 1;
+  const std::size_t first_key = key_frame_of(first, frames), last_key = key_frame_of(last, frames);
+  return {first < first_key ? first : first_key, (last > last_key ? last : last_key) + 1};
 }
 
 /// Repairs frame by frame so that corrections go on smoothly in time.
 ///
-/// Every frame is repaired, the first of each sequence_block by itself, the others from the correction of the frame
-/// before, turned with the surface around each vertex: what intersects there is resolved with little motion, then goes
-/// back toward the input. Then each frame is moved by the average of the corrections of the frames around it
+/// Key frames are repaired by themselves. From there on to either side, each frame is repaired from the correction of
+/// the frame beside it, turned with the surface around each vertex: what intersects there is resolved with little
+/// motion, then goes back toward the input. Then each frame is moved by the average of the corrections around it
 /// (binomial weights over sequence_reach to either side, turned with the surface around each vertex), and what that
 /// makes intersect is resolved from there. Frames without self-intersections stay as they are. A frame is certified in
 /// the welding of its own input, polygons split as there and as in the result; where its smoothed version does not

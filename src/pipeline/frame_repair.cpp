@@ -106,28 +106,24 @@ void FrameRepair::see(SequenceFrame& frame) const {
   if (!frame.seen) frame.seen = std::make_unique<FrameMotion>(surface(frame.input), options.find);
 }
 
-/// Frame t moved by the correction of the frame before; nothing where that has none, or where corrections do not go
-/// back toward the input.
-std::optional<Positions> FrameRepair::start(std::size_t t, std::span<const SequenceFrame> frames) const {
-  if (FrameSchedule::begins_anew(t) || !options.recover || options.paper) return std::nullopt;
-  const SequenceFrame& before = frames[t - 1];
-  if (before.is_clean || !is_resolved(before.repaired.status)) return std::nullopt;
-  const FrameMotion& seen = *frames[t].seen;
-  return seen.prepared().rest + seen.correction(before.input, before.repaired.positions);
+/// A frame moved by the correction of another one; nothing where that has none, or where corrections do not go back
+/// toward the input.
+std::optional<Positions> FrameRepair::start(const SequenceFrame& frame, const SequenceFrame& other) const {
+  if (!options.recover || options.paper || other.is_clean || !is_resolved(other.repaired.status)) return std::nullopt;
+  return frame.seen->prepared().rest + frame.seen->correction(other.input, other.repaired.positions);
 }
 
-void FrameRepair::repair(std::size_t t, std::span<SequenceFrame> frames) const {
+void FrameRepair::repair(std::size_t t, std::size_t other, std::span<SequenceFrame> frames) const {
   SequenceFrame& frame = frames[t];
   see(frame);
   const PreparedSurface& prepared = frame.seen->prepared();
   Finders finders(prepared.triangles(), prepared.scale, prepared.passing());
-  const auto repaired_from = [&](std::optional<Positions> start) {
-    return repair_from(surface(frame.input), frame.seen->known(), finders, options_of(t), &context, std::move(start));
+  const auto repaired_from = [&](const std::optional<Positions>& beginning) {
+    return repair_from(surface(frame.input), frame.seen->known(), finders, options_of(t), &context, beginning);
   };
-  std::optional<Positions> start_here = start(t, frames);
-  const bool is_started = start_here.has_value();
-  frame.repaired = repaired_from(std::move(start_here));
-  if (is_started && is_worth_another_try(frame.repaired.status)) frame.repaired = repaired_from({});
+  const std::optional<Positions> beside = other == t ? std::nullopt : start(frame, frames[other]);
+  frame.repaired = repaired_from(beside);
+  if (beside && is_worth_another_try(frame.repaired.status)) frame.repaired = repaired_from({});
   frame.is_clean = frame.repaired.positions == frame.input;
 }
 

@@ -29,8 +29,8 @@ struct FrameRepair {
   Context& context;              ///< asked for cancellation alone
 
   void see(SequenceFrame& frame) const;
-  /// Repairs frame t, from the correction of the frame before where one is to be had.
-  void repair(std::size_t t, std::span<SequenceFrame> frames) const;
+  /// Repairs frame t from the correction of frame `other`, which is repaired, where that has one; t: by itself.
+  void repair(std::size_t t, std::size_t other, std::span<SequenceFrame> frames) const;
   /// The result of frame t, whose frames around are repaired: smooth in time, where that holds.
   FrameResult finished(std::size_t t, std::span<const SequenceFrame> frames) const;
   /// The report of frame t, whose result is known.
@@ -39,7 +39,7 @@ struct FrameRepair {
   Jitter jitter_of_results(std::size_t t, std::span<const SequenceFrame> frames) const;
 
  private:
-  std::optional<Positions> start(std::size_t t, std::span<const SequenceFrame> frames) const;
+  std::optional<Positions> start(const SequenceFrame& frame, const SequenceFrame& other) const;
   SurfaceView surface(const std::vector<double>& positions) const;
   RepairOptions options_of(std::size_t t) const;
   Positions mean_correction(std::size_t t, std::span<const SequenceFrame> frames) const;

@@ -14,10 +14,11 @@ FrameSchedule::FrameSchedule(std::size_t frames, std::size_t first, std::size_t 
       frames_(frames),
       opened_(first),
       handed_on_(first),
-      next_repair_(deciding_frames(first).first) {}
+      next_repair_(deciding_frames(first, frames).first) {}
 
-bool FrameSchedule::begins_anew(std::size_t t) {
-  return t % sequence_block == 0;
+std::size_t FrameSchedule::start_of(std::size_t t) const {
+  const std::size_t key = key_frame_of(t, frames_.size());
+  return t < key ? t + 1 : std::max(key, t - std::min<std::size_t>(t, 1));
 }
 
 std::size_t FrameSchedule::begin_around(std::size_t t) {
@@ -36,15 +37,17 @@ void FrameSchedule::open(bool is_done) {
   assert(may_open());
   const std::size_t t = opened_++;
   frames_[t].is_wanted = !is_done;
-  if (!is_done)
-    for (next_repair_ = std::max(next_repair_, deciding_frames(t).first); next_repair_ < end_around(t); ++next_repair_)
+  if (!is_done) {
+    const DecidingFrames deciding = deciding_frames(t, frames_.size());
+    for (next_repair_ = std::max(next_repair_, deciding.first); next_repair_ < deciding.last; ++next_repair_)
       jobs_.push_back({next_repair_, true});
+  }
   jobs_.push_back({t, false});
 }
 
 bool FrameSchedule::is_ready(const Job& job) const {
   if (frames_[job.frame].is_busy) return false;  // a result known before is looked at while the frame is repaired
-  if (job.is_repair) return begins_anew(job.frame) || frames_[job.frame - 1].is_repaired;
+  if (job.is_repair) return start_of(job.frame) == job.frame || frames_[start_of(job.frame)].is_repaired;
   if (!frames_[job.frame].is_wanted) return true;
   for (std::size_t s = begin_around(job.frame); s < end_around(job.frame); ++s)
     if (!frames_[s].is_repaired) return false;

@@ -6,7 +6,7 @@
 
 namespace unsnarl {
 
-/// The order of the work on the frames of a sequence. Frames are repaired in blocks, in each from the first on; each
+/// The order of the work on the frames of a sequence. Frames are repaired outward from key frames; each
 /// frame wanted is finished from the repairs of the frames around it; frames are finished in any order, and handed on
 /// in theirs. Knows nothing of what the work is; not safe from several threads.
 class FrameSchedule {
@@ -20,8 +20,8 @@ class FrameSchedule {
   /// none waits for long; they are lost where the work is cut off.
   FrameSchedule(std::size_t frames, std::size_t first, std::size_t last, std::size_t ahead);
 
-  /// This frame is repaired by itself; others once the frame before is repaired.
-  static bool begins_anew(std::size_t t);
+  /// The repair of frame t starts from that of this frame; itself: from none.
+  std::size_t start_of(std::size_t t) const;
   /// The frames around t, itself among them, whose repairs its result is made of.
   static std::size_t begin_around(std::size_t t);
   std::size_t end_around(std::size_t t) const;

@@ -19,9 +19,9 @@
 namespace unsnarl {
 namespace {
 
-/// Frames that are under way at once: a block for each thread, since the frames of one follow each other
+/// Frames that are under way at once: those around a key frame for each thread, since they follow each other
 std::size_t frames_ahead() {
-  return sequence_block * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  return key_frame_distance * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
 }
 
 std::size_t threads_of_arena() {
@@ -44,7 +44,7 @@ class SequenceWork {
         schedule_(source.frames, first_, last_, frames_ahead()),
         frames_(source.frames),
         jitter_known_(first_),
-        forgotten_(deciding_frames(first_).first) {}
+        forgotten_(deciding_frames(first_, source.frames).first) {}
   ~SequenceWork() { context_.on_progress = tell_; }
   SequenceWork(const SequenceWork&) = delete;
   SequenceWork& operator=(const SequenceWork&) = delete;
@@ -96,7 +96,7 @@ class SequenceWork {
     tbb::this_task_arena::isolate([&] {
       SequenceFrame& frame = frames_[job.frame];
       if (job.is_repair) {
-        repair_.repair(job.frame, frames_);
+        repair_.repair(job.frame, schedule_.start_of(job.frame), frames_);
         if (job.frame < first_ || job.frame >= last_) frame.seen.reset();  // nothing is seen from what is not wanted
         return;
       }
@@ -138,7 +138,7 @@ class SequenceWork {
     const std::size_t end = schedule_.handed_on();
     for (; jitter_known_ < end && (jitter_known_ + 1 < end || end == last_); ++jitter_known_)
       measure_jitter(jitter_known_);
-    for (; forgotten_ < deciding_frames(end).first; ++forgotten_) frames_[forgotten_] = {};
+    for (; forgotten_ < deciding_frames(end, frames_.size()).first; ++forgotten_) frames_[forgotten_] = {};
   }
 
   void measure_jitter(std::size_t t) {

@@ -36,7 +36,7 @@ class FrameScheduleTest : public ::testing::TestWithParam<Plan> {
         if (!job) break;
         for (const auto& other : running) EXPECT_NE(other.frame, job->frame) << "two jobs of one frame at once";
         if (job->is_repair)
-          EXPECT_TRUE(FrameSchedule::begins_anew(job->frame) || repaired_.contains(job->frame - 1)) << job->frame;
+          EXPECT_TRUE(schedule.start_of(job->frame) == job->frame || repaired_.contains(schedule.start_of(job->frame)));
         for (std::size_t s = FrameSchedule::begin_around(job->frame); s < schedule.end_around(job->frame); ++s) {
           const bool is_there = job->is_repair || !schedule.is_wanted(job->frame) || repaired_.contains(s);
           EXPECT_TRUE(is_there) << "frame " << job->frame << " begins without " << s;
@@ -79,21 +79,33 @@ TEST_P(FrameScheduleTest, hands_every_frame_on_in_order) {
   for (unsigned seed = 0; seed < 20; ++seed)
     EXPECT_EQ(run(plan, seed, [](std::size_t) { return false; }), range(plan.first, last)) << seed;
   for (const std::size_t t : repaired_) {
-    EXPECT_GE(t, deciding_frames(plan.first).first);
-    EXPECT_LT(t, deciding_frames(last - 1).last);
+    EXPECT_GE(t, deciding_frames(plan.first, plan.frames).first);
+    EXPECT_LT(t, deciding_frames(last - 1, plan.frames).last);
   }
 }
 
 TEST_P(FrameScheduleTest, repairs_only_what_frames_not_done_need) {
   const Plan plan = GetParam();
   const std::size_t last = std::min(plan.last, plan.frames);
-  const auto is_done = [](std::size_t t) { return t % 32 != 7; };
+  const auto is_done = [](std::size_t t) { return t % 64 != 7; };
   for (unsigned seed = 0; seed < 20; ++seed) EXPECT_EQ(run(plan, seed, is_done), range(plan.first, last));
   for (const std::size_t t : repaired_) {
     bool is_needed = false;
     for (std::size_t wanted = plan.first; wanted < last; ++wanted)
-      is_needed |= !is_done(wanted) && t >= deciding_frames(wanted).first && t < deciding_frames(wanted).last;
+      is_needed |= !is_done(wanted) && t >= deciding_frames(wanted, plan.frames).first &&
+                   t < deciding_frames(wanted, plan.frames).last;
     EXPECT_TRUE(is_needed) << t;
+  }
+}
+
+TEST(FrameSchedule, repairs_start_outward_from_key_frames) {
+  const FrameSchedule schedule(22, 0, 22, 1);
+  for (std::size_t t = 0; t < 22; ++t) {
+    std::size_t from = t, steps = 0;
+    for (; schedule.start_of(from) != from; from = schedule.start_of(from)) ++steps;
+    EXPECT_EQ(from, key_frame_of(t, 22)) << t;
+    EXPECT_EQ(from % key_frame_distance, 0u) << t;
+    EXPECT_LE(steps, key_frame_distance / 2) << t;
   }
 }
 

@@ -40,10 +40,10 @@ TEST(RepairSequence, progress_is_told_in_the_thread_of_the_caller) {
   EXPECT_TRUE(context.on_progress) << "the caller's";
 }
 
-/// Two tubes that are pushed through each other farther and farther, frame by frame, over more than one block.
+/// Two tubes that are pushed through each other farther and farther, frame by frame, around more than one key frame.
 std::vector<Surface> tubes_in_motion() {
   std::vector<Surface> frames;
-  for (std::size_t t = 0; t < sequence_block + 4; ++t)
+  for (std::size_t t = 0; t < key_frame_distance + 4; ++t)
     frames.push_back(
         make_sample("crossing_tubes", 20, {{"radius", 0.3}, {"offset", 0.56 - 0.005 * static_cast<double>(t)}}));
   return frames;
