@@ -106,6 +106,15 @@ void FrameRepair::see(SequenceFrame& frame) const {
   if (!frame.seen) frame.seen = std::make_unique<FrameMotion>(surface(frame.input), options.find);
 }
 
+/// Whether frame t is at the positions of another one, and its file can say what that came to: what stands still must
+/// not go on being repaired.
+bool FrameRepair::stands_still_at(const SequenceFrame& other, std::size_t t, const SequenceFrame& frame) const {
+  const RepairResult& repaired = other.repaired;
+  if (other.input != frame.input || !is_resolved(repaired.status)) return false;
+  const bool is_float32 = repaired.report.precision == Precision::float32;
+  return !source.as_written || source.as_written(t, repaired.positions, is_float32) == repaired.positions;
+}
+
 /// A frame moved by the correction of another one; nothing where that has none, or where corrections do not go back
 /// toward the input.
 std::optional<Positions> FrameRepair::start(const SequenceFrame& frame, const SequenceFrame& other) const {
@@ -116,6 +125,11 @@ std::optional<Positions> FrameRepair::start(const SequenceFrame& frame, const Se
 void FrameRepair::repair(std::size_t t, std::size_t other, std::span<SequenceFrame> frames) const {
   SequenceFrame& frame = frames[t];
   see(frame);
+  if (other != t && stands_still_at(frames[other], t, frame)) {
+    frame.repaired = frames[other].repaired;
+    frame.is_clean = frames[other].is_clean;
+    return;
+  }
   const PreparedSurface& prepared = frame.seen->prepared();
   Finders finders(prepared.triangles(), prepared.scale, prepared.passing());
   const auto repaired_from = [&](const std::optional<Positions>& beginning) {

@@ -39,6 +39,7 @@ struct FrameRepair {
   Jitter jitter_of_results(std::size_t t, std::span<const SequenceFrame> frames) const;
 
  private:
+  bool stands_still_at(const SequenceFrame& other, std::size_t t, const SequenceFrame& frame) const;
   std::optional<Positions> start(const SequenceFrame& frame, const SequenceFrame& other) const;
   SurfaceView surface(const std::vector<double>& positions) const;
   RepairOptions options_of(std::size_t t) const;

@@ -93,5 +93,15 @@ TEST(RepairSequence, no_correction_jumps) {
   for (std::size_t t = 1; t < frames.size(); ++t) EXPECT_LT(jump(t), 0.005) << t;
 }
 
+TEST(RepairSequence, what_stands_still_is_repaired_alike) {
+  const std::vector<Surface> frames(6, tubes_in_motion().back());
+  const std::vector<FrameResult> results = repaired(frames, 1);
+  ASSERT_EQ(results.size(), frames.size());
+  EXPECT_GT(results[0].report.before.total(), 0u);
+  for (const FrameResult& result : results)
+    for (std::size_t k = 0; k < result.positions.size(); ++k)
+      EXPECT_NEAR(result.positions[k], results[0].positions[k], 1e-5 * result.report.diagonal);
+}
+
 }  // namespace
 }  // namespace unsnarl
