@@ -45,10 +45,10 @@ struct FrameReport {
   double untouched_share = 1;                ///< share of vertices that are bit-identical to the input
   bool float32_embedded = false;             ///< see RepairReport
   Precision precision = Precision::float64;  ///< see RepairReport
-  bool is_smoothed = false;                  ///< false: as it came out of a repair by itself
-  /// See RepairReport: of the repair of this frame by itself, before corrections are made smooth in time.
+  bool is_smoothed = false;                  ///< false: as it came out before corrections were averaged
+  /// See RepairReport: of the repair of this frame before corrections are averaged.
   std::vector<ChangedComponent> changed_components = {};
-  std::optional<Jitter> alone;   ///< if this frame and those beside it were repaired each by itself; unset at the ends
+  std::optional<Jitter> alone;   ///< of the repairs before corrections are averaged; unset at the ends
   std::optional<Jitter> jitter;  ///< of the results; unset where one beside it is not known. Not yet known in `take`
 };
 
@@ -65,16 +65,38 @@ struct SequenceOptions {
   std::size_t first = 0, last = static_cast<std::size_t>(-1);
 };
 
-/// So many frames before and after have an influence on a frame.
+/// The corrections of so many frames before and after are averaged.
 inline constexpr std::size_t sequence_reach = 4;
+/// Frames whose number is a multiple of this are repaired by themselves: key frames [E236] (unit: frames)
+inline constexpr std::size_t key_frame_distance = 16;
+
+/// The key frame nearest to frame t of so many. Repairs start from each other from there on to
+/// either side [E237].
+constexpr std::size_t key_frame_of(std::size_t t, std::size_t frames) {
+  const std::size_t nearest = t + key_frame_distance / 2 - 1 - (t + key_frame_distance / 2 - 1) % key_frame_distance;
+  return nearest < frames ? nearest : nearest - key_frame_distance;
+}
+
+/// The frames [first, last) that have an influence on frame t of so many.
+struct DecidingFrames {
+  std::size_t first, last;
+};
+constexpr DecidingFrames deciding_frames(std::size_t t, std::size_t frames) {
+  const std::size_t first = t < sequence_reach ? 0 : t - sequence_reach;
+  const std::size_t last = t + sequence_reach < frames ? t + sequence_reach : frames - 1;
+  const std::size_t first_key = key_frame_of(first, frames), last_key = key_frame_of(last, frames);
+  return {first < first_key ? first : first_key, (last > last_key ? last : last_key) + 1};
+}
 
 /// Repairs frame by frame so that corrections go on smoothly in time.
 ///
-/// Every frame is repaired by itself; then each is moved by the average of the corrections of the frames around it
+/// Key frames are repaired by themselves. From there on to either side, each frame is repaired from the correction of
+/// the frame beside it, turned with the surface around each vertex: what intersects there is resolved with little
+/// motion, then goes back toward the input. Then each frame is moved by the average of the corrections around it
 /// (binomial weights over sequence_reach to either side, turned with the surface around each vertex), and what that
 /// makes intersect is resolved from there. Frames without self-intersections stay as they are. A frame is certified in
 /// the welding of its own input, polygons split as there and as in the result; where its smoothed version does not
-/// hold, the one repaired by itself is its result.
+/// hold, the one before averaging is its result.
 ///
 /// take: gets each wanted frame that is not done, in order, as soon as its result is certain; called by one thread at a
 /// time. What it throws ends the work and is thrown again.

@@ -41,9 +41,9 @@ class Frame:
     untouched_share: float  #: share of vertices that are bit-identical to the input
     float32_embedded: bool
     precision: str
-    is_smoothed: bool  #: False: as it came out of a repair by itself
-    changed_components: list[dict[str, Any]]  #: as in Result.report, of the repair of this frame by itself
-    alone: Optional[Jitter]  #: if this frame and those beside it were repaired each by itself; None at the ends
+    is_smoothed: bool  #: False: as it came out before corrections were averaged
+    changed_components: list[dict[str, Any]]  #: as in Result.report, before corrections are averaged
+    alone: Optional[Jitter]  #: before corrections are averaged; None at the ends
     jitter: Optional[Jitter]  #: of the results; None at the ends of the range
 
 

@@ -66,17 +66,22 @@ bool lacks_a_gap(const RepairResult& result) {
   return result.report.gap && !result.report.gap->is_met();
 }
 
-FrameReport report_of_repair_alone(std::size_t t, const RepairResult& alone) {
+/// Something is left, and no limit has ended the work.
+bool is_worth_another_try(Status status) {
+  return status == Status::reduced || status == Status::no_progress || status == Status::displacement_exceeded;
+}
+
+FrameReport report_of_repair(std::size_t t, const RepairResult& repaired) {
   return {.frame = t,
-          .status = alone.status,
-          .before = alone.report.before,
-          .after = alone.report.after,
-          .allowed_before = alone.report.allowed_before,
-          .allowed_after = alone.report.allowed_after,
-          .diagonal = alone.report.diagonal,
-          .float32_embedded = alone.report.float32_embedded,
-          .precision = alone.report.precision,
-          .changed_components = alone.report.changed_components,
+          .status = repaired.status,
+          .before = repaired.report.before,
+          .after = repaired.report.after,
+          .allowed_before = repaired.report.allowed_before,
+          .allowed_after = repaired.report.allowed_after,
+          .diagonal = repaired.report.diagonal,
+          .float32_embedded = repaired.report.float32_embedded,
+          .precision = repaired.report.precision,
+          .changed_components = repaired.report.changed_components,
           .alone = {},
           .jitter = {}};
 }
@@ -101,12 +106,39 @@ void FrameRepair::see(SequenceFrame& frame) const {
   if (!frame.seen) frame.seen = std::make_unique<FrameMotion>(surface(frame.input), options.find);
 }
 
-void FrameRepair::repair_alone(std::size_t t, SequenceFrame& frame) const {
+/// Whether frame t is at the positions of another one, and its file can say what that came to: what stands still must
+/// not go on being repaired.
+bool FrameRepair::stands_still_at(const SequenceFrame& other, std::size_t t, const SequenceFrame& frame) const {
+  const RepairResult& repaired = other.repaired;
+  if (other.input != frame.input || !is_resolved(repaired.status)) return false;
+  const bool is_float32 = repaired.report.precision == Precision::float32;
+  return !source.as_written || source.as_written(t, repaired.positions, is_float32) == repaired.positions;
+}
+
+/// A frame moved by the correction of another one; nothing where that has none, or where corrections do not go back
+/// toward the input.
+std::optional<Positions> FrameRepair::start(const SequenceFrame& frame, const SequenceFrame& other) const {
+  if (!options.recover || options.paper || other.is_clean || !is_resolved(other.repaired.status)) return std::nullopt;
+  return frame.seen->prepared().rest + frame.seen->correction(other.input, other.repaired.positions);
+}
+
+void FrameRepair::repair(std::size_t t, std::size_t other, std::span<SequenceFrame> frames) const {
+  SequenceFrame& frame = frames[t];
   see(frame);
+  if (other != t && stands_still_at(frames[other], t, frame)) {
+    frame.repaired = frames[other].repaired;
+    frame.is_clean = frames[other].is_clean;
+    return;
+  }
   const PreparedSurface& prepared = frame.seen->prepared();
   Finders finders(prepared.triangles(), prepared.scale, prepared.passing());
-  frame.alone = repair_from(surface(frame.input), frame.seen->known(), finders, options_of(t), &context);
-  frame.is_clean = frame.alone.positions == frame.input;
+  const auto repaired_from = [&](const std::optional<Positions>& beginning) {
+    return repair_from(surface(frame.input), frame.seen->known(), finders, options_of(t), &context, beginning);
+  };
+  const std::optional<Positions> beside = other == t ? std::nullopt : start(frame, frames[other]);
+  frame.repaired = repaired_from(beside);
+  if (beside && is_worth_another_try(frame.repaired.status)) frame.repaired = repaired_from({});
+  frame.is_clean = frame.repaired.positions == frame.input;
 }
 
 FrameReport FrameRepair::measured(std::size_t t, const SequenceFrame& frame) const {
@@ -124,16 +156,16 @@ Jitter FrameRepair::jitter_of_results(std::size_t t, std::span<const SequenceFra
 
 FrameResult FrameRepair::finished(std::size_t t, std::span<const SequenceFrame> frames) const {
   const SequenceFrame& frame = frames[t];
-  FrameResult result = {report_of_repair_alone(t, frame.alone), frame.alone.positions};
-  if (!frame.is_clean && is_resolved(frame.alone.status) && options.recover) {
+  FrameResult result = {report_of_repair(t, frame.repaired), frame.repaired.positions};
+  if (!frame.is_clean && is_resolved(frame.repaired.status) && options.recover) {
     smooth(t, frames, result);
     // The mean of the corrections may be that of repairs that memory ran out in.
     for (std::size_t s = FrameSchedule::begin_around(t); s < std::min(t + sequence_reach + 1, frames.size()); ++s)
-      if (frames[s].alone.status == Status::memory_limit) result.report.status = Status::memory_limit;
+      if (frames[s].repaired.status == Status::memory_limit) result.report.status = Status::memory_limit;
   }
   measure(frame, result.positions, result.report);
   if (t > 0 && t + 1 < frames.size())
-    result.report.alone = jitter_at(t, frames, [](const SequenceFrame& f) { return f.alone.positions; });
+    result.report.alone = jitter_at(t, frames, [](const SequenceFrame& f) { return f.repaired.positions; });
   return result;
 }
 
@@ -147,11 +179,11 @@ Positions FrameRepair::mean_correction(std::size_t t, std::span<const SequenceFr
     if (k > 0) shares[std::min(t + k, frames.size() - 1)] += weights[k];
   }
   for (const auto& [s, share] : shares)
-    if (!frames[s].is_clean) mean += share * seen.correction(frames[s].input, frames[s].alone.positions);
+    if (!frames[s].is_clean) mean += share * seen.correction(frames[s].input, frames[s].repaired.positions);
   return mean;
 }
 
-/// The frame moved by that mean, in the digits of its repair by itself.
+/// The frame moved by that mean, in the digits of its repair.
 std::vector<double> FrameRepair::smooth_target(std::size_t t, std::span<const SequenceFrame> frames) const {
   const SequenceFrame& frame = frames[t];
   const PreparedSurface& prepared = frame.seen->prepared();
@@ -164,27 +196,27 @@ std::vector<double> FrameRepair::smooth_target(std::size_t t, std::span<const Se
     if (correction.norm() < least) continue;
     for (std::size_t k = 0; k < 3; ++k) target[3 * v + k] = scale.out(scale.in(target[3 * v + k]) + correction[k]);
   }
-  const bool is_float32 = frame.alone.report.precision == Precision::float32;
+  const bool is_float32 = frame.repaired.report.precision == Precision::float32;
   if (source.as_written) return source.as_written(t, target, is_float32);
   if (is_float32) round_changed_to_float32(frame.input, target);
   return target;
 }
 
-/// Replaces the result of a repair by itself with a smooth one, where that holds.
+/// Replaces the result of the repair with a smooth one, where that holds.
 void FrameRepair::smooth(std::size_t t, std::span<const SequenceFrame> frames, FrameResult& result) const {
   const SequenceFrame& frame = frames[t];
   const PreparedSurface& prepared = frame.seen->prepared();
   const std::vector<double> target = smooth_target(t, frames);
   RepairOptions own = options_of(t);
   const double most_displacement_rel = std::exchange(own.max_displacement_rel, 0);
-  // In the welding and triangulation of the input, not of the target; from what is known of the repair by itself.
+  // In the welding and triangulation of the input, not of the target; from what is known of the repair.
   Finders finders(prepared.triangles(), prepared.scale, prepared.passing());
-  if (frame.alone.report.after.total() == 0)
-    finders.start_without_pairs(prepared.gather(result.positions), frame.alone.report.float32_embedded);
+  if (frame.repaired.report.after.total() == 0)
+    finders.start_without_pairs(prepared.gather(result.positions), frame.repaired.report.float32_embedded);
   RepairResult smoothed = repair_from(surface(target), frame.seen->known(), finders, own, &context);
   if (smoothed.status == Status::memory_limit) result.report.status = smoothed.status;
   if (!is_resolved(smoothed.status)) return;
-  if (lacks_a_gap(smoothed) && !lacks_a_gap(frame.alone)) return;
+  if (lacks_a_gap(smoothed) && !lacks_a_gap(frame.repaired)) return;
   // A layer that came out on another side would pop.
   if (largest(distances(smoothed.positions, target, prepared.scale)) >
       largest(distances(result.positions, target, prepared.scale)))
@@ -211,7 +243,7 @@ bool FrameRepair::holds(const SequenceFrame& frame, const RepairResult& smoothed
   if (options.goal == Goal::all ? left.total() > 0 : left[PairClass::disjoint] > 0) return false;
   if (options.find.weld_tolerance == 0 && !prepared.seams_are_closed(smoothed.positions)) return false;
   if (count_lost_areas(prepared.rest, x, prepared.triangles()) > 0) return false;
-  return !frame.alone.report.float32_embedded || smoothed.report.float32_embedded;
+  return !frame.repaired.report.float32_embedded || smoothed.report.float32_embedded;
 }
 
 }  // namespace unsnarl

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace unsnarl {
 struct SequenceFrame {
   std::vector<double> input;          ///< 3 n doubles; empty: not read
   std::unique_ptr<FrameMotion> seen;  ///< in which the corrections of other frames are seen
-  RepairResult alone;                 ///< of a repair by itself
+  RepairResult repaired;              ///< before corrections are averaged
   bool is_clean = false;              ///< that left it as it was
   std::vector<double> result;         ///< 3 n doubles; empty: not known
 };
@@ -28,9 +29,9 @@ struct FrameRepair {
   Context& context;              ///< asked for cancellation alone
 
   void see(SequenceFrame& frame) const;
-  /// Repairs frame t by itself.
-  void repair_alone(std::size_t t, SequenceFrame& frame) const;
-  /// The result of frame t, whose frames around are repaired by themselves: smooth in time, where that holds.
+  /// Repairs frame t from the correction of frame `other`, which is repaired, where that has one; t: by itself.
+  void repair(std::size_t t, std::size_t other, std::span<SequenceFrame> frames) const;
+  /// The result of frame t, whose frames around are repaired: smooth in time, where that holds.
   FrameResult finished(std::size_t t, std::span<const SequenceFrame> frames) const;
   /// The report of frame t, whose result is known.
   FrameReport measured(std::size_t t, const SequenceFrame& frame) const;
@@ -38,6 +39,8 @@ struct FrameRepair {
   Jitter jitter_of_results(std::size_t t, std::span<const SequenceFrame> frames) const;
 
  private:
+  bool stands_still_at(const SequenceFrame& other, std::size_t t, const SequenceFrame& frame) const;
+  std::optional<Positions> start(const SequenceFrame& frame, const SequenceFrame& other) const;
   SurfaceView surface(const std::vector<double>& positions) const;
   RepairOptions options_of(std::size_t t) const;
   Positions mean_correction(std::size_t t, std::span<const SequenceFrame> frames) const;

@@ -14,7 +14,12 @@ FrameSchedule::FrameSchedule(std::size_t frames, std::size_t first, std::size_t 
       frames_(frames),
       opened_(first),
       handed_on_(first),
-      next_alone_(begin_around(first)) {}
+      next_repair_(deciding_frames(first, frames).first) {}
+
+std::size_t FrameSchedule::start_of(std::size_t t) const {
+  const std::size_t key = key_frame_of(t, frames_.size());
+  return t < key ? t + 1 : std::max(key, t - std::min<std::size_t>(t, 1));
+}
 
 std::size_t FrameSchedule::begin_around(std::size_t t) {
   return t - std::min(t, sequence_reach);
@@ -32,17 +37,20 @@ void FrameSchedule::open(bool is_done) {
   assert(may_open());
   const std::size_t t = opened_++;
   frames_[t].is_wanted = !is_done;
-  if (!is_done)
-    for (next_alone_ = std::max(next_alone_, begin_around(t)); next_alone_ < end_around(t); ++next_alone_)
-      jobs_.push_back({next_alone_, true});
+  if (!is_done) {
+    const DecidingFrames deciding = deciding_frames(t, frames_.size());
+    for (next_repair_ = std::max(next_repair_, deciding.first); next_repair_ < deciding.last; ++next_repair_)
+      jobs_.push_back({next_repair_, true});
+  }
   jobs_.push_back({t, false});
 }
 
 bool FrameSchedule::is_ready(const Job& job) const {
   if (frames_[job.frame].is_busy) return false;  // a result known before is looked at while the frame is repaired
-  if (job.is_repair_alone || !frames_[job.frame].is_wanted) return true;
+  if (job.is_repair) return start_of(job.frame) == job.frame || frames_[start_of(job.frame)].is_repaired;
+  if (!frames_[job.frame].is_wanted) return true;
   for (std::size_t s = begin_around(job.frame); s < end_around(job.frame); ++s)
-    if (!frames_[s].is_repaired_alone) return false;
+    if (!frames_[s].is_repaired) return false;
   return true;
 }
 
@@ -59,7 +67,7 @@ void FrameSchedule::end(const Job& job) {
   Frame& frame = frames_[job.frame];
   assert(frame.is_busy);
   frame.is_busy = false;
-  (job.is_repair_alone ? frame.is_repaired_alone : frame.is_finished) = true;
+  (job.is_repair ? frame.is_repaired : frame.is_finished) = true;
 }
 
 std::optional<std::size_t> FrameSchedule::hand_on() {

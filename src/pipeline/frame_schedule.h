@@ -6,21 +6,23 @@
 
 namespace unsnarl {
 
-/// The order of the work on the frames of a sequence. Each frame wanted is finished from the repairs by themselves of
-/// the frames around it; frames are finished in any order, and handed on in theirs. Knows nothing of what the work is;
-/// not safe from several threads.
+/// The order of the work on the frames of a sequence. Frames are repaired outward from key frames; each
+/// frame wanted is finished from the repairs of the frames around it; frames are finished in any order, and handed on
+/// in theirs. Knows nothing of what the work is; not safe from several threads.
 class FrameSchedule {
  public:
   struct Job {
     std::size_t frame = 0;
-    bool is_repair_alone = false;  ///< else: the frame is finished from those around it
+    bool is_repair = false;  ///< else: the frame is finished from those around it
   };
 
   /// Frames [first, last) of `frames` are wanted. `ahead`: so many of them are under way at once, at most: enough that
   /// none waits for long; they are lost where the work is cut off.
   FrameSchedule(std::size_t frames, std::size_t first, std::size_t last, std::size_t ahead);
 
-  /// The frames around t, itself among them, that its result depends on.
+  /// The repair of frame t starts from that of this frame; itself: from none.
+  std::size_t start_of(std::size_t t) const;
+  /// The frames around t, itself among them, whose repairs its result is made of.
   static std::size_t begin_around(std::size_t t);
   std::size_t end_around(std::size_t t) const;
 
@@ -47,7 +49,7 @@ class FrameSchedule {
 
  private:
   struct Frame {
-    bool is_wanted = true, is_busy = false, is_repaired_alone = false, is_finished = false;
+    bool is_wanted = true, is_busy = false, is_repaired = false, is_finished = false;
   };
   bool is_ready(const Job& job) const;
 
@@ -55,7 +57,7 @@ class FrameSchedule {
   std::vector<Frame> frames_;
   std::vector<Job> jobs_;  // not yet begun, in the order of need
   std::size_t opened_, handed_on_;
-  std::size_t next_alone_;  // no frame before it will be repaired by itself
+  std::size_t next_repair_;  // no frame before it will be repaired
 };
 
 }  // namespace unsnarl

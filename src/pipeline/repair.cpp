@@ -61,6 +61,7 @@ void diagnose_within_limits(RepairTask& task, const RepairControl& control, Find
 void repair_shapes(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state) {
   leave_what_may_stay(task, finders, state);
   if (has_work(task, finders, state) || !task.prepared.other_diagonals.triangles.empty()) {
+    start_stage(task, control, finders, state);
     nesting_stage(task, control, finders, state);
     untangle_stage(task, control, finders, state);
     triangulation_stage(task, control, finders, state);
@@ -154,10 +155,10 @@ RepairResult repair_nested(const SurfaceView& surface, const Nesting& nesting, c
 }
 
 RepairResult repair_from(const SurfaceView& surface, const KnownSurface& known, Finders& finders,
-                         const RepairOptions& options, Context* context) {
+                         const RepairOptions& options, Context* context, std::optional<Positions> start) {
   Context own;
   return run_under_control(options, context ? *context : own, [&](const RepairControl& control) {
-    RepairTask task(surface, options, known.prepared, known.topology);
+    RepairTask task(surface, options, known.prepared, known.topology, std::move(start));
     return run(task, control, finders);
   });
 }

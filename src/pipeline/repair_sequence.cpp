@@ -19,9 +19,10 @@
 namespace unsnarl {
 namespace {
 
-/// Frames that are under way at once: enough that no thread waits for long, but they are held in memory with the frames
-/// around them, and lost where a call is cut off (unit: frames a thread)
-constexpr std::size_t frames_by_thread = 2;
+/// Frames that are under way at once: those around a key frame for each thread, since they follow each other
+std::size_t frames_ahead() {
+  return key_frame_distance * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+}
 
 std::size_t threads_of_arena() {
   return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
@@ -40,10 +41,10 @@ class SequenceWork {
         first_(options.first),
         last_(std::min(options.last, source.frames)),
         repair_{source, options.repair, context},
-        schedule_(source.frames, first_, last_, frames_by_thread * threads_of_arena()),
+        schedule_(source.frames, first_, last_, frames_ahead()),
         frames_(source.frames),
         jitter_known_(first_),
-        forgotten_(FrameSchedule::begin_around(first_)) {}
+        forgotten_(deciding_frames(first_, source.frames).first) {}
   ~SequenceWork() { context_.on_progress = tell_; }
   SequenceWork(const SequenceWork&) = delete;
   SequenceWork& operator=(const SequenceWork&) = delete;
@@ -94,8 +95,8 @@ class SequenceWork {
     // A repair waits for its own tasks; it must not begin with another frame meanwhile.
     tbb::this_task_arena::isolate([&] {
       SequenceFrame& frame = frames_[job.frame];
-      if (job.is_repair_alone) {
-        repair_.repair_alone(job.frame, frame);
+      if (job.is_repair) {
+        repair_.repair(job.frame, schedule_.start_of(job.frame), frames_);
         if (job.frame < first_ || job.frame >= last_) frame.seen.reset();  // nothing is seen from what is not wanted
         return;
       }
@@ -108,7 +109,7 @@ class SequenceWork {
     lock.lock();
     if (context_.is_cancelled()) return;  // it may have been cut short
     schedule_.end(job);
-    if (!job.is_repair_alone) finished_[job.frame] = std::move(result);
+    if (!job.is_repair) finished_[job.frame] = std::move(result);
     hand_on();
     changed_.notify_all();
   }
@@ -137,7 +138,7 @@ class SequenceWork {
     const std::size_t end = schedule_.handed_on();
     for (; jitter_known_ < end && (jitter_known_ + 1 < end || end == last_); ++jitter_known_)
       measure_jitter(jitter_known_);
-    for (; forgotten_ + sequence_reach < end; ++forgotten_) frames_[forgotten_] = {};
+    for (; forgotten_ < deciding_frames(end, frames_.size()).first; ++forgotten_) frames_[forgotten_] = {};
   }
 
   void measure_jitter(std::size_t t) {

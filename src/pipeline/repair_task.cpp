@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/nesting.h"
@@ -123,13 +124,14 @@ RepairTask::RepairTask(const SurfaceView& of, const RepairOptions& asked, const 
 }
 
 RepairTask::RepairTask(const SurfaceView& of, const RepairOptions& asked, const PreparedSurface& known,
-                       const Diagnosis& topology)
+                       const Diagnosis& topology, std::optional<Positions> from)
     : surface(of),
       options(checked(of, asked, nullptr)),
       prepared(at_positions_of(of, known)),
       diagnosis(topology),
       diagonal(prepared.diagonal_of(of.positions)),
-      policy(policy_of(options, prepared, diagnosis.components)) {}
+      policy(policy_of(options, prepared, diagnosis.components)),
+      start(std::move(from)) {}
 
 void RepairTask::diagnose(IntersectionFinder& finder, const std::function<bool()>& stop) {
   diagnose_intersections(prepared, policy, finder, diagnosis, stop);

@@ -17,9 +17,9 @@ struct RepairTask {
   /// Prepares the surface; nothing that intersects is known yet. `nesting`: null for none. Throws std::invalid_argument
   /// where the surface or the options make no sense. The arguments must outlive it.
   RepairTask(const SurfaceView& surface, const RepairOptions& options, const Nesting* nesting);
-  /// The same of a surface that is prepared already, whose vertices have moved since.
+  /// The same of a surface that is prepared already, whose vertices have moved since. `start`: see repair_from().
   RepairTask(const SurfaceView& surface, const RepairOptions& options, const PreparedSurface& prepared,
-             const Diagnosis& topology);
+             const Diagnosis& topology, std::optional<Positions> start);
   RepairTask(const RepairTask&) = delete;  // the policy refers to the diagnosis
   RepairTask& operator=(const RepairTask&) = delete;
 
@@ -37,6 +37,7 @@ struct RepairTask {
   const double diagonal;  ///< of the input's bounding box, at the scale of the prepared positions
   PairPolicy policy;
   std::optional<NestedSurfaces> nested;  ///< none: it does not matter which surface is inside which
+  std::optional<Positions> start;        ///< where the work begins; none: at rest
 };
 
 }  // namespace unsnarl

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -145,6 +146,25 @@ std::vector<IntersectingPair> untangle_from_here(const RepairTask& task, const R
   return left;
 }
 
+/// What is to be recovered of a scene that was moved to its start and untangled there, in sets that can be recovered
+/// one by one: what hangs together, or intersects at rest, is in one. Where nothing was untangled, what is at rest
+/// stays: else more would move with every frame of a sequence [E235].
+std::vector<std::vector<Index>> sets_to_recover(const RepairState& state) {
+  const Scene& scene = state.scene;
+  const auto is_elsewhere = [&](Index v) { return scene.x.col(v) != scene.rest.col(v); };
+  std::vector<std::vector<Index>> sets;
+  for (const RepairState::Moved& moved : state.moved) sets.push_back(moved.vertices);
+  for (ConflictRegion& region : conflict_regions(scene, state.pairs_at_rest)) sets.push_back(std::move(region.core));
+  for (Index v = 0; v < scene.vertex_count(); ++v) {
+    if (!is_elsewhere(v)) continue;
+    std::vector<Index>& set = sets.emplace_back(1, v);
+    std::copy_if(scene.neighbours[v].begin(), scene.neighbours[v].end(), std::back_inserter(set), is_elsewhere);
+  }
+  sets = merge_overlapping(std::move(sets), scene.vertex_count());
+  for (std::vector<Index>& set : sets) std::erase_if(set, [&](Index v) { return scene.fixed[v] != 0; });
+  return sets;
+}
+
 bool has_moved(const Scene& scene, Index t, const Positions& x) {
   const auto moved = [&](Index v) { return x.col(v) != scene.rest.col(v); };
   return std::any_of(scene.triangles[t].begin(), scene.triangles[t].end(), moved);
@@ -218,7 +238,7 @@ Rounds work_in_rounds(const RepairTask& task, const RepairControl& control, Find
       control.phases.start("recover");
       report_progress(task, control, state, untangled_fraction, *left);
       recover_moved(task, control, *left, index, state);
-      if (round == 0) left = hold_parts(task, control, std::move(*left), index, state);
+      if (round == 0 && !task.start) left = hold_parts(task, control, std::move(*left), index, state);
     }
     note_recovered(task, state);
     if (round == 0) left = untangle_from_here(task, control, std::move(*left), index, state);
@@ -244,6 +264,28 @@ Rounds work_in_rounds(const RepairTask& task, const RepairControl& control, Find
 bool has_work(const RepairTask& task, Finders& finders, const RepairState& state) {
   if (state.ignored.size() != state.pairs_at_rest.size()) return true;
   return task.options.precision && !float32_conflicts(task, finders, state).empty();
+}
+
+void start_stage(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state) {
+  assert(finders.are_of(state.scene.triangles));
+  if (!task.start) return;
+  control.phases.start("untangle");
+  Scene& scene = state.scene;
+  for (Index v = 0; v < scene.vertex_count(); ++v)
+    if (!scene.fixed[v]) scene.x.col(v) = task.start->col(v);
+  SceneIndex index(scene, finders.as_is);
+  {
+    const AtRestNow at_rest(scene);
+    untangle(task, control, index, state, true);
+  }
+  std::vector<std::vector<Index>> sets = sets_to_recover(state);
+  state.moved.clear();
+  for (std::vector<Index>& set : sets) {
+    double depth = 0;
+    for (const Index v : set) depth = std::max(depth, (scene.x.col(v) - scene.rest.col(v)).norm());
+    state.moved.push_back({std::move(set), depth, state.regions.size()});
+    state.regions.push_back({.strategy = "start"});
+  }
 }
 
 void untangle_stage(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state) {

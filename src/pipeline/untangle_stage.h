@@ -5,6 +5,10 @@
 
 namespace unsnarl {
 
+/// Where the task names a start: moves the scene there from rest, and untangles it with as little motion from there as
+/// may be. What is elsewhere than at rest then is to be recovered. `finders`: of the scene's triangles.
+void start_stage(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state);
+
 /// Untangles the scene, recovers it toward rest and rounds it to the digits of the result, again where rounding brought
 /// intersections. Where float32 was not asked for and no way is found to hold in it, float64 has to do. `finders`: of
 /// the scene's triangles.

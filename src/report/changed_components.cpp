@@ -170,7 +170,7 @@ ChangedComponent measured(const Change& change, Index number, const std::pair<In
                           Depths& depths) {
   const Component& component = change.diagnosis.components.list[number];
   const ComponentMesh before = component_mesh(change.prepared.rest, change.triangles[number]);
-  const ComponentMesh after = component_mesh(change.x, change.triangles[number]);
+  const ComponentMesh after = before.at(change.x);
   ChangedComponent changed;
   changed.component = static_cast<std::size_t>(number);
   changed.first_face = change.prepared.triangulation.polygon[component.first_triangle];

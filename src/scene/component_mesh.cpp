@@ -7,6 +7,10 @@
 
 namespace unsnarl {
 
+ComponentMesh ComponentMesh::at(const Positions& surface) const {
+  return {triangles, surface(Eigen::all, vertices), vertices};
+}
+
 ComponentMesh component_mesh(const Positions& x, std::span<const Triangle> triangles) {
   std::vector<Index> vertices;
   for (const Triangle& t : triangles) vertices.insert(vertices.end(), t.begin(), t.end());
@@ -14,9 +18,8 @@ ComponentMesh component_mesh(const Positions& x, std::span<const Triangle> trian
   std::vector<Triangle> own(triangles.begin(), triangles.end());
   for (Triangle& t : own)
     for (Index& v : t) v = static_cast<Index>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
-  Positions of_vertices(3, static_cast<Index>(vertices.size()));
-  for (std::size_t i = 0; i < vertices.size(); ++i) of_vertices.col(static_cast<Index>(i)) = x.col(vertices[i]);
-  return {std::move(own), std::move(of_vertices)};
+  Positions of_vertices = x(Eigen::all, vertices);
+  return {std::move(own), std::move(of_vertices), std::move(vertices)};
 }
 
 std::vector<std::vector<Triangle>> triangles_by_component(std::span<const Triangle> triangles,

@@ -13,6 +13,10 @@ namespace unsnarl {
 struct ComponentMesh {
   std::vector<Triangle> triangles;
   Positions x;
+  std::vector<Index> vertices;  ///< of each column of x: which vertex of the surface it is; ascending
+
+  /// The same where the surface is now.
+  ComponentMesh at(const Positions& surface) const;
 };
 
 /// `triangles`: of one component, over the columns of x.

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "pipeline/judged.h"
 #include "unsnarl/certify.h"
 #include "unsnarl/samples.h"
@@ -60,6 +64,54 @@ TEST(RepairFrom, welding_stays_that_of_the_known_surface) {
   EXPECT_EQ(found.report.before[PairClass::duplicate], 0u);
   EXPECT_EQ(found.status, Status::embedded);
   EXPECT_TRUE(certify(surface, found.positions).embedded());
+}
+
+/// Of a vertex, at most: a length.
+double farthest(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
+  return most;
+}
+
+TEST(RepairFrom, a_start_is_followed_and_left_toward_the_input) {
+  const Surface tubes = make_sample("crossing_tubes", 16);
+  const RepairResult before = repair(tubes);
+  ASSERT_EQ(before.status, Status::embedded);
+  const KnownSurface known(tubes, {});
+  const Positions corrected = known.prepared.gather(before.positions);
+  const auto repaired_from = [&](double share) {  // of the correction
+    Finders finders(known.prepared.triangles(), known.prepared.scale);
+    return repair_from(tubes, known, finders, {}, nullptr,
+                       known.prepared.rest + share * (corrected - known.prepared.rest));
+  };
+  for (const double share : {1.0, 0.9, 3.0}) {
+    const RepairResult found = repaired_from(share);
+    EXPECT_EQ(found.status, Status::embedded) << share;
+    EXPECT_TRUE(certify(tubes, found.positions).embedded()) << share;
+    EXPECT_EQ(found.report.before.by_class, before.report.before.by_class) << share;
+    EXPECT_LT(found.report.displacement_rms_rel, 1.1 * before.report.displacement_rms_rel) << share;
+  }
+  EXPECT_LT(farthest(repaired_from(1).positions, before.positions), 0.5 * farthest(before.positions, tubes.positions));
+}
+
+TEST(RepairFrom, what_is_fixed_or_without_intersections_takes_nothing_from_a_start) {
+  const Surface tubes = make_sample("crossing_tubes", 16);
+  const KnownSurface known(tubes, {});
+  const Positions elsewhere = known.prepared.rest.array() + 0.01;
+  RepairOptions options;
+  options.fixed.assign(tubes.positions.size() / 3, 0);
+  for (std::size_t v = 0; v < options.fixed.size(); v += 7) options.fixed[v] = 1;
+  Finders finders(known.prepared.triangles(), known.prepared.scale);
+  const RepairResult found = repair_from(tubes, known, finders, options, nullptr, elsewhere);
+  for (std::size_t v = 0; v < options.fixed.size(); ++v)
+    if (options.fixed[v])
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(found.positions[3 * v + k], tubes.positions[3 * v + k]);
+
+  const RepairResult clean = repair(tubes);
+  const SurfaceView embedded = {clean.positions, tubes.corners, tubes.offsets};
+  const KnownSurface known_clean(embedded, {});
+  Finders of_clean(known_clean.prepared.triangles(), known_clean.prepared.scale);
+  EXPECT_EQ(repair_from(embedded, known_clean, of_clean, {}, nullptr, elsewhere).positions, clean.positions);
 }
 
 }  // namespace

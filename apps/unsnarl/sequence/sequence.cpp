@@ -155,8 +155,8 @@ class SequenceRun {
   void read_contents() {
     // In one file, frames outside the range matter too, for they may be done.
     const bool all = files_->is_one_file();
-    const std::size_t begin = all ? 0 : sequence_.first - std::min(sequence_.first, sequence_reach);
-    const std::size_t end = all ? files_->count() : std::min(sequence_.last + sequence_reach, files_->count());
+    const std::size_t begin = all ? 0 : deciding_frames(sequence_.first, files_->count()).first;
+    const std::size_t end = all ? files_->count() : deciding_frames(sequence_.last - 1, files_->count()).last;
     contents_.resize(files_->count());
     for (std::size_t t = begin; t < end; ++t) contents_[t] = files_->content_hash(t);
     Json asked = Json::parse(unsnarl::report_json({}, sequence_.repair))["options"];
@@ -176,8 +176,11 @@ class SequenceRun {
   /// Hashes everything that decides what a frame becomes.
   std::string key_of(std::size_t t) const {
     std::string all = asked_for_;
-    for (std::size_t s = t - std::min(t, sequence_reach); s <= std::min(t + sequence_reach, files_->count() - 1); ++s)
-      all += fmt::format(" {}:{}", static_cast<long>(s) - static_cast<long>(t), contents_[s]);
+    const DecidingFrames deciding = deciding_frames(t, files_->count());
+    const auto seen_from_here = [&](std::size_t s) { return static_cast<long>(s) - static_cast<long>(t); };
+    for (std::size_t s = deciding.first; s < deciding.last; ++s)
+      all +=
+          fmt::format(" {}:{}:{}", seen_from_here(s), seen_from_here(key_frame_of(s, files_->count())), contents_[s]);
     return sha256(all);
   }
 
