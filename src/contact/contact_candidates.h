@@ -13,6 +13,7 @@
 #include "contact/distances.h"
 #include "contact/four_boxes.h"
 #include "contact/motion_bounds.h"
+#include "geometry/block_list.h"
 #include "geometry/parallel_lists.h"
 #include "mesh/adjacency.h"
 
@@ -49,13 +50,12 @@ class ContactCandidates {
 
   /// Finds all stencils with a vertex v with moves[v] != 0 whose primitives may come closer than their radius while
   /// every vertex keeps to its bounds, and a few more. `moves` and `radius`, a length, have one entry a vertex; the
-  /// radius of a stencil is radius_of(). `items` gets what `make(near, item)` makes of those of which it returns true;
-  /// it is called from many threads. Parallel; the order depends only on the arguments, and on those of the first call.
-  /// Throws WorkStopped soon after `stop` says so.
-  template <class Item, class Make>
+  /// radius of a stencil is radius_of(). `items` (a vector or BlockList) gets what `make(near, item)` makes of those of
+  /// which it returns true; it is called from many threads. Parallel; the order depends only on the arguments, and on
+  /// those of the first call. Throws WorkStopped soon after `stop` says so.
+  template <class Items, class Make>
   void gather(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
-              std::span<const std::uint8_t> moves, Make&& make, std::vector<Item>& items,
-              const std::function<bool()>& stop = {}) {
+              std::span<const std::uint8_t> moves, Make&& make, Items& items, const std::function<bool()>& stop = {}) {
     items.clear();
     start(x, radius, bounds, moves);
     gather_active(x, radius, bounds, moves, std::forward<Make>(make), items, stop, {});
@@ -70,10 +70,10 @@ class ContactCandidates {
   /// The same for the stencils with one of `vertices`, after only the positions and bounds of these have changed since
   /// the last gathering. The cost grows with their number. Finds each stencil once, and adds to `items`. Returns false,
   /// and adds nothing, where they are more than the limit.
-  template <class Item, class Make>
+  template <class Items, class Make>
   bool gather_around(std::span<const Index> vertices, const Positions& x, std::span<const double> radius,
-                     const MotionBounds& bounds, Make&& make, std::vector<Item>& items,
-                     const std::function<bool()>& stop = {}, const ListLimit& limit = {}) {
+                     const MotionBounds& bounds, Make&& make, Items& items, const std::function<bool()>& stop = {},
+                     const ListLimit& limit = {}) {
     start_around(vertices, x, radius, bounds);
     return gather_active(x, radius, bounds, around_, std::forward<Make>(make), items, stop, limit);
   }
@@ -113,10 +113,11 @@ class ContactCandidates {
   std::size_t visit_pair(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
                          std::span<const std::uint8_t> moves, Index a, Index b, Index task, const OnStencil& on_stencil,
                          bool counts_listed) const;
-  template <class Item, class Make>
+  template <class Items, class Make>
   bool gather_active(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
-                     std::span<const std::uint8_t> moves, Make&& make, std::vector<Item>& items,
-                     const std::function<bool()>& stop, const ListLimit& limit) const {
+                     std::span<const std::uint8_t> moves, Make&& make, Items& items, const std::function<bool()>& stop,
+                     const ListLimit& limit) const {
+    using Item = typename Items::value_type;
     std::vector<std::deque<Item>> lists(static_cast<std::size_t>(bvh_.task_count()));  // no room for what may come
     const auto list = [&](Index task, const NearStencil& near) {
       Item item;

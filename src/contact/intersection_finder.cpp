@@ -97,7 +97,11 @@ IntersectionFinder::IntersectionFinder(std::span<const Triangle> triangles, Inde
     : triangles_(triangles), active_count_(active_count), passing_(passing), tree_(triangles, active_count) {}
 
 void IntersectionFinder::begin_change() {
-  if (is_changing_) *this = IntersectionFinder(triangles_, active_count_, passing_);
+  if (is_changing_) {
+    const bool expects_small_steps = expects_small_steps_;
+    *this = IntersectionFinder(triangles_, active_count_, passing_);
+    expects_small_steps_ = expects_small_steps;
+  }
   is_changing_ = true;
 }
 
@@ -225,7 +229,7 @@ std::vector<IntersectingPair> IntersectionFinder::find(const Positions& x, const
   note(x);
   const std::size_t undecided = undecided_.items().size();
   is_all_undecided_ |= undecided > 0 && !is_few(undecided, static_cast<std::size_t>(active_count_));
-  if (is_all_undecided_ && decided_as_a_whole_ >= seldom && !tree_.is_turned()) {
+  if (is_all_undecided_ && expects_small_steps_ && decided_as_a_whole_ >= seldom && !tree_.is_turned()) {
     if (!moving_) moving_.emplace(triangles_, active_count_, std::move(*fans_), passing_);
     pairs_ = moving_->find(x_);
   } else if (is_all_undecided_) {

@@ -25,6 +25,10 @@ class IntersectionFinder {
   explicit IntersectionFinder(std::span<const Triangle> triangles, Passing passing = {});
   IntersectionFinder(std::span<const Triangle> triangles, Index active_count, Passing passing = {});
 
+  /// Says that the surface will move as a whole, a little at a time: find() then lists the pairs that are near each
+  /// other and follows them, which is faster and takes more memory than the surface itself.
+  void expect_small_steps() { expects_small_steps_ = true; }
+
   /// All intersecting pairs at x, a < b, sorted. Decided by exact predicates; only triangles that moved since the last
   /// call are tested again. Same result at any thread count. Throws WorkStopped soon after `stop` says so.
   std::vector<IntersectingPair> find(const Positions& x, const std::function<bool()>& stop = {});
@@ -92,6 +96,7 @@ class IntersectionFinder {
   std::span<const Triangle> triangles_;
   Index active_count_;
   Passing passing_;
+  bool expects_small_steps_ = false;
   bool is_changing_ = false;
   FaceTree tree_;
   Some outside_tree_;                          // triangles that have moved since it was updated

@@ -82,6 +82,7 @@ bool NearPairs::is_wanted(Index a, Index b) const {
 }
 
 void NearPairs::look_for_all() {
+  std::vector<Pair>().swap(pairs_);
   std::vector<std::vector<Pair>> found(bvh_.task_count());
   bvh_.self_pairs_parallel([&](Index task, Index i, Index j) {
     if (is_wanted(i, j)) found[task].push_back({std::min(i, j), std::max(i, j)});

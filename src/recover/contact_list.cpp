@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "contact/stop_check.h"
-#include "geometry/parallel_lists.h"
+#include "geometry/block_list.h"
 
 namespace unsnarl {
 namespace {
@@ -38,7 +38,7 @@ void ContactList::gather(const Positions& x, double activation, const MovingVert
 }
 
 void ContactList::clear() {
-  std::vector<ContactRule>().swap(list_);
+  list_.clear();
   std::vector<SeparatedStencil>().swap(in_the_way_);
 }
 
@@ -73,31 +73,28 @@ double ContactList::follow(const Positions& x, Positions& p, const MovingVertice
   MotionBounds way;  // a vertex may stop at any point of its step
   way.reset(static_cast<Index>(x.cols()));
   way.along = p;
-  gather_in_chunks(
-      static_cast<Index>(list_.size()), in_the_way_, [&](Index begin, Index end, std::vector<SeparatedStencil>& list) {
-        end_long_work_if(rules_.options().stop, list_.size());
-        for (Index k = begin; k < end; ++k) {
-          const BarrierStencil& s = list_[k].stencil;
-          const double left = list_[k].distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
-          const double needed = s.separation + rules_.options().roundoff;
-          if (left > needed || least_distance(s.stencil, x, way, list_[k].direction) > needed) continue;
-          list.push_back({s.stencil, s.separation});
-        }
-      });
+  gather_from_blocks(list_, in_the_way_, [&](std::span<const ContactRule> block, std::vector<SeparatedStencil>& list) {
+    end_long_work_if(rules_.options().stop, list_.size());
+    for (const ContactRule& rule : block) {
+      const BarrierStencil& s = rule.stencil;
+      const double left = rule.distance - approach(s.stencil, travelled_) - approach(s.stencil, travel_);
+      const double needed = s.separation + rules_.options().roundoff;
+      if (left > needed || least_distance(s.stencil, x, way, rule.direction) > needed) continue;
+      list.push_back({s.stencil, s.separation});
+    }
+  });
   return share;
 }
 
 void ContactList::pick_near(const Positions& x, const MovingVertices& moving, std::vector<BarrierStencil>& near) {
   for (Index v : moving.vertices) travelled_[v] = (x.col(v) - gathered_at_.col(v)).norm();
-  gather_in_chunks(static_cast<Index>(list_.size()), near,
-                   [&](Index begin, Index end, std::vector<BarrierStencil>& list) {
-                     end_long_work_if(rules_.options().stop, list_.size());
-                     for (Index k = begin; k < end; ++k) {
-                       const ContactRule& rule = list_[k];
-                       if (rule.distance - approach(rule.stencil.stencil, travelled_) < rule.stencil.activation)
-                         list.push_back(rule.stencil);
-                     }
-                   });
+  gather_from_blocks(list_, near, [&](std::span<const ContactRule> block, std::vector<BarrierStencil>& list) {
+    end_long_work_if(rules_.options().stop, list_.size());
+    for (const ContactRule& rule : block) {
+      if (rule.distance - approach(rule.stencil.stencil, travelled_) < rule.stencil.activation)
+        list.push_back(rule.stencil);
+    }
+  });
 }
 
 std::vector<Stencil> ContactList::touching() const {

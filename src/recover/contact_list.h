@@ -39,7 +39,7 @@ class ContactList {
 
   ContactRules& rules_;
   double h_;
-  std::vector<ContactRule> list_;
+  BlockList<ContactRule> list_;
   Positions gathered_at_;        // where each vertex was when the list was last gathered around it
   MotionBounds bounds_;          // where the list allows each vertex to be
   std::vector<double> margins_;  // per vertex: how far from its step it may be

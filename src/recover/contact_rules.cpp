@@ -32,17 +32,6 @@ std::array<Index, 3> key_of(const Stencil& s) {
   return {static_cast<Index>(s.kind), first, second};
 }
 
-/// Moves the rules of `from` to the end of `to`, which grows no more than it needs: lists are the most memory that a
-/// recovery takes.
-void take_over(std::vector<ContactRule>&& from, std::vector<ContactRule>& to) {
-  if (to.empty()) {
-    to = std::move(from);
-  } else {
-    to.reserve(to.size() + from.size());
-    to.insert(to.end(), from.begin(), from.end());
-  }
-}
-
 }  // namespace
 
 ContactRules::ContactRules(const Patch& patch, std::span<const IntersectingPair> pairs,
@@ -119,7 +108,7 @@ std::vector<double> ContactRules::shares_of_h(const Positions& x) const {
 }
 
 void ContactRules::gather(const Positions& x, double activation, const MotionBounds& bounds,
-                          std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) {
+                          std::span<const std::uint8_t> moves, BlockList<ContactRule>& rules) {
   rules.clear();
   const double least = std::min(activation, options_.reach_gaps * options_.min_gap);
   radius_ = shares_of_h(x);
@@ -130,14 +119,13 @@ void ContactRules::gather(const Positions& x, double activation, const MotionBou
 }
 
 bool ContactRules::gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
-                                 const MotionBounds& bounds, std::vector<ContactRule>& rules, const ListLimit& limit) {
+                                 const MotionBounds& bounds, BlockList<ContactRule>& rules, const ListLimit& limit) {
   is_anew_.assign(static_cast<std::size_t>(x.cols()), 0);
   for (Index v : vertices) is_anew_[v] = 1;
-  std::erase_if(rules, [&](const ContactRule& rule) {
+  rules.erase_if([&](const ContactRule& rule) {
     const Stencil& s = rule.stencil.stencil;
     return std::any_of(s.v.begin(), s.v.begin() + s.size(), [&](Index v) { return is_anew_[v] != 0; });
   });
-  if (rules.empty()) std::vector<ContactRule>().swap(rules);  // what it has room for is much
   const auto make = [&](const NearStencil& near, ContactRule& rule) {
     return rule_of(near, &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x)), rule);
   };
@@ -170,12 +158,12 @@ ContactRules::Close ContactRules::measure(const Positions& x, double around, std
 }
 
 void ContactRules::add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
-                                 std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) const {
+                                 std::span<const std::uint8_t> moves, BlockList<ContactRule>& rules) const {
   std::vector<ContactRule> added;
   gather_in_chunks(patch_.active_count, added, [&](Index begin, Index end, std::vector<ContactRule>& list) {
     add_altitudes_of(from, x, bounds, moves, begin, end, list);
   });
-  take_over(std::move(added), rules);
+  for (const ContactRule& rule : added) rules.push_back(rule);
 }
 
 bool ContactRules::are_neighbours(const Stencil& s, double rest_distance) const {

@@ -12,6 +12,7 @@
 #include "contact/contact_candidates.h"
 #include "contact/sheet_gaps.h"
 #include "energy/ipc_barrier.h"
+#include "geometry/block_list.h"
 #include "recover/recover_options.h"
 #include "scene/patch.h"
 
@@ -75,13 +76,13 @@ class ContactRules {
   /// keeps to its bounds. That distance is `activation` times the share of h that counts there, or the stencil's reach,
   /// whichever is less (own altitudes: the reach), but never too close to the separation.
   void gather(const Positions& x, double activation, const MotionBounds& bounds, std::span<const std::uint8_t> moves,
-              std::vector<ContactRule>& rules);
+              BlockList<ContactRule>& rules);
 
   /// Gathers the rules of stencils at `vertices` again, after these vertices got new bounds that start at x. The cost
   /// grows with their number. `from`: where each vertex's bounds start; activation distances as before. Returns false
   /// where they are more than the limit: they have to be gathered again, with other bounds.
   bool gather_around(std::span<const Index> vertices, const Positions& from, const Positions& x,
-                     const MotionBounds& bounds, std::vector<ContactRule>& rules, const ListLimit& limit = {});
+                     const MotionBounds& bounds, BlockList<ContactRule>& rules, const ListLimit& limit = {});
 
   /// Stencils that are close, own altitudes apart.
   struct Close {
@@ -98,7 +99,7 @@ class ContactRules {
  private:
   /// Adds the rules of altitudes with a moving vertex.
   void add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,
-                     std::span<const std::uint8_t> moves, std::vector<ContactRule>& rules) const;
+                     std::span<const std::uint8_t> moves, BlockList<ContactRule>& rules) const;
   bool are_neighbours(const Stencil& stencil, double rest_distance) const;
   /// Lists the neighbours by OneSheet.
   void find_sheets();

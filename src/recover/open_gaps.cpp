@@ -74,7 +74,7 @@ void open_gaps(Positions& x, ContactRules& rules, const OrientedFaces& oriented,
                std::span<const std::uint8_t> moves, const OpenGapsOptions& options) {
   const double roundoff = rules.options().roundoff, beyond = options.target - rules.options().min_gap;
   double target = 0;  // of the last round
-  std::vector<ContactRule> close;
+  BlockList<ContactRule> close;
   std::vector<SeparatedStencil> filter;
   std::vector<Widening> gaps;
   MotionBounds bounds;

@@ -7,7 +7,7 @@ namespace unsnarl {
 Index snap_to_rest(Positions& x, const Positions& rest, double reach, ContactRules& rules,
                    const OrientedFaces& oriented, EmbeddingGuard& guard, std::span<const std::uint8_t> moves,
                    int rounds) {
-  std::vector<ContactRule> close;
+  BlockList<ContactRule> close;
   std::vector<SeparatedStencil> filter;
   std::vector<std::uint8_t> trying(moves.size());
   MotionBounds bounds;

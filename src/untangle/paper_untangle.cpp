@@ -52,6 +52,7 @@ class PaperUntangle {
         whole_polygons_(options.whole_polygons && options.mesh_energy == PaperMeshEnergy::penetration_depth &&
                         polygon_penalty_.polygons().size() < triangles_.size()),
         finder_(triangles_, patch.active_count) {
+    finder_.expect_small_steps();
     squared_bandwidth_.resize(rest_.cols());
     for (Index v = 0; v < rest_.cols(); ++v) {
       double length = 0;

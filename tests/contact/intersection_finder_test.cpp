@@ -152,7 +152,8 @@ TEST(IntersectionFinder, pairs_of_two_groups_are_left_out) {
   std::fill(group_of.begin() + sheets.x.cols() / 2, group_of.end(), 1);
   const Passing groups(group_of);
   const auto are_of_two = [&](const IntersectingPair& pair) { return !groups.meet(sheets.triangles, pair.a, pair.b); };
-  IntersectionFinder all(sheets.triangles), apart(sheets.triangles, groups);
+  IntersectionFinder all(sheets.triangles), apart(sheets.triangles, groups), followed(sheets.triangles, groups);
+  followed.expect_small_steps();
   std::size_t left_out = 0, found = 0;
   std::uint64_t state = 3;
   const auto random = [&] { return state = state * 6364136223846793005ULL + 1442695040888963407ULL, state >> 33; };
@@ -165,6 +166,7 @@ TEST(IntersectionFinder, pairs_of_two_groups_are_left_out) {
     left_out += std::erase_if(expected, are_of_two);
     found += expected.size();
     EXPECT_TRUE(apart.find(sheets.x) == expected) << moved << " moved";
+    EXPECT_TRUE(followed.find(sheets.x) == expected) << moved << " moved";
   }
   EXPECT_GT(left_out, 1000u);
   EXPECT_GT(found, 500u);
@@ -178,7 +180,8 @@ TEST(IntersectionFinder, pairs_of_parts_that_pass_are_left_out) {
   const PassingParts parts(3, std::vector<std::array<Index, 2>>{{0, 1}, {2, 2}});
   const Passing passing({}, part_of, parts);
   IntersectionFinder all(sheets.triangles), apart(sheets.triangles, passing),
-      others(sheets.triangles, passing.only_what_passes());
+      others(sheets.triangles, passing.only_what_passes()), followed(sheets.triangles, passing);
+  followed.expect_small_steps();
   std::size_t joined = 0;
   std::uint64_t state = 5;
   const auto random = [&] { return state = state * 6364136223846793005ULL + 1442695040888963407ULL, state >> 33; };
@@ -194,6 +197,7 @@ TEST(IntersectionFinder, pairs_of_parts_that_pass_are_left_out) {
       (pass ? passed : expected).push_back(pair);
     }
     EXPECT_TRUE(apart.find(sheets.x) == expected) << moved << " moved";
+    EXPECT_TRUE(followed.find(sheets.x) == expected) << moved << " moved";
     EXPECT_TRUE(others.find(sheets.x) == passed) << moved << " moved";
   }
   EXPECT_GT(joined, 100u);
@@ -217,6 +221,7 @@ TEST(IntersectionFinder, few_active_faces_that_move_over_and_over_are_decided_as
   WavySheets sheets(0.5);
   const Index active = 600;
   IntersectionFinder finder(sheets.triangles, active);
+  finder.expect_small_steps();
   std::uint64_t state = 2;
   const auto random = [&] { return state = state * 6364136223846793005ULL + 1442695040888963407ULL, state >> 33; };
   std::size_t found = 0;

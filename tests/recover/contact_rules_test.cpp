@@ -40,7 +40,7 @@ ContactRule rule_of_vertex_0(const Patch& patch, const std::vector<IntersectingP
   options.roundoff = 1e-13;
   ContactRules rules(patch, pairs, options);
   const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
-  std::vector<ContactRule> found;
+  BlockList<ContactRule> found;
   rules.gather(patch.x, 1, anywhere_within(std::vector<double>(6, 1)), moves, found);
   for (const ContactRule& rule : found) {
     if (rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}}) return rule;
@@ -68,7 +68,7 @@ TEST(ContactRules, what_passes_through_each_other_has_none) {
     const PassingParts parts(2, std::vector<std::array<Index, 2>>{{0, pass ? 1 : 0}});
     patch.parts = &parts;
     ContactRules rules(patch, {}, {.min_gap = 0.01, .roundoff = 1e-13});
-    std::vector<ContactRule> found;
+    BlockList<ContactRule> found;
     rules.gather(patch.x, 1, anywhere_within(std::vector<double>(6, 1)), std::vector<std::uint8_t>{1, 1, 1, 0, 0, 0},
                  found);
     EXPECT_EQ(std::all_of(found.begin(), found.end(), [](const ContactRule& rule) { return rule.own_altitude; }), pass);
@@ -101,19 +101,19 @@ Patch folded_pair(double height) {
   return patch;
 }
 
-std::vector<ContactRule> rules_of(const Patch& patch, const std::vector<IntersectingPair>& pairs) {
+BlockList<ContactRule> rules_of(const Patch& patch, const std::vector<IntersectingPair>& pairs) {
   ContactRuleOptions options;
   options.min_gap = 0.01;
   options.roundoff = 1e-13;
   ContactRules rules(patch, pairs, options);
-  std::vector<ContactRule> found;
+  BlockList<ContactRule> found;
   rules.gather(patch.x, 1, anywhere_within(std::vector<double>(4, 1)), std::vector<std::uint8_t>(4, 1), found);
-  std::erase_if(found, [](const ContactRule& rule) { return rule.stencil.stencil.kind != StencilKind::vertex_face; });
+  found.erase_if([](const ContactRule& rule) { return rule.stencil.stencil.kind != StencilKind::vertex_face; });
   return found;
 }
 
 TEST(ContactRules, neighbours_keep_a_share_of_their_rest_distance) {
-  const std::vector<ContactRule> rules = rules_of(folded_pair(0.004), {});
+  const BlockList<ContactRule> rules = rules_of(folded_pair(0.004), {});
   ASSERT_EQ(rules.size(), 2u);
   for (const ContactRule& rule : rules) {
     EXPECT_LE(rule.stencil.separation, 0.01);
@@ -141,7 +141,7 @@ TEST(ContactRules, near_along_a_sheet_are_neighbours) {
     ContactRuleOptions options;
     options.min_gap = min_gap;
     ContactRules rules(patch, {}, options);
-    std::vector<ContactRule> found;
+    BlockList<ContactRule> found;
     rules.gather(patch.x, 1, anywhere_within(std::vector<double>(8, 0.5)), std::vector<std::uint8_t>(8, 1), found);
     const Stencil wanted = {StencilKind::edge_edge, {0, 1, 6, 7}};
     const auto rule = std::find_if(found.begin(), found.end(), [&](const ContactRule& r) {
@@ -156,7 +156,7 @@ TEST(ContactRules, near_along_a_sheet_are_neighbours) {
 }
 
 TEST(ContactRules, flat_folds_want_a_gap_only_where_they_are_in_conflict) {
-  const std::vector<ContactRule> in_conflict = rules_of(folded_pair(0), {{0, 1}});
+  const BlockList<ContactRule> in_conflict = rules_of(folded_pair(0), {{0, 1}});
   EXPECT_FALSE(in_conflict.empty());
   for (const ContactRule& rule : in_conflict) EXPECT_GT(rule.stencil.separation, 0.009);
   // Without an intersection at rest (zero-area faces) a distance of zero is legitimate: no rule.
@@ -171,7 +171,7 @@ TEST(ContactRules, list_what_may_come_near_by_moving_as_far_as_allowed) {
     ContactRuleOptions options;
     options.min_gap = 0.01;
     ContactRules rules(patch, {}, options);
-    std::vector<ContactRule> found;
+    BlockList<ContactRule> found;
     rules.gather(patch.x, 1, anywhere_within({room, 0, 0, 0, 0, 0}), moves, found);
     return std::any_of(found.begin(), found.end(), [](const ContactRule& rule) {
       return rule.stencil.stencil == Stencil{StencilKind::vertex_face, {0, 3, 4, 5}};
@@ -191,7 +191,7 @@ TEST(ContactRules, around_a_vertex_judge_closed_where_it_is_now) {
   ContactRules rules(patch, {}, options);
   const std::vector<std::uint8_t> moves(6, 1);
   MotionBounds bounds = anywhere_within(std::vector<double>(6, 0.2));
-  std::vector<ContactRule> found;
+  BlockList<ContactRule> found;
   const Positions from = patch.x;
   rules.gather(from, 0.1, bounds, moves, found);
   const std::size_t count = found.size();
@@ -218,7 +218,7 @@ double rules_a_vertex(Index cells, double h) {
   ContactRuleOptions options;
   options.h = h;
   ContactRules rules(patch, {}, options);
-  std::vector<ContactRule> found;
+  BlockList<ContactRule> found;
   const std::size_t count = static_cast<std::size_t>(patch.x.cols());
   rules.gather(patch.x, 0.1, anywhere_within(std::vector<double>(count, 0)), std::vector<std::uint8_t>(count, 1),
                found);
@@ -235,7 +235,7 @@ TEST(ContactRules, faces_guard_their_own_altitudes) {
   patch.x.col(0) = 0.5 * (patch.x.col(1) + patch.x.col(2)) + Vec3(0, 0, 0.02);  // squeezed
   ContactRules rules(patch, {}, {});
   const std::vector<std::uint8_t> moves = {1, 1, 1, 0, 0, 0};
-  std::vector<ContactRule> found;
+  BlockList<ContactRule> found;
   rules.gather(patch.x, 0.01, anywhere_within(std::vector<double>(6, 0)), moves, found);
   int altitudes = 0;
   for (const ContactRule& rule : found) altitudes += rule.own_altitude;

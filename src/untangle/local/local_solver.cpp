@@ -213,6 +213,7 @@ LocalResult solve_locally(Patch& patch, const LocalSettings& strategy, std::span
   if (!metric.ok()) return {};
   const LocalProblem problem{patch, strategy, options, tolerated, start, edges, metric};
   IntersectionFinder finder(patch.triangles, patch.active_count, patch.passing());
+  finder.expect_small_steps();
   PenaltyForce penalty(patch, options.margin * h);
   const FlipGuard guard(patch, in_conflict(patch, finder.find(start)));
 
