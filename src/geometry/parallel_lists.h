@@ -26,6 +26,9 @@ void append_lists(std::vector<List>&& lists, std::vector<Item>& out) {
 /// Replaces `out` by the lists.
 template <class List, class Item>
 void join_lists(std::vector<List>&& lists, std::vector<Item>& out) {
+  std::size_t size = 0;
+  for (const auto& list : lists) size += list.size();
+  if (size > out.capacity()) std::vector<Item>().swap(out);  // else there would be two for a moment
   out.clear();
   append_lists(std::move(lists), out);
 }
