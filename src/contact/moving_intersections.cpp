@@ -4,15 +4,21 @@
 
 #include "contact/intersection_finder.h"
 #include "geometry/parallel_lists.h"
+#include "geometry/triangle_intersection.h"
 #include "mesh/adjacency.h"
 
 namespace unsnarl {
-void MovingIntersections::add_near(const Positions& x, Index begin, Index end,
-                                   std::vector<IntersectingPair>& found) const {
+void MovingIntersections::add_near(const Positions& x, Index begin, Index end, std::vector<IntersectingPair>& found) {
   PairClass kind;
-  for (Index k = begin; k < end; ++k) {
-    const auto [a, b] = near_.pairs()[k];
-    if (near_.overlap(a, b) && intersects(x, triangles_[a], triangles_[b], kind)) found.push_back({a, b, kind});
+  for (NearPairs::Pair& pair : near_.pairs().subspan(begin, end - begin)) {
+    const Index a = pair.a, b = pair.b;
+    if (frames_.holds(a, b, pair.clearance)) continue;
+    double apart = near_.gap(a, b);
+    if (!(apart > 0)) apart = separation(points_of(x, triangles_[a]), points_of(x, triangles_[b]));
+    if (apart > 0)
+      pair.clearance = frames_.clearance(a, b, apart);
+    else if (intersects(x, triangles_[a], triangles_[b], kind))
+      found.push_back({a, b, kind});
   }
 }
 
@@ -36,6 +42,7 @@ void MovingIntersections::add_joined(const Positions& x, Index begin, Index end,
 
 std::vector<IntersectingPair> MovingIntersections::find(const Positions& x) {
   near_.update(x);
+  frames_.update(x);
   fans_.update(x);
   std::vector<IntersectingPair> pairs, joined;
   gather_in_chunks(static_cast<Index>(near_.pairs().size()), pairs,

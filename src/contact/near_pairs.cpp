@@ -35,7 +35,6 @@ void NearPairs::update(const Positions& x) {
   const Index n = static_cast<Index>(triangles_.size());
   const bool is_new = boxes_.empty();
   boxes_.resize(n);
-  rounded_.resize(n);
   padded_.resize(n);
   left_.resize(n);
   if (is_new) {
@@ -56,7 +55,6 @@ void NearPairs::update(const Positions& x) {
         ++count;
       }
       boxes_[t] = box;
-      rounded_[t] = RoundedBox(box);
     }
     return count;
   });
@@ -85,13 +83,13 @@ void NearPairs::look_for_all() {
   std::vector<Pair>().swap(pairs_);
   std::vector<std::vector<Pair>> found(bvh_.task_count());
   bvh_.self_pairs_parallel([&](Index task, Index i, Index j) {
-    if (is_wanted(i, j)) found[task].push_back({std::min(i, j), std::max(i, j)});
+    if (is_wanted(i, j)) found[task].push_back({std::min(i, j), std::max(i, j), {}});
   });
   join_lists(std::move(found), pairs_);
 }
 
 void NearPairs::look_for_those_that_left() {
-  std::erase_if(pairs_, [&](const Pair& pair) { return left_[pair[0]] || left_[pair[1]]; });
+  std::erase_if(pairs_, [&](const Pair& pair) { return left_[pair.a] || left_[pair.b]; });
   std::vector<Pair> found;
   gather_in_chunks(static_cast<Index>(triangles_.size()), found, [&](Index begin, Index end, std::vector<Pair>& list) {
     for (Index t = begin; t < end; ++t) {
@@ -100,7 +98,7 @@ void NearPairs::look_for_those_that_left() {
         // Two that left find each other twice.
         if (left_[other] && other <= t) return;
         if (t >= active_count_ && other >= active_count_) return;
-        if (is_wanted(t, other)) list.push_back({std::min(t, other), std::max(t, other)});
+        if (is_wanted(t, other)) list.push_back({std::min(t, other), std::max(t, other), {}});
       });
     }
   });

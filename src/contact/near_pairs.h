@@ -1,11 +1,12 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "contact/bvh.h"
+#include "contact/motion_frames.h"
 #include "contact/passing.h"
 #include "geometry/types.h"
 
@@ -16,7 +17,13 @@ namespace unsnarl {
 /// looked up again.
 class NearPairs {
  public:
-  using Pair = std::array<Index, 2>;  // ascending
+  struct Pair {
+    Index a, b;                              ///< ascending
+    MotionFrames::Clearance clearance = {};  ///< the caller's; nothing known where the pair is new
+    /// Same triangles.
+    friend bool operator==(const Pair& p, const Pair& q) { return p.a == q.a && p.b == q.b; }
+    friend bool operator<(const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
+  };
 
   /// Pairs of two triangles >= active_count are left out, and those that pass through each other. The span must outlive
   /// this.
@@ -26,9 +33,13 @@ class NearPairs {
   /// Takes over the positions. The list then holds every pair whose boxes overlap, each once, and some pairs that are a
   /// little farther apart. Its order depends on all positions so far.
   void update(const Positions& x);
-  std::span<const Pair> pairs() const { return pairs_; }
-  /// Whether the boxes of two triangles overlap at the positions. May be true for a few that do not.
-  bool overlap(Index a, Index b) const { return rounded_[a].overlaps(rounded_[b]); }
+  std::span<Pair> pairs() { return pairs_; }
+  /// Whether the boxes of two triangles overlap at the positions.
+  bool overlap(Index a, Index b) const { return boxes_[a].overlaps(boxes_[b]); }
+  /// How far apart these boxes are along a coordinate axis, at most; not above 0 where they overlap.
+  double gap(Index a, Index b) const {
+    return std::max((boxes_[a].lo - boxes_[b].hi).maxCoeff(), (boxes_[b].lo - boxes_[a].hi).maxCoeff());
+  }
 
  private:
   bool is_wanted(Index a, Index b) const;
@@ -40,7 +51,6 @@ class NearPairs {
   Passing passing_;
   double length_ = 0;                // mean diagonal of the boxes
   std::vector<Box> boxes_, padded_;  // at the positions; enlarged, as of when the triangle last left it
-  std::vector<RoundedBox> rounded_;  // the boxes at the positions
   std::vector<std::uint8_t> left_;   // per triangle: has left its box
   Bvh bvh_;                          // over the enlarged boxes
   std::vector<Pair> pairs_;

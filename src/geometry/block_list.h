@@ -78,7 +78,7 @@ class BlockList {
   std::span<const std::vector<Item>> blocks() const { return blocks_; }
 
  private:
-  /// Items of each block but the last, which has at least one [E290] (unit: items)
+  /// Items of each block but the last, which has at least one [E243] (unit: items)
   static constexpr std::size_t block_size = 1024;
 
   std::vector<std::vector<Item>> blocks_;

@@ -1,6 +1,8 @@
 #include "geometry/triangle_intersection.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "geometry/predicates.h"
 
@@ -9,6 +11,88 @@ namespace {
 
 Sign side_of(const TrianglePoints& t, const Vec3& p) {
   return orient3d(t[0], t[1], t[2], p);
+}
+
+/// Squares of shorter vectors may underflow (unit: lengths of vectors)
+constexpr double least_size = 1e-140;
+
+/// The plane of a triangle, for the sides of many points: signs as of orient3d. The normal is computed once; its
+/// rounding is part of the bound below which orient3d decides.
+class PlaneSides {
+ public:
+  explicit PlaneSides(const TrianglePoints& t) : t_(t) {
+    const Vec3 u = t[1] - t[0], v = t[2] - t[0];
+    normal_ = u.cross(v);
+    const double reach = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff()), reach2 = reach * reach;
+    error_ = reach2 < largest ? height_bound * reach2 : std::numeric_limits<double>::infinity();
+  }
+
+  Sign of(const Vec3& p) const {
+    const Height height = height_of(p);
+    return height.is_certain() ? detail::sign_of(height.value) : side_of(t_, p);
+  }
+
+  /// Lower bound of the distance between the plane and a triangle; 0 where they may meet.
+  double beyond(const TrianglePoints& points) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    Sign side = 0;
+    for (const Vec3& p : points) {
+      const Height height = height_of(p);
+      const Sign here = detail::sign_of(height.value);
+      if (!height.is_certain() || here == -side) return 0;
+      side = here;
+      nearest = std::min(nearest, std::abs(height.value) - height.error);
+    }
+    return error_ > least_size ? nearest / (normal_.norm() + error_) : 0;
+  }
+
+ private:
+  /// Above the plane, times the normal's length.
+  struct Height {
+    double value, error;
+    bool is_certain() const { return std::abs(value) > error && error > least && error < largest; }
+  };
+  Height height_of(const Vec3& p) const {
+    const Vec3 q = p - t_[0];
+    return {normal_.dot(q), error_ * q.cwiseAbs().maxCoeff()};
+  }
+
+  /// A height is wrong by less than this: differences, products of two and of three are rounded, by 48 half units in
+  /// the last place in all (unit: largest differences, two from corner to corner times one to the point)
+  static constexpr double height_bound = 64 * detail::half_ulp;
+  static constexpr double least = detail::underflow_guard;
+  static constexpr double largest = 1e280;  ///< Products below this do not overflow (fixed by float64)
+
+  const TrianglePoints& t_;
+  Vec3 normal_;
+  double error_;
+};
+
+std::array<Sign, 3> sides_of(const TrianglePoints& t, const TrianglePoints& points) {
+  const PlaneSides sides(t);
+  return {sides.of(points[0]), sides.of(points[1]), sides.of(points[2])};
+}
+
+/// Lower bound of the distance of two triangles: how far apart they are along a direction within the plane of a, across
+/// one of its edges; 0 where they are not, or rounding may deceive.
+double separation_in_plane(const TrianglePoints& a, const TrianglePoints& b) {
+  /// Rounding changes the distance of two projections by less than this: 10 half units in the last place (unit: size of
+  /// the direction times the largest difference)
+  constexpr double projection_rounding = 16 * detail::half_ulp;
+  const Vec3 u = a[1] - a[0], v = a[2] - a[0], normal = u.cross(v);
+  const Vec3 to[3] = {b[0] - a[0], b[1] - a[0], b[2] - a[0]};
+  double reach = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff()), most = 0;
+  for (const Vec3& p : to) reach = std::max(reach, p.cwiseAbs().maxCoeff());
+  for (const Vec3& edge : {u, Vec3(v - u), Vec3(-v)}) {
+    const Vec3 across = edge.cross(normal);  // outward
+    const double own = std::max({0.0, across.dot(u), across.dot(v)});
+    const double error = projection_rounding * across.cwiseAbs().sum() * reach;
+    const double gap = std::min({across.dot(to[0]), across.dot(to[1]), across.dot(to[2])}) - own - error;
+    if (!(gap > 0)) continue;
+    const double size = across.norm();
+    if (size > least_size && error > detail::underflow_guard) most = std::max(most, gap / size);
+  }
+  return std::isfinite(most) ? most : 0;
 }
 
 /// Both strictly on the same side.
@@ -116,10 +200,16 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const TrianglePoints& 
   return segment_meets_triangle(p, side_of(t, p), q, side_of(t, q), t);
 }
 
+double separation(const TrianglePoints& a, const TrianglePoints& b) {
+  if (const double beyond = PlaneSides(b).beyond(a); beyond > 0) return beyond;
+  if (const double beyond = PlaneSides(a).beyond(b); beyond > 0) return beyond;
+  return std::max(separation_in_plane(a, b), separation_in_plane(b, a));
+}
+
 Meeting triangles_meet(const TrianglePoints& a, const TrianglePoints& b) {
-  const std::array<Sign, 3> sides_a = {side_of(b, a[0]), side_of(b, a[1]), side_of(b, a[2])};
+  const std::array<Sign, 3> sides_a = sides_of(b, a);
   if (same_side(sides_a[0], sides_a[1]) && same_side(sides_a[0], sides_a[2])) return Meeting::no;
-  const std::array<Sign, 3> sides_b = {side_of(a, b[0]), side_of(a, b[1]), side_of(a, b[2])};
+  const std::array<Sign, 3> sides_b = sides_of(a, b);
   if (same_side(sides_b[0], sides_b[1]) && same_side(sides_b[0], sides_b[2])) return Meeting::no;
   if (maybe_degenerate(sides_a, b) || maybe_degenerate(sides_b, a)) return Meeting::ask_degenerate;
   // Where two triangles meet, an edge of one meets the other.
@@ -134,9 +224,11 @@ Meeting triangles_meet(const TrianglePoints& a, const TrianglePoints& b) {
 Meeting triangles_meet_beyond_vertex(const TrianglePoints& a, const TrianglePoints& b) {
   // Both are convex and hold the vertex: going on from it through another common point, one of them is left through
   // the edge opposite the vertex, at a point of the other.
-  const std::array<Sign, 3> sides_a = {0, side_of(b, a[1]), side_of(b, a[2])};
+  const PlaneSides of_b(b);
+  const std::array<Sign, 3> sides_a = {0, of_b.of(a[1]), of_b.of(a[2])};
   if (same_side(sides_a[1], sides_a[2])) return Meeting::no;
-  const std::array<Sign, 3> sides_b = {0, side_of(a, b[1]), side_of(a, b[2])};
+  const PlaneSides of_a(a);
+  const std::array<Sign, 3> sides_b = {0, of_a.of(b[1]), of_a.of(b[2])};
   if (same_side(sides_b[1], sides_b[2])) return Meeting::no;
   if (maybe_degenerate(sides_a, b) || maybe_degenerate(sides_b, a)) return Meeting::ask_degenerate;
   const bool meet = segment_meets_triangle(a[1], sides_a[1], a[2], sides_a[2], b) ||

@@ -17,6 +17,11 @@ inline TrianglePoints points_of(const Positions& x, const Triangle& t) {
 /// Segment pq against a triangle that is not degenerate.
 bool segment_meets_triangle(const Vec3& p, const Vec3& q, const TrianglePoints& t);
 
+/// Lower bound of the distance of two triangles: how far one of them lies beyond the plane of the other, or, within
+/// that plane, beyond an edge; 0 where neither does beyond doubt from rounding. The bound itself is rounded, by less
+/// than 1e-14 of itself.
+double separation(const TrianglePoints& a, const TrianglePoints& b);
+
 /// Answer of a test that cannot decide for degenerate triangles.
 enum class Meeting { no, yes, ask_degenerate };
 

@@ -64,6 +64,35 @@ TEST(MovingIntersections, finds_what_is_found_anew) {
   }
 }
 
+// Sheets that drift far, turn and ripple: slivers, far from the origin. Most pairs are near each other all the time and
+// move together.
+TEST(MovingIntersections, finds_what_is_found_anew_on_sheets_that_drift) {
+  for (const double flat : {1.0, 0.02})
+    for (const double far : {0.0, 1e6}) {
+      const Sheets sheets(30);
+      const Index count = static_cast<Index>(sheets.triangles.size()), vertices = static_cast<Index>(sheets.x.cols());
+      const Vec3 shape(1, flat, 1), at(far, -far, 0.5 * far);
+      MovingIntersections moving(sheets.triangles, count, vertices);
+      Positions x(3, vertices);
+      std::size_t changes = 0;
+      std::vector<IntersectingPair> last;
+      for (int round = 0; round < 40; ++round) {
+        const double t = 0.02 * round;
+        for (Index v = 0; v < vertices; ++v) {
+          const Vec3 p = sheets.x.col(v);
+          const Vec3 moved(p[0] + 3 * t, p[1] + 0.1 * t * p[0],
+                           p[2] + (v < vertices / 2 ? t : -t) * std::cos(0.7 * p[0]));
+          x.col(v) = moved.cwiseProduct(shape) + at;
+        }
+        const auto found = moving.find(x);
+        ASSERT_TRUE(found == IntersectionFinder(sheets.triangles).find(x)) << flat << ' ' << far << ", round " << round;
+        changes += round > 0 && !(found == last);
+        last = found;
+      }
+      EXPECT_GT(changes, 30u);
+    }
+}
+
 // Tiny integers: touching, folded flat, duplicate and zero-area faces; vertices of many faces, of several fans.
 TEST(MovingIntersections, finds_what_is_found_anew_among_degenerate_faces) {
   std::mt19937 random(11);

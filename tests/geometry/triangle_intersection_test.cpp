@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace unsnarl {
@@ -92,6 +93,48 @@ TEST(TriangleIntersection, triangles_on_two_sides_of_a_plane_do_not_meet) {
     }
     ASSERT_EQ(triangles_meet(a, b), Meeting::no) << "round " << round;
   }
+}
+
+TEST(TriangleIntersection, separation_across_the_plane_and_within_it) {
+  const auto is_apart = [](const TrianglePoints& b, double distance) {
+    for (const double found : {separation(flat, b), separation(b, flat)}) {
+      EXPECT_GT(found, 0);
+      EXPECT_LE(found, distance);
+    }
+  };
+  is_apart({Vec3(1, 1, 3), Vec3(2, 1, 3), Vec3(1, 2, 5)}, 3);
+  is_apart({Vec3(6, 0, -1), Vec3(6, 0, 1), Vec3(9, 4, 0)}, 2);
+  EXPECT_NEAR(separation(flat, {Vec3(-1, 1, 0), Vec3(-4, 1, 0), Vec3(-1, 9, 0)}), 1, 1e-12) << "in one plane";
+  EXPECT_EQ(separation(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 9, 0.5)}), 0);
+  EXPECT_EQ(separation(flat, {Vec3(1, 1, 0), Vec3(5, 5, 1), Vec3(5, 4, 1)}), 0) << "touched";
+  const TrianglePoints needle = {Vec3(1, 1, 1), Vec3(2, 2, 2), Vec3(3, 3, 3)};
+  EXPECT_GE(separation(needle, {Vec3(5, 0, 0), Vec3(9, 1, 0), Vec3(5, 1, 1)}), 0) << "a needle has no plane";
+}
+
+// No points of the two, on a grid, are nearer; at any scale, needles among them.
+TEST(TriangleIntersection, separation_is_no_more_than_the_distance) {
+  std::mt19937 random(4);
+  const auto number = [&] { return static_cast<double>(random() % 2001) / 7 - 140; };
+  int separated = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const double scale = std::pow(10, round % 40 - 20), flatness = round % 3 == 0 ? 1e-9 : 1;
+    TrianglePoints a, b;
+    for (Vec3& p : a) p = scale * Vec3(number(), number(), flatness * number());
+    for (Vec3& p : b) p = scale * Vec3(number(), number(), flatness * number() + (round % 5) * 10);
+    const double apart = separation(a, b);
+    if (apart == 0) continue;
+    ++separated;
+    ASSERT_EQ(triangles_meet(a, b), Meeting::no) << round;
+    for (int i = 0; i <= 6; ++i)
+      for (int j = 0; i + j <= 6; ++j)
+        for (int k = 0; k <= 6; ++k)
+          for (int l = 0; k + l <= 6; ++l) {
+            const Vec3 p = a[0] + i / 6.0 * (a[1] - a[0]) + j / 6.0 * (a[2] - a[0]);
+            const Vec3 q = b[0] + k / 6.0 * (b[1] - b[0]) + l / 6.0 * (b[2] - b[0]);
+            ASSERT_LE(apart, (p - q).norm() * (1 + 1e-9)) << round;
+          }
+  }
+  EXPECT_GT(separated, 2000);
 }
 
 TEST(TriangleIntersection, beyond_a_common_vertex) {
