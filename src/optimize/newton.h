@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -23,10 +22,6 @@ class NewtonProblem {
   /// Inverses of the Hessian's 3 x 3 blocks on the diagonal, or of the diagonals of these.
   virtual void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const = 0;
 
-  /// Prescribes unknowns whose steps are too long, where these are few: sets their steps to what they may be, and marks
-  /// them, one flag an unknown. The step of the others is solved for anew then. Returns whether it has marked more than
-  /// there were.
-  virtual bool prescribe(Eigen::Matrix3Xd& /*step*/, std::vector<std::uint8_t>& /*is_prescribed*/) { return false; }
   /// Shortens a Newton step to where the model can be trusted, before the line search. May add terms to the function
   /// that matter along the step, so that its value at the current point grows.
   virtual void limit(Eigen::Matrix3Xd& step) = 0;
@@ -44,8 +39,7 @@ struct NewtonOptions {
   int max_steps = 100;  ///< Newton steps of one call, at most (unit: steps)
   /// Armijo's condition (paper §3.5.1): the decrease is at least this share of what the slope promises (no unit)
   double sufficient_decrease = 1e-4;
-  int max_halvings = 40;      ///< The line search halves a step this many times at most (unit: halvings)
-  int prescribed_rounds = 3;  ///< Times that unknowns of one step are prescribed at most [E230] (unit: rounds)
+  int max_halvings = 40;  ///< The line search halves a step this many times at most (unit: halvings)
   PcgOptions solver;
   bool scalar_jacobi = false;  ///< precondition by the diagonal of the Hessian alone, not by its blocks
   /// Ends when the value fell by less than this share in `window` steps (no unit)
@@ -61,8 +55,8 @@ struct NewtonResult {
 };
 
 /// Minimises from the current point of the problem: Newton steps by preconditioned conjugate gradients, each shortened
-/// by prescribe() and limit(), then by halving until the filtered step satisfies Armijo's condition. Never accepts a
-/// point with a larger value than the one before. `stop` is asked once a step.
+/// by limit(), then by halving until the filtered step satisfies Armijo's condition. Never accepts a point with a
+/// larger value than the one before. `stop` is asked once a step.
 NewtonResult minimise_newton(NewtonProblem& problem, const NewtonOptions& options,
                              const std::function<bool()>& stop = {});
 

@@ -40,10 +40,6 @@ struct StepOptions {
   /// Longest motion of a vertex in a step, beyond the translation of its connected part where that is free [E155]
   /// (unit: h)
   double cap = 0.5;
-  /// Vertices that would go farther than `cap` are prescribed to go that far, and the others are solved for anew, where
-  /// they are at most this share of their connected part; where they are more, the step of the whole part is shortened
-  /// [E231] (no unit)
-  double prescribed_share = 0.05;
   /// A step leaves a face at least this area along its rest normal [E156] (unit: share of its rest area)
   double kept_area = 0.2;
   /// A step leaves a vertex at least this share of its distance from an obstacle, so that it does not end in the steep

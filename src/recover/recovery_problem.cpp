@@ -13,9 +13,6 @@ namespace {
 /// Sweeps over the faces when a step is projected so that it flips none, at most (unit: sweeps)
 constexpr int slide_sweeps = 10;
 
-/// A prescribed step is this much of the cap, so that rounding does not take it beyond (no unit)
-constexpr double within_cap = 0.999;
-
 }  // namespace
 
 RecoveryProblem::RecoveryProblem(Patch& patch, ContactRules& rules, const IndexLists& neighbours, Objective& objective,
@@ -134,32 +131,6 @@ std::vector<std::uint8_t> RecoveryProblem::touched_parts() {
     for (Index w : neighbours_[moving().vertices[i]])
       if (moving().slot[w] < 0) touched[part_[i]] = 1;
   return touched;
-}
-
-bool RecoveryProblem::prescribe(Eigen::Matrix3Xd& step, std::vector<std::uint8_t>& is_prescribed) {
-  const double cap = options_.cap * h_;
-  const auto is_beyond = [&](Index i) { return !is_prescribed[i] && step.col(i).norm() > cap; };
-  if (options_.shorten_all) return false;
-  const std::size_t parts = static_cast<std::size_t>(part_count_);
-  std::vector<Index> size(parts, 0), prescribed(parts, 0), beyond(parts, 0);  // numbers of vertices
-  for (Index i = 0; i < unknowns(); ++i) {
-    ++size[part_[i]];
-    prescribed[part_[i]] += is_prescribed[i];
-    beyond[part_[i]] += is_beyond(i);
-  }
-  if (std::ranges::all_of(beyond, [](Index count) { return count == 0; })) return false;
-  const std::vector<std::uint8_t> touched = touched_parts();  // limit() moves the others as a whole
-  const auto has_few = [&](Index k) {
-    return touched[k] && prescribed[k] + beyond[k] <= options_.prescribed_share * size[k];
-  };
-  bool any = false;
-  for (Index i = 0; i < unknowns(); ++i) {
-    if (!is_beyond(i) || !has_few(part_[i])) continue;
-    step.col(i) *= within_cap * cap / step.col(i).norm();
-    is_prescribed[i] = 1;
-    any = true;
-  }
-  return any;
 }
 
 void RecoveryProblem::limit(Eigen::Matrix3Xd& step) {

@@ -35,9 +35,6 @@ class RecoveryProblem final : public NewtonProblem {
   void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const override {
     hessian_.inverse_blocks(diagonal_only, blocks);
   }
-  /// Prescribes vertices that would go beyond the cap, as StepOptions::prescribed_share says: a few do not shorten the
-  /// step of a whole part.
-  bool prescribe(Eigen::Matrix3Xd& step, std::vector<std::uint8_t>& is_prescribed) override;
   /// Caps the motion of each connected part of the moving vertices. The translation of a part that nothing touches is
   /// not capped: the part goes as a whole until something is in its way. Faces that would flip slide along instead, as
   /// far as possible. Gathers the contacts that the capped step may meet.

@@ -153,6 +153,7 @@ Select select_by_depth(const DepthOptions& options) {
       const auto free = [&conflicts, rings = static_cast<int>(options.rings_per_edge * depth)](
                             const ConflictRegion& region) { return dilate(conflicts.scene, region.core, rings); };
       const auto is_wanted = [&](const Selection& selection) {
+        if (selection.free.size() < options.least_free) return false;
         if (!options.leaves_most) return true;
         return 2 * selection.free.size() <
                free_vertices_of_components(conflicts.scene, conflicts.parts(), selection.region.core).size();

@@ -35,7 +35,7 @@ constexpr double reach_of_placement = 5;
 /// Bound of the motion of whole components (unit: h)
 constexpr double reach_of_whole = 20;
 
-/// Tangles at least so deep go from coarse to fine before anything else [E133, E233] (unit: edges)
+/// Tangles at least so deep go from coarse to fine [E133, E233] (unit: edges)
 constexpr int deep = 4;
 /// Edges freed around a tangle for each edge of its depth [E134] (unit: edges / edge)
 constexpr double rings_per_depth = 1.5;
@@ -46,9 +46,13 @@ constexpr int wide_depths = 2;
 /// `coarse_to_fine_far` takes tangles to be so many times as deep as they are [E65, E66] (no unit)
 constexpr int far_depths = 8;
 
-/// CoarseOptions::factor of deep tangles: those that are deep on the coarse mesh too go to one that is coarser still
-/// [E229] (no unit)
-constexpr double factor_of_deep = 2;
+/// `half_resolution` frees at least so many: on smaller regions local strategies are fast, and end nearer [E234] (unit:
+/// vertices)
+constexpr std::size_t least_of_half_resolution = 4000;
+/// CoarseOptions::factor of `half_resolution` [E229] (no unit)
+constexpr double factor_of_half_resolution = 2;
+/// CoarseOptions::factor for each edge of a tangle's depth [E40] (no unit)
+constexpr double factor_per_depth = 0.7;
 /// CoarseOptions::factor of whole components and what comes close to them, at least [E135] (no unit)
 constexpr double factor_of_whole = 1.6;
 /// The first coarse mesh of these has so many at most [E52] (unit: faces)
@@ -73,23 +77,36 @@ Strategy local(std::string name, RingsOptions freed, LocalMethod method, SheetMo
 constexpr DepthOptions around_deep = {.rings_per_edge = rings_per_depth, .reach = reach_per_depth, .least = deep};
 
 /// One coarse mesh only. A region that it does not resolve is usually tied to something outside it (for instance a tube
-/// turned inside out between two curves); coarser meshes rarely help there and are slow.
-Strategy coarse_to_fine(std::string name, const DepthOptions& freed) {
-  const auto solve = [](Patch& patch, const Task& task) {
-    return solve_on_coarser_mesh(patch, task, coarse_options(factor_of_deep, CoarseMeshes::one)).iterations;
+/// turned inside out between two curves); coarser meshes rarely help there and are slow. `factor_of`:
+/// CoarseOptions::factor for a tangle that is so deep.
+Strategy coarse_to_fine(std::string name, const DepthOptions& freed, double (*factor_of)(int depth)) {
+  const auto solve = [factor_of](Patch& patch, const Task& task) {
+    return solve_on_coarser_mesh(patch, task, coarse_options(factor_of(task.depth), CoarseMeshes::one)).iterations;
   };
   return {.name = std::move(name), .select = select_by_depth(freed), .solve = solve};
 }
 
-Strategy deep_coarse_to_fine() {
-  return coarse_to_fine("coarse_to_fine", around_deep);
+double by_depth(int depth) {
+  return factor_per_depth * depth;
 }
 
-/// What the others have left is taken to be twice as deep, and so resolved in wider surroundings.
+/// Local strategies take faces times steps of a share of an edge: on the coarse mesh, which they see instead of a large
+/// deep region, a quarter of the one and half of the other. What is large and deep there too goes on to half of that.
+Strategy half_resolution() {
+  DepthOptions freed = around_deep;
+  freed.least_free = least_of_half_resolution;
+  return coarse_to_fine("half_resolution", freed, [](int) { return factor_of_half_resolution; });
+}
+
+Strategy deep_coarse_to_fine() {
+  return coarse_to_fine("coarse_to_fine", around_deep, by_depth);
+}
+
+/// What the others have left is taken to be twice as deep, and so resolved in wider surroundings on a coarser mesh.
 Strategy wide_coarse_to_fine() {
   DepthOptions freed = around_deep;
   freed.factor = wide_depths;
-  return coarse_to_fine("coarse_to_fine_wide", freed);
+  return coarse_to_fine("coarse_to_fine_wide", freed, by_depth);
 }
 
 /// The first coarse mesh has most_faces_of_first_mesh at most, or edges factor_of_whole times as long if that is
@@ -156,10 +173,7 @@ Tier last_resort(Strategy strategy) {
 /// The table.
 std::vector<Tier> all_tiers(CoarseMeshes meshes) {
   std::vector<Tier> tiers = {
-      {{deep_coarse_to_fine()}},
-      shallow_tier(),
-      {{placing()}},
-      layers_tier(),
+      {{half_resolution()}}, shallow_tier(), {{placing()}}, {{deep_coarse_to_fine()}}, layers_tier(),
   };
   // On a coarse mesh, wider surroundings are soon the whole.
   if (meshes == CoarseMeshes::until_solved) {

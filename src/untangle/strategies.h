@@ -10,9 +10,9 @@
 
 namespace unsnarl {
 
-/// The default, in order: coarse to fine for deep tangles; strategies that move faces hardly more than they overlap;
-/// placement of small components; layers crossing by crossing; coarse to fine in wider and wider surroundings, and last
-/// for whole components.
+/// The default, in order: half the resolution for large deep tangles; strategies that move faces hardly more than they
+/// overlap; placement of small components; coarse to fine for deep tangles; layers crossing by crossing; coarse to fine
+/// in wider and wider surroundings, and last for whole components.
 std::span<const Tier> default_tiers();
 
 /// The default without the last resorts.

@@ -296,29 +296,6 @@ TEST(Recover, a_far_part_does_not_hold_up_another) {
   EXPECT_EQ(both.x.middleCols(6, 6), both.rest.middleCols(6, 6));
 }
 
-TEST(Recover, a_few_vertices_far_away_do_not_hold_up_their_part) {
-  const auto left_after_a_step = [](double prescribed_share) {
-    Sheets sheets(30, 1);
-    Patch& patch = sheets.patch;
-    for (int i = 0; i < 30; ++i)
-      for (int j = 0; j < 30; ++j) patch.rest.col(sheets.at(0, i, j)) = Vec3(i, j, 0);
-    patch.x = patch.rest;
-    for (Index v = 0; v < patch.free_count; ++v) patch.x(2, v) = 0.3;
-    const Index far = sheets.at(0, 15, 15);
-    patch.x(2, far) = 30;
-    RecoverOptions options;
-    options.max_steps = 1;
-    options.has_last_stage = false;
-    options.unflip_rounds = 0;
-    options.step.prescribed_share = prescribed_share;
-    recover(patch, options);
-    EXPECT_LT(patch.x(2, far), 30);
-    patch.x.col(far) = patch.rest.col(far);
-    return (patch.x - patch.rest).norm();
-  };
-  EXPECT_LT(left_after_a_step(StepOptions{}.prescribed_share), 0.5 * left_after_a_step(0));
-}
-
 TEST(Recover, nothing_to_do) {
   Patch patch = crossing_bumps(8, -0.5, 0.9);
   patch.x = patch.rest;

@@ -90,7 +90,7 @@ TEST(Escalation, deep_conflicts_start_on_a_coarser_mesh) {
   EXPECT_TRUE(result.left.empty());
   EXPECT_TRUE(shapes::pairs_at(scene.x, scene.triangles).empty());
   ASSERT_FALSE(result.regions.empty());
-  EXPECT_EQ(result.regions[0].strategy, "coarse_to_fine");
+  EXPECT_EQ(result.regions[0].strategy, "half_resolution");
   EXPECT_GT(2 * result.regions[0].pairs, shapes::pairs_of(shape).size());
   // What it says has moved has, and is not everything.
   ASSERT_FALSE(result.moved.empty());

@@ -64,9 +64,9 @@ TEST(FreeSearch, leaves_large_patches_alone) {
 TEST(FreeSearch, is_the_last_resort_of_a_repair) {
   shapes::Shape shape = tangled_fan();
   RepairOptions options;
-  options.without_strategies = {"push_apart",         "slide_apart",         "slide_apart_wide", "placement",
-                                "coarse_to_fine",     "part_layers",         "shorten_curves",   "coarse_to_fine_wide",
-                                "coarse_to_fine_far", "coarse_to_fine_whole"};
+  options.without_strategies = {"half_resolution",     "push_apart",         "slide_apart",         "slide_apart_wide",
+                                "placement",           "coarse_to_fine",     "part_layers",         "shorten_curves",
+                                "coarse_to_fine_wide", "coarse_to_fine_far", "coarse_to_fine_whole"};
   const RepairResult result = repair(shape.surface(), options);
   EXPECT_EQ(result.status, Status::embedded);
 }

@@ -147,6 +147,17 @@ TEST(Selection, depth_is_that_of_the_tangle_or_a_multiple_of_it) {
   EXPECT_EQ(depths(deep, 3), std::vector<int>{3 * as_it_is[0]});
 }
 
+TEST(Selection, small_regions_may_be_left_to_others) {
+  Seen seen(shapes::scene_of(shapes::crossing_wide_bumps(2, 2)));
+  DepthOptions options = {.rings_per_edge = 1.5, .least = 4};
+  const std::vector<Selection> selections = seen.select(select_by_depth(options));
+  ASSERT_EQ(selections.size(), 1u);
+  options.least_free = selections[0].free.size();
+  EXPECT_EQ(seen.select(select_by_depth(options)).size(), 1u);
+  ++options.least_free;
+  EXPECT_TRUE(seen.select(select_by_depth(options)).empty());
+}
+
 TEST(Selection, most_of_a_component_may_be_left_to_others) {
   Seen seen(shapes::scene_of(shapes::crossing_bumps(24, 0.5)));
   const auto is_selected = [&](double rings, bool leaves_most) {

@@ -48,13 +48,12 @@ TEST(Strategies, whole_components_go_from_coarse_to_fine) {
   }
 }
 
-TEST(Strategies, deep_tangles_go_to_coarser_meshes_before_anything_else) {
+TEST(Strategies, large_deep_tangles_go_to_half_the_resolution_before_anything_else) {
   for (const std::span<const Tier> tiers : {default_tiers(), coarse_mesh_tiers()}) {
     ASSERT_EQ(tiers.front().strategies.size(), 1u);
-    EXPECT_EQ(tiers.front().strategies.front().name, "coarse_to_fine");
+    EXPECT_EQ(tiers.front().strategies.front().name, "half_resolution");
   }
-  for (const Tier& tier : local_tiers())
-    for (const Strategy& strategy : tier.strategies) EXPECT_NE(strategy.name, "coarse_to_fine");
+  EXPECT_FALSE(names_of(local_tiers()).contains("half_resolution"));
 }
 
 TEST(Strategies, names_and_numbers_belong_together) {

@@ -147,15 +147,15 @@ bool make_room(const CoarseProblem& problem, CoarseMesh& coarse, LastDone& last)
   const std::vector<IntersectingPair> pairs = index.find_pairs();
   const std::vector<IntersectingPair> tolerated = tolerated_on_the_way_back(problem, coarse, level, pairs);
   const std::size_t faces = level.scene.triangles.size();
+  const bool is_small = faces <= options.most_faces_for_all;
   bool is_clean = true;
   if (!blocking_pairs(pairs, tolerated).empty()) {
-    const bool is_small = faces <= options.most_faces_for_all;
     const std::span<const Tier> tiers = is_small ? options.on_small_mesh : options.on_large_mesh;
     const std::size_t left = problem.task.untangle(level.scene, index, tolerated, tiers, {}).left.size();
     if (static_cast<double>(left) > options.way_back_share * static_cast<double>(problem.pairs_before)) return false;
     is_clean = left == 0;
   }
-  if (static_cast<double>(faces) >= options.growth_to_recover * static_cast<double>(last.recovered)) {
+  if (is_small || static_cast<double>(faces) >= options.growth_to_recover * static_cast<double>(last.recovered)) {
     last.recovered = faces;
     RecoverOptions steps;
     steps.has_last_stage = false;
