@@ -48,7 +48,7 @@ constexpr int far_depths = 8;
 
 /// `half_resolution` frees at least so many: on smaller regions local strategies are fast, and end nearer [E234] (unit:
 /// vertices)
-constexpr std::size_t least_of_half_resolution = 4000;
+constexpr std::size_t least_of_half_resolution = 3000;
 /// CoarseOptions::factor of `half_resolution` [E229] (no unit)
 constexpr double factor_of_half_resolution = 2;
 /// CoarseOptions::factor for each edge of a tangle's depth [E40] (no unit)
@@ -90,8 +90,8 @@ double by_depth(int depth) {
   return factor_per_depth * depth;
 }
 
-/// Local strategies take faces times steps of a share of an edge: on the coarse mesh, which they see instead of a large
-/// deep region, a quarter of the one and half of the other. What is large and deep there too goes on to half of that.
+/// The cost of local strategies is faces times steps, and a step is a share of an edge. On the coarse mesh a large deep
+/// region has a quarter of the faces and takes half of the steps. What is large and deep there too is halved again.
 Strategy half_resolution() {
   DepthOptions freed = around_deep;
   freed.least_free = least_of_half_resolution;
@@ -173,7 +173,11 @@ Tier last_resort(Strategy strategy) {
 /// The table.
 std::vector<Tier> all_tiers(CoarseMeshes meshes) {
   std::vector<Tier> tiers = {
-      {{half_resolution()}}, shallow_tier(), {{placing()}}, {{deep_coarse_to_fine()}}, layers_tier(),
+      {{half_resolution()}},  // of large deep regions
+      shallow_tier(),
+      {{placing()}},
+      {{deep_coarse_to_fine()}},
+      layers_tier(),
   };
   // On a coarse mesh, wider surroundings are soon the whole.
   if (meshes == CoarseMeshes::until_solved) {
