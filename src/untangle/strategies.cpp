@@ -172,13 +172,12 @@ Tier last_resort(Strategy strategy) {
 
 /// The table.
 std::vector<Tier> all_tiers(CoarseMeshes meshes) {
-  std::vector<Tier> tiers = {
-      {{half_resolution()}},  // of large deep regions
-      shallow_tier(),
-      {{placing()}},
-      {{deep_coarse_to_fine()}},
-      layers_tier(),
-  };
+  std::vector<Tier> tiers;
+  tiers.push_back({{half_resolution()}});
+  tiers.push_back(shallow_tier());
+  tiers.push_back({{placing()}});
+  tiers.push_back({{deep_coarse_to_fine()}});
+  tiers.push_back(layers_tier());
   // On a coarse mesh, wider surroundings are soon the whole.
   if (meshes == CoarseMeshes::until_solved) {
     tiers.push_back(last_resort(alone_first()));
