@@ -78,6 +78,13 @@ int depth_for(const Conflicts& conflicts, const ConflictRegion& region, const De
   return depth < options.least ? 0 : depth;
 }
 
+/// The largest number of these vertices that are connected to each other.
+std::size_t most_in_one_component(const ConnectedParts& parts, std::span<const Index> vertices) {
+  std::vector<std::size_t> counts(static_cast<std::size_t>(parts.count), 0);
+  for (const Index v : vertices) ++counts[parts.of_vertex[v]];
+  return counts.empty() ? 0 : *std::ranges::max_element(counts);
+}
+
 }  // namespace
 
 std::vector<Selection> select_regions(
@@ -153,7 +160,7 @@ Select select_by_depth(const DepthOptions& options) {
       const auto free = [&conflicts, rings = static_cast<int>(options.rings_per_edge * depth)](
                             const ConflictRegion& region) { return dilate(conflicts.scene, region.core, rings); };
       const auto is_wanted = [&](const Selection& selection) {
-        if (selection.free.size() < options.least_free) return false;
+        if (most_in_one_component(conflicts.parts(), selection.free) < options.least_free) return false;
         if (!options.leaves_most) return true;
         return 2 * selection.free.size() <
                free_vertices_of_components(conflicts.scene, conflicts.parts(), selection.region.core).size();

@@ -46,8 +46,8 @@ constexpr int wide_depths = 2;
 /// `coarse_to_fine_far` takes tangles to be so many times as deep as they are [E65, E66] (no unit)
 constexpr int far_depths = 8;
 
-/// `half_resolution` frees at least so many: on smaller regions local strategies are fast, and end nearer [E234] (unit:
-/// vertices)
+/// `half_resolution` frees at least so many in one component: on smaller ones local strategies are fast, and end nearer
+/// [E234] (unit: vertices)
 constexpr std::size_t least_of_half_resolution = 3000;
 /// CoarseOptions::factor of `half_resolution` [E229] (no unit)
 constexpr double factor_of_half_resolution = 2;
