@@ -70,8 +70,7 @@ inline constexpr std::size_t sequence_reach = 4;
 /// Frames whose number is a multiple of this are repaired by themselves: key frames [E236] (unit: frames)
 inline constexpr std::size_t key_frame_distance = 16;
 
-/// The key frame nearest to frame t of so many. Repairs start from each other from there on to
-/// either side [E237].
+/// The key frame nearest to frame t of so many. Repairs start from each other from there on to either side [E237].
 constexpr std::size_t key_frame_of(std::size_t t, std::size_t frames) {
   const std::size_t nearest = t + key_frame_distance / 2 - 1 - (t + key_frame_distance / 2 - 1) % key_frame_distance;
   return nearest < frames ? nearest : nearest - key_frame_distance;

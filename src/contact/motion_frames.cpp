@@ -16,7 +16,7 @@ constexpr Index frames_a_task = 2048;
 constexpr double motion_rounding = 1e-14;
 /// A sum is enlarged by more than it is rounded in single precision (unit: share of the sum)
 constexpr double sum_rounding = 3e-7;
-/// What is left of a clearance is rounded in single precision by less than this: a dozen roundings (unit: share of all
+/// A dozen roundings in single precision change what is left of a clearance by less than this (unit: share of all
 /// lengths that it is made of)
 constexpr double clearance_reserve = 2e-6;
 /// Shorter distances are not kept: squares of what is left of them may underflow (unit: coordinates)

@@ -20,7 +20,7 @@ class MotionFrames {
   /// The triangles move to x, in any way; at the first call they start there. Parallel.
   void update(const Positions& x);
 
-  /// What is kept of two triangles that were found apart. Default: nothing is known of them.
+  /// Tells how far two triangles may move before they are tested again. By default they have to be tested.
   struct Clearance {
     std::array<float, 3> offset = {0, 0, 0};  ///< of their frames, then
     float due = 0;                            ///< what their motion in the frames and of these may amount to

@@ -24,7 +24,8 @@ class PlaneSides {
     const Vec3 u = t[1] - t[0], v = t[2] - t[0];
     normal_ = u.cross(v);
     const double reach = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff()), reach2 = reach * reach;
-    error_ = reach2 < largest ? height_bound * reach2 : std::numeric_limits<double>::infinity();
+    const bool is_in_range = reach2 > least && reach2 < largest;
+    error_ = is_in_range ? height_bound * reach2 : std::numeric_limits<double>::infinity();
   }
 
   Sign of(const Vec3& p) const {
@@ -43,7 +44,7 @@ class PlaneSides {
       side = here;
       nearest = std::min(nearest, std::abs(height.value) - height.error);
     }
-    return error_ > least_size ? nearest / (normal_.norm() + error_) : 0;
+    return error_ > least_size && error_ < largest ? nearest / (normal_.norm() + error_) : 0;
   }
 
  private:

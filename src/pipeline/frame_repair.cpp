@@ -7,7 +7,6 @@
 
 #include "geometry/box.h"
 #include "mesh/areas.h"
-#include "pipeline/frame_schedule.h"
 #include "scene/face_pairs.h"
 #include "scene/output_format.h"
 
@@ -159,8 +158,9 @@ FrameResult FrameRepair::finished(std::size_t t, std::span<const SequenceFrame> 
   FrameResult result = {report_of_repair(t, frame.repaired), frame.repaired.positions};
   if (!frame.is_clean && is_resolved(frame.repaired.status) && options.recover) {
     smooth(t, frames, result);
-    // The mean of the corrections may be that of repairs that memory ran out in.
-    for (std::size_t s = FrameSchedule::begin_around(t); s < std::min(t + sequence_reach + 1, frames.size()); ++s)
+    // The mean of the corrections may come from repairs that memory ran out in.
+    const DecidingFrames deciding = deciding_frames(t, frames.size());
+    for (std::size_t s = deciding.first; s < deciding.last; ++s)
       if (frames[s].repaired.status == Status::memory_limit) result.report.status = Status::memory_limit;
   }
   measure(frame, result.positions, result.report);

@@ -6,9 +6,9 @@
 
 namespace unsnarl {
 
-/// The order of the work on the frames of a sequence. Frames are repaired outward from key frames; each
-/// frame wanted is finished from the repairs of the frames around it; frames are finished in any order, and handed on
-/// in theirs. Knows nothing of what the work is; not safe from several threads.
+/// The order of the work on the frames of a sequence. Frames are repaired outward from key frames. Each frame wanted is
+/// finished from the repairs of the frames around it. Frames are finished in any order, and handed on in theirs. The
+/// schedule knows nothing of what the work is, and is not safe from several threads.
 class FrameSchedule {
  public:
   struct Job {

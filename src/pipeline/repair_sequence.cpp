@@ -19,13 +19,13 @@
 namespace unsnarl {
 namespace {
 
-/// Frames that are under way at once: those around a key frame for each thread, since they follow each other
-std::size_t frames_ahead() {
-  return key_frame_distance * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-}
-
 std::size_t threads_of_arena() {
   return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+}
+
+/// Returns how many frames are under way at once: for each thread those around a key frame, which follow each other.
+std::size_t frames_ahead() {
+  return key_frame_distance * threads_of_arena();
 }
 
 /// The threads that work on the frames, and what they share: jobs run without the lock, and each writes its own frame.

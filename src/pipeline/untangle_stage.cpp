@@ -146,9 +146,9 @@ std::vector<IntersectingPair> untangle_from_here(const RepairTask& task, const R
   return left;
 }
 
-/// What is to be recovered of a scene that was moved to its start and untangled there, in sets that can be recovered
-/// one by one: what hangs together, or intersects at rest, is in one. Where nothing was untangled, what is at rest
-/// stays: else more would move with every frame of a sequence [E235].
+/// Lists the vertices that a recovery frees after a scene was moved to its start and untangled there, in sets that can
+/// be recovered one by one: what hangs together, or intersects at rest, is in one set. Vertices at rest stay out of it
+/// where nothing was untangled: else more would move with every frame of a sequence [E235].
 std::vector<std::vector<Index>> sets_to_recover(const RepairState& state) {
   const Scene& scene = state.scene;
   const auto is_elsewhere = [&](Index v) { return scene.x.col(v) != scene.rest.col(v); };

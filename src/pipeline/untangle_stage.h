@@ -5,8 +5,8 @@
 
 namespace unsnarl {
 
-/// Where the task names a start: moves the scene there from rest, and untangles it with as little motion from there as
-/// may be. What is elsewhere than at rest then is to be recovered. `finders`: of the scene's triangles.
+/// Moves the scene from rest to the start that the task names, if it names one, and untangles it with as little motion
+/// from there as may be. The recovery then takes what is not at rest. `finders`: of the scene's triangles.
 void start_stage(const RepairTask& task, const RepairControl& control, Finders& finders, RepairState& state);
 
 /// Untangles the scene, recovers it toward rest and rounds it to the digits of the result, again where rounding brought

@@ -85,7 +85,7 @@ struct DepthOptions {
   /// Regions are taken to be so many times as deep as they are. Where this is more than 1, none is left to others:
   /// those less deep than `least` count as that deep (no unit)
   int factor = 1;
-  /// Regions of which it would free fewer in each component are left to others (unit: vertices)
+  /// Regions are left to others where it would free fewer in every component (unit: vertices)
   std::size_t least_free = 0;
   bool leaves_most = false;  ///< regions of which it would free at least half of the components are left to others
 };

@@ -66,7 +66,7 @@ TEST(RepairFrom, welding_stays_that_of_the_known_surface) {
   EXPECT_TRUE(certify(surface, found.positions).embedded());
 }
 
-/// Of a vertex, at most: a length.
+/// Returns how far the farthest vertex moves, a length.
 double farthest(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));

@@ -138,8 +138,8 @@ struct LastDone {
   std::size_t retried = 0;  // far parts
 };
 
-/// Resolves what the vertices that came back have brought, and where they are many, recovers by a few steps, so that
-/// the next have room. False: too many pairs are left.
+/// Resolves what the vertices that came back have brought, and recovers by a few steps, so that the next have room: a
+/// large mesh only where it has grown enough. Returns false where too many pairs are left.
 bool make_room(const CoarseProblem& problem, CoarseMesh& coarse, LastDone& last) {
   const CoarseOptions& options = problem.options;
   CoarseLevel level = make_level(coarse, problem.patch);
