@@ -38,6 +38,27 @@ double gap(const Interval& a, const Interval& b) {
   return std::max(a.lo - b.hi, b.lo - a.hi);
 }
 
+/// Interval along an axis that three points cover, from an origin, which move by these motions.
+Interval interval_along(const Vec3& axis, const std::array<Vec3, 3>& from_origin, const std::array<Vec3, 3>& motion) {
+  Interval all(axis.dot(from_origin[0]), axis.dot(motion[0]));
+  for (int k = 1; k < 3; ++k) all.extend({axis.dot(from_origin[k]), axis.dot(motion[k])});
+  return all;
+}
+
+/// The longest of a triangle's edges, of which these are the first and the last, from the first corner.
+Vec3 longest_edge(const Vec3& ab, const Vec3& ac) {
+  const Vec3 bc = ac - ab;
+  const double ab2 = ab.squaredNorm(), ac2 = ac.squaredNorm(), bc2 = bc.squaredNorm();
+  if (ab2 >= std::max(ac2, bc2)) return ab;
+  return ac2 >= bc2 ? ac : bc;
+}
+
+/// A vector made a unit vector, or zero where it is so short that its length means nothing.
+Vec3 unit_or_zero(const Vec3& v, double shortest) {
+  const double length = v.norm();
+  return length > shortest ? Vec3(v / length) : Vec3::Zero();
+}
+
 /// Whether two edges stay farther apart than `length` along their common normal while their vertices move by p, beyond
 /// doubt from rounding.
 bool stay_apart_along_normal(double length, const Positions& x, const Positions& p, const Edge& e, const Edge& g) {
@@ -131,11 +152,9 @@ ContactCandidates::ContactCandidates(std::span<const Triangle> triangles, Index 
 void ContactCandidates::update_triangle(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
                                         Index t) {
   const Triangle& f = triangles_[t];
-  const Vec3 a = x.col(f[0]), b = x.col(f[1]), c = x.col(f[2]);
-  const Vec3 p = bounds.along.col(f[0]), q = bounds.along.col(f[1]), r = bounds.along.col(f[2]);
-  Slab& slab = slabs_[t];
-  slab.around = std::max({bounds.around[f[0]], bounds.around[f[1]], bounds.around[f[2]]});
-  slab.radius = std::max({radius[f[0]], radius[f[1]], radius[f[2]]});
+  Slabs& slabs = slabs_[t];
+  slabs.around = std::max({bounds.around[f[0]], bounds.around[f[1]], bounds.around[f[2]]});
+  slabs.radius = std::max({radius[f[0]], radius[f[1]], radius[f[2]]});
   std::array<Box, 3> ways;  // of the corners
   Box box;
   for (int k = 0; k < 3; ++k) {
@@ -147,7 +166,7 @@ void ContactCandidates::update_triangle(const Positions& x, std::span<const doub
   const auto reaching = [&](const Box& way, double radius_there, double around) {
     return way.inflated(0.5 * radius_there + (1 + length_rounding) * around);
   };
-  boxes_[t] = reaching(box, slab.radius, slab.around);
+  boxes_[t] = reaching(box, slabs.radius, slabs.around);
   Reach& reach = reach_[t];
   reach.corners.set(3, RoundedBox(boxes_[t]));
   for (int k = 0; k < 3; ++k) {
@@ -162,14 +181,15 @@ void ContactCandidates::update_triangle(const Positions& x, std::span<const doub
     }
     reach.edges.set(k, RoundedBox(edge));
   }
-  const Vec3 n = (b - a).cross(c - a);
-  const double length = n.norm();
-  slab.normal = length > least_normal ? Vec3(n / length) : Vec3::Zero();
-  Interval range(0, slab.normal.dot(p));
-  range.extend({slab.normal.dot(b - a), slab.normal.dot(q)});
-  range.extend({slab.normal.dot(c - a), slab.normal.dot(r)});
-  slab.lo = range.lo;
-  slab.hi = range.hi;
+  const Vec3 ab = x.col(f[1]) - x.col(f[0]), ac = x.col(f[2]) - x.col(f[0]);
+  const std::array<Vec3, 3> corners = {Vec3::Zero(), ab, ac};
+  const std::array<Vec3, 3> motion = {bounds.along.col(f[0]), bounds.along.col(f[1]), bounds.along.col(f[2])};
+  const auto slab_along = [&](const Vec3& axis) {
+    const Interval range = interval_along(axis, corners, motion);
+    return Slab{axis, range.lo, range.hi};
+  };
+  slabs.normal = slab_along(unit_or_zero(ab.cross(ac), least_normal));
+  slabs.across = slab_along(unit_or_zero(slabs.normal.axis.cross(longest_edge(ab, ac)), 0));
 }
 
 void ContactCandidates::start(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
@@ -226,6 +246,23 @@ bool ContactCandidates::visit_active(const Positions& x, std::span<const double>
   return found <= limit.most;
 }
 
+bool ContactCandidates::stays_beyond(const Positions& x, const MotionBounds& bounds, Index a, Index b) const {
+  const Slabs &slabs = slabs_[a], &others = slabs_[b];
+  const Triangle& g = triangles_[b];
+  const Vec3 origin = x.col(triangles_[a][0]);
+  const std::array<Vec3, 3> corners = {x.col(g[0]) - origin, x.col(g[1]) - origin, x.col(g[2]) - origin};
+  const std::array<Vec3, 3> motion = {bounds.along.col(g[0]), bounds.along.col(g[1]), bounds.along.col(g[2])};
+  const double reach = 0.5 * (slabs.radius + others.radius) + (slabs.around + others.around);
+  double size = 0;
+  for (const Vec3& corner : corners) size += corner.cwiseAbs().sum();
+  const double least = reach + length_rounding * (reach + size);
+  const auto is_beyond = [&](const Slab& slab) {
+    const Interval range = interval_along(slab.axis, corners, motion);
+    return std::max(range.lo - slab.hi, slab.lo - range.hi) > least;
+  };
+  return is_beyond(slabs.normal) || is_beyond(slabs.across);
+}
+
 std::size_t ContactCandidates::visit_pair(const Positions& x, std::span<const double> radius,
                                           const MotionBounds& bounds, std::span<const std::uint8_t> moves, Index a,
                                           Index b, Index task, const OnStencil& on_stencil, bool counts_listed) const {
@@ -237,28 +274,34 @@ std::size_t ContactCandidates::visit_pair(const Positions& x, std::span<const do
     const bool is_listed = on_stencil(task, {stencil, at.distance, at.direction, least});
     found += is_listed || !counts_listed;
   };
-  const Shared& shared = shared_of_corners[equal_corners(corners_[a], corners_[b])];
-  const auto gather_corners = [&](Index t, Index other, unsigned corners_of_other) {
+  const std::array<unsigned, 2> near_corners = {reach_[a].corners.overlapping(reach_[b].corners, 3) & 7u,
+                                                reach_[b].corners.overlapping(reach_[a].corners, 3) & 7u};
+  std::array<unsigned, 3> near_edges;  // of b, of each edge of a
+  for (int k = 0; k < 3; ++k) near_edges[k] = reach_[b].edges.overlapping(reach_[a].edges, k) & 7u;
+  if ((near_corners[0] | near_corners[1] | near_edges[0] | near_edges[1] | near_edges[2]) == 0) return 0;
+  const unsigned equal = equal_corners(corners_[a], corners_[b]);
+  if (equal == 0 && (stays_beyond(x, bounds, a, b) || stays_beyond(x, bounds, b, a))) return 0;
+  const Shared& shared = shared_of_corners[equal];
+  const auto gather_corners = [&](Index t, Index other, unsigned near) {
     const Triangle& f = triangles_[other];
-    const Slab& slab = slabs_[other];
-    const unsigned near = reach_[t].corners.overlapping(reach_[other].corners, 3) & 7u & ~corners_of_other;
+    const Slabs& slabs = slabs_[other];
     for_bits(near, [&](int k) {
       const Index v = triangles_[t][k];
       if (!moves[v] && !moving_[other]) return;
       // Farther from the plane than the radius: the distance is not needed.
-      const double reach = 0.5 * (radius[v] + slab.radius) + (bounds.around[v] + slab.around);
+      const double reach = 0.5 * (radius[v] + slabs.radius) + (bounds.around[v] + slabs.around);
       const Vec3 to = x.col(v) - x.col(f[0]);
-      const Interval range(slab.normal.dot(to), slab.normal.dot(bounds.along.col(v)));
+      const Slab& slab = slabs.normal;
+      const Interval range(slab.axis.dot(to), slab.axis.dot(bounds.along.col(v)));
       if (std::max(range.lo - slab.hi, slab.lo - range.hi) > reach + length_rounding * (reach + to.cwiseAbs().sum()))
         return;
       visit(stencil_of(StencilKind::vertex_face, {v, other}));
     });
   };
-  gather_corners(a, b, shared.corners_a);
-  gather_corners(b, a, shared.corners_b);
+  gather_corners(a, b, near_corners[0] & ~shared.corners_a);
+  gather_corners(b, a, near_corners[1] & ~shared.corners_b);
   for (int k = 0; k < 3; ++k) {
-    const unsigned near = reach_[b].edges.overlapping(reach_[a].edges, k) & 7u & ~(shared.edges >> (3 * k));
-    for_bits(near, [&](int l) {
+    for_bits(near_edges[k] & ~(shared.edges >> (3 * k)), [&](int l) {
       const Index edge_a = edges_.edges_of_triangle[a][k], edge_b = edges_.edges_of_triangle[b][l];
       const Edge &e = edges_.edges[edge_a], &g = edges_.edges[edge_b];
       if (!moves[e[0]] && !moves[e[1]] && !moves[g[0]] && !moves[g[1]]) return;

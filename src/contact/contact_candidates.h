@@ -109,6 +109,8 @@ class ContactCandidates {
   bool visit_active(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
                     std::span<const std::uint8_t> moves, const OnStencil& on_stencil, const std::function<bool()>& stop,
                     const ListLimit& limit) const;
+  /// Whether triangle b stays beyond a slab of triangle a, farther than any stencil of theirs may be from active.
+  bool stays_beyond(const Positions& x, const MotionBounds& bounds, Index a, Index b) const;
   /// Returns the number of stencils: those that are found, or that are listed.
   std::size_t visit_pair(const Positions& x, std::span<const double> radius, const MotionBounds& bounds,
                          std::span<const std::uint8_t> moves, Index a, Index b, Index task, const OnStencil& on_stencil,
@@ -143,8 +145,12 @@ class ContactCandidates {
   std::vector<FourIndices> corners_;  // of the triangles; the last is -1
   // Of the last gathering:
   struct Slab {
-    Vec3 normal;        // of the triangle, unit or zero
-    double lo, hi;      // where its corners may be along it, from the first one
+    Vec3 axis;      // unit or zero
+    double lo, hi;  // where the corners of a triangle may be along it, from the first one
+  };
+  struct Slabs {
+    Slab normal;        // along the triangle's normal
+    Slab across;        // within its plane, across its longest edge: what bounds a sliver
     double around = 0;  // the largest of its corners
     double radius = 0;  // the same
   };
@@ -152,7 +158,7 @@ class ContactCandidates {
     FourBoxes corners;  // of those the triangle looks after, and its own
     FourBoxes edges;    // of those it looks after
   };
-  std::vector<Slab> slabs_;
+  std::vector<Slabs> slabs_;
   std::vector<Reach> reach_;
   Bvh bvh_;
   bool built_ = false;

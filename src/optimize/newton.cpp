@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 namespace unsnarl {
 namespace {
 
 enum class Search { accepted, none, blocked };
 
-/// Backtracking along the step, with every trial filtered. On acceptance `value` is that of the new point.
+/// Backtracking along the step from a point of this value, with every trial filtered. Sets `fall` on acceptance: by how
+/// much the value is smaller now.
 Search search_line(NewtonProblem& problem, const NewtonOptions& options, const Eigen::Matrix3Xd& gradient,
-                   const Eigen::Matrix3Xd& step, double& value) {
+                   const Eigen::Matrix3Xd& step, double value, double& fall) {
   Eigen::Matrix3Xd trial;
   double alpha = 1;
   for (int halving = 0; halving < options.max_halvings; ++halving, alpha *= 0.5) {
@@ -23,11 +26,21 @@ Search search_line(NewtonProblem& problem, const NewtonOptions& options, const E
     // limit() may have changed the function.
     if (halving == 0 && !decreases()) value = problem.value(Eigen::Matrix3Xd::Zero(3, step.cols()));
     if (decreases()) {
+      fall = value - next;
       problem.accept(trial);
       return Search::accepted;
     }
   }
   return Search::none;
+}
+
+/// Whether the last steps lowered the value by less than the wanted share. `falls`: of all steps; `value`: now.
+bool hardly_falls(std::span<const double> falls, double value, const NewtonOptions& options) {
+  const std::size_t window = static_cast<std::size_t>(options.window);
+  if (falls.size() < window) return false;
+  const double all = std::accumulate(falls.begin(), falls.end(), 0.0);
+  const auto last = falls.last(window);
+  return std::accumulate(last.begin(), last.end(), 0.0) < options.decrease * (value + all);
 }
 
 }  // namespace
@@ -37,7 +50,8 @@ NewtonResult minimise_newton(NewtonProblem& problem, const NewtonOptions& option
   Eigen::Matrix3Xd gradient, step;
   std::vector<Eigen::Matrix3d> blocks;
   BlockJacobiPcg pcg;
-  std::vector<double> values = {problem.linearise(gradient)};
+  std::vector<double> falls;
+  double value = problem.linearise(gradient);
   while (result.iterations < options.max_steps) {
     if (stop && (result.stopped = stop())) break;
     problem.inverse_blocks(options.scalar_jacobi, blocks);
@@ -48,21 +62,18 @@ NewtonResult minimise_newton(NewtonProblem& problem, const NewtonOptions& option
     if (!(longest > 0) || !(gradient.cwiseProduct(step).sum() < 0)) break;
 
     problem.limit(step);
-    double value = values.back();
-    const Search found = search_line(problem, options, gradient, step, value);
+    double fall = 0;
+    const Search found = search_line(problem, options, gradient, step, value, fall);
     if (found == Search::none) break;
     if (found == Search::blocked) {
       if (!problem.remove_blocked()) break;
-      values = {problem.linearise(gradient)};
+      falls.clear();
+      value = problem.linearise(gradient);
       continue;
     }
-    values.push_back(problem.linearise(gradient));
-    if (longest < options.motion) break;
-    const std::size_t window = static_cast<std::size_t>(options.window);
-    if (values.size() > window) {
-      const double before = values[values.size() - 1 - window], now = values.back();
-      if (before - now < options.decrease * now) break;
-    }
+    falls.push_back(fall);
+    value = problem.linearise(gradient);
+    if (longest < options.motion || hardly_falls(falls, value, options)) break;
   }
   return result;
 }

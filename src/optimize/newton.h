@@ -42,7 +42,8 @@ struct NewtonOptions {
   int max_halvings = 40;  ///< The line search halves a step this many times at most (unit: halvings)
   PcgOptions solver;
   bool scalar_jacobi = false;  ///< precondition by the diagonal of the Hessian alone, not by its blocks
-  /// Ends when the value fell by less than this share in `window` steps (no unit)
+  /// Ends when in `window` steps the value fell by less than this share of what it was at the start, without what
+  /// unknowns that do not move any more have in it (no unit)
   double decrease = 0;
   int window = 1;     ///< Steps over which the decrease of the value is measured (unit: steps)
   double motion = 0;  ///< Ends when a Newton step moves no unknown farther (unit: length)

@@ -113,7 +113,7 @@ void ContactRules::gather(const Positions& x, double activation, const MotionBou
   const double least = std::min(activation, options_.reach_gaps * options_.min_gap);
   radius_ = shares_of_h(x);
   for (double& radius : radius_) radius = std::max(least, activation * radius);
-  const auto make = [&](const NearStencil& near, ContactRule& rule) { return rule_of(near, near.distance, rule); };
+  const auto make = [&](const NearStencil& near, ContactRule& rule) { return rule_of(near, x, rule); };
   candidates_.gather(x, radius_, bounds, moves, make, rules, options_.stop);
   add_altitudes(x, x, bounds, moves, rules);
 }
@@ -126,9 +126,7 @@ bool ContactRules::gather_around(std::span<const Index> vertices, const Position
     const Stencil& s = rule.stencil.stencil;
     return std::any_of(s.v.begin(), s.v.begin() + s.size(), [&](Index v) { return is_anew_[v] != 0; });
   });
-  const auto make = [&](const NearStencil& near, ContactRule& rule) {
-    return rule_of(near, &from == &x ? near.distance : std::sqrt(squared_distance(near.stencil, x)), rule);
-  };
+  const auto make = [&](const NearStencil& near, ContactRule& rule) { return rule_of(near, x, rule); };
   if (!candidates_.gather_around(vertices, from, radius_, bounds, make, rules, options_.stop, limit)) return false;
   add_altitudes(from, x, bounds, is_anew_, rules);
   return true;
@@ -142,7 +140,7 @@ ContactRules::Close ContactRules::measure(const Positions& x, double around, std
   oneapi::tbb::combinable<Close> close;
   std::vector<ContactRule> none;
   const auto count = [&](const NearStencil& near, ContactRule& rule) {
-    if (!rule_of(near, near.distance, rule)) return false;
+    if (!rule_of(near, x, rule)) return false;
     Close& here = close.local();
     here.least = std::min(here.least, rule.distance);
     here.closed += rule.closed;
@@ -206,29 +204,35 @@ bool ContactRules::pass(const Stencil& s) const {
   return passing.has_parts() && !any_pair(s, [&](Index t, Index u) { return passing.meet(patch_.triangles, t, u); });
 }
 
-bool ContactRules::rule_of(const NearStencil& near, double distance, ContactRule& rule) const {
+bool ContactRules::rule_of(const NearStencil& near, const Positions& x, ContactRule& rule) const {
   const Stencil& s = near.stencil;
-  if (!(distance > 0) || pass(s)) return false;
+  if (pass(s)) return false;
   rule.stencil.stencil = s;
   rule.distance = near.distance;
   rule.direction = near.direction;
-  rule.rest_distance = std::sqrt(squared_distance(s, patch_.rest));
+  const double rest_distance = std::sqrt(squared_distance(s, patch_.rest));
   const auto [first_in_conflict, second_in_conflict] = in_conflict(s);
-  const bool neighbours = are_neighbours(s, rule.rest_distance);
+  const bool neighbours = are_neighbours(s, rest_distance);
   const bool conflict = neighbours ? first_in_conflict && second_in_conflict && intersect_at_rest(s)
                                    : first_in_conflict || second_in_conflict;
   rule.neighbours = neighbours && !conflict;
   double separation = options_.min_gap;
-  rule.reach = std::max(options_.reach_share * rule.rest_distance, options_.reach_gaps * options_.min_gap);
+  rule.reach = std::max(options_.reach_share * rest_distance, options_.reach_gaps * options_.min_gap);
   if (rule.neighbours) {
-    if (rule.rest_distance <= options_.roundoff) return false;
-    separation = std::min(separation, options_.kept_rest_share * rule.rest_distance);
-    rule.reach = options_.reach_share * rule.rest_distance;
+    if (rest_distance <= options_.roundoff) return false;
+    separation = std::min(separation, options_.kept_rest_share * rest_distance);
+    rule.reach = options_.reach_share * rest_distance;
   } else if (!neighbours && conflict) {
     rule.reach = std::numeric_limits<double>::infinity();
   }
-  rule.closed = !(distance > separation);
-  rule.stencil.separation = std::min(0.5 * distance, separation);
+  rule.closed = false;
+  if (!(near.least_distance > 2 * separation)) {  // else x, which is within the bounds, is farther
+    const double distance = std::sqrt(squared_distance(s, x));
+    if (!(distance > 0)) return false;
+    rule.closed = !(distance > separation);
+    separation = std::min(0.5 * distance, separation);
+  }
+  rule.stencil.separation = separation;
   rule.stencil.activation =
       std::max(std::min(radius_of(s, radius_), rule.reach), least_activation * rule.stencil.separation);
   if (near.least_distance > rule.stencil.activation) return false;
@@ -249,9 +253,9 @@ void ContactRules::add_altitudes_of(const Positions& from, const Positions& x, c
     for (int k = 0; k < 3; ++k) {
       ContactRule rule;
       const Stencil s = altitude_of(f, k);
-      rule.rest_distance = rest_altitudes_[t][k];
-      if (rule.rest_distance <= options_.roundoff) continue;  // no area at rest: it needs none
-      rule.reach = options_.altitude_share * rule.rest_distance;
+      const double rest_distance = rest_altitudes_[t][k];
+      if (rest_distance <= options_.roundoff) continue;  // no area at rest: it needs none
+      rule.reach = options_.altitude_share * rest_distance;
       const Closest at = closest(s, from);
       rule.distance = at.distance;
       rule.direction = at.direction;

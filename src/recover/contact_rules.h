@@ -21,8 +21,7 @@ namespace unsnarl {
 /// How close the primitives of a stencil may come, and how far its barrier may reach.
 struct ContactRule {
   BarrierStencil stencil;
-  double reach = 0;  ///< the activation distance never exceeds this
-  double rest_distance = 0;
+  double reach = 0;               ///< the activation distance never exceeds this
   double distance = 0;            ///< at the positions where its vertices' bounds start
   Vec3 direction = Vec3::Zero();  ///< of the shortest way there (Closest::direction)
   bool closed = false;            ///< closer than it should be
@@ -112,8 +111,9 @@ class ContactRules {
   bool intersect_at_rest(const Stencil& stencil) const;
   /// Whether all triangles at the one primitive pass through all at the other.
   bool pass(const Stencil& stencil) const;
-  /// Rule of a stencil that is `distance` wide now; false where there is none or it cannot come that close.
-  bool rule_of(const NearStencil& near, double distance, ContactRule& rule) const;
+  /// Rule of a stencil that is at x now, within the bounds it was found with; false where there is none or it cannot
+  /// come that close.
+  bool rule_of(const NearStencil& near, const Positions& x, ContactRule& rule) const;
   /// The corners of triangles [begin, end) that move against their opposite edges.
   void add_altitudes_of(const Positions& from, const Positions& x, const MotionBounds& bounds,
                         std::span<const std::uint8_t> moves, Index begin, Index end,

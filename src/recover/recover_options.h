@@ -94,8 +94,9 @@ struct RecoverOptions {
   int max_steps = 120;
   // A stage ends where the energy hardly falls, or where all vertices are stationary: the last steps of a stage push
   // away from contacts more than they bring back.
-  /// A stage ends when the energy fell by less than this share in `stop_window` steps [E166] (no unit)
-  double stop_decrease = 2e-2;
+  /// A stage ends when the energy fell in `stop_window` steps by less than this share of what it was at the stage's
+  /// start, that of vertices which have become stationary left out [E246] (no unit)
+  double stop_decrease = 1e-2;
   int stop_window = 2;  ///< Newton steps over which the decrease of the energy is measured [E167] (unit: steps)
   /// A vertex is stationary, and held for the rest of the stage, where `stationary_steps` Newton steps move it no
   /// farther than this [E168] (unit: activation distances)

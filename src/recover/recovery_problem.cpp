@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/fit.h"
 #include "mesh/union_find.h"
@@ -85,7 +86,7 @@ bool RecoveryProblem::remove_blocked() {
 }
 
 double RecoveryProblem::linearise(Eigen::Matrix3Xd& gradient) {
-  contacts_.pick_near(patch_.x, moving(), objective_.contacts());
+  if (!std::exchange(has_contacts_, false)) contacts_.pick_near(patch_.x, moving(), objective_.contacts());
   gradient_.resize(3, patch_.x.cols());
   const double value = objective_.linearise(patch_.x, gradient_, hessian_);
   fit(gradient, 3, unknowns());
@@ -217,7 +218,7 @@ double RecoveryProblem::value(const Eigen::Matrix3Xd& step) {
 
 void RecoveryProblem::accept(const Eigen::Matrix3Xd& step) {
   patch_.x += spread(step);
-  is_new_state_ = true;
+  is_new_state_ = has_contacts_ = true;
   hold_stationary();
 }
 

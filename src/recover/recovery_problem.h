@@ -77,6 +77,7 @@ class RecoveryProblem final : public NewtonProblem {
   Hessian hessian_;
   Positions gradient_, displacement_, trial_;
   bool is_new_state_ = false;  // not in the trajectory yet
+  bool has_contacts_ = false;  // the objective has those that are near here, from the trial that led here
 };
 
 }  // namespace unsnarl

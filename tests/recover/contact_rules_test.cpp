@@ -78,7 +78,6 @@ TEST(ContactRules, what_passes_through_each_other_has_none) {
 TEST(ContactRules, the_barrier_leaves_a_rest_shape_without_conflict_alone) {
   const ContactRule thin = rule_of_vertex_0(face_over_face(0.2, 0.2), {});
   EXPECT_DOUBLE_EQ(thin.reach, 0.1);
-  EXPECT_DOUBLE_EQ(thin.rest_distance, 0.2);
   const ContactRule thinner = rule_of_vertex_0(face_over_face(0.2, 0.001), {});
   EXPECT_DOUBLE_EQ(thinner.reach, 0.03);  // the wanted gap comes first
   const ContactRule crossing = rule_of_vertex_0(face_over_face(0.2, 0.001), {{0, 1}});
@@ -113,11 +112,12 @@ BlockList<ContactRule> rules_of(const Patch& patch, const std::vector<Intersecti
 }
 
 TEST(ContactRules, neighbours_keep_a_share_of_their_rest_distance) {
-  const BlockList<ContactRule> rules = rules_of(folded_pair(0.004), {});
+  const Patch patch = folded_pair(0.004);
+  const BlockList<ContactRule> rules = rules_of(patch, {});
   ASSERT_EQ(rules.size(), 2u);
   for (const ContactRule& rule : rules) {
     EXPECT_LE(rule.stencil.separation, 0.01);
-    EXPECT_DOUBLE_EQ(rule.reach, 0.5 * rule.rest_distance);
+    EXPECT_DOUBLE_EQ(rule.reach, 0.5 * std::sqrt(squared_distance(rule.stencil.stencil, patch.rest)));
     if (rule.stencil.stencil.v[0] == 3) {
       EXPECT_NEAR(rule.stencil.separation, 0.001, 1e-12);
     }
