@@ -2,6 +2,18 @@
 set(UNSNARL_GENERATED_INCLUDE_DIR ${PROJECT_BINARY_DIR}/include)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/version.h.in ${UNSNARL_GENERATED_INCLUDE_DIR}/unsnarl/version.h @ONLY)
 
+string(TOUPPER "CMAKE_CXX_FLAGS_${CMAKE_BUILD_TYPE}" flags_of_the_type)
+set(flags_of_the_user "${CMAKE_CXX_FLAGS} ${${flags_of_the_type}}")
+# Signs would be wrong, and results certified that intersect. geometry/predicates.h refuses those that a macro tells.
+set(unsafe_flags
+  -ffast-math -Ofast -funsafe-math-optimizations -fassociative-math -freciprocal-math -ffinite-math-only -mfpmath=387
+  -fsingle-precision-constant)
+foreach(flag IN LISTS unsafe_flags)
+  if(" ${flags_of_the_user} " MATCHES " ${flag} ")
+    message(FATAL_ERROR "unsnarl would certify falsely when compiled with ${flag}: configure without it.")
+  endif()
+endforeach()
+
 add_library(unsnarl_compile_options INTERFACE)
 target_compile_features(unsnarl_compile_options INTERFACE cxx_std_20)
 target_compile_options(unsnarl_compile_options INTERFACE
@@ -18,8 +30,7 @@ target_compile_options(unsnarl_compile_options INTERFACE
 
 # A mistake in memory ends the program rather than being of use to a hostile file; tests/packaging/hardening_test.py
 # reads it off what is built. Sanitizers do this and more, in ways of their own.
-string(TOUPPER "CMAKE_CXX_FLAGS_${CMAKE_BUILD_TYPE}" flags_of_the_type)
-if(NOT "${CMAKE_CXX_FLAGS} ${${flags_of_the_type}}" MATCHES "-fsanitize" AND NOT UNSNARL_BUILD_FUZZERS)
+if(NOT flags_of_the_user MATCHES "-fsanitize" AND NOT UNSNARL_BUILD_FUZZERS)
   include(CheckPIESupported)
   check_pie_supported()
   set(is_optimised $<NOT:$<CONFIG:Debug>>)  # without, there is nothing that _FORTIFY_SOURCE could check

@@ -30,13 +30,6 @@ unsnarl_package(zlib1g-dev ZLIB)
 unsnarl_package(libpugixml-dev pugixml)  # SVG, GIFTI, VTP, 3MF
 unsnarl_package(libboost-dev Boost 1.74)  # headers only: integers of any size
 unsnarl_library(libzip-dev ZIP_LIBRARY zip)  # Debian's libzip-config.cmake asks for its programs too
-unsnarl_library(libgmp-dev GMP_LIBRARY gmp)
-unsnarl_library(libmpfr-dev MPFR_LIBRARY mpfr)
-if(GMP_LIBRARY AND MPFR_LIBRARY AND Boost_FOUND)  # else its own messages are in the way
-  unsnarl_package(libcgal-dev CGAL 5.5)  # the LGPL kernel only; see NOTICE
-else()
-  list(APPEND missing libcgal-dev)
-endif()
 if(UNSNARL_BUILD_APPS)
   unsnarl_package(libssl-dev OpenSSL COMPONENTS Crypto)  # SHA-256 of what batches and sequences have done
 endif()
@@ -46,6 +39,15 @@ endif()
 if(UNSNARL_BUILD_TESTS OR UNSNARL_BUILD_BENCHMARKS)
   unsnarl_package(libgtest-dev GTest)
 endif()
+if(UNSNARL_BUILD_TESTS)  # second opinions
+  unsnarl_library(libgmp-dev GMP_LIBRARY gmp)
+  unsnarl_library(libmpfr-dev MPFR_LIBRARY mpfr)
+  if(GMP_LIBRARY AND MPFR_LIBRARY AND Boost_FOUND)  # else its own messages are in the way
+    unsnarl_package(libcgal-dev CGAL 5.5)
+  else()
+    list(APPEND missing libcgal-dev)
+  endif()
+endif()
 if(UNSNARL_BUILD_BENCHMARKS)
   unsnarl_package(libbenchmark-dev benchmark)
 endif()
@@ -53,16 +55,16 @@ endif()
 if(missing)
   list(JOIN missing " " names)
   set(advice "")
-  if("libgtest-dev" IN_LIST missing)
-    set(advice "libgtest-dev is for the tests alone: -DUNSNARL_BUILD_TESTS=OFF does without.")
+  if("libgtest-dev" IN_LIST missing OR "libcgal-dev" IN_LIST missing)
+    set(advice "GoogleTest, CGAL, GMP and MPFR are for the tests alone: -DUNSNARL_BUILD_TESTS=OFF does without.")
   endif()
   # CMake leaves lines that begin with a space as they are, to be copied.
   message(FATAL_ERROR "Missing, or too old. On Debian:\n  apt-get install --no-install-recommends ${names}\n${advice}")
 endif()
 
 # What a program is linked with that is linked with the static library: as CMake packages, names for the linker, and
-# Debian packages. MPFR before GMP, which it uses.
+# Debian packages.
 set(UNSNARL_LINKED_PACKAGES Threads TBB fmt PNG GIF ZLIB pugixml)
-set(UNSNARL_LINKED_LIBRARIES tbb fmt png gif z pugixml zip mpfr gmp)
+set(UNSNARL_LINKED_LIBRARIES tbb fmt png gif z pugixml zip)
 set(UNSNARL_LINKED_DEBIAN
-  libtbb-dev libfmt-dev libpng-dev libgif-dev zlib1g-dev libpugixml-dev libzip-dev libmpfr-dev libgmp-dev)
+  libtbb-dev libfmt-dev libpng-dev libgif-dev zlib1g-dev libpugixml-dev libzip-dev)

@@ -14,7 +14,7 @@ RUNTIME = {"libstdc++.so.6", "libgcc_s.so.1"}
 _LIBSTDCXX_BESIDE_GLIBC = {34: (3, 4, 29), 35: (3, 4, 30), 36: (3, 4, 30)}
 
 #: Packages of headers that leave code in what is compiled with them and whose licences ask for their text beside it.
-_COMPILED_IN = ["libcgal-dev", "libcli11-dev", "libeigen3-dev", "nlohmann-json3-dev"]
+_COMPILED_IN = ["libcli11-dev", "libeigen3-dev", "nlohmann-json3-dev"]
 
 
 def _output(*command):

@@ -64,14 +64,14 @@ def test_wheel(tmp_path):
     with zipfile.ZipFile(wheel) as content:
         (packed,) = (one for one in content.infolist() if one.filename == "unsnarl/bin/unsnarl")
         assert packed.external_attr >> 16 & 0o111
-        assert any("licenses/libgmp" in name for name in content.namelist())
+        assert any("licenses/libpugixml" in name for name in content.namelist())
         (points,) = (name for name in content.namelist() if name.endswith(".dist-info/entry_points.txt"))
         assert b"[pyvista.accessors]" in content.read(points)
         content.extractall(tmp_path / "target")
     program = tmp_path / "target" / "unsnarl" / "bin" / "unsnarl"
     program.chmod(0o755)  # as pip does for what is marked so in the wheel
     listed = run("ldd", program)
-    for name in ("libtbb", "libgmp", "libzip"):
+    for name in ("libtbb", "libpugixml", "libzip"):
         (line,) = (line for line in listed.splitlines() if name in line.split()[0])
         assert str(tmp_path / "target") in line
     assert run(program, "--version").startswith("unsnarl ")
@@ -79,6 +79,6 @@ def test_wheel(tmp_path):
     script = "import unsnarl; unsnarl.find_intersections([[0, 0, 0]], []); print(open('/proc/self/maps').read())"
     maps = run(sys.executable, "-c", script, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path / "target")})
     loaded = {Path(line.split()[-1]) for line in maps.splitlines() if ".so" in line}
-    for name in ("libunsnarl_c", "libtbb", "libgmp", "libzip"):
+    for name in ("libunsnarl_c", "libtbb", "libpugixml", "libzip"):
         (path,) = (path for path in loaded if path.name.startswith(name))
         assert tmp_path / "target" in path.parents

@@ -1,8 +1,16 @@
 #pragma once
 
+#include <cfloat>
 #include <cmath>
 
 #include "geometry/types.h"
+
+// The error bounds below hold for arithmetic that rounds every operation to a double, to nearest, and keeps its order.
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error "unsnarl would certify falsely with -ffast-math, -Ofast or one of their parts: compile it without"
+#endif
+static_assert(FLT_EVAL_METHOD == 0, "unsnarl would certify falsely with the x87 unit: compile it with -mfpmath=sse");
 
 namespace unsnarl {
 
@@ -12,9 +20,8 @@ namespace unsnarl {
 using Sign = int;  // -1, 0, +1
 
 namespace detail {
-/// By exact expansions where the coordinate differences are exact, else by the kernel.
+/// By integers of as many digits as the coordinates need: no rounding, so no rounding mode matters.
 Sign orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-Sign orient3d_by_kernel(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 Sign orient2d_exact(double ax, double ay, double bx, double by, double cx, double cy);
 
 /// Half a unit in the last place of 1, 2^-53 (fixed by float64)

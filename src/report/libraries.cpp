@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gif_lib.h>
-#include <gmp.h>
 #include <gnu/libc-version.h>
 #include <png.h>
 #include <tbb/version.h>
@@ -20,7 +19,6 @@ std::vector<LibraryVersion> libraries() {
   const unsigned png = png_access_version_number();
   return {
       {"Boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
-      {"CGAL", UNSNARL_CGAL_VERSION},
 #ifdef __clang__
       {"Clang", fmt::format("{}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__)},
 #endif
@@ -30,7 +28,6 @@ std::vector<LibraryVersion> libraries() {
 #endif
       {"giflib", fmt::format("{}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE)},
       {"glibc", gnu_get_libc_version()},
-      {"GMP", gmp_version},
       {"libpng", fmt::format("{}.{}.{}", png / 10000, png / 100 % 100, png % 100)},
       {"libzip", zip_libzip_version()},
       {"nlohmann/json",

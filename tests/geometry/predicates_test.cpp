@@ -1,8 +1,8 @@
 #include "geometry/predicates.h"
 
-#include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -10,6 +10,8 @@
 
 namespace unsnarl {
 namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
 
 // Reference for integers: nothing overflows while coordinates stay below 2^38.
 Sign orient3d_by_integers(const std::array<std::array<std::int64_t, 3>, 4>& p) {
@@ -25,19 +27,19 @@ Sign orient3d_by_integers(const std::array<std::array<std::int64_t, 3>, 4>& p) {
 
 // Reference for any doubles: rational numbers.
 Sign orient3d_by_rationals(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  mpq_class m[3][3];
+  Rational m[3][3];
   const Vec3* rows[3] = {&b, &c, &d};
   for (int r = 0; r < 3; ++r)
-    for (int k = 0; k < 3; ++k) m[r][k] = mpq_class((*rows[r])[k]) - mpq_class(a[k]);
-  const mpq_class det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                        m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                        m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-  return sgn(det);
+    for (int k = 0; k < 3; ++k) m[r][k] = Rational((*rows[r])[k]) - Rational(a[k]);
+  const Rational det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                       m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                       m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  return det.sign();
 }
 Sign orient2d_by_rationals(double ax, double ay, double bx, double by, double cx, double cy) {
-  const mpq_class x0(ax), y0(ay);
-  const mpq_class det = (mpq_class(bx) - x0) * (mpq_class(cy) - y0) - (mpq_class(by) - y0) * (mpq_class(cx) - x0);
-  return sgn(det);
+  const Rational x0(ax), y0(ay);
+  const Rational det = (Rational(bx) - x0) * (Rational(cy) - y0) - (Rational(by) - y0) * (Rational(cx) - x0);
+  return det.sign();
 }
 
 class Random {
@@ -120,19 +122,57 @@ TEST(Predicates, orient3d_is_exact_next_to_the_plane) {
   EXPECT_GT(seen[2], 1000);
 }
 
-// Both exact paths of the fallback, whichever the points would take by themselves.
-TEST(Predicates, the_exact_paths_agree_with_each_other) {
+// Coordinates of n binary digits around each n from which on longer integers are used: up to 2^n, from 2^0.
+TEST(Predicates, integers_of_every_length_are_exact) {
   Random random(3);
-  for (int round = 0; round < 3000; ++round) {
-    std::array<Vec3, 4> p;
-    for (Vec3& q : p)
-      for (int k = 0; k < 3; ++k)
-        q[k] = round % 2 ? random.real() : std::ldexp(static_cast<double>(random.integer(1 << 20)), round % 40 - 20);
-    if (round % 3 == 0) p[3] = 0.5 * (p[0] + p[1]);
-    const Sign expected = orient3d_by_rationals(p[0], p[1], p[2], p[3]);
-    ASSERT_EQ(detail::orient3d_exact(p[0], p[1], p[2], p[3]), expected);
-    ASSERT_EQ(detail::orient3d_by_kernel(p[0], p[1], p[2], p[3]), expected);
+  std::array<int, 3> seen{};
+  for (const int digits : {3, 40, 61, 62, 63, 64, 125, 126, 127, 128, 400, 1023}) {
+    for (int round = 0; round < 150; ++round) {
+      std::array<Vec3, 4> p;
+      for (Vec3& q : p)
+        for (int k = 0; k < 3; ++k)
+          q[k] = static_cast<double>(random.integer(3)) +
+                 (random.integer(1) == 0 ? 0 : std::ldexp(random.real(), static_cast<int>(random.integer(digits))));
+      p[0][round % 3] = -std::ldexp(1 - 0x1p-53, digits);
+      p[1][round % 3] = std::ldexp(1 - 0x1p-53, digits);
+      if (round % 3 == 0) p[3] = p[2];
+      const Sign expected = orient3d_by_rationals(p[0], p[1], p[2], p[3]);
+      ++seen[expected + 1];
+      ASSERT_EQ(detail::orient3d_exact(p[0], p[1], p[2], p[3]), expected) << digits << " digits, round " << round;
+      ASSERT_EQ(detail::orient2d_exact(p[0][0], p[0][1], p[1][0], p[1][1], p[2][0], p[2][1]),
+                orient2d_by_rationals(p[0][0], p[0][1], p[1][0], p[1][1], p[2][0], p[2][1]))
+          << digits << " digits, round " << round;
+    }
   }
+  for (const int count : seen) EXPECT_GT(count, 200);
+}
+
+/// A coordinate for which a plane is decided by its last binary digit.
+double neighbour_of(double value, std::int64_t steps) {
+  for (; steps != 0; steps -= steps > 0 ? 1 : -1) value = std::nextafter(value, steps > 0 ? INFINITY : -INFINITY);
+  return value;
+}
+
+// What a build that rounds otherwise gets wrong: points that were put into a plane, and rounded.
+TEST(Predicates, a_hundred_thousand_points_beside_a_plane) {
+  Random random(8);
+  std::array<int, 3> seen{};
+  for (int round = 0; round < 100'000; ++round) {
+    const double size = std::ldexp(1.0, static_cast<int>(random.integer(20)));
+    std::array<Vec3, 4> p;
+    for (Vec3& q : p) q = random.point() + Vec3(size, 0.5 * size, 0);
+    const double s = random.real(), t = random.real();
+    p[3] = p[0] + s * (p[1] - p[0]) + t * (p[2] - p[0]);
+    if (round % 4 == 1)  // as a file in single precision has them
+      for (Vec3& q : p) q = q.cast<float>().cast<double>();
+    if (round % 4 == 2)  // on a grid
+      for (Vec3& q : p) q = (8 * q).array().round();
+    if (round % 2 == 1) p[3][round % 3] = neighbour_of(p[3][round % 3], random.integer(1));
+    const Sign expected = orient3d_by_rationals(p[0], p[1], p[2], p[3]);
+    ++seen[expected + 1];
+    ASSERT_EQ(orient3d(p[0], p[1], p[2], p[3]), expected) << "round " << round;
+  }
+  for (const int count : seen) EXPECT_GT(count, 1000);
 }
 
 // Products that underflow to zero, or terms of wildly different size, must not be taken for coplanar.
