@@ -11,12 +11,12 @@
 #include <string>
 
 #include "contact/intersection_finder.h"
+#include "geometry/parallel.h"
 #include "mesh/areas.h"
 #include "recover/recover.h"
 #include "render/picture.h"
 #include "render/png.h"
 #include "report/measure.h"
-#include "run/thread_limit.h"
 #include "samples/tube.h"
 #include "scene/diagnose.h"
 #include "scene/patch.h"

@@ -8,11 +8,11 @@
 
 #include "contact/intersection_finder.h"
 #include "gallery.h"
+#include "geometry/parallel.h"
 #include "peer.h"
 #include "recovery.h"
 #include "render/png.h"
 #include "report/measure.h"
-#include "run/thread_limit.h"
 #include "scene/diagnose.h"
 #include "unsnarl/document.h"
 #include "unsnarl/report.h"

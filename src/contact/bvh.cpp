@@ -1,8 +1,5 @@
 #include "contact/bvh.h"
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -10,6 +7,7 @@
 #include <limits>
 
 #include "contact/bvh_traversal.h"
+#include "geometry/parallel.h"
 
 namespace unsnarl {
 namespace {
@@ -53,7 +51,7 @@ void split(std::span<BoxCenter> centers, Index leaf_size) {
     split(left, leaf_size);
     split(right, leaf_size);
   } else {
-    oneapi::tbb::parallel_invoke([&] { split(left, leaf_size); }, [&] { split(right, leaf_size); });
+    parallel_for(2, [&](int side) { split(side == 0 ? left : right, leaf_size); });
   }
 }
 

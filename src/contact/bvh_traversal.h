@@ -1,10 +1,9 @@
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <bit>
 
 #include "contact/bvh.h"
+#include "geometry/parallel.h"
 
 namespace unsnarl {
 
@@ -89,7 +88,7 @@ void Bvh::self_pairs(Visit&& visit) const {
 
 template <class Visit>
 void Bvh::self_pairs_parallel(Visit&& visit) const {
-  oneapi::tbb::parallel_for(Index{0}, task_count(), [&](Index task) {
+  parallel_for(task_count(), [&](Index task) {
     auto visit_in_task = [&](Index i, Index j) { visit(task, i, j); };
     const auto [a, b] = tasks_[task];
     if (a == b)

@@ -1,7 +1,5 @@
 #include "contact/face_tree.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -73,16 +71,12 @@ void FaceTree::update(const Positions& x, double margin) {
   const Index n = static_cast<Index>(triangles_.size());
   boxes_.resize(n);
   if (is_new) choose_frame(x);
-  auto update_range = [&](const oneapi::tbb::blocked_range<Index>& range) {
-    for (Index t = range.begin(); t < range.end(); ++t) {
+  for_chunks(n, grain, [&](Index begin, Index end) {
+    for (Index t = begin; t < end; ++t) {
       const Box box = own_box(x, t);
       boxes_[t] = margin > 0 ? box.inflated(margin) : box;
     }
-  };
-  if (n <= grain)
-    update_range({0, n});
-  else
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<Index>(0, n, grain), update_range);
+  });
   if (!is_new) {
     bvh_.refit(boxes_);
     return;

@@ -1,7 +1,5 @@
 #include "contact/sheet_gaps.h"
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "contact/smallest_gap.h"
 #include "contact/stop_check.h"
 #include "geometry/box.h"
+#include "geometry/parallel.h"
 #include "geometry/parallel_lists.h"
 #include "mesh/union_find.h"
 
@@ -154,7 +153,7 @@ SheetGaps::SheetGaps(std::span<const Triangle> triangles, const Positions& rest,
 SheetGap SheetGaps::smallest(const Positions& x, double below) const {
   FaceTree tree(triangles_);
   tree.update(x);
-  oneapi::tbb::enumerable_thread_specific<Search> searches([&] { return Search(*this, x, tree); });
+  PerThread<Search> searches([&] { return Search(*this, x, tree); });
   std::atomic<double> limit{below};
   std::vector<SheetGap> found;
   gather_in_chunks(static_cast<Index>(triangles_.size()), found, [&](Index begin, Index end, auto& list) {
@@ -177,7 +176,7 @@ SheetGap SheetGaps::smallest(const Positions& x, double below) const {
 std::vector<SheetGap> SheetGaps::narrow(const Positions& x, double below) const {
   FaceTree tree(triangles_);
   tree.update(x);
-  oneapi::tbb::enumerable_thread_specific<Search> searches([&] { return Search(*this, x, tree); });
+  PerThread<Search> searches([&] { return Search(*this, x, tree); });
   std::vector<SheetGap> found;
   gather_in_chunks(static_cast<Index>(triangles_.size()), found, [&](Index begin, Index end, auto& list) {
     if (options_.stop && options_.stop()) throw WorkStopped();

@@ -1,6 +1,5 @@
 #include "energy/arap.h"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
@@ -8,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/parallel.h"
 #include "geometry/sort_unique.h"
 
 namespace unsnarl {
@@ -132,7 +132,7 @@ double Arap::value_and_gradient(const Positions& x, Positions& gradient, double 
   if (turning < parallel_threshold) {
     for (Index i = 0; i < turning; ++i) rotate(i);
   } else {
-    oneapi::tbb::parallel_for(Index{0}, turning, rotate);
+    parallel_for(turning, rotate);
   }
   double value = 0;
   for (Index i = 0; i < n; ++i) {

@@ -1,11 +1,10 @@
 #include "energy/minkowski_penalty.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "geometry/parallel.h"
 #include "geometry/triangle_intersection.h"
 
 namespace unsnarl {
@@ -435,7 +434,7 @@ double MinkowskiPenalty::value_and_gradient(const Positions& x, Positions& gradi
   if (chunks < 2) {
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) evaluate_chunk(chunk);
   } else {
-    oneapi::tbb::parallel_for(std::size_t{0}, chunks, evaluate_chunk);
+    parallel_for(chunks, evaluate_chunk);
   }
   double value = 0;
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) {

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <cstddef>
 #include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "geometry/parallel.h"
 #include "geometry/parallel_lists.h"
 
 namespace unsnarl {
@@ -99,7 +98,7 @@ template <class From, class Item, class Append>
 void gather_from_blocks(const BlockList<From>& items, std::vector<Item>& out, Append&& append) {
   const std::span<const std::vector<From>> blocks = items.blocks();
   std::vector<std::vector<Item>> lists(blocks.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t k) { append(blocks[k], lists[k]); });
+  parallel_for(blocks.size(), [&](std::size_t k) { append(blocks[k], lists[k]); });
   join_lists(std::move(lists), out);
 }
 

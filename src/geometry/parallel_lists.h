@@ -1,11 +1,10 @@
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "geometry/parallel.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -44,7 +43,7 @@ void gather_in_chunks(Index count, std::vector<Item>& out, Append&& append) {
     return;
   }
   std::vector<std::vector<Item>> lists((count + chunk - 1) / chunk);
-  oneapi::tbb::parallel_for(std::size_t{0}, lists.size(), [&](std::size_t k) {
+  parallel_for(lists.size(), [&](std::size_t k) {
     const Index begin = static_cast<Index>(k) * chunk;
     append(begin, std::min(count, begin + chunk), lists[k]);
   });

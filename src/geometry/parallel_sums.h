@@ -1,12 +1,11 @@
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <type_traits>
 #include <vector>
 
+#include "geometry/parallel.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -21,7 +20,7 @@ void for_chunks(Index count, Index chunk, Work&& work) {
     work(Index{0}, count);
     return;
   }
-  oneapi::tbb::parallel_for(Index{0}, (count + chunk - 1) / chunk, [&](Index k) {
+  parallel_for((count + chunk - 1) / chunk, [&](Index k) {
     work(k * chunk, static_cast<Index>(std::min<std::int64_t>(count, std::int64_t{k + 1} * chunk)));
   });
 }
@@ -31,7 +30,7 @@ template <class Sum>
 double sum_in_chunks(Index count, Index chunk, Sum&& sum) {
   if (count <= chunk) return sum(Index{0}, count);
   std::vector<double> sums((count + chunk - 1) / chunk);
-  oneapi::tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t k) {
+  parallel_for(sums.size(), [&](std::size_t k) {
     const Index begin = static_cast<Index>(k) * chunk;
     sums[k] = sum(begin, std::min(count, begin + chunk));
   });
@@ -59,14 +58,14 @@ class ScatteredSum {
     const auto begin_of = [&](Index part) {
       return static_cast<Index>(static_cast<std::int64_t>(count) * part / parts);
     };
-    oneapi::tbb::parallel_for(Index{0}, parts, [&](Index part) {
+    parallel_for(parts, [&](Index part) {
       Positions& columns = part_[part];
       columns.setZero(3, out.cols());
       call(add, begin_of(part), begin_of(part + 1), columns, part);
     });
     const Index n = static_cast<Index>(out.cols());
     const Index columns_a_task = 4096;
-    oneapi::tbb::parallel_for(Index{0}, (n + columns_a_task - 1) / columns_a_task, [&](Index task) {
+    parallel_for((n + columns_a_task - 1) / columns_a_task, [&](Index task) {
       const Index first = task * columns_a_task;
       const Index width = std::min(columns_a_task, n - first);
       for (Index part = 0; part < parts; ++part) out.middleCols(first, width) += part_[part].middleCols(first, width);

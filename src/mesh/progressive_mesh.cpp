@@ -1,7 +1,5 @@
 #include "mesh/progressive_mesh.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/parallel.h"
 #include "mesh/adjacency.h"
 #include "mesh/areas.h"
 
@@ -217,8 +216,7 @@ Index ProgressiveMesh::coarsen(const Positions& x, const CoarsenOptions& options
   for (Index v = 0; v < static_cast<Index>(ranks_.size()); ++v)
     if (ranks_[v] < options.least_kept_rank) candidates.push_back(v);
   std::vector<Collapse> collapses(candidates.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, candidates.size(),
-                            [&](std::size_t k) { collapses[k] = round.best_collapse(candidates[k]); });
+  parallel_for(candidates.size(), [&](std::size_t k) { collapses[k] = round.best_collapse(candidates[k]); });
   std::erase_if(collapses, [](const Collapse& c) { return !(c.cost < infinity); });
   std::stable_sort(collapses.begin(), collapses.end(),
                    [](const Collapse& a, const Collapse& b) { return a.cost < b.cost; });

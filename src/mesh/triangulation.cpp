@@ -1,9 +1,8 @@
 #include "mesh/triangulation.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "geometry/parallel.h"
 #include "geometry/predicates.h"
 #include "geometry/scale.h"
 #include "geometry/sort_unique.h"
@@ -183,7 +182,7 @@ void leave_out_what_others_cover(const SurfaceView& surface, std::span<const Ind
 Triangulation triangulate(const SurfaceView& surface, std::span<const Index> vertex_of) {
   const std::size_t count = surface.face_count();
   std::vector<Triangulation> blocks((count + polygons_in_block - 1) / polygons_in_block);
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+  parallel_for(blocks.size(), [&](std::size_t i) {
     Triangulation& block = blocks[i];
     PolygonCutter cutter(surface, block.statistics);
     const std::size_t end = std::min(count, (i + 1) * polygons_in_block);

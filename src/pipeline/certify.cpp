@@ -3,9 +3,9 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/parallel.h"
 #include "mesh/areas.h"
 #include "mesh/validity.h"
-#include "run/thread_limit.h"
 #include "scene/face_pairs.h"
 #include "scene/output_format.h"
 #include "scene/prepared_surface.h"

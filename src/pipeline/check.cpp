@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "contact/stop_check.h"
+#include "geometry/parallel.h"
 #include "geometry/sort_unique.h"
 #include "mesh/components.h"
 #include "mesh/union_find.h"
 #include "run/limits.h"
-#include "run/thread_limit.h"
 #include "scene/face_pairs.h"
 #include "scene/overlapping_components.h"
 #include "scene/prepared_surface.h"

@@ -6,11 +6,11 @@
 
 #include "contact/intersection_finder.h"
 #include "contact/smallest_gap.h"
+#include "geometry/parallel.h"
 #include "mesh/adjacency.h"
 #include "mesh/components.h"
 #include "mesh/dihedral_angles.h"
 #include "mesh/validity.h"
-#include "run/thread_limit.h"
 #include "scene/prepared_surface.h"
 
 namespace unsnarl {

@@ -1,4 +1,4 @@
-#include "run/thread_limit.h"
+#include "geometry/parallel.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "unsnarl/intersections.h"

@@ -10,12 +10,12 @@
 
 #include "contact/sheet_gaps.h"
 #include "contact/stop_check.h"
+#include "geometry/parallel.h"
 #include "mesh/areas.h"
 #include "mesh/edge_ways.h"
 #include "mesh/union_find.h"
 #include "pipeline/region_work.h"
 #include "recover/recover_regions.h"
-#include "run/thread_limit.h"
 #include "unsnarl/clearance.h"
 #include "untangle/conflict_regions.h"
 

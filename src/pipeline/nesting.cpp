@@ -11,11 +11,11 @@
 
 #include "contact/closed_surface.h"
 #include "contact/intersection_finder.h"
+#include "geometry/parallel.h"
 #include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "mesh/union_find.h"
 #include "mesh/validity.h"
-#include "run/thread_limit.h"
 
 namespace unsnarl {
 namespace {

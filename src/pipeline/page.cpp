@@ -10,10 +10,10 @@
 
 #include "contact/intersection_finder.h"
 #include "contact/intersection_segments.h"
+#include "geometry/parallel.h"
 #include "io/parse_json.h"
 #include "mesh/validity.h"
 #include "render/page.h"
-#include "run/thread_limit.h"
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "unsnarl/document.h"

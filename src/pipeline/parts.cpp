@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "run/thread_limit.h"
+#include "geometry/parallel.h"
 #include "scene/prepared_surface.h"
 
 namespace unsnarl {

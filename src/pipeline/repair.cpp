@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact/stop_check.h"
+#include "geometry/parallel.h"
 #include "mesh/areas.h"
 #include "pipeline/conclude.h"
 #include "pipeline/dihedral_stage.h"
@@ -24,7 +25,6 @@
 #include "run/calling_thread.h"
 #include "run/limits.h"
 #include "run/phases.h"
-#include "run/thread_limit.h"
 #include "scene/pair_census.h"
 #include "unsnarl/limit_reached.h"
 

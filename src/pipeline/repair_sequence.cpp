@@ -1,5 +1,3 @@
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <condition_variable>
 #include <map>
@@ -10,22 +8,18 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/parallel.h"
 #include "pipeline/frame_repair.h"
 #include "pipeline/frame_schedule.h"
 #include "run/calling_thread.h"
-#include "run/thread_limit.h"
 #include "unsnarl/sequence.h"
 
 namespace unsnarl {
 namespace {
 
-std::size_t threads_of_arena() {
-  return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-}
-
 /// Returns how many frames are under way at once: for each thread those around a key frame, which follow each other.
 std::size_t frames_ahead() {
-  return key_frame_distance * threads_of_arena();
+  return key_frame_distance * static_cast<std::size_t>(thread_count());
 }
 
 /// The threads that work on the frames, and what they share: jobs run without the lock, and each writes its own frame.
@@ -62,7 +56,7 @@ class SequenceWork {
       }
       changed_.notify_all();
     };
-    tbb::parallel_for(0, static_cast<int>(threads_of_arena()), work, tbb::simple_partitioner());
+    run_on_threads(thread_count(), work);
     std::vector<FrameReport> reports;
     for (const auto& [t, report] : reports_) reports.push_back(report);
     return reports;
@@ -93,7 +87,7 @@ class SequenceWork {
     const bool is_wanted = schedule_.is_wanted(job.frame);
     lock.unlock();
     // A repair waits for its own tasks; it must not begin with another frame meanwhile.
-    tbb::this_task_arena::isolate([&] {
+    run_isolated([&] {
       SequenceFrame& frame = frames_[job.frame];
       if (job.is_repair) {
         repair_.repair(job.frame, schedule_.start_of(job.frame), frames_);

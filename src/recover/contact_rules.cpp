@@ -1,8 +1,7 @@
 #include "recover/contact_rules.h"
 
-#include <oneapi/tbb/combinable.h>
-
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -137,22 +136,18 @@ ContactRules::Close ContactRules::measure(const Positions& x, double around, std
   MotionBounds bounds;
   bounds.reset(static_cast<Index>(x.cols()));
   bounds.around.assign(radius_.size(), around);
-  oneapi::tbb::combinable<Close> close;
+  std::atomic<double> least{Close{}.least};
+  std::atomic<Index> closed{0};
   std::vector<ContactRule> none;
   const auto count = [&](const NearStencil& near, ContactRule& rule) {
     if (!rule_of(near, x, rule)) return false;
-    Close& here = close.local();
-    here.least = std::min(here.least, rule.distance);
-    here.closed += rule.closed;
+    for (double now = least; rule.distance < now && !least.compare_exchange_weak(now, rule.distance);) {
+    }
+    if (rule.closed) ++closed;
     return false;
   };
   candidates_.gather(x, radius_, bounds, moves, count, none, options_.stop);
-  Close all;
-  close.combine_each([&](const Close& here) {
-    all.least = std::min(all.least, here.least);
-    all.closed += here.closed;
-  });
-  return all;
+  return {least, closed};
 }
 
 void ContactRules::add_altitudes(const Positions& from, const Positions& x, const MotionBounds& bounds,

@@ -4,7 +4,6 @@
 #include <gif_lib.h>
 #include <gnu/libc-version.h>
 #include <png.h>
-#include <tbb/version.h>
 #include <zip.h>
 #include <zlib.h>
 
@@ -13,11 +12,13 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
+#include "geometry/parallel.h"
+
 namespace unsnarl {
 
 std::vector<LibraryVersion> libraries() {
   const unsigned png = png_access_version_number();
-  return {
+  std::vector<LibraryVersion> all = {
       {"Boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
 #ifdef __clang__
       {"Clang", fmt::format("{}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__)},
@@ -32,11 +33,13 @@ std::vector<LibraryVersion> libraries() {
       {"libzip", zip_libzip_version()},
       {"nlohmann/json",
        fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
-      {"oneTBB", TBB_runtime_version()},
+      {"oneTBB", version_of_tbb()},
       {"pugixml", fmt::format("{}.{}", PUGIXML_VERSION / 1000, PUGIXML_VERSION / 10 % 100)},
       {"zlib", zlibVersion()},
       {"{fmt}", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
   };
+  std::erase_if(all, [](const LibraryVersion& library) { return library.version.empty(); });
+  return all;
 }
 
 }  // namespace unsnarl

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -9,6 +7,7 @@
 #include "contact/bvh.h"
 #include "contact/bvh_traversal.h"
 #include "geometry/box.h"
+#include "geometry/parallel.h"
 
 namespace unsnarl {
 
@@ -28,7 +27,7 @@ void run_in_batches(std::span<const Box> boxes, Work&& work, Finish&& finish) {
     batches[batch[i]].push_back(i);
   }
   for (const std::vector<std::size_t>& items : batches) {
-    oneapi::tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t k) { work(items[k]); });
+    parallel_for(items.size(), [&](std::size_t k) { work(items[k]); });
     for (std::size_t i : items) finish(i);
   }
 }

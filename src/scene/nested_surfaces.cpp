@@ -1,10 +1,9 @@
 #include "scene/nested_surfaces.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "contact/closed_surface.h"
+#include "geometry/parallel.h"
 
 namespace unsnarl {
 
@@ -16,8 +15,7 @@ std::vector<Index> vertices_on_the_wrong_side(const NestedSurfaces& nested, cons
     surface.update(x);
     const std::vector<Index>& vertices = nested.vertices[of];
     std::vector<std::uint8_t> is_wrong(vertices.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, vertices.size(),
-                              [&](std::size_t i) { is_wrong[i] = surface.side_of(x.col(vertices[i])) != right; });
+    parallel_for(vertices.size(), [&](std::size_t i) { is_wrong[i] = surface.side_of(x.col(vertices[i])) != right; });
     for (std::size_t i = 0; i < vertices.size(); ++i)
       if (is_wrong[i]) wrong.push_back(vertices[i]);
   };

@@ -1,13 +1,12 @@
 #include "untangle/push_into_nesting.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
 #include "contact/closed_surface.h"
+#include "geometry/parallel.h"
 #include "mesh/areas.h"
 
 namespace unsnarl {
@@ -115,7 +114,7 @@ class Push {
     const std::vector<Index>& vertices = nested_.vertices[role.of];
     role.distance.resize(vertices.size(), 0);
     Positions& pushes = role.right == Side::inside ? in_ : out_;
-    oneapi::tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t i) {
+    parallel_for(vertices.size(), [&](std::size_t i) {
       const Index v = vertices[i];
       if (scene_.fixed[v] || !role.ties[component_of_[v]]) return;
       const Vec3 push = push_of(role, v, role.distance[i]);

@@ -1,11 +1,11 @@
 #include "unsnarl/routes.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "geometry/parallel.h"
 #include "unsnarl/document.h"
 #include "unsnarl/intersections.h"
 
@@ -145,7 +145,7 @@ TEST(PlanRoutes, the_same_at_any_number_of_threads) {
   const RoutePlan plan = three_crossing();
   std::vector<std::string> made;
   for (const std::size_t threads : {1, 4}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     RoutesResult result = plan_routes(plan);
     result.seconds = 0;
     made.push_back(routes_json(plan, result));

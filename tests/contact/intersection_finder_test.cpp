@@ -1,9 +1,9 @@
 // Against oracles: intersections_oracle_test.cpp. Here: what the interface promises, on cases made by hand and on one
 // that is large enough for several tasks.
 #include "contact/intersection_finder.h"
+#include "geometry/parallel.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ TEST(IntersectionFinder, sorted_and_the_same_at_any_thread_count) {
   const WavySheets sheets(0.5);
   std::vector<IntersectingPair> expected;
   for (const std::size_t threads : {1, 2, 4}) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     const auto found = IntersectionFinder(sheets.triangles).find(sheets.x);
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
     EXPECT_TRUE(std::adjacent_find(found.begin(), found.end()) == found.end());

@@ -38,7 +38,9 @@ TEST(MotionFrames, holds_until_the_triangles_may_have_met) {
     for (int step = 1; step <= 16; ++step) {
       x.row(2).tail(3).array() -= 0.25 / 16;
       frames.update(x);
-      if (step == 12) EXPECT_TRUE(frames.holds(0, 1, clearance));
+      if (step == 12) {
+        EXPECT_TRUE(frames.holds(0, 1, clearance));
+      }
     }
     EXPECT_FALSE(frames.holds(0, 1, clearance)) << "they touch";
   }

@@ -1,8 +1,8 @@
 // MovingIntersections and NearPairs against what is found anew.
 #include "contact/moving_intersections.h"
+#include "geometry/parallel.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +117,7 @@ TEST(MovingIntersections, the_same_at_any_thread_count) {
   const Sheets sheets(80);
   std::vector<std::vector<IntersectingPair>> expected;
   for (const std::size_t threads : {1, 2, 4}) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     Positions x = sheets.x;
     MovingIntersections moving(sheets.triangles, static_cast<Index>(sheets.triangles.size()),
                                static_cast<Index>(x.cols()));
@@ -136,7 +136,7 @@ TEST(NearPairs, lists_all_whose_boxes_overlap_once_and_in_the_same_order_at_any_
   const Index count = static_cast<Index>(sheets.triangles.size()), active = count / 2;
   std::vector<std::vector<NearPairs::Pair>> expected;
   for (const std::size_t threads : {1, 4}) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     Positions x = sheets.x;
     NearPairs near(sheets.triangles, active);
     std::mt19937 random(9);

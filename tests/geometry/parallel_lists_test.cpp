@@ -1,7 +1,8 @@
 #include "geometry/parallel_lists.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
+
+#include "geometry/parallel.h"
 
 namespace unsnarl {
 namespace {
@@ -27,7 +28,7 @@ TEST(ParallelLists, joins_the_chunks_in_order) {
 
 TEST(ParallelLists, same_list_at_any_thread_count) {
   for (const std::size_t threads : {1, 2, 4}) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     std::vector<Index> list;
     gather_in_chunks(Index{50000}, list, append_some);
     EXPECT_EQ(list, expected_list(50000));

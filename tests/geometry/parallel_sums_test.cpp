@@ -1,9 +1,10 @@
 #include "geometry/parallel_sums.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <cmath>
+
+#include "geometry/parallel.h"
 
 namespace unsnarl {
 namespace {
@@ -47,7 +48,7 @@ TEST(ParallelSums, same_bits_at_any_thread_count) {
   const double sum = sum_of_roots(5000, 3);
   const Positions roots = scattered_roots(5000, 3);
   for (const std::size_t threads : {1, 2, 4}) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     EXPECT_EQ(sum_of_roots(5000, 3), sum);
     EXPECT_EQ(scattered_roots(5000, 3), roots);
   }

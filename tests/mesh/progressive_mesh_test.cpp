@@ -1,13 +1,13 @@
 #include "mesh/progressive_mesh.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <set>
 
+#include "geometry/parallel.h"
 #include "mesh/adjacency.h"
 #include "mesh/areas.h"
 #include "scene/shapes.h"
@@ -219,7 +219,7 @@ TEST(ProgressiveMesh, is_the_same_with_any_number_of_threads) {
   const Positions x = sheet.positions();
   std::vector<Triangle> expected;
   for (const std::size_t threads : {1u, 2u, 4u}) {
-    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit control(threads);
     ProgressiveMesh mesh(sheet.triangles, all_free(sheet));
     for (int round = 0; round < 5; ++round) mesh.coarsen(x);
     if (threads == 1) expected = mesh.triangles();

@@ -1,10 +1,10 @@
 #include "mesh/triangulation.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <random>
 
+#include "geometry/parallel.h"
 #include "geometry/predicates.h"
 #include "geometry/scale.h"
 #include "mesh/shapes.h"
@@ -320,7 +320,7 @@ TEST(Triangulation, same_at_any_thread_count) {
   }
   std::vector<Triangulation> cuts;
   for (const std::size_t threads : {1, 2, 4}) {
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     cuts.push_back(triangulate(s));
   }
   for (const Triangulation& cut : cuts) {

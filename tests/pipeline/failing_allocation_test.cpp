@@ -2,7 +2,6 @@
 // program, never inlined, so that compilers see a new with each delete.
 #include <gtest/gtest.h>
 #include <malloc.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,6 +13,7 @@
 #include <numbers>
 
 #include "contact/intersection_finder.h"
+#include "geometry/parallel.h"
 #include "pipeline/judged.h"
 #include "recover/recover.h"
 #include "scene/shapes.h"
@@ -144,7 +144,7 @@ bool ends_without(long allocation, Work&& work) {
 }
 
 TEST(FailingAllocation, a_finder_finds_all_when_it_is_asked_again) {
-  const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  const ThreadLimit one_thread(1);
   const shapes::Shape shape = shapes::crossing_bumps(8, 0.3);
   ASSERT_FALSE(shapes::pairs_of(shape).empty());
   std::vector<Index> sheet_of(shape.points.size(), 0);

@@ -35,8 +35,10 @@ class FrameScheduleTest : public ::testing::TestWithParam<Plan> {
         const auto job = schedule.begin();
         if (!job) break;
         for (const auto& other : running) EXPECT_NE(other.frame, job->frame) << "two jobs of one frame at once";
-        if (job->is_repair)
-          EXPECT_TRUE(schedule.start_of(job->frame) == job->frame || repaired_.contains(schedule.start_of(job->frame)));
+        if (job->is_repair) {
+          const std::size_t start = schedule.start_of(job->frame);
+          EXPECT_TRUE(start == job->frame || repaired_.contains(start));
+        }
         for (std::size_t s = FrameSchedule::begin_around(job->frame); s < schedule.end_around(job->frame); ++s) {
           const bool is_there = job->is_repair || !schedule.is_wanted(job->frame) || repaired_.contains(s);
           EXPECT_TRUE(is_there) << "frame " << job->frame << " begins without " << s;

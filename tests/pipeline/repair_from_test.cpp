@@ -103,9 +103,10 @@ TEST(RepairFrom, what_is_fixed_or_without_intersections_takes_nothing_from_a_sta
   for (std::size_t v = 0; v < options.fixed.size(); v += 7) options.fixed[v] = 1;
   Finders finders(known.prepared.triangles(), known.prepared.scale);
   const RepairResult found = repair_from(tubes, known, finders, options, nullptr, elsewhere);
-  for (std::size_t v = 0; v < options.fixed.size(); ++v)
-    if (options.fixed[v])
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(found.positions[3 * v + k], tubes.positions[3 * v + k]);
+  for (std::size_t v = 0; v < options.fixed.size(); ++v) {
+    if (!options.fixed[v]) continue;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(found.positions[3 * v + k], tubes.positions[3 * v + k]);
+  }
 
   const RepairResult clean = repair(tubes);
   const SurfaceView embedded = {clean.positions, tubes.corners, tubes.offsets};

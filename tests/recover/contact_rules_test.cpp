@@ -67,7 +67,10 @@ TEST(ContactRules, what_passes_through_each_other_has_none) {
   for (const bool pass : {true, false}) {
     const PassingParts parts(2, std::vector<std::array<Index, 2>>{{0, pass ? 1 : 0}});
     patch.parts = &parts;
-    ContactRules rules(patch, {}, {.min_gap = 0.01, .roundoff = 1e-13});
+    ContactRuleOptions options;
+    options.min_gap = 0.01;
+    options.roundoff = 1e-13;
+    ContactRules rules(patch, {}, options);
     BlockList<ContactRule> found;
     rules.gather(patch.x, 1, anywhere_within(std::vector<double>(6, 1)), std::vector<std::uint8_t>{1, 1, 1, 0, 0, 0},
                  found);

@@ -1,10 +1,11 @@
 #include "scene/independent_batches.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <cstdint>
 #include <random>
+
+#include "geometry/parallel.h"
 
 namespace unsnarl {
 namespace {
@@ -75,7 +76,7 @@ TEST(Waves, the_result_is_that_of_one_after_the_other) {
     }
     const auto expected = mixed(boxes, false);
     for (const std::size_t threads : {1, 4}) {
-      const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+      const ThreadLimit limit(threads);
       ASSERT_EQ(mixed(boxes, true), expected) << "round " << round << ", " << threads << " threads";
     }
   }

@@ -1,10 +1,9 @@
 #include "untangle/local/smoothing_metric.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <numbers>
 #include <vector>
 
+#include "geometry/parallel.h"
 #include "mesh/areas.h"
 
 namespace unsnarl {
@@ -39,7 +38,7 @@ SmoothingMetric::SmoothingMetric(const Patch& patch, const EdgeTable& edges, dou
 
 Eigen::MatrixX3d SmoothingMetric::solve(const Positions& force) const {
   Eigen::MatrixX3d direction(free_count_, 3);
-  oneapi::tbb::parallel_for(0, 3, [&](int k) {
+  parallel_for(3, [&](int k) {
     direction.col(k) = factor_.solve(Eigen::VectorXd(force.row(k).leftCols(free_count_).transpose()));
   });
   return direction;

@@ -1,10 +1,10 @@
 #include "untangle/coarse/coarse_to_fine.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <atomic>
 
+#include "geometry/parallel.h"
 #include "mesh/areas.h"
 #include "scene/shapes.h"
 #include "untangle/conflict_regions.h"
@@ -186,7 +186,7 @@ TEST(CoarseToFine, is_the_same_with_any_number_of_threads) {
   const shapes::Shape shape = shapes::crossing_wide_bumps(2, 2);
   Positions expected;
   for (const std::size_t threads : {1u, 2u, 4u}) {
-    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit control(threads);
     Patch patch = shapes::patch_of(shape);
     solve(patch, 4, {}, {});
     if (threads == 1) expected = patch.x;

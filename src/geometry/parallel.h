@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+// What runs loops in parallel: oneTBB, or threads of the standard library. Results are the same bytes with each, and
+// only these files know which it is.
+#ifndef UNSNARL_TBB
+#error "UNSNARL_TBB says whether oneTBB runs the loops: link with the target unsnarl_compile_options"
+#elif UNSNARL_TBB
+#include "geometry/parallel_by_tbb.h"
+#else
+#include "geometry/parallel_by_threads.h"
+#endif
+
+namespace unsnarl {
+
+/// Calls work(k) for every k in [0, count), several at a time and in any order. Ends when all have ended. One of the
+/// exceptions that they throw, if any, is thrown then; the rest need not be called.
+template <class Count, class Work>
+void parallel_for(Count count, Work&& work) {
+  loops::run(count, std::forward<Work>(work));
+}
+
+/// Calls work(k) for each k in [0, count), each by a thread of its own where there are so many.
+template <class Work>
+void run_on_threads(int count, Work&& work) {
+  loops::run_on_threads(count, std::forward<Work>(work));
+}
+
+/// Calls work() so that this thread takes part in no other call of the loop around it while an inner loop is waited
+/// for.
+template <class Work>
+void run_isolated(Work&& work) {
+  loops::run_isolated(std::forward<Work>(work));
+}
+
+/// So many calls of a loop are made at a time, at most.
+inline int thread_count() {
+  return loops::thread_count();
+}
+
+/// A value for each thread that asks for one in a loop: PerThread(make), local(). It is made when the thread first
+/// asks.
+template <class Value>
+using PerThread = loops::PerThread<Value>;
+
+/// Holds the number of threads of the process down while it lives: ThreadLimit(threads); 0: as many as the machine has.
+/// The least of all that live counts.
+using ThreadLimit = loops::ThreadLimit;
+
+/// Version of the library that does it; empty: the standard library does.
+inline std::string version_of_tbb() {
+  return loops::version_of_tbb();
+}
+
+}  // namespace unsnarl
