@@ -7,8 +7,8 @@
 #ifdef __GLIBCXX__
 namespace std {
 
-[[noreturn]] void __glibcxx_assert_fail(const char* file, int line, const char* function,
-                                        const char* condition) noexcept {
+__attribute__((__noreturn__)) void __glibcxx_assert_fail(const char* file, int line, const char* function,
+                                                         const char* condition) noexcept {
   std::fprintf(stderr, "%s:%d: %s: Assertion '%s' failed.\n", file, line, function, condition);
   std::abort();
 }

@@ -1,6 +1,6 @@
 #include "pipeline/region_work.h"
 
-#include <ranges>
+#include <numeric>
 #include <utility>
 
 #include "pipeline/gap_stage.h"
@@ -33,9 +33,9 @@ EscalationOptions escalation_options(const RepairTask& task, const RepairControl
   if (task.options.recover) options.recover = [&](Patch& patch) { recover_patch(task, control, state, patch); };
   if (most_motion > 0)
     options.accept = [&task, &control, &state, &is_exceeded, most_motion](Patch& patch) {
-      const auto is_allowed = [&] {
-        return are_within(patch.x, patch.rest, std::views::iota(Index{0}, patch.free_count), most_motion);
-      };
+      std::vector<Index> free(static_cast<std::size_t>(patch.free_count));
+      std::iota(free.begin(), free.end(), 0);
+      const auto is_allowed = [&] { return are_within(patch.x, patch.rest, free, most_motion); };
       if (is_allowed()) return true;
       if (task.options.recover) recover_patch(task, control, state, patch);
       if (task.options.recover && is_allowed()) return true;
