@@ -132,38 +132,30 @@ std::vector<IntersectingPair> tolerated_on_the_way_back(const CoarseProblem& pro
   return tolerated;
 }
 
-/// Faces of the meshes on which something was last done on the way back.
-struct LastDone {
-  std::size_t recovered = 0;
-  std::size_t retried = 0;  // far parts
-};
-
-/// Resolves what the vertices that came back have brought, and recovers by a few steps, so that the next have room: a
-/// large mesh only where it has grown enough. Returns false where too many pairs are left.
-bool make_room(const CoarseProblem& problem, CoarseMesh& coarse, LastDone& last) {
+/// Resolves what the vertices that came back have brought, and recovers by a few steps, so that the next have room.
+/// Returns false where too many pairs are left. `retried_at`: faces of the mesh on which far parts were last tried
+/// again.
+bool make_room(const CoarseProblem& problem, CoarseMesh& coarse, std::size_t& retried_at) {
   const CoarseOptions& options = problem.options;
   CoarseLevel level = make_level(coarse, problem.patch);
   SceneIndex index(level.scene);
   const std::vector<IntersectingPair> pairs = index.find_pairs();
   const std::vector<IntersectingPair> tolerated = tolerated_on_the_way_back(problem, coarse, level, pairs);
   const std::size_t faces = level.scene.triangles.size();
-  const bool is_small = faces <= options.most_faces_for_all;
   bool is_clean = true;
   if (!blocking_pairs(pairs, tolerated).empty()) {
-    const std::span<const Tier> tiers = is_small ? options.on_small_mesh : options.on_large_mesh;
+    const std::span<const Tier> tiers =
+        faces <= options.most_faces_for_all ? options.on_small_mesh : options.on_large_mesh;
     const std::size_t left = problem.task.untangle(level.scene, index, tolerated, tiers, {}).left.size();
     if (static_cast<double>(left) > options.way_back_share * static_cast<double>(problem.pairs_before)) return false;
     is_clean = left == 0;
   }
-  if (is_small || static_cast<double>(faces) >= options.growth_to_recover * static_cast<double>(last.recovered)) {
-    last.recovered = faces;
-    RecoverOptions steps;
-    steps.has_last_stage = false;
-    recover_level(level, index, steps, problem.task.stop);
-    if (is_clean && faces <= options.most_faces_to_retry && faces / 2 >= last.retried) {
-      last.retried = faces;
-      retry_far_parts(problem, level, tolerated, steps);
-    }
+  RecoverOptions steps;
+  steps.has_last_stage = false;
+  recover_level(level, index, steps, problem.task.stop);
+  if (is_clean && faces <= options.most_faces_to_retry && faces / 2 >= retried_at) {
+    retried_at = faces;
+    retry_far_parts(problem, level, tolerated, steps);
   }
   take_over(level, coarse);
   return true;
@@ -173,14 +165,14 @@ bool make_room(const CoarseProblem& problem, CoarseMesh& coarse, LastDone& last)
 bool refine(const CoarseProblem& problem, CoarseMesh& coarse) {
   const Patch& patch = problem.patch;
   const double rounds = static_cast<double>(coarse.mesh.round_count());
-  LastDone last;
+  std::size_t retried_at = 0;
   while (coarse.mesh.round_count() > 0) {
     if (must_stop(problem)) return false;
     const std::vector<ProgressiveMesh::Removal> displaced =
         insert_vertices(patch, coarse.mesh, coarse.mesh.refine(), coarse.x);
     note_done(patch, 1 - 0.5 * static_cast<double>(coarse.mesh.round_count()) / rounds);
     if (coarse.mesh.round_count() == 0) break;
-    if (!make_room(problem, coarse, last)) return false;
+    if (!make_room(problem, coarse, retried_at)) return false;
     offer_better_places(patch, coarse.mesh, displaced, coarse.x);
   }
   return true;

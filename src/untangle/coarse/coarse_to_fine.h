@@ -36,9 +36,6 @@ struct CoarseOptions {
   double way_back_share = 0.7;
   /// No coarser mesh is tried after one that left no more than this share of the patch's [E144] (no unit)
   double solved_share = 0.7;
-  /// On meshes of more than most_faces_for_all, the way back recovers where the mesh has so many times the faces as
-  /// when it last did [E232] (no unit)
-  double growth_to_recover = 1.7;
   /// On_small_mesh is for coarse meshes of so many at most [E64] (unit: faces, obstacles included)
   std::size_t most_faces_for_all = 4000;
   /// Far parts are tried again from rest on coarse meshes of so many at most [E59, E61] (unit: faces, obstacles
@@ -61,8 +58,7 @@ struct CoarseOptions {
 /// 2. The coarse mesh is untangled, by strategies that may be this one, so that what others leave is solved on a mesh
 ///    coarser still, down to a handful of faces; and recovered.
 /// 3. The removed vertices come back round by round, each where the exact test finds no new pair. After every round but
-///    the last, strategies resolve what it brought, and a few steps of recovery make room for the next: on large meshes
-///    only where the mesh has grown by `options.growth_to_recover`.
+///    the last, strategies resolve what it brought, and a few steps of recovery make room for the next [E232].
 ///
 /// The cost follows the number of faces, however deep the tangle is. Pairs of active triangles count, but for the
 /// task's `tolerated` ones. A patch of which too many pairs are left, or that cannot be simplified, stays where it is.
