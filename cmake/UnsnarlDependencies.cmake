@@ -26,9 +26,9 @@ if(UNSNARL_USE_TBB)
 elseif(UNSNARL_BUILD_APPS)
   message(FATAL_ERROR "The program needs oneTBB; the library does not: -DUNSNARL_BUILD_APPS=OFF")
 endif()
-set(UNSNARL_TBB "")  # what library and tests are linked with for it
+set(UNSNARL_TBB_LIBRARY "")  # what library and tests are linked with for it
 if(UNSNARL_USE_TBB)
-  set(UNSNARL_TBB TBB::tbb)
+  set(UNSNARL_TBB_LIBRARY TBB::tbb)
 endif()
 unsnarl_package(libfmt-dev fmt)
 unsnarl_package(nlohmann-json3-dev nlohmann_json 3.11)

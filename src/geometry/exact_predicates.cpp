@@ -47,7 +47,7 @@ struct Dyadic {
   int exponent = 0;
 };
 
-// What a double is in memory (IEEE 754).
+// IEEE 754 stores a double as a sign, an exponent and digits.
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53);
 constexpr int stored_bits = 52;  ///< Binary digits that are stored (fixed by float64; unit: bits)
 constexpr std::uint64_t hidden_bit = std::uint64_t{1} << stored_bits;  ///< Before these, if normal (fixed by float64)
@@ -83,7 +83,7 @@ struct Coordinates {
     if (highest > lowest) bits = highest - lowest;
   }
 
-  /// As integers.
+  /// Returns the coordinates as integers, in these units.
   template <class Int>
   std::array<Int, count> as() const {
     std::array<Int, count> result;
@@ -95,7 +95,7 @@ struct Coordinates {
   }
 };
 
-/// Of b - a, c - a, d - a.
+/// Returns the sign of the determinant of b - a, c - a, d - a.
 template <class Integers>
 Sign sign_of_determinant(const Coordinates<12>& coordinates) {
   using Int = typename Integers::Coordinate;
@@ -111,7 +111,7 @@ Sign sign_of_determinant(const Coordinates<12>& coordinates) {
   return (sum > 0) - (sum < 0);
 }
 
-/// Of a - c, b - c.
+/// Returns the sign of the determinant of a - c, b - c.
 template <class Integers>
 Sign sign_of_determinant(const Coordinates<6>& coordinates) {
   using Int = typename Integers::Coordinate;
@@ -122,7 +122,7 @@ Sign sign_of_determinant(const Coordinates<6>& coordinates) {
   return (area > 0) - (area < 0);
 }
 
-/// By the shortest integers that have room. Points that are not finite have sign 0.
+/// Computes a sign by the shortest integers that have room. Points that are not finite have sign 0.
 template <std::size_t count>
 Sign exact_sign(const std::array<double, count>& coordinates) {
   if (!std::all_of(coordinates.begin(), coordinates.end(), [](double v) { return std::isfinite(v); })) return 0;

@@ -3,8 +3,7 @@
 #include <string>
 #include <utility>
 
-// What runs loops in parallel: oneTBB, or threads of the standard library. Results are the same bytes with each, and
-// only these files know which it is.
+// OneTBB or threads of the standard library run loops in parallel. Only these files know which of them does.
 #ifndef UNSNARL_TBB
 #error "UNSNARL_TBB says whether oneTBB runs the loops: link with the target unsnarl_compile_options"
 #elif UNSNARL_TBB
@@ -35,7 +34,7 @@ void run_isolated(Work&& work) {
   loops::run_isolated(std::forward<Work>(work));
 }
 
-/// So many calls of a loop are made at a time, at most.
+/// Returns how many calls of a loop are made at a time, at most.
 inline int thread_count() {
   return loops::thread_count();
 }
@@ -49,7 +48,7 @@ using PerThread = loops::PerThread<Value>;
 /// The least of all that live counts.
 using ThreadLimit = loops::ThreadLimit;
 
-/// Version of the library that does it; empty: the standard library does.
+/// Returns the version of oneTBB; empty where the standard library runs the loops.
 inline std::string version_of_tbb() {
   return loops::version_of_tbb();
 }

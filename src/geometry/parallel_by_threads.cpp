@@ -23,8 +23,8 @@ void update_limit() {
   least_limit = limits.empty() ? 0 : *limits.begin();
 }
 
-/// Threads that wait for loops. A loop within a loop, or beside another, is run by its own thread alone: nobody waits
-/// for a thread that works elsewhere.
+/// Keeps threads that wait for loops. The thread of a loop within a loop, or beside another, runs it alone: nobody
+/// waits for a thread that works elsewhere.
 class Pool {
  public:
   ~Pool() {
@@ -60,7 +60,7 @@ class Pool {
   }
 
  private:
-  /// Where the system gives no more threads, those that there are do the work.
+  /// Starts threads until there are so many. If the system gives no more, those that there are do the work.
   void grow(std::size_t count) {
     try {
       while (threads_.size() < count) threads_.emplace_back([this, number = threads_.size() + 1] { serve(number); });

@@ -12,9 +12,10 @@
 
 namespace unsnarl::loops {
 
+/// Calls work(k) for each k in [0, count).
 void run_calls(std::size_t count, const std::function<void(std::size_t)>& work);
 int thread_count();
-/// Number of this thread among those that work on loops.
+/// Returns the number of this thread among those that work on loops.
 std::size_t number_of_thread();
 
 template <class Count, class Work>

@@ -20,7 +20,7 @@ namespace unsnarl {
 using Sign = int;  // -1, 0, +1
 
 namespace detail {
-/// By integers of as many digits as the coordinates need: no rounding, so no rounding mode matters.
+/// These compute with integers of as many digits as the coordinates need: nothing is rounded.
 Sign orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 Sign orient2d_exact(double ax, double ay, double bx, double by, double cx, double cy);
 

@@ -102,7 +102,7 @@ Strategy deep_coarse_to_fine() {
   return coarse_to_fine("coarse_to_fine", around_deep, by_depth);
 }
 
-/// What the others have left is taken to be twice as deep, and so resolved in wider surroundings on a coarser mesh.
+/// Takes what the others have left to be twice as deep, and so resolves it in wider surroundings on a coarser mesh.
 Strategy wide_coarse_to_fine() {
   DepthOptions freed = around_deep;
   freed.factor = wide_depths;

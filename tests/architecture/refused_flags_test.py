@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Flags under which signs would be wrong are refused: by the configuration, and by the header of the predicates.
 
-usage: refused_flags_test.py PROJECT_DIR COMPILER CMAKE
+usage: refused_flags_test.py PROJECT_DIR COMPILER CMAKE EIGEN_DIR
 """
 
 import subprocess
@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-PROJECT, COMPILER, CMAKE = sys.argv[1:]
+PROJECT, COMPILER, CMAKE, EIGEN = sys.argv[1:]
 
 
 def run(*command):
@@ -23,8 +23,8 @@ def configured(flags):
 
 
 def compiled(*flags):
-    return run(COMPILER, "-std=c++20", "-fsyntax-only", f"-I{PROJECT}/src", f"-I{PROJECT}/include", "-I/usr/include/eigen3",
-               *flags, f"{PROJECT}/src/geometry/predicates.cpp")
+    return run(COMPILER, "-std=c++20", "-fsyntax-only", f"-I{PROJECT}/src", f"-I{PROJECT}/include", f"-I{EIGEN}", *flags,
+               f"{PROJECT}/src/geometry/predicates.cpp")
 
 
 class RefusedFlags(unittest.TestCase):

@@ -153,7 +153,7 @@ double neighbour_of(double value, std::int64_t steps) {
   return value;
 }
 
-// What a build that rounds otherwise gets wrong: points that were put into a plane, and rounded.
+// A build that rounds otherwise gets these signs wrong: the points were put into a plane, and rounded.
 TEST(Predicates, a_hundred_thousand_points_beside_a_plane) {
   Random random(8);
   std::array<int, 3> seen{};

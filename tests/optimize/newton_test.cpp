@@ -93,6 +93,19 @@ TEST(Newton, ends_where_the_value_hardly_falls) {
   EXPECT_LT(minimise_newton(some, options).iterations, until_the_end);
 }
 
+// Each step lowers the value by more than a third of what it is then, but by less and less of what it was at the start.
+TEST(Newton, ends_by_the_value_at_the_start) {
+  Bowls bowls(1);
+  bowls.cap = 0.5;
+  NewtonOptions options;
+  options.decrease = 0.05;
+  const double start = (bowls.x - bowls.target).norm();
+  minimise_newton(bowls, options);
+  const double end = (bowls.x - bowls.target).norm();
+  EXPECT_LT(end, 0.7 * start);
+  EXPECT_GT(end, 0.2 * start);
+}
+
 TEST(Newton, stops_at_its_limits) {
   Bowls bowls(2);
   NewtonOptions options;

@@ -66,8 +66,8 @@ TEST(RepairFrom, welding_stays_that_of_the_known_surface) {
   EXPECT_TRUE(certify(surface, found.positions).embedded());
 }
 
-/// Returns how far the farthest vertex moves, a length.
-double farthest(const std::vector<double>& a, const std::vector<double>& b) {
+/// Returns the largest change of a coordinate, a length.
+double largest_change(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
   return most;
@@ -91,7 +91,8 @@ TEST(RepairFrom, a_start_is_followed_and_left_toward_the_input) {
     EXPECT_EQ(found.report.before.by_class, before.report.before.by_class) << share;
     EXPECT_LT(found.report.displacement_rms_rel, 1.1 * before.report.displacement_rms_rel) << share;
   }
-  EXPECT_LT(farthest(repaired_from(1).positions, before.positions), 0.5 * farthest(before.positions, tubes.positions));
+  EXPECT_LT(largest_change(repaired_from(1).positions, before.positions),
+            0.5 * largest_change(before.positions, tubes.positions));
 }
 
 TEST(RepairFrom, what_is_fixed_or_without_intersections_takes_nothing_from_a_start) {
