@@ -30,14 +30,20 @@ set(UNSNARL_TBB_LIBRARY "")  # what library and tests are linked with for it
 if(UNSNARL_USE_TBB)
   set(UNSNARL_TBB_LIBRARY TBB::tbb)
 endif()
-unsnarl_package(libfmt-dev fmt)
-unsnarl_package(nlohmann-json3-dev nlohmann_json 3.11)
-unsnarl_package(libpng-dev PNG)
-unsnarl_package(libgif-dev GIF)
-unsnarl_package(zlib1g-dev ZLIB)
-unsnarl_package(libpugixml-dev pugixml)  # SVG, GIFTI, VTP, 3MF
 unsnarl_package(libboost-dev Boost 1.74)  # headers only: integers of any size
-unsnarl_library(libzip-dev ZIP_LIBRARY zip)  # Debian's libzip-config.cmake asks for its programs too
+unsnarl_package(libfmt-dev fmt)
+set(UNSNARL_FMT fmt::fmt)
+if(NOT UNSNARL_BUILD_IO)
+  set(UNSNARL_FMT fmt::fmt-header-only)  # nothing is linked with
+endif()
+if(UNSNARL_BUILD_IO)
+  unsnarl_package(nlohmann-json3-dev nlohmann_json 3.11)
+  unsnarl_package(libpng-dev PNG)
+  unsnarl_package(libgif-dev GIF)
+  unsnarl_package(zlib1g-dev ZLIB)
+  unsnarl_package(libpugixml-dev pugixml)  # SVG, GIFTI, VTP, 3MF
+  unsnarl_library(libzip-dev ZIP_LIBRARY zip)  # Debian's libzip-config.cmake asks for its programs too
+endif()
 if(UNSNARL_BUILD_APPS)
   unsnarl_package(libssl-dev OpenSSL COMPONENTS Crypto)  # SHA-256 of what batches and sequences have done
 endif()
@@ -47,7 +53,7 @@ endif()
 if(UNSNARL_BUILD_TESTS OR UNSNARL_BUILD_BENCHMARKS)
   unsnarl_package(libgtest-dev GTest)
 endif()
-if(UNSNARL_BUILD_TESTS)  # second opinions
+if(UNSNARL_BUILD_TESTS AND UNSNARL_TEST_ORACLE)
   unsnarl_library(libgmp-dev GMP_LIBRARY gmp)
   unsnarl_library(libmpfr-dev MPFR_LIBRARY mpfr)
   if(GMP_LIBRARY AND MPFR_LIBRARY AND Boost_FOUND)  # else its own messages are in the way
@@ -70,14 +76,22 @@ if(missing)
   message(FATAL_ERROR "Missing, or too old. On Debian:\n  apt-get install --no-install-recommends ${names}\n${advice}")
 endif()
 
-# What a program is linked with that is linked with the static library: as CMake packages, names for the linker, and
-# Debian packages.
-set(UNSNARL_LINKED_PACKAGES Threads TBB fmt PNG GIF ZLIB pugixml)
-set(UNSNARL_LINKED_LIBRARIES tbb fmt png gif z pugixml zip)
-set(UNSNARL_LINKED_DEBIAN
-  libtbb-dev libfmt-dev libpng-dev libgif-dev zlib1g-dev libpugixml-dev libzip-dev)
-if(NOT UNSNARL_USE_TBB)
-  list(REMOVE_ITEM UNSNARL_LINKED_PACKAGES TBB)
-  list(REMOVE_ITEM UNSNARL_LINKED_LIBRARIES tbb)
-  list(REMOVE_ITEM UNSNARL_LINKED_DEBIAN libtbb-dev)
+# What a program is linked with that is linked with the static libraries, by the target that asks for it: as CMake
+# packages, names for the linker, and Debian packages.
+set(UNSNARL_CORE_PACKAGES Threads)
+set(UNSNARL_LINKED_LIBRARIES "")
+set(UNSNARL_LINKED_DEBIAN "")
+if(UNSNARL_USE_TBB)
+  list(APPEND UNSNARL_CORE_PACKAGES TBB)
+  list(APPEND UNSNARL_LINKED_LIBRARIES tbb)
+  list(APPEND UNSNARL_LINKED_DEBIAN libtbb-dev)
+endif()
+list(APPEND UNSNARL_CORE_PACKAGES fmt)
+set(UNSNARL_LINKED_PACKAGES "")
+if(UNSNARL_BUILD_IO)
+  set(UNSNARL_LINKED_PACKAGES PNG GIF ZLIB pugixml)
+  list(APPEND UNSNARL_LINKED_LIBRARIES fmt png gif z pugixml zip)
+  list(APPEND UNSNARL_LINKED_DEBIAN libfmt-dev libpng-dev libgif-dev zlib1g-dev libpugixml-dev libzip-dev)
+else()
+  list(APPEND UNSNARL_LINKED_DEBIAN libfmt-dev)
 endif()

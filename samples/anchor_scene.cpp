@@ -1,10 +1,11 @@
 #include "samples/anchor_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 #include "samples/block_surface.h"
 #include "samples/parameter_grid.h"
 #include "samples/sphere_grid.h"
@@ -49,7 +50,7 @@ Surface crate(const Vec3& centre, int divisions) {
     for (int y : {-1, 0})
       for (int z : {-1, 0}) blocks.push_back({x, y, z});
   Surface surface = sample_blocks(blocks, divisions, FaceKind::triangles, 0.15);
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.55, Vec3(0.1, 0.2, 1).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d turn = rotation_about(Vec3(0.1, 0.2, 1).normalized(), 0.55);
   for (std::size_t v = 0; v < surface.positions.size() / 3; ++v) {
     Eigen::Map<Vec3> p(&surface.positions[3 * v]);
     p = centre + turn * Vec3(p.cwiseProduct(Vec3(0.95, 0.9, 1.1)));
@@ -59,8 +60,8 @@ Surface crate(const Vec3& centre, int divisions) {
 
 Surface ring(const Vec3& centre, const Vec3& axis, double radius, double thickness, int resolution) {
   const Vec3 a = axis.unitOrthogonal(), n = axis.normalized(), b = n.cross(a);
-  return sample_tube({[=](double t) { return Vec3(centre + radius * (std::cos(t) * a + std::sin(t) * b)); }, 0, 2 * pi,
-                      true, [=](double) { return thickness; }, resolution, std::max(6, resolution / 5)});
+  return sample_tube({[=](double t) { return Vec3(centre + radius * (portable::cos(t) * a + portable::sin(t) * b)); },
+                      0, 2 * pi, true, [=](double) { return thickness; }, resolution, std::max(6, resolution / 5)});
 }
 
 }  // namespace
@@ -72,16 +73,16 @@ Surface anchor_scene(int resolution, const SampleValues& values) {
   builder.append(ring({0, 12.1 + depth, 0}, {1, 0, 0.15}, 1.5, 0.28, resolution));         // link
   builder.append(ring({0.6 + depth, 4.4, 0.2}, {-0.25, 1, 0.1}, 1.35, 0.25, resolution));  // hoop
   builder.append(crate({3.1, height_of_arm(3.1) + 1.5 - depth, 0.1}, std::max(1, resolution / 16)));
-  const Eigen::Matrix3d lying = Eigen::AngleAxisd(0.5, Vec3(0.1, 1, -0.3).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d lying = rotation_about(Vec3(0.1, 1, -0.3).normalized(), 0.5);
   builder.append(sample_sphere(std::max(2, resolution / 8), FaceKind::triangles, [&](const Vec3& d) {  // barrel
-    const double r = std::pow(d.array().abs().cube().sum(), -1.0 / 3);
+    const double r = portable::pow(d.array().abs().cube().sum(), -1.0 / 3);
     return Vec3(Vec3(-2.2, height_of_arm(2.2) + 1.2 - depth, 0) +
                 lying * Vec3(r * d.cwiseProduct(Vec3(0.8, 0.75, 1.25))));
   }));
   builder.append(ring({-3.9, height_of_arm(3.9) - 0.5 - depth, 0.2}, {-1, 1.1, 0.3}, 1.15, 0.38, resolution));  // buoy
   builder.append(sample_grid({{0, 1, 3 * resolution}, {-0.35, 0.35, 4}}, [&](double u, double v) {
-    const double turn = 2 * pi * (0.1 + 2.6 * u), radius = 0.95 + 0.45 * std::sin(17 * u);
-    return Vec3(radius * std::cos(turn), 1.6 + 5.2 * u + v, radius * std::sin(turn));
+    const double turn = 2 * pi * (0.1 + 2.6 * u), radius = 0.95 + 0.45 * portable::sin(17 * u);
+    return Vec3(radius * portable::cos(turn), 1.6 + 5.2 * u + v, radius * portable::sin(turn));
   }));
   Surface surface = builder.take();
   for (double& coordinate : surface.positions) coordinate *= 0.2;

@@ -1,6 +1,6 @@
-#include <cmath>
 #include <numbers>
 
+#include "geometry/portable_math.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 
@@ -15,8 +15,8 @@ Surface mobius_extended(int resolution, const SampleValues& values) {
   return sample_grid({{0, 2 * pi, resolution, Seam::mirrored},
                       {-half_width, half_width, steps_for(2 * half_width, resolution, 2 * pi, 8)}},
                      [](double u, double v) {
-                       const double r = 1 + v * std::cos(u / 2);
-                       return Vec3(r * std::cos(u), v * std::sin(u / 2), r * std::sin(u));
+                       const double r = 1 + v * portable::cos(u / 2);
+                       return Vec3(r * portable::cos(u), v * portable::sin(u / 2), r * portable::sin(u));
                      });
 }
 
@@ -25,20 +25,21 @@ Surface lemniscate_band(int resolution, const SampleValues& values) {
   const double half_width = values["half_width"];
   const int half_twists = values.whole("half_twists");
   const auto centre = [](double t) {
-    const double s = 1 / (1 + std::sin(t) * std::sin(t));
-    return Vec3(2 * std::cos(t) * s, 0, 2 * std::sin(t) * std::cos(t) * s);
+    const double s = 1 / (1 + portable::sin(t) * portable::sin(t));
+    return Vec3(2 * portable::cos(t) * s, 0, 2 * portable::sin(t) * portable::cos(t) * s);
   };
-  return sample_grid({{0, 2 * pi, resolution, half_twists % 2 != 0 ? Seam::mirrored : Seam::closed},
-                      {-half_width, half_width, steps_for(2 * half_width, resolution, 10, 4)},
-                      FaceKind::quads},
-                     [&](double t, double v) {
-                       const Vec3 along = (centre(t + 1e-4) - centre(t - 1e-4)).normalized();
-                       const Vec3 side = along.cross(Vec3::UnitY());
-                       // 0.3: the quarter of a step that keeps the rows of the two branches at different heights.
-                       const double angle = half_twists * (t - 0.9) / 2;
-                       return Vec3(centre(t) + (v + 0.1 * half_width * std::sin(t)) *
-                                                   (std::cos(angle) * Vec3::UnitY() + std::sin(angle) * side));
-                     });
+  return sample_grid(
+      {{0, 2 * pi, resolution, half_twists % 2 != 0 ? Seam::mirrored : Seam::closed},
+       {-half_width, half_width, steps_for(2 * half_width, resolution, 10, 4)},
+       FaceKind::quads},
+      [&](double t, double v) {
+        const Vec3 along = (centre(t + 1e-4) - centre(t - 1e-4)).normalized();
+        const Vec3 side = along.cross(Vec3::UnitY());
+        // 0.3: the quarter of a step that keeps the rows of the two branches at different heights.
+        const double angle = half_twists * (t - 0.9) / 2;
+        return Vec3(centre(t) + (v + 0.1 * half_width * portable::sin(t)) *
+                                    (portable::cos(angle) * Vec3::UnitY() + portable::sin(angle) * side));
+      });
 }
 
 /// An annulus with full twists so wide that it reaches across its axis.
@@ -48,8 +49,8 @@ Surface twisted_annulus(int resolution, const SampleValues& values) {
   return sample_grid({{0, 2 * pi, resolution, Seam::closed},
                       {-half_width, half_width, steps_for(2 * half_width, resolution, 2 * pi, 8)}},
                      [&](double u, double v) {
-                       const double r = 1 + v * std::cos(twists * u);
-                       return Vec3(r * std::cos(u), v * std::sin(twists * u), r * std::sin(u));
+                       const double r = 1 + v * portable::cos(twists * u);
+                       return Vec3(r * portable::cos(u), v * portable::sin(twists * u), r * portable::sin(u));
                      });
 }
 

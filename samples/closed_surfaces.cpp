@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 #include "samples/block_surface.h"
 #include "samples/mesh_builder.h"
 #include "samples/parameter_grid.h"
@@ -36,9 +38,10 @@ Surface figure8_torus(int resolution, const SampleValues& values) {
                       {0, 2 * pi, steps_for(6, resolution, 12, 8), Seam::closed},
                       FaceKind::quads},
                      [&](double u, double v) {
-                       const double a = turns * u + 0.4, x = std::sin(v), y = 0.5 * std::sin(2 * v);
-                       const double r = 2 + std::cos(a) * x - std::sin(a) * y;
-                       return Vec3(r * std::cos(u), std::sin(a) * x + std::cos(a) * y, r * std::sin(u));
+                       const double a = turns * u + 0.4, x = portable::sin(v), y = 0.5 * portable::sin(2 * v);
+                       const double r = 2 + portable::cos(a) * x - portable::sin(a) * y;
+                       return Vec3(r * portable::cos(u), portable::sin(a) * x + portable::cos(a) * y,
+                                   r * portable::sin(u));
                      });
 }
 
@@ -47,8 +50,8 @@ Surface spindle_torus(int resolution, const SampleValues& values) {
   const double ring = values["ring"], eccentricity = values["eccentricity"];
   return sample_grid({{0, 2 * pi, resolution, Seam::closed}, {0, 2 * pi, resolution / 2, Seam::closed}},
                      [&](double u, double v) {
-                       const double r = ring * (1 + eccentricity * std::cos(2 * u)) + std::cos(v);
-                       return Vec3(r * std::cos(u), std::sin(v), r * std::sin(u));
+                       const double r = ring * (1 + eccentricity * portable::cos(2 * u)) + portable::cos(v);
+                       return Vec3(r * portable::cos(u), portable::sin(v), r * portable::sin(u));
                      });
 }
 
@@ -68,9 +71,9 @@ Surface pretzel(int resolution, const SampleValues& values) {
     const double angle = (p[0] / length - 0.5) * bend, r = radius + p[2] - 0.5;
     // Tilted a little along the way, so that the ends do not meet face to face.
     const double y = p[1] - 1.5 + 0.25 * angle;
-    p[0] = r * std::sin(angle);
+    p[0] = r * portable::sin(angle);
     p[1] = y;
-    p[2] = r * std::cos(angle);
+    p[2] = r * portable::cos(angle);
   }
   return surface;
 }
@@ -82,8 +85,8 @@ Surface intersecting_spheres(int resolution, const SampleValues& values) {
   MeshBuilder builder;
   for (int k = 0; k < count; ++k) {
     const double angle = 2 * pi * k / count;
-    const Vec3 centre = values["distance"] * Vec3(std::cos(angle), 0.13 * k, std::sin(angle));
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7 * k, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Vec3 centre = values["distance"] * Vec3(portable::cos(angle), 0.13 * k, portable::sin(angle));
+    const Eigen::Matrix3d turn = rotation_about(Vec3(1, 2, 3).normalized(), 0.7 * k);
     builder.append(sample_sphere(std::max(2, resolution / 4), FaceKind::triangles,
                                  [&](const Vec3& d) { return Vec3(centre + turn * d); }));
   }
@@ -96,15 +99,15 @@ Surface linked_rings(int resolution, const SampleValues& values) {
   MeshBuilder builder;
   for (int k = 0; k < count; ++k) {
     const Vec3 centre(values["distance"] * k, 0.04 * k, 0.03 * k);
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(k * pi / 2 + 0.2 * k, Vec3::UnitX()).toRotationMatrix();
+    const Eigen::Matrix3d turn = rotation_about(Vec3::UnitX(), k * pi / 2 + 0.2 * k);
     const double tube = 0.3;
     builder.append(sample_grid({{0, 2 * pi, resolution, Seam::closed},
                                 {0, 2 * pi, steps_for(tube, resolution, 1, 6), Seam::closed},
                                 k % 2 == 0 ? FaceKind::quads : FaceKind::triangles},
                                [&](double u, double v) {
-                                 const double r = 1 + tube * std::cos(v);
-                                 return Vec3(centre +
-                                             turn * Vec3(r * std::cos(u), tube * std::sin(v), r * std::sin(u)));
+                                 const double r = 1 + tube * portable::cos(v);
+                                 return Vec3(centre + turn * Vec3(r * portable::cos(u), tube * portable::sin(v),
+                                                                  r * portable::sin(u)));
                                }));
   }
   return builder.take();

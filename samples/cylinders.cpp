@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/portable_math.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 
@@ -17,8 +18,9 @@ Surface cylinder_wrapped(int resolution, const SampleValues& values) {
                       {0, height, steps_for(height, resolution, 2 * pi * turns, 6)},
                       FaceKind::quads},
                      [&](double t, double y) {
-                       const double r = 1 + swell * std::cos(t);
-                       return Vec3(r * std::cos(turns * t), y + 0.03 * std::sin(2 * t + 0.4), r * std::sin(turns * t));
+                       const double r = 1 + swell * portable::cos(t);
+                       return Vec3(r * portable::cos(turns * t), y + 0.03 * portable::sin(2 * t + 0.4),
+                                   r * portable::sin(turns * t));
                      });
 }
 
@@ -27,8 +29,8 @@ Surface cylinder_inverted(int resolution, const SampleValues& values) {
   const double height = values["height"];
   const int half = steps_for(height / 2, resolution, 2 * pi, 3);
   return sample_grid({{0, 2 * pi, resolution, Seam::closed}, {-1, 1, 2 * half}}, [&](double t, double s) {
-    const double r = std::sin(pi / 2 * s);
-    return Vec3(r * std::cos(t), height / 2 * s, r * std::sin(t));
+    const double r = portable::sin(pi / 2 * s);
+    return Vec3(r * portable::cos(t), height / 2 * s, r * portable::sin(t));
   });
 }
 
@@ -37,10 +39,10 @@ Surface star_prism(int resolution, const SampleValues& values) {
   const int corners = values.whole("corners"), step = values.whole("step");
   const double height = values["height"];
   const int per_side = std::max(2, resolution / corners);
-  const double perimeter = corners * 2 * std::sin(pi * step / corners);
+  const double perimeter = corners * 2 * portable::sin(pi * step / corners);
   const auto corner = [&](int k) {
     const double angle = 2 * pi * step * k / corners;
-    return Vec3(std::cos(angle), 0, std::sin(angle));
+    return Vec3(portable::cos(angle), 0, portable::sin(angle));
   };
   return sample_grid({{0, static_cast<double>(corners), corners * per_side, Seam::closed, 0.0},
                       {0, height, steps_for(height, corners * per_side, perimeter, 4)},
@@ -50,7 +52,7 @@ Surface star_prism(int resolution, const SampleValues& values) {
                        const int k = static_cast<int>(std::floor(u + 1e-9));
                        const double s = u - k;
                        const Vec3 p = (1 - s) * corner(k) + s * corner(k + 1);
-                       return Vec3(p + Vec3(0, y + 0.02 * std::sin(4 * pi * u / corners + 0.3), 0));
+                       return Vec3(p + Vec3(0, y + 0.02 * portable::sin(4 * pi * u / corners + 0.3), 0));
                      });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/portable_math.h"
 #include "samples/block_surface.h"
 
 namespace unsnarl {
@@ -51,7 +52,7 @@ Surface dressed_figure(int resolution, const SampleValues& values) {
     Eigen::Map<Vec3> p(&cloth.positions[3 * v]);
     // Folds run down the body and around the sleeves, deeper toward the hem.
     const double down = std::clamp((shoulder - p[1]) / (shoulder - hem), 0.0, 1.0);
-    const double wave = std::sin(4.1 * p[0] + 0.8 * p[1]) * std::cos(1.3 * p[2] + 0.4);
+    const double wave = portable::sin(4.1 * p[0] + 0.8 * p[1]) * portable::cos(1.3 * p[2] + 0.4);
     p += (ease + 0.3 * down * down * down + folds * (0.5 + down) * wave) * normals[v];
   }
   builder.append(cloth);

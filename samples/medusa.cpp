@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "geometry/box.h"
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 #include "samples/lattice_noise.h"
 #include "samples/sphere_grid.h"
 #include "samples/tube.h"
@@ -19,7 +21,7 @@ namespace {
 using std::numbers::pi;
 
 double hill(double x, double y, double width, double height) {
-  return std::exp(-(x * x / (width * width) + y * y / (height * height)));
+  return portable::exp(-(x * x / (width * width) + y * y / (height * height)));
 }
 
 /// Distance of the bust's surface from the middle of its head, in a direction; y is up, the face looks along z.
@@ -39,10 +41,10 @@ double bust(const Vec3& d) {
 /// Directions spread evenly over the scalp: a cap around its crown, which leaves the face free.
 Vec3 root_of(int snake, int count) {
   const double golden = pi * (3 - std::sqrt(5.0));
-  const double height = 1 - (1 - std::cos(100 * pi / 180)) * (snake + 0.5) / count;
+  const double height = 1 - (1 - portable::cos(100 * pi / 180)) * (snake + 0.5) / count;
   const double around = golden * snake, width = std::sqrt(1 - height * height);
-  const Vec3 on_cap(width * std::cos(around), height, width * std::sin(around));
-  return Eigen::AngleAxisd(-0.72, Vec3::UnitX()) * on_cap;  // the crown lies behind the top
+  const Vec3 on_cap(width * portable::cos(around), height, width * portable::sin(around));
+  return rotation_about(Vec3::UnitX(), -0.72) * on_cap;  // the crown lies behind the top
 }
 
 /// The middle of a snake, t in [0, 1].
@@ -52,13 +54,14 @@ using Spine = std::function<Vec3(double)>;
 /// above the bust that rises. Never inside the bust.
 Spine spine_from(const Vec3& root, std::uint32_t seed, double push) {
   const auto random = [seed](std::uint32_t what) { return hashed_unit(40 + what, seed); };
-  const Vec3 sweep = Eigen::AngleAxisd(2 * pi * random(0), root) * root.unitOrthogonal(), across = root.cross(sweep);
+  const Vec3 sweep = rotation_about(root, 2 * pi * random(0)) * root.unitOrthogonal(), across = root.cross(sweep);
   const double reach = 0.35 + 0.45 * random(1), wave = 0.10 + 0.10 * random(2), turns = 1.5 + 1.5 * random(3);
   const double phase = 2 * pi * random(4), rise = 0.35 + 0.5 * random(5);
   return [=](double t) {
     const double swing = 2 * pi * turns * t + phase;
-    const Vec3 direction = (root + std::tan(reach * t) * sweep + wave * t * std::sin(swing) * across).normalized();
-    const double height = 0.09 + rise * t * (1 + 0.25 * std::sin(swing + 1.3));
+    const Vec3 direction =
+        (root + portable::tan(reach * t) * sweep + wave * t * portable::sin(swing) * across).normalized();
+    const double height = 0.09 + rise * t * (1 + 0.25 * portable::sin(swing + 1.3));
     return Vec3((bust(direction) + height - push * (1 - t) * (1 - t)) * direction);
   };
 }
@@ -120,7 +123,8 @@ Surface medusa(int resolution, const SampleValues& values) {
     spines.add(spine_from(root, best, 0));
     const Spine spine = spine_from(root, best, push);
     const auto radius = [=](double t) {
-      const double body = 1 - 0.6 * t + 0.45 * std::exp(-std::pow((t - 0.93) / 0.05, 2));  // a head near the end
+      const double body =
+          1 - 0.6 * t + 0.45 * portable::exp(-portable::pow((t - 0.93) / 0.05, 2));  // a head near the end
       return thick * body * std::sqrt(std::min(1.0, std::min(t + 0.01, 1.01 - t) / 0.06));
     };
     builder.append(sample_tube({spine, 0, 1, false, radius, std::max(8, resolution / 2), std::max(5, resolution / 8),

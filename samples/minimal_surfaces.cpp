@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/portable_math.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 
@@ -25,9 +26,11 @@ Surface henneberg(int resolution, const SampleValues& values) {
   return sample_grid(
       {{0.03, pi + 0.03, resolution, Seam::mirrored}, {-reach, reach, steps_for(2 * reach, resolution, 2.2, 9) | 1}},
       [](double v, double u) -> Vec3 {
-        const double x = 2 * std::sinh(u) * std::cos(v) - 2.0 / 3 * std::sinh(3 * u) * std::cos(3 * v);
-        const double z = 2 * std::sinh(u) * std::sin(v) + 2.0 / 3 * std::sinh(3 * u) * std::sin(3 * v);
-        return Vec3(x, 2 * std::cosh(2 * u) * std::cos(2 * v), z) / 2;
+        const double x =
+            2 * portable::sinh(u) * portable::cos(v) - 2.0 / 3 * portable::sinh(3 * u) * portable::cos(3 * v);
+        const double z =
+            2 * portable::sinh(u) * portable::sin(v) + 2.0 / 3 * portable::sinh(3 * u) * portable::sin(3 * v);
+        return Vec3(x, 2 * portable::cosh(2 * u) * portable::cos(2 * v), z) / 2;
       });
 }
 
@@ -37,8 +40,8 @@ Surface catalan(int resolution, const SampleValues& values) {
                       {-reach, 1.02 * reach, steps_for(2 * reach, resolution, end * 0.55, 8)},
                       FaceKind::quads},
                      [](double u, double v) -> Vec3 {
-                       return Vec3(u - std::sin(u) * std::cosh(v), 1 - std::cos(u) * std::cosh(v),
-                                   4 * std::sin(u / 2) * std::sinh(v / 2)) /
+                       return Vec3(u - portable::sin(u) * portable::cosh(v), 1 - portable::cos(u) * portable::cosh(v),
+                                   4 * portable::sin(u / 2) * portable::sinh(v / 2)) /
                               3;
                      });
 }

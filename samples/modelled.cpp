@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 #include "samples/block_surface.h"
 #include "samples/lattice_noise.h"
 #include "samples/parameter_grid.h"
@@ -26,7 +28,7 @@ void bend_at(Surface& surface, const Vec3& joint, const Vec3& along, const Vec3&
     const double weight =
         smooth_step((rest_reach[v] - joint.dot(along)) / 1.6 + 0.5) * smooth_step((rest_height[v] - 2) / 2);
     if (weight == 0) continue;
-    p = joint + Eigen::AngleAxisd(weight * degrees * pi / 180, axis) * Vec3(p - joint);
+    p = joint + rotation_about(axis, weight * degrees * pi / 180) * Vec3(p - joint);
   }
 }
 
@@ -63,18 +65,19 @@ Surface overlapping_quads(int resolution, const SampleValues& values) {
   const double overlap = values["overlap"];
   MeshBuilder builder;
   const auto cushion = [&](const Vec3& centre, double turned) {
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(turned, Vec3(0.2, 1, 0.1).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d turn = rotation_about(Vec3(0.2, 1, 0.1).normalized(), turned);
     builder.append(sample_sphere(std::max(2, resolution / 4), FaceKind::quads, [&](const Vec3& d) {
       // A superellipsoid: x^4 + y^2 + z^4 = 1, flattened.
-      const double r = std::pow(std::pow(d[0], 4) + d[1] * d[1] * d[1] * d[1] + std::pow(d[2], 4), -0.25);
+      const double r =
+          portable::pow(portable::pow(d[0], 4) + d[1] * d[1] * d[1] * d[1] + portable::pow(d[2], 4), -0.25);
       return Vec3(centre + turn * Vec3(r * d[0], 0.45 * r * d[1], r * d[2]));
     }));
   };
   cushion(Vec3::Zero(), 0.2);
   cushion({0.3, 0.9 * (1 - overlap), 0.1}, 0.9);
-  builder.append(
-      sample_grid({{-1.5, 1.5, resolution}, {-0.25, 0.25, std::max(3, resolution / 6)}, FaceKind::quads},
-                  [](double u, double v) { return Vec3(u, 0.5 + 0.35 * std::cos(2.2 * u) + 0.1 * v, v + 0.15 * u); }));
+  builder.append(sample_grid(
+      {{-1.5, 1.5, resolution}, {-0.25, 0.25, std::max(3, resolution / 6)}, FaceKind::quads},
+      [](double u, double v) { return Vec3(u, 0.5 + 0.35 * portable::cos(2.2 * u) + 0.1 * v, v + 0.15 * u); }));
   return builder.take();
 }
 
@@ -88,7 +91,7 @@ Surface hair_cards(int resolution, const SampleValues& values) {
     const auto id = static_cast<std::uint32_t>(k);
     // Roots spread over the upper cap by the golden angle.
     const double angle = k * pi * (3 - std::sqrt(5.0)), s = 0.95 * std::sqrt((k + 0.5) / cards);
-    const Vec3 out(s * std::cos(angle), std::sqrt(1 - s * s), s * std::sin(angle));
+    const Vec3 out(s * portable::cos(angle), std::sqrt(1 - s * s), s * portable::sin(angle));
     const Vec3 side = out.cross(Vec3(0.3, 1, 0.2)).normalized();
     const Vec3 fall = (Vec3(0, -1, 0) + 0.6 * out).normalized();
     const double curl = 0.25 * (hashed_unit(21, id) - 0.5), lift = 0.15 + 0.25 * hashed_unit(22, id);

@@ -1,7 +1,8 @@
-#include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 #include "samples/parameter_grid.h"
 #include "samples/projective_maps.h"
 #include "samples/sample_maker.h"
@@ -16,12 +17,12 @@ using std::numbers::pi;
 Surface punctured(const DirectionMap& f, int resolution, double hole_degrees) {
   const double latitude = pi / 2 - hole_degrees * pi / 180;
   // A generic turn: neither hole nor samples on the lines of symmetry of the map.
-  const Eigen::Matrix3d turn =
-      (Eigen::AngleAxisd(0.93, Vec3::UnitX()) * Eigen::AngleAxisd(0.51, Vec3::UnitZ())).toRotationMatrix();
+  const Eigen::Matrix3d turn = rotation_about(Vec3::UnitX(), 0.93) * rotation_about(Vec3::UnitZ(), 0.51);
   return sample_grid(
       {{0, pi, resolution, Seam::mirrored}, {-latitude, latitude, steps_for(2 * latitude, resolution, pi, 8)}},
       [&](double u, double v) {
-        const Vec3 direction(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
+        const Vec3 direction(portable::cos(v) * portable::cos(u), portable::cos(v) * portable::sin(u),
+                             portable::sin(v));
         return f(turn * direction);
       });
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 #include "samples/anchor_scene.h"
 #include "samples/dressed_figure.h"
 #include "samples/lattice_noise.h"
@@ -26,10 +28,10 @@ Surface jellyfish(int resolution, const SampleValues& values) {
                                 {0.12, 1.9, steps_for(1.8, around, 2 * pi, 6)},
                                 FaceKind::quads},
                                [&](double u, double v) {
-                                 const double wave = ruffle * std::pow(v / 1.9, 4) * std::sin(7 * u);
-                                 const double r = size * (std::sin(v) + wave);
-                                 return Vec3(r * std::cos(u), size * 0.8 * std::cos(v) - drop + 0.1 * wave,
-                                             r * std::sin(u));
+                                 const double wave = ruffle * portable::pow(v / 1.9, 4) * portable::sin(7 * u);
+                                 const double r = size * (portable::sin(v) + wave);
+                                 return Vec3(r * portable::cos(u), size * 0.8 * portable::cos(v) - drop + 0.1 * wave,
+                                             r * portable::sin(u));
                                }));
   };
   bell(1.0, 0.13, 0);
@@ -39,11 +41,11 @@ Surface jellyfish(int resolution, const SampleValues& values) {
     const auto id = static_cast<std::uint32_t>(k);
     const double angle = 2 * pi * (k + 0.6 * hashed_unit(11, id)) / tentacles, start = 0.6 + 0.3 * hashed_unit(12, id);
     const double swing = 0.35 + 0.3 * hashed_unit(13, id), phase = 2 * pi * hashed_unit(14, id);
-    const Vec3 out(std::cos(angle), 0, std::sin(angle)), side(-std::sin(angle), 0, std::cos(angle));
+    const Vec3 out(portable::cos(angle), 0, portable::sin(angle)), side(-portable::sin(angle), 0, portable::cos(angle));
     // From inside the bells, whose walls some of them cross, down into the bundle.
     const auto centre = [=](double t) {
       return Vec3(start * (1 - 0.5 * t) * out + Vec3(0, 0.38 - 2.2 * t, 0) +
-                  swing * t * (std::sin(5 * t + phase) * side + 0.6 * std::cos(4 * t + phase) * out));
+                  swing * t * (portable::sin(5 * t + phase) * side + 0.6 * portable::cos(4 * t + phase) * out));
     };
     builder.append(sample_tube({centre, 0, 1, false, [](double t) { return 0.085 - 0.05 * t; },
                                 std::max(8, resolution / 2), 6, k % 2 == 0 ? FaceKind::triangles : FaceKind::quads}));
@@ -60,10 +62,10 @@ Surface anchored_balls(int resolution, const SampleValues& values) {
                                [&](const Vec3& d) { return Vec3(post * d[0], 1.3 * d[1], post * d[2]); }));
   for (int k = 0; k < count; ++k) {
     const double angle = 2 * pi * k / count, height = 0.11 * (k % 3 - 1);
-    const double width = std::sqrt(1 - std::pow(height / 1.3, 2)) * post;  // of the post at this height
-    const Vec3 out(std::cos(angle), 0, std::sin(angle));
+    const double width = std::sqrt(1 - portable::pow(height / 1.3, 2)) * post;  // of the post at this height
+    const Vec3 out(portable::cos(angle), 0, portable::sin(angle));
     const Vec3 centre = (width + radius - values["depth"]) * out + Vec3(0, height, 0);
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3 + 1.1 * k, Vec3(2, 1, 3).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d turn = rotation_about(Vec3(2, 1, 3).normalized(), 0.3 + 1.1 * k);
     builder.append(
         sample_sphere(steps, FaceKind::triangles, [&](const Vec3& d) { return Vec3(centre + radius * (turn * d)); }));
   }
@@ -85,7 +87,8 @@ Surface stool(int resolution, const SampleValues& values) {
   const double depth = values["depth"], thickness = 0.16, leg = 0.11, rung = 0.06, slant = 0.16;
   MeshBuilder builder;
   builder.append(sample_sphere(std::max(2, resolution / 4), FaceKind::quads, [&](const Vec3& d) {
-    const double round = std::pow(std::pow(std::sqrt(d[0] * d[0] + d[2] * d[2]), 6) + std::pow(d[1], 6), 1.0 / 6);
+    const double round =
+        portable::pow(portable::pow(std::sqrt(d[0] * d[0] + d[2] * d[2]), 6) + portable::pow(d[1], 6), 1.0 / 6);
     return Vec3(d[0] / round, thickness * d[1] / round, d[2] / round);
   }));
   const double top = -thickness + depth, length = 1.7;
@@ -114,9 +117,9 @@ Surface crossing_shells(int resolution, const SampleValues& values) {
   const int steps = std::max(2, resolution / 4);
   MeshBuilder builder;
   const auto shell = [&](double radius, double turn, double waves, const Vec3& centre) {
-    const Eigen::Matrix3d turned = Eigen::AngleAxisd(turn, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d turned = rotation_about(Vec3(1, 2, 3).normalized(), turn);
     builder.append(sample_sphere(steps, FaceKind::triangles, [&](const Vec3& d) {
-      const double height = 1 + waves * std::sin(6 * d[0]) * std::sin(6 * d[1]) * std::cos(6 * d[2]);
+      const double height = 1 + waves * portable::sin(6 * d[0]) * portable::sin(6 * d[1]) * portable::cos(6 * d[2]);
       return Vec3(centre + radius * height * (turned * d));
     }));
   };

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/portable_math.h"
 #include "samples/lattice_noise.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
@@ -35,9 +36,10 @@ Surface book(int resolution, const SampleValues& values) {
         const double s = double(j) / out, y = height * (double(i) / along - 0.5);
         // Fanned over a half turn, each page swinging with a phase of its own.
         const double own = hashed_unit(5, static_cast<std::uint32_t>(page));
-        const double angle =
-            pi * (page + 0.5) / pages + swing * std::sin(pi * s) * std::sin(2.4 * y + 2 * pi * own) * (0.6 + 0.8 * own);
-        next.push_back(builder.add_vertex(Vec3(s * std::cos(angle), y * (1 - 0.015 * page * s), s * std::sin(angle))));
+        const double angle = pi * (page + 0.5) / pages +
+                             swing * portable::sin(pi * s) * portable::sin(2.4 * y + 2 * pi * own) * (0.6 + 0.8 * own);
+        next.push_back(
+            builder.add_vertex(Vec3(s * portable::cos(angle), y * (1 - 0.015 * page * s), s * portable::sin(angle))));
       }
       for (int i = 0; i < along; ++i) builder.add_cell(column[i], next[i], next[i + 1], column[i + 1], FaceKind::quads);
       column = std::move(next);
@@ -53,7 +55,7 @@ Surface folded_sheet(int resolution, const SampleValues& values) {
   const auto curve = [&](double t) { return Vec3(t * t * t - loop * t, t * t, 0); };
   return sample_grid(
       {{-half, 1.04 * half, resolution}, {-1, 1, steps_for(2, resolution, 4.5, 6)}, FaceKind::quads},
-      [&](double t, double v) { return Vec3(curve(t) + Vec3(0.1 * std::sin(2 * v), 0, v + slant * t)); });
+      [&](double t, double v) { return Vec3(curve(t) + Vec3(0.1 * portable::sin(2 * v), 0, v + slant * t)); });
 }
 
 /// The same with holes cut out of it: genus 0, several boundaries.
@@ -70,7 +72,7 @@ Surface perforated_fold(int resolution, const SampleValues& values) {
     return true;
   };
   return sample_grid(grid, [](double t, double v) {
-    return Vec3(t * t * t - 1.3 * t, t * t + 0.2 * std::cos(1.5 * v), 1.1 * v + 0.13 * t);
+    return Vec3(t * t * t - 1.3 * t, t * t + 0.2 * portable::cos(1.5 * v), 1.1 * v + 0.13 * t);
   });
 }
 
@@ -81,8 +83,8 @@ Surface spiral_sheet(int resolution, const SampleValues& values) {
   return sample_grid({{0, length, resolution}, {0, 1, steps_for(1, resolution, length * 0.65, 6)}, FaceKind::quads},
                      [&](double t, double v) {
                        const double gap = 0.14,
-                                    r = 0.35 + gap * t / (2 * pi) + wave * gap * std::sin(1.7 * t + 2.1 * v);
-                       return Vec3(r * std::cos(t), v + 0.02 * std::sin(t), r * std::sin(t));
+                                    r = 0.35 + gap * t / (2 * pi) + wave * gap * portable::sin(1.7 * t + 2.1 * v);
+                       return Vec3(r * portable::cos(t), v + 0.02 * portable::sin(t), r * portable::sin(t));
                      });
 }
 
@@ -92,8 +94,8 @@ Surface helicoid_overlapping(int resolution, const SampleValues& values) {
   const double end = 2 * pi * turns;
   return sample_grid({{0, end, resolution}, {0.15, 1, steps_for(0.85, resolution, end * 0.6, 5)}},
                      [&](double t, double r) {
-                       const double rise = 0.9 * std::sin(pi * t / end * 1.9) + 0.05 * r * std::cos(3 * r);
-                       return Vec3(r * std::cos(t), rise, r * std::sin(t));
+                       const double rise = 0.9 * portable::sin(pi * t / end * 1.9) + 0.05 * r * portable::cos(3 * r);
+                       return Vec3(r * portable::cos(t), rise, r * portable::sin(t));
                      });
 }
 

@@ -1,7 +1,8 @@
 #include "samples/sphere_grid.h"
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 
 #include <array>
-#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -13,13 +14,12 @@ using LatticePoint = std::array<int, 3>;
 /// Even spacing by angle rather than along the edge of the cube: cells then differ in area by less than a factor of
 /// two.
 double by_angle(int i, int n) {
-  return std::tan((2.0 * i / n - 1) * std::numbers::pi / 4);
+  return portable::tan((2.0 * i / n - 1) * std::numbers::pi / 4);
 }
 
 Vec3 direction_of(const LatticePoint& p, int n) {
-  static const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.61, Vec3::UnitX()) * Eigen::AngleAxisd(0.37, Vec3::UnitY()) *
-                                       Eigen::AngleAxisd(0.23, Vec3::UnitZ()))
-                                          .toRotationMatrix();
+  static const Eigen::Matrix3d turn =
+      rotation_about(Vec3::UnitX(), 0.61) * rotation_about(Vec3::UnitY(), 0.37) * rotation_about(Vec3::UnitZ(), 0.23);
   return turn * Vec3(by_angle(p[0], n), by_angle(p[1], n), by_angle(p[2], n)).normalized();
 }
 

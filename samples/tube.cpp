@@ -1,6 +1,7 @@
 #include "samples/tube.h"
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 
-#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -28,17 +29,18 @@ Surface sample_tube(const Tube& tube) {
   double twist = 0;
   if (tube.closed) {
     const Vec3 axis = tangent(parameter(0));
-    twist = std::atan2(axis.dot(normals[rings].cross(normals[0])), normals[rings].dot(normals[0]));
+    twist = portable::atan2(axis.dot(normals[rings].cross(normals[0])), normals[rings].dot(normals[0]));
   }
 
   MeshBuilder builder;
   for (int i = 0; i < rings; ++i) {
     const double t = parameter(i);
-    const Vec3 axis = tangent(t), normal = Eigen::AngleAxisd(twist * i / rings, axis) * normals[i];
+    const Vec3 axis = tangent(t), normal = rotation_about(axis, twist * i / rings) * normals[i];
     const Vec3 binormal = axis.cross(normal);
     for (int j = 0; j < tube.sides; ++j) {
       const double angle = 2 * std::numbers::pi * (j + 0.13) / tube.sides;
-      builder.add_vertex(tube.centre(t) + tube.radius(t) * (std::cos(angle) * normal + std::sin(angle) * binormal));
+      builder.add_vertex(tube.centre(t) +
+                         tube.radius(t) * (portable::cos(angle) * normal + portable::sin(angle) * binormal));
     }
   }
   const auto vertex = [&](int i, int j) { return static_cast<Index>((i % rings) * tube.sides + j % tube.sides); };

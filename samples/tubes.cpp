@@ -1,6 +1,6 @@
-#include <cmath>
 #include <numbers>
 
+#include "geometry/portable_math.h"
 #include "samples/parameter_grid.h"
 #include "samples/sample_maker.h"
 #include "samples/tube.h"
@@ -17,15 +17,17 @@ Surface knotted_tube(const SpaceCurve& centre, double length, double radius, int
 
 Surface trefoil_tube(int resolution, const SampleValues& values) {
   const auto centre = [](double t) -> Vec3 {
-    return Vec3(std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t), -std::sin(3 * t)) / 2;
+    return Vec3(portable::sin(t) + 2 * portable::sin(2 * t), portable::cos(t) - 2 * portable::cos(2 * t),
+                -portable::sin(3 * t)) /
+           2;
   };
   return knotted_tube(centre, 15, values["radius"], resolution, FaceKind::triangles);
 }
 
 Surface figure_eight_knot_tube(int resolution, const SampleValues& values) {
   const auto centre = [](double t) -> Vec3 {
-    const double r = 2 + std::cos(2 * t);
-    return Vec3(r * std::cos(3 * t), std::sin(4 * t), r * std::sin(3 * t)) / 2;
+    const double r = 2 + portable::cos(2 * t);
+    return Vec3(r * portable::cos(3 * t), portable::sin(4 * t), r * portable::sin(3 * t)) / 2;
   };
   return knotted_tube(centre, 22, values["radius"], resolution, FaceKind::quads);
 }
@@ -36,10 +38,10 @@ Surface crossing_tubes(int resolution, const SampleValues& values) {
   MeshBuilder builder;
   for (int k = 0; k < 2; ++k) {
     const double angle = (k == 0 ? -1 : 1) * values["angle"] * pi / 360;
-    const Vec3 along(std::cos(angle), std::sin(angle), 0.05 * k);
+    const Vec3 along(portable::cos(angle), portable::sin(angle), 0.05 * k);
     const Vec3 middle(0.013 * k, 0.021 * k, values["offset"] * k);
     builder.append(sample_tube({[=](double t) { return Vec3(middle + (t + 0.03 * k) * along); }, -1.5, 1.5, false,
-                                [=](double t) { return radius * (1 + 0.1 * std::cos(2 * t)); }, resolution,
+                                [=](double t) { return radius * (1 + 0.1 * portable::cos(2 * t)); }, resolution,
                                 steps_for(2 * pi * radius, resolution, 3, 8), FaceKind::quads}));
   }
   return builder.take();

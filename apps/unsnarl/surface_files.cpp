@@ -110,9 +110,10 @@ std::string highlight_file(const SurfaceView& surface, std::span<const double> p
       surface.vertex_count(), surface.face_count());
   for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
     for (std::size_t k = i; k < i + 3; ++k) append_little_endian(bytes, positions[k]);
-    append_little_endian(bytes,
-                         std::hypot(positions[i] - surface.positions[i], positions[i + 1] - surface.positions[i + 1],
-                                    positions[i + 2] - surface.positions[i + 2]));
+    double squared = 0;  // std::hypot differs between C libraries
+    for (std::size_t k = i; k < i + 3; ++k)
+      squared += (positions[k] - surface.positions[k]) * (positions[k] - surface.positions[k]);
+    append_little_endian(bytes, std::sqrt(squared));
   }
   for (std::size_t f = 0; f < surface.face_count(); ++f) {
     const auto corners = surface.face(f);

@@ -29,10 +29,14 @@ Index left_count(Index count, Index leaf_size) {
 }
 
 /// Orders the boxes as the leaves of the tree: halves them again and again along the axis of the largest extent of
-/// their centers. This takes longer than an order by Morton codes, but queries then visit far fewer nodes.
+/// their centers. This takes longer than an order by Morton codes, but queries then visit far fewer nodes. By ids
+/// within a leaf: what std::nth_element leaves depends on the standard library.
 void split(std::span<BoxCenter> centers, Index leaf_size) {
   const auto count = static_cast<Index>(centers.size());
-  if (count <= leaf_size) return;
+  if (count <= leaf_size) {
+    std::sort(centers.begin(), centers.end(), [](const BoxCenter& a, const BoxCenter& b) { return a.box < b.box; });
+    return;
+  }
   std::array<float, 3> lo, hi;
   lo.fill(std::numeric_limits<float>::infinity());
   hi.fill(-std::numeric_limits<float>::infinity());

@@ -84,7 +84,10 @@ class Search {
       node.last = std::max(node.last, group(order_[k]));
     }
     nodes_.push_back(node);
-    if (end - begin <= leaf_size) return id;
+    if (end - begin <= leaf_size) {  // by id: what std::nth_element leaves depends on the standard library
+      std::sort(order_.begin() + begin, order_.begin() + end);
+      return id;
+    }
     int axis = 0;
     (node.box.hi - node.box.lo).maxCoeff(&axis);
     const Index middle = begin + (end - begin) / 2;

@@ -1,4 +1,5 @@
 #include "energy/bending.h"
+#include "geometry/portable_math.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ double bending_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3&
   const Vec3 n2 = (x3 - x0).cross(e);
   const double length = e.norm();
   if (!(length > 0)) return 0;
-  return std::atan2(n1.cross(n2).dot(e) / length, n1.dot(n2));
+  return portable::atan2(n1.cross(n2).dot(e) / length, n1.dot(n2));
 }
 
 double bending_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3,
@@ -55,7 +56,7 @@ double bending_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3&
   gradient.col(1) = (x2 - x0).dot(axis) * u1 + (x3 - x0).dot(axis) * u2;
   gradient.col(2) = -length * u1;
   gradient.col(3) = -length * u2;
-  return std::atan2(n1.cross(n2).dot(axis), n1.dot(n2));
+  return portable::atan2(n1.cross(n2).dot(axis), n1.dot(n2));
 }
 
 Bending::Bending(const Positions& rest, const Positions& start, std::span<const BendingHinge> hinges,

@@ -1,4 +1,5 @@
 #include "energy/gaussian_bandwidth.h"
+#include "geometry/portable_math.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +37,8 @@ double squared_upper_bound(std::span<const BandwidthPair> pairs, const Bandwidth
 double global_contact_energy(std::span<const BandwidthPair> pairs, double epsilon, double exponent) {
   const double squared = epsilon * epsilon;
   double sum = 0;
-  for (const BandwidthPair& pair : pairs) sum += pair.weight * std::exp(-pair.squared_distance / squared);
-  return sum * std::pow(epsilon, -exponent);
+  for (const BandwidthPair& pair : pairs) sum += pair.weight * portable::exp(-pair.squared_distance / squared);
+  return sum * portable::pow(epsilon, -exponent);
 }
 
 std::vector<GlobalBandwidth> global_bandwidths(std::span<const BandwidthPair> pairs, const BandwidthOptions& options) {
@@ -55,7 +56,7 @@ std::vector<GlobalBandwidth> global_bandwidths(std::span<const BandwidthPair> pa
   const auto g = [&](double squared) {
     double m0 = 0, m2 = 0;
     for (const BandwidthPair& pair : pairs) {
-      const double term = pair.weight * std::exp((nearest - pair.squared_distance) / squared);
+      const double term = pair.weight * portable::exp((nearest - pair.squared_distance) / squared);
       m0 += term;
       m2 += term * pair.squared_distance;
     }
@@ -64,7 +65,7 @@ std::vector<GlobalBandwidth> global_bandwidths(std::span<const BandwidthPair> pa
   const int starts = std::max(1, options.starts);
   for (int k = 0; k < starts; ++k) {
     const double t = starts == 1 ? 0.5 : static_cast<double>(k) / (starts - 1);
-    double squared = std::clamp(std::pow(range.least, 1 - t) * std::pow(range.largest, t), lower, upper);
+    double squared = std::clamp(portable::pow(range.least, 1 - t) * portable::pow(range.largest, t), lower, upper);
     bool clamped = false;
     // Undamped steps do no overshooting here (g is increasing), but converge slowly near double points: many allowed.
     for (int i = 0; i < 10 * options.max_iterations; ++i) {
@@ -135,8 +136,8 @@ LocalBandwidthReport symmetric_local_bandwidths(std::span<const BandwidthPair> p
                  [p](const BandwidthPair& pair, const std::vector<double>& eps2, std::vector<double>& top,
                      std::vector<double>& bottom) {
                    const double mean = 0.5 * (eps2[pair.i] + eps2[pair.j]);
-                   const double power = p == 2 ? 1 / (mean * mean * mean) : std::pow(mean, -0.5 * (p + 4));
-                   const double b = pair.weight * power * std::exp(-pair.squared_distance / mean);
+                   const double power = p == 2 ? 1 / (mean * mean * mean) : portable::pow(mean, -0.5 * (p + 4));
+                   const double b = pair.weight * power * portable::exp(-pair.squared_distance / mean);
                    const double target = 4 / p * pair.squared_distance;
                    top[pair.i] += b * (target - eps2[pair.j]);
                    top[pair.j] += b * (target - eps2[pair.i]);
@@ -152,7 +153,7 @@ LocalBandwidthReport independent_local_bandwidths(std::span<const BandwidthPair>
                  [p](const BandwidthPair& pair, const std::vector<double>& eps2, std::vector<double>& top,
                      std::vector<double>& bottom) {
                    for (const Index i : {pair.i, pair.j}) {
-                     const double term = pair.weight * std::exp(-pair.squared_distance / eps2[i]);
+                     const double term = pair.weight * portable::exp(-pair.squared_distance / eps2[i]);
                      top[i] += 2 / p * term * pair.squared_distance;
                      bottom[i] += term;
                    }

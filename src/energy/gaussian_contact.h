@@ -2,10 +2,10 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <span>
 #include <vector>
 
+#include "geometry/portable_math.h"
 #include "geometry/types.h"
 
 namespace unsnarl {
@@ -36,8 +36,8 @@ class GaussianContact {
     double value = 0;
     const auto add = [&](const Pair& pair, double squared, double share) {
       const Eigen::Matrix<double, Dim, 1> r = x.col(pair.i) - x.col(pair.j);
-      const double power = exponent == 2 ? 1 / squared : std::pow(squared, -0.5 * exponent);
-      const double term = share * pair.weight * power * std::exp(-r.squaredNorm() / squared);
+      const double power = exponent == 2 ? 1 / squared : portable::pow(squared, -0.5 * exponent);
+      const double term = share * pair.weight * power * portable::exp(-r.squaredNorm() / squared);
       value += term;
       const Eigen::Matrix<double, Dim, 1> force = (2 * weight * term / squared) * r;
       gradient.col(pair.i) -= force;

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "contact/distances.h"
 #include "energy/hessian.h"
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 
@@ -15,14 +15,14 @@ namespace unsnarl {
 inline double barrier(double y) {
   if (y >= 1) return 0;
   if (!(y > 0)) return std::numeric_limits<double>::infinity();
-  return -(y - 1) * (y - 1) * std::log(y);
+  return -(y - 1) * (y - 1) * portable::log(y);
 }
 inline double barrier_derivative(double y) {
-  return y >= 1 ? 0 : -(y - 1) * (2 * std::log(y) + (y - 1) / y);
+  return y >= 1 ? 0 : -(y - 1) * (2 * portable::log(y) + (y - 1) / y);
 }
 inline double barrier_second_derivative(double y) {
   const double q = (y - 1) / y;
-  return y >= 1 ? 0 : -2 * std::log(y) - 4 * q + q * q;
+  return y >= 1 ? 0 : -2 * portable::log(y) - 4 * q + q * q;
 }
 
 /// Factor that switches edge-edge terms off smoothly where the edges become parallel, since their distance is not

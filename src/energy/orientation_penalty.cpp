@@ -82,9 +82,8 @@ bool OrientationPenalty::project(const Positions& x, std::span<const Index> whic
     if (!(missing > 0)) continue;
     double squared = 0;
     for (int k = 0; k < 3; ++k) {
-      if (!moves[kept.corners[k]]) continue;
       gradient[k] = kept.normal.cross(corners[(k + 2) % 3] - corners[(k + 1) % 3]);
-      squared += gradient[k].squaredNorm();
+      if (moves[kept.corners[k]]) squared += gradient[k].squaredNorm();
     }
     if (!(squared > 0)) continue;
     any = true;

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "geometry/portable_math.h"
 #include "io/formats.h"
 #include "io/gltf_file.h"
 #include "io/surface_builder.h"
@@ -403,10 +404,10 @@ class GltfParser {
         if (!skinning.is_invertible()) continue;
         const std::array<double, 3> origin = skinning.to_world({0, 0, 0});
         const std::array<double, 3> before = skinning.to_local({origin[0], origin[1] + 1, origin[2]});
-        const double length = std::hypot(before[0], before[1], before[2]);
+        const double length = portable::length(before[0], before[1], before[2]);
         for (std::size_t k = 0; k < 3; ++k) sum[k] += before[k] / length;
       }
-      const double length = std::hypot(sum[0], sum[1], sum[2]);
+      const double length = portable::length(sum[0], sum[1], sum[2]);
       if (!std::isnormal(length)) return world_up;
       return {sum[0] / length, sum[1] / length, sum[2] / length};
     } catch (const FileError&) {  // nothing but a view depends on it

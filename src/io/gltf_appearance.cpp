@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "geometry/portable_math.h"
 #include "io/base64.h"
 #include "io/image_collector.h"
 #include "io/uri.h"
@@ -39,7 +40,7 @@ float to_srgb(double linear) {
   constexpr double offset = 0.055;            ///< Offset of the curved part (fixed by sRGB)
   constexpr double factor = 1.055;            ///< Factor of the curved part (fixed by sRGB)
   const double x = std::isfinite(linear) ? std::clamp(linear, 0.0, 1.0) : 1.0;
-  return static_cast<float>(x <= linear_up_to ? slope * x : factor * std::pow(x, 1 / gamma) - offset);
+  return static_cast<float>(x <= linear_up_to ? slope * x : factor * portable::pow(x, 1 / gamma) - offset);
 }
 
 /// The transform of texture coordinates that a texture info asks for (KHR_texture_transform): uv -> offset +
@@ -56,7 +57,7 @@ struct TextureTransform {
     rotation = number(extension["rotation"], 0);
   }
   std::array<float, 2> of(const std::array<float, 2>& uv) const {
-    const double c = std::cos(rotation), s = std::sin(rotation), u = scale[0] * uv[0], v = scale[1] * uv[1];
+    const double c = portable::cos(rotation), s = portable::sin(rotation), u = scale[0] * uv[0], v = scale[1] * uv[1];
     return {static_cast<float>(offset[0] + c * u + s * v), static_cast<float>(offset[1] - s * u + c * v)};
   }
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/portable_math.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl {
@@ -96,7 +97,7 @@ Placement::Placement(const std::array<double, 12>& rows) : rows_(rows) {
   double determinant = 0, box = 1;
   for (int c = 0; c < 3; ++c) {
     determinant += rows_[c] * cofactor(0, c);
-    box *= std::hypot(rows_[c], rows_[4 + c], rows_[8 + c]);
+    box *= portable::length(rows_[c], rows_[4 + c], rows_[8 + c]);
   }
   is_invertible_ = std::isnormal(determinant) && std::abs(determinant) > smallest_volume_share * box;
   for (int r = 0; r < 3; ++r) {

@@ -115,17 +115,18 @@ void CornerTree::build(std::span<const Index> corners, std::span<const Vec3> poi
 void CornerTree::sort(Index node, Index begin, Index end) {
   const auto n = static_cast<Index>(points_.size());
   const Index middle = begin + (end - begin) / 2;
-  if (node >= leaves_ || middle >= n) {
-    if (node < leaves_) sort(2 * node, begin, middle);
+  const auto first = place_in_slot_.begin();
+  if (node >= leaves_) {  // by place: what std::nth_element leaves depends on the standard library
+    std::sort(first + std::min(begin, n), first + std::min(end, n));
     return;
   }
-  const auto first = place_in_slot_.begin();
+  if (middle >= n) return sort(2 * node, begin, middle);
   Box box;
   for (Index slot = begin; slot < std::min(end, n); ++slot) box.extend(points_[place_in_slot_[slot]]);
   int axis = 0;
   (box.hi - box.lo).maxCoeff(&axis);
   std::nth_element(first + begin, first + middle, first + std::min(end, n),
-                   [&](Index a, Index b) { return points_[a][axis] < points_[b][axis]; });
+                   [&](Index a, Index b) { return std::pair(points_[a][axis], a) < std::pair(points_[b][axis], b); });
   sort(2 * node, begin, middle);
   sort(2 * node + 1, middle, end);
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/portable_math.h"
 #include "mesh/adjacency.h"
 
 namespace unsnarl {
@@ -64,7 +65,7 @@ HingeAngle hinge_angle(const Positions& x, const Hinge& hinge) {
   // |edge| |first|; the direction of u turns by that / |u|. Sixteen units hold with room to spare, also for what
   // follows.
   const double error = 16 * unit * (1 + edge.norm() * (first.norm() / length_u + second.norm() / length_w));
-  return {std::atan2(u.cross(w).norm() / (length_u * length_w), u.dot(w) / (length_u * length_w)), error};
+  return {portable::atan2(u.cross(w).norm() / (length_u * length_w), u.dot(w) / (length_u * length_w)), error};
 }
 
 std::optional<double> exact_hinge_angle(const Positions& x, const Hinge& hinge) {
@@ -75,7 +76,7 @@ std::optional<double> exact_hinge_angle(const Positions& x, const Hinge& hinge) 
   if (cosine == 0) return std::numbers::pi / 2;
   const ExactVector sine = cross(u, w);
   const Exact squared_tangent = dot(sine, sine) / (cosine * cosine);
-  const double angle = std::atan(std::sqrt(squared_tangent.convert_to<double>()));
+  const double angle = portable::atan(std::sqrt(squared_tangent.convert_to<double>()));
   return cosine > 0 ? angle : std::numbers::pi - angle;
 }
 

@@ -1,20 +1,12 @@
 #include "pipeline/frame_motion.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
+#include "geometry/rotation.h"
 
 namespace unsnarl {
 namespace {
 
 using Mat3 = Eigen::Matrix3d;
-
-/// The rotation that carries one set of edges best onto another; `covariance` is the sum of to * from^T over them.
-Mat3 rotation_of(const Mat3& covariance) {
-  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Mat3 u = svd.matrixU();
-  if (u.determinant() * svd.matrixV().determinant() < 0) u.col(2) = -u.col(2);  // of the least singular value
-  return u * svd.matrixV().transpose();
-}
 
 }  // namespace
 
@@ -30,7 +22,7 @@ Positions FrameMotion::correction(std::span<const double> input, std::span<const
     Mat3 covariance = Mat3::Zero();
     for (const Index w : neighbours_[v])
       covariance += (prepared().rest.col(w) - prepared().rest.col(v)) * (from.col(w) - from.col(v)).transpose();
-    moved.col(v) = (rotation_of(covariance) * moved.col(v)).eval();
+    moved.col(v) = (nearest_rotation(covariance) * moved.col(v)).eval();
   }
   return moved;
 }

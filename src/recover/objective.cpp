@@ -1,7 +1,7 @@
 #include "recover/objective.h"
+#include "geometry/portable_math.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace unsnarl {
@@ -38,10 +38,10 @@ Objective::Objective(const Patch& patch, const EdgeTable& edges, const Objective
 
   auto& arap = sum_.part<ArapTriangle>();
   arap.energy = ArapTriangle(patch.rest, active, options.rotation_damping);
-  arap.weight = std::pow(options.arap_length * h, 2);
+  arap.weight = portable::pow(options.arap_length * h, 2);
   auto& bending = sum_.part<Bending>();
   bending.energy = bending_of(patch, edges, h);
-  bending.weight = std::pow(options.bending_length * h, 4);
+  bending.weight = portable::pow(options.bending_length * h, 4);
   auto& orientation = sum_.part<OrientationPenalty>();
   OrientationPenalty::Options flips;
   flips.activation = options.flip_activation;

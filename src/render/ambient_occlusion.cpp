@@ -1,4 +1,5 @@
 #include "render/ambient_occlusion.h"
+#include "geometry/portable_math.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,8 +49,8 @@ std::vector<float> ambient_occlusion(std::span<const Eigen::Vector3f> points, st
       float blocked = 0;
       for (int k = 0; k < options.samples; ++k) {
         const double share = (k + 0.5) / options.samples, angle = turn + 2 * EIGEN_PI * 5 * share;
-        const int u = x + static_cast<int>(std::lround(options.radius_pixels * share * std::cos(angle)));
-        const int v = y + static_cast<int>(std::lround(options.radius_pixels * share * std::sin(angle)));
+        const int u = x + static_cast<int>(std::lround(options.radius_pixels * share * portable::cos(angle)));
+        const int v = y + static_cast<int>(std::lround(options.radius_pixels * share * portable::sin(angle)));
         if (u < 0 || v < 0 || u >= width || v >= height) continue;
         const Eigen::Vector3f& q = points[static_cast<std::size_t>(v) * width + u];
         if (q[2] == 0) continue;

@@ -1,12 +1,13 @@
 #include "render/camera.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "geometry/box.h"
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 
 namespace unsnarl {
 
@@ -41,15 +42,15 @@ Camera three_quarter_view(std::span<const double> positions, double aspect, doub
   const double flatness = extent[axis] / std::max({extent[0], extent[1], extent[2], 1e-300});
   const double elevation = (flatness < 0.35 ? 38 : 22) * std::numbers::pi / 180;
   const double azimuth = -30 * std::numbers::pi / 180;
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(azimuth, vertical).toRotationMatrix();
+  const Eigen::Matrix3d turn = rotation_about(vertical, azimuth);
   camera.right = turn * across;
   const Vec3 level = turn * viewer;
-  camera.toward = std::cos(elevation) * level + std::sin(elevation) * vertical;
+  camera.toward = portable::cos(elevation) * level + portable::sin(elevation) * vertical;
   camera.up = camera.toward.cross(camera.right);
 
   // The nearest eye from which every point p lies within the four planes of the view: with t the tangent of half the
   // field of view and z along `toward`, |x - eye_x| <= t (eye_z - z).
-  camera.half_height = std::tan(13 * std::numbers::pi / 180);
+  camera.half_height = portable::tan(13 * std::numbers::pi / 180);
   const double ty = camera.half_height * (1 - 2 * margin), tx = camera.half_height * aspect * (1 - 2 * margin);
   double left = -std::numeric_limits<double>::infinity(), right = left, below = left, above = left, nearest = left;
   const Vec3 middle = box.center();

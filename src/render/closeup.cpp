@@ -101,8 +101,8 @@ std::vector<Window> all_worth_magnifying(const Drawable& drawable, const Camera&
   std::vector<Point> left = red.centres;
   const double largest = largest_share * height;
   for (Window next = *first;; next = around_most(left, largest)) {
-    const auto inside =
-        std::partition(left.begin(), left.end(), [&](const Point& c) { return distance(next, c) > 0.5 * next.side; });
+    const auto inside = std::stable_partition(left.begin(), left.end(),
+                                              [&](const Point& c) { return distance(next, c) > 0.5 * next.side; });
     const auto members = std::span(inside, left.end());
     const Window closer = red.around(members, height);
     if (closer.side < next.side) next = closer;

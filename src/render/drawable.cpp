@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/portable_math.h"
 #include "mesh/adjacency.h"
 
 namespace unsnarl {
@@ -13,7 +14,7 @@ namespace {
 /// Corner normals: the area-weighted mean over the triangles around the vertex that are turned by less than 40 degrees,
 /// whichever way they are oriented (the surface may not be orientable).
 void smooth_normals(Drawable& drawable) {
-  const double least_cosine = std::cos(40 * EIGEN_PI / 180);
+  const double least_cosine = portable::cos(40 * EIGEN_PI / 180);
   const std::size_t n = drawable.triangles.size();
   std::vector<Vec3> areas(n), units(n);
   for (std::size_t t = 0; t < n; ++t) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/portable_math.h"
 #include "render/ambient_occlusion.h"
 #include "render/rasteriser.h"
 
@@ -79,7 +80,7 @@ Linear lit(const Linear& colour, const Eigen::Vector3f& normal, const Eigen::Vec
   const float from_key = std::max(0.0F, (normal.dot(key) + 0.15F) / 1.15F);
   const float from_fill = std::max(0.0F, normal.dot(fill));
   const float from_above = 0.5F + 0.5F * normal[1];
-  const float gloss = std::pow(std::max(0.0F, normal.dot((key + to_eye).normalized())), 40.0F);
+  const float gloss = portable::pow(std::max(0.0F, normal.dot((key + to_eye).normalized())), 40.0F);
   const Linear light = Linear(1.0F, 0.97F, 0.92F) * (0.85F * from_key) +
                        Linear(0.75F, 0.85F, 1.0F) * (0.22F * from_fill) +
                        Linear(0.9F, 0.95F, 1.0F) * (0.20F + 0.18F * from_above);
@@ -88,7 +89,7 @@ Linear lit(const Linear& colour, const Eigen::Vector3f& normal, const Eigen::Vec
 
 std::uint8_t to_srgb(float linear) {
   const float x = std::clamp(linear, 0.0F, 1.0F);
-  const float s = x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
+  const float s = x <= 0.0031308F ? 12.92F * x : 1.055F * portable::pow(x, 1 / 2.4F) - 0.055F;
   return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "energy/minkowski_penalty.h"
+#include "geometry/portable_math.h"
 #include "geometry/sort_unique.h"
 #include "mesh/areas.h"
 #include "scene/component_mesh.h"
@@ -24,7 +25,7 @@ void measure_displacement(std::span<const double> before, std::span<const double
   std::size_t untouched = 0;
   for (std::size_t v = 0; v < n; ++v) {
     double squared = 0;
-    for (int k = 0; k < 3; ++k) squared += std::pow(scale.in(after[3 * v + k]) - scale.in(before[3 * v + k]), 2);
+    for (int k = 0; k < 3; ++k) squared += portable::pow(scale.in(after[3 * v + k]) - scale.in(before[3 * v + k]), 2);
     bool same = true;
     for (int k = 0; k < 3; ++k) same &= after[3 * v + k] == before[3 * v + k];
     untouched += same;

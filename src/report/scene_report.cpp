@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/box.h"
+#include "geometry/portable_math.h"
 #include "mesh/validity.h"
 #include "unsnarl/report.h"
 #include "unsnarl/scene_document.h"
@@ -20,7 +21,8 @@ void measure_motion(std::span<const double> before, std::span<const double> afte
   double sum = 0, largest = 0;
   for (std::size_t v = begin; v < begin + n; ++v) {
     double squared = 0;
-    for (std::size_t k = 3 * v; k < 3 * v + 3; ++k) squared += std::pow(scale.in(after[k]) - scale.in(before[k]), 2);
+    for (std::size_t k = 3 * v; k < 3 * v + 3; ++k)
+      squared += portable::pow(scale.in(after[k]) - scale.in(before[k]), 2);
     untouched += std::equal(&before[3 * v], &before[3 * v] + 3, &after[3 * v]);
     sum += std::sqrt(squared);
     largest = std::max(largest, std::sqrt(squared));

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 #include "mesh/areas.h"
 #include "rigid/free_place.h"
 
@@ -28,7 +30,7 @@ struct BodyMotion {
     body.rotation = Eigen::Matrix3d::Identity();
     body.centre = body.rest_centre;
     if (radius > 0)
-      body.rotation = rotation_by(2 * std::asin(0.5 * distance / radius) * axis);
+      body.rotation = rotation_by(2 * portable::asin(0.5 * distance / radius) * axis);
     else
       body.centre += distance * direction;
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact/distances.h"
+#include "geometry/rotation.h"
 
 namespace unsnarl {
 namespace {

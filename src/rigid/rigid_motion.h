@@ -16,9 +16,6 @@ struct RigidMotion {
   double degrees() const;
 };
 
-/// The rotation by the angle |w|, in radians, about w.
-Eigen::Matrix3d rotation_by(const Vec3& w);
-
 /// The rigid motion that brings `from` nearest to `to`, by the sum of squared distances (Kabsch; without reflections).
 /// Columns that are equal in both give exactly the identity. Both have as many columns, at least one.
 RigidMotion best_rigid_motion(const Positions& from, const Positions& to);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "contact/intersection_finder.h"
+#include "geometry/portable_math.h"
 #include "geometry/splitmix.h"
 #include "mesh/adjacency.h"
 
@@ -166,16 +166,17 @@ int anneal(Patch& patch, PairsOfFaces& pairs, const Task& task, Numbers& random)
   int moves = 0;
   for (; fewest > 0 && pairs.tests() < most_tests && !is_asked_to_stop(task); ++moves) {
     const double done = static_cast<double>(pairs.tests()) / static_cast<double>(most_tests);
-    const double temperature = first_temperature * std::pow(last_temperature / first_temperature, done);
+    const double temperature = first_temperature * portable::pow(last_temperature / first_temperature, done);
     const Index v = random() < share_in_conflict ? pairs.in_conflict(random) : random.below(patch.free_count);
-    const double length = shortest_move * std::pow(longest_move / shortest_move, random());
+    const double length = shortest_move * portable::pow(longest_move / shortest_move, random());
     const Vec3 step = length * patch.edge_length * random.direction();
     const double chance = random();
     if (v >= patch.free_count) continue;
     const Vec3 before = patch.x.col(v);
     const Index total = pairs.total();
     pairs.move(v, before + step);
-    if (pairs.total() > total && !(chance < std::exp((total - pairs.total()) / temperature))) pairs.move(v, before);
+    if (pairs.total() > total && !(chance < portable::exp((total - pairs.total()) / temperature)))
+      pairs.move(v, before);
     if (pairs.total() < fewest) {
       fewest = pairs.total();
       best = patch.x;

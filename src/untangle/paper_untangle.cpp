@@ -15,6 +15,7 @@
 #include "energy/intersection_length.h"
 #include "energy/minkowski_penalty.h"
 #include "energy/polygon_penalty.h"
+#include "geometry/portable_math.h"
 #include "mesh/adjacency.h"
 #include "mesh/areas.h"
 #include "optimize/lbfgs.h"
@@ -236,7 +237,7 @@ class PaperUntangle {
     for (int k = 0; k < iterations; ++k) {
       double m0 = 0, m2 = 0;
       for (const BandwidthPair& pair : pairs) {
-        const double term = pair.weight * std::exp(-pair.squared_distance / squared);
+        const double term = pair.weight * portable::exp(-pair.squared_distance / squared);
         m0 += term;
         m2 += term * pair.squared_distance;
       }

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Checks what the sources include.
 
-layers  a file includes only from its own layer or one below; public headers only each other and the standard library;
-        the command line, the C interface and the examples only public headers and files of their own folder
+layers  a file includes only from its own layer or one below, and the core, which works on arrays, nothing of files;
+        public headers only each other and the standard library; the command line, the C interface and the examples
+        only public headers and files of their own folder
 lgpl    the product includes nothing of libraries under the GPL or LGPL; its tests may
 
 usage: check_includes.py {layers,lgpl} PROJECT_DIR
@@ -32,6 +33,8 @@ BELOW = {
     "applications": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render"],
     "samples": ["geometry", "mesh"],
 }
+# What reads and writes files, besides the folders `files` of other layers: no part of the core.
+FILES = {"io", "render"}
 # They use the library as its users do.
 USERS = ["apps", "src/c_interface", "examples"]
 THIRD_PARTY = re.compile(r"^(Eigen|CGAL|tbb|oneapi|fmt|nlohmann|CLI|png|zlib|boost|gmp|mpfr|pugixml|gtest|benchmark)\b")
@@ -72,6 +75,11 @@ def check_layers(project):
                     yield f"{path}:{number}: '{included}'; include paths are relative to src/ or include/"
                     continue
                 other = layer_of(included)
+                is_core = layer not in FILES and "files" not in path.relative_to(folder).parts
+                if is_core and (other in FILES or "files" in Path(included).parts):
+                    yield (f"{path}:{number}: '{included}'; what reads or writes files belongs in a folder `files`, "
+                           "the core works on arrays")
+                    continue
                 if other and other != layer and other not in below:
                     yield (f"{path}:{number}: layer '{layer}' includes '{included}' of layer '{other}'; "
                            f"it may include from {', '.join([layer, *below])}")

@@ -31,6 +31,12 @@ class Layers(unittest.TestCase):
         self.refused("src/pipeline/a.cpp", '#include "c_interface/b.h"')
         self.accepted("src/pipeline/a.cpp", '#include "mesh/b.h"')
 
+    def test_the_core_includes_nothing_of_files(self):
+        self.refused("src/pipeline/a.cpp", '#include "io/b.h"')
+        self.refused("src/report/a.cpp", '#include "report/files/b.h"')
+        self.accepted("src/pipeline/files/a.cpp", '#include "io/b.h"')
+        self.accepted("src/applications/knots/files/a.cpp", '#include "render/b.h"')
+
     def test_public_headers_include_public_headers(self):
         self.refused("include/unsnarl/a.h", '#include "mesh/b.h"')
         self.refused("include/unsnarl/a.h", "#include <nlohmann/json.hpp>")

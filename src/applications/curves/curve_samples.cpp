@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "applications/curves/curve_net.h"
+#include "geometry/portable_math.h"
 #include "geometry/splitmix.h"
 
 namespace unsnarl {
@@ -50,7 +51,7 @@ std::vector<Vec2> points_of(std::string_view kind, Random& random, int n) {
     at([&](double t) {
       Vec2 sum(0, 0);
       for (const auto& [f, ax, px, ay, py] : w)
-        sum += Vec2(ax * std::sin(turn * f * t + px), ay * std::sin(turn * f * t + py));
+        sum += Vec2(ax * portable::sin(turn * f * t + px), ay * portable::sin(turn * f * t + py));
       return sum;
     });
   } else if (kind == "walk") {
@@ -58,7 +59,7 @@ std::vector<Vec2> points_of(std::string_view kind, Random& random, int n) {
     double a = 0;
     for (double& value : angle) value = a += random.between(-1, 1) * 0.6;
     Vec2 sum(0, 0);
-    for (int k = 0; k < n; ++k) p[k] = sum += Vec2(std::cos(angle[k]), std::sin(angle[k]));
+    for (int k = 0; k < n; ++k) p[k] = sum += Vec2(portable::cos(angle[k]), portable::sin(angle[k]));
     for (int k = 0; k < n; ++k) p[k] -= (k + 1.0) / n * sum;  // back to the start
   } else if (kind == "star") {
     std::vector<Vec2> knots(5 + static_cast<int>(random() * 16));
@@ -67,16 +68,16 @@ std::vector<Vec2> points_of(std::string_view kind, Random& random, int n) {
   } else if (kind == "noise") {
     const double amplitude = random.between(0.5, 4) * turn / n;
     at([&](double t) {
-      return Vec2(std::cos(turn * t) + amplitude * random.between(-1, 1),
-                  std::sin(turn * t) + amplitude * random.between(-1, 1));
+      return Vec2(portable::cos(turn * t) + amplitude * random.between(-1, 1),
+                  portable::sin(turn * t) + amplitude * random.between(-1, 1));
     });
   } else if (kind == "spiral") {
     const int turns = 2 + static_cast<int>(random() * 5);
     const double wobble = random.between(0.1, 0.5), phase = turn * random();
     const int frequency = 1 + static_cast<int>(random() * 4);
     at([&](double t) {
-      const double r = 1 + wobble * std::sin(turn * frequency * t + phase) + 0.3 * std::cos(turn * t);
-      return Vec2(r * std::cos(turn * turns * t), r * std::sin(turn * turns * t));
+      const double r = 1 + wobble * portable::sin(turn * frequency * t + phase) + 0.3 * portable::cos(turn * t);
+      return Vec2(r * portable::cos(turn * turns * t), r * portable::sin(turn * turns * t));
     });
   } else {
     at([&](double) { return Vec2(random(), random()); });

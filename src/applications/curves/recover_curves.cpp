@@ -7,6 +7,7 @@
 
 #include "applications/curves/segment_tree.h"
 #include "energy/ipc_barrier.h"
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {
@@ -92,7 +93,7 @@ class Recovery {
 
   /// The quadratic part, the same for x and y: rows of second differences of the displacement, and the pull.
   void assemble_elastic() {
-    const double spread = options_.spread_rel * net_.diagonal, stiffness = std::pow(spread, 4);
+    const double spread = options_.spread_rel * net_.diagonal, stiffness = portable::pow(spread, 4);
     std::vector<Eigen::Triplet<double>> terms;
     for (Index v = 0; v < net_.vertex_count(); ++v) terms.emplace_back(v, v, weight_of(v));
     for (const CurveNet::Chain& chain : net_.chains) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "energy/gaussian_bandwidth.h"
+#include "geometry/portable_math.h"
 #include "optimize/lbfgs.h"
 
 namespace unsnarl {
@@ -24,7 +25,7 @@ class Repulsion {
     std::vector<BandwidthPair> pairs;
     for (const auto& pair : gaussian_.pairs) {
       const double squared = (start_.col(pair.i) - start_.col(pair.j)).squaredNorm();
-      if (squared < std::pow(options.seen_rel * net.diagonal, 2))
+      if (squared < portable::pow(options.seen_rel * net.diagonal, 2))
         pairs.push_back({pair.i, pair.j, squared, pair.weight});
     }
     const double least = options.least_bandwidth * edge_;

@@ -9,6 +9,7 @@
 
 #include "applications/isotopy/rings.h"
 #include "applications/isotopy/round_curves.h"
+#include "geometry/portable_math.h"
 #include "geometry/sort_unique.h"
 #include "run/run_control.h"
 #include "unsnarl/isotopy.h"
@@ -145,7 +146,7 @@ struct Disc {
     Points2 p(2, n);
     for (Index k = 0; k < n; ++k) {
       const double angle = phase + side * turn * k / n;
-      p.col(k) = middle + radius * Vec2(std::cos(angle), std::sin(angle));
+      p.col(k) = middle + radius * Vec2(portable::cos(angle), portable::sin(angle));
     }
     return p;
   }
@@ -159,11 +160,11 @@ Disc disc_like(const Points2& p, double side) {
   for (Index k = 0; k < n; ++k) {
     const Vec2 d = p.col(k) - disc.middle;
     disc.radius += d.norm() / n;
-    const double ahead = std::atan2(d.y(), d.x()) - side * turn * k / n;
-    x += std::cos(ahead);
-    y += std::sin(ahead);
+    const double ahead = portable::atan2(d.y(), d.x()) - side * turn * k / n;
+    x += portable::cos(ahead);
+    y += portable::sin(ahead);
   }
-  disc.phase = std::atan2(y, x);
+  disc.phase = portable::atan2(y, x);
   return disc;
 }
 

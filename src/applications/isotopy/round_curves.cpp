@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "applications/curves/segment_tree.h"
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {
@@ -58,7 +59,7 @@ class Flow {
     double length = 0;
     for (const Edge& s : net.segments) length += (x_.col(s[1]) - x_.col(s[0])).norm();
     reach_ = looked_for * length / net.segment_count();
-    time_step_ = std::pow(length / net.segment_count(), 2);
+    time_step_ = portable::pow(length / net.segment_count(), 2);
     is_round_.assign(net.chains.size(), false);
   }
 

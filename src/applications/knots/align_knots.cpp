@@ -1,9 +1,9 @@
 #include "applications/knots/align_knots.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "geometry/rotation.h"
 
 namespace unsnarl {
 
@@ -40,9 +40,7 @@ std::vector<Alignment> alignments(const Positions& x, const Positions& y, bool b
   for (Index first = 0; first < n; ++first) {
     Alignment& made = all[first];
     const Positions b = reordered(y, first, backwards).colwise() - y_centre;
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(a * b.transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Vec3 signs(1, 1, svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1 : 1);
-    made.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+    made.rotation = nearest_rotation(a.lazyProduct(b.transpose()));
     made.scale = a.norm() / b.norm();
     made.from = y_centre;
     made.to = x_centre;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/bvh.h"
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {
@@ -113,7 +114,7 @@ double CylinderEnergy::gaussians(const std::vector<Positions>& x, std::vector<Po
           const Vec3 d = x[r].col(i) - x[s].col(j);
           const double squared = d.squaredNorm() + height * height;
           if (squared > reach * reach) continue;
-          const double value = gaussian * steps / epsilon * std::exp(-squared / (range * range));
+          const double value = gaussian * steps / epsilon * portable::exp(-squared / (range * range));
           sum += value;
           const Vec3 force = -2 * value / (range * range) * d;
           gradient[r].col(i) += force;

@@ -6,6 +6,7 @@
 
 #include "contact/distances.h"
 #include "energy/ipc_barrier.h"
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {
@@ -78,7 +79,7 @@ double KnotEnergy::operator()(const Positions& x, Positions& gradient) const {
       barriers_by_total -= slope * y / edges.total;
       for (int c = 0; c < 4; ++c) gradient.col(v[c]) += slope / activation * closest.weights[c] * closest.direction;
     }
-  const double scale = std::pow(edges.total, beta - 4);
+  const double scale = portable::pow(edges.total, beta - 4);
   const double squares = edges.length.squaredNorm();
   const double even = evenness * (n * squares / (edges.total * edges.total) - 1);
   for (Index i = 0; i < n; ++i) {
@@ -111,13 +112,13 @@ KnotMetric::KnotMetric(const Positions& x, double evenness) {
       of_edges(i, i) += w / (l * l);
       of_edges(j, j) += w / (k * k);
       of_edges(i, j) -= w * e.dot(f) / (l * k);
-      const double both = (2 * r2 - std::pow(e.dot(d), 2) - std::pow(f.dot(d), 2)) / (r2 * r2);
+      const double both = (2 * r2 - portable::pow(e.dot(d), 2) - portable::pow(f.dot(d), 2)) / (r2 * r2);
       const double v = 0.5 * w * both;
       of_middles(i, i) += v;
       of_middles(j, j) += v;
       of_middles(i, j) -= v;
     }
-  const double scale = std::pow(edges.total, KnotEnergy::beta - 4);
+  const double scale = portable::pow(edges.total, KnotEnergy::beta - 4);
   of_edges *= scale;
   of_middles *= scale;
   for (Index i = 0; i < n; ++i) of_edges(i, i) += 2 * evenness * n / (edges.total * edges.total);
@@ -138,7 +139,9 @@ KnotMetric::KnotMetric(const Positions& x, double evenness) {
 }
 
 Positions KnotMetric::solve(const Positions& v) const {
-  return factor_.solve(v.transpose()).transpose();
+  Positions result(3, v.cols());
+  for (int k = 0; k < 3; ++k) result.row(k) = factor_.solve(Eigen::VectorXd(v.row(k).transpose())).transpose();
+  return result;
 }
 
 }  // namespace unsnarl

@@ -40,7 +40,8 @@ class KnotMetric {
   Positions solve(const Positions& v) const;
 
  private:
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  // Not LLT: the size of the processor's cache decides the order of its sums.
+  Eigen::LDLT<Eigen::MatrixXd> factor_;
 };
 
 }  // namespace unsnarl

@@ -13,6 +13,8 @@
 #include "applications/knots/moving_polygon.h"
 #include "applications/knots/relax_knot.h"
 #include "applications/knots/untangle_cylinder.h"
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 #include "geometry/splitmix.h"
 #include "run/run_control.h"
 
@@ -84,7 +86,7 @@ Positions shaken(const Positions& x, std::uint64_t seed) {
       const double c = dice(), s = dice();
       for (Index k = 0; k < n; ++k) {
         const double angle = 2 * std::numbers::pi * wave * k / n;
-        shift(axis, k) += c * std::cos(angle) + s * std::sin(angle);
+        shift(axis, k) += c * portable::cos(angle) + s * portable::sin(angle);
       }
     }
   shift *= shake_rel * spread(x) / std::sqrt(shift.colwise().squaredNorm().maxCoeff());
@@ -235,11 +237,11 @@ class Making {
         if (!is_proven_way(x, alignment.applied(reordered(y, alignment.first, backwards)))) continue;
         std::vector<Positions> path = from.states;
         // The end's shape turns back from where it fits the start's to where it came to rest.
-        const Eigen::AngleAxisd turn(alignment.rotation);
-        const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn.angle()) / rotation_step)));
+        const Vec3 turn = rotation_vector(alignment.rotation);
+        const int steps = std::max(1, static_cast<int>(std::ceil(turn.norm() / rotation_step)));
         for (int k = steps; k >= 0; --k) {
           Alignment part = alignment;
-          part.rotation = Eigen::AngleAxisd(turn.angle() * k / steps, turn.axis()).toRotationMatrix();
+          part.rotation = rotation_by(turn * k / steps);
           path.push_back(part.applied(reordered(y, alignment.first, backwards)));
         }
         for (auto state = to.states.rbegin(); state != to.states.rend(); ++state)

@@ -45,8 +45,11 @@ Positions with_pieces(const Positions& polygon, std::span<const Index> pieces) {
 double exact_unit(std::span<const Positions> all) {
   double largest = 0;
   for (const Positions& x : all) largest = std::max(largest, x.cwiseAbs().maxCoeff());
-  const double unit = std::exp2(std::ceil(std::log2(largest)));
-  if (!(unit > 0) || !std::isfinite(unit)) return 1;
+  if (!(largest > 0) || !std::isfinite(largest)) return 1;
+  int exponent = 0;
+  const bool is_power = std::frexp(largest, &exponent) == 0.5;
+  const double unit = std::ldexp(1, is_power ? exponent - 1 : exponent);  // the least power of two from `largest` on
+  if (!std::isfinite(unit)) return 1;
   for (const Positions& x : all)
     if (Positions(x / unit) * unit != x) return 1;
   return unit;

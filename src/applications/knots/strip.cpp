@@ -60,7 +60,7 @@ std::vector<StripPair> meeting_pairs(const Positions& lower, const Positions& up
   // The height is arbitrary; with about the length of the edges, separating hyperplanes are easiest to find.
   double length = 0;
   for (Index k = 0; k < m; ++k) length = std::max(length, (lower.col((k + 1) % m) - lower.col(k)).norm());
-  const double height = length > 0 ? std::exp2(std::round(std::log2(length))) : 1;
+  const double height = length > 0 ? std::ldexp(1, std::ilogb(length)) : 1;
   std::vector<Triangle4> corners;
   std::vector<std::array<Index, 3>> ids;
   std::vector<Box> boxes;

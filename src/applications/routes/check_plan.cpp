@@ -8,6 +8,7 @@
 
 #include "applications/routes/proven_bounds.h"
 #include "applications/routes/segments.h"
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {
@@ -119,7 +120,7 @@ double winding_number(const ObstacleTriangles& triangles, int obstacle, const Ve
     const std::array<Vec3, 3>& corners = triangles.corners(t);
     const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    sum += 2 * portable::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
   return sum / (4 * std::numbers::pi);
 }

@@ -7,6 +7,7 @@
 
 #include "applications/routes/route_energy.h"
 #include "applications/routes/way_finder.h"
+#include "geometry/portable_math.h"
 #include "optimize/lbfgs.h"
 #include "run/run_control.h"
 
@@ -129,12 +130,12 @@ class Planning {
         const double angle = 2 * std::numbers::pi * std::fmod(leg * std::numbers::phi, 1);
         // Offsets differ: lines through one centre with equal offsets would touch one ball and cross on it.
         const double amount = by * chain.radius * (0.5 + std::fmod(leg * std::numbers::sqrt2, 1));
-        const Vec3 offset = amount * (std::cos(angle) * e + std::sin(angle) * f);
+        const Vec3 offset = amount * (portable::cos(angle) * e + portable::sin(angle) * f);
         for (double part = 1; part > least_aside; part /= 2) {
           Positions moved = chains.x;
           bool is_clear = true;
           for (Index v = first + 1; v < last; ++v)
-            moved.col(v) += part * std::sin(std::numbers::pi * (v - first) / (last - first)) * offset;
+            moved.col(v) += part * portable::sin(std::numbers::pi * (v - first) / (last - first)) * offset;
           for (Index v = first; v < last && is_clear; ++v)
             is_clear = triangles_.is_clear(moved.col(v), moved.col(v + 1), chain.radius * (1 + margin));
           if (!is_clear) continue;

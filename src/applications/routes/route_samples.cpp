@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "geometry/portable_math.h"
 #include "geometry/types.h"
 #include "unsnarl/routes.h"
 
@@ -32,7 +33,7 @@ RoutePlan star(int count, double radius) {
     // Half of a spherical Fibonacci lattice: with those opposite, places keep away from each other.
     const double height = (k + 0.5) / count, angle = 2 * std::numbers::pi * std::numbers::phi * k;
     const double across = std::sqrt(1 - height * height);
-    const Vec3 start = 10 * Vec3(across * std::cos(angle), height, across * std::sin(angle));
+    const Vec3 start = 10 * Vec3(across * portable::cos(angle), height, across * portable::sin(angle));
     plan.agents.push_back(agent(plan.agents.size(), radius, start, -start));
   }
   return plan;
@@ -42,7 +43,7 @@ RoutePlan flat_star(int count, double radius) {
   RoutePlan plan;
   for (int k = 0; k < count; ++k) {
     const double angle = std::numbers::pi * k / count;
-    const Vec3 start = 10 * Vec3(std::cos(angle), 0, std::sin(angle));
+    const Vec3 start = 10 * Vec3(portable::cos(angle), 0, portable::sin(angle));
     plan.agents.push_back(agent(plan.agents.size(), radius, start, -start));
   }
   return plan;
@@ -56,9 +57,9 @@ RouteObstacle torus(double large, double small) {
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < across; ++j) {
       const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * j / across;
-      const double r = large + small * std::cos(b);
+      const double r = large + small * portable::cos(b);
       made.surface.positions.insert(made.surface.positions.end(),
-                                    {r * std::cos(a), small * std::sin(b), r * std::sin(a)});
+                                    {r * portable::cos(a), small * portable::sin(b), r * portable::sin(a)});
       const auto at = [](int k, int l) { return (k % around) * across + l % across; };
       made.surface.corners.insert(made.surface.corners.end(), {at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
       made.surface.offsets.push_back(4 * (i * across + j));
@@ -131,7 +132,7 @@ RoutePlan door() {
   for (int k = 0; k < 6; ++k) {
     // Agents that start nearer to the door reach it earlier; every second agent comes from the other side.
     const double angle = 2 * std::numbers::pi * std::numbers::phi * k, side = k % 2 == 0 ? 1 : -1;
-    const Vec3 across(0, 2 * std::sin(angle), 2 * std::cos(angle));
+    const Vec3 across(0, 2 * portable::sin(angle), 2 * portable::cos(angle));
     const double near = 1.5 + 1.6 * k, far = 1.5 + 1.6 * (5 - k);
     plan.agents.push_back(agent(k, 0.4, Vec3(-side * near, 0, 0) + across, Vec3(side * far, 0, 0) - across));
   }

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
 
 #include "applications/routes/segments.h"
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {
@@ -35,7 +35,7 @@ class Tube {
     const auto first = static_cast<std::int32_t>(surface_.positions.size() / 3);
     for (int k = 0; k < sides_; ++k) {
       const double angle = 2 * std::numbers::pi * k / sides_;
-      add(centre + radius * (std::cos(angle) * e + std::sin(angle) * f));
+      add(centre + radius * (portable::cos(angle) * e + portable::sin(angle) * f));
     }
     for (int k = 0; k < sides_; ++k) {
       if (ring_ < 0) {
@@ -86,14 +86,14 @@ void add_tube(const Route& route, double radius, int sides, Surface& surface) {
       tube.add_tip(p[0] - r * along);
       for (int c = cap_rings; c > 0; --c) {
         const double angle = 0.5 * std::numbers::pi * c / (cap_rings + 1);
-        tube.add_ring(p[0] - r * std::sin(angle) * along, r * std::cos(angle), e, f);
+        tube.add_ring(p[0] - r * portable::sin(angle) * along, r * portable::cos(angle), e, f);
       }
     }
     tube.add_ring(p[k], r, e, f);
     if (k + 1 == n) {
       for (int c = 1; c <= cap_rings; ++c) {
         const double angle = 0.5 * std::numbers::pi * c / (cap_rings + 1);
-        tube.add_ring(p[k] + r * std::sin(angle) * along, r * std::cos(angle), e, f);
+        tube.add_ring(p[k] + r * portable::sin(angle) * along, r * portable::cos(angle), e, f);
       }
       tube.add_tip(p[k] + r * along);
     }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <queue>
 
+#include "geometry/portable_math.h"
 #include "geometry/sort_unique.h"
 
 namespace unsnarl {
@@ -43,7 +44,7 @@ WayFinder::WayFinder(const RoutePlan& plan, const ObstacleTriangles& triangles) 
   box = box.inflated(room_in_radii * most);
   corner_ = box.lo;
   const Vec3 extent = box.hi - box.lo;
-  cell_ = std::max(cell_of_radius * least, std::cbrt(extent.prod() / most_nodes));
+  cell_ = std::max(cell_of_radius * least, portable::pow(extent.prod() / most_nodes, 1.0 / 3));
   const auto count = [&] {
     double nodes = 1;
     for (int k = 0; k < 3; ++k) nodes *= std::floor(extent[k] / cell_) + 2;

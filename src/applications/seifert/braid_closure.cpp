@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "geometry/portable_math.h"
 #include "geometry/types.h"
 #include "unsnarl/link.h"
 
@@ -67,10 +68,10 @@ Link braid_closure(int strands, std::span<const int> braid, int points) {
           const double t = (k + 0.5) / points;  // not where strands cross, where both would have a point
           const double angle = angle_step * (static_cast<double>(c) + t);
           const double at = place + step * t * t * (3 - 2 * t);
-          const double s = std::sin(std::numbers::pi * t);
+          const double s = portable::sin(std::numbers::pi * t);
           const double r = first_radius + radius_step * at;
-          p.insert(p.end(),
-                   {r * std::cos(angle), r * std::sin(angle), rises * crossing_rise * s * s - height_step * at});
+          p.insert(p.end(), {r * portable::cos(angle), r * portable::sin(angle),
+                             rises * crossing_rise * s * s - height_step * at});
         }
         place += step;
       }

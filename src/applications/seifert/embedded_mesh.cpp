@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/distances.h"
+#include "geometry/portable_math.h"
 #include "geometry/predicates.h"
 #include "geometry/sort_unique.h"
 #include "geometry/triangle_intersection.h"
@@ -55,7 +56,7 @@ bool are_separated_along(const Vec3& axis, const TrianglePoints& a, const Triang
 
 double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto angle = [](const Vec3& p, const Vec3& q, const Vec3& r) {
-    return std::atan2((q - p).cross(r - p).norm(), (q - p).dot(r - p));
+    return portable::atan2((q - p).cross(r - p).norm(), (q - p).dot(r - p));
   };
   return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)});
 }

@@ -1,4 +1,5 @@
 #include "applications/seifert/handles.h"
+#include "geometry/portable_math.h"
 
 #include <algorithm>
 #include <array>
@@ -116,7 +117,7 @@ std::array<Vec2, 6> hexagon_of(const HandlePlace& place) {
   std::array<Vec2, 6> hexagon;
   for (int k = 0; k < 6; ++k) {
     const double angle = std::numbers::pi * (k / 3.0 - 0.5);
-    hexagon[k] = place.middle + place.radius * Vec2(std::cos(angle), std::sin(angle));
+    hexagon[k] = place.middle + place.radius * Vec2(portable::cos(angle), portable::sin(angle));
   }
   return hexagon;
 }
@@ -142,7 +143,7 @@ void add_handle(SpanningMesh& mesh, const std::array<Index, 6>& hexagon, const V
     for (int k = 0; k < 4; ++k) {
       const Vec3 across = 0.5 * (end[k] - start[k]);
       ring[k] = static_cast<Index>(mesh.x.size());
-      mesh.x.push_back(start[k] + (1 - std::cos(angle)) * across + std::sin(angle) * across.norm() * down);
+      mesh.x.push_back(start[k] + (1 - portable::cos(angle)) * across + portable::sin(angle) * across.norm() * down);
     }
   }
   for (int k = 0; k < 4; ++k) {

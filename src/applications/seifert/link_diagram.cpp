@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/portable_math.h"
 #include "geometry/predicates.h"
 #include "mesh/union_find.h"
 
@@ -134,7 +135,7 @@ void order_passes(LinkDiagram& diagram) {
   }
   diagram.passes.resize(visits.size());
   for (std::size_t c = 0; c < visits.size(); ++c) {
-    std::sort(visits[c].begin(), visits[c].end(), [](const Visit& a, const Visit& b) {
+    std::stable_sort(visits[c].begin(), visits[c].end(), [](const Visit& a, const Visit& b) {
       return std::pair(a.strand.edge, a.strand.fraction) < std::pair(b.strand.edge, b.strand.fraction);
     });
     for (const Visit& visit : visits[c]) diagram.passes[c].push_back(visit.pass);
@@ -192,7 +193,7 @@ std::vector<Eigen::Matrix3d> views(int count) {
   for (int k = 0; k < count - 3; ++k) {  // a half sphere, evenly: Fibonacci's lattice
     const double z = 1 - (k + 0.5) / (count - 3), r = std::sqrt(1 - z * z);
     const double angle = 2 * std::numbers::pi * k / std::numbers::phi;
-    frames.push_back(frame_along(Vec3(r * std::cos(angle), r * std::sin(angle), z).normalized()));
+    frames.push_back(frame_along(Vec3(r * portable::cos(angle), r * portable::sin(angle), z).normalized()));
   }
   return frames;
 }

@@ -4,10 +4,10 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 
+#include "geometry/portable_math.h"
 #include "geometry/types.h"
 #include "mesh/union_find.h"
 #include "unsnarl/document.h"
@@ -179,7 +179,8 @@ class Diagram {
     for (std::size_t k = 0; k < rim.size(); ++k) {
       // Faces are followed counter-clockwise from inside, so that the outer one runs clockwise around the rest.
       const double angle = -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(rim.size());
-      place_.col(rim[k]) = radius_a_node * static_cast<double>(rim.size()) * Vec2(std::cos(angle), std::sin(angle));
+      place_.col(rim[k]) =
+          radius_a_node * static_cast<double>(rim.size()) * Vec2(portable::cos(angle), portable::sin(angle));
       if (is_fixed[rim[k]]) refuse("a crossing can be taken out by a turn (a nugatory one); take it out first");
       is_fixed[rim[k]] = true;
     }

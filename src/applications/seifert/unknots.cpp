@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "geometry/portable_math.h"
 #include "unsnarl/link.h"
 
 namespace unsnarl {
@@ -60,7 +60,7 @@ Link circle() {
   std::vector<double>& points = link.components.emplace_back();
   for (int k = 0; k < circle_points; ++k) {
     const double angle = 2 * std::numbers::pi * k / circle_points;
-    points.insert(points.end(), {std::cos(angle), std::sin(angle), 0});
+    points.insert(points.end(), {portable::cos(angle), portable::sin(angle), 0});
   }
   return link;
 }

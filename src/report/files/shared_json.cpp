@@ -1,4 +1,4 @@
-#include "report/shared_json.h"
+#include "report/files/shared_json.h"
 
 #include <optional>
 #include <string_view>

@@ -2,8 +2,8 @@
 
 #include <charconv>
 
-#include "applications/curves/curve_file.h"
-#include "applications/curves/written_places.h"
+#include "applications/curves/files/curve_file.h"
+#include "applications/curves/files/written_places.h"
 #include "io/json_text.h"
 #include "io/text_edits.h"
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "applications/curves/crossings.h"
+#include "geometry/portable_math.h"
 #include "render/png.h"
 
 namespace unsnarl {
@@ -132,7 +133,7 @@ std::string curve_integrand_png(const Curve& curve, double epsilon_rel, int size
     for (int j = 0; j < size; ++j) {
       double along = std::abs(i - j) * length / size;
       if (curve.closed) along = std::min(along, length - along);
-      const double value = along / epsilon * std::exp(-(y.col(i) - y.col(j)).squaredNorm() / (epsilon * epsilon));
+      const double value = along / epsilon * portable::exp(-(y.col(i) - y.col(j)).squaredNorm() / (epsilon * epsilon));
       // The first parameter to the right, the second upwards.
       values[static_cast<std::size_t>(size - 1 - j) * size + i] = value;
       largest = std::max(largest, value);

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "applications/knots/knot_path.h"
 #include "geometry/box.h"
+#include "geometry/portable_math.h"
 #include "render/camera.h"
 #include "render/drawable.h"
 #include "render/gif.h"
@@ -62,7 +62,7 @@ Surface tube_around(const Positions& x, double radius) {
     const Vec3 f = along.cross(e);
     for (int s = 0; s < tube_sides; ++s) {
       const double angle = 2 * std::numbers::pi * s / tube_sides;
-      const Vec3 p = x.col(k) + r * (std::cos(angle) * e + std::sin(angle) * f);
+      const Vec3 p = x.col(k) + r * (portable::cos(angle) * e + portable::sin(angle) * f);
       tube.positions.insert(tube.positions.end(), p.begin(), p.end());
     }
   }

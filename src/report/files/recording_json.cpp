@@ -1,4 +1,4 @@
-#include "report/recording_json.h"
+#include "report/files/recording_json.h"
 
 #include <bit>
 #include <cmath>

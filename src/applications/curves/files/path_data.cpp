@@ -1,4 +1,5 @@
-#include "applications/curves/path_data.h"
+#include "applications/curves/files/path_data.h"
+#include "geometry/portable_math.h"
 
 #include <fmt/format.h>
 
@@ -110,7 +111,7 @@ void add_arc(std::vector<Vec2>& points, const Vec2& from, Vec2 radii, double deg
   }
   const double angle = degrees * std::numbers::pi / 180;
   Eigen::Matrix2d turn;
-  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  turn << portable::cos(angle), -portable::sin(angle), portable::sin(angle), portable::cos(angle);
   const Vec2 p = turn.transpose() * (0.5 * (from - to));
   const double too_small = p.cwiseQuotient(radii).squaredNorm();
   if (too_small > 1) radii *= std::sqrt(too_small);
@@ -119,15 +120,15 @@ void add_arc(std::vector<Vec2>& points, const Vec2& from, Vec2 radii, double deg
   const Vec2 centre_unit(factor * q.y(), -factor * q.x());
   const Vec2 centre = turn * centre_unit.cwiseProduct(radii) + 0.5 * (from + to);
   const Vec2 u = q - centre_unit, v = -q - centre_unit;
-  const double first = std::atan2(u.y(), u.x());
-  double swept = std::atan2(v.y(), v.x()) - first;
+  const double first = portable::atan2(u.y(), u.x());
+  double swept = portable::atan2(v.y(), v.x()) - first;
   if (sweep && swept < 0) swept += 2 * std::numbers::pi;
   if (!sweep && swept > 0) swept -= 2 * std::numbers::pi;
-  const double step = 2 * std::acos(std::max(0.0, 1 - tolerance / radii.maxCoeff()));
+  const double step = 2 * portable::acos(std::max(0.0, 1 - tolerance / radii.maxCoeff()));
   const int n = pieces(std::abs(swept) / step, tolerance);
   for (int k = 1; k < n; ++k) {
     const double t = first + swept * k / n;
-    points.push_back(centre + turn * Vec2(radii.x() * std::cos(t), radii.y() * std::sin(t)));
+    points.push_back(centre + turn * Vec2(radii.x() * portable::cos(t), radii.y() * portable::sin(t)));
   }
   points.push_back(to);
 }
@@ -236,13 +237,13 @@ Affine parse_transform(std::string_view text) {
     } else if (name == "scale" && n.size() <= 2) {
       step.linear << n[0], 0, 0, n.back();
     } else if (name == "rotate" && (n.size() == 1 || n.size() == 3)) {
-      const double c = std::cos(n[0] * degree), s = std::sin(n[0] * degree);
+      const double c = portable::cos(n[0] * degree), s = portable::sin(n[0] * degree);
       step.linear << c, -s, s, c;
       if (n.size() == 3) step.offset = Vec2(n[1], n[2]) - step.linear * Vec2(n[1], n[2]);
     } else if (name == "skewX" && n.size() == 1) {
-      step.linear(0, 1) = std::tan(n[0] * degree);
+      step.linear(0, 1) = portable::tan(n[0] * degree);
     } else if (name == "skewY" && n.size() == 1) {
-      step.linear(1, 0) = std::tan(n[0] * degree);
+      step.linear(1, 0) = portable::tan(n[0] * degree);
     } else {
       throw FileError(
           fmt::format("'{}' with {} numbers is not a known transform (matrix, translate, scale, rotate, skewX, "

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "report/recording_json.h"
-#include "report/shared_json.h"
+#include "report/files/recording_json.h"
+#include "report/files/shared_json.h"
 #include "unsnarl/nesting.h"
 #include "unsnarl/version.h"
 

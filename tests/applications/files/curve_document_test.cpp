@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "applications/curves/path_data.h"
+#include "applications/curves/files/path_data.h"
 #include "unsnarl/curves.h"
 
 namespace unsnarl {

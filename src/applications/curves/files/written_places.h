@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "applications/curves/path_data.h"
+#include "applications/curves/files/path_data.h"
 
 namespace unsnarl {
 

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "report/shared_json.h"
+#include "report/files/shared_json.h"
 #include "unsnarl/report_json.h"
 #include "unsnarl/version.h"
 

@@ -10,9 +10,9 @@
 #include <optional>
 #include <pugixml.hpp>
 
-#include "applications/curves/curve_file.h"
-#include "applications/curves/path_data.h"
-#include "applications/curves/written_places.h"
+#include "applications/curves/files/curve_file.h"
+#include "applications/curves/files/path_data.h"
+#include "applications/curves/files/written_places.h"
 #include "io/text_edits.h"
 #include "io/xml_text.h"
 #include "unsnarl/depth_limit.h"

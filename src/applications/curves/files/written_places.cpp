@@ -1,10 +1,10 @@
-#include "applications/curves/written_places.h"
+#include "applications/curves/files/written_places.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "applications/curves/curve_file.h"
+#include "applications/curves/files/curve_file.h"
 
 namespace unsnarl {
 namespace {

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "applications/curves/curve_file.h"
 #include "applications/curves/curve_net.h"
+#include "applications/curves/files/curve_file.h"
+#include "geometry/portable_math.h"
 #include "io/mesh_file.h"
 
 namespace unsnarl {
@@ -34,7 +35,8 @@ std::string digits_of(double value) {
 
 double rounded(double value, double rounding) {
   if (!(rounding > 0)) return value;
-  const double decimals = std::ceil(-std::log10(rounding));
+  constexpr double slack = 1e-9;  // far above the error of the logarithm of a power of ten
+  const double decimals = std::ceil(-portable::log(rounding) / portable::log(10) - slack);
   if (!(decimals >= 0 && decimals <= 300)) return value;
   // By way of the text, so that few digits give it back.
   const std::string text = fmt::format("{:.{}f}", value, static_cast<int>(decimals));
