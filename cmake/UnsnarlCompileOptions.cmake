@@ -20,11 +20,8 @@ target_compile_options(unsnarl_compile_options INTERFACE
   -Wall -Wextra -Wpedantic
   # The same bytes on every machine of one build: no contraction of a*b+c into one rounding.
   -ffp-contract=off
-  # Nobody asks errno or the flags of exceptions what a square root met; values are the same. Measured: [E253].
-  -fno-math-errno -fno-trapping-math
   $<$<BOOL:${UNSNARL_WARNINGS_AS_ERRORS}>:-Werror>)
-# The same bytes on every machine of every build: sums of Eigen in an order that no register's size decides. Measured:
-# [E252].
+# The same bytes on every machine of every build: sums of Eigen in an order that no register's size decides. [E252]
 target_compile_definitions(unsnarl_compile_options INTERFACE EIGEN_DONT_VECTORIZE)
 target_include_directories(unsnarl_compile_options INTERFACE
   ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${UNSNARL_GENERATED_INCLUDE_DIR})

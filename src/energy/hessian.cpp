@@ -90,12 +90,12 @@ Eigen::Vector4d HessianTerms::Strain::turn_of(const Eigen::Matrix<double, 2, 3>&
 Eigen::Matrix3d HessianTerms::Strain::apply(const Eigen::Matrix3d& v) const {
   const Vec3 a = combine_a * (2 * v.col(1) - v.col(0) - v.col(2));
   const Vec3 b = combine_b * (v.col(2) - v.col(0));
-  Eigen::Vector4d y;
-  y << rotation.transpose() * a, rotation.transpose() * b;
-  y -= turn.dot(y) * turn;
-  y *= (1 - uniform) * stiffness;
-  const Vec3 back_a = rotation * y.head<2>() + (uniform * stiffness) * a;
-  const Vec3 back_b = rotation * y.tail<2>() + (uniform * stiffness) * b;
+  const Vec3 p = rotation.col(0), q = rotation.col(1);
+  double y[4] = {p.dot(a), q.dot(a), p.dot(b), q.dot(b)};
+  const double along = turn[0] * y[0] + turn[1] * y[1] + turn[2] * y[2] + turn[3] * y[3];
+  for (int k = 0; k < 4; ++k) y[k] = (1 - uniform) * stiffness * (y[k] - along * turn[k]);
+  const Vec3 back_a = y[0] * p + y[1] * q + (uniform * stiffness) * a;
+  const Vec3 back_b = y[2] * p + y[3] * q + (uniform * stiffness) * b;
   Eigen::Matrix3d result;
   for (int k = 0; k < 3; ++k) result.col(k) = coefficient_a[k] * back_a + coefficient_b[k] * back_b;
   return result;

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "geometry/rotation.h"
 #include "rigid/rigid_motion.h"
 #include "scene/shapes.h"
 

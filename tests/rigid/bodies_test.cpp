@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/rotation.h"
 #include "rigid/boxes.h"
 
 namespace unsnarl {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/smallest_gap.h"
+#include "geometry/rotation.h"
 #include "rigid/boxes.h"
 #include "rigid/place_bodies.h"
 

@@ -72,10 +72,10 @@ TEST(same_bytes_of_arrays, options) {
 TEST(same_bytes_of_arrays, rigid_parts) {
   const Surface surface = make_sample("intersecting_spheres", coarse);
   RepairOptions options;
-  options.rigid.assign(surface.vertex_count(), -1);
-  const std::size_t half = surface.vertex_count() / 2;
+  options.rigid.assign(SurfaceView(surface).vertex_count(), -1);
+  const std::size_t half = SurfaceView(surface).vertex_count() / 2;
   for (std::size_t v = 0; v < half; ++v) options.rigid[v] = 0;
-  for (std::size_t v = half; v < surface.vertex_count(); ++v) options.rigid[v] = 1;
+  for (std::size_t v = half; v < SurfaceView(surface).vertex_count(); ++v) options.rigid[v] = 1;
   expect_known("rigid parts", repaired(surface, options));
 }
 

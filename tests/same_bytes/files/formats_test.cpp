@@ -27,7 +27,7 @@ std::string obj(const Surface& surface) {
   text.precision(9);
   for (std::size_t k = 0; k < surface.positions.size(); k += 3)
     text << "v " << surface.positions[k] << ' ' << surface.positions[k + 1] << ' ' << surface.positions[k + 2] << '\n';
-  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+  for (std::size_t f = 0; f < SurfaceView(surface).face_count(); ++f) {
     text << 'f';
     for (const std::int32_t v : SurfaceView(surface).face(f)) text << ' ' << v + 1;
     text << '\n';
@@ -38,10 +38,10 @@ std::string obj(const Surface& surface) {
 std::string off(const Surface& surface) {
   std::ostringstream text;
   text.precision(9);
-  text << "OFF\r\n" << surface.vertex_count() << ' ' << surface.face_count() << " 0\r\n";
+  text << "OFF\r\n" << SurfaceView(surface).vertex_count() << ' ' << SurfaceView(surface).face_count() << " 0\r\n";
   for (std::size_t k = 0; k < surface.positions.size(); k += 3)
     text << surface.positions[k] << ' ' << surface.positions[k + 1] << ' ' << surface.positions[k + 2] << "\r\n";
-  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+  for (std::size_t f = 0; f < SurfaceView(surface).face_count(); ++f) {
     const auto corners = SurfaceView(surface).face(f);
     text << corners.size();
     for (const std::int32_t v : corners) text << ' ' << v;
@@ -51,11 +51,12 @@ std::string off(const Surface& surface) {
 }
 
 std::string ply(const Surface& surface) {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(surface.vertex_count()) +
-                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                      std::to_string(surface.face_count()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(SurfaceView(surface).vertex_count()) +
+      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+      std::to_string(SurfaceView(surface).face_count()) + "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const double p : surface.positions) append(bytes, static_cast<float>(p));
-  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+  for (std::size_t f = 0; f < SurfaceView(surface).face_count(); ++f) {
     const auto corners = SurfaceView(surface).face(f);
     append(bytes, static_cast<std::uint8_t>(corners.size()));
     for (const std::int32_t v : corners) append(bytes, v);
@@ -66,8 +67,8 @@ std::string ply(const Surface& surface) {
 /// Of a surface of triangles.
 std::string stl(const Surface& surface) {
   std::string bytes(80, ' ');
-  append(bytes, static_cast<std::uint32_t>(surface.face_count()));
-  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+  append(bytes, static_cast<std::uint32_t>(SurfaceView(surface).face_count()));
+  for (std::size_t f = 0; f < SurfaceView(surface).face_count(); ++f) {
     for (int k = 0; k < 3; ++k) append(bytes, 0.0F);
     for (const std::int32_t v : SurfaceView(surface).face(f))
       for (std::size_t k = 0; k < 3; ++k)
