@@ -1,7 +1,7 @@
 """Has CMake build the library that the Python package calls, and the program that it runs; all else is in pyproject.toml."""
 
+import json
 import os
-import re
 import subprocess
 from pathlib import Path
 
@@ -14,6 +14,7 @@ except ImportError:  # setuptools before 70.1
     from wheel.bdist_wheel import bdist_wheel
 
 PROJECT = Path(__file__).parent.resolve()
+ABOUT = json.loads((PROJECT / "cmake" / "project.json").read_text())  # version and address
 
 
 class BuildWithLibrary(build_py):
@@ -49,7 +50,8 @@ class WheelForAnyPython(bdist_wheel):
 
 
 setup(
-    version=re.search(r"project\(unsnarl VERSION ([\d.]+)", (PROJECT / "CMakeLists.txt").read_text())[1],
+    version=ABOUT["version"].replace(".dev", ".dev0"),  # as Python spells it
+    project_urls={"Homepage": ABOUT["homepage"]} if ABOUT["homepage"] else {},
     distclass=WithLibrary,
     cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelForAnyPython},
 )

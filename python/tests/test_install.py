@@ -2,6 +2,7 @@
 inside. The library is the one already built."""
 
 import importlib.util
+import json
 import os
 import shutil
 import subprocess
@@ -13,6 +14,7 @@ from pathlib import Path
 import pytest
 
 PROJECT = Path(__file__).resolve().parents[2]
+ABOUT = json.loads((PROJECT / "cmake" / "project.json").read_text())  # version and address
 
 
 def needs(*modules):
@@ -34,6 +36,8 @@ def test_pip_install(tmp_path):
     source.mkdir()
     for name in ("pyproject.toml", "setup.py", "CMakeLists.txt", "README.md"):
         shutil.copy(PROJECT / name, source)
+    (source / "cmake").mkdir()
+    shutil.copy(PROJECT / "cmake" / "project.json", source / "cmake")
     shutil.copytree(PROJECT / "python", source / "python")
     run(sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", "--target", target,
         source)
@@ -67,6 +71,11 @@ def test_wheel(tmp_path):
         assert any("licenses/libpugixml" in name for name in content.namelist())
         (points,) = (name for name in content.namelist() if name.endswith(".dist-info/entry_points.txt"))
         assert b"[pyvista.accessors]" in content.read(points)
+        (metadata,) = (name for name in content.namelist() if name.endswith(".dist-info/METADATA"))
+        said = content.read(metadata).decode().splitlines()
+        assert {f"Version: {ABOUT['version'].replace('.dev', '.dev0')}", "Provides-Extra: pyvista"} <= set(said)
+        addresses = [line for line in said if line.startswith("Project-URL:")]
+        assert addresses == [f"Project-URL: Homepage, {address}" for address in [ABOUT["homepage"]] if address]
         content.extractall(tmp_path / "target")
     program = tmp_path / "target" / "unsnarl" / "bin" / "unsnarl"
     program.chmod(0o755)  # as pip does for what is marked so in the wheel
