@@ -4,6 +4,7 @@ inside. The library is the one already built."""
 import importlib.util
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -49,6 +50,21 @@ def test_pip_install(tmp_path):
     for program in ([target / "bin" / "unsnarl"], [sys.executable, "-m", "unsnarl"]):
         said = run(*program, "--version", cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(target)})
         assert said.startswith("unsnarl ")
+
+
+def test_an_address_is_in_the_metadata_and_in_links(tmp_path):
+    needs("setuptools", "wheel")
+    for name in ("pyproject.toml", "setup.py", "README.md"):
+        shutil.copy(PROJECT / name, tmp_path)
+    (tmp_path / "cmake").mkdir()
+    (tmp_path / "cmake" / "project.json").write_text('{"version": "1.2.3", "homepage": "https://example.org/unsnarl"}')
+    shutil.copytree(PROJECT / "python" / "unsnarl", tmp_path / "python" / "unsnarl")
+    run(sys.executable, "-B", "setup.py", "-q", "egg_info", cwd=tmp_path)
+    said = (tmp_path / "python" / "unsnarl.egg-info" / "PKG-INFO").read_text()
+    assert "\nVersion: 1.2.3\n" in said and "\nProject-URL: Homepage, https://example.org/unsnarl\n" in said
+    links = re.findall(r"\]\(([^)]*)\)", said)
+    assert "https://example.org/unsnarl/raw/v1.2.3/docs/images/before_after.png" in links
+    assert all(link.startswith("https://example.org/unsnarl/") for link in links)
 
 
 def test_wheel(tmp_path):
