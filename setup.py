@@ -1,5 +1,6 @@
 """Has CMake build the library that the Python package calls, and the program that it runs; all else is in pyproject.toml."""
 
+import json
 import os
 import re
 import subprocess
@@ -14,6 +15,16 @@ except ImportError:  # setuptools before 70.1
     from wheel.bdist_wheel import bdist_wheel
 
 PROJECT = Path(__file__).parent.resolve()
+ABOUT = json.loads((PROJECT / "cmake" / "project.json").read_text())  # version and address
+
+
+def readme():
+    """README.md with links that lead somewhere from a package index too, where the project has an address."""
+    text = (PROJECT / "README.md").read_text(encoding="utf-8")
+    if not ABOUT["homepage"]:
+        return text
+    place = {"!": f"{ABOUT['homepage']}/raw/v{ABOUT['version']}/", "": f"{ABOUT['homepage']}/blob/v{ABOUT['version']}/"}
+    return re.sub(r"(!?)(\[[^\]]*\]\()(?![a-z]+:|#)", lambda link: link[0] + place[link[1]], text)
 
 
 class BuildWithLibrary(build_py):
@@ -49,7 +60,10 @@ class WheelForAnyPython(bdist_wheel):
 
 
 setup(
-    version=re.search(r"project\(unsnarl VERSION ([\d.]+)", (PROJECT / "CMakeLists.txt").read_text())[1],
+    version=ABOUT["version"].replace(".dev", ".dev0"),  # as Python spells it
+    long_description=readme(),
+    long_description_content_type="text/markdown",
+    project_urls={"Homepage": ABOUT["homepage"]} if ABOUT["homepage"] else {},
     distclass=WithLibrary,
     cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelForAnyPython},
 )

@@ -40,6 +40,6 @@ foreach(file IN LISTS pc_files)
 endforeach()
 
 # Laid out as in the source tree, so that the pages' links hold.
-install(FILES LICENSE NOTICE README.md CHANGELOG.md SECURITY.md DESTINATION ${doc_dir} COMPONENT unsnarl OPTIONAL)
+install(FILES LICENSE NOTICE README.md CHANGELOG.md CITATION.cff SECURITY.md DESTINATION ${doc_dir} COMPONENT unsnarl OPTIONAL)
 install(DIRECTORY docs DESTINATION ${doc_dir} COMPONENT unsnarl OPTIONAL PATTERN images EXCLUDE)
 install(DIRECTORY examples DESTINATION ${doc_dir} COMPONENT unsnarl_dev OPTIONAL PATTERN __pycache__ EXCLUDE)

@@ -1,5 +1,7 @@
 # `cpack` in a build: two Debian packages. unsnarl is what is used: program, C library, man page, completions, pages of
 # docs/. libunsnarl-dev is what programs are built with, and depends on what they are linked with.
+set(CPACK_PACKAGE_VERSION ${UNSNARL_VERSION})
+string(REPLACE ".dev" "~dev" CPACK_DEBIAN_PACKAGE_VERSION ${UNSNARL_VERSION})  # older than the release, for dpkg
 set(CPACK_PACKAGE_VENDOR "the unsnarl authors")
 set(CPACK_PACKAGE_CONTACT "the unsnarl authors")
 set(CPACK_PACKAGE_HOMEPAGE_URL "${PROJECT_HOMEPAGE_URL}")
@@ -26,7 +28,7 @@ set(CPACK_DEBIAN_UNSNARL_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_UNSNARL_DEV_PACKAGE_NAME libunsnarl-dev)
 set(CPACK_DEBIAN_UNSNARL_DEV_PACKAGE_SECTION libdevel)
 list(JOIN UNSNARL_LINKED_DEBIAN ", " linked)
-set(CPACK_DEBIAN_UNSNARL_DEV_PACKAGE_DEPENDS "unsnarl (= ${PROJECT_VERSION}), ${linked}")
+set(CPACK_DEBIAN_UNSNARL_DEV_PACKAGE_DEPENDS "unsnarl (= ${CPACK_DEBIAN_PACKAGE_VERSION}), ${linked}")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/finish_debian_package.cmake)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)

@@ -68,7 +68,7 @@ UNSNARL_EXPORT const char* unsnarl_error_message(void);
 /* The errno (<errno.h>: ENOENT, EACCES, EMFILE, ...) of the call of the system behind that error; 0: there was none. */
 UNSNARL_EXPORT int unsnarl_error_number(void);
 
-/* Version of the library, "major.minor.patch". */
+/* Version of the library, "major.minor.patch", with ".dev" behind it where it is not released yet. */
 UNSNARL_EXPORT const char* unsnarl_version(void);
 
 /* ---- surfaces, curves, options ------------------------------------------------------------------------------ */

@@ -2,7 +2,9 @@
 inside. The library is the one already built."""
 
 import importlib.util
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +15,7 @@ from pathlib import Path
 import pytest
 
 PROJECT = Path(__file__).resolve().parents[2]
+ABOUT = json.loads((PROJECT / "cmake" / "project.json").read_text())  # version and address
 
 
 def needs(*modules):
@@ -34,6 +37,8 @@ def test_pip_install(tmp_path):
     source.mkdir()
     for name in ("pyproject.toml", "setup.py", "CMakeLists.txt", "README.md"):
         shutil.copy(PROJECT / name, source)
+    (source / "cmake").mkdir()
+    shutil.copy(PROJECT / "cmake" / "project.json", source / "cmake")
     shutil.copytree(PROJECT / "python", source / "python")
     run(sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", "--target", target,
         source)
@@ -45,6 +50,21 @@ def test_pip_install(tmp_path):
     for program in ([target / "bin" / "unsnarl"], [sys.executable, "-m", "unsnarl"]):
         said = run(*program, "--version", cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(target)})
         assert said.startswith("unsnarl ")
+
+
+def test_an_address_is_in_the_metadata_and_in_links(tmp_path):
+    needs("setuptools", "wheel")
+    for name in ("pyproject.toml", "setup.py", "README.md"):
+        shutil.copy(PROJECT / name, tmp_path)
+    (tmp_path / "cmake").mkdir()
+    (tmp_path / "cmake" / "project.json").write_text('{"version": "1.2.3", "homepage": "https://example.org/unsnarl"}')
+    shutil.copytree(PROJECT / "python" / "unsnarl", tmp_path / "python" / "unsnarl")
+    run(sys.executable, "-B", "setup.py", "-q", "egg_info", cwd=tmp_path)
+    said = (tmp_path / "python" / "unsnarl.egg-info" / "PKG-INFO").read_text()
+    assert "\nVersion: 1.2.3\n" in said and "\nProject-URL: Homepage, https://example.org/unsnarl\n" in said
+    links = re.findall(r"\]\(([^)]*)\)", said)
+    assert "https://example.org/unsnarl/raw/v1.2.3/docs/images/before_after.png" in links
+    assert all(link.startswith("https://example.org/unsnarl/") for link in links)
 
 
 def test_wheel(tmp_path):
@@ -67,6 +87,11 @@ def test_wheel(tmp_path):
         assert any("licenses/libpugixml" in name for name in content.namelist())
         (points,) = (name for name in content.namelist() if name.endswith(".dist-info/entry_points.txt"))
         assert b"[pyvista.accessors]" in content.read(points)
+        (metadata,) = (name for name in content.namelist() if name.endswith(".dist-info/METADATA"))
+        said = content.read(metadata).decode().splitlines()
+        assert {f"Version: {ABOUT['version'].replace('.dev', '.dev0')}", "Provides-Extra: pyvista"} <= set(said)
+        addresses = [line for line in said if line.startswith("Project-URL:")]
+        assert addresses == [f"Project-URL: Homepage, {address}" for address in [ABOUT["homepage"]] if address]
         content.extractall(tmp_path / "target")
     program = tmp_path / "target" / "unsnarl" / "bin" / "unsnarl"
     program.chmod(0o755)  # as pip does for what is marked so in the wheel

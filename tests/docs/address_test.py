@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The project's address stands in CMakeLists.txt alone, and nobody is asked to report anything where there is none."""
+"""The project's address stands in cmake/project.json alone, and nobody is asked to report anything where there is none."""
 
 import re
 import unittest
@@ -23,7 +23,7 @@ class Address(unittest.TestCase):
         self.assertRegex(KNOWS.read_text(), r"homepage\.empty\(\)")
 
     def test_the_address_is_in_one_place(self):
-        (address,) = re.findall(r'HOMEPAGE_URL "(.*?)"', (pages.PROJECT / "CMakeLists.txt").read_text())
+        address = pages.ABOUT["homepage"]
         holding = [str(path) for path in SOURCES if address and address in path.read_text(errors="replace")]
         self.assertEqual(holding, [])
 

@@ -1,5 +1,6 @@
 """The project's pages, and what is in them."""
 
+import json
 import os
 import re
 import subprocess
@@ -7,6 +8,7 @@ from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("UNSNARL_PROGRAM", str(PROJECT / "build/release/unsnarl"))
+ABOUT = json.loads((PROJECT / "cmake/project.json").read_text())  # version and address
 PAGES = [PROJECT / "README.md", PROJECT / "CONTRIBUTING.md", PROJECT / "SECURITY.md", *sorted((PROJECT / "docs").glob("*.md"))]
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)

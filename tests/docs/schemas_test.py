@@ -113,12 +113,5 @@ class Schemas(unittest.TestCase):
         self.assertLessEqual({name for name in self.options() if f"{name}_rel" not in self.options()}, described)
 
 
-class Changelog(unittest.TestCase):
-    def test_it_begins_with_the_version_of_the_program(self):
-        version = subprocess.run([pages.PROGRAM, "--version"], capture_output=True, text=True).stdout.split()[1]
-        versions = re.findall(r"^## \[(\d[^\]]*)\] - ", (pages.PROJECT / "CHANGELOG.md").read_text(), re.M)
-        self.assertEqual(versions[0], version)
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,6 @@
 # Installs the built project under a fresh prefix, then configures, builds and runs a consumer that knows only the prefix.
 # cmake -DBUILD_DIR=... -DCONSUMER_DIR=... -DWORK_DIR=... -DCXX_COMPILER=... -DCXX_FLAGS=... -DBUILD_TYPE=...
-#       -DGENERATOR=... -DLIBRARY_DIR=... -DMAN_PAGE=PATH_BELOW_PREFIX_OR_NOTHING -P this
+#       -DGENERATOR=... -DLIBRARY_DIR=... -DVERSION=... -DMAN_PAGE=PATH_BELOW_PREFIX_OR_NOTHING -P this
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   message("${output}")
@@ -32,6 +32,10 @@ if(PKG_CONFIG)
   set(ENV{PKG_CONFIG_PATH} ${WORK_DIR}/prefix/${LIBRARY_DIR}/pkgconfig)
   separate_arguments(cxx_flags UNIX_COMMAND "${CXX_FLAGS}")
   foreach(package IN ITEMS unsnarl unsnarl_c)
+    run(${PKG_CONFIG} --validate ${package})
+    run(${PKG_CONFIG} --exact-version=${VERSION} ${package})
+    string(REGEX REPLACE "\\.dev$" "" wanted ${VERSION})
+    run(${PKG_CONFIG} --atleast-version=${wanted} ${package})  # what is built for a release may be tried with what leads to it
     execute_process(COMMAND ${PKG_CONFIG} --cflags --libs ${package}
       OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
     separate_arguments(found UNIX_COMMAND "${found}")

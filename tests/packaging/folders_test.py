@@ -19,10 +19,11 @@ MORE = {
     "build_wheel": ["--build-dir", "nothing_built"],
     "compare": ["--program-base", "/bin/true", "--program-head", "/bin/true", "in.obj"],
     "peers": ["--unsnarl", "/bin/true", "--peers", "/bin/true", "in.obj"],
+    "release": ["--build-dir", "nothing_built"],
     "sweep": ["in.obj"],
     "tetgen": ["in.obj"],
 }
-WITHOUT_PROGRAM = {"ablations", "build_packages", "build_wheel", "compare", "peers"}
+WITHOUT_PROGRAM = {"ablations", "build_packages", "build_wheel", "compare", "peers", "release"}
 # Names that scripts give to what they write, and some that they have no business with.
 CONTENT = ["in.obj", "thesis.txt", "results.csv", "report.json", "fixed.obj", "out.json", "meshes/a.obj", "work/1/a.obj",
            "worst/a.png", "undisturbed/a", "killed/a", "parts/a", "samples/a.obj", ".hidden/a"]

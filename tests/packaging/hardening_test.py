@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What is shipped was compiled and linked to end rather than be misused. usage: hardening_test.py FILE..."""
+"""What is shipped was compiled and linked to end rather than be misused, and opens no connection. usage: hardening_test.py FILE..."""
 
 import re
 import subprocess
@@ -31,6 +31,7 @@ def weaknesses(path):
         "marks where indirect jumps may land": code.count("endbr64") > 1000,
         # Larger frames are probed page by page, and none is entered without.
         "stack clash protection": bool(re.search(r"sub\s+\$0x1000,%rsp\s*\n.*or[ql]\s+\$0x0,", code)),
+        "no call that opens a connection": not re.search(r"\bUND (socket|connect|getaddrinfo|gethostbyname)\b", symbols),
         "no path of where it was built": not re.search(rb"(/[\w.-]+)+/src/(mesh|io|scene|pipeline)/\w+\.(cpp|h)",
                                                        path.read_bytes()),
     }
@@ -46,12 +47,12 @@ class HardeningTest(unittest.TestCase):
     def test_weaknesses_are_seen(self):
         with tempfile.TemporaryDirectory() as folder:
             source, program = Path(folder) / "weak.c", Path(folder) / "weak"
-            source.write_text("int main(void) { return 0; }\n")
+            source.write_text("#include <sys/socket.h>\nint main(void) { return socket(AF_INET, SOCK_STREAM, 0); }\n")
             subprocess.run(["cc", "-no-pie", "-fno-stack-protector", "-z", "norelro", "-z", "lazy", "-z", "execstack", source,
                             "-o", program], check=True, capture_output=True)
             seen = weaknesses(program)
         for name in ("position independent", "RELRO", "all symbols bound at the start", "a stack that is not executable",
-                     "the stack protector", "_FORTIFY_SOURCE", "_GLIBCXX_ASSERTIONS"):
+                     "the stack protector", "_FORTIFY_SOURCE", "_GLIBCXX_ASSERTIONS", "no call that opens a connection"):
             self.assertIn(name, seen)
 
 

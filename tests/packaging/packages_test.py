@@ -59,7 +59,7 @@ def main():
             assert (name == "unsnarl") == (not other), other
         assert "libtbb12" in output("dpkg-deb", "-f", deb, "Depends")
         assert "-dev" not in output("dpkg-deb", "-f", deb, "Depends")
-        needed = set(re.split(r", | \(= [\d.]+\), |\n", output("dpkg-deb", "-f", dev, "Depends")))
+        needed = set(re.split(r", | \(= [^)]+\), |\n", output("dpkg-deb", "-f", dev, "Depends")))
         assert {"unsnarl", "libtbb-dev", "libgif-dev", "libzip-dev"} <= needed, needed
 
         # Packed once more, at another time and from another folder: the same bytes.
