@@ -3,13 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
 #include <tuple>
+
+#include "geometry/bit_cast.h"
 
 namespace unsnarl {
 namespace {
@@ -77,8 +78,8 @@ TEST(ReadNumber, says_what_is_out_of_range) {
 TEST(ReadNumber, gives_back_what_is_written_with_all_digits) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 20000; ++i) {
-    const double value = std::bit_cast<double>(static_cast<std::uint64_t>(random()));
-    const float single = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    const double value = bit_cast<double>(static_cast<std::uint64_t>(random()));
+    const float single = bit_cast<float>(static_cast<std::uint32_t>(random()));
     if (!std::isfinite(value) || !std::isfinite(single)) continue;
     char text[64];
     char* const end = std::to_chars(text, text + sizeof text, value).ptr;
