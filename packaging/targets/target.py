@@ -14,12 +14,20 @@ from bare_root import make_root, runner  # noqa: E402
 
 #: Where sources and builds lie in a root: a build that is there already is continued.
 PLACE = "opt/unsnarl"
-#: Tests of what needs no files, pictures or reports, by layer.
+#: Tests of the core, by layer.
 CORE_TESTS = ["geometry", "parallel_by_threads", "run", "mesh", "contact", "energy", "optimize", "scene", "rigid", "recover",
-              "untangle", "pipeline", "property", "applications"]
+              "untangle", "pipeline", "property", "applications", "same_bytes"]
+#: Options of CMake for the core alone, where neither oneTBB nor CGAL is.
+CORE = ["-DUNSNARL_BUILD_IO=OFF", "-DUNSNARL_BUILD_APPS=OFF", "-DUNSNARL_USE_TBB=OFF", "-DUNSNARL_TEST_ORACLE=OFF"]
 #: Packages of headers alone, and what every build uses.
 HEADERS = ["libboost-dev", "libcli11-dev", "libeigen3-dev", "nlohmann-json3-dev"]
 TOOLS = ["cmake", "ninja-build", "python3"]
+#: Packages of libraries, which are of one processor; those that only tests ask.
+LIBRARIES = ["libfmt-dev", "libgif-dev", "libgtest-dev", "libpng-dev", "libpugixml-dev", "libssl-dev", "libtbb-dev",
+             "libzip-dev", "zlib1g-dev"]
+ORACLES = ["libcgal-dev", "libgmp-dev", "libmpfr-dev"]
+#: What is built in a root for a target that Debian has no libraries for, and is found there.
+PREFIX = f"/{PLACE}/prefix"
 
 
 def options_of(description):
@@ -57,6 +65,13 @@ def timed(what, command, *arguments, **named):
 def toolchain(name):
     """The option that takes this toolchain file of ours."""
     return f"-DCMAKE_TOOLCHAIN_FILE=/{PLACE}/project/packaging/targets/{name}.cmake"
+
+
+def build_googletest(run, *options):
+    """GoogleTest of the package's sources, by this compiler."""
+    run("cmake", "-S", "/usr/src/googletest", "-B", "googletest", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+        "-DBUILD_GMOCK=OFF", f"-DCMAKE_INSTALL_PREFIX={PREFIX}", "-DCMAKE_INSTALL_LIBDIR=lib", *options)
+    timed("building GoogleTest", run, "cmake", "--build", "googletest", "--target", "install")
 
 
 def build(run, folder, targets, *options):
