@@ -37,15 +37,17 @@ def make_root(folder, suite, packages, architectures=(), options=("--variant=min
     return root
 
 
-def runner(root, inside, network=False):
+def runner(root, inside, network=False, environment={}):
     """A function that runs a command in this folder of the root and returns what it wrote to standard output.
 
-    It sees nothing of the system outside, and no network unless asked for.
+    It sees nothing of the system outside, and no network unless asked for. environment: variables beside PATH, HOME
+    and LANG.
     """
-    def run(*command, expected=0, **environment):
+    environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": inside, "LANG": "C.UTF-8", **environment}
+
+    def run(*command, expected=0):
         line = " ".join(f"'{c}'" for c in map(str, command))
         script = f"mount -t proc proc /proc 2>/dev/null; cd {inside} && exec {line}"
-        environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": inside, "LANG": "C.UTF-8", **environment}
         alone = ["--mount"] if network else ["--mount", "--net"]
         done = subprocess.run(["unshare", *alone, "chroot", root, "/bin/sh", "-c", script],
                               capture_output=True, text=True, errors="replace", env=environment)

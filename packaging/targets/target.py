@@ -30,14 +30,16 @@ ORACLES = ["libcgal-dev", "libgmp-dev", "libmpfr-dev"]
 PREFIX = f"/{PLACE}/prefix"
 
 
-def options_of(description):
+def options_of(description, tests):
+    """What the command line says: roots, and which of these tests are wanted."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--roots", type=Path, default=PROJECT / "out" / "roots", metavar="FOLDER",
                         help="where the root is made, or was made before")
+    parser.add_argument("--tests", nargs="+", default=tests, choices=tests, metavar="LAYER", help="build and run these alone")
     return parser
 
 
-def root_with_sources(roots, packages, architectures=()):
+def root_with_sources(roots, packages, architectures=(), environment={}):
     """A root with these packages and what git knows of the project, and a function that runs a command beside it."""
     root = make_root(roots.resolve(), "bookworm", packages, architectures)
     place = root / PLACE
@@ -50,7 +52,7 @@ def root_with_sources(roots, packages, architectures=()):
             shutil.copy2(PROJECT / name, place / "project" / name)
     installed = runner(root, "/")("dpkg-query", "-W", "-f", "${Installed-Size}\n").splitlines()
     print(f"root: {len(installed)} packages of bookworm, {sum(int(kB or 0) for kB in installed) / 1e6:.1f} GB", flush=True)
-    return root, runner(root, f"/{PLACE}")
+    return root, runner(root, f"/{PLACE}", environment=environment)
 
 
 def timed(what, command, *arguments, **named):
@@ -110,9 +112,10 @@ def run_tests(run, folder, names, emulator=(), ending="", left_out={}):
     return failed
 
 
-def end(failed, not_tested):
+def end(options, tests, failed, not_tested):
     """Says what was not tested, and ends with exit code 1 where a test failed."""
-    for line in not_tested:
+    left = [f"test_{name}" for name in tests if name not in options.tests]
+    for line in [*([", ".join(left)] if left else []), *not_tested]:
         print(f"not tested: {line}")
     for line in failed:
         print(f"FAILED: {line}")
