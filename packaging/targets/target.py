@@ -11,6 +11,7 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PROJECT / "packaging"))
 from bare_root import make_root, runner  # noqa: E402
+from output import put  # noqa: E402
 
 #: Where sources and builds lie in a root: a build that is there already is continued.
 PLACE = "opt/unsnarl"
@@ -30,12 +31,15 @@ ORACLES = ["libcgal-dev", "libgmp-dev", "libmpfr-dev"]
 PREFIX = f"/{PLACE}/prefix"
 
 
-def options_of(description, tests):
-    """What the command line says: roots, and which of these tests are wanted."""
+def options_of(description, tests, output=None):
+    """A parser of the command line: roots, which of these tests are wanted, and a folder where there is something to
+    put into it."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--roots", type=Path, default=PROJECT / "out" / "roots", metavar="FOLDER",
                         help="where the root is made, or was made before")
     parser.add_argument("--tests", nargs="+", default=tests, choices=tests, metavar="LAYER", help="build and run these alone")
+    if output:
+        parser.add_argument("-o", "--output", type=Path, default=output, metavar="FOLDER", help="where packages are put")
     return parser
 
 
@@ -87,6 +91,18 @@ def print_sizes(root, *files):
     """Sizes of what was built, given by path from the project's place in the root."""
     for file in files:
         print(f"built: {Path(file).name}, {(root / PLACE / file).stat().st_size / 1e6:.2f} MB", flush=True)
+
+
+def pack_wheel(root, run, target):
+    """The wheel of what is in the folder `build`. Returns where it lies in the folder `target`."""
+    run("rm", "-rf", "wheel")
+    timed("packing the wheel", run, "python3", "-B", "project/packaging/build_wheel", "--build-dir", f"/{PLACE}/build", "-o",
+          "wheel")
+    (wheel,) = (root / PLACE / "wheel").glob("*.whl")
+    target.mkdir(parents=True, exist_ok=True)
+    wheel = put(wheel, target)
+    print(f"built: {wheel.name}, {wheel.stat().st_size / 1e6:.2f} MB", flush=True)
+    return wheel
 
 
 def run_tests(run, folder, names, emulator=(), ending="", left_out={}):
