@@ -1,6 +1,7 @@
 """What the scripts of all targets have in common: a bare Debian root, the sources and a build in it, its tests."""
 
 import argparse
+import filecmp
 import re
 import shutil
 import subprocess
@@ -37,7 +38,8 @@ def options_of(description, tests, output=None):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--roots", type=Path, default=PROJECT / "out" / "roots", metavar="FOLDER",
                         help="where the root is made, or was made before")
-    parser.add_argument("--tests", nargs="+", default=tests, choices=tests, metavar="LAYER", help="build and run these alone")
+    parser.add_argument("--tests", nargs="+", default=tests, choices=tests, metavar="LAYER",
+                        help="build and run these alone")
     if output:
         parser.add_argument("-o", "--output", type=Path, default=output, metavar="FOLDER", help="where packages are put")
     return parser
@@ -46,14 +48,7 @@ def options_of(description, tests, output=None):
 def root_with_sources(roots, packages, architectures=(), environment={}):
     """A root with these packages and what git knows of the project, and a function that runs a command beside it."""
     root = make_root(roots.resolve(), "bookworm", packages, architectures)
-    place = root / PLACE
-    shutil.rmtree(place / "project", ignore_errors=True)
-    listed = subprocess.run(["git", "ls-files", "-coz", "--exclude-standard"], cwd=PROJECT, capture_output=True, text=True,
-                            check=True).stdout.split("\0")
-    for name in filter(None, listed):
-        if (PROJECT / name).is_file():
-            (place / "project" / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(PROJECT / name, place / "project" / name)
+    copy_sources(root / PLACE / "project")
     installed = runner(root, "/")("dpkg-query", "-W", "-f", "${Installed-Size}\n").splitlines()
     print(f"root: {len(installed)} packages of bookworm, {sum(int(kB or 0) for kB in installed) / 1e6:.1f} GB", flush=True)
     return root, runner(root, f"/{PLACE}", environment=environment)
@@ -66,6 +61,19 @@ def timed(what, command, *arguments, **named):
     result = command(*arguments, **named)
     print(f"{time.monotonic() - start:.0f} s", file=sys.stderr)
     return result
+
+
+def copy_sources(target):
+    """Brings a folder to what git knows of the project. Files that are the same stay as old as they are."""
+    listed = subprocess.run(["git", "ls-files", "-coz", "--exclude-standard"], cwd=PROJECT, capture_output=True, text=True,
+                            check=True).stdout
+    names = {name for name in listed.split("\0") if (PROJECT / name).is_file()}
+    for file in [file for file in target.rglob("*") if file.is_file() and str(file.relative_to(target)) not in names]:
+        file.unlink()
+    for name in names:
+        if not (target / name).is_file() or not filecmp.cmp(PROJECT / name, target / name, shallow=False):
+            (target / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(PROJECT / name, target / name)
 
 
 def toolchain(name):
