@@ -40,8 +40,8 @@ class BuildWithLibrary(build_py):
         # An editable package is where its sources are.
         destination = PROJECT / "python" if getattr(self, "editable_mode", False) else Path(self.build_lib).resolve()
         cmake("--install", build, "--component", "unsnarl_python", "--prefix", destination)
-        for file, option in (("libunsnarl_c.so", "UNSNARL_BUILD_PYTHON"), ("bin/unsnarl", "UNSNARL_BUILD_APPS")):
-            if not (destination / "unsnarl" / file).exists():
+        for file, option in (("*unsnarl_c.*", "UNSNARL_BUILD_PYTHON"), ("bin/unsnarl*", "UNSNARL_BUILD_APPS")):
+            if not list((destination / "unsnarl").glob(file)):
                 raise SystemExit(f"error: {build} was configured without -D{option}=ON: it installs no {file}")
 
 

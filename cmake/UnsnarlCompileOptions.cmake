@@ -32,7 +32,7 @@ target_compile_options(unsnarl_compile_options INTERFACE
 
 # A mistake in memory ends the program rather than being of use to a hostile file; tests/packaging/hardening_test.py
 # reads it off what is built. Sanitizers do this and more, in ways of their own.
-if(NOT flags_of_the_user MATCHES "-fsanitize" AND NOT UNSNARL_BUILD_FUZZERS)
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT flags_of_the_user MATCHES "-fsanitize" AND NOT UNSNARL_BUILD_FUZZERS)
   include(CheckPIESupported)
   check_pie_supported()
   set(is_optimised $<NOT:$<CONFIG:Debug>>)  # without, there is nothing that _FORTIFY_SOURCE could check

@@ -6,6 +6,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
+from datetime import datetime, timezone
 
 #: The time of everything inside, unless SOURCE_DATE_EPOCH says another: 2026-01-01, as seconds since 1970.
 DATE = os.environ.setdefault("SOURCE_DATE_EPOCH", "1767225600")
@@ -26,6 +28,14 @@ def pack_tar(folder, archive):
     subprocess.run(["tar", "-C", folder.parent, "--format=ustar", "--sort=name", f"--mtime=@{DATE}", "--owner=0",
                     "--group=0", "--numeric-owner", "--mode=u=rwX,go=rX", "--use-compress-program=gzip -9n", "-cf", archive,
                     folder.name], check=True)
+
+
+def pack_zip(folder, archive):
+    """Packs a folder under its own name."""
+    time = datetime.fromtimestamp(int(DATE), timezone.utc).timetuple()[:6]
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as packed:
+        for file in sorted(path for path in folder.rglob("*") if path.is_file()):
+            packed.writestr(zipfile.ZipInfo(str(file.relative_to(folder.parent)), time), file.read_bytes(), zipfile.ZIP_DEFLATED)
 
 
 def require_tools(debian_packages):

@@ -7,7 +7,8 @@ import subprocess
 from pathlib import Path
 
 #: What every Linux with a GNU C library has, by PEP 600.
-GLIBC = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "ld-linux-x86-64.so.2"}
+GLIBC = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "ld-linux-x86-64.so.2",
+         "ld-linux-aarch64.so.1"}
 #: What comes with it wherever there is a compiled program at all. One copy of it has to serve a whole process.
 RUNTIME = {"libstdc++.so.6", "libgcc_s.so.1"}
 #: The newest libstdc++ beside a glibc 2.x in the distributions that PEP 600 goes by (auditwheel's policies).
@@ -21,26 +22,43 @@ def _output(*command):
     return subprocess.run([str(c) for c in command], capture_output=True, text=True, check=True).stdout
 
 
+def machine_of(path):
+    """The processor that a file is for, as tags of wheels and Debian's names of folders and tools begin."""
+    (machine,) = re.findall(r"Machine:\s+(.*)", _output("readelf", "-h", path))
+    return {"Advanced Micro Devices X86-64": "x86_64", "AArch64": "aarch64"}[machine]
+
+
+def _tool(name, path):
+    """The one of Debian's binutils that is for this file's processor."""
+    return f"{machine_of(path)}-linux-gnu-{name}"
+
+
 def needed(path):
     """Names of the shared libraries that a file asks for."""
     return set(re.findall(r"\(NEEDED\).*\[(.*)\]", _output("readelf", "-d", path)))
 
 
 def closure(paths, without):
-    """Files of all libraries that are loaded for these, by name, but for those named and what only they ask for."""
-    found = {}
-    for path in paths:
-        found.update(re.findall(r"^\s*(\S+) => (/\S+)", _output("ldd", path), re.MULTILINE))
+    """Files of all libraries of Debian that are loaded for these, by name, but for those named and what only they ask for."""
     todo, seen = list(paths), {}
     while todo:
-        for name in needed(todo.pop()) - without - set(seen):
-            seen[name] = Path(found[name])
-            todo.append(found[name])
+        path = todo.pop()
+        for name in needed(path) - without - set(seen):
+            found = [folder / name for folder in _folders(path) if (folder / name).exists()]
+            if not found:
+                raise SystemExit(f"error: Debian's folders of libraries have no {name}, which {Path(path).name} asks for")
+            seen[name] = found[0]
+            todo.append(found[0])
     return dict(sorted(seen.items()))
 
 
+def _folders(path):
+    """Where Debian has the libraries of this file's processor."""
+    return [Path(above) / f"{machine_of(path)}-linux-gnu" for above in ("/lib", "/usr/lib")]
+
+
 def _newest(path, prefix):
-    versions = re.findall(rf"\(?{prefix}_([\d.]+)\)?\s", _output("objdump", "-T", path))
+    versions = re.findall(rf"\(?{prefix}_([\d.]+)\)?\s", _output(_tool("objdump", path), "-T", path))
     return max((tuple(map(int, v.split("."))) for v in versions), default=(0,))
 
 
@@ -69,7 +87,7 @@ def bundle(files, folder, without, suffix=""):
         shutil.copyfile(source, copy)
         copy.chmod(0o755)
     for elf in [*files, *copies]:
-        subprocess.run(["strip", "--strip-unneeded", elf], check=True)
+        subprocess.run([_tool("strip", elf), "--strip-unneeded", elf], check=True)
         way = os.path.relpath(folder, elf.parent)
         changes = [("--replace-needed", name, names[name]) for name in sorted(needed(elf) & set(names)) if suffix]
         changes += [("--set-soname", elf.name)] if elf in copies else []

@@ -1,7 +1,8 @@
 #include "samples/klein_maps.h"
-#include "geometry/portable_math.h"
 
 #include <numbers>
+
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 

@@ -1,10 +1,11 @@
 #include "samples/sphere_grid.h"
-#include "geometry/portable_math.h"
-#include "geometry/rotation.h"
 
 #include <array>
 #include <map>
 #include <numbers>
+
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 
 namespace unsnarl {
 namespace {

@@ -1,9 +1,10 @@
 #include "samples/tube.h"
-#include "geometry/portable_math.h"
-#include "geometry/rotation.h"
 
 #include <numbers>
 #include <vector>
+
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 
 namespace unsnarl {
 

@@ -1,13 +1,14 @@
-"""The shared library libunsnarl_c beside this file: its structs and functions, as unsnarl.h has them."""
+"""The shared library unsnarl_c beside this file: its structs and functions, as unsnarl.h has them."""
 
 from __future__ import annotations
 
 import ctypes
+import sys
 from ctypes import POINTER, c_char_p, c_double, c_int, c_int32, c_size_t, c_void_p
 from pathlib import Path
 from typing import Any
 
-_PATH = Path(__file__).with_name("libunsnarl_c.so")
+_PATH = Path(__file__).with_name("unsnarl_c.dll" if sys.platform == "win32" else "libunsnarl_c.so")
 try:
     library = ctypes.CDLL(str(_PATH))
 except OSError as error:

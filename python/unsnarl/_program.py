@@ -25,7 +25,7 @@ from ._progress import OnProgress, Progress, ProgressBar, function_of
 from ._types import Rules
 
 _log = logging.getLogger("unsnarl")
-_PATH = Path(__file__).with_name("bin") / "unsnarl"
+_PATH = Path(__file__).with_name("bin") / ("unsnarl.exe" if sys.platform == "win32" else "unsnarl")
 
 #: By exit code; what is not there is an error of the program's own.
 _EXCEPTIONS = {2: ValueError, 3: OSError, 4: OSError, 5: MemoryError, 9: OSError}

@@ -1,9 +1,10 @@
 #include "energy/bending.h"
-#include "geometry/portable_math.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 

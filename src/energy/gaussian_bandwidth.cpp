@@ -1,9 +1,10 @@
 #include "energy/gaussian_bandwidth.h"
-#include "geometry/portable_math.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {

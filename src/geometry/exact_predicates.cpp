@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "geometry/bit_cast.h"
 #include "geometry/predicates.h"
 
 namespace unsnarl::detail {
@@ -55,7 +56,7 @@ constexpr int exponent_mask = 0x7ff;  ///< Of the exponent, once shifted down (f
 constexpr int exponent_bias = 0x3ff;  ///< What is added to an exponent that is stored (fixed by float64)
 
 Dyadic dyadic_of(double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto bits = bit_cast<std::uint64_t>(value);
   const int exponent = static_cast<int>(bits >> stored_bits) & exponent_mask;
   const std::uint64_t digits = (bits & (hidden_bit - 1)) | (exponent > 0 ? hidden_bit : 0);
   if (digits == 0) return {};

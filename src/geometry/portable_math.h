@@ -1,9 +1,10 @@
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "geometry/bit_cast.h"
 
 /// Elementary functions that give the same bits on every machine. Those of <cmath> differ in the last bit between C
 /// libraries, and a repair takes another path from there on. These use additions, products, quotients, square roots and
@@ -30,7 +31,7 @@ inline constexpr double ln2_high = 0x1.62e42fee00000p-1, ln2_low = 0x1.a39ef3579
 
 /// 2^k for a normal result. (fixed by the format of doubles: exponent with offset 1023 above 52 bits)
 inline double power_of_two(std::int64_t k) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
+  return bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
 }
 
 /// A turn less whole quarters.
@@ -104,11 +105,11 @@ inline double log(double x) {
   constexpr std::int64_t least = 0x3fe6a09e667f3bcd;  // bits of sqrt(1/2)
   std::int64_t k = 0;
   if (x < std::numeric_limits<double>::min()) x *= 0x1p54, k = -54;
-  const std::int64_t bits = std::bit_cast<std::int64_t>(x), exponent = (bits - least) >> 52;
+  const std::int64_t bits = bit_cast<std::int64_t>(x), exponent = (bits - least) >> 52;
   k += exponent;
   constexpr double terms[] = {2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11,
                               2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21};
-  const double f = std::bit_cast<double>(bits - (exponent << 52)) - 1, s = f / (2 + f), z = s * s;
+  const double f = bit_cast<double>(bits - (exponent << 52)) - 1, s = f / (2 + f), z = s * s;
   const auto n = static_cast<double>(k);
   return n * ln2_high - ((s * (f - z * polynomial(terms, z)) - n * ln2_low) - f);
 }

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "geometry/read_number.h"
 #include "unsnarl/depth_limit.h"
 #include "unsnarl/document.h"
 
@@ -244,7 +244,7 @@ std::optional<double> JsonText::Value::number() const {
   double value = 0;
   if (!is_number()) return std::nullopt;
   const std::string_view token = text();
-  if (std::from_chars(token.data(), token.data() + token.size(), value).ec != std::errc{}) return std::nullopt;
+  if (read_number(token.data(), token.data() + token.size(), value).ec != std::errc{}) return std::nullopt;
   return value;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geometry/read_number.h"
 #include "unsnarl/document.h"
 #include "unsnarl/visible_text.h"
 
@@ -38,7 +39,7 @@ TextScanner::Number TextScanner::number(T& value) {
   const char* start = at_;
   if (*start == '+' && start + 1 != end_ && start[1] != '-') ++start;
   T result{};
-  const auto [after, error] = std::from_chars(start, end_, result);
+  const auto [after, error] = read_number(start, end_, result);
   if (error == std::errc::invalid_argument) return Number::malformed;
   if (after != end_ && !ends_token(*after)) return Number::malformed;
   if (error == std::errc::result_out_of_range) {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "geometry/read_number.h"
 #include "io/text_scanner.h"
 #include "unsnarl/document.h"
 
@@ -34,7 +35,7 @@ double value_as_written(double value, TextPrecision precision) {
   std::array<char, 32> digits;
   const char* end = print(digits.data(), digits.data() + digits.size(), value, precision);
   double result = 0;
-  std::from_chars(digits.data(), end, result);
+  read_number(digits.data(), end, result);
   return result;
 }
 

@@ -40,7 +40,8 @@ std::span<const CoincidentFaces::Corner> CoincidentFaces::corners_at(Index verte
   const auto before = [](const Corner& corner, Index v) { return corner.vertex < v; };
   const auto first = std::lower_bound(corners_.begin(), corners_.end(), vertex, before);
   const auto last = std::lower_bound(first, corners_.end(), vertex + 1, before);
-  return {first, last};
+  return std::span(corners_).subspan(static_cast<std::size_t>(first - corners_.begin()),
+                                     static_cast<std::size_t>(last - first));
 }
 
 }  // namespace unsnarl

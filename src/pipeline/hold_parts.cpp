@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <new>
@@ -110,7 +109,7 @@ std::vector<Cluster> clusters_of(const RepairTask& task, const RepairState& stat
 
 std::vector<Index> free_of(const Scene& scene, std::span<const Index> vertices) {
   std::vector<Index> free;
-  std::ranges::copy_if(vertices, std::back_inserter(free), [&](Index v) { return !scene.fixed[v]; });
+  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(free), [&](Index v) { return !scene.fixed[v]; });
   return free;
 }
 
@@ -164,7 +163,7 @@ Met met_components(const RepairTask& task) {
 /// Whether a component is coarser than one that it meets in the cluster.
 bool is_coarse(Index component, const std::map<Index, Bearing>& bearings, const Met& met) {
   const auto found = met.find(component);
-  return found != met.end() && std::ranges::any_of(found->second, [&](Index other) {
+  return found != met.end() && std::any_of(found->second.begin(), found->second.end(), [&](Index other) {
            const auto of_other = bearings.find(other);
            return of_other != bearings.end() &&
                   bearings.at(component).edge_length > coarser * of_other->second.edge_length;
@@ -180,11 +179,12 @@ std::vector<Index> heaviest_components(const std::map<Index, Bearing>& bearings,
     all += bearing.motion;
     if (!was_held[component] && is_coarse(component, bearings, met)) heaviest.push_back(component);
   }
-  std::ranges::stable_sort(heaviest, std::greater(), [&](Index component) { return bearings.at(component).motion; });
+  std::stable_sort(heaviest.begin(), heaviest.end(),
+                   [&](Index a, Index b) { return bearings.at(a).motion > bearings.at(b).motion; });
   std::vector<Index> apart;
   for (const Index component : heaviest) {
     const std::vector<Index>& others = met.at(component);
-    if (std::ranges::find_first_of(apart, others) != apart.end()) continue;
+    if (std::find_first_of(apart.begin(), apart.end(), others.begin(), others.end()) != apart.end()) continue;
     apart.push_back(component);
     held += bearings.at(component).motion;
   }
@@ -212,11 +212,12 @@ std::vector<IntersectingPair> ignored_around(const RepairState& state, std::span
   for (const Cluster& cluster : clusters)
     for (const Index v : cluster.vertices) is_tried[v] = cluster.is_open;
   const auto is_of_tried = [&](Index t) {
-    return std::ranges::any_of(state.scene.triangles[t], [&](Index v) { return is_tried[v] != 0; });
+    const Triangle& vertices = state.scene.triangles[t];
+    return std::any_of(vertices.begin(), vertices.end(), [&](Index v) { return is_tried[v] != 0; });
   };
   std::vector<IntersectingPair> ignored = state.ignored;
-  std::ranges::copy_if(left, std::back_inserter(ignored),
-                       [&](const IntersectingPair& pair) { return !is_of_tried(pair.a) && !is_of_tried(pair.b); });
+  std::copy_if(left.begin(), left.end(), std::back_inserter(ignored),
+               [&](const IntersectingPair& pair) { return !is_of_tried(pair.a) && !is_of_tried(pair.b); });
   sort_unique(ignored);
   return ignored;
 }
@@ -317,7 +318,7 @@ void keep_better(const RepairTask& task, const Positions& first, std::span<const
     has_changed = false;
     left = find_pairs();
     for (const IntersectingPair& pair : left) {
-      if (std::ranges::binary_search(second, pair)) continue;
+      if (std::binary_search(second.begin(), second.end(), pair)) continue;
       for (const Index t : {pair.a, pair.b})
         for (const Index v : scene.triangles[t]) {
           if (cluster_of[v] < 0 || !clusters[cluster_of[v]].is_open) continue;
@@ -406,11 +407,11 @@ std::vector<IntersectingPair> hold_parts(const RepairTask& task, const RepairCon
   Held was_held(task.diagnosis.components.count(), 0);
   while (!control.limits.reached()) {
     const Held held = choose_held(task, state.scene, met, was_held, clusters);
-    if (std::ranges::none_of(clusters, [](const Cluster& cluster) { return cluster.is_open; })) break;
+    if (std::none_of(clusters.begin(), clusters.end(), [](const Cluster& cluster) { return cluster.is_open; })) break;
     for (std::size_t c = 0; c < held.size(); ++c) was_held[c] |= held[c];
     try_held(task, control, held, clusters, index, state, left);
   }
-  if (std::ranges::none_of(was_held, [](std::uint8_t held) { return held != 0; })) return left;
+  if (std::none_of(was_held.begin(), was_held.end(), [](std::uint8_t held) { return held != 0; })) return left;
   recover_on(task, control, clusters, index, state);
   index.update();
   list_unresolved(left, state);

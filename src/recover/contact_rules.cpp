@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "contact/stop_check.h"
 #include "geometry/parallel_lists.h"
@@ -75,7 +76,10 @@ void ContactRules::find_sheets() {
     Index first, second;  // triangles at the two primitives
     StencilKind kind;
     std::array<Index, 2> primitives;
-    auto operator<=>(const Asked&) const = default;
+    bool operator<(const Asked& other) const {
+      return std::tie(first, second, kind, primitives) <
+             std::tie(other.first, other.second, other.kind, other.primitives);
+    }
   };
   std::vector<Asked> asked;
   const auto ask = [&](const NearStencil& near, Asked& item) {

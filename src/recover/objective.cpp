@@ -1,8 +1,9 @@
 #include "recover/objective.h"
-#include "geometry/portable_math.h"
 
 #include <algorithm>
 #include <utility>
+
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {

@@ -1,9 +1,10 @@
 #include "render/ambient_occlusion.h"
-#include "geometry/portable_math.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {

@@ -1,9 +1,10 @@
 #include "rigid/rigid_motion.h"
-#include "geometry/portable_math.h"
-#include "geometry/rotation.h"
 
 #include <algorithm>
 #include <numbers>
+
+#include "geometry/portable_math.h"
+#include "geometry/rotation.h"
 
 namespace unsnarl {
 

@@ -34,7 +34,7 @@ Solids solids_of(const Solids& all, std::span<const Index> triangles) {
   sort_unique(numbers);
   for (const Index solid : numbers) some.list.push_back(all.list[solid]);
   for (const Index t : triangles) {
-    const auto at = std::ranges::lower_bound(numbers, solid_of(t));
+    const auto at = std::lower_bound(numbers.begin(), numbers.end(), solid_of(t));
     some.of_triangle.push_back(solid_of(t) < 0 ? -1 : static_cast<Index>(at - numbers.begin()));
   }
   return some;

@@ -42,7 +42,8 @@ int untangle_alone_first(Patch& patch, const Task& task, std::span<const Tier> t
   Scene scene = scene_at_rest_now(patch);
   UnionFind components = vertices_joined_by(patch.triangles, scene.vertex_count());
   scene.group_of = components.dense_ids();
-  const bool is_alone = std::ranges::all_of(scene.group_of, [](Index component) { return component == 0; });
+  const bool is_alone =
+      std::all_of(scene.group_of.begin(), scene.group_of.end(), [](Index component) { return component == 0; });
   if (is_alone || !intersects_itself(scene, task)) return 0;
   const Untangled alone = untangle_by(tiers, task, scene);
   scene.group_of.clear();

@@ -187,10 +187,11 @@ EscalationResult escalate(Scene& scene, SceneIndex& index, std::span<const Inter
     try_candidates(trials, result.left, scene, index, options, candidates, keep);
     note_rejected(trials, options.attempts, is_rejected);
     if (level.ends_tier) candidates.take_best(kept_of_tier, is_beyond(due.level), scene, keep_if_it_holds);
-    if (level.ends_waiting) std::ranges::for_each(candidates.take_waiting(is_beyond(due.level)), keep_if_it_holds);
+    if (level.ends_waiting)
+      for (Trial& trial : candidates.take_waiting(is_beyond(due.level))) keep_if_it_holds(trial);
     find_pairs();
   }
-  std::ranges::for_each(candidates.take_waiting(is_beyond(-1)), keep_if_it_holds);
+  for (Trial& trial : candidates.take_waiting(is_beyond(-1))) keep_if_it_holds(trial);
   if (!is_stopped(options)) candidates.take_best(1, is_beyond(last - 1), scene, keep_if_it_holds);
   find_pairs();
   note_what_is_left(scene, options, result);

@@ -120,8 +120,9 @@ class Placement {
   /// triangles, tried first; becomes one that meets something.
   bool is_free(const Component& component, Index& met) const {
     if (meets_something(met)) return false;
-    const auto found = std::ranges::find_if(component.triangles, [&](Index t) { return meets_something(t); });
-    if (found == component.triangles.end()) return true;
+    const auto& triangles = component.triangles;
+    const auto found = std::find_if(triangles.begin(), triangles.end(), [&](Index t) { return meets_something(t); });
+    if (found == triangles.end()) return true;
     met = *found;
     return false;
   }

@@ -82,7 +82,7 @@ int depth_for(const Conflicts& conflicts, const ConflictRegion& region, const De
 std::size_t most_in_one_component(const ConnectedParts& parts, std::span<const Index> vertices) {
   std::vector<std::size_t> counts(static_cast<std::size_t>(parts.count), 0);
   for (const Index v : vertices) ++counts[parts.of_vertex[v]];
-  return counts.empty() ? 0 : *std::ranges::max_element(counts);
+  return counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
 }
 
 }  // namespace

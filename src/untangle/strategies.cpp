@@ -211,7 +211,7 @@ std::span<const Tier> default_tiers() {
 
 std::span<const Tier> tiers_before_last_resorts() {
   const std::span<const Tier> all = default_tiers();
-  const auto last = std::ranges::find_if(all, [](const Tier& tier) { return tier.is_last_resort; });
+  const auto last = std::find_if(all.begin(), all.end(), [](const Tier& tier) { return tier.is_last_resort; });
   return all.first(static_cast<std::size_t>(last - all.begin()));
 }
 

@@ -1,16 +1,17 @@
 #include "oracle/crossings_by_brute_force.h"
 
-#include <CGAL/Gmpq.h>
-
 #include <array>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <map>
 #include <vector>
 
 namespace unsnarl::oracle {
 namespace {
 
+using Rational = boost::multiprecision::cpp_rational;
+
 struct PlanePoint {
-  CGAL::Gmpq x, y;
+  Rational x, y;
   friend bool operator==(const PlanePoint& a, const PlanePoint& b) { return a.x == b.x && a.y == b.y; }
 };
 
@@ -21,11 +22,11 @@ struct PlaneSegment {
 };
 
 int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
-  const CGAL::Gmpq det = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  const Rational det = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   return det > 0 ? 1 : det < 0 ? -1 : 0;
 }
 
-CGAL::Gmpq along(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
+Rational along(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return (b.x - a.x) * (c.x - a.x) + (b.y - a.y) * (c.y - a.y);
 }
 
@@ -74,7 +75,7 @@ std::size_t count_crossings(std::span<const Curve> curves, std::span<const Curve
       for (int e = 0; e < 2; ++e) {
         const int v = (k + e) % n;
         s.id[e] = id_of[{c, v}];
-        s.p[e] = {CGAL::Gmpq(curves[c].points[2 * v]), CGAL::Gmpq(curves[c].points[2 * v + 1])};
+        s.p[e] = {Rational(curves[c].points[2 * v]), Rational(curves[c].points[2 * v + 1])};
       }
       const double *a = &curves[c].points[2 * k], *b = &curves[c].points[2 * ((k + 1) % n)];
       s.box = {std::min(a[0], b[0]), std::max(a[0], b[0]), std::min(a[1], b[1]), std::max(a[1], b[1])};

@@ -1,5 +1,4 @@
 #include "applications/seifert/handles.h"
-#include "geometry/portable_math.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +6,8 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+
+#include "geometry/portable_math.h"
 
 namespace unsnarl {
 namespace {

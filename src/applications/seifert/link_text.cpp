@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "applications/seifert/planar_layout.h"
+#include "geometry/read_number.h"
 #include "unsnarl/document.h"
 #include "unsnarl/link.h"
 
@@ -119,7 +120,7 @@ Link read_points(const std::vector<Line>& lines) {
         continue;
       }
       double value = 0;
-      const auto [after, error] = std::from_chars(at, end, value);
+      const auto [after, error] = read_number(at, end, value);
       if (error != std::errc{} || !std::isfinite(value) ||
           (after != end && *after != ' ' && *after != '\t' && *after != ','))
         throw FileError(

@@ -8,6 +8,7 @@
 #include "applications/curves/curve_net.h"
 #include "applications/curves/files/curve_file.h"
 #include "geometry/portable_math.h"
+#include "geometry/read_number.h"
 #include "io/mesh_file.h"
 
 namespace unsnarl {
@@ -41,7 +42,7 @@ double rounded(double value, double rounding) {
   // By way of the text, so that few digits give it back.
   const std::string text = fmt::format("{:.{}f}", value, static_cast<int>(decimals));
   double result = value;
-  std::from_chars(text.data(), text.data() + text.size(), result);
+  read_number(text.data(), text.data() + text.size(), result);
   return result == 0 ? 0 : result;
 }
 

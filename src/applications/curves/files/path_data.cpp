@@ -1,12 +1,13 @@
 #include "applications/curves/files/path_data.h"
-#include "geometry/portable_math.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
+
+#include "geometry/portable_math.h"
+#include "geometry/read_number.h"
 
 namespace unsnarl {
 namespace {
@@ -38,7 +39,7 @@ class Reader {
     const std::size_t begin = at_;
     if (peek() == '+') ++at_;
     double value = 0;
-    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    const auto [end, error] = read_number(text_.data() + at_, text_.data() + text_.size(), value);
     if (error != std::errc{} || !std::isfinite(value)) {
       const std::string_view word = text_.substr(begin, 20);
       throw FileError(fmt::format("'{}' at character {} is not a number that can be used", word, begin));

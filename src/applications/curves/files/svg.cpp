@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,6 +12,7 @@
 #include "applications/curves/files/curve_file.h"
 #include "applications/curves/files/path_data.h"
 #include "applications/curves/files/written_places.h"
+#include "geometry/read_number.h"
 #include "io/text_edits.h"
 #include "io/xml_text.h"
 #include "unsnarl/depth_limit.h"
@@ -239,7 +239,7 @@ class SvgParser {
     std::string_view text = node.attribute(name).value();
     if (text.empty()) return 0;
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = read_number(text.data(), text.data() + text.size(), value);
     std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
     if (error != std::errc{} || !std::isfinite(value) || (!unit.empty() && unit != "px"))
       throw FileError(
