@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include "geometry/bit_cast.h"
 
@@ -14,8 +15,8 @@ namespace unsnarl::portable {
 
 namespace detail {
 
-/// Added to a number and taken away again, rounds to the nearest integer, halves to even. (fixed by the format: 1.5
-/// times 2^52, from where on doubles are whole)
+/// Added to a number and taken away again, rounds it to the nearest integer, halves to even: from 2^52 on doubles are
+/// whole (fixed by the format)
 inline constexpr double whole_from = 0x1.8p52;
 
 /// Sum of coefficients[k] x^k.
@@ -26,10 +27,12 @@ inline double polynomial(const double (&coefficients)[Count], double x) {
   return sum;
 }
 
-/// ln 2 in two parts; the first has 21 trailing zero bits, so that its products with exponents are exact.
-inline constexpr double ln2_high = 0x1.62e42fee00000p-1, ln2_low = 0x1.a39ef35793c76p-33;
+/// Leading part of ln 2; 21 trailing zero bits make its products with exponents exact (fixed by arithmetic)
+inline constexpr double ln2_high = 0x1.62e42fee00000p-1;
+/// The rest of ln 2 (fixed by arithmetic)
+inline constexpr double ln2_low = 0x1.a39ef35793c76p-33;
 
-/// 2^k for a normal result. (fixed by the format of doubles: exponent with offset 1023 above 52 bits)
+/// 2^k for a normal result: in a double, the exponent with offset 1023 lies above 52 bits.
 inline double power_of_two(std::int64_t k) {
   return bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
 }
@@ -42,8 +45,10 @@ struct QuarterTurn {
 
 inline QuarterTurn reduce(double x) {
   // pi/2 in three parts, each but the last with 20 trailing zero bits: products with up to 2^20 quarters are exact.
-  constexpr double high = 0x1.921fb54400000p+0, middle = 0x1.0b4611a600000p-34, low = 0x1.3198a2e037073p-69;
-  constexpr double most = 0x1p20;
+  constexpr double high = 0x1.921fb54400000p+0;     // (fixed by arithmetic)
+  constexpr double middle = 0x1.0b4611a600000p-34;  // (fixed by arithmetic)
+  constexpr double low = 0x1.3198a2e037073p-69;     // (fixed by arithmetic)
+  constexpr double most = 0x1p20;                   // (fixed by arithmetic)
   if (!(std::abs(x) < most)) x = std::remainder(x, 4 * high);
   const double quarters = (x * (1 / (high + middle)) + whole_from) - whole_from;
   return {((x - quarters * high) - quarters * middle) - quarters * low, static_cast<std::int64_t>(quarters) & 3};
@@ -83,7 +88,8 @@ inline double arc_tangent(double x) {
 /// e^x: 2^k e^r with |r| <= ln 2 / 2, by the Taylor series of e^r.
 inline double exp(double x) {
   using namespace detail;
-  constexpr double largest = 709.8, least = -745.2;  // beyond, results are infinite and 0
+  constexpr double largest = 709.8;  // results beyond are infinite (fixed by the format)
+  constexpr double least = -745.2;   // results below are 0 (fixed by the format)
   if (!(x < largest)) return x >= largest ? std::numeric_limits<double>::infinity() : x;
   if (x < least) return 0;
   constexpr double terms[] = {1.0 / 2,       1.0 / 6,        1.0 / 24,        1.0 / 120,
@@ -146,7 +152,7 @@ inline double tan(double x) {
 
 /// The angle of (x, y), finite, from the positive x axis, in [-pi, pi]; signs of zeros count as for std::atan2.
 inline double atan2(double y, double x) {
-  constexpr double pi = 3.14159265358979323846;
+  using std::numbers::pi;
   const double u = std::abs(x), v = std::abs(y);
   double angle = v <= u ? (u == 0 ? 0 : detail::arc_tangent(v / u)) : pi / 2 - detail::arc_tangent(u / v);
   if (std::signbit(x)) angle = pi - angle;

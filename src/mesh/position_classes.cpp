@@ -17,9 +17,8 @@ std::vector<Index> exact_classes(std::span<const double> positions) {
   for (std::size_t v = 0; v < n; ++v) {
     const double* p = &positions[3 * v];
     // Adding 0.0 turns -0.0 into 0.0, so that equal numbers have equal bits.
-    const std::uint64_t hash =
-        hash_of(bit_cast<std::uint64_t>(p[0] + 0.0), bit_cast<std::uint64_t>(p[1] + 0.0),
-                bit_cast<std::uint64_t>(p[2] + 0.0));
+    const std::uint64_t hash = hash_of(bit_cast<std::uint64_t>(p[0] + 0.0), bit_cast<std::uint64_t>(p[1] + 0.0),
+                                       bit_cast<std::uint64_t>(p[2] + 0.0));
     const Index found = table.find_or_add(hash, static_cast<Index>(first.size()), [&](Index id) {
       const double* q = &positions[3 * static_cast<std::size_t>(first[id])];
       return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
@@ -44,8 +43,7 @@ std::vector<Index> tolerant_classes(std::span<const double> positions, double to
                 std::floor(p[2] / tolerance) + 0.0};
   };
   const auto hash_cell = [](const Cell& c) {
-    return hash_of(bit_cast<std::uint64_t>(c[0]), bit_cast<std::uint64_t>(c[1]),
-                   bit_cast<std::uint64_t>(c[2]));
+    return hash_of(bit_cast<std::uint64_t>(c[0]), bit_cast<std::uint64_t>(c[1]), bit_cast<std::uint64_t>(c[2]));
   };
   std::vector<Cell> cells(first.size());
   std::vector<Index> next_in_cell(first.size(), -1);  // the table holds the first of each cell

@@ -136,7 +136,7 @@ TEST(SeifertSurface, flat_and_steep_knots_and_planar_diagrams_are_spanned) {
   }
   EXPECT_TRUE(spanned(parse_link("X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]"), {.fair = false}).hold());
   Link flat = knot_of_table("4_1");
-  for (std::size_t k = 2; k < flat.components[0].size(); k += 3) flat.components[0][k] *= 1e-9;
+  for (std::size_t k = 2; k < flat.components[0].size(); k += 3) flat.components[0][k] *= 1e-14;
   EXPECT_THROW(spanned(flat, {.fair = false}), std::invalid_argument);
 }
 

@@ -9,7 +9,8 @@ import unittest
 import pages
 
 # Options of other programs that pages name.
-OTHERS = {"--build", "--install", "--preset", "--prefix", "--strict", "--no-build-isolation", "--system-site-packages"}
+OTHERS = {"--build", "--install", "--preset", "--prefix", "--roots", "--strict", "--no-build-isolation", "--system-site-packages",
+          "--tests"}
 
 
 class ManPage(unittest.TestCase):

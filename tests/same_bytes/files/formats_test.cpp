@@ -64,18 +64,23 @@ std::string ply(const Surface& surface) {
   return bytes;
 }
 
-/// Of a surface of triangles.
+/// Polygons as fans.
 std::string stl(const Surface& surface) {
-  std::string bytes(80, ' ');
-  append(bytes, static_cast<std::uint32_t>(SurfaceView(surface).face_count()));
+  std::string triangles;
+  std::uint32_t count = 0;
   for (std::size_t f = 0; f < SurfaceView(surface).face_count(); ++f) {
-    for (int k = 0; k < 3; ++k) append(bytes, 0.0F);
-    for (const std::int32_t v : SurfaceView(surface).face(f))
-      for (std::size_t k = 0; k < 3; ++k)
-        append(bytes, static_cast<float>(surface.positions[3 * static_cast<std::size_t>(v) + k]));
-    append(bytes, std::uint16_t{0});
+    const auto corners = SurfaceView(surface).face(f);
+    for (std::size_t c = 2; c < corners.size(); ++c, ++count) {
+      for (int k = 0; k < 3; ++k) append(triangles, 0.0F);
+      for (const std::int32_t v : {corners[0], corners[c - 1], corners[c]})
+        for (std::size_t k = 0; k < 3; ++k)
+          append(triangles, static_cast<float>(surface.positions[3 * static_cast<std::size_t>(v) + k]));
+      append(triangles, std::uint16_t{0});
+    }
   }
-  return bytes;
+  std::string bytes(80, ' ');
+  append(bytes, count);
+  return bytes + triangles;
 }
 
 Bytes repaired(const std::string& bytes, Format format) {
@@ -92,11 +97,11 @@ Bytes repaired(const std::string& bytes, Format format) {
 }
 
 TEST(same_bytes_of_files, meshes) {
-  const Surface quads = make_sample("overlapping_quads", 20), triangles = make_sample("crossing_tubes", 14);
+  const Surface quads = make_sample("overlapping_quads", 20), tubes = make_sample("crossing_tubes", 14);
   expect_known("OBJ file", repaired(obj(quads), Format::obj));
   expect_known("OFF file", repaired(off(quads), Format::off));
   expect_known("PLY file", repaired(ply(quads), Format::ply));
-  expect_known("STL file", repaired(stl(triangles), Format::stl));
+  expect_known("STL file", repaired(stl(tubes), Format::stl));
 }
 
 TEST(same_bytes_of_files, drawings) {

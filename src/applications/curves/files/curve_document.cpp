@@ -36,7 +36,7 @@ std::string digits_of(double value) {
 
 double rounded(double value, double rounding) {
   if (!(rounding > 0)) return value;
-  constexpr double slack = 1e-9;  // far above the error of the logarithm of a power of ten
+  constexpr double slack = 1e-9;  // far above the error of the logarithm of a power of ten (no unit)
   const double decimals = std::ceil(-portable::log(rounding) / portable::log(10) - slack);
   if (!(decimals >= 0 && decimals <= 300)) return value;
   // By way of the text, so that few digits give it back.
