@@ -147,7 +147,7 @@ class SequenceRun {
     files_->claim(places);
     places.reads("--fix-vertices", options_.fix_vertices);
     const fs::path record = path_of(options_.output) / record_name;
-    places.writes("the record of what is done", record);
+    places.writes("the record of what is done", record.string());
     places.writes("--report", options_.report);
     for (const fs::path& place : {record, path_of(options_.report)})
       if (!place.empty() && !is_stream(place.string())) StagedOutput(interruption_).files().open(place);
