@@ -30,6 +30,11 @@ target_include_directories(unsnarl_compile_options INTERFACE
 target_compile_options(unsnarl_compile_options INTERFACE
   -ffile-prefix-map=${PROJECT_BINARY_DIR}=build -ffile-prefix-map=${PROJECT_SOURCE_DIR}=.)
 
+if(WIN32)
+  add_compile_definitions(_WIN32_WINNT=0x0A00)  # Windows 10 and later
+  add_compile_definitions(__USE_MINGW_ANSI_STDIO=1)  # printf() and the like as in C99
+endif()
+
 # A mistake in memory ends the program rather than being of use to a hostile file; tests/packaging/hardening_test.py
 # reads it off what is built. Sanitizers do this and more, in ways of their own.
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT flags_of_the_user MATCHES "-fsanitize" AND NOT UNSNARL_BUILD_FUZZERS)

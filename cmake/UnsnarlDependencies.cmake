@@ -23,8 +23,6 @@ find_package(Threads REQUIRED)
 unsnarl_package(libeigen3-dev Eigen3 3.4 NO_MODULE)
 if(UNSNARL_USE_TBB)
   unsnarl_package(libtbb-dev TBB)
-elseif(UNSNARL_BUILD_APPS)
-  message(FATAL_ERROR "The program needs oneTBB; the library does not: -DUNSNARL_BUILD_APPS=OFF")
 endif()
 set(UNSNARL_TBB_LIBRARY "")  # what library and tests are linked with for it
 if(UNSNARL_USE_TBB)
@@ -43,9 +41,6 @@ if(UNSNARL_BUILD_IO)
   unsnarl_package(zlib1g-dev ZLIB)
   unsnarl_package(libpugixml-dev pugixml)  # SVG, GIFTI, VTP, 3MF
   unsnarl_library(libzip-dev ZIP_LIBRARY zip)  # Debian's libzip-config.cmake asks for its programs too
-endif()
-if(UNSNARL_BUILD_APPS)
-  unsnarl_package(libssl-dev OpenSSL COMPONENTS Crypto)  # SHA-256 of what batches and sequences have done
 endif()
 if(UNSNARL_BUILD_APPS OR UNSNARL_BUILD_BENCHMARKS)
   unsnarl_package(libcli11-dev CLI11)

@@ -15,6 +15,7 @@
 #include "unsnarl/document.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/parts.h"
+#include "unsnarl/paths.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -84,9 +85,9 @@ CLI::Validator number_below(double least, double bound, Unit unit) {
 CLI::Validator not_negative(Unit unit) {
   return number_within(0, unbounded, unit);
 }
-CLI::Validator whole_number_within(long least, long most) {
+CLI::Validator whole_number_within(std::int64_t least, std::int64_t most) {
   const auto fault = [least, most](const std::string& text) {
-    long number = 0;
+    std::int64_t number = 0;
     if (CLI::detail::lexical_cast(text, number) && number >= least && number <= most) return std::string();
     return most == std::numeric_limits<std::int32_t>::max()
                ? fmt::format("must be a whole number, {} or more, not '{}'", least, text)
@@ -99,8 +100,8 @@ CLI::Validator file_named(std::vector<std::string> extensions, bool folders, con
   const auto fault = [=](const std::string& path) {
     if (is_stream(path) || path.ends_with('/')) return std::string();
     std::error_code ignored;
-    if (folders && std::filesystem::is_directory(path, ignored)) return std::string();
-    std::string extension = CLI::detail::to_lower(std::filesystem::path(path).extension().string());
+    if (folders && std::filesystem::is_directory(path_of(path), ignored)) return std::string();
+    std::string extension = CLI::detail::to_lower(path_of(path).extension().string());
     extension.erase(0, 1);
     if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return std::string();
     return fmt::format("must be named *.{}, not '{}'{}", fmt::join(extensions, " or *."), path,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ inline constexpr Unit none = {"is a number, as in 0.5"};
 CLI::Validator number_within(double least, double most, Unit unit);
 CLI::Validator number_below(double least, double bound, Unit unit);  ///< the bound itself is not allowed
 CLI::Validator not_negative(Unit unit);
-CLI::Validator whole_number_within(long least, long most);
+CLI::Validator whole_number_within(std::int64_t least, std::int64_t most);
 /// The name of a file to be written has to end in one of these ("png"), unless it is a stream or device; what is
 /// written there has no other format. Folders are allowed where `folders` says so. `advice`: what else to do.
 CLI::Validator file_named(std::vector<std::string> extensions, bool folders = false, const std::string& advice = "");

@@ -20,6 +20,7 @@
 #include "standard_streams.h"
 #include "unsnarl/curves.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/version.h"
 #include "unsnarl/visible_text.h"
 #include "usage_error.h"
@@ -143,7 +144,7 @@ class Curves {
       outputs.add(options_.output, bytes);
       return;
     }
-    const std::filesystem::path place = outputs.add(options_.output, {OutputFile{{}, bytes}});
+    const std::filesystem::path place = outputs.add(path_of(options_.output), {OutputFile{{}, bytes}});
     require_kept(read_bytes(place.string()));
   }
 

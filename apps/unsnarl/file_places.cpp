@@ -1,13 +1,14 @@
 #include "file_places.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 
 #include "mesh_input.h"
+#include "platform/files.h"
 #include "staged_output.h"
 #include "standard_streams.h"
+#include "unsnarl/paths.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -22,27 +23,27 @@ std::vector<std::string> identities_of(const fs::path& path) {
   const fs::path absolute = fs::absolute(path, error);
   const fs::path canonical = fs::weakly_canonical(absolute, error);
   std::vector<std::string> identities = {(error ? absolute.lexically_normal() : canonical).string()};
-  struct stat status {};
-  if (::stat(path.c_str(), &status) == 0)
-    identities.push_back(fmt::format("file {} on device {}", status.st_ino, status.st_dev));
+  const platform::FileStatus status = platform::status_of(path);
+  if (status.kind != platform::FileKind::none)
+    identities.push_back(fmt::format("file {} on device {}", status.stamp.inode, status.stamp.device));
   return identities;
 }
 
-bool is_device(const fs::path& path) {
-  return path != standard_stream && is_stream(path.string());
+bool is_device(const std::string& path) {
+  return path != standard_stream && is_stream(path);
 }
 
 }  // namespace
 
-void FilePlaces::reads(const std::string& what, const fs::path& path) {
-  if (path.empty() || is_stream(path.string())) return;
-  claim(path, {what, "", false});
+void FilePlaces::reads(const std::string& what, const std::string& path) {
+  if (path.empty() || is_stream(path)) return;
+  claim(path_of(path), {what, "", false});
 }
 
-void FilePlaces::writes(const std::string& what, const fs::path& path, const std::string& advice) {
+void FilePlaces::writes(const std::string& what, const std::string& path, const std::string& advice) {
   if (path.empty() || is_device(path)) return;
-  claim(path, {what, advice, true});
-  if (path != standard_stream) outputs_.push_back(path);
+  claim(path_of(path), {what, advice, true});
+  if (path != standard_stream) outputs_.push_back(path_of(path));
 }
 
 void FilePlaces::claim(const fs::path& path, const File& file) {

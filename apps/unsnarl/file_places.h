@@ -17,10 +17,10 @@ class FilePlaces {
 
   /// `what` is named in messages: "the input", "--fix-vertices". Empty paths and streams are passed over.
   /// Throws UsageError where an output has this place.
-  void reads(const std::string& what, const std::filesystem::path& path);
+  void reads(const std::string& what, const std::string& path);
   /// Standard output takes one output; pipes and devices any number. `advice` says what to do instead.
   /// Throws UsageError where an input or another output has this place.
-  void writes(const std::string& what, const std::filesystem::path& path, const std::string& advice = other_name);
+  void writes(const std::string& what, const std::string& path, const std::string& advice = other_name);
   /// The same of files of these names beside an output `main`, relative to its folder; they may be in subfolders that
   /// are not there yet.
   void writes_beside(const std::string& what, const std::filesystem::path& main,

@@ -23,6 +23,7 @@
 #include "unsnarl/certify.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/page.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/pictures.h"
 #include "unsnarl/repair_file_steps.h"
 #include "unsnarl/report_json.h"
@@ -54,7 +55,7 @@ std::string checked_output(const FixOptions& options) {
     if (options.inputs[0] == standard_stream) throw UsageError("--in-place needs a file, not standard input");
   } else if (options.output.empty()) {
     const std::string wanted = options.inputs.back();
-    const bool is_result = options.inputs.size() == 2 && !is_there(wanted);
+    const bool is_result = options.inputs.size() == 2 && !is_there(path_of(wanted));
     throw UsageError("-o OUT is missing: the file to write the result to ('-' for standard output); or use --in-place" +
                      (is_result ? fmt::format(". For {0}: unsnarl fix {1} -o {0}", wanted, options.inputs[0]) : ""));
   }
@@ -63,9 +64,9 @@ std::string checked_output(const FixOptions& options) {
 
 /// Path that file `i` of those given is written to.
 fs::path target_of(const FixOptions& options, std::size_t i) {
-  const fs::path input = options.inputs[i];
+  const fs::path input = path_of(options.inputs[i]);
   if (options.in_place) return input;
-  return options.is_scene() ? fs::path(options.output) / input.filename() : fs::path(options.output);
+  return options.is_scene() ? path_of(options.output) / input.filename() : path_of(options.output);
 }
 
 /// All files but the external ones of glTF and GIFTI.
@@ -75,7 +76,7 @@ FilePlaces checked_places(const FixOptions& options) {
     for (const std::string& input : options.inputs) places.reads("the input", input);
   places.reads("--fix-vertices", options.fix_vertices);
   for (std::size_t i = 0; i < options.inputs.size(); ++i)
-    places.writes(options.in_place ? "the input" : "-o", target_of(options, i),
+    places.writes(options.in_place ? "the input" : "-o", target_of(options, i).string(),
                   options.is_scene() ? "use another folder" : "use --in-place to overwrite the input");
   places.writes("--report", options.report);
   places.writes("--highlight", options.highlight);
@@ -94,9 +95,11 @@ std::string names_of(const SceneDocument& scene) {
 FilesToRepair read(const FixOptions& options, const std::string& output) {
   RepairFileOptions places;
   places.in_place = options.in_place;
-  FilesToRepair files = files_to_repair(
-      std::make_shared<SceneDocument>(read_inputs(options.inputs, format_from_name(options.format))),
-      {options.inputs.begin(), options.inputs.end()}, options.in_place ? fs::path() : fs::path(output), places);
+  std::vector<fs::path> inputs;
+  for (const std::string& input : options.inputs) inputs.push_back(path_of(input));
+  FilesToRepair files =
+      files_to_repair(std::make_shared<SceneDocument>(read_inputs(options.inputs, format_from_name(options.format))),
+                      inputs, options.in_place ? fs::path() : path_of(output), places);
   if (is_stream(output)) files.targets.clear();
   return files;
 }
@@ -264,7 +267,7 @@ int fix_files(const FixOptions& options, Interruption& interruption) {
 /// is overwritten: the files that a broken input refers to are not known.
 void write_refusal(const FixOptions& options, std::string_view status, ExitCode exit_code, const std::string& error,
                    Interruption& interruption) {
-  const fs::path path = options.report;
+  const fs::path path = path_of(options.report);
   if (path.empty() || (is_there(path) && !is_stream(path.string()) && path.extension() != ".json")) return;
   const nlohmann::ordered_json json = {
       {"schema", "unsnarl-report"},

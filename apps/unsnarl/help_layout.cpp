@@ -1,12 +1,11 @@
 #include "help_layout.h"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <sstream>
+
+#include "platform/terminal.h"
 
 namespace unsnarl::app {
 namespace {
@@ -27,11 +26,6 @@ std::size_t width_of_environment() {
   const std::string_view text = given;
   std::from_chars(text.data(), text.data() + text.size(), width);
   return width;
-}
-
-std::size_t width_of_terminal() {
-  winsize size{};
-  return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
 std::string value_of(const CLI::Option& option) {
@@ -67,7 +61,7 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
 
 std::size_t help_width() {
   std::size_t width = width_of_environment();
-  if (width == 0) width = width_of_terminal();
+  if (width == 0) width = platform::terminal_width();
   if (width == 0) width = usual_width;
   return std::clamp(width, least_width, most_width);
 }

@@ -1,46 +1,22 @@
 #include "input_bytes.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 
 #include "mesh_input.h"
+#include "platform/files.h"
+#include "unsnarl/paths.h"
 
 namespace unsnarl::app {
-namespace {
-
-/// Open for reading until it goes; standard input stays open.
-class Input {
- public:
-  explicit Input(const std::string& path)
-      : id_(path == standard_stream ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-  ~Input() {
-    if (id_ > STDIN_FILENO) ::close(id_);
-  }
-  Input(const Input&) = delete;
-  Input& operator=(const Input&) = delete;
-  int id() const { return id_; }
-
- private:
-  int id_;
-};
-
-}  // namespace
-
 void read_pieces(const std::string& path, const std::function<void(std::string_view)>& take,
                  const std::string& advice) {
   const std::string name = path == standard_stream ? "standard input" : path;
-  const Input input(path);
-  if (input.id() < 0) throw_read_error(name + ": cannot open", errno, advice);
+  platform::InputFile input = path == standard_stream
+                                  ? platform::InputFile::standard_input()
+                                  : platform::InputFile(path_of(path), platform::InputFile::Opening::waits);
+  if (input.error() != 0) throw_read_error(name + ": cannot open", input.error(), advice);
   std::array<char, 1 << 16> piece;
-  for (;;) {
-    const ssize_t got = ::read(input.id(), piece.data(), piece.size());
-    if (got == 0) return;
-    if (got > 0) take({piece.data(), static_cast<std::size_t>(got)});
-    if (got < 0 && errno != EINTR) throw_read_error(name + ": cannot read", errno, advice);
-  }
+  while (const std::size_t got = input.read(piece.data(), piece.size())) take({piece.data(), got});
+  if (input.error() != 0) throw_read_error(name + ": cannot read", input.error(), advice);
 }
 
 std::string read_bytes(const std::string& path, const std::string& advice) {

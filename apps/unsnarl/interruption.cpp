@@ -1,13 +1,9 @@
 #include "interruption.h"
 
-#include <pthread.h>
-#include <signal.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <mutex>
-#include <thread>
 
+#include "platform/interruption.h"
 #include "unsnarl/exit_code.h"
 
 namespace unsnarl::app {
@@ -24,17 +20,6 @@ State& state() {
   return *state;
 }
 
-sigset_t signals_to_wait_for() {
-  sigset_t set;
-  sigemptyset(&set);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction current {};
-    sigaction(signal, nullptr, &current);
-    if (current.sa_handler != SIG_IGN) sigaddset(&set, signal);
-  }
-  return set;
-}
-
 /// No destructors run: the other threads are still at work. Precondition: the state is locked.
 [[noreturn]] void end_locked(int exit_code) {
   // Again and again, since the other threads may be writing into them.
@@ -49,24 +34,13 @@ sigset_t signals_to_wait_for() {
 
 Interruption::Interruption() {
   state();  // made while there is memory: it is needed where there is none
-  // A reader of our output that goes away is a failed write, with a message and an exit code, not a silent death.
-  signal(SIGPIPE, SIG_IGN);
-  // So is a file beyond the limit that the shell sets (ulimit -f).
-  signal(SIGXFSZ, SIG_IGN);
-  const sigset_t set = signals_to_wait_for();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  // Detached: it waits until the process ends.
-  std::thread([set] {
-    for (;;) {
-      int signal = 0;
-      if (sigwait(&set, &signal) != 0) return;
-      std::unique_lock lock(state().mutex);
-      if (!state().on_first) end_locked(exit_cancelled);
-      const std::function<void()> on_first = std::move(state().on_first);
-      state().on_first = nullptr;
-      on_first();
-    }
-  }).detach();
+  platform::take_requests_to_end([] {
+    std::unique_lock lock(state().mutex);
+    if (!state().on_first) end_locked(exit_cancelled);
+    const std::function<void()> on_first = std::move(state().on_first);
+    state().on_first = nullptr;
+    on_first();
+  });
 }
 
 Interruption::~Interruption() {

@@ -15,6 +15,7 @@
 #include "unsnarl/curves.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/isotopy.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/version.h"
 #include "unsnarl/visible_text.h"
 #include "usage_error.h"
@@ -138,10 +139,11 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
     return exit_code_of(made.status);
   }
 
-  const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
+  const auto path = [&](const std::string& name) { return (path_of(options.folder) / path_of(name)).string(); };
   const std::string surface = surface_file(made.surface, Format::obj, "isotopy by unsnarl; z is time", {});
   StagedOutput outputs(interruption);
-  const Document written = Document::read(outputs.add(path("surface.obj"), {OutputFile{{}, surface}}), Format::obj);
+  const Document written =
+      Document::read(outputs.add(path_of(path("surface.obj")), {OutputFile{{}, surface}}), Format::obj);
   FindOptions find;
   find.weld = Weld::none;
   if (written.surface().positions != made.surface.positions || written.surface().corners != made.surface.corners ||

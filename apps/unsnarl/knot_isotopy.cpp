@@ -14,6 +14,7 @@
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/knot_isotopy.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
@@ -133,7 +134,7 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
   const Link start = read_link(options.start), end = read_link(options.end);
   places.require_writable(interruption);
   if (!options.check.empty()) return check_file(options, start, end, interruption);
-  const OutputFolder folder(options.folder);  // is gone again where nothing is written into it
+  const OutputFolder folder(path_of(options.folder));  // is gone again where nothing is written into it
   prepare_picture_folder(options.folder, "-o");
 
   KnotIsotopyOptions wanted;
@@ -155,7 +156,7 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
     return exit_code_of(made.status);
   }
 
-  const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
+  const auto path = [&](const std::string& name) { return (path_of(options.folder) / path_of(name)).string(); };
   StagedOutput outputs(interruption);
   KnotIsotopyFindings found = check_knot_isotopy(made, start, end);
   std::vector<OutputFile> files{{{}, knot_isotopy_json(made, found)},
@@ -164,7 +165,7 @@ int run_knot_isotopy(const KnotIsotopyCommandOptions& options, Interruption& int
   for (int k = 0; k < options.frames; ++k)
     files.push_back({fmt::format("frame_{:04}.xyz", k),
                      link_text(knot_isotopy_slice(made, static_cast<double>(k) / (options.frames - 1)))});
-  const fs::path written = outputs.add(path("isotopy.json"), files);
+  const fs::path written = outputs.add(path_of(path("isotopy.json")), files);
   found = check_knot_isotopy(parse_knot_isotopy(read_bytes(written.string())), start, end);
   if (!found.hold()) throw std::logic_error("the isotopy to be written does not hold: " + as_text(found));
   if (!options.report.empty()) {

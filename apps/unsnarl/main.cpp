@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,7 +7,6 @@
 #include <iostream>
 #include <memory>
 #include <new>
-#include <optional>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -22,6 +20,8 @@
 #include "isotopy.h"
 #include "knot_isotopy.h"
 #include "memory_guard.h"
+#include "platform/files.h"
+#include "platform/terminal.h"
 #include "routes.h"
 #include "sample.h"
 #include "seifert.h"
@@ -30,6 +30,7 @@
 #include "unsnarl/exit_code.h"
 #include "unsnarl/limit_reached.h"
 #include "unsnarl/repair.h"
+#include "unsnarl/threads.h"
 #include "unsnarl/version.h"
 #include "unsnarl/visible_text.h"
 #include "usage.h"
@@ -110,7 +111,7 @@ int run(int argc, char** argv) {
                              {exit_gap_not_met, "no self-intersections, but a gap is smaller than --min-gap asks"}}) +
                  "\n\n"
                  "'unsnarl COMMAND --help' explains the options of a command.");
-  const std::vector<std::string> words = with_usual_spelling({argv + 1, argv + argc});
+  const std::vector<std::string> words = with_usual_spelling(platform::command_line(argc, argv));
   try {
     program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& e) {
@@ -118,9 +119,7 @@ int run(int argc, char** argv) {
     program.exit(e, std::cout, std::cerr);
     return exit_embedded;
   }
-  std::optional<tbb::global_control> limit;
-  if (const int threads = *fix_command ? fix.threads : *view_command ? view.threads : check.threads; threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const ThreadLimit limit(*fix_command ? fix.threads : *view_command ? view.threads : check.threads);
   if (*fix_command) return run_fix(fix, interruption);
   if (*batch_command) return run_batch(batch, interruption);
   if (*check_command) return run_check(check, interruption);
@@ -173,7 +172,7 @@ ExitCode explain_error() {
     const auto* const system = dynamic_cast<const std::system_error*>(&e);
     if (is_about_threads(e) || (system && system->code() == std::errc::resource_unavailable_try_again))
       return complain_of_memory("not enough memory to start threads; --threads 1 needs the least");
-    if (system && is_error_of_system(system->code().value())) return complain(exit_system_error, e.what());
+    if (system && is_error_of_system(platform::errno_of(system->code()))) return complain(exit_system_error, e.what());
     return complain(exit_internal_error, fmt::format("internal error: {}. {}", e.what(), advice_on_defects(homepage)));
   }
 }
@@ -188,7 +187,7 @@ ExitCode explain_error() {
 
 int main(int argc, char** argv) {
   using namespace unsnarl::app;
-  open_missing_streams();
+  unsnarl::platform::prepare_standard_streams();
   std::set_terminate(explain_and_end);
   try {
     return run(argc, argv);

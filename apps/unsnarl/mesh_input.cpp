@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "input_bytes.h"
+#include "unsnarl/paths.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -18,7 +19,7 @@ std::optional<Format> format_from_name(const std::string& name) {
 }
 
 Document read_mesh(const std::string& path, const std::optional<Format>& format) {
-  if (path != standard_stream) return Document::read(path, format);
+  if (path != standard_stream) return Document::read(path_of(path), format);
   if (!format) throw UsageError("the format of standard input is unknown; add --format, as in --format obj");
   return Document::parse(read_bytes(standard_stream), *format);
 }
@@ -28,7 +29,7 @@ std::vector<std::string> scene_names(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (path == standard_stream && paths.size() > 1)
       throw UsageError("'-' (standard input) must be the only input; the files of a scene need names");
-    names.push_back(std::filesystem::path(path).filename().string());
+    names.push_back(path_of(path).filename().string());
     for (std::size_t i = 0; i + 1 < names.size(); ++i)
       if (names[i] == names.back())
         throw UsageError(
@@ -50,7 +51,7 @@ void claim_input(FilePlaces& places, const std::string& what, const std::string&
   places.reads(what, path);
   if (path == standard_stream) return;
   for (const std::filesystem::path& name : external_files(document))
-    places.reads("an external file of " + what, std::filesystem::path(path).parent_path() / name);
+    places.reads("an external file of " + what, (path_of(path).parent_path() / name).string());
 }
 
 void claim_inputs(FilePlaces& places, const std::string& what, const std::vector<std::string>& paths,

@@ -1,11 +1,10 @@
 #include "progress.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "platform/terminal.h"
 #include "standard_streams.h"
 #include "usage_error.h"
 
@@ -25,7 +24,7 @@ ProgressStyle progress_style(const std::string& name, bool quiet) {
   if (name == "none") return ProgressStyle::none;
   if (name != "auto") throw UsageError("--progress must be 'auto', 'json' or 'none', not '" + name + "'");
   if (quiet) return ProgressStyle::none;
-  return ::isatty(STDERR_FILENO) ? ProgressStyle::line : ProgressStyle::log;
+  return platform::is_terminal_of_standard_error() ? ProgressStyle::line : ProgressStyle::log;
 }
 
 ProgressDisplay::ProgressDisplay(const std::string& style, bool quiet)

@@ -15,6 +15,7 @@
 #include "standard_streams.h"
 #include "surface_files.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/pictures.h"
 #include "unsnarl/routes.h"
 #include "unsnarl/visible_text.h"
@@ -102,7 +103,7 @@ std::vector<std::string> names_of(const RoutePlan& plan) {
 /// Adds tubes that are read back as they are and of which none meets another, nor an obstacle; false: they do not hold.
 bool add_tubes(const std::string& path, const RoutePlan& plan, const Surface& tubes, StagedOutput& outputs) {
   const std::string bytes = surface_file(tubes, Format::obj, "tubes of routes by unsnarl", names_of(plan));
-  const Document written = Document::read(outputs.add(path, {OutputFile{{}, bytes}}), Format::obj);
+  const Document written = Document::read(outputs.add(path_of(path), {OutputFile{{}, bytes}}), Format::obj);
   return written.surface().positions == tubes.positions && written.surface().corners == tubes.corners &&
          pairs_of_tubes(plan, written.surface()).empty();
 }
@@ -155,7 +156,7 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
                        left.size()));
     return repaired.status == Status::embedded ? exit_intersecting : exit_code_of(repaired.status);
   }
-  const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
+  const auto path = [&](const std::string& name) { return (path_of(options.folder) / path_of(name)).string(); };
   StagedOutput outputs(interruption);
   if (!add_tubes(path("tubes.obj"), plan, after, outputs)) return tell_broken_tubes(options);
   outputs.add(path("picture.png"), picture(plan, tubes, after, parts, "free tubes"));
@@ -212,7 +213,7 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
   if (options.folder.empty() == options.check.empty())
     throw UsageError("'unsnarl routes' needs -o DIR, to make routes, or --check ROUTES.json, to certify some");
   const RoutePlan plan = parse_file(options.plan, [&](const std::string& bytes) {
-    return parse_route_plan(bytes, options.plan == standard_stream ? fs::path() : fs::path(options.plan).parent_path());
+    return parse_route_plan(bytes, options.plan == standard_stream ? fs::path() : path_of(options.plan).parent_path());
   });
   if (!options.check.empty()) return check_file(options, plan);
   if (options.free_tubes && plan.timed)
@@ -228,11 +229,11 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
   if (options.free_tubes && !made.asked.empty()) return run_free_tubes(options, plan, made, interruption);
   if (made.status != Status::embedded) return tell_failure(options, plan, made);
 
-  const auto path = [&](const std::string& name) { return (fs::path(options.folder) / name).string(); };
+  const auto path = [&](const std::string& name) { return (path_of(options.folder) / path_of(name)).string(); };
   std::vector<SceneFile> parts;
   const Surface tubes = route_tubes(plan, made.routes, options.sides, &parts);
   StagedOutput outputs(interruption);
-  const fs::path written = outputs.add(path("routes.json"), {OutputFile{{}, routes_json(plan, made)}});
+  const fs::path written = outputs.add(path_of(path("routes.json")), {OutputFile{{}, routes_json(plan, made)}});
   const RouteFindings found = check_routes(plan, parse_routes(read_bytes(written.string()), plan));
   if (!found.hold()) throw std::logic_error("the routes to be written do not hold: " + route_faults(plan, found));
   if (!add_tubes(path("tubes.obj"), plan, tubes, outputs)) return tell_broken_tubes(options);

@@ -13,6 +13,7 @@
 #include "standard_streams.h"
 #include "surface_files.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/pictures.h"
 #include "unsnarl/seifert.h"
 #include "unsnarl/version.h"
@@ -182,7 +183,7 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     if (!certify(Document::parse(bytes, *format))) return tell_failure(options, seifert_faults(found));
     outputs.add(options.output, bytes);
   } else {
-    const std::filesystem::path place = outputs.add(options.output, {OutputFile{{}, bytes}});
+    const std::filesystem::path place = outputs.add(path_of(options.output), {OutputFile{{}, bytes}});
     if (!certify(Document::read(place, *format))) return tell_failure(options, seifert_faults(found));
   }
   if (!options.picture.empty()) {

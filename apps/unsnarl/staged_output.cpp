@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "standard_streams.h"
+#include "unsnarl/paths.h"
 
 namespace unsnarl::app {
 
@@ -36,7 +37,7 @@ StagedOutput::StagedOutput(Interruption& interruption) : files_(held_off(interru
 
 void StagedOutput::add(const std::string& path, std::string bytes) {
   if (is_stream(path)) return streams_.push_back({path, std::move(bytes)});
-  files_.add(path, bytes);
+  files_.add(path_of(path), bytes);
 }
 
 void StagedOutput::write_streams() {

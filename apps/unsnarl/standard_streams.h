@@ -5,10 +5,6 @@
 
 namespace unsnarl::app {
 
-/// Opens /dev/null in place of standard streams that were closed at the start. Else a file opened later would take
-/// their number, and what is meant for a person would end up in it.
-void open_missing_streams();
-
 /// Lines to standard error, as visible_text() of each. Where that is closed or full there is nobody to tell, which is
 /// no error.
 void tell(std::string_view lines);

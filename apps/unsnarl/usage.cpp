@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "suggestions.h"
+#include "unsnarl/paths.h"
 
 namespace unsnarl::app {
 namespace {
@@ -30,7 +31,7 @@ std::string explain_missing_command(const CLI::App& program, const std::vector<s
   const std::string given = words.empty() ? std::string() : words.front();
   if (given.empty() || given[0] == '-') return "No command was given." + commands;
   std::error_code ignored;
-  if (std::filesystem::exists(given, ignored))
+  if (std::filesystem::exists(path_of(given), ignored))
     return fmt::format("'{0}' is a file, not a command. Use 'unsnarl check {0}' or 'unsnarl fix {0} -o OUT'.", given) +
            commands;
   std::vector<std::string> names_and_options = names;

@@ -1,7 +1,5 @@
 #include "version.h"
 
-#include <openssl/crypto.h>
-
 #include <CLI/Version.hpp>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +12,6 @@ std::string version_json() {
   nlohmann::ordered_json libraries;
   for (const LibraryVersion& library : unsnarl::libraries()) libraries[library.name] = library.version;
   libraries["CLI11"] = CLI11_VERSION;
-  libraries["OpenSSL"] = OpenSSL_version(OPENSSL_VERSION_STRING);
   libraries["three.js"] = UNSNARL_THREE_VERSION;
   return nlohmann::ordered_json{{"unsnarl", version}, {"libraries", libraries}}.dump();
 }

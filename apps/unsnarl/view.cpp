@@ -16,6 +16,7 @@
 #include "unsnarl/depth_limit.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/page.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/report_json.h"
 #include "unsnarl/visible_text.h"
 #include "usage_error.h"
@@ -51,10 +52,10 @@ Meshes sorted_out(const ViewOptions& options) {
   if (meshes.inputs.size() < 2) return meshes;
   const std::string last = meshes.inputs.back();
   std::error_code ignored;
-  if (std::filesystem::is_directory(last, ignored)) {
+  if (std::filesystem::is_directory(path_of(last), ignored)) {
     meshes.inputs.pop_back();
     for (const std::string& input : meshes.inputs)
-      meshes.repaired.push_back((std::filesystem::path(last) / std::filesystem::path(input).filename()).string());
+      meshes.repaired.push_back((path_of(last) / path_of(input).filename()).string());
   } else if (meshes.inputs.size() == 2 && !options.scene) {
     meshes.inputs.pop_back();
     meshes.repaired = {last};

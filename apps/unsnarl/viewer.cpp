@@ -3,11 +3,12 @@
 #include <filesystem>
 
 #include "mesh_input.h"
+#include "unsnarl/paths.h"
 
 namespace unsnarl::app {
 
 std::string page_name(const std::string& path) {
-  return path == standard_stream ? "mesh" : std::filesystem::path(path).filename().string();
+  return path == standard_stream ? "mesh" : path_of(path).filename().string();
 }
 
 std::string scene_name(const std::vector<std::string>& paths) {

@@ -2,15 +2,11 @@
 
 #include <cstdint>
 
-struct stat;
-
 namespace unsnarl {
 
 /// A file as it was at one time. Where anything differs later, somebody has changed the file or put another in its
 /// place.
 struct FileStamp {
-  FileStamp() = default;
-  explicit FileStamp(const struct stat& status);
   bool operator==(const FileStamp&) const = default;
 
   std::uint64_t device = 0, inode = 0;

@@ -9,6 +9,7 @@
 #include "arguments.h"
 #include "results.h"
 #include "unsnarl/parts.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/repair_file_steps.h"
 #include "unsnarl/stage_clock.h"
 #include "unsnarl/staged_files.h"
@@ -106,7 +107,7 @@ unsnarl_result repaired_document(unsnarl_document& document, const unsnarl_surfa
   options.in_place = path == nullptr;
   options.keep_partial = given.keep_partial != 0;
   options.no_partial = given.no_partial != 0;
-  const fs::path output = options.in_place ? fs::path() : fs::path(path);
+  const fs::path output = options.in_place ? fs::path() : path_of(path);
   const FilesToRepair files = files_to_repair(document.scene, document.paths, output, options);
   RepairedFiles done = repair_files(files, options, context);
   measure_clearances(files, options.repair, done);
@@ -141,7 +142,7 @@ int unsnarl_document_read(const char* path, const char* format, unsnarl_document
   return guarded([&] {
     require(path, "path");
     require(document, "document");
-    *document = read({path}, format_of(format)).release();
+    *document = read({path_of(path)}, format_of(format)).release();
   });
 }
 
@@ -152,7 +153,9 @@ int unsnarl_document_read_scene(const char* const* paths, size_t path_count, con
     require(document, "document");
     if (path_count == 0) throw std::invalid_argument("there are no paths; give those of the files of the scene");
     for (std::size_t i = 0; i < path_count; ++i) require(paths[i], "paths[i]");
-    *document = read({paths, paths + path_count}, format_of(format)).release();
+    std::vector<fs::path> files;
+    for (std::size_t i = 0; i < path_count; ++i) files.push_back(path_of(paths[i]));
+    *document = read(std::move(files), format_of(format)).release();
   });
 }
 
@@ -230,7 +233,7 @@ int unsnarl_document_check_output(const unsnarl_document* document, const char* 
   return guarded([&] {
     require(document, "document");
     require(path, "path");
-    writable_files(*document, path);
+    writable_files(*document, path_of(path));
   });
 }
 
@@ -239,7 +242,7 @@ int unsnarl_document_write(const unsnarl_document* document, const unsnarl_resul
     require(document, "document");
     require(repaired, "repaired");
     require(path, "path");
-    write(*document, *repaired, path);
+    write(*document, *repaired, path_of(path));
   });
 }
 
@@ -248,7 +251,7 @@ int unsnarl_document_write_partial(unsnarl_document* document, const unsnarl_res
     require(document, "document");
     require(repaired, "repaired");
     require(path, "path");
-    document->partial = write_partial(*document, *repaired, path);
+    document->partial = write_partial(*document, *repaired, path_of(path));
   });
 }
 

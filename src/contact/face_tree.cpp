@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "geometry/parallel_sums.h"
+
 namespace unsnarl {
 namespace {
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "unsnarl/threads.h"
+
 // OneTBB or threads of the standard library run loops in parallel. Only these files know which of them does.
 #ifndef UNSNARL_TBB
 #error "UNSNARL_TBB says whether oneTBB runs the loops: link with the target unsnarl_compile_options"
@@ -34,19 +36,10 @@ void run_isolated(Work&& work) {
   loops::run_isolated(std::forward<Work>(work));
 }
 
-/// Returns how many calls of a loop are made at a time, at most.
-inline int thread_count() {
-  return loops::thread_count();
-}
-
 /// A value for each thread that asks for one in a loop: PerThread(make), local(). It is made when the thread first
 /// asks.
 template <class Value>
 using PerThread = loops::PerThread<Value>;
-
-/// Holds the number of threads of the process down while it lives: ThreadLimit(threads); 0: as many as the machine has.
-/// The least of all that live counts.
-using ThreadLimit = loops::ThreadLimit;
 
 /// Returns the version of oneTBB; empty where the standard library runs the loops.
 inline std::string version_of_tbb() {

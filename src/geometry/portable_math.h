@@ -45,10 +45,10 @@ struct QuarterTurn {
 
 inline QuarterTurn reduce(double x) {
   // pi/2 in three parts, each but the last with 20 trailing zero bits: products with up to 2^20 quarters are exact.
-  constexpr double high = 0x1.921fb54400000p+0;     // (fixed by arithmetic)
-  constexpr double middle = 0x1.0b4611a600000p-34;  // (fixed by arithmetic)
-  constexpr double low = 0x1.3198a2e037073p-69;     // (fixed by arithmetic)
-  constexpr double most = 0x1p20;                   // (fixed by arithmetic)
+  constexpr double high = 0x1.921fb54400000p+0;     // the first part (fixed by arithmetic)
+  constexpr double middle = 0x1.0b4611a600000p-34;  // the second part (fixed by arithmetic)
+  constexpr double low = 0x1.3198a2e037073p-69;     // the third part (fixed by arithmetic)
+  constexpr double most = 0x1p20;                   // larger angles lose whole turns first (fixed by arithmetic)
   if (!(std::abs(x) < most)) x = std::remainder(x, 4 * high);
   const double quarters = (x * (1 / (high + middle)) + whole_from) - whole_from;
   return {((x - quarters * high) - quarters * middle) - quarters * low, static_cast<std::int64_t>(quarters) & 3};

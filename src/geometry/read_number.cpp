@@ -5,7 +5,7 @@
 #include <locale.h>
 #include <stdlib.h>
 #include <cmath>
-#if defined(__APPLE__)
+#if __has_include(<xlocale.h>)  // where <locale.h> has no strtod_l()
 #include <xlocale.h>
 #endif
 #include <string>

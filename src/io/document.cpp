@@ -11,6 +11,7 @@
 #include "io/foreign_formats.h"
 #include "io/formats.h"
 #include "io/mesh_file.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/visible_text.h"
 
 namespace unsnarl {
@@ -59,8 +60,7 @@ bool has_word(std::string_view words, std::string_view word) {
 }  // namespace
 
 std::filesystem::path with_infix(const std::filesystem::path& path, std::string_view infix) {
-  const std::filesystem::path name = path.stem().string() + std::string(infix) + path.extension().string();
-  return path.parent_path() / name;
+  return path.parent_path() / path_of(path.stem().string() + std::string(infix) + path.extension().string());
 }
 
 std::string_view to_string(Format format) {

@@ -9,10 +9,13 @@ namespace unsnarl {
 namespace {
 
 /// What a path can be the reason of: its name, its kind, its permissions, the file system or the stream that it is on.
-constexpr std::array errors_of_paths = {ENOENT, EACCES, EPERM,     EISDIR,     ENOTDIR,   ELOOP,  ENAMETOOLONG,
-                                        EINVAL, EILSEQ, EROFS,     EEXIST,     ENOTEMPTY, EBUSY,  EXDEV,
-                                        EMLINK, ENXIO,  EOVERFLOW, ENODEV,     ENOSPC,    EDQUOT, EFBIG,
-                                        EPIPE,  EBADF,  ENOSYS,    EOPNOTSUPP, ETXTBSY};
+constexpr std::array errors_of_paths = {ENOENT, EACCES, EPERM,     EISDIR, ENOTDIR,    ELOOP,  ENAMETOOLONG,
+                                        EINVAL, EILSEQ, EROFS,     EEXIST, ENOTEMPTY,  EBUSY,  EXDEV,
+                                        EMLINK, ENXIO,  EOVERFLOW, ENODEV, ENOSPC,
+#ifdef EDQUOT  // where there are quotas
+                                        EDQUOT,
+#endif
+                                        EFBIG,  EPIPE,  EBADF,     ENOSYS, EOPNOTSUPP, ETXTBSY};
 
 std::string with_reason(const std::string& message, int error_number) {
   return message + ": " + std::generic_category().message(error_number);

@@ -16,6 +16,7 @@
 #include "io/point_file.h"
 #include "io/text_scanner.h"
 #include "io/xml_text.h"
+#include "unsnarl/paths.h"
 
 namespace unsnarl {
 namespace {
@@ -47,11 +48,11 @@ class GiftiFile final : public PointFile {
     std::vector<TextEdit> edits;
     for (const Reference& reference : references) {
       const std::string name = own_name(main_name, reference.file);
-      if (name != external_files[reference.file]->name)
+      if (path_of(name) != external_files[reference.file]->name)
         edits.push_back({reference.value.begin, reference.value.begin + reference.value.size, in_attribute(name)});
     }
     std::vector<OutputFile> files = patched_with(std::move(edits), positions, float32_digits);
-    for (std::size_t i = 1; i < files.size(); ++i) files[i].name = own_name(main_name, i - 1);
+    for (std::size_t i = 1; i < files.size(); ++i) files[i].name = path_of(own_name(main_name, i - 1));
     return files;
   }
 
@@ -128,7 +129,7 @@ class GiftiParser {
   /// The file that an array lies in, read when it is first named. Throws FileError.
   std::size_t external_file(const pugi::xml_node& element) {
     const pugi::xml_attribute attribute = element.attribute("ExternalFileName");
-    const fs::path given = XmlText::value(attribute), name = given.lexically_normal();
+    const fs::path given = named_path(XmlText::value(attribute)), name = given.lexically_normal();
     if (given.empty())
       throw FileError("its numbers are in another file, but ExternalFileName does not say which; the file is damaged");
     const fs::path place = linked_file(folder_, given);

@@ -11,6 +11,7 @@
 #include "geometry/portable_math.h"
 #include "io/base64.h"
 #include "io/image_collector.h"
+#include "io/linked_file.h"
 #include "io/uri.h"
 
 namespace unsnarl {
@@ -152,7 +153,7 @@ class AppearanceReader {
   }
 
   std::string image_at(const std::string& uri) const {
-    if (!uri.starts_with("data:")) return collector_.read_beside(folder_, percent_decoded(uri));
+    if (!uri.starts_with("data:")) return collector_.read_beside(folder_, named_path(percent_decoded(uri)));
     const std::size_t start = data_uri_start(uri);
     if (start == std::string::npos) throw FileError("its data: URI is not base64");
     collector_.require_room((uri.size() - start) / 4 * 3);

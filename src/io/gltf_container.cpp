@@ -41,7 +41,7 @@ std::string json_string(std::string_view text, std::string_view old_token) {
 
 /// The URI of the file with_infix(): its last part has the infix before the last dot, however that is written.
 std::string uri_with_infix(const std::string& uri, std::string_view infix) {
-  const std::string extension = std::filesystem::path(percent_decoded(uri)).extension().string();
+  const std::string extension = named_path(percent_decoded(uri)).extension().string();
   // The URI of an extension has at least as many characters as the extension: go back until it is the same.
   for (std::size_t at = uri.size();; --at) {
     if (percent_decoded(std::string_view(uri).substr(at)) == extension)
@@ -122,7 +122,7 @@ GltfBuffers::GltfBuffers(const std::vector<JsonText::Value>& json, std::string_v
       buffer.same_as = known.try_emplace(buffer.name, i).first->second;
       if (buffer.same_as != i) continue;
       try {
-        FileRead file = read_stamped_file(linked_file(folder, buffer.name.string()));
+        FileRead file = read_stamped_file(linked_file(folder, buffer.name));
         buffer.owned = std::move(file.bytes);
         buffer.stamp = file.stamp;
       } catch (const FileError& error) {
@@ -172,7 +172,7 @@ void GltfBuffers::load(std::size_t i, const JsonText::Value& json, std::string_v
     }
     return;
   }
-  buffer.name = std::filesystem::path(percent_decoded(uri)).lexically_normal();
+  buffer.name = named_path(percent_decoded(uri)).lexically_normal();
   if (uri.find("://") != std::string::npos)
     buffer.error =
         fmt::format("buffer {}: {} is not a file in the folder of the glTF file; put it there", i, in_quotes(uri));

@@ -7,6 +7,7 @@
 
 #include "io/mesh_file.h"
 #include "io/text_scanner.h"
+#include "unsnarl/paths.h"
 
 namespace unsnarl {
 namespace {
@@ -23,6 +24,11 @@ bool leads_inside(const fs::path& folder, const fs::path& name) {
 }
 
 }  // namespace
+
+fs::path named_path(std::string text) {
+  std::replace(text.begin(), text.end(), '\\', '/');
+  return path_of(text);
+}
 
 fs::path linked_file(const fs::path& folder, const fs::path& name) {
   const fs::path from = folder.empty() ? fs::path(".") : folder;

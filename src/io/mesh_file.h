@@ -57,9 +57,6 @@ FileRead read_stamped_file(const std::filesystem::path& path,
                            const std::function<void(std::string_view start)>& check_start = {});
 std::string read_file(const std::filesystem::path& path);
 
-/// Makes a file that was not there, on the disk when this returns. The errno of what failed; 0: nothing.
-int write_new_file(const std::filesystem::path& path, std::string_view bytes);
-
 /// Is this, as a mesh file may refer to it, a name of a file in or below its own folder? Only these are read and, at
 /// the output, written.
 bool is_inside_folder(const std::filesystem::path& name);

@@ -87,7 +87,7 @@ class ObjAppearanceReader {
   /// Several names may stand in a line, and one may hold blanks.
   void libraries(std::string names) {
     std::replace(names.begin(), names.end(), '\\', '/');
-    if (std::error_code ignored; std::filesystem::exists(folder_ / names, ignored)) return library(names);
+    if (std::error_code ignored; std::filesystem::exists(folder_ / named_path(names), ignored)) return library(names);
     TextScanner text(names, {});
     while (text.skip_blanks()) {
       const std::string_view name = text.token();
@@ -97,7 +97,7 @@ class ObjAppearanceReader {
   }
   void library(std::string_view name) {
     try {
-      const std::filesystem::path place = linked_file(folder_, name);
+      const std::filesystem::path place = linked_file(folder_, named_path(std::string(name)));
       std::error_code failed;
       if (std::filesystem::file_size(place, failed) > most_mtl_bytes && !failed)
         throw FileError(fmt::format("more than {} MB", most_mtl_bytes / 1000000));
@@ -129,7 +129,7 @@ class ObjAppearanceReader {
   std::int32_t image(std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     return collector_.add(name, [&] {
-      std::filesystem::path path = name;
+      std::filesystem::path path = named_path(name);
       std::error_code ignored;
       if (!is_inside_folder(path) || !std::filesystem::exists(folder_ / path, ignored)) {
         const std::filesystem::path beside = path.filename();

@@ -1,15 +1,12 @@
 #include "unsnarl/staged_files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <stdlib.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 
 #include "io/mesh_file.h"
+#include "platform/files.h"
 
 namespace unsnarl {
 namespace {
@@ -23,7 +20,7 @@ fs::path with_links_followed(const fs::path& path) {
   std::error_code error;
   if (!fs::is_symlink(path, error)) return path;
   const fs::path target = fs::weakly_canonical(path, error);
-  if (error) throw_write_error(path.string() + ": cannot follow the link", error.value());
+  if (error) throw_write_error(path.string() + ": cannot follow the link", platform::errno_of(error));
   return target;
 }
 
@@ -31,34 +28,16 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// A move is only safe from a loss of power once the folder is on the disk; some file systems cannot, which is fine.
-void flush_folder(const fs::path& folder) {
-  const int id = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (id < 0) return;
-  static_cast<void>(::fsync(id));
-  ::close(id);
-}
-
-bool is_mount_point(const fs::path& path) {
-#ifdef STATX_ATTR_MOUNT_ROOT
-  struct statx status {};
-  return ::statx(AT_FDCWD, path.c_str(), AT_SYMLINK_NOFOLLOW, STATX_TYPE, &status) == 0 &&
-         (status.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
-#else
-  static_cast<void>(path);
-  return false;
-#endif
-}
-
 void require_replaceable(const fs::path& target) {
-  struct stat status {};
-  if (::stat(target.c_str(), &status) != 0) return;
-  if (S_ISDIR(status.st_mode))
+  const platform::FileKind kind = platform::status_of(target).kind;
+  if (kind == platform::FileKind::none) return;
+  if (kind == platform::FileKind::folder)
     throw WriteError(fmt::format("{}: is a folder; name a file in it", target.string()), EISDIR);
-  if (!S_ISREG(status.st_mode)) throw WriteError(fmt::format("{}: is not a regular file", target.string()));
+  if (kind != platform::FileKind::file) throw WriteError(fmt::format("{}: is not a regular file", target.string()));
   // Renaming would get past the protection of the old file.
-  if (::access(target.c_str(), W_OK) != 0) throw_write_error(target.string() + ": is write-protected", errno);
-  if (is_mount_point(target))
+  if (const int reason = platform::why_not_writable(target); reason != 0)
+    throw_write_error(target.string() + ": is write-protected", reason);
+  if (platform::is_mount_point(target))
     throw WriteError(
         fmt::format("{}: is a mount point, which no other file can take the place of; name another file, or mount its "
                     "folder instead",
@@ -100,17 +79,9 @@ void require_place_beside(const fs::path& target, const fs::path& name) {
   if (!leads_into(folder_of(target), folder))
     throw WriteError(fmt::format("{}: {} leads out of the folder of the result; write to another folder",
                                  place.string(), folder.string()));
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw_write_error(fmt::format("{}: cannot create files in the folder {}", place.string(), folder.string()), errno);
+  if (const int reason = platform::why_not_writable_folder(folder); reason != 0)
+    throw_write_error(fmt::format("{}: cannot create files in the folder {}", place.string(), folder.string()), reason);
   require_replaceable(place);
-}
-
-void copy_permissions(const fs::path& from, const fs::path& to) {
-  struct stat old {};
-  if (::stat(from.c_str(), &old) != 0) return;
-  // The group may be one we are not in; then the permissions must not grow for another group.
-  const bool same_group = ::chown(to.c_str(), static_cast<uid_t>(-1), old.st_gid) == 0;
-  static_cast<void>(::chmod(to.c_str(), old.st_mode & (same_group ? 0777 : 0707)));
 }
 
 }  // namespace
@@ -136,20 +107,21 @@ class StagedFiles::Moves {
   bool put_aside(std::size_t i) {
     const File& file = files_[i];
     failed_ = i;
-    bool is_aside = ::linkat(AT_FDCWD, file.target.c_str(), AT_FDCWD, file.old.c_str(), 0) == 0;
-    if (!is_aside && (errno == ENOENT || errno == ENOTDIR)) return true;  // there is none
-    is_aside = is_aside || ::rename(file.target.c_str(), file.old.c_str()) == 0;
+    const int reason = platform::give_second_name(file.target, file.old);
+    if (reason == ENOENT || reason == ENOTDIR) return true;  // there is none
+    const bool is_aside = reason == 0 || has_succeeded(platform::move_file(file.target, file.old));
     if (is_aside) states_[i] = State::put_aside;
     return is_aside;
   }
   bool make_folders() {
     for (; made_ < missing_.size(); ++made_)
-      if (::mkdir(missing_[made_].c_str(), 0777) != 0 && errno != EEXIST) return false;
+      if (const int reason = platform::make_folder(missing_[made_]); reason != EEXIST && !has_succeeded(reason))
+        return false;
     return true;
   }
   bool replace(std::size_t i) {
     failed_ = i;
-    if (::rename(files_[i].staged.c_str(), files_[i].target.c_str()) != 0) return false;
+    if (!has_succeeded(platform::move_file(files_[i].staged, files_[i].target))) return false;
     states_[i] = states_[i] == State::put_aside ? State::replaced : State::made;
     return true;
   }
@@ -157,22 +129,28 @@ class StagedFiles::Moves {
   bool take_back() {
     bool all = true;
     for (std::size_t i = 0; i < files_.size(); ++i) {
-      if (states_[i] == State::made) all &= ::unlink(files_[i].target.c_str()) == 0;
+      if (states_[i] == State::made) all &= platform::remove_file(files_[i].target) == 0;
       if (states_[i] == State::put_aside || states_[i] == State::replaced) all &= put_back(files_[i]);
     }
-    while (made_ > 0) ::rmdir(missing_[--made_].c_str());
+    while (made_ > 0) platform::remove_folder(missing_[--made_]);
     return all;
   }
   /// The file that the last step was about.
   const fs::path& failed() const { return files_[failed_].target; }
+  /// The errno of its failure.
+  int reason() const { return reason_; }
 
  private:
   enum class State : std::uint8_t { untouched, put_aside, replaced, made };
 
+  bool has_succeeded(int reason) {
+    if (reason != 0) reason_ = reason;
+    return reason == 0;
+  }
   static bool put_back(const File& file) {
-    if (::rename(file.old.c_str(), file.target.c_str()) == 0) return true;
-    ::unlink(file.target.c_str());
-    return ::linkat(AT_FDCWD, file.old.c_str(), AT_FDCWD, file.target.c_str(), 0) == 0;
+    if (platform::move_file(file.old, file.target) == 0) return true;
+    platform::remove_file(file.target);
+    return platform::give_second_name(file.old, file.target) == 0;
   }
   void find_missing_folders(const fs::path& folder) {
     std::error_code ignored;
@@ -186,6 +164,7 @@ class StagedFiles::Moves {
   std::vector<fs::path> missing_;  // folders, the outermost first
   std::size_t made_ = 0;           // of these
   std::size_t failed_ = 0;
+  int reason_ = 0;
 };
 
 StagedFiles::StagedFiles(Guard guard) : guard_(std::move(guard)), reserve_(new char[reserve_size]) {}
@@ -212,10 +191,10 @@ void StagedFiles::remove_folders() {
 /// Without listing folders, for which there may be no descriptor left.
 void StagedFiles::remove_known_files(const fs::path& staging) const {
   for (const File& file : files_) {
-    ::unlink(file.staged.c_str());
-    ::unlink(file.old.c_str());
+    platform::remove_file(file.staged);
+    platform::remove_file(file.old);
   }
-  for (const fs::path& folder : {staging / new_folder, staging / old_folder, staging}) ::rmdir(folder.c_str());
+  for (const fs::path& folder : {staging / new_folder, staging / old_folder, staging}) platform::remove_folder(folder);
 }
 
 void StagedFiles::open(const fs::path& target, Links links) {
@@ -226,15 +205,12 @@ void StagedFiles::open(const fs::path& target, Links links) {
 }
 
 void StagedFiles::make_folder(const fs::path& target, const fs::path& folder) {
-  std::string pattern = (folder / ".unsnarl-XXXXXX").string();
   const auto entry = folders_.emplace(folder, fs::path()).first;
-  if (::mkdtemp(pattern.data()) == nullptr) {
-    const int reason = errno;
+  if (const int reason = platform::make_temporary_folder(folder, ".unsnarl-", entry->second); reason != 0) {
     folders_.erase(entry);
     throw_write_error(fmt::format("{}: cannot create files in the folder {}", target.string(), folder.string()),
                       reason);
   }
-  entry->second = std::move(pattern);
 }
 
 void StagedFiles::open_beside(const fs::path& target, const std::vector<fs::path>& names) {
@@ -262,7 +238,7 @@ fs::path StagedFiles::add(const fs::path& target, const std::vector<OutputFile>&
     std::error_code error;
     // Whoever interrupts the process may have removed the temporary folder, which must not be made anew.
     if (fs::exists(staging, error)) fs::create_directories(added.staged.parent_path(), error);
-    const int failed = error ? error.value() : write_new_file(added.staged, file.bytes);
+    const int failed = error ? platform::errno_of(error) : platform::write_new_file(added.staged, file.bytes);
     if (failed != 0) throw_write_error(added.target.string() + ": cannot be written", failed);
     files_.push_back(added);
   }
@@ -277,19 +253,21 @@ std::vector<fs::path> StagedFiles::folders() const {
 }
 
 const StagedFiles::File* StagedFiles::changed_file() const {
-  struct stat status {};
-  for (const File& file : files_)
-    if (file.replaces && (::stat(file.old.c_str(), &status) != 0 || FileStamp(status) != *file.replaces)) return &file;
+  for (const File& file : files_) {
+    if (!file.replaces) continue;
+    const platform::FileStatus status = platform::status_of(file.old);
+    if (status.kind == platform::FileKind::none || status.stamp != *file.replaces) return &file;
+  }
   return nullptr;
 }
 
 void StagedFiles::prepare() const {
   for (const File& file : files_) {
     require_replaceable(file.target);
-    copy_permissions(file.target, file.staged);
+    platform::copy_permissions(file.target, file.staged);
     std::error_code error;
     fs::create_directories(file.old.parent_path(), error);
-    if (error) throw_write_error(file.target.string() + ": cannot be written", error.value());
+    if (error) throw_write_error(file.target.string() + ": cannot be written", platform::errno_of(error));
   }
 }
 
@@ -309,15 +287,14 @@ void StagedFiles::move_into_place() {
   const bool is_done =
       all(&Moves::put_aside) && moves.make_folders() && (changed = changed_file()) == nullptr && all(&Moves::replace);
   if (!is_done) {
-    const int reason = errno;
     is_kept_ = !moves.take_back();
     const std::string left = is_kept_ ? where_old_files_are() : "";
     if (changed != nullptr)
       throw ChangedMeanwhile(fmt::format("{}: was changed or replaced after it was read, and is left as it is{}",
                                          changed->target.string(), left));
-    throw_write_error(fmt::format("{}: cannot be written{}", moves.failed().string(), left), reason);
+    throw_write_error(fmt::format("{}: cannot be written{}", moves.failed().string(), left), moves.reason());
   }
-  for (const File& file : files_) flush_folder(folder_of(file.target));
+  for (const File& file : files_) platform::flush_folder(folder_of(file.target));
   files_.clear();
 }
 
@@ -337,7 +314,7 @@ OutputFolder::OutputFolder(const fs::path& path) {
   fs::create_directories(path, error);
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) {
-    if (error) throw_write_error(path.string() + ": cannot make this folder", error.value());
+    if (error) throw_write_error(path.string() + ": cannot make this folder", platform::errno_of(error));
     throw WriteError(path.string() + ": not a folder");
   }
   made_ = std::move(missing);

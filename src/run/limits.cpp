@@ -1,6 +1,6 @@
 #include "run/limits.h"
 
-#include "run/process_usage.h"
+#include "platform/usage.h"
 
 namespace unsnarl {
 
@@ -10,7 +10,7 @@ bool Limits::reached() {
       reason_ = static_cast<int>(Status::cancelled);
     else if (limits_.time_s > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() > limits_.time_s)
       reason_ = static_cast<int>(Status::time_limit);
-    else if (limits_.memory_mb > 0 && resident_memory_mb() > limits_.memory_mb)
+    else if (limits_.memory_mb > 0 && platform::resident_memory_mb() > limits_.memory_mb)
       reason_ = static_cast<int>(Status::memory_limit);
   }
   return reason_ != none;
@@ -25,7 +25,7 @@ bool Limits::has_passed(double share_of_time) {
 
 void Limits::run_out_of_memory() {
   reason_ = static_cast<int>(Status::memory_limit);
-  release_free_memory();
+  platform::release_free_memory();
 }
 
 Status Limits::status_or(Status status) const {

@@ -2,15 +2,15 @@
 
 #include <utility>
 
-#include "run/process_usage.h"
+#include "platform/usage.h"
 
 namespace unsnarl {
 
-StageClock::StageClock() : start_(std::chrono::steady_clock::now()), cpu_start_(cpu_seconds()) {}
+StageClock::StageClock() : start_(std::chrono::steady_clock::now()), cpu_start_(platform::cpu_seconds()) {}
 
 StageReport StageClock::stage(std::string name) const {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  return {std::move(name), seconds, cpu_seconds() - cpu_start_, peak_memory_mb()};
+  return {std::move(name), seconds, platform::cpu_seconds() - cpu_start_, platform::peak_memory_mb()};
 }
 
 }  // namespace unsnarl

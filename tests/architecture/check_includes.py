@@ -3,10 +3,11 @@
 
 layers  a file includes only from its own layer or one below, and the core, which works on arrays, nothing of files;
         public headers only each other and the standard library; the command line, the C interface and the examples
-        only public headers and files of their own folder
+        only public headers and files of their own folder, and the command line those of src/platform
 lgpl    the product includes nothing of libraries under the GPL or LGPL; its tests may
+systems only src/platform/posix and src/platform/windows include headers of a system, or ask which system it is
 
-usage: check_includes.py {layers,lgpl} PROJECT_DIR
+usage: check_includes.py {layers,lgpl,systems} PROJECT_DIR
 """
 
 import re
@@ -15,19 +16,20 @@ from pathlib import Path
 
 # What each layer may include besides itself and the public headers. Keep in step with src/CMakeLists.txt.
 BELOW = {
+    "platform": [],
     "geometry": [],
-    "run": ["geometry"],
+    "run": ["platform", "geometry"],
     "mesh": ["geometry"],
     "contact": ["geometry", "mesh"],
     "energy": ["geometry", "mesh", "contact"],
     "optimize": ["geometry"],
-    "io": ["geometry", "mesh"],
+    "io": ["platform", "geometry", "mesh"],
     "render": ["geometry", "mesh"],
     "scene": ["geometry", "mesh", "contact"],
     "rigid": ["geometry", "mesh", "contact"],
     "recover": ["geometry", "mesh", "contact", "energy", "optimize", "scene"],
     "untangle": ["geometry", "mesh", "contact", "energy", "optimize", "scene", "rigid", "recover"],
-    "report": ["geometry", "mesh", "contact", "energy", "io", "scene", "rigid", "untangle"],
+    "report": ["platform", "geometry", "mesh", "contact", "energy", "io", "scene", "rigid", "untangle"],
     "pipeline": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render", "scene", "rigid", "recover",
                  "untangle", "report"],
     "applications": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render"],
@@ -37,7 +39,15 @@ BELOW = {
 FILES = {"io", "render"}
 # They use the library as its users do.
 USERS = ["apps", "src/c_interface", "examples"]
+MAY_USE = {"apps": ("unsnarl/", "platform/")}
 THIRD_PARTY = re.compile(r"^(Eigen|CGAL|tbb|oneapi|fmt|nlohmann|CLI|png|zlib|boost|gmp|mpfr|pugixml|gtest|benchmark)\b")
+OF_A_SYSTEM = re.compile(
+    r"^(sys/|linux/|net/|netinet/|arpa/|mach|unistd\.h|fcntl\.h|signal\.h|csignal|pthread\.h|sched\.h|glob\.h|fnmatch\.h|"
+    r"dirent\.h|dlfcn\.h|poll\.h|spawn\.h|termios\.h|malloc\.h|pwd\.h|windows\.h|psapi\.h|shellapi\.h|bcrypt\.h|io\.h|"
+    r"direct\.h|process\.h|conio\.h|winsock)")
+NAMES_A_SYSTEM = re.compile(
+    r"^\s*#\s*(if|ifdef|ifndef|elif)\b.*\b(_WIN32|_WIN64|WIN32|__MINGW\w*__|_MSC_VER|__CYGWIN__|__linux__|__unix__|__APPLE__|"
+    r"__GLIBC__|__EMSCRIPTEN__|_POSIX_\w+)\b")
 LGPL = re.compile(r"^(CGAL/|gmp|mpfr|boost/multiprecision/(gmp|mpfr)|mpreal)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
@@ -86,7 +96,7 @@ def check_layers(project):
     for user in USERS:
         for path in sources(project / user):
             for number, quoted, included in quoted_and_included(path):
-                if included.startswith("unsnarl/") or is_own_or_foreign(project, user, path, quoted, included):
+                if included.startswith(MAY_USE.get(user, ("unsnarl/",))) or is_own_or_foreign(project, user, path, quoted, included):
                     continue
                 yield (f"{path}:{number}: '{included}'; {user}/ may include unsnarl/* and files of its own program: "
                        "what it needs of the library becomes a public header")
@@ -110,11 +120,27 @@ def check_lgpl(project):
                     yield f"{path}:{number}: includes <{included}>, which is under the LGPL or the GPL"
 
 
+def check_systems(project):
+    rooms = [project / "src" / "platform" / system for system in ("posix", "windows")]
+    for folder in ("include", "src", "samples", "apps", "examples"):
+        for path in sources(project / folder):
+            if any(room in path.parents for room in rooms):
+                continue
+            for number, quoted, included in quoted_and_included(path):
+                if not quoted and OF_A_SYSTEM.match(included):
+                    yield f"{path}:{number}: includes <{included}> of one system; src/platform asks systems"
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+                if NAMES_A_SYSTEM.match(line):
+                    yield f"{path}:{number}: '{line.strip()}'; src/platform has a file a system instead"
+
+
+CHECKS = {"layers": check_layers, "lgpl": check_lgpl, "systems": check_systems}
+
+
 def main():
-    if len(sys.argv) != 3 or sys.argv[1] not in ("layers", "lgpl"):
+    if len(sys.argv) != 3 or sys.argv[1] not in CHECKS:
         sys.exit(__doc__)
-    project = Path(sys.argv[2])
-    findings = list({"layers": check_layers, "lgpl": check_lgpl}[sys.argv[1]](project))
+    findings = list(CHECKS[sys.argv[1]](Path(sys.argv[2])))
     for finding in findings:
         print(finding)
     sys.exit(1 if findings else 0)

@@ -8,14 +8,16 @@ from pathlib import Path
 import check_includes
 
 
-class Layers(unittest.TestCase):
+class Checked(unittest.TestCase):
+    check = None
+
     def findings(self, files):
         with tempfile.TemporaryDirectory() as folder:
             for name, text in files.items():
                 path = Path(folder, name)
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text)
-            return list(check_includes.check_layers(Path(folder)))
+            return list(type(self).check(Path(folder)))
 
     def refused(self, name, line, others=()):
         found = self.findings({name: line + "\n", **{other: "" for other in others}})
@@ -24,6 +26,10 @@ class Layers(unittest.TestCase):
 
     def accepted(self, name, line, others=()):
         self.assertEqual(self.findings({name: line + "\n", **{other: "" for other in others}}), [])
+
+
+class Layers(Checked):
+    check = check_includes.check_layers
 
     def test_a_layer_includes_nothing_from_above(self):
         self.refused("src/mesh/a.cpp", '#include "pipeline/b.h"')
@@ -57,6 +63,32 @@ class Layers(unittest.TestCase):
                 self.refused(f"{user}/room/a.cpp", '#include "b.h"', ["b.h"])
                 self.accepted(f"{user}/a.cpp", "#include <fmt/format.h>")
                 self.accepted(f"{user}/a.cpp", "#include <vector>")
+
+    def test_the_command_line_may_ask_the_system(self):
+        self.accepted("apps/unsnarl/a.cpp", '#include "platform/b.h"', ["src/platform/b.h"])
+        self.refused("src/c_interface/a.cpp", '#include "platform/b.h"', ["src/platform/b.h"])
+        self.refused("src/platform/a.cpp", '#include "geometry/b.h"')
+
+
+class Systems(Checked):
+    check = check_includes.check_systems
+
+    def test_only_the_platform_includes_headers_of_a_system(self):
+        for header in ("unistd.h", "sys/stat.h", "windows.h", "csignal"):
+            self.refused("src/io/a.cpp", f"#include <{header}>")
+            self.refused("apps/unsnarl/a.cpp", f"#  include <{header}>")
+            self.refused("src/platform/a.h", f"#include <{header}>")
+            self.accepted("src/platform/posix/a.cpp", f"#include <{header}>")
+            self.accepted("src/platform/windows/a.cpp", f"#include <{header}>")
+        self.accepted("src/io/a.cpp", '#include "io/io.h"')
+        self.accepted("src/io/a.cpp", "#include <cerrno>")
+
+    def test_only_the_platform_asks_which_system_it_is(self):
+        for line in ("#ifdef _WIN32", "#if defined(__linux__)", "#  elif !defined(__APPLE__) && X", "#ifndef __GLIBC__"):
+            self.refused("src/io/a.cpp", line)
+            self.accepted("src/platform/posix/a.cpp", line)
+        self.accepted("src/io/a.cpp", "#if __cplusplus")
+        self.accepted("src/io/a.cpp", "// not #ifdef _WIN32")
 
 
 if __name__ == "__main__":

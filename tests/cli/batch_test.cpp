@@ -50,6 +50,19 @@ class BatchCli : public ProgramTest {
   std::string in = folder / "in", out = folder / "out", jobs = "2";
 };
 
+/// Sizes around the ends of the blocks of 64 bytes, and of the pieces in which files are read.
+TEST_F(BatchCli, hashes_are_those_of_sha256sum) {
+  for (const std::size_t size : {55, 56, 57, 63, 64, 65, 119, 120, 127, 128, 65536, 70001})
+    mesh(fmt::format("{}.obj", size), triangle + std::string(size - triangle.size(), '#'));
+  ASSERT_EQ(batch().exit_code, 0);
+  ASSERT_EQ(std::system(fmt::format("cd '{}' && sha256sum *.obj > ../sums", in).c_str()), 0);
+  std::istringstream sums(contents(folder / "sums"));
+  std::size_t count = 0;
+  const auto found = results();
+  for (std::string sum, name; sums >> sum >> name; ++count) EXPECT_EQ(found.at(name)["input_sha256"], sum) << name;
+  EXPECT_EQ(count, found.size());
+}
+
 TEST_F(BatchCli, repairs_all_below_a_folder_as_fix_does) {
   mesh("a/crossing.obj", crossing);
   mesh("triangle.obj", triangle);

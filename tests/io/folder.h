@@ -1,10 +1,11 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
+
+#include "platform/files.h"
 
 namespace unsnarl {
 
@@ -12,9 +13,8 @@ namespace unsnarl {
 class TestFolder {
  public:
   TestFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "unsnarl-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::filesystem::filesystem_error(name, {});
-    path_ = name;
+    const int error = platform::make_temporary_folder(std::filesystem::temp_directory_path(), "unsnarl-", path_);
+    if (error != 0) throw std::system_error(error, std::generic_category(), "no temporary folder");
   }
   TestFolder(const TestFolder&) = delete;
   TestFolder& operator=(const TestFolder&) = delete;

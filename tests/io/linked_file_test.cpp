@@ -41,6 +41,13 @@ TEST_F(LinkedFile, what_lies_in_the_folder_or_below_is_read) {
   EXPECT_TRUE(is_read(mesh(), "below too/b.bin"));
 }
 
+TEST_F(LinkedFile, parts_may_be_apart_as_on_windows) {
+  EXPECT_TRUE(is_read(mesh(), named_path("below\\b.bin")));
+  EXPECT_TRUE(is_read(mesh(), named_path(".\\below/b.bin")));
+  for (const char* const name : {"..\\secret", "below\\..\\..\\secret", "\\secret"})
+    EXPECT_FALSE(is_read(mesh(), named_path(name))) << name;
+}
+
 TEST_F(LinkedFile, a_folder_that_is_itself_a_link_counts_as_where_it_leads) {
   fs::create_directory_symlink(mesh(), folder.path() / "another name");
   EXPECT_TRUE(is_read(folder.path() / "another name", "below/b.bin"));

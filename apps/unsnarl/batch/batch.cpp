@@ -1,7 +1,6 @@
 #include "batch/batch.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -19,14 +18,18 @@
 #include "batch/journal.h"
 #include "batch/progress.h"
 #include "batch/record.h"
-#include "batch/resources.h"
 #include "batch/summary.h"
 #include "content_hash.h"
 #include "file_places.h"
 #include "fix.h"
+#include "platform/files.h"
+#include "platform/process.h"
+#include "platform/usage.h"
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/report_json.h"
+#include "unsnarl/threads.h"
 #include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
@@ -71,16 +74,11 @@ FixOptions parsed_fix_options(const std::vector<std::string>& words) {
 
 /// The path of this program. Throws FileError.
 std::string own_path() {
-  std::error_code error;
-  const fs::path path = fs::read_symlink("/proc/self/exe", error);
-  if (error) throw FileError(fmt::format("/proc/self/exe: {}; name this program with --worker", error.message()));
-  return path.string();
-}
-
-std::string host_name() {
-  std::string name(256, '\0');
-  if (::gethostname(name.data(), name.size() - 1) != 0) return {};
-  return name.c_str();
+  try {
+    return platform::program_path().string();
+  } catch (const FileError& error) {
+    throw FileError(fmt::format("{}; name this program with --worker", error.what()));
+  }
 }
 
 bool is_success(const std::string& status) {
@@ -94,9 +92,9 @@ class Batch {
   Batch(const BatchOptions& options, Interruption& interruption)
       : options_(options),
         interruption_(interruption),
-        folder_{options.output},
+        folder_{path_of(options.output)},
         shard_(shard_from(options.shard)),
-        inputs_(batch_inputs(options.input, options.output)),
+        inputs_(batch_inputs(options.input, folder_.root)),
         all_(inputs_.meshes),
         mine_(part_of(all_, shard_)),
         program_(options.worker.empty() ? own_path() : options.worker),
@@ -104,14 +102,15 @@ class Batch {
         progress_(mine_, options.quiet) {
     const FixOptions fix = parsed_fix_options(options.fix_options);
     require_own_places(fix.fix_vertices);
-    const std::string program_hash = sha256_of_file(program_);
+    const std::string program_hash = sha256_of_file(path_of(program_));
     if (program_hash.empty()) throw FileError(program_ + ": cannot be read; --worker needs a program");
     same_for_all_ = fmt::format("{}\n{}\n", key_version, program_hash);
     for (const std::string& word : options.fix_options) same_for_all_ += word + '\n';
-    if (!fix.fix_vertices.empty()) same_for_all_ += sha256_of_file(fix.fix_vertices) + '\n';
-    jobs_ = options.jobs > 0 ? options.jobs : processors();
-    threads_ = options.threads > 0 ? options.threads : std::max(1, processors() / jobs_);
-    memory_limit_mb_ = options.memory_limit_mb > 0 ? options.memory_limit_mb : std::floor(0.9 * memory_mb() / jobs_);
+    if (!fix.fix_vertices.empty()) same_for_all_ += sha256_of_file(path_of(fix.fix_vertices)) + '\n';
+    jobs_ = options.jobs > 0 ? options.jobs : thread_count();
+    threads_ = options.threads > 0 ? options.threads : std::max(1, thread_count() / jobs_);
+    memory_limit_mb_ =
+        options.memory_limit_mb > 0 ? options.memory_limit_mb : std::floor(0.9 * platform::usable_memory_mb() / jobs_);
     folder_.prepare();
   }
 
@@ -144,14 +143,14 @@ class Batch {
  private:
   void require_own_places(const std::string& fix_vertices) const {
     FilePlaces places;
-    if (std::error_code ignored; !fs::is_directory(options_.input, ignored))
+    if (std::error_code ignored; !fs::is_directory(path_of(options_.input), ignored))
       places.reads("the list of meshes", options_.input);
     places.reads("--fix-vertices", fix_vertices);
     std::vector<BatchMesh> meshes;
     std::ranges::copy_if(all_, std::back_inserter(meshes), [](const BatchMesh& mesh) { return mesh.fault.empty(); });
-    for (const BatchMesh& mesh : meshes) places.reads("a mesh of the batch", mesh.path);
+    for (const BatchMesh& mesh : meshes) places.reads("a mesh of the batch", mesh.path.string());
     for (const BatchMesh& mesh : meshes)
-      places.writes("a result of a batch", folder_.root / BatchFolder::mesh(mesh.name),
+      places.writes("a result of a batch", (folder_.root / path_of(BatchFolder::mesh(mesh.name))).string(),
                     "name another folder for the results");
   }
 
@@ -197,11 +196,11 @@ class Batch {
       return {};
     // The record shows the name of the output; one that is no text has other bytes.
     if (record.contains("output") &&
-        sha256_of_file(folder_.root / BatchFolder::mesh(mesh.name)) != record.value("output_sha256", ""))
+        sha256_of_file(folder_.root / path_of(BatchFolder::mesh(mesh.name))) != record.value("output_sha256", ""))
       return {};
     const Record buffers = record.value("buffers", Record::object());
     for (const auto& [name, hash] : buffers.items())
-      if (sha256_of_file(folder_.root / decoded_uri(name)) != hash) return {};
+      if (sha256_of_file(folder_.root / path_of(decoded_uri(name))) != hash) return {};
     if (options_.thumbnails && record.contains("vertices") && !record.contains("thumbnail")) return {};
     return record;
   }
@@ -332,12 +331,12 @@ class Batch {
 
   /// Runs `unsnarl fix` in a folder of its own and moves what it wrote into place.
   Record repaired(const BatchMesh& mesh) {
-    const fs::path place = folder_.work(shard_) / fmt::format("{}-{}", ::getpid(), ++places_);
-    const fs::path output = place / "out" / fs::path(mesh.name).filename(), report = place / "report.json",
+    const fs::path place = folder_.work(shard_) / fmt::format("{}-{}", platform::process_number(), ++places_);
+    const fs::path output = place / "out" / path_of(mesh.name).filename(), report = place / "report.json",
                    thumbnail = place / "thumbnail.png", said = place / "said";
     std::error_code error;
     fs::create_directories(place / "out", error);
-    if (error) throw_write_error(place.string() + ": cannot make this folder", error.value());
+    if (error) throw_write_error(place.string() + ": cannot make this folder", platform::errno_of(error));
     std::string input = mesh.path.string();
     if (input.starts_with('-')) input = "./" + input;
     std::vector<std::string> words = {"fix",
@@ -372,10 +371,10 @@ class Batch {
   /// The repaired mesh and, of a glTF or a GIFTI, its external files: these first.
   void take_over_meshes(const BatchMesh& mesh, const fs::path& from, Record& record) {
     const std::string to = BatchFolder::mesh(mesh.name), partial = partial_place(to);
-    const fs::path main = from / fs::path(to).filename(), unfinished = with_infix(main, partial_infix);
+    const fs::path main = from / path_of(to).filename(), unfinished = with_infix(main, partial_infix);
     for (const fs::path& name : files_below(from)) {
       if (from / name == main || from / name == unfinished) continue;
-      const std::string place = (fs::path(to).parent_path() / name).generic_string();
+      const std::string place = (path_of(to).parent_path() / name).generic_string();
       record["buffers"][encoded_uri(place)] = sha256_of_file(from / name);
       folder_.take_over(from / name, place);
     }
@@ -391,7 +390,7 @@ class Batch {
     std::error_code error;
     for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
       if (std::error_code ignored; it->is_regular_file(ignored)) names.push_back(it->path().lexically_relative(folder));
-    if (error) throw_read_error(folder.string() + ": cannot list the folder", error.value());
+    if (error) throw_read_error(folder.string() + ": cannot list the folder", platform::errno_of(error));
     std::sort(names.begin(), names.end());
     return names;
   }
@@ -400,11 +399,11 @@ class Batch {
   std::string partial_place(const std::string& result) const {
     const auto is_result = [&](const fs::path& place) {
       return std::any_of(all_.begin(), all_.end(),
-                         [&](const BatchMesh& mesh) { return BatchFolder::mesh(mesh.name) == place; });
+                         [&](const BatchMesh& mesh) { return path_of(BatchFolder::mesh(mesh.name)) == place; });
     };
-    fs::path place = with_infix(result, partial_infix);
+    fs::path place = with_infix(path_of(result), partial_infix);
     for (int number = 2; is_result(place); ++number)
-      place = with_infix(result, fmt::format("{}.{}", partial_infix, number));
+      place = with_infix(path_of(result), fmt::format("{}.{}", partial_infix, number));
     return place.generic_string();
   }
 
@@ -443,7 +442,7 @@ class Batch {
   BatchJournal journal_;
   BatchProgress progress_;
   std::string same_for_all_;  // the part of keys that is the same for all meshes
-  std::string host_ = host_name();
+  std::string host_ = platform::host_name();
   int jobs_ = 1, threads_ = 1;
   double memory_limit_mb_ = 0;
   WorkerProcesses workers_;

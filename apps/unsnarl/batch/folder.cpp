@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "platform/files.h"
 #include "unsnarl/document.h"
+#include "unsnarl/paths.h"
 #include "usage_error.h"
 
 namespace unsnarl::app {
@@ -14,7 +16,7 @@ namespace fs = std::filesystem;
 std::string BatchFolder::mesh(const std::string& name) {
   const std::string path = "fixed/" + name;
   if (format_from_extension(name) != Format::gltf) return path;
-  return path + "/" + fs::path(name).filename().string();
+  return path + "/" + path_of(name).filename().string();
 }
 
 namespace {
@@ -38,11 +40,11 @@ void BatchFolder::prepare() const {
                       "folder",
                       root.string(), name));
   fs::create_directories(journal(), error);
-  if (error) throw_write_error(journal().string() + ": cannot make this folder", error.value());
+  if (error) throw_write_error(journal().string() + ": cannot make this folder", platform::errno_of(error));
 }
 
 bool BatchFolder::take_over(const fs::path& from, const std::string& to) const {
-  const fs::path target = root / to;
+  const fs::path target = root / path_of(to);
   std::error_code error;
   if (!fs::exists(from, error)) {
     fs::remove(target, error);
@@ -50,7 +52,7 @@ bool BatchFolder::take_over(const fs::path& from, const std::string& to) const {
   }
   fs::create_directories(target.parent_path(), error);
   fs::rename(from, target, error);
-  if (error) throw_write_error(target.string() + ": cannot be written", error.value());
+  if (error) throw_write_error(target.string() + ": cannot be written", platform::errno_of(error));
   return true;
 }
 

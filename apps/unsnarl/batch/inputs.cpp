@@ -14,7 +14,9 @@
 #include "content_hash.h"
 #include "input_bytes.h"
 #include "mesh_input.h"
+#include "platform/files.h"
 #include "unsnarl/document.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/visible_text.h"
 #include "usage_error.h"
 
@@ -47,7 +49,7 @@ class FolderSearch {
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) take(*it);
     if (!error) return;
-    if (folder == root_) throw_read_error(folder.string() + ": cannot list the folder", error.value());
+    if (folder == root_) throw_read_error(folder.string() + ": cannot list the folder", platform::errno_of(error));
     found_.meshes.push_back({folder, name_of_entry(folder) + "/", 0, "cannot list the folder: " + error.message()});
   }
 
@@ -92,24 +94,24 @@ class FolderSearch {
 std::string name_of(const fs::path& path) {
   fs::path name = path.lexically_normal();
   std::error_code ignored;  // of a current folder that is gone: then the mesh cannot be read
-  if (name.is_absolute() || *name.begin() == "..")
+  if (name.has_root_path() || *name.begin() == "..")
     name = fs::absolute(path, ignored).lexically_normal().relative_path();
   return name.generic_string();
 }
 
 bool stays_inside(const fs::path& name) {
-  return !name.empty() && !name.is_absolute() && name.has_filename() &&
+  return !name.empty() && !name.has_root_path() && name.has_filename() &&
          std::none_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".." || part == "."; });
 }
 
 BatchMesh mesh_of_line(const std::string& line, const std::string& place) {
   const std::size_t tab = line.find('\t');
   const std::string path = line.substr(0, tab);
-  const std::string name = tab == std::string::npos && !path.empty() ? name_of(path) : line.substr(tab + 1);
-  BatchMesh mesh{path, name};
+  const std::string name = tab == std::string::npos && !path.empty() ? name_of(path_of(path)) : line.substr(tab + 1);
+  BatchMesh mesh{path_of(path), name};
   if (path.empty()) {
     mesh.fault = place + ": there is no path of a mesh before the tab";
-  } else if (!stays_inside(name)) {
+  } else if (!stays_inside(path_of(name))) {
     mesh.fault = fmt::format("{}: '{}' cannot be the name of a result; use a relative path without '..'", place, name);
   } else if (!format_from_extension(name)) {
     mesh.fault = fmt::format("{}: '{}' has no extension of a supported format: {}", place, name, format_names(" or "));
@@ -138,11 +140,11 @@ void keep_places_apart(std::vector<BatchMesh>& meshes) {
       kept.push_back(std::move(mesh));
       continue;
     }
-    const auto same = by_place.find(BatchFolder::mesh(mesh.name));
+    const auto same = by_place.find(path_of(BatchFolder::mesh(mesh.name)));
     if (same != by_place.end() && same->second->path == mesh.path) continue;
     kept.push_back(std::move(mesh));
     if (same == by_place.end()) {
-      by_place.emplace(BatchFolder::mesh(kept.back().name), &kept.back());
+      by_place.emplace(path_of(BatchFolder::mesh(kept.back().name)), &kept.back());
     } else {
       kept.back().fault =
           fmt::format("{} and {} would both be written to {}; give one of them another name, after a tab in the list",
@@ -150,7 +152,7 @@ void keep_places_apart(std::vector<BatchMesh>& meshes) {
     }
   }
   for (BatchMesh& mesh : kept)
-    for (fs::path folder = fs::path(BatchFolder::mesh(mesh.name)).parent_path(); !folder.empty() && mesh.fault.empty();
+    for (fs::path folder = path_of(BatchFolder::mesh(mesh.name)).parent_path(); !folder.empty() && mesh.fault.empty();
          folder = folder.parent_path())
       if (const auto file = by_place.find(folder); file != by_place.end())
         mesh.fault = fmt::format(
@@ -193,7 +195,7 @@ std::vector<fs::path> buffers_of_gltf(const fs::path& gltf) {
   for (const nlohmann::json& buffer : json["buffers"])
     if (buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string())
       if (const std::string uri = buffer["uri"]; !uri.starts_with("data:"))
-        files.push_back(gltf.parent_path() / decoded_uri(uri));
+        files.push_back(gltf.parent_path() / path_of(decoded_uri(uri)));
   return files;
 }
 
@@ -212,8 +214,8 @@ BatchInputs batch_inputs(const std::string& list_or_folder, const fs::path& resu
   std::error_code error;
   if (list_or_folder == standard_stream) {
     inputs.meshes = meshes_of_list(std::istringstream(read_bytes(standard_stream)), "standard input");
-  } else if (fs::is_directory(list_or_folder, error)) {
-    inputs = FolderSearch(list_or_folder, results).run();
+  } else if (fs::is_directory(path_of(list_or_folder), error)) {
+    inputs = FolderSearch(path_of(list_or_folder), results).run();
   } else {
     if (const auto format = format_from_extension(list_or_folder))
       throw UsageError(

@@ -1,17 +1,14 @@
 #include "batch/journal.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
 #include "input_bytes.h"
+#include "platform/files.h"
 #include "unsnarl/depth_limit.h"
 
 namespace unsnarl::app {
@@ -19,12 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-bool ends_in_the_middle_of_a_line(int file) {
-  const off_t size = ::lseek(file, 0, SEEK_END);
-  char last = '\n';
-  return size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n';
-}
 
 }  // namespace
 
@@ -34,7 +25,8 @@ void BatchJournal::read() {
   std::error_code error;
   for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error))
     if (it->path().extension() == ".jsonl") files.push_back(it->path());
-  if (is_error_of_system(error.value())) throw_read_error(folder_.string() + ": cannot list the folder", error.value());
+  if (is_error_of_system(platform::errno_of(error)))
+    throw_read_error(folder_.string() + ": cannot list the folder", platform::errno_of(error));
   std::sort(files.begin(), files.end());
   for (const fs::path& path : files) {
     std::istringstream file(bytes_if_readable(path.string()));
@@ -42,21 +34,16 @@ void BatchJournal::read() {
   }
 }
 
-BatchJournal::~BatchJournal() {
-  if (file_ >= 0) ::close(file_);
-}
-
 void BatchJournal::open(const std::string& name, const std::function<void()>& before_waiting) {
   path_ = folder_ / (name + ".jsonl");
-  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (file_ < 0) throw_write_error(path_.string() + ": cannot be written", errno);
+  if (const int failed = file_.open(path_); failed != 0)
+    throw_write_error(path_.string() + ": cannot be written", failed);
   // A file system without locks is no reason to do nothing: two runs at once do the same work and write the same bytes.
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+  if (!file_.try_lock()) {
     before_waiting();
-    while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
-    }
+    file_.lock();
   }
-  if (ends_in_the_middle_of_a_line(file_)) append("");
+  if (file_.ends_in_the_middle_of_a_line()) append("");
   read();
 }
 
@@ -100,9 +87,8 @@ void BatchJournal::take(std::string_view line) {
 void BatchJournal::append(const std::string& line) {
   const std::string bytes = line + '\n';
   const std::lock_guard lock(mutex_);
-  const ssize_t written = ::write(file_, bytes.data(), bytes.size());
-  if (written != static_cast<ssize_t>(bytes.size()))
-    throw_write_error(path_.string() + ": cannot be written", written < 0 ? errno : ENOSPC);
+  if (const int failed = file_.append(bytes); failed != 0)
+    throw_write_error(path_.string() + ": cannot be written", failed);
 }
 
 }  // namespace unsnarl::app

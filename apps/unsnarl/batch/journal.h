@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "platform/locks.h"
+
 namespace unsnarl::app {
 
 /// Sum of what the journals of a batch say of one mesh under one key (its content, the options, the program).
@@ -23,9 +25,6 @@ class BatchJournal {
  public:
   /// Reads the journals in `folder`, which need not exist. Throws SystemError.
   explicit BatchJournal(const std::filesystem::path& folder) : folder_(folder) { read(); }
-  ~BatchJournal();
-  BatchJournal(const BatchJournal&) = delete;
-  BatchJournal& operator=(const BatchJournal&) = delete;
 
   /// Opens NAME.jsonl for the lines to come, for this process alone: waits until another run on this machine that works
   /// on the same shard has ended, after calling `before_waiting`. Then reads all journals anew. Throws WriteError,
@@ -48,7 +47,7 @@ class BatchJournal {
   std::map<std::string, JournalEntry> entries_;
   mutable std::mutex mutex_;
   std::filesystem::path folder_, path_;
-  int file_ = -1;
+  platform::LockedFile file_;
 };
 
 }  // namespace unsnarl::app

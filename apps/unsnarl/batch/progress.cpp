@@ -1,8 +1,8 @@
 #include "batch/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "platform/terminal.h"
 #include "standard_streams.h"
 #include "unsnarl/report.h"
 
@@ -24,7 +24,7 @@ constexpr std::uintmax_t bytes_of_a_start = 10'000;
 }  // namespace
 
 BatchProgress::BatchProgress(const std::vector<BatchMesh>& meshes, bool quiet)
-    : quiet_(quiet), on_terminal_(::isatty(STDERR_FILENO) != 0), total_(meshes.size()) {
+    : quiet_(quiet), on_terminal_(platform::is_terminal_of_standard_error()), total_(meshes.size()) {
   for (const BatchMesh& mesh : meshes) bytes_to_do_ += mesh.bytes + bytes_of_a_start;
 }
 

@@ -1,13 +1,12 @@
 #include "batch/record.h"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <string.h>
 
 #include <algorithm>
 #include <set>
 
 #include "input_bytes.h"
+#include "platform/process.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/visible_text.h"
@@ -59,8 +58,7 @@ std::string status_of(const WorkerEnd& end, const Record& report) {
 
 std::string message_of(const WorkerEnd& end, const std::filesystem::path& standard_error) {
   if (end.timed_out) return "killed, because it did not stop at the time limit";
-  if (end.exit_code < 0)
-    return fmt::format("its process was killed by signal {} ({})", -end.exit_code, ::strsignal(-end.exit_code));
+  if (end.exit_code < 0) return "its process was killed by " + platform::reason_of_death(end.exit_code);
   if (end.exit_code == exit_cancelled) return "its process was interrupted";
   return last_line(standard_error);
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <filesystem>
 #include <list>
@@ -9,17 +7,20 @@
 #include <string>
 #include <vector>
 
+namespace unsnarl::platform {
+class ChildProcess;
+}  // namespace unsnarl::platform
+
 namespace unsnarl::app {
 
 /// How a worker ended.
 struct WorkerEnd {
-  int exit_code = 0;  ///< negative: the signal that ended it
+  int exit_code = 0;  ///< negative: it was killed, see platform::reason_of_death()
   bool timed_out = false;
   double seconds = 0, cpu_s = 0, peak_memory_mb = 0;
 };
 
-/// Processes of their own, each in a process group of its own, so that a Ctrl-C meant for this process does not reach
-/// them; on Linux they end with this process, however that ends. Any number of threads may call run().
+/// Processes of their own, see platform::ChildProcess. Any number of threads may call run().
 class WorkerProcesses {
  public:
   /// Runs a program to its end, its standard error going to a file. time_limit_s: beyond it the worker is killed by
@@ -36,7 +37,7 @@ class WorkerProcesses {
  private:
   using Clock = std::chrono::steady_clock;
   struct Running {
-    pid_t process;
+    platform::ChildProcess* process;
     Clock::time_point deadline;
     bool timed_out = false;
   };

@@ -1,20 +1,20 @@
 #include "sequence/files.h"
 
 #include <fmt/format.h>
-#include <glob.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <new>
 #include <optional>
 
 #include "content_hash.h"
 #include "input_bytes.h"
 #include "mesh_input.h"
+#include "platform/files.h"
 #include "staged_output.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/point_cache.h"
 #include "unsnarl/repair_file_steps.h"
 #include "usage_error.h"
@@ -30,18 +30,9 @@ bool is_there(const fs::path& path) {
 }
 
 std::vector<std::string> matches_of(const std::string& pattern) {
-  if (is_there(pattern)) return {pattern};  // its name may hold brackets
-  glob_t found{};
-  thread_local int failure = 0;
-  failure = 0;
-  const auto note_failure = [](const char*, int error_number) -> int {
-    if (is_error_of_system(error_number)) failure = error_number;
-    return failure;
-  };
-  const int status = ::glob(pattern.c_str(), 0, note_failure, &found);
-  std::vector<std::string> paths(found.gl_pathv, found.gl_pathv + (status == 0 ? found.gl_pathc : 0));
-  ::globfree(&found);
-  if (status == GLOB_NOSPACE) throw std::bad_alloc();
+  if (is_there(path_of(pattern))) return {pattern};  // its name may hold brackets
+  std::vector<std::string> paths;
+  const int failure = platform::find_matches(pattern, is_error_of_system, paths);
   if (failure != 0) throw_read_error(pattern + ": cannot list the folder", failure);
   if (paths.empty()) throw FileError(pattern + ": there is no such file");
   return paths;
@@ -49,7 +40,7 @@ std::vector<std::string> matches_of(const std::string& pattern) {
 
 /// The numbers in a name, but those too long to count with.
 std::vector<long long> numbers_in(const std::string& path) {
-  const std::string name = fs::path(path).stem().string();
+  const std::string name = path_of(path).stem().string();
   const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
   std::vector<long long> numbers;
   for (auto begin = std::find_if(name.begin(), name.end(), is_digit); begin != name.end();) {
@@ -113,7 +104,7 @@ class NumberedFiles : public SequenceFiles {
       : paths_(std::move(paths)),
         names_(scene_names(paths_)),
         format_(format),
-        folder_(folder),
+        folder_(path_of(folder)),
         recompute_normals_(recompute_normals),
         interruption_(interruption),
         first_(read_inputs({paths_[0]}, format)) {
@@ -129,16 +120,16 @@ class NumberedFiles : public SequenceFiles {
   void claim(FilePlaces& places) const override {
     for (const std::string& path : paths_) places.reads("one of the frames", path);
     for (std::size_t t = 0; t < paths_.size(); ++t)
-      places.writes("a repaired frame", target(t), "it would be overwritten; use another folder");
+      places.writes("a repaired frame", target(t).string(), "it would be overwritten; use another folder");
   }
 
   std::string content_hash(std::size_t t) override {
-    require_same_faces(Document::read(paths_[t], format_), t);
-    return sha256_of_file(paths_[t]);
+    require_same_faces(Document::read(path_of(paths_[t]), format_), t);
+    return sha256_of_file(path_of(paths_[t]));
   }
 
   std::vector<double> positions(std::size_t t) override {
-    Document document = Document::read(paths_[t], format_);
+    Document document = Document::read(path_of(paths_[t]), format_);
     require_same_faces(document, t);
     if (recompute_normals_) document.recompute_normals();
     const std::lock_guard lock(mutex_);
@@ -170,7 +161,7 @@ class NumberedFiles : public SequenceFiles {
   std::size_t frames_between_flushes() const override { return 1; }
 
  private:
-  fs::path target(std::size_t t) const { return folder_ / names_[t]; }
+  fs::path target(std::size_t t) const { return folder_ / path_of(names_[t]); }
 
   std::vector<double> write_to(const fs::path& place, std::size_t t, std::span<const double> positions, bool float32) {
     if (!external_files(document(t)).empty())
@@ -225,11 +216,11 @@ class CacheFrames : public SequenceFiles {
               const std::string& folder, Interruption& interruption)
       : interruption_(interruption),
         mesh_(read_inputs({mesh}, format)),
-        name_(fs::path(cache).filename().string()),
-        target_(fs::path(folder) / name_),
-        part_(fs::path(folder) / (name_ + ".part")),
+        name_(path_of(cache).filename().string()),
+        target_(path_of(folder) / path_of(name_)),
+        part_(path_of(folder) / path_of(name_ + ".part")),
         inputs_{mesh, cache},
-        input_(parsed(cache, cache)),
+        input_(parsed(path_of(cache), cache)),
         output_(input_),
         is_done_(input_.frames(), false) {
     const std::size_t vertices = mesh_.surface().view().vertex_count();
@@ -245,7 +236,7 @@ class CacheFrames : public SequenceFiles {
   void claim(FilePlaces& places) const override {
     for (const std::string& input : inputs_) places.reads("one of the frames", input);
     for (const fs::path& place : {target_, part_})
-      places.writes("the repaired cache", place, "it would be overwritten; use another folder");
+      places.writes("the repaired cache", place.string(), "it would be overwritten; use another folder");
   }
 
   std::string content_hash(std::size_t t) override {

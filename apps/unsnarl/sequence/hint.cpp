@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sequence/files.h"
+#include "unsnarl/paths.h"
 
 namespace unsnarl::app {
 namespace {
@@ -17,7 +18,7 @@ constexpr std::size_t fewest_frames = 3;
 constexpr std::size_t most_named = 4;  // of more, the first two and the last are in the command
 
 bool has_number(const std::string& path) {
-  const std::string name = std::filesystem::path(path).stem().string();
+  const std::string name = path_of(path).stem().string();
   return std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 

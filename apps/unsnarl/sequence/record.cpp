@@ -1,11 +1,7 @@
 #include "sequence/record.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -15,23 +11,15 @@
 
 namespace unsnarl::app {
 
-SequenceRecord::Lock::Lock(const std::filesystem::path& path)
-    : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (file_ < 0) throw_write_error(path.string() + ": cannot be written", errno);
-  while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
-  }
-}
-
-SequenceRecord::Lock::~Lock() {
-  ::close(file_);
-}
-
 SequenceRecord::SequenceRecord(std::filesystem::path path) : path_(std::move(path)) {
   read();
 }
 
-std::unique_ptr<SequenceRecord::Lock> SequenceRecord::lock() {
-  auto lock = std::make_unique<Lock>(path_);
+std::unique_ptr<platform::LockedFile> SequenceRecord::lock() {
+  auto lock = std::make_unique<platform::LockedFile>();
+  if (const int failed = lock->open(path_); failed != 0)
+    throw_write_error(path_.string() + ": cannot be written", failed);
+  lock->lock();
   read();
   return lock;
 }
@@ -62,7 +50,7 @@ const SequenceRecord::Json* SequenceRecord::find(const std::string& name, const 
 
 void SequenceRecord::add(const std::string& name, const std::string& key, const std::string& output_hash, Json report) {
   Json json = {{"name", name}, {"key", key}, {"output_sha256", output_hash}, {"report", std::move(report)}};
-  std::ofstream file(path_, std::ios::app);
+  std::ofstream file(path_, std::ios::app | std::ios::binary);
   // A line that was cut off is ended first.
   file << (std::exchange(ends_in_a_line_, true) ? "" : "\n")
        << json.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';

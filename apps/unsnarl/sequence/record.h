@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "platform/locks.h"
+
 namespace unsnarl::app {
 
 /// The frames that are done, one JSON line each in a file beside the outputs. A frame is done where its last line has
@@ -18,19 +20,9 @@ class SequenceRecord {
 
   explicit SequenceRecord(std::filesystem::path path);
 
-  /// Keeps other calls from reading and adding while it lives. Where the file system has no locks it does nothing.
-  class Lock {
-   public:
-    explicit Lock(const std::filesystem::path& path);
-    ~Lock();
-    Lock(const Lock&) = delete;
-    Lock& operator=(const Lock&) = delete;
-
-   private:
-    int file_ = -1;
-  };
-  /// Waits for other calls, then reads what they have added. Throws WriteError, SystemError.
-  std::unique_ptr<Lock> lock();
+  /// Waits for other calls, then reads what they have added. While the file that it returns lives, they wait; where the
+  /// file system has no locks, nobody does. Throws WriteError, SystemError.
+  std::unique_ptr<platform::LockedFile> lock();
 
   /// The line of a frame that is done; null: it is not.
   const Json* find(const std::string& name, const std::string& key, const std::string& output_hash) const;

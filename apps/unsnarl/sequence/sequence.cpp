@@ -14,12 +14,14 @@
 #include "content_hash.h"
 #include "file_places.h"
 #include "mesh_input.h"
+#include "platform/process.h"
 #include "progress.h"
 #include "sequence/files.h"
 #include "sequence/record.h"
 #include "staged_output.h"
 #include "standard_streams.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/report_json.h"
 #include "unsnarl/sequence.h"
 #include "unsnarl/stage_clock.h"
@@ -91,10 +93,10 @@ class SequenceRun {
       : options_(options),
         interruption_(interruption),
         display_(options.progress, options.quiet),
-        folder_(checked_folder(options)),
+        folder_(path_of(checked_folder(options))),
         files_(open_sequence(options.inputs, format_from_name(options.format), options.output,
                              options.recompute_normals, interruption)),
-        record_(fs::path(options.output) / record_name),
+        record_(path_of(options.output) / record_name),
         done_(files_->count()) {}
 
   int run() {
@@ -144,10 +146,10 @@ class SequenceRun {
     FilePlaces places;
     files_->claim(places);
     places.reads("--fix-vertices", options_.fix_vertices);
-    const fs::path record = fs::path(options_.output) / record_name;
-    places.writes("the record of what is done", record);
+    const fs::path record = path_of(options_.output) / record_name;
+    places.writes("the record of what is done", record.string());
     places.writes("--report", options_.report);
-    for (const fs::path& place : {record, fs::path(options_.report)})
+    for (const fs::path& place : {record, path_of(options_.report)})
       if (!place.empty() && !is_stream(place.string())) StagedOutput(interruption_).files().open(place);
   }
 
@@ -163,7 +165,7 @@ class SequenceRun {
     asked.erase("threads");  // they change no byte
     const std::vector<std::uint8_t>& fixed = sequence_.repair.fixed;
     asked_for_ = sha256(asked.dump() + sha256(std::string(fixed.begin(), fixed.end())) + what_may_pass() +
-                        (options_.recompute_normals ? "normals" : "") + sha256_of_file("/proc/self/exe"));
+                        (options_.recompute_normals ? "normals" : "") + sha256_of_file(platform::program_file()));
   }
 
   /// A text that differs wherever other pairs are allowed; empty: none is.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gif_lib.h>
-#include <gnu/libc-version.h>
 #include <png.h>
 #include <zip.h>
 #include <zlib.h>
@@ -13,6 +12,7 @@
 #include <pugixml.hpp>
 
 #include "geometry/parallel.h"
+#include "platform/process.h"
 
 namespace unsnarl {
 
@@ -28,7 +28,7 @@ std::vector<LibraryVersion> libraries() {
       {"GCC", fmt::format("{}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__)},
 #endif
       {"giflib", fmt::format("{}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE)},
-      {"glibc", gnu_get_libc_version()},
+      {"glibc", platform::version_of_glibc()},
       {"libpng", fmt::format("{}.{}.{}", png / 10000, png / 100 % 100, png % 100)},
       {"libzip", zip_libzip_version()},
       {"nlohmann/json",

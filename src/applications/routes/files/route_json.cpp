@@ -6,6 +6,7 @@
 
 #include "io/parse_json.h"
 #include "unsnarl/document.h"
+#include "unsnarl/paths.h"
 #include "unsnarl/routes.h"
 #include "unsnarl/version.h"
 
@@ -111,11 +112,11 @@ RouteObstacle obstacle(const Json& value, std::size_t number_of_obstacle, const 
       refuse(place, "give either a file or vertices and faces");
     const std::string file = text(value["file"], place + ".file");
     try {
-      made.surface = Document::read(folder / file).surface();
+      made.surface = Document::read(folder / path_of(file)).surface();
     } catch (const FileError& e) {
       refuse(place + ".file", e.what());
     }
-    made.name = std::filesystem::path(file).stem().string();
+    made.name = path_of(file).stem().string();
   } else {
     if (!value.contains("vertices")) refuse(place, "\"file\" is missing, or \"vertices\" and \"faces\"");
     made.surface = written_surface(value, place);

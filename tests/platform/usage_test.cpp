@@ -1,16 +1,16 @@
-#include "run/process_usage.h"
+#include "platform/usage.h"
 
 #include <gtest/gtest.h>
 
-namespace unsnarl {
+namespace unsnarl::platform {
 namespace {
 
-TEST(ProcessUsage, memory) {
+TEST(Usage, memory) {
   EXPECT_GT(resident_memory_mb(), 1);
   EXPECT_GE(peak_memory_mb(), 0.5 * resident_memory_mb());
 }
 
-TEST(ProcessUsage, time_grows_with_work) {
+TEST(Usage, time_grows_with_work) {
   const double before = cpu_seconds();
   volatile double sum = 0;
   while (cpu_seconds() < before + 0.01) sum = sum + 1;
@@ -18,4 +18,4 @@ TEST(ProcessUsage, time_grows_with_work) {
 }
 
 }  // namespace
-}  // namespace unsnarl
+}  // namespace unsnarl::platform

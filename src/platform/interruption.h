@@ -1,0 +1,15 @@
+#pragma once
+
+#include <functional>
+
+namespace unsnarl::platform {
+
+/// Calls take() in a thread of its own, which may do what a signal handler must not, for each Ctrl-C and polite request
+/// to end (SIGINT, SIGTERM, SIGHUP; on Windows Ctrl-Break and the closing of the window too) from now on. Those that
+/// are ignored at the start (nohup) stay ignored. To be called before any other thread starts.
+///
+/// What ends a process without a word elsewhere is an error of the call of the system: a reader of our output that goes
+/// away, a file beyond the limit that the shell sets.
+void take_requests_to_end(std::function<void()> take);
+
+}  // namespace unsnarl::platform
