@@ -39,7 +39,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(_WIN32) && defined(UNSNARL_BUILDING)
+#define UNSNARL_EXPORT __declspec(dllexport)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define UNSNARL_EXPORT __attribute__((visibility("default")))
 #else
 #define UNSNARL_EXPORT
