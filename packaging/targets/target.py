@@ -25,7 +25,7 @@ CORE = ["-DUNSNARL_BUILD_IO=OFF", "-DUNSNARL_BUILD_APPS=OFF", "-DUNSNARL_USE_TBB
 HEADERS = ["libboost-dev", "libcli11-dev", "libeigen3-dev", "nlohmann-json3-dev"]
 TOOLS = ["cmake", "ninja-build", "python3"]
 #: Packages of libraries, which are of one processor; those that only tests ask.
-LIBRARIES = ["libfmt-dev", "libgif-dev", "libgtest-dev", "libpng-dev", "libpugixml-dev", "libssl-dev", "libtbb-dev",
+LIBRARIES = ["libfmt-dev", "libgif-dev", "libgtest-dev", "libpng-dev", "libpugixml-dev", "libtbb-dev",
              "libzip-dev", "zlib1g-dev"]
 ORACLES = ["libcgal-dev", "libgmp-dev", "libmpfr-dev"]
 #: What is built in a root for a target that Debian has no libraries for, and is found there.
