@@ -39,12 +39,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(_WIN32) && defined(UNSNARL_BUILDING)
-#define UNSNARL_EXPORT __declspec(dllexport)
-#elif defined(__GNUC__) && !defined(_WIN32)
+#if !defined(UNSNARL_EXPORT) /* the build of a DLL says how it exports */
+#if defined(__ELF__) || defined(__MACH__)
 #define UNSNARL_EXPORT __attribute__((visibility("default")))
 #else
 #define UNSNARL_EXPORT
+#endif
 #endif
 
 #ifdef __cplusplus
