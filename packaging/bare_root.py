@@ -1,6 +1,7 @@
 """Small Debian systems in folders, where a package shows that it brings what it needs (mmdebstrap, chroot; as root)."""
 
 import hashlib
+import shlex
 import shutil
 import subprocess
 import sys
@@ -46,7 +47,7 @@ def runner(root, inside, network=False, environment={}):
     environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": inside, "LANG": "C.UTF-8", **environment}
 
     def run(*command, expected=0):
-        line = " ".join(f"'{c}'" for c in map(str, command))
+        line = shlex.join(map(str, command))
         script = f"mount -t proc proc /proc 2>/dev/null; cd {inside} && exec {line}"
         alone = ["--mount"] if network else ["--mount", "--net"]
         done = subprocess.run(["unshare", *alone, "chroot", root, "/bin/sh", "-c", script],

@@ -39,10 +39,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if !defined(UNSNARL_EXPORT) /* the build of a DLL says how it exports */
+#if defined(__ELF__) || defined(__MACH__)
 #define UNSNARL_EXPORT __attribute__((visibility("default")))
 #else
 #define UNSNARL_EXPORT
+#endif
 #endif
 
 #ifdef __cplusplus

@@ -150,7 +150,8 @@ TEST(NearPairs, lists_all_whose_boxes_overlap_once_and_in_the_same_order_at_any_
       for (Index b = 0; b < count; ++b)
         for (Index a = 0; a < std::min(b, active); ++a) {
           const Triangle &s = sheets.triangles[a], &t = sheets.triangles[b];
-          const bool joined = std::any_of(s.begin(), s.end(), [&](Index v) { return std::ranges::count(t, v) > 0; });
+          const bool joined =
+              std::any_of(s.begin(), s.end(), [&](Index v) { return std::count(t.begin(), t.end(), v) > 0; });
           if (joined || !box_of(x, s).overlaps(box_of(x, t))) continue;
           EXPECT_TRUE(listed.contains({a, b})) << a << ' ' << b;
         }

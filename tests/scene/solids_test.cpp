@@ -35,7 +35,7 @@ TEST(Solids, are_the_closed_components) {
   ASSERT_EQ(solids.of_triangle.size(), shape.triangles.size());
   EXPECT_EQ(solids.of_triangle.front(), 0);
   EXPECT_EQ(solids.of_triangle.back(), 1);
-  EXPECT_EQ(std::ranges::count(solids.of_triangle, -1), 1);
+  EXPECT_EQ(std::count(solids.of_triangle.begin(), solids.of_triangle.end(), -1), 1);
 }
 
 TEST(Solids, triangles_that_disagree_on_what_is_inside_bound_none) {
@@ -49,7 +49,7 @@ TEST(Solids, triangles_that_disagree_on_what_is_inside_bound_none) {
 TEST(Solids, of_some_triangles_are_numbered_anew) {
   const Solids solids = solids_in(boxes_and_sheet());
   const Index last = static_cast<Index>(solids.of_triangle.size()) - 1;
-  const auto sheet = std::ranges::find(solids.of_triangle, -1) - solids.of_triangle.begin();
+  const auto sheet = std::find(solids.of_triangle.begin(), solids.of_triangle.end(), -1) - solids.of_triangle.begin();
   const std::vector<Index> some = {static_cast<Index>(sheet), last, last + 1};  // the last one is of no component
   const Solids of_some = solids_of(solids, some);
   ASSERT_EQ(of_some.list.size(), 1u);

@@ -134,7 +134,8 @@ TEST(Trial, looking_farther_recovers_clean_candidates) {
     const Triangle& face = clean.patch.triangles[t];
     const double most = 4.0 * 4.0 * triangle_area(clean.patch.rest, face);
     of_all += most;
-    if (std::ranges::all_of(face, [&](Index v) { return v < clean.patch.free_count; })) of_free_faces += most;
+    if (std::all_of(face.begin(), face.end(), [&](Index v) { return v < clean.patch.free_count; }))
+      of_free_faces += most;
   }
   ASSERT_GT(of_free_faces, 0);
   EXPECT_GE(clean.distance, of_free_faces * (1 - 1e-9));
