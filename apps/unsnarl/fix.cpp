@@ -242,7 +242,7 @@ int fix_files(const FixOptions& options, Interruption& interruption) {
 
   // A folder that is missing or must not be written to is found now rather than after the work.
   std::optional<OutputFolder> folder;
-  if (options.is_scene()) folder.emplace(output);
+  if (options.is_scene()) folder.emplace(path_of(output));
   places.require_writable(interruption);
   if (picture_kind(options.picture) == PictureKind::folder) prepare_picture_folder(options.picture, "--picture");
 

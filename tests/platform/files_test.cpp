@@ -92,13 +92,6 @@ TEST_F(Files, moves_over_a_file) {
   EXPECT_EQ(give_second_name(path("none/none"), path("b")), ENOENT);
 }
 
-TEST_F(Files, a_file_that_is_being_read_can_be_replaced) {
-  made("from", "from");
-  InputFile reader(made("to", "to"), InputFile::Opening::at_once);
-  EXPECT_EQ(move_file(path("from"), path("to")), 0);
-  EXPECT_EQ(text(path("to")), "from");
-}
-
 TEST_F(Files, makes_and_removes_folders) {
   EXPECT_EQ(make_folder(path("folder")), 0);
   EXPECT_EQ(make_folder(path("folder")), EEXIST);

@@ -9,6 +9,7 @@ PROGRAM is the one for this system; without it, nothing is compared, and what th
 """
 import json
 import os
+import pty
 import re
 import shutil
 import subprocess
@@ -25,26 +26,6 @@ SAMPLES = ['mobius_extended', 'linked_rings', 'klein_map', 'overlapping_quads', 
 UNUSUAL = 'Größe 网格 σχήμα'
 WINDOWS = THIS = None
 RUNNER = []
-
-# Starts a program in a group of its own, interrupts it after so many milliseconds, and ends with its exit code.
-INTERRUPTER = r'''
-#include <windows.h>
-#include <stdlib.h>
-int wmain(int count, wchar_t** words) {
-  STARTUPINFOW startup = {sizeof startup};
-  PROCESS_INFORMATION started;
-  DWORD code = 99;
-  if (count < 3) return 98;
-  if (!CreateProcessW(NULL, words[2], NULL, NULL, TRUE, CREATE_NEW_PROCESS_GROUP, NULL, NULL, &startup, &started)) return 97;
-  for (int k = count > 3 ? _wtoi(words[3]) : 1; k > 0; --k) {
-    Sleep(_wtoi(words[1]));
-    if (!GenerateConsoleCtrlEvent(CTRL_BREAK_EVENT, started.dwProcessId)) return 96;
-  }
-  WaitForSingleObject(started.hProcess, INFINITE);
-  GetExitCodeProcess(started.hProcess, &code);
-  return (int)code;
-}
-'''
 
 
 def without_times(text):
@@ -164,6 +145,9 @@ class Bytes(Case):
         self.both('seifert', 'knot.xyz', '-o', 'surface.obj', '--quiet')
         self.both('knot-isotopy', 'kinks.xyz', 'circle.xyz', '-o', 'isotopy', '--quiet')
         self.both('routes', 'plan.json', '-o', 'routes', '--quiet')
+        for folder in (self.this, self.windows):
+            for timed in (folder / 'isotopy' / 'isotopy.json', folder / 'routes' / 'routes.json'):
+                timed.write_text(re.sub(r'"seconds": ?[-\d.e+]+', '"seconds":0', timed.read_text()))
         self.assert_same_files()
 
     def test_standard_streams(self):
@@ -255,6 +239,8 @@ class Paths(Case):
         document['buffers'][0]['uri'] = 'buffers\\größe.bin'
         self.put('mesh.gltf', json.dumps(document))
         self.put('buffers/größe.bin', glb[28 + size:28 + size + document['buffers'][0]['byteLength']])
+        for folder in (self.this, self.windows):
+            (folder / 'out').mkdir()
         self.both('fix', 'mesh.gltf', '-o', 'out/mesh.gltf', '--quiet', code=0)
         self.assert_same_files()
         self.assertIn('out/buffers/größe.bin', files_in(self.windows))
@@ -285,8 +271,9 @@ class Folders(Case):
     def results(self, folder):
         rows = [json.loads(line) for line in (folder / 'out/results.jsonl').read_text(encoding='utf-8').splitlines()]
         for row in rows:
-            row.pop('run')
-            row.pop('key')
+            row.pop('run', None)
+            row.pop('key', None)
+            row['message'] = row.get('message', '').replace('\\', '/')
         return rows
 
     def test_batch(self):
@@ -298,7 +285,8 @@ class Folders(Case):
         if THIS:
             self.assertEqual(self.results(self.this), self.results(self.windows))
             self.assertEqual(files_in(self.this / 'out/fixed'), there)
-            self.assertEqual(*((folder / 'out/results.csv').read_bytes() for folder in (self.this, self.windows)))
+            self.assertEqual(*((folder / 'out/results.csv').read_bytes().replace(b'\\', b'/')
+                               for folder in (self.this, self.windows)))
         again = self.windows_only('batch', 'meshes', '-o', 'out', '--jobs', '2', '--thumbnails', code=1)
         self.assertIn(b'done before', again.stderr)
 
@@ -320,7 +308,7 @@ class Folders(Case):
         self.assertEqual(len(files_in(self.windows / 'out/fixed')), 4)
 
     def test_a_worker_that_takes_too_long_is_stopped(self):
-        self.sample('boy_surface', 'meshes/mesh.obj', '--resolution', '60')
+        self.sample('crumpled_sheet', 'meshes/mesh.obj', '--resolution', '200')
         self.windows_only('batch', 'meshes', '-o', 'out', '--time-limit', '0.2', '--quiet', code=1)
         self.assertEqual(self.results(self.windows)[0]['status'], 'time_limit')
 
@@ -351,26 +339,28 @@ class Safety(Case):
         self.both('fix', 'mesh.obj', '-o', 'none/out.obj', '--quiet')
 
     def test_limits(self):
-        self.sample('boy_surface', 'mesh.obj', '--resolution', '60')
+        self.sample('crumpled_sheet', 'mesh.obj', '--resolution', '200')
         self.windows_only('fix', 'mesh.obj', '-o', 'out.obj', '--time-limit', '0.3', '--quiet', code=5)
 
     def test_interruption(self):
-        compiler = shutil.which('x86_64-w64-mingw32-gcc-posix') or shutil.which('x86_64-w64-mingw32-gcc')
-        if compiler is None:
-            self.skipTest('x86_64-w64-mingw32-gcc, which compiles what sends the interruption')
-        helper = self.folder / 'interrupt.exe'
-        (self.folder / 'interrupt.c').write_text(INTERRUPTER)
-        subprocess.run([compiler, '-municode', '-o', helper, self.folder / 'interrupt.c'], check=True)
-        self.sample('boy_surface', 'mesh.obj', '--resolution', '150')
+        """Ctrl-C, typed at a terminal."""
+        self.sample('crumpled_sheet', 'mesh.obj', '--resolution', '200')
         (self.windows / 'out.obj').write_text('old\n')
-        program = 'Z:' + str(Path(WINDOWS)).replace('/', '\\')
-        before = time.monotonic()
-        done = subprocess.run([*RUNNER, str(helper), '6000', f'"{program}" fix mesh.obj -o out.obj --quiet'],
-                              cwd=self.windows, capture_output=True, timeout=600)
-        self.assertLess(time.monotonic() - before, 60)
-        self.assertEqual(done.returncode, 6, done.stderr)
-        self.assertEqual((self.windows / 'out.obj').read_text(), 'old\n')
-        self.assertEqual([name for name in os.listdir(self.windows) if name.startswith('.unsnarl')], [])
+        process, terminal = pty.fork()
+        if process == 0:
+            os.chdir(self.windows)
+            words = [*RUNNER, str(WINDOWS), 'fix', 'mesh.obj', '-o', 'out.obj', '--no-partial', '--quiet']
+            os.execvp(words[0], words)
+        time.sleep(4)
+        os.write(terminal, b'\x03')
+        said = b''
+        try:
+            while piece := os.read(terminal, 4096):
+                said += piece
+        except OSError:
+            pass  # the program has ended
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]), 6, said)
+        self.assertEqual(files_in(self.windows), {'mesh.obj': (self.windows / 'mesh.obj').read_bytes(), 'out.obj': b'old\n'})
 
 
 if __name__ == '__main__':
