@@ -25,7 +25,6 @@ NAMES = {
     "libgif-dev": ("giflib", "giflib", "giflib"),
     "libpng-dev": ("libpng", "libpng", "libpng"),
     "libpugixml-dev": ("pugixml", "pugixml", "pugixml"),
-    "libssl-dev": ("openssl", "openssl", "openssl@3"),
     "libtbb-dev": ("tbb", "tbb-devel", "tbb"),
     "libzip-dev": ("libzip", "libzip", "libzip"),
     "nlohmann-json3-dev": ("nlohmann-json", "nlohmann_json", "nlohmann-json"),

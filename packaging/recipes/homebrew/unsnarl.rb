@@ -14,7 +14,6 @@ class Unsnarl < Formula
   depends_on "giflib"
   depends_on "libpng"
   depends_on "libzip"
-  depends_on "openssl@3"
   depends_on "pugixml"
   depends_on "tbb"
 
