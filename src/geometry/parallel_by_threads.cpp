@@ -24,18 +24,10 @@ void update_limit() {
 }
 
 /// Keeps threads that wait for loops. The thread of a loop within a loop, or beside another, runs it alone: nobody
-/// waits for a thread that works elsewhere.
+/// waits for a thread that works elsewhere. It never goes: where a library of Windows ends, its threads have been
+/// stopped, and waiting for them would take for ever.
 class Pool {
  public:
-  ~Pool() {
-    {
-      const std::lock_guard lock(mutex_);
-      has_ended_ = true;
-    }
-    wake_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
-  }
-
   /// Returns false where another loop is under way.
   bool run(std::size_t count, const std::function<void(std::size_t)>& work, std::size_t threads) {
     const std::unique_lock turn(turn_, std::try_to_lock);
@@ -73,8 +65,7 @@ class Pool {
     std::uint64_t seen = 0;
     std::unique_lock lock(mutex_);
     for (;;) {
-      wake_.wait(lock, [&] { return has_ended_ || (loop_ != seen && number <= wanted_); });
-      if (has_ended_) return;
+      wake_.wait(lock, [&] { return loop_ != seen && number <= wanted_; });
       seen = loop_;
       lock.unlock();
       take_part();
@@ -106,7 +97,6 @@ class Pool {
   std::atomic<std::size_t> next_{0};
   std::uint64_t loop_ = 0;
   std::exception_ptr failure_;
-  bool has_ended_ = false;
 };
 
 }  // namespace
@@ -137,7 +127,7 @@ std::size_t number_of_thread() {
 void run_calls(std::size_t count, const std::function<void(std::size_t)>& work) {
   const auto threads = std::min(count, static_cast<std::size_t>(thread_count()));
   if (threads > 1 && !is_in_loop) {
-    static Pool pool;
+    static Pool& pool = *new Pool;
     if (pool.run(count, work, threads)) return;
   }
   for (std::size_t k = 0; k < count; ++k) work(k);

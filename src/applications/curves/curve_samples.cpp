@@ -68,8 +68,8 @@ std::vector<Vec2> points_of(std::string_view kind, Random& random, int n) {
   } else if (kind == "noise") {
     const double amplitude = random.between(0.5, 4) * turn / n;
     at([&](double t) {
-      return Vec2(portable::cos(turn * t) + amplitude * random.between(-1, 1),
-                  portable::sin(turn * t) + amplitude * random.between(-1, 1));
+      const double up = amplitude * random.between(-1, 1), across = amplitude * random.between(-1, 1);
+      return Vec2(portable::cos(turn * t) + across, portable::sin(turn * t) + up);
     });
   } else if (kind == "spiral") {
     const int turns = 2 + static_cast<int>(random() * 5);
@@ -80,7 +80,10 @@ std::vector<Vec2> points_of(std::string_view kind, Random& random, int n) {
       return Vec2(r * portable::cos(turn * turns * t), r * portable::sin(turn * turns * t));
     });
   } else {
-    at([&](double) { return Vec2(random(), random()); });
+    at([&](double) {  // in turns: arguments of one call are taken in any order
+      const double y = random(), x = random();
+      return Vec2(x, y);
+    });
   }
   return p;
 }
