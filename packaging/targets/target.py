@@ -17,7 +17,7 @@ from output import put  # noqa: E402
 #: Where sources and builds lie in a root: a build that is there already is continued.
 PLACE = "opt/unsnarl"
 #: Tests of the core, by layer.
-CORE_TESTS = ["geometry", "parallel_by_threads", "run", "mesh", "contact", "energy", "optimize", "scene", "rigid",
+CORE_TESTS = ["text", "geometry", "parallel_by_threads", "run", "mesh", "contact", "energy", "optimize", "scene", "rigid",
               "recover", "untangle", "pipeline", "property", "applications", "same_bytes"]
 #: Options of CMake for the core alone, where neither oneTBB nor CGAL is.
 CORE = ["-DUNSNARL_BUILD_IO=OFF", "-DUNSNARL_BUILD_APPS=OFF", "-DUNSNARL_USE_TBB=OFF", "-DUNSNARL_TEST_ORACLE=OFF"]

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/read_number.h"
+#include "text/read_number.h"
 #include "unsnarl/depth_limit.h"
 #include "unsnarl/document.h"
 

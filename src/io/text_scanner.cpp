@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "geometry/read_number.h"
+#include "text/read_number.h"
 #include "unsnarl/document.h"
 #include "unsnarl/visible_text.h"
 

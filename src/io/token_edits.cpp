@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "geometry/read_number.h"
 #include "io/text_scanner.h"
+#include "text/read_number.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl {

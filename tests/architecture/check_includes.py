@@ -17,13 +17,14 @@ from pathlib import Path
 # What each layer may include besides itself and the public headers. Keep in step with src/CMakeLists.txt.
 BELOW = {
     "platform": [],
+    "text": [],
     "geometry": [],
     "run": ["platform", "geometry"],
     "mesh": ["geometry"],
     "contact": ["geometry", "mesh"],
     "energy": ["geometry", "mesh", "contact"],
     "optimize": ["geometry"],
-    "io": ["platform", "geometry", "mesh"],
+    "io": ["platform", "text", "geometry", "mesh"],
     "render": ["geometry", "mesh"],
     "scene": ["geometry", "mesh", "contact"],
     "rigid": ["geometry", "mesh", "contact"],
@@ -32,7 +33,7 @@ BELOW = {
     "report": ["platform", "geometry", "mesh", "contact", "energy", "io", "scene", "rigid", "untangle"],
     "pipeline": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render", "scene", "rigid", "recover",
                  "untangle", "report"],
-    "applications": ["geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render"],
+    "applications": ["text", "geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render"],
     "samples": ["geometry", "mesh"],
 }
 # What reads and writes files, besides the folders `files` of other layers: no part of the core.

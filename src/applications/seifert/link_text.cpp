@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "applications/seifert/planar_layout.h"
-#include "geometry/read_number.h"
+#include "text/read_number.h"
 #include "unsnarl/document.h"
 #include "unsnarl/link.h"
 

@@ -8,8 +8,8 @@
 #include "applications/curves/curve_net.h"
 #include "applications/curves/files/curve_file.h"
 #include "geometry/portable_math.h"
-#include "geometry/read_number.h"
 #include "io/mesh_file.h"
+#include "text/read_number.h"
 
 namespace unsnarl {
 namespace {

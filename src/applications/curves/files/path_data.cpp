@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "geometry/portable_math.h"
-#include "geometry/read_number.h"
+#include "text/read_number.h"
 
 namespace unsnarl {
 namespace {

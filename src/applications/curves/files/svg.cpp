@@ -12,9 +12,9 @@
 #include "applications/curves/files/curve_file.h"
 #include "applications/curves/files/path_data.h"
 #include "applications/curves/files/written_places.h"
-#include "geometry/read_number.h"
 #include "io/text_edits.h"
 #include "io/xml_text.h"
+#include "text/read_number.h"
 #include "unsnarl/depth_limit.h"
 
 namespace unsnarl {

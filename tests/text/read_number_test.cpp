@@ -1,5 +1,5 @@
 // Numbers are read as std::from_chars reads them, also where the standard library has none for them.
-#include "geometry/read_number.h"
+#include "text/read_number.h"
 
 #include <gtest/gtest.h>
 

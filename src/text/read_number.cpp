@@ -1,4 +1,4 @@
-#include "geometry/read_number.h"
+#include "text/read_number.h"
 
 #if !defined(__cpp_lib_to_chars)
 
