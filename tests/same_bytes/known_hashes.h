@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 /// What a computation gave, as bytes: numbers by their bits, so that two results are the same or not.
