@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,9 +16,14 @@ class Bytes {
     bytes_ += text;
     return *this;
   }
-  template <class Number>
-  requires std::is_arithmetic_v<Number> || std::is_enum_v<Number> Bytes& operator<<(Number number) {
-    bytes_.append(reinterpret_cast<const char*>(&number), sizeof number);
+  Bytes& operator<<(double number) {
+    append(number);
+    return *this;
+  }
+  /// As 64 bits: some whole numbers have another size elsewhere.
+  template <class Whole, class = std::enable_if_t<std::is_integral_v<Whole> || std::is_enum_v<Whole>>>
+  Bytes& operator<<(Whole number) {
+    append(static_cast<std::int64_t>(number));
     return *this;
   }
   template <class Number>
@@ -36,6 +40,11 @@ class Bytes {
   }
 
  private:
+  template <class Number>
+  void append(Number number) {
+    bytes_.append(reinterpret_cast<const char*>(&number), sizeof number);
+  }
+
   std::string bytes_;
 };
 
