@@ -48,7 +48,8 @@ def runner(root, inside, network=False, environment={}):
 
     def run(*command, expected=0):
         line = shlex.join(map(str, command))
-        script = f"mount -t proc proc /proc 2>/dev/null; cd {inside} && exec {line}"
+        terminals = "mount -t devpts -o newinstance,ptmxmode=0666 devpts /dev/pts 2>/dev/null"
+        script = f"mount -t proc proc /proc 2>/dev/null; {terminals}; cd {inside} && exec {line}"
         alone = ["--mount"] if network else ["--mount", "--net"]
         done = subprocess.run(["unshare", *alone, "chroot", root, "/bin/sh", "-c", script],
                               capture_output=True, text=True, errors="replace", env=environment)
