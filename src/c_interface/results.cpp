@@ -12,7 +12,7 @@ unsnarl_result result_of_repair(RepairResult repaired, RepairFileOptions options
   result.report = report_json(repaired, options.repair, files);
   result.arrays["positions"] = {std::move(repaired.positions), 3};
   options.repair.as_written = {};
-  result.repaired.emplace(std::move(repaired), std::move(options));
+  result.repaired = {std::move(repaired), std::move(options)};
   return result;
 }
 
