@@ -12,7 +12,7 @@
 namespace unsnarl {
 namespace {
 
-constexpr FindOptions both = {.both_diagonals = true};
+const FindOptions both = {.both_diagonals = true};
 
 /// A saddle whose diagonals pass each other at a distance of 1, and an upright face that ends between them.
 Surface saddle_and_blade() {
