@@ -56,12 +56,14 @@ inline QuarterTurn reduce(double x) {
 
 /// Within pi/4, by the Taylor series.
 inline double sine_near_zero(double x) {
+  // Coefficients of (sin x / x - 1) / x^2 in x^2 (fixed by arithmetic)
   constexpr double terms[] = {-1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
                               -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
   const double z = x * x;
   return x + x * z * polynomial(terms, z);
 }
 inline double cosine_near_zero(double x) {
+  // Coefficients of (cos x - 1 + x^2 / 2) / x^4 in x^2 (fixed by arithmetic)
   constexpr double terms[] = {1.0 / 24,        -1.0 / 720,         1.0 / 40320,         -1.0 / 3628800,
                               1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
   const double z = x * x;
@@ -77,6 +79,7 @@ inline double sine(const QuarterTurn& turn, int further) {
 
 /// The arc tangent for 0 <= x <= 1: a quarter of the angle by its series. tan(a/2) = t / (1 + sqrt(1 + t^2)).
 inline double arc_tangent(double x) {
+  // Coefficients of (arctan x / x - 1) / x^2 in x^2 (fixed by arithmetic)
   constexpr double terms[] = {-1.0 / 3, 1.0 / 5,   -1.0 / 7, 1.0 / 9,   -1.0 / 11,
                               1.0 / 13, -1.0 / 15, 1.0 / 17, -1.0 / 19, 1.0 / 21};
   const double half = x / (1 + std::sqrt(1 + x * x)), t = half / (1 + std::sqrt(1 + half * half)), z = t * t;
@@ -92,6 +95,7 @@ inline double exp(double x) {
   constexpr double least = -745.2;   // results below are 0 (fixed by the format)
   if (!(x < largest)) return x >= largest ? std::numeric_limits<double>::infinity() : x;
   if (x < least) return 0;
+  // Coefficients of (e^x - 1 - x) / x^2 in x (fixed by arithmetic)
   constexpr double terms[] = {1.0 / 2,       1.0 / 6,        1.0 / 24,        1.0 / 120,
                               1.0 / 720,     1.0 / 5040,     1.0 / 40320,     1.0 / 362880,
                               1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};
@@ -113,6 +117,7 @@ inline double log(double x) {
   if (x < std::numeric_limits<double>::min()) x *= 0x1p54, k = -54;
   const std::int64_t bits = bit_cast<std::int64_t>(x), exponent = (bits - least) >> 52;
   k += exponent;
+  // Coefficients of 2 (artanh s / s - 1) / s^2 in s^2 (fixed by arithmetic)
   constexpr double terms[] = {2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11,
                               2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21};
   const double f = bit_cast<double>(bits - (exponent << 52)) - 1, s = f / (2 + f), z = s * s;
@@ -138,7 +143,7 @@ inline double length(double x, double y, double z) {
   return std::sqrt(x * x + y * y + z * z);
 }
 
-/// Of finite angles in radians.
+/// Sine, cosine and tangent of a finite angle in radians.
 inline double sin(double x) {
   return detail::sine(detail::reduce(x), 0);
 }

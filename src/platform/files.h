@@ -10,8 +10,8 @@
 
 #include "unsnarl/file_stamp.h"
 
-/// What the program and the library ask of the system beyond the standard library: a file a concern, written once a
-/// system. Errors are errno (<cerrno>) on every system; 0: there is none.
+/// The headers of this layer hold what the program and the library ask of the system beyond the standard library: a
+/// header a concern, with a file for each system. Errors are errno (<cerrno>) on every system; 0: there is none.
 namespace unsnarl::platform {
 
 /// The errno of an error of the standard library, whose own numbers are those of the system.
@@ -24,7 +24,7 @@ struct FileStatus {
   FileKind kind = FileKind::none;
   FileStamp stamp;  ///< of what is there
 };
-/// What is at this place, links followed. Allocates nothing.
+/// Returns what is at this place; follows links and allocates nothing.
 FileStatus status_of(const std::filesystem::path& path);
 
 /// A file, a pipe or a device that is open for reading until this goes.
@@ -75,7 +75,7 @@ int remove_file(const std::filesystem::path& file);
 int make_folder(const std::filesystem::path& folder);
 /// Removes an empty folder.
 int remove_folder(const std::filesystem::path& folder);
-/// What has been moved in the folder is safe from a loss of power when this returns, where the file system can do that.
+/// Makes moves in the folder safe from a loss of power, where the file system can do that.
 void flush_folder(const std::filesystem::path& folder);
 
 /// Makes a folder for this user alone, in `parent`, of a name that begins with `prefix`. Returns the errno of its

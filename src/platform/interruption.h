@@ -8,8 +8,8 @@ namespace unsnarl::platform {
 /// to end (SIGINT, SIGTERM, SIGHUP; on Windows Ctrl-Break and the closing of the window too) from now on. Those that
 /// are ignored at the start (nohup) stay ignored. To be called before any other thread starts.
 ///
-/// What ends a process without a word elsewhere is an error of the call of the system: a reader of our output that goes
-/// away, a file beyond the limit that the shell sets.
+/// From then on a call of the system fails, and the process goes on, where a signal would end it without a word: a
+/// reader of the output has gone away, or a file is beyond the limit that the shell sets.
 void take_requests_to_end(std::function<void()> take);
 
 }  // namespace unsnarl::platform

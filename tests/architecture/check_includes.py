@@ -36,7 +36,7 @@ BELOW = {
     "applications": ["text", "geometry", "run", "mesh", "contact", "energy", "optimize", "io", "render"],
     "samples": ["geometry", "mesh"],
 }
-# What reads and writes files, besides the folders `files` of other layers: no part of the core.
+# These layers read and write files, as the folders `files` of other layers do: they are no part of the core.
 FILES = {"io", "render"}
 # They use the library as its users do.
 USERS = ["apps", "src/c_interface", "examples"]

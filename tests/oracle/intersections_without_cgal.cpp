@@ -1,5 +1,5 @@
-// Where tests are built without CGAL, the product itself says what a result intersects; tests that compare the two are
-// left out.
+// This stands in for CGAL where tests are built without it: the product itself says what a result intersects. Such a
+// build leaves out the tests that compare the two.
 #include "oracle/intersections_oracle.h"
 #include "unsnarl/surface.h"
 

@@ -30,7 +30,7 @@ NAMES = {
     "nlohmann-json3-dev": ("nlohmann-json", "nlohmann_json", "nlohmann-json"),
     "zlib1g-dev": ("zlib", "zlib", "zlib"),
 }
-# What builds, and what the Python module is made with and runs with.
+# Recipes also name the tools of the build, and what the Python module is made with and runs with.
 TOOLS = {"cmake", "ninja", "numpy", "pip", "python", "setuptools", "vcpkg-cmake", "vcpkg-cmake-config", "wheel"}
 
 

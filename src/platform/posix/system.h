@@ -2,7 +2,7 @@
 
 #include <sys/time.h>
 
-/// What the files of this folder share.
+/// The files of this folder share these functions.
 namespace unsnarl::platform {
 
 inline constexpr double bytes_a_megabyte = 1e6;        ///< Bytes of a megabyte (fixed by SI units)

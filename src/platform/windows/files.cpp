@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr DWORD all_may_share = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-/// Bytes that one call writes, at most (unit: bytes)
+/// One call writes this many bytes at most (unit: bytes)
 constexpr std::size_t largest_piece = std::size_t{1} << 30;
 
 /// Opens what is there, folders too.
@@ -74,7 +74,7 @@ bool is_in_set(const std::wstring& pattern, std::size_t& at, wchar_t c) {
   return is_in != is_negated;
 }
 
-/// Of names in lower case.
+/// Does the name from n on match the pattern from p on? Both are in lower case.
 bool matches(const std::wstring& pattern, std::size_t p, const std::wstring& name, std::size_t n) {
   for (; p < pattern.size(); ++p, ++n) {
     if (pattern[p] == L'*') {

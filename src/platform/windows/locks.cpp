@@ -12,7 +12,7 @@ HANDLE handle_of(int descriptor) {
   return reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor));
 }
 
-/// What is locked is a byte far behind the end: a locked byte cannot be read by others, and all may read the lines.
+/// Locks a byte far behind the end of the file: nobody else can read a locked byte, and all may read the lines.
 bool lock_by(int descriptor, DWORD flags) {
   OVERLAPPED place{};
   place.OffsetHigh = 0x40000000;

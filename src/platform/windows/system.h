@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-/// What the files of this folder share.
+/// The files of this folder share these functions.
 namespace unsnarl::platform {
 
 /// The errno of an error of the system; one that is not of a path or of a full disk is EIO.
