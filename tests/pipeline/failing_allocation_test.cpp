@@ -1,7 +1,6 @@
 // Memory that runs out anywhere: the status stays true; and how much is needed. Replaces operator new of this test
 // program, never inlined, so that compilers see a new with each delete.
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <atomic>
@@ -9,6 +8,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <map>
+#include <memory>
 #include <new>
 #include <numbers>
 
@@ -26,21 +26,32 @@ namespace {
 std::atomic<long> allocations_left{-1};                // until one fails; negative: none does
 std::atomic<std::size_t> bytes_now{0}, most_bytes{0};  // what is allocated; the most since it was set
 
+/// What lies before each block that operator new hands out.
+struct Header {
+  void* memory;  // of malloc
+  std::size_t size;
+};
+
 void* allocate(std::size_t size, std::size_t alignment) {
   if (allocations_left.load(std::memory_order_relaxed) >= 0 && allocations_left.fetch_sub(1) == 0)
     throw std::bad_alloc();
-  size = (std::max(size, std::size_t{1}) + alignment - 1) / alignment * alignment;
-  void* const memory = std::aligned_alloc(alignment, size);
+  void* const memory = std::malloc(sizeof(Header) + alignment + size);
   if (!memory) throw std::bad_alloc();
-  const std::size_t now = bytes_now += malloc_usable_size(memory);
+  const std::size_t now = bytes_now += size;
   for (std::size_t most = most_bytes; now > most && !most_bytes.compare_exchange_weak(most, now);) {
   }
-  return memory;
+  void* block = static_cast<Header*>(memory) + 1;
+  std::size_t space = alignment + size;
+  std::align(alignment, size, block, space);
+  new (static_cast<Header*>(block) - 1) Header{memory, size};
+  return block;
 }
 
-void give_back(void* memory) {
-  bytes_now -= malloc_usable_size(memory);
-  std::free(memory);
+void give_back(void* block) {
+  if (!block) return;
+  const Header header = static_cast<Header*>(block)[-1];
+  bytes_now -= header.size;
+  std::free(header.memory);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ class Unsnarl < Formula
   depends_on "boost" => :build
   depends_on "cli11" => :build
   depends_on "cmake" => :build
+  depends_on "eigen@3" => :build
   depends_on "ninja" => :build
   depends_on "nlohmann-json" => :build
   depends_on "fmt"
@@ -20,19 +21,9 @@ class Unsnarl < Formula
   uses_from_macos "python" => :build
   uses_from_macos "zlib"
 
-  # The formula eigen is version 5; what is built is tested with 3.4.
-  resource "eigen" do
-    url "https://gitlab.com/libeigen/eigen/-/archive/3.4.0/eigen-3.4.0.tar.gz"
-    sha256 "8586084f71f9bde545ee7fa6d00288b264a2b7ac3607b974e54d13e7162c1c72"
-  end
-
   def install
-    resource("eigen").stage do
-      system "cmake", "-S", ".", "-B", "build", "-DCMAKE_INSTALL_PREFIX=#{buildpath}/eigen", "-DBUILD_TESTING=OFF"
-      system "cmake", "--install", "build"
-    end
     system "cmake", "-S", ".", "-B", "build", "-G", "Ninja", "-DUNSNARL_BUILD_TESTS=OFF",
-           "-DEigen3_DIR=#{buildpath}/eigen/share/eigen3/cmake", *std_cmake_args
+           *std_cmake_args
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"
   end
