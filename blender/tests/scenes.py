@@ -37,6 +37,7 @@ def add(name, V, F, **transform):
 
 
 def select(*objects):
+    bpy.context.view_layer.update()
     for one in bpy.context.view_layer.objects:
         one.select_set(one in objects)
     bpy.context.view_layer.objects.active = objects[0]

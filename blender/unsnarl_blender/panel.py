@@ -5,8 +5,8 @@ import bpy
 
 from .runs import length_text
 
-#: Characters of a line in the panel, at its usual width.
-LINE = 38
+#: Width of a letter on average, and of what stands beside a text in a panel (units: pixels, at a scale of 1).
+LETTER, BESIDE = 6.3, 50
 
 
 class UNSNARL_PT_main(bpy.types.Panel):
@@ -28,10 +28,10 @@ class UNSNARL_PT_main(bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("unsnarl.find", icon="VIEWZOOM")
         row.operator("unsnarl.clear", text="", icon="X")
-        row = layout.row(heading="Faces")
-        row.prop(settings, "select")
-        row.prop(settings, "colour")
-        draw_lines(layout, session.findings)
+        column = layout.column(heading="Faces", align=True)
+        column.prop(settings, "select")
+        column.prop(settings, "colour")
+        draw_lines(layout, context, session.findings)
 
         layout.separator()
         layout.prop(settings, "held")
@@ -43,13 +43,13 @@ class UNSNARL_PT_main(bpy.types.Panel):
                 layout.prop(settings, "held_group")
         layout.prop(settings, "gap")
         for hint in gap_hints(context):
-            draw_text(layout, hint, "INFO")
+            draw_text(layout, context, hint, "INFO")
         layout.prop(settings, "result")
         layout.operator("unsnarl.repair", icon="MOD_SMOOTH")
         if session.progress:
-            draw_text(layout, session.progress, "TIME")
+            draw_text(layout, context, session.progress, "TIME")
             layout.label(text="Esc cancels")
-        draw_lines(layout, session.outcome)
+        draw_lines(layout, context, session.outcome)
 
 
 class UNSNARL_PT_limits(bpy.types.Panel):
@@ -92,18 +92,20 @@ def draw_roles(layout, context):
             column.prop(one.unsnarl, "role", text=one.name)
 
 
-def draw_lines(layout, lines):
-    for number, line in enumerate(lines):
-        draw_text(layout, line.name, "NONE" if number else "DOT")
+def draw_lines(layout, context, lines):
+    for line in lines:
+        draw_text(layout, context, line.name, "DOT")
 
 
-def draw_text(layout, text, icon):
+def draw_text(layout, context, text, icon):
     """A text over as many lines as it needs."""
+    scale = context.preferences.system.ui_scale
+    most = max(12, int((context.region.width - BESIDE * scale) / (LETTER * scale)))
     column = layout.column(align=True)
     column.scale_y = 0.75
     line = ""
     for word in text.split():
-        if line and len(line) + len(word) >= LINE:
+        if line and len(line) + len(word) >= most:
             column.label(text=line, icon=icon)
             line, icon = "", "BLANK1"
         line = f"{line} {word}" if line else word

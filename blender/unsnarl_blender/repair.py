@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calls of the library, and the certificate of what Blender keeps of their results. Knows nothing of Blender."""
 
+import re
 from typing import NamedTuple
 
 import numpy as np
@@ -76,7 +77,10 @@ def repaired(surfaces, rigid, options, progress=None, shown=None):
         kept = space.kept(moved, before)
         return shown(kept) if shown else kept
 
-    result = unsnarl.repair(
+    result = _in_units_of_the_scene(
+        unsnarl.repair,
+        space.length,
+        options.min_gap,
         _meshes(placed, surfaces),
         fixed=[s.held for s in surfaces],
         rigid=rigid or None,
@@ -113,7 +117,10 @@ def repaired_frames(frames, options, progress=None):
     placed = [space.placed([s.positions for s in frame]) for space, frame in zip(spaces, frames)]
     V = np.stack([np.concatenate(own) for own in placed])
     extents = [float(np.linalg.norm(own.max(axis=0) - own.min(axis=0))) * space.length for own, space in zip(V, spaces)]
-    result = unsnarl.repair_sequence(
+    result = _in_units_of_the_scene(
+        unsnarl.repair_sequence,
+        min(extents),
+        options.min_gap,
         V,
         _faces_of_all(first),
         fixed=np.concatenate([s.held for s in first]),
@@ -174,6 +181,20 @@ def _settled(surfaces, rigid, space, placed, moved, keep, status, after, options
             notes.append(f"{count} pairs meet if a program rounds positions in the world to float32, as exporters do. "
                          "Ask for a gap, or apply the transforms.")
     return kept, status, left, notes
+
+
+def _in_units_of_the_scene(function, length, gap, *arguments, **options):
+    """Calls a function of the library; of a gap that it refuses, says so in units of the scene. length: of one of its
+    units of the gap, in these."""
+    try:
+        return function(*arguments, **options)
+    except ValueError as error:
+        too_wide = re.search(r"is (\S+) times as wide as the faces; (\S+) is the most", str(error))
+        if too_wide is None:
+            raise
+        most = float(too_wide[2]) * length
+        raise ValueError(f"A gap of {gap:.4g} is {too_wide[1]} times as wide as the faces; {most:.4g} is the most here. Ask for "
+                         "less, or subdivide the mesh") from None
 
 
 def drawn_pairs(before, triangles, after, options):

@@ -5,6 +5,7 @@ Closing one before it ends leaves nothing behind. Blender is read and written be
 for them; the library works in a thread of its own.
 """
 
+import re
 import time
 from typing import NamedTuple
 
@@ -23,6 +24,9 @@ class Said(NamedTuple):
     is_clean: bool  #: is nothing left?
     lines: list  #: sentences; the first is the summary
 
+
+#: Obstructions, and changed parts, that are named.
+MOST_PARTS = 3
 
 PHASES = {"diagnose": "Looking for intersections", "place": "Placing rigid objects", "untangle": "Untangling",
           "recover": "Moving back", "open_gaps": "Opening gaps", "certify": "Checking"}
@@ -77,7 +81,8 @@ def repair_objects(context):
     if is_written:
         notes += _write(context, chosen, surfaces, came_to, settings)
     lines = _summary(context.scene, came_to, time.monotonic() - started, is_written, settings.keep_incomplete)
-    return Said(is_written, came_to.status in repair.CLEAN, lines + came_to.notes + notes)
+    lines += came_to.notes + _on_parts(came_to.report, surfaces) + notes
+    return Said(is_written, came_to.status in repair.CLEAN, lines)
 
 
 def _write(context, chosen, surfaces, came_to, settings):
@@ -196,7 +201,7 @@ def _worked(work):
     try:
         return job.result()
     except (ValueError, TypeError, TimeoutError, MemoryError) as error:
-        raise Refused(f"{str(error) or 'There is not enough memory'}.") from None
+        raise Refused(_sentence(str(error) or "There is not enough memory")) from None
 
 
 def _line(progress, seconds):
@@ -248,14 +253,37 @@ def _summary(scene, came_to, seconds, is_written, keep_incomplete):
     if came_to.status not in repair.CLEAN and not is_written:
         lines.append("Nothing was written." + ("" if keep_incomplete or not came_to.has_moved else
                                                " Switch on Keep Incomplete Results to have the best that was reached."))
-    lines += [one["message"] for one in report.get("obstructions", [])]
-    lines += [one["message"] for one in report.get("changed_components", [])]
-    return lines + list(report.get("advice", []))
+    return lines
+
+
+def _on_parts(report, surfaces):
+    """What the library says of faces and parts, with the names of the objects. Ids of faces count through all of them."""
+    names = [surface.name for surface in surfaces]
+    ends = np.cumsum([len(surface.offsets) - 1 for surface in surfaces])
+
+    def part(one):
+        return f"A part of '{names[int(np.searchsorted(ends, one['first_face'], side='right'))]}'"
+
+    lines = [_sentence(one["message"]) for one in report["obstructions"][:MOST_PARTS]]
+    if lines and len(names) > 1:
+        lines.append(f"Faces are counted through the objects in this order: {', '.join(names)}.")
+    lines += [_sentence(re.sub(r"^component \d+", part(one), one["message"])) for one in report["changed_components"][:MOST_PARTS]]
+    more = max(len(report["changed_components"]) - MOST_PARTS, 0) + max(len(report["obstructions"]) - MOST_PARTS, 0)
+    if more:
+        lines.append(f"And {more} more such parts.")
+    if report["advice"]:
+        lines.append("Parts overlap by more than 10 % of their volume. If one has to keep its shape, make it Held or Rigid; if "
+                     "they are meant as one solid, unite them with a Boolean modifier.")
+    return lines
+
+
+def _sentence(text):
+    return text[0].upper() + text[1:] + ("" if text.endswith(".") else ".")
 
 
 STATUS = {
     "embedded": "Clean:", "allowed": "Clean:", "gap_not_met": "Clean, but the gap is smaller than asked:",
-    "obstructed": "Repaired all that can be repaired with what is held:", "reduced": "Intersections are left:",
+    "obstructed": "Repaired all that can be repaired:", "reduced": "Intersections are left:",
     "no_progress": "Nothing better was found:", "time_limit": "Stopped by the limit of time:",
     "memory_limit": "Stopped by the limit of memory:", "displacement_exceeded": "A vertex has to move farther than allowed:",
 }

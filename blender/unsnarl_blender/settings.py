@@ -11,8 +11,8 @@ class UnsnarlSettings(bpy.types.PropertyGroup):
     scope: EnumProperty(
         name="Repair",
         items=[
-            ("ACTIVE", "Active Object", "The active object alone"),
-            ("SELECTED", "Selected Objects", "All selected meshes as one scene: they are separated from each other too"),
+            ("ACTIVE", "Active", "The active object alone"),
+            ("SELECTED", "Selected", "All selected meshes as one scene: they are separated from each other too"),
         ],
     )
     as_displayed: BoolProperty(
@@ -98,7 +98,7 @@ class UnsnarlObject(bpy.types.PropertyGroup):
 
 
 class UnsnarlLine(bpy.types.PropertyGroup):
-    icon: StringProperty(default="NONE")
+    """A sentence, as its name."""
 
 
 class UnsnarlSession(bpy.types.PropertyGroup):
