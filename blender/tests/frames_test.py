@@ -47,7 +47,8 @@ class Frames(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
-        settings().frame_start, settings().frame_end, settings().cache_folder = FIRST, LAST, self.folder
+        settings().own_range, settings().cache_folder = True, f"{self.folder}/caches"
+        settings().frame_start, settings().frame_end = FIRST, LAST
 
     def test_a_cache_plays_the_positions_of_the_command_line(self):
         one = moving_tubes()
@@ -76,7 +77,7 @@ class Frames(unittest.TestCase):
         bpy.ops.unsnarl.repair_frames()
         self.assertEqual([modifier.name for modifier in one.modifiers], ["unsnarl"])
         self.assertEqual(shown(one).tobytes(), once.tobytes())
-        self.assertEqual(len(list(Path(self.folder).glob("*.pc2"))), 2, "no file was overwritten")
+        self.assertEqual(len(list(Path(self.folder).glob("caches/*.pc2"))), 2, "no file was overwritten")
 
     def test_shape_keys_show_one_frame_each(self):
         one = moving_tubes()
@@ -100,23 +101,45 @@ class Frames(unittest.TestCase):
         one.unsnarl.role = "HELD"
         select(one, other)
         settings().scope = "SELECTED"
-        before = shown(one)
         self.assertEqual(bpy.ops.unsnarl.repair_frames(), {"FINISHED"})
-        self.assertEqual(shown(one).tobytes(), before.tobytes())
+        self.assertEqual(([modifier.type for modifier in other.modifiers], len(one.modifiers)), (["MESH_CACHE"], 0))
         for number in range(FIRST, LAST + 1):
             bpy.context.scene.frame_set(number)
             both = [(scenes.in_world(kept, displayed(kept)), faces(kept)) for kept in (one, other)]
             self.assertEqual(len(unsnarl.find_intersections(both)), 0)
+
+    def test_the_range_of_the_scene_is_taken_unless_another_is_given(self):
+        one = moving_tubes()
+        settings().own_range, settings().frame_start = False, LAST + 10
+        bpy.context.scene.frame_start, bpy.context.scene.frame_end = FIRST + 1, LAST - 1
+        self.assertEqual(bpy.ops.unsnarl.repair_frames(), {"FINISHED"})
+        self.assertIn(f"{LAST - FIRST - 1} of {LAST - FIRST - 1} frames are clean", scenes.outcome()[0])
+        self.assertEqual(one.modifiers["unsnarl"].frame_start, FIRST + 1)
+
+    def test_what_is_held_is_held_in_every_frame(self):
+        one = moving_tubes()
+        before = shown(one)
+        held = unsnarl.component_of_faces(before[0], faces(one)) == 0
+        held = unsnarl.vertices_of_faces(before[0], faces(one), np.flatnonzero(held))
+        one.vertex_groups.new(name="pin").add(np.flatnonzero(held).tolist(), 1.0, "REPLACE")
+        settings().held, settings().held_group = "GROUP", "pin"
+        self.assertEqual(bpy.ops.unsnarl.repair_frames(), {"FINISHED"})
+        after = shown(one)
+        self.assertEqual(after[:, held].tobytes(), before[:, held].tobytes())
+        self.assertTrue(all(len(unsnarl.find_intersections(frame, faces(one))) == 0 for frame in after))
 
     def test_what_cannot_be_is_refused(self):
         one = moving_tubes()
         settings().cache_folder = "//beside"
         with self.assertRaisesRegex(RuntimeError, "was not saved yet"):
             bpy.ops.unsnarl.repair_frames()
-        settings().cache_folder = "/proc/nothing"
-        with self.assertRaisesRegex(RuntimeError, "No folder for the point caches"):
+        file = Path(self.folder) / "file"
+        file.touch()
+        settings().cache_folder = f"{file}/caches"
+        with self.assertRaisesRegex(RuntimeError, "is not a folder that can be written to"):
             bpy.ops.unsnarl.repair_frames()
-        settings().cache_folder, settings().frame_end = self.folder, FIRST - 1
+        file.unlink()
+        settings().cache_folder, settings().frame_end = f"{self.folder}/caches", FIRST - 1
         with self.assertRaisesRegex(RuntimeError, "comes before the first"):
             bpy.ops.unsnarl.repair_frames()
         settings().frame_end = LAST

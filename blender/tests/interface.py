@@ -150,6 +150,20 @@ def test():
     in_view(lambda: bpy.ops.wm.call_menu(name="VIEW3D_MT_edit_mesh_context_menu"))
     yield
     picture("menu")
+    press("ESC")
+    yield
+    with bpy.context.temp_override(**view()):
+        bpy.ops.object.mode_set(mode="OBJECT")
+    cloth, body = scenes.ball("cloth", (0, 0, 0)), scenes.ball("body", (0.9, 0.1, 0.2))
+    cloth.modifiers.new("cloth", "CLOTH")
+    body.modifiers.new("collision", "COLLISION")
+    scenes.select(cloth, body)
+    body.unsnarl.role = "HELD"
+    scenes.settings().scope = "SELECTED"
+    in_view(bpy.ops.unsnarl.find, "INVOKE_DEFAULT")
+    in_view(bpy.ops.unsnarl.repair)
+    yield
+    picture("scene")
 
 
 def stepwise(steps):

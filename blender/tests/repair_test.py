@@ -189,6 +189,17 @@ class EverythingElse(unittest.TestCase):
         self.assertEqual(scenes.normals_at(new, start).tobytes(), scenes.normals_at(one, start).tobytes())
         self.assertEqual(new.matrix_world, one.matrix_world)
 
+    def test_is_copied_to_a_new_object_from_edit_mode(self):
+        one = self.rich()
+        start = positions(one)
+        settings().result = "NEW_OBJECT"
+        bpy.ops.object.mode_set(mode="EDIT")
+        self.assertEqual(bpy.ops.unsnarl.repair(), {"FINISHED"})
+        self.assertEqual(one.mode, "EDIT")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertEqual(positions(one).tobytes(), start.tobytes())
+        self.assertEqual(pairs(bpy.data.objects["tubes repaired"]), 0)
+
     def test_of_a_clean_mesh_nothing_changes_at_all(self):
         one = ball("one", (0, 0, 0))
         before, start = hashes(one), positions(one)
@@ -286,9 +297,18 @@ class WhatIsHeld(unittest.TestCase):
         length = [np.linalg.norm(at[1:] - at[:-1], axis=1) for at in (before[1], positions(other))]
         self.assertLess(np.abs(length[0] - length[1]).max(), 1e-5)
 
+    def test_roles_count_among_several_objects_only(self):
+        one = tubes()
+        one.unsnarl.role = "HELD"
+        self.assertEqual(bpy.ops.unsnarl.repair(), {"FINISHED"})
+        self.assertEqual(pairs(one), 0)
+
     def test_an_unknown_group_is_refused(self):
         tubes()
-        settings().held, settings().held_group = "GROUP", "nowhere"
+        settings().held = "GROUP"
+        with self.assertRaisesRegex(RuntimeError, "Name the vertex group"):
+            bpy.ops.unsnarl.repair()
+        settings().held_group = "nowhere"
         with self.assertRaisesRegex(RuntimeError, "No object has a vertex group 'nowhere'"):
             bpy.ops.unsnarl.repair()
 
@@ -463,6 +483,17 @@ class Meshes(unittest.TestCase):
         new = [kept for kept in bpy.context.selected_objects]
         self.assertEqual(len(new), 2)
         self.assertEqual(pairs(*new), 0)
+
+    def test_contact_offsets_are_hinted_at(self):
+        from unsnarl_blender import panel
+        one, other = ball("one", (0, 0, 0)), ball("other", (3, 0, 0))
+        one.modifiers.new("cloth", "CLOTH").collision_settings.distance_min = 0.004
+        other.modifiers.new("collision", "COLLISION")
+        other.collision.thickness_outer = 0.03
+        select(one, other)
+        self.assertEqual(panel.gap_hints(bpy.context), ["Cloth of one keeps 4 mm to others"])
+        settings().scope = "SELECTED"
+        self.assertEqual(panel.gap_hints(bpy.context), ["Cloth of one keeps 4 mm to others", "Collision of other adds 3 cm"])
 
     def test_the_unit_of_the_scene_is_said(self):
         tubes()

@@ -19,7 +19,9 @@ class UNSNARL_PT_main(bpy.types.Panel):
     def draw(self, context):
         layout, settings, session = self.layout, context.scene.unsnarl, context.window_manager.unsnarl
         layout.use_property_split, layout.use_property_decorate = True, False
-        layout.row().prop(settings, "scope", expand=True)
+        row = layout.row()
+        row.use_property_split = False
+        row.prop(settings, "scope", expand=True)
         if settings.scope == "SELECTED":
             draw_roles(layout, context)
         layout.prop(settings, "as_displayed")
@@ -77,8 +79,10 @@ class UNSNARL_PT_frames(bpy.types.Panel):
         layout, settings = self.layout, context.scene.unsnarl
         layout.use_property_split, layout.use_property_decorate = True, False
         column = layout.column(align=True)
-        column.prop(settings, "frame_start")
-        column.prop(settings, "frame_end")
+        column.prop(settings, "own_range")
+        if settings.own_range:
+            column.prop(settings, "frame_start")
+            column.prop(settings, "frame_end")
         layout.prop(settings, "frames_result")
         if settings.frames_result == "CACHE":
             layout.prop(settings, "cache_folder")

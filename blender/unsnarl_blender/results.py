@@ -126,33 +126,37 @@ def select_alone(objects, view_layer):
     view_layer.objects.active = objects[0]
 
 
-def cache_path(folder, target):
-    """A file for the cache of an object that is not there yet. Raises Refused for a folder that nothing can go to."""
+def cache_paths(folder, targets):
+    """For each object a file for its cache that is not there yet. Raises Refused for a folder that nothing can go to."""
     if folder.startswith("//") and not bpy.data.filepath:
         raise Refused("The folder of the point caches is beside the .blend file, which was not saved yet. "
                       "Save it, or choose another folder.")
     place = Path(bpy.path.abspath(folder))
-    try:
-        place.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise Refused(f"No folder for the point caches can be made: {error}") from None
-    stem, number = bpy.path.clean_name(target.name), 1
-    while (place / f"{stem}_{number}.pc2").exists():
-        number += 1
-    return place / f"{stem}_{number}.pc2"
+    existing = next(one for one in (place, *place.parents) if one.exists())
+    if not existing.is_dir() or not os.access(existing, os.W_OK):
+        raise Refused(f"Point caches cannot be written to {place}: {existing} is not a folder that can be written to.")
+    paths = []
+    for target in targets:
+        stem, number = bpy.path.clean_name(target.name), 1
+        while (path := place / f"{stem}_{number}.pc2").exists() or path in paths:
+            number += 1
+        paths.append(path)
+    return paths
 
 
 def write_cache(path, frames, first_frame):
     """A PC2 file of positions (n, 3) float32, one array a frame."""
     unfinished = path.with_suffix(".part")
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         with open(unfinished, "wb") as file:
             file.write(struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(frames[0]), first_frame, 1.0, len(frames)))
             for positions in frames:
                 file.write(positions.astype("<f4").tobytes())
         os.replace(unfinished, path)
     except OSError as error:
-        unfinished.unlink(missing_ok=True)
+        if unfinished.is_file():
+            unfinished.unlink()
         raise Refused(f"The point cache cannot be written: {error}") from None
 
 
@@ -166,7 +170,10 @@ def play_cache(target, path, first_frame):
     """Has a modifier at the end of the stack play the cache."""
     modifier = own_cache(target) or target.modifiers.new(NAME, "MESH_CACHE")
     modifier.cache_format = "PC2"
-    modifier.filepath = bpy.path.relpath(str(path)) if bpy.data.filepath else str(path)
+    try:
+        modifier.filepath = bpy.path.relpath(str(path)) if bpy.data.filepath else str(path)
+    except ValueError:  # on another drive of Windows
+        modifier.filepath = str(path)
     modifier.frame_start = first_frame
     modifier.interpolation = "NONE"
     modifier.deform_mode, modifier.play_mode, modifier.time_mode = "OVERWRITE", "SCENE", "FRAME"

@@ -72,7 +72,7 @@ def repair_objects(context):
     surfaces = [_surface_of(target, settings.as_displayed, settings) for target in chosen]
     notes += _held_notes(chosen, settings)
     shown = _displayed_of_keys(chosen, surfaces) if settings.result == "SHAPE_KEY" else None
-    rigid = [number for number, target in enumerate(chosen) if target.unsnarl.role == "RIGID"]
+    rigid = [number for number, target in enumerate(chosen) if settings.role_of(target) == "RIGID"]
     options, started = settings.options(), time.monotonic()
     came_to = yield from _worked(lambda tell: repair.repaired(surfaces, rigid, options, tell, shown))
 
@@ -123,7 +123,7 @@ def repair_frames(context):
     """Repairs a range of frames, from what is displayed in them."""
     scene, settings = context.scene, context.scene.unsnarl
     chosen = targets(context, settings.scope)
-    first, last = settings.frame_start, settings.frame_end
+    first, last = settings.frames()
     paths = _check_frames(chosen, settings, first, last)
     shown_frame, shown_subframe = scene.frame_current, scene.frame_subframe
     names = [target.name_full for target in chosen]
@@ -147,10 +147,12 @@ def repair_frames(context):
     chosen = [object_of(name, scene) for name in names]
     bad = [number for number, one in enumerate(came_to, first) if not one.is_written(settings.keep_incomplete)]
     has_moved = any(one.has_moved for one in came_to)
+    lines = _frames_summary(scene, came_to, first, bad, time.monotonic() - started)
     if has_moved and not bad:
-        _write_frames(context, chosen, came_to, paths, first)
-    return Said(has_moved and not bad, all(one.status in repair.CLEAN for one in came_to),
-                _frames_summary(scene, came_to, first, bad, time.monotonic() - started))
+        _write_frames(context, chosen, frames, came_to, paths, first)
+    elif caches:
+        lines.append("The modifier of an earlier run is still there. Remove it if it is no longer wanted.")
+    return Said(has_moved and not bad, all(one.status in repair.CLEAN for one in came_to), lines)
 
 
 def _check_frames(chosen, settings, first, last):
@@ -159,12 +161,12 @@ def _check_frames(chosen, settings, first, last):
     for target in chosen:
         if target.mode == "EDIT":
             raise Refused(f"'{target.name}' is in Edit Mode. Leave it to repair frames.")
-        if target.unsnarl.role == "RIGID":
+        if settings.role_of(target) == "RIGID":
             raise Refused(f"'{target.name}' is rigid, which is not possible over frames. Choose Held or Free.")
         if settings.frames_result == "CACHE" and target.library:
             raise Refused(f"'{target.name}' is linked from another file and takes no modifier. Choose Shape Keys.")
     if settings.frames_result == "CACHE":
-        return [results.cache_path(settings.cache_folder, target) for target in chosen]
+        return results.cache_paths(settings.cache_folder, chosen)
     return []
 
 
@@ -175,15 +177,17 @@ def _check_same_faces(frames, number):
                           "over time cannot be repaired as frames.")
 
 
-def _write_frames(context, chosen, came_to, paths, first):
+def _write_frames(context, chosen, frames, came_to, paths, first):
     added = []
     for number, target in enumerate(chosen):
-        frames = [one.positions[number] for one in came_to]
-        if paths:
-            results.write_cache(paths[number], frames, first)
+        repaired = [one.positions[number] for one in came_to]
+        if not paths:
+            added.append(results.add_frames_object(target, repaired, first, context.evaluated_depsgraph_get()))
+            continue
+        has_moved = any(not np.array_equal(own, frame[number].positions) for own, frame in zip(repaired, frames))
+        if has_moved or results.own_cache(target):
+            results.write_cache(paths[number], repaired, first)
             results.play_cache(target, paths[number], first)
-        else:
-            added.append(results.add_frames_object(target, frames, first, context.evaluated_depsgraph_get()))
     if added and context.mode == "OBJECT":
         results.select_alone(added, context.view_layer)
 
@@ -235,6 +239,8 @@ def _displayed_of_keys(chosen, surfaces):
 def _held_notes(chosen, settings):
     if settings.held != "GROUP":
         return []
+    if not settings.held_group:
+        raise Refused("Name the vertex group that is to be held.")
     without = [target.name for target in chosen if settings.held_group not in target.vertex_groups]
     if len(without) == len(chosen):
         raise Refused(f"No object has a vertex group '{settings.held_group}'. Choose one, or hold nothing.")

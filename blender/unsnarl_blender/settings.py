@@ -73,12 +73,22 @@ class UnsnarlSettings(bpy.types.PropertyGroup):
             ("SHAPE_KEYS", "Shape Keys", "Add a new object with one shape key a frame"),
         ],
     )
+    own_range: BoolProperty(name="Other Range", description="Other frames than those of the scene")
     frame_start: IntProperty(name="First Frame", default=1)
     frame_end: IntProperty(name="Last Frame", default=24)
     cache_folder: StringProperty(
         name="Folder", description="Where point caches are written; // is the folder of the .blend file",
         default="//unsnarl_cache", subtype="DIR_PATH",
     )
+
+    def frames(self):
+        """The first and the last frame that are meant."""
+        scene = self.id_data
+        return (self.frame_start, self.frame_end) if self.own_range else (scene.frame_start, scene.frame_end)
+
+    def role_of(self, target):
+        """What an object may do in a scene of several; alone it is free."""
+        return target.unsnarl.role if self.scope == "SELECTED" else "FREE"
 
     def options(self):
         return Options(

@@ -120,7 +120,7 @@ def faces_of(mesh):
 def held_vertices(target, mesh, settings):
     """Which vertices must not move, (n,) bool."""
     count = len(mesh.vertices)
-    if target.unsnarl.role == "HELD":
+    if settings.role_of(target) == "HELD":
         return np.ones(count, bool)
     if settings.held in {"SELECTED", "UNSELECTED"}:
         selected = np.empty(count, bool)
