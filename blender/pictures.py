@@ -124,8 +124,8 @@ def cloth():
 
 
 def panel():
-    window = pixels(BUILT / "repaired.png")
-    save(window[90:920, :1150], "blender_panel")
+    window = pixels(BUILT / "scene.png")
+    save(window[90:920, 250:1150], "blender_panel")
 
 
 bpy.ops.preferences.addon_install(filepath=str(ADDON), overwrite=True)

@@ -154,13 +154,16 @@ def test():
     yield
     with bpy.context.temp_override(**view()):
         bpy.ops.object.mode_set(mode="OBJECT")
-    cloth, body = scenes.ball("cloth", (0, 0, 0)), scenes.ball("body", (0.9, 0.1, 0.2))
+    bpy.data.objects.remove(bpy.data.objects["tubes"])
+    cloth, body = scenes.ball("cloth", (0, 0, 0), rings=40), scenes.ball("body", (1.9, 0.1, 0.2), rings=40)
+    scenes.settings().gap = 0.04
     cloth.modifiers.new("cloth", "CLOTH")
     body.modifiers.new("collision", "COLLISION")
     scenes.select(cloth, body)
     body.unsnarl.role = "HELD"
     scenes.settings().scope = "SELECTED"
     in_view(bpy.ops.unsnarl.find, "INVOKE_DEFAULT")
+    in_view(bpy.ops.view3d.view_all)
     in_view(bpy.ops.unsnarl.repair)
     yield
     picture("scene")

@@ -174,6 +174,21 @@ class EverythingElse(unittest.TestCase):
         self.assertFalse(np.array_equal(positions(one), start))
         self.assertEqual(pairs(one), 0)
 
+    def test_is_unchanged_in_edit_mode_of_several_objects(self):
+        one, other = ball("one", (0, 0, 0)), ball("other", (0, 0, 0), location=(0.9, 0.1, 0.2))
+        select(one, other)
+        bpy.ops.object.mode_set(mode="EDIT")
+        self.assertEqual((one.mode, other.mode), ("EDIT", "EDIT"))
+        for edited in (one, other):
+            edited.update_from_editmode()
+        before = hashes(one), hashes(other)
+        settings().scope = "SELECTED"
+        self.assertEqual(bpy.ops.unsnarl.repair(), {"FINISHED"})
+        for edited in (one, other):
+            edited.update_from_editmode()
+        self.assertEqual((hashes(one), hashes(other)), before)
+        self.assertEqual(pairs(one, other), 0)
+
     def test_is_copied_to_a_new_object(self):
         one = self.rich()
         start, before = positions(one), hashes(one)
@@ -441,7 +456,7 @@ class Meshes(unittest.TestCase):
         settings().as_displayed, settings().result = False, "IN_PLACE"
         self.assertEqual(bpy.ops.unsnarl.repair(), {"FINISHED"})
         self.assertEqual(pairs(one), 0)
-        self.assertTrue(any("modifiers of 'tubes' were left out" in line for line in scenes.outcome()))
+        self.assertTrue(any("Modifiers were left out, of tubes" in line for line in scenes.outcome()))
 
     def test_of_an_armature_the_pose_is_taken_once(self):
         rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))

@@ -43,6 +43,11 @@ class Repaired(NamedTuple):
     length: float  #: of such a unit, in units of the scene
     notes: list
 
+    @property
+    def is_as_asked(self):
+        """Clean, with the gap that was asked for."""
+        return self.status in CLEAN - {"gap_not_met"}
+
     def is_written(self, keep_incomplete):
         """As the program decides: what is clean, what is all that can be repaired, anything better if asked for."""
         if self.status in CLEAN:

@@ -31,8 +31,9 @@ def check_result(targets, settings):
                           "Choose As Displayed with the result New Object, or apply the modifier.")
         if settings.result != "NEW_OBJECT":
             _check_own_mesh(target, settings, notes)
-        if target.modifiers and not settings.as_displayed:
-            notes.append(f"The modifiers of '{name}' were left out: its mesh before them was repaired.")
+    changed = [target.name for target in targets if any(map(_changes_shape, target.modifiers))]
+    if changed and not settings.as_displayed:
+        notes.append(f"Modifiers were left out, of {', '.join(changed)}: the meshes before them were repaired.")
     if settings.result != "NEW_OBJECT":
         shared = {target.data for target in targets if sum(other.data == target.data for other in targets) > 1}
         if shared:
@@ -54,6 +55,10 @@ def _check_own_mesh(target, settings, notes):
             raise Refused(f"'{name}' shows one shape key only (the pin). Switch that off, so that a new key can add to the mix.")
     if mesh.users > 1:
         notes.append(f"The mesh of '{name}' has {mesh.users} users, which all show the result.")
+
+
+def _changes_shape(modifier):
+    return modifier.show_viewport and modifier.type != "COLLISION"
 
 
 def _has_multires(target):

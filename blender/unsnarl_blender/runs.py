@@ -21,7 +21,7 @@ class Said(NamedTuple):
     """What came of a run."""
 
     written: bool  #: was anything changed?
-    is_clean: bool  #: is nothing left?
+    is_clean: bool  #: is nothing left to do?
     lines: list  #: sentences; the first is the summary
 
 
@@ -82,7 +82,7 @@ def repair_objects(context):
         notes += _write(context, chosen, surfaces, came_to, settings)
     lines = _summary(context.scene, came_to, time.monotonic() - started, is_written, settings.keep_incomplete)
     lines += came_to.notes + _on_parts(came_to.report, surfaces) + notes
-    return Said(is_written, came_to.status in repair.CLEAN, lines)
+    return Said(is_written, came_to.is_as_asked, lines)
 
 
 def _write(context, chosen, surfaces, came_to, settings):
@@ -152,7 +152,7 @@ def repair_frames(context):
         _write_frames(context, chosen, frames, came_to, paths, first)
     elif caches:
         lines.append("The modifier of an earlier run is still there. Remove it if it is no longer wanted.")
-    return Said(has_moved and not bad, all(one.status in repair.CLEAN for one in came_to), lines)
+    return Said(has_moved and not bad, all(one.is_as_asked for one in came_to), lines)
 
 
 def _check_frames(chosen, settings, first, last):
@@ -306,11 +306,14 @@ def _frames_summary(scene, came_to, first, bad, seconds):
     before, after = sum(one.before for one in came_to), sum(one.after for one in came_to)
     farthest = max(one.report["displacement_max"] * one.length for one in came_to)
     clean = sum(one.status in repair.CLEAN for one in came_to)
+    narrow = [number for number, one in enumerate(came_to, first) if one.status == "gap_not_met"]
     lines = [f"{clean} of {len(came_to)} frames are clean: {before} intersecting pairs before, {after or 'none'} after; "
              f"vertices moved by {length_text(scene, farthest)} at most; {seconds:.1f} s."]
     if bad:
         lines.append(f"Nothing was written: intersections are left in frames {', '.join(map(str, bad[:10]))}"
                      f"{' and others' if len(bad) > 10 else ''}. Keep Incomplete Results writes the best that was reached.")
+    if narrow:
+        lines.append(f"The gap is smaller than asked in {len(narrow)} frames, first in frame {narrow[0]}.")
     for number, one in enumerate(came_to, first):
         lines += [f"Frame {number}: {note}" for note in one.notes[:1]]
     return lines
