@@ -6,7 +6,7 @@ import bpy
 from .runs import length_text
 
 #: Width of a letter on average, and of what stands beside a text in a panel (units: pixels, at a scale of 1).
-LETTER, BESIDE = 6.3, 50
+LETTER, BESIDE = 6.6, 50
 
 
 class UNSNARL_PT_main(bpy.types.Panel):

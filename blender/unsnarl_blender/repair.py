@@ -11,10 +11,11 @@ from .versions import unsnarl
 
 #: Statuses of the library with which nothing is left to repair.
 CLEAN = {"embedded", "allowed", "gap_not_met"}
-#: How often what rounding brought together is moved apart again; each time by four times as much.
+#: How often what rounding brought together is moved apart again; each time by twice as much.
 ROUNDS = 4
-#: The first such gap, in steps of the float32 numbers at the largest coordinate (no unit).
-FIRST_GAP = 8
+#: The first such gap, in steps of the float32 numbers at the largest coordinate: rounding moves each of two faces by
+#: half a step along each axis (no unit).
+FIRST_GAP = 2
 
 
 class Options(NamedTuple):
@@ -160,7 +161,7 @@ def _settled(surfaces, rigid, space, placed, moved, keep, status, after, options
     kept = keep(moved)
     if space.is_own and all(np.array_equal(a, b) for a, b in zip(kept, moved)):
         return kept, status, after, []  # the library has certified these very numbers
-    gap = FIRST_GAP * float(np.spacing(np.float32(max(np.abs(own).max(initial=0) for own in placed))))
+    gap = FIRST_GAP * space.step(kept)
     for attempt in range(ROUNDS + 1):
         seen = space.placed(kept)
         certificate = unsnarl.certify(_meshes(placed, surfaces), None, seen, **options.search)
@@ -168,7 +169,7 @@ def _settled(surfaces, rigid, space, placed, moved, keep, status, after, options
         if status not in CLEAN or certificate.resolved or attempt == ROUNDS:
             break
         again = unsnarl.repair(
-            _meshes(seen, surfaces), fixed=[s.held for s in surfaces], rigid=rigid or None, min_gap=gap * 4**attempt,
+            _meshes(seen, surfaces), fixed=[s.held for s in surfaces], rigid=rigid or None, min_gap=gap * 2**attempt,
             absolute=True, gap_near_conflicts=True, progress=progress, **options.search)
         kept = keep(again.V)
     notes = []
@@ -200,6 +201,14 @@ def _in_units_of_the_scene(function, length, gap, *arguments, **options):
         most = float(too_wide[2]) * length
         raise ValueError(f"A gap of {gap:.4g} is {too_wide[1]} times as wide as the faces; {most:.4g} is the most here. Ask for "
                          "less, or subdivide the mesh") from None
+
+
+def pairs_left(surfaces, positions, options):
+    """Intersecting pairs of objects at other positions, float32 in their own coordinates."""
+    space = space_of([s.to_world for s in surfaces])
+    placed = space.placed([s.positions for s in surfaces])
+    certificate = unsnarl.certify(_meshes(placed, surfaces), None, space.placed(positions), **options.search)
+    return sum(certificate.pairs.values())
 
 
 def drawn_pairs(before, triangles, after, options):

@@ -149,7 +149,7 @@ def repair_frames(context):
     has_moved = any(one.has_moved for one in came_to)
     lines = _frames_summary(scene, came_to, first, bad, time.monotonic() - started)
     if has_moved and not bad:
-        _write_frames(context, chosen, frames, came_to, paths, first)
+        lines += _write_frames(context, chosen, frames, came_to, paths, first)
     elif caches:
         lines.append("The modifier of an earlier run is still there. Remove it if it is no longer wanted.")
     return Said(has_moved and not bad, all(one.is_as_asked for one in came_to), lines)
@@ -188,8 +188,26 @@ def _write_frames(context, chosen, frames, came_to, paths, first):
         if has_moved or results.own_cache(target):
             results.write_cache(paths[number], repaired, first)
             results.play_cache(target, paths[number], first)
-    if added and context.mode == "OBJECT":
+    if not added:
+        return []
+    if context.mode == "OBJECT":
         results.select_alone(added, context.view_layer)
+    return _notes_on_displayed_frames(frames, came_to, first, context.scene.unsnarl.options())
+
+
+def _notes_on_displayed_frames(frames, came_to, first, options):
+    """Blender rounds what shape keys display: are the frames in which that shows clean too?"""
+    notes = []
+    for number, (surfaces, one) in enumerate(zip(frames, came_to), first):
+        displayed = [shape_keys.displayed(shape_keys.stored(own, basis, basis), basis, basis)
+                     for own, basis in zip(one.positions, came_to[0].positions)]
+        if all(np.array_equal(a, b) for a, b in zip(displayed, one.positions)):
+            continue
+        count = repair.pairs_left(surfaces, displayed, options)
+        if count > one.after:
+            notes.append(f"Frame {number}: {_pairs(count)} intersect as Blender rounds what shape keys display. "
+                         "Choose Point Cache.")
+    return notes
 
 
 def _worked(work):

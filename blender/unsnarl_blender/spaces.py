@@ -23,6 +23,10 @@ class OwnSpace:
     def placed(self, positions):
         return positions
 
+    def step(self, kept):
+        """How far apart the numbers are that Blender keeps, at most."""
+        return max(map(spacing, kept))
+
     def kept(self, moved, before):
         return [np.asarray(one, np.float32) for one in moved]
 
@@ -38,6 +42,9 @@ class WorldSpace:
 
     def placed(self, positions):
         return [in_world(matrix, one) for matrix, one in zip(self.matrices, positions)]
+
+    def step(self, kept):
+        return max(spacing(own) * np.linalg.norm(matrix[:3, :3], 2) for matrix, own in zip(self.matrices, kept))
 
     def kept(self, moved, before):
         """What Blender keeps of positions in the world; where a vertex did not move, its bits from before."""
@@ -68,6 +75,11 @@ def spaces_of(frames):
     if all(space.is_own for space in spaces) and max(lengths) - min(lengths) <= EVEN * max(lengths):
         return [OwnSpace(lengths[0])] * len(spaces)
     return [WorldSpace(matrices) for matrices in frames]
+
+
+def spacing(positions):
+    """Between float32 numbers at the largest coordinate."""
+    return float(np.spacing(np.float32(np.abs(positions).max(initial=0))))
 
 
 def in_world(matrix, positions):
