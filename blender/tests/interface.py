@@ -168,6 +168,32 @@ def test():
     yield
     picture("scene")
 
+    bpy.context.scene.unsnarl.own_range, bpy.context.scene.unsnarl.cache_folder = True, folder
+    bpy.context.scene.unsnarl.gap = 0
+    for frame, x in ((1, 0.1), (24, 0.15)):
+        body = bpy.data.objects["body"]
+        body.location.x = -x
+        body.keyframe_insert("location", frame=frame)
+    bpy.context.scene.frame_set(7)
+    in_view(bpy.ops.ed.undo_push)
+    count = len(list(Path(folder).glob("*.pc2")))
+    in_view(bpy.ops.unsnarl.repair_frames, "INVOKE_DEFAULT")
+    for _ in range(5):
+        yield
+    check(session().progress.startswith("Reading frame"), f"frames are read one by one: {session().progress}")
+    press("ESC")
+    for _ in range(3):
+        yield
+    check(not operators.InSteps.running and bpy.context.scene.frame_current == 7, "Esc goes back to the frame that was shown")
+    check(len(list(Path(folder).glob("*.pc2"))) == count, "and leaves no cache")
+    in_view(bpy.ops.unsnarl.repair_frames, "INVOKE_DEFAULT")
+    while operators.InSteps.running:
+        yield
+    check("24 of 24 frames are clean" in scenes.outcome()[0], f"frames end: {scenes.outcome()[0]}")
+    check("unsnarl" in bpy.data.objects["cloth"].modifiers and bpy.context.scene.frame_current == 7, "a modifier plays them")
+    in_view(bpy.ops.ed.undo)
+    check("unsnarl" not in bpy.data.objects["cloth"].modifiers, "one undo takes it away")
+
 
 def stepwise(steps):
     def tick():

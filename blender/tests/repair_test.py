@@ -246,7 +246,8 @@ class ShapeKeys(unittest.TestCase):
         self.assertLess(np.abs(scenes.displayed(one) - expected).max(), 1e-6)
         self.assertEqual(len(unsnarl.find_intersections(scenes.displayed(one), faces(one))), 0)
 
-    def test_the_mix_of_keys_is_repaired_and_they_stay(self):
+    def with_keys(self):
+        """A ball whose top shape keys move through its bottom."""
         one = ball("one", (0, 0, 0))
         rest = positions(one)
         one.shape_key_add(name="Basis")
@@ -257,6 +258,31 @@ class ShapeKeys(unittest.TestCase):
             key.data.foreach_set("co", moved.ravel())
             key.value = value
         bpy.context.view_layer.update()
+        return one
+
+    def test_looking_at_the_mix_leaves_nothing_behind(self):
+        one = self.with_keys()
+        one.active_shape_key_index = 2
+        before, start = hashes(one), positions(one)
+        settings().select = settings().colour = False
+        self.assertEqual(bpy.ops.unsnarl.find(), {"CANCELLED"})
+        count = len(unsnarl.find_intersections(scenes.displayed(one), faces(one)))
+        self.assertEqual(scenes.findings()[0], f"{count} pairs of faces intersect.")
+        self.assertEqual((hashes(one), positions(one).tobytes()), (before, start.tobytes()))
+
+    def test_a_new_object_has_the_repaired_mix_and_no_keys(self):
+        one = self.with_keys()
+        before, mix = hashes(one), scenes.displayed(one)
+        settings().result = "NEW_OBJECT"
+        self.assertEqual(bpy.ops.unsnarl.repair(), {"FINISHED"})
+        new = bpy.context.active_object
+        self.assertIsNone(new.data.shape_keys)
+        self.assertEqual(positions(new).tobytes(), unsnarl.repair(mix, faces(one)).V.tobytes())
+        one.select_set(True)
+        self.assertEqual(hashes(one), before)
+
+    def test_the_mix_of_keys_is_repaired_and_they_stay(self):
+        one = self.with_keys()
         before, mix = hashes(one), scenes.displayed(one)
         self.assertGreater(len(unsnarl.find_intersections(mix, faces(one))), 0)
         self.assertEqual(bpy.ops.unsnarl.repair(), {"FINISHED"})
