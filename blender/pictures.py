@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders the pictures of docs/blender.md, with the add-on and the pictures of the window that blender/test has left in
-out/blender:
+"""Renders the pictures of docs/blender.md, with the add-on and the pictures of the window that blender/test has left
+in out/blender:
 
   UNSNARL_PROGRAM=build/release/unsnarl blender -b --factory-startup --python blender/pictures.py
 """
@@ -54,7 +54,11 @@ def light_and_camera(objects):
     camera.data.lens = 105
     camera.location = centre + Vector((0.9, -2.0, 0.35)) * height * 1.25
     camera.rotation_euler = (centre - camera.location).to_track_quat("-Z", "Y").to_euler()
-    for name, place, energy, size in (("key", (-1.5, -2, 2), 34, 1.5), ("rim", (2, 1, 1.5), 25, 1), ("fill", (2, -2, 0), 6, 2)):
+    for name, place, energy, size in (
+        ("key", (-1.5, -2, 2), 34, 1.5),
+        ("rim", (2, 1, 1.5), 25, 1),
+        ("fill", (2, -2, 0), 6, 2),
+    ):
         light = bpy.data.objects.new(name, bpy.data.lights.new(name, "AREA"))
         light.data.energy, light.data.size = energy * height**2, size * height
         light.location = centre + Vector(place) * height
@@ -103,8 +107,18 @@ def cloth():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.preferences.addon_enable(module="unsnarl_blender")
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([os.environ["UNSNARL_PROGRAM"], "sample", "dressed_figure", "--resolution", "90", "-o", f"{folder}/figure.obj"],
-                       check=True)
+        subprocess.run(
+            [
+                os.environ["UNSNARL_PROGRAM"],
+                "sample",
+                "dressed_figure",
+                "--resolution",
+                "90",
+                "-o",
+                f"{folder}/figure.obj",
+            ],
+            check=True,
+        )
         bpy.ops.wm.obj_import(filepath=f"{folder}/figure.obj")
     meshes = select_meshes()
     light_and_camera(meshes)

@@ -33,7 +33,9 @@ class Packed(unittest.TestCase):
                 self.assertNotRegex(manifest["tagline"][-1], r"[.!?]")
                 self.assertEqual(manifest["platforms"], [re.search(r"(linux|windows)-\w+$", name)[0]])
                 (wheel,) = manifest["wheels"]
-                self.assertEqual([one for one in packed.namelist() if one.endswith(".whl")], [wheel.removeprefix("./")])
+                self.assertEqual(
+                    [one for one in packed.namelist() if one.endswith(".whl")], [wheel.removeprefix("./")]
+                )
                 for module in ("__init__.py", "versions.py", "operators.py", "LICENSE"):
                     self.assertIn(module, packed.namelist())
 

@@ -29,8 +29,11 @@ class Find(unittest.TestCase):
         self.assertEqual(selected_faces(one).tolist(), found.faces.tolist())
         self.assertEqual(scenes.findings(), [f"{len(found)} pairs of faces intersect.", f"tubes: {len(found)} pairs"])
         colours = one.data.color_attributes["self-intersections"]
-        red = {polygon.index for polygon in one.data.polygons
-               if all(colours.data[loop].color[1] < 0.1 for loop in polygon.loop_indices)}
+        red = {
+            polygon.index
+            for polygon in one.data.polygons
+            if all(colours.data[loop].color[1] < 0.1 for loop in polygon.loop_indices)
+        }
         self.assertEqual(red, set(found.faces.tolist()))
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -56,8 +59,10 @@ class Find(unittest.TestCase):
         bpy.ops.unsnarl.find()
         between = scenes.pairs(one, other)
         alone = scenes.pairs(third)
-        self.assertEqual(scenes.findings(), [f"{between + alone} pairs of faces intersect.",
-                                             f"one – other: {between} pairs", f"third: {alone} pairs"])
+        self.assertEqual(
+            scenes.findings(),
+            [f"{between + alone} pairs of faces intersect.", f"one – other: {between} pairs", f"third: {alone} pairs"],
+        )
 
     def test_hidden_faces_are_counted_and_not_selected(self):
         one = tubes()

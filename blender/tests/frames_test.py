@@ -23,7 +23,9 @@ def moving_tubes():
     one.shape_key_add(name="Basis")
     key = one.shape_key_add(name="on", from_mix=False)
     moved = rest.copy()
-    second = unsnarl.vertices_of_faces(rest, faces(one), np.flatnonzero(unsnarl.component_of_faces(rest, faces(one)) == 1))
+    second = unsnarl.vertices_of_faces(
+        rest, faces(one), np.flatnonzero(unsnarl.component_of_faces(rest, faces(one)) == 1)
+    )
     moved[second] += np.array([0.02, 0.03, 0.04], np.float32)
     key.data.foreach_set("co", moved.ravel())
     for frame, value in ((FIRST, 0), (LAST, 1)):
@@ -56,8 +58,11 @@ class Frames(unittest.TestCase):
         keys = scenes.hashes(one)
         scenes.write_ply(f"{self.folder}/body.ply", before[0], faces(one))
         from unsnarl_blender import results
+
         results.write_cache(Path(self.folder) / "moving.pc2", list(before), FIRST)
-        scenes.by_program("fix", "--sequence", f"{self.folder}/body.ply", f"{self.folder}/moving.pc2", "-o", f"{self.folder}/out")
+        scenes.by_program(
+            "fix", "--sequence", f"{self.folder}/body.ply", f"{self.folder}/moving.pc2", "-o", f"{self.folder}/out"
+        )
         bpy.context.scene.frame_set(3)
         self.assertEqual(bpy.ops.unsnarl.repair_frames(), {"FINISHED"})
         self.assertEqual(bpy.context.scene.frame_current, 3)
@@ -143,6 +148,10 @@ class Frames(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "comes before the first"):
             bpy.ops.unsnarl.repair_frames()
         settings().frame_end = LAST
+        scenes.add("empty", np.empty((0, 3)), [])
+        with self.assertRaisesRegex(RuntimeError, "no face is displayed in frame 10"):
+            bpy.ops.unsnarl.repair_frames()
+        select(one)
         decimate = one.modifiers.new("fewer", "DECIMATE")
         for frame, ratio in ((FIRST, 1), (LAST, 0.5)):
             decimate.ratio = ratio

@@ -14,7 +14,7 @@ from pathlib import Path
 import bpy
 
 HERE = Path(__file__).resolve().parent
-addon, folder = sys.argv[sys.argv.index("--") + 1:]
+addon, folder = sys.argv[sys.argv.index("--") + 1 :]
 INTERVAL_S = 0.1
 
 
@@ -101,7 +101,10 @@ def test():
     in_view(bpy.ops.ed.undo_push)
 
     found = scenes.hashes(bpy.data.objects["tubes"])
-    check(in_view(bpy.ops.unsnarl.repair, "INVOKE_DEFAULT") == {"RUNNING_MODAL"}, "repair goes on while the window is in use")
+    check(
+        in_view(bpy.ops.unsnarl.repair, "INVOKE_DEFAULT") == {"RUNNING_MODAL"},
+        "repair goes on while the window is in use",
+    )
     lines = set()
     for _ in range(12):
         yield
@@ -184,13 +187,19 @@ def test():
     press("ESC")
     for _ in range(3):
         yield
-    check(not operators.InSteps.running and bpy.context.scene.frame_current == 7, "Esc goes back to the frame that was shown")
+    check(
+        not operators.InSteps.running and bpy.context.scene.frame_current == 7,
+        "Esc goes back to the frame that was shown",
+    )
     check(len(list(Path(folder).glob("*.pc2"))) == count, "and leaves no cache")
     in_view(bpy.ops.unsnarl.repair_frames, "INVOKE_DEFAULT")
     while operators.InSteps.running:
         yield
     check("24 of 24 frames are clean" in scenes.outcome()[0], f"frames end: {scenes.outcome()[0]}")
-    check("unsnarl" in bpy.data.objects["cloth"].modifiers and bpy.context.scene.frame_current == 7, "a modifier plays them")
+    check(
+        "unsnarl" in bpy.data.objects["cloth"].modifiers and bpy.context.scene.frame_current == 7,
+        "a modifier plays them",
+    )
     in_view(bpy.ops.ed.undo)
     check("unsnarl" not in bpy.data.objects["cloth"].modifiers, "one undo takes it away")
 
@@ -207,6 +216,7 @@ def stepwise(steps):
             code = 1
         sys.stdout.flush()
         os._exit(code)
+
     return tick
 
 

@@ -68,7 +68,9 @@ class Positions(unittest.TestCase):
             self.assertEqual(positions(kept).tobytes(), wanted.tobytes())
         self.assertEqual(pairs(one, other), 0)
         for kept in (one, other):
-            self.assertTrue(any(line.startswith(f"A part of '{kept.name}' lost") for line in scenes.outcome()), scenes.outcome())
+            self.assertTrue(
+                any(line.startswith(f"A part of '{kept.name}' lost") for line in scenes.outcome()), scenes.outcome()
+            )
 
     def test_of_objects_with_different_matrices_are_those_of_the_scene_in_the_world(self):
         one = ball("one", (0, 0, 0), rotation_euler=(0.4, 0.1, 0.9), scale=(1, 1.3, 0.8))
@@ -96,14 +98,17 @@ class Positions(unittest.TestCase):
         self.assertEqual(pairs(one), 0)
 
     def test_hold_where_rounding_to_float32_brings_faces_together(self):
-        # In each object's own coordinates float32 numbers are a thirtieth apart: the library's result does not hold in them.
+        # In each object's own coordinates float32 numbers are a thirtieth apart: the result does not hold in them.
         far = 3e5
         one = ball("one", (far, 0, 0), location=(-far, 0, 0), rotation_euler=(0, 0, 1e-8))
         other = ball("other", (0, far, 0), location=(1.2, -far, 0.1), rotation_euler=(1e-8, 0, 0))
         select(one, other)
         both = [one, other]
         moved = unsnarl.repair([(in_world(kept), faces(kept)) for kept in both]).V
-        rounded = [(world - in_world(kept, np.zeros((1, 3), np.float32))).astype(np.float32) for kept, world in zip(both, moved)]
+        rounded = [
+            (world - in_world(kept, np.zeros((1, 3), np.float32))).astype(np.float32)
+            for kept, world in zip(both, moved)
+        ]
         seen = [(in_world(kept, own), faces(kept)) for kept, own in zip(both, rounded)]
         self.assertGreater(len(unsnarl.find_intersections(seen)), 0)
         settings().scope = "SELECTED"
@@ -131,12 +136,20 @@ class EverythingElse(unittest.TestCase):
         uv = mesh.uv_layers.new(name="map")
         uv.data.foreach_set("uv", random.random(2 * len(mesh.loops), np.float32))
         for name, kind, domain, field, width in (
-                ("heat", "FLOAT", "POINT", "value", 1), ("flow", "FLOAT_VECTOR", "FACE", "vector", 3),
-                ("number", "INT", "EDGE", "value", 1), ("paint", "FLOAT_COLOR", "POINT", "color", 4),
-                ("mask", "BYTE_COLOR", "CORNER", "color", 4), ("flag", "BOOLEAN", "FACE", "value", 1)):
+            ("heat", "FLOAT", "POINT", "value", 1),
+            ("flow", "FLOAT_VECTOR", "FACE", "vector", 3),
+            ("number", "INT", "EDGE", "value", 1),
+            ("paint", "FLOAT_COLOR", "POINT", "color", 4),
+            ("mask", "BYTE_COLOR", "CORNER", "color", 4),
+            ("flag", "BOOLEAN", "FACE", "value", 1),
+        ):
             data = mesh.attributes.new(name, kind, domain).data
-            data.foreach_set(field, random.integers(0, 2, width * len(data)).astype(
-                {"INT": np.int32, "BOOLEAN": bool}.get(kind, np.float32)))
+            data.foreach_set(
+                field,
+                random.integers(0, 2, width * len(data)).astype(
+                    {"INT": np.int32, "BOOLEAN": bool}.get(kind, np.float32)
+                ),
+            )
         for number in range(3):
             mesh.materials.append(bpy.data.materials.new(f"material {number}"))
         mesh.polygons.foreach_set("material_index", random.integers(0, 3, len(mesh.polygons)).astype(np.int32))
@@ -204,8 +217,10 @@ class EverythingElse(unittest.TestCase):
         self.assertEqual(positions(one).tobytes(), start.tobytes())
         self.assertEqual(pairs(new), 0)
         without = {"object"}  # the names, and what is selected
-        self.assertEqual({k: v for k, v in hashes(new).items() if k not in without},
-                         {k: v for k, v in before.items() if k not in without})
+        self.assertEqual(
+            {k: v for k, v in hashes(new).items() if k not in without},
+            {k: v for k, v in before.items() if k not in without},
+        )
         self.assertEqual(scenes.normals_at(new, start).tobytes(), scenes.normals_at(one, start).tobytes())
         self.assertEqual(new.matrix_world, one.matrix_world)
 
@@ -241,7 +256,9 @@ class ShapeKeys(unittest.TestCase):
         expected = unsnarl.repair(positions(one), faces(one)).V
         start = positions(one)
         self.assertEqual(bpy.ops.unsnarl.repair(), {"FINISHED"})
-        self.assertEqual([(key.name, key.value) for key in one.data.shape_keys.key_blocks], [("Basis", 0), ("unsnarl", 1)])
+        self.assertEqual(
+            [(key.name, key.value) for key in one.data.shape_keys.key_blocks], [("Basis", 0), ("unsnarl", 1)]
+        )
         self.assertEqual(positions(one).tobytes(), start.tobytes())
         self.assertLess(np.abs(scenes.displayed(one) - expected).max(), 1e-6)
         self.assertEqual(len(unsnarl.find_intersections(scenes.displayed(one), faces(one))), 0)
@@ -287,8 +304,10 @@ class ShapeKeys(unittest.TestCase):
         self.assertGreater(len(unsnarl.find_intersections(mix, faces(one))), 0)
         self.assertEqual(bpy.ops.unsnarl.repair(), {"FINISHED"})
         after = hashes(one)
-        self.assertEqual({name: after[name] for name in before if name != "object"},
-                         {name: value for name, value in before.items() if name != "object"})
+        self.assertEqual(
+            {name: after[name] for name in before if name != "object"},
+            {name: value for name, value in before.items() if name != "object"},
+        )
         shown = scenes.displayed(one)
         self.assertEqual(len(unsnarl.find_intersections(shown, faces(one))), 0)
         self.assertLess(np.abs(shown - unsnarl.repair(mix, faces(one)).V).max(), 1e-5)
@@ -310,8 +329,9 @@ class WhatIsHeld(unittest.TestCase):
 
     def test_by_vertex_group(self):
         one = tubes()
-        held = unsnarl.vertices_of_faces(positions(one), faces(one),
-                                         np.flatnonzero(unsnarl.component_of_faces(positions(one), faces(one)) == 0))
+        held = unsnarl.vertices_of_faces(
+            positions(one), faces(one), np.flatnonzero(unsnarl.component_of_faces(positions(one), faces(one)) == 0)
+        )
         group = one.vertex_groups.new(name="pin")
         group.add(np.flatnonzero(held).tolist(), 1.0, "REPLACE")
         group.add(np.flatnonzero(~held).tolist(), 0.4, "REPLACE")
@@ -322,8 +342,9 @@ class WhatIsHeld(unittest.TestCase):
         for held_is_selected in (True, False):
             scenes.fresh()
             one = tubes()
-            held = unsnarl.vertices_of_faces(positions(one), faces(one),
-                                             np.flatnonzero(unsnarl.component_of_faces(positions(one), faces(one)) == 1))
+            held = unsnarl.vertices_of_faces(
+                positions(one), faces(one), np.flatnonzero(unsnarl.component_of_faces(positions(one), faces(one)) == 1)
+            )
             one.data.vertices.foreach_set("select", held if held_is_selected else ~held)
             settings().held = "SELECTED" if held_is_selected else "UNSELECTED"
             self.stays(one, held)
@@ -362,7 +383,7 @@ class Limits(unittest.TestCase):
         scenes.fresh()
 
     def deep_and_shallow(self, **transform):
-        """Two tubes that run through each other, and two balls that overlap a little; one object, in its coordinates."""
+        """One object: two tubes that run through each other, and two balls that overlap a little."""
         other = ball("other", (20, 0, 0))
         third = ball("third", (21.97, 0.05, 0.02))
         one = tubes()
@@ -398,14 +419,18 @@ class Limits(unittest.TestCase):
         one = tubes(scale=(2, 2, 2))
         start = positions(one)
         settings().gap = 100
-        with self.assertRaisesRegex(RuntimeError, r"A gap of 100 is \d+ times as wide as the faces; 3.18 is the most here"):
+        with self.assertRaisesRegex(
+            RuntimeError, r"A gap of 100 is \d+ times as wide as the faces; 3.18 is the most here"
+        ):
             bpy.ops.unsnarl.repair()
         self.assertEqual(positions(one).tobytes(), start.tobytes())
 
     def test_duplicate_faces_are_named(self):
         add("twice", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.5, 0.5, 1)], [(0, 1, 2), (0, 2, 1), (0, 1, 3)])
         self.assertEqual(bpy.ops.unsnarl.repair(), {"CANCELLED"})
-        self.assertIn("Faces 0, 1 lie on the same three vertices: moving vertices cannot separate them.", scenes.outcome())
+        self.assertIn(
+            "Faces 0, 1 lie on the same three vertices: moving vertices cannot separate them.", scenes.outcome()
+        )
 
 
 class Meshes(unittest.TestCase):
@@ -530,6 +555,7 @@ class Meshes(unittest.TestCase):
 
     def test_contact_offsets_are_hinted_at(self):
         from unsnarl_blender import panel
+
         one, other = ball("one", (0, 0, 0)), ball("other", (3, 0, 0))
         one.modifiers.new("cloth", "CLOTH").collision_settings.distance_min = 0.004
         other.modifiers.new("collision", "COLLISION")
@@ -537,7 +563,9 @@ class Meshes(unittest.TestCase):
         select(one, other)
         self.assertEqual(panel.gap_hints(bpy.context), ["Cloth of one keeps 4 mm to others"])
         settings().scope = "SELECTED"
-        self.assertEqual(panel.gap_hints(bpy.context), ["Cloth of one keeps 4 mm to others", "Collision of other adds 3 cm"])
+        self.assertEqual(
+            panel.gap_hints(bpy.context), ["Cloth of one keeps 4 mm to others", "Collision of other adds 3 cm"]
+        )
 
     def test_the_unit_of_the_scene_is_said(self):
         tubes()

@@ -11,7 +11,7 @@ from pathlib import Path
 import bpy
 
 HERE = Path(__file__).resolve().parent
-addon, *names = sys.argv[sys.argv.index("--") + 1:]
+addon, *names = sys.argv[sys.argv.index("--") + 1 :]
 bpy.ops.preferences.addon_install(filepath=addon, overwrite=True)
 bpy.ops.preferences.addon_enable(module="unsnarl_blender")
 sys.path.insert(0, str(HERE))

@@ -52,11 +52,16 @@ def ball(name, centre, radius=1.0, rings=12, **transform):
     """A sphere of quads with a triangle fan at each pole."""
     u = np.pi * np.arange(1, rings) / rings
     v = 2 * np.pi * np.arange(2 * rings) / (2 * rings)
-    grid = np.stack(np.broadcast_arrays(np.sin(u)[:, None] * np.cos(v), np.sin(u)[:, None] * np.sin(v), np.cos(u)[:, None]), -1)
+    grid = np.stack(
+        np.broadcast_arrays(np.sin(u)[:, None] * np.cos(v), np.sin(u)[:, None] * np.sin(v), np.cos(u)[:, None]), -1
+    )
     V = np.concatenate([grid.reshape(-1, 3), [[0, 0, 1], [0, 0, -1]]]) * radius + centre
     n, top, bottom = len(v), (rings - 1) * len(v), (rings - 1) * len(v) + 1
-    quads = [[i * n + j, (i + 1) * n + j, (i + 1) * n + (j + 1) % n, i * n + (j + 1) % n]
-             for i in range(rings - 2) for j in range(n)]
+    quads = [
+        [i * n + j, (i + 1) * n + j, (i + 1) * n + (j + 1) % n, i * n + (j + 1) % n]
+        for i in range(rings - 2)
+        for j in range(n)
+    ]
     caps = [[top, j, (j + 1) % n] for j in range(n)]
     caps += [[bottom, (rings - 2) * n + (j + 1) % n, (rings - 2) * n + j] for j in range(n)]
     return add(name, V, quads + caps, **transform)
@@ -101,9 +106,11 @@ def write_ply(path, V, polygons):
     """A binary PLY file that holds these very numbers, float32 or float64."""
     corners, offsets = polygons
     number = "float" if V.dtype == np.float32 else "double"
-    header = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(V)}\n" \
-        + "".join(f"property {number} {axis}\n" for axis in "xyz") \
+    header = (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {len(V)}\n"
+        + "".join(f"property {number} {axis}\n" for axis in "xyz")
         + f"element face {len(offsets) - 1}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
     with open(path, "wb") as file:
         file.write(header.encode() + V.tobytes())
         for begin, end in zip(offsets, offsets[1:]):
@@ -161,34 +168,90 @@ def hashes(one):
         collection.foreach_get(attribute, values)
         return values
 
-    fields = {"FLOAT": ("value", 1, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool),
-              "FLOAT_VECTOR": ("vector", 3, np.float32), "FLOAT2": ("vector", 2, np.float32), "INT8": ("value", 1, np.int32),
-              "FLOAT_COLOR": ("color", 4, np.float32), "BYTE_COLOR": ("color", 4, np.float32)}
+    fields = {
+        "FLOAT": ("value", 1, np.float32),
+        "INT": ("value", 1, np.int32),
+        "BOOLEAN": ("value", 1, bool),
+        "FLOAT_VECTOR": ("vector", 3, np.float32),
+        "FLOAT2": ("vector", 2, np.float32),
+        "INT8": ("value", 1, np.int32),
+        "FLOAT_COLOR": ("color", 4, np.float32),
+        "BYTE_COLOR": ("color", 4, np.float32),
+    }
     for attribute in mesh.attributes:
         if attribute.name != "position":
             data = column(attribute.data, *fields[attribute.data_type])
             put(f"attribute {attribute.name}", attribute.domain, attribute.data_type, data)
     for layer in mesh.uv_layers:
         put(f"uv {layer.name}", column(layer.data, "uv", 2, np.float32), layer.active_render)
-    put("vertices", *(column(mesh.vertices, name, 1, dtype) for name, dtype in
-                      (("select", bool), ("hide", bool), ("bevel_weight", np.float32))))
-    put("edges", column(mesh.edges, "vertices", 2, np.int32), *(column(mesh.edges, name, 1, dtype) for name, dtype in (
-        ("select", bool), ("hide", bool), ("use_seam", bool), ("use_edge_sharp", bool), ("use_freestyle_mark", bool),
-        ("crease", np.float32), ("bevel_weight", np.float32))))
-    put("faces", *(column(mesh.polygons, name, 1, dtype) for name, dtype in (
-        ("loop_start", np.int32), ("loop_total", np.int32), ("material_index", np.int32), ("use_smooth", bool),
-        ("select", bool), ("hide", bool))))
+    put(
+        "vertices",
+        *(
+            column(mesh.vertices, name, 1, dtype)
+            for name, dtype in (("select", bool), ("hide", bool), ("bevel_weight", np.float32))
+        ),
+    )
+    put(
+        "edges",
+        column(mesh.edges, "vertices", 2, np.int32),
+        *(
+            column(mesh.edges, name, 1, dtype)
+            for name, dtype in (
+                ("select", bool),
+                ("hide", bool),
+                ("use_seam", bool),
+                ("use_edge_sharp", bool),
+                ("use_freestyle_mark", bool),
+                ("crease", np.float32),
+                ("bevel_weight", np.float32),
+            )
+        ),
+    )
+    put(
+        "faces",
+        *(
+            column(mesh.polygons, name, 1, dtype)
+            for name, dtype in (
+                ("loop_start", np.int32),
+                ("loop_total", np.int32),
+                ("material_index", np.int32),
+                ("use_smooth", bool),
+                ("select", bool),
+                ("hide", bool),
+            )
+        ),
+    )
     put("corners", column(mesh.loops, "vertex_index", 1, np.int32), column(mesh.loops, "edge_index", 1, np.int32))
     put("materials", [material.name for material in mesh.materials])
-    put("groups", [group.name for group in one.vertex_groups],
-        [[(g.group, g.weight) for g in vertex.groups] for vertex in mesh.vertices])
+    put(
+        "groups",
+        [group.name for group in one.vertex_groups],
+        [[(g.group, g.weight) for g in vertex.groups] for vertex in mesh.vertices],
+    )
     put("custom normals", mesh.has_custom_normals, mesh.use_auto_smooth, mesh.auto_smooth_angle)
     for key in mesh.shape_keys.key_blocks if mesh.shape_keys else []:
-        put(f"shape key {key.name}", column(key.data, "co", 3, np.float32), key.value, key.mute, key.vertex_group,
-            key.relative_key.name, key.slider_min, key.slider_max)
+        put(
+            f"shape key {key.name}",
+            column(key.data, "co", 3, np.float32),
+            key.value,
+            key.mute,
+            key.vertex_group,
+            key.relative_key.name,
+            key.slider_min,
+            key.slider_max,
+        )
     put("modifiers", [(modifier.name, modifier.type, modifier.show_viewport) for modifier in one.modifiers])
-    put("object", one.name, mesh.name, [list(row) for row in one.matrix_basis], one.mode, one.active_shape_key_index,
-        [key for key in one.keys() if key != "unsnarl"], list(mesh.keys()), one.select_get())
+    put(
+        "object",
+        one.name,
+        mesh.name,
+        [list(row) for row in one.matrix_basis],
+        one.mode,
+        one.active_shape_key_index,
+        [key for key in one.keys() if key != "unsnarl"],
+        list(mesh.keys()),
+        one.select_get(),
+    )
     return found
 
 

@@ -105,5 +105,7 @@ class Time(unittest.TestCase):
         begin = time.perf_counter()
         bpy.ops.unsnarl.find()
         find = time.perf_counter() - begin
-        print(f"\n{len(one.data.polygons)} quads: repair {whole:.2f} s, of which the library {sum(inside):.2f} s, so "
-              f"Blender and the shell {whole - sum(inside):.2f} s; find {find:.2f} s")
+        print(
+            f"\n{len(one.data.polygons)} quads: repair {whole:.2f} s, of which the library {sum(inside):.2f} s, so "
+            f"Blender and the shell {whole - sum(inside):.2f} s; find {find:.2f} s"
+        )

@@ -117,8 +117,15 @@ class InSteps:
         if event.type == "TIMER":
             return self.step(context)
         # The view may be turned meanwhile; nothing else may happen to what is read or written.
-        is_view = event.type in {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEMOVE",
-                                 "INBETWEEN_MOUSEMOVE"} or event.type.startswith("NDOF")
+        is_view = event.type in {
+            "MIDDLEMOUSE",
+            "WHEELUPMOUSE",
+            "WHEELDOWNMOUSE",
+            "TRACKPADPAN",
+            "TRACKPADZOOM",
+            "MOUSEMOVE",
+            "INBETWEEN_MOUSEMOVE",
+        } or event.type.startswith("NDOF")
         return {"PASS_THROUGH"} if is_view else {"RUNNING_MODAL"}
 
     def step(self, context):

@@ -64,7 +64,14 @@ class UNSNARL_PT_limits(bpy.types.Panel):
     def draw(self, context):
         layout, settings = self.layout, context.scene.unsnarl
         layout.use_property_split, layout.use_property_decorate = True, False
-        for name in ("max_displacement", "time_limit", "memory_limit", "keep_incomplete", "gap_near_conflicts", "both_diagonals"):
+        for name in (
+            "max_displacement",
+            "time_limit",
+            "memory_limit",
+            "keep_incomplete",
+            "gap_near_conflicts",
+            "both_diagonals",
+        ):
             layout.prop(settings, name)
 
 
@@ -125,8 +132,10 @@ def gap_hints(context):
     for one, modifier in modifiers:
         if modifier.type == "CLOTH":
             kept = modifier.collision_settings
-            hints.append(f"Cloth of {one.name} keeps {length_text(scene, kept.distance_min)} to others"
-                         + (f", {length_text(scene, kept.self_distance_min)} to itself" if kept.use_self_collision else ""))
+            hints.append(
+                f"Cloth of {one.name} keeps {length_text(scene, kept.distance_min)} to others"
+                + (f", {length_text(scene, kept.self_distance_min)} to itself" if kept.use_self_collision else "")
+            )
         elif modifier.type == "COLLISION" and one.collision is not None:
             hints.append(f"Collision of {one.name} adds {length_text(scene, one.collision.thickness_outer)}")
     return hints
@@ -140,7 +149,12 @@ def draw_menu(self, context):
 
 CLASSES = [UNSNARL_PT_main, UNSNARL_PT_limits, UNSNARL_PT_frames]
 #: Context menus, and those of the header, which search finds operators by.
-MENUS = ["VIEW3D_MT_object_context_menu", "VIEW3D_MT_edit_mesh_context_menu", "VIEW3D_MT_object", "VIEW3D_MT_edit_mesh_clean"]
+MENUS = [
+    "VIEW3D_MT_object_context_menu",
+    "VIEW3D_MT_edit_mesh_context_menu",
+    "VIEW3D_MT_object",
+    "VIEW3D_MT_edit_mesh_clean",
+]
 
 
 def register():

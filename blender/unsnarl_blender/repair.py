@@ -100,7 +100,9 @@ def repaired(surfaces, rigid, options, progress=None, shown=None):
         **options.search,
     )
     status, after = str(result.status), result.report["after"]["total"]
-    kept, status, after, notes = _settled(surfaces, rigid, space, placed, result.V, keep, status, after, options, progress)
+    kept, status, after, notes = _settled(
+        surfaces, rigid, space, placed, result.V, keep, status, after, options, progress
+    )
     return Repaired(
         status,
         result.report["before"]["total"],
@@ -122,7 +124,9 @@ def repaired_frames(frames, options, progress=None):
     spaces = spaces_of([[s.to_world for s in frame] for frame in frames])
     placed = [space.placed([s.positions for s in frame]) for space, frame in zip(spaces, frames)]
     V = np.stack([np.concatenate(own) for own in placed])
-    extents = [float(np.linalg.norm(own.max(axis=0) - own.min(axis=0))) * space.length for own, space in zip(V, spaces)]
+    extents = [
+        float(np.linalg.norm(own.max(axis=0) - own.min(axis=0))) * space.length for own, space in zip(V, spaces)
+    ]
     result = _in_units_of_the_scene(
         unsnarl.repair_sequence,
         min(extents),
@@ -148,10 +152,23 @@ def repaired_frames(frames, options, progress=None):
 
 def _frame(surfaces, space, placed, moved, report, options):
     before = [s.positions for s in surfaces]
-    kept, status, after, notes = _settled(surfaces, [], space, placed, moved, lambda m: space.kept(m, before),
-                                          str(report.status), sum(report.after.values()), options, None)
+    kept, status, after, notes = _settled(
+        surfaces,
+        [],
+        space,
+        placed,
+        moved,
+        lambda m: space.kept(m, before),
+        str(report.status),
+        sum(report.after.values()),
+        options,
+        None,
+    )
     has_moved = any(not np.array_equal(a, b) for a, b in zip(kept, before))
-    figures = {"displacement_max": report.displacement_max_rel * report.diagonal, "untouched_share": report.untouched_share}
+    figures = {
+        "displacement_max": report.displacement_max_rel * report.diagonal,
+        "untouched_share": report.untouched_share,
+    }
     return Repaired(status, sum(report.before.values()), after, kept, has_moved, figures, space.length, notes)
 
 
@@ -169,8 +186,15 @@ def _settled(surfaces, rigid, space, placed, moved, keep, status, after, options
         if status not in CLEAN or certificate.resolved or attempt == ROUNDS:
             break
         again = unsnarl.repair(
-            _meshes(seen, surfaces), fixed=[s.held for s in surfaces], rigid=rigid or None, min_gap=gap * 2**attempt,
-            absolute=True, gap_near_conflicts=True, progress=progress, **options.search)
+            _meshes(seen, surfaces),
+            fixed=[s.held for s in surfaces],
+            rigid=rigid or None,
+            min_gap=gap * 2**attempt,
+            absolute=True,
+            gap_near_conflicts=True,
+            progress=progress,
+            **options.search,
+        )
         kept = keep(again.V)
     notes = []
     if status in CLEAN and not certificate.resolved:
@@ -184,8 +208,10 @@ def _settled(surfaces, rigid, space, placed, moved, keep, status, after, options
                 notes.append(f"'{surface.name}' intersects itself in its own float32 coordinates. Ask for a gap.")
         if not certificate.float32_embedded:
             count = sum(certificate.pairs_float32.values())
-            notes.append(f"{count} pairs meet if a program rounds positions in the world to float32, as exporters do. "
-                         "Ask for a gap, or apply the transforms.")
+            notes.append(
+                f"{count} pairs meet if a program rounds positions in the world to float32, as exporters do. "
+                "Ask for a gap, or apply the transforms."
+            )
     return kept, status, left, notes
 
 
@@ -199,8 +225,10 @@ def _in_units_of_the_scene(function, length, gap, *arguments, **options):
         if too_wide is None:
             raise
         most = float(too_wide[2]) * length
-        raise ValueError(f"A gap of {gap:.4g} is {too_wide[1]} times as wide as the faces; {most:.4g} is the most here. Ask for "
-                         "less, or subdivide the mesh") from None
+        raise ValueError(
+            f"A gap of {gap:.4g} is {too_wide[1]} times as wide as the faces; {most:.4g} is the most here. Ask for "
+            "less, or subdivide the mesh"
+        ) from None
 
 
 def pairs_left(surfaces, positions, options):

@@ -22,13 +22,17 @@ DEFORMING_PARENTS = {"ARMATURE", "LATTICE", "CURVE"}
 def check_result(targets, settings):
     """Raises Refused where the result that is asked for cannot go to these objects. Returns what is worth knowing."""
     if settings.as_displayed and settings.result != "NEW_OBJECT":
-        raise Refused("With As Displayed, choose the result New Object: what modifiers make cannot go back before them.")
+        raise Refused(
+            "With As Displayed, choose the result New Object: what modifiers make cannot go back before them."
+        )
     notes = []
     for target in targets:
         name = target.name
         if _has_multires(target) and not settings.as_displayed:
-            raise Refused(f"'{name}' has a Multiresolution modifier: moving its base mesh would move the sculpted detail. "
-                          "Choose As Displayed with the result New Object, or apply the modifier.")
+            raise Refused(
+                f"'{name}' has a Multiresolution modifier: moving its base mesh would move the sculpted detail. "
+                "Choose As Displayed with the result New Object, or apply the modifier."
+            )
         if settings.result != "NEW_OBJECT":
             _check_own_mesh(target, settings, notes)
     changed = [target.name for target in targets if any(map(_changes_shape, target.modifiers))]
@@ -37,8 +41,10 @@ def check_result(targets, settings):
     if settings.result != "NEW_OBJECT":
         shared = {target.data for target in targets if sum(other.data == target.data for other in targets) > 1}
         if shared:
-            raise Refused(f"Several of the objects show one mesh, '{min(mesh.name for mesh in shared)}'. Choose New Object, or "
-                          "Object > Relations > Make Single User.")
+            raise Refused(
+                f"Several of the objects show one mesh, '{min(mesh.name for mesh in shared)}'. Choose New Object, or "
+                "Object > Relations > Make Single User."
+            )
     return notes
 
 
@@ -47,12 +53,16 @@ def _check_own_mesh(target, settings, notes):
     if target.library or mesh.library:
         raise Refused(f"'{name}' is linked from another file and cannot be changed. Choose the result New Object.")
     if settings.result == "IN_PLACE" and mesh.shape_keys:
-        raise Refused(f"'{name}' has shape keys, which its vertices are the basis of. Choose the result Shape Key or New Object.")
+        raise Refused(
+            f"'{name}' has shape keys, which its vertices are the basis of. Choose the result Shape Key or New Object."
+        )
     if settings.result == "SHAPE_KEY":
         if target.mode == "EDIT":
             raise Refused(f"'{name}' is in Edit Mode. Leave it to add a shape key.")
         if target.show_only_shape_key and mesh.shape_keys:
-            raise Refused(f"'{name}' shows one shape key only (the pin). Switch that off, so that a new key can add to the mix.")
+            raise Refused(
+                f"'{name}' shows one shape key only (the pin). Switch that off, so that a new key can add to the mix."
+            )
     if mesh.users > 1:
         notes.append(f"The mesh of '{name}' has {mesh.users} users, which all show the result.")
 
@@ -97,7 +107,9 @@ def write_shape_key(target, positions, mix):
     displays = mix_of(target)
     if not np.array_equal(displays, positions):
         off = int(np.count_nonzero(np.any(displays != positions, axis=1)))
-        return [f"Blender displays {off} vertices of '{target.name}' otherwise than computed. Run Find Self-Intersections."]
+        return [
+            f"Blender displays {off} vertices of '{target.name}' otherwise than computed. Run Find Self-Intersections."
+        ]
     return []
 
 
@@ -105,7 +117,8 @@ def add_object(target, positions, as_displayed, depsgraph):
     """Adds a copy of an object, in its collections, with its mesh at these positions."""
     if as_displayed:
         mesh = bpy.data.meshes.new_from_object(
-            target.evaluated_get(depsgraph), preserve_all_data_layers=True, depsgraph=depsgraph)
+            target.evaluated_get(depsgraph), preserve_all_data_layers=True, depsgraph=depsgraph
+        )
     else:
         mesh = target.data.copy()
     copy = target.copy()
@@ -132,10 +145,12 @@ def select_alone(objects, view_layer):
 
 
 def cache_paths(folder, targets):
-    """For each object a file for its cache that is not there yet. Raises Refused for a folder that nothing can go to."""
+    """For each object a new file for its cache. Raises Refused for a folder that nothing can go to."""
     if folder.startswith("//") and not bpy.data.filepath:
-        raise Refused("The folder of the point caches is beside the .blend file, which was not saved yet. "
-                      "Save it, or choose another folder.")
+        raise Refused(
+            "The folder of the point caches is beside the .blend file, which was not saved yet. "
+            "Save it, or choose another folder."
+        )
     place = Path(bpy.path.abspath(folder))
     existing = next(one for one in (place, *place.parents) if one.exists())
     if not existing.is_dir() or not os.access(existing, os.W_OK):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the operators do, in steps: generators that yield a line to show now and then, and return what to say.
 
-Closing one before it ends leaves nothing behind. Blender is read and written between the steps, in the thread that asks
-for them; the library works in a thread of its own.
+Closing one before it ends leaves nothing behind. Blender is read and written between the steps, in the thread that
+asks for them; the library works in a thread of its own.
 """
 
 import re
@@ -28,8 +28,14 @@ class Said(NamedTuple):
 #: Obstructions, and changed parts, that are named.
 MOST_PARTS = 3
 
-PHASES = {"diagnose": "Looking for intersections", "place": "Placing rigid objects", "untangle": "Untangling",
-          "recover": "Moving back", "open_gaps": "Opening gaps", "certify": "Checking"}
+PHASES = {
+    "diagnose": "Looking for intersections",
+    "place": "Placing rigid objects",
+    "untangle": "Untangling",
+    "recover": "Moving back",
+    "open_gaps": "Opening gaps",
+    "certify": "Checking",
+}
 
 
 def find(context):
@@ -50,8 +56,10 @@ def find(context):
             notes += _mark(target, own, settings)
     if changed and settings.select:
         context.tool_settings.mesh_select_mode = (False, False, True)
-    found = ["{}: {}".format(surfaces[a].name if a == b else f"{surfaces[a].name} – {surfaces[b].name}", _pairs(count))
-             for (a, b), count in sorted(counts.items())]
+    found = [
+        "{}: {}".format(surfaces[a].name if a == b else f"{surfaces[a].name} – {surfaces[b].name}", _pairs(count))
+        for (a, b), count in sorted(counts.items())
+    ]
     total = len(pairs)
     summary = f"{_pairs(total)} of faces intersect." if total else "No self-intersections."
     return Said(changed, total == 0, [summary, *notes]), found
@@ -115,8 +123,10 @@ def _notes_on_drawing(surface, positions, target, settings):
     count = repair.drawn_pairs(surface.positions, triangles.reshape(-1, 3), positions, settings.options())
     if count == 0:
         return []
-    return [f"Blender cuts polygons of '{target.name}' otherwise: {_pairs(count)} of the triangles that it draws intersect. "
-            "Triangulate its polygons of more than four corners."]
+    return [
+        f"Blender cuts polygons of '{target.name}' otherwise: {_pairs(count)} of the triangles that it draws"
+        " intersect. Triangulate its polygons of more than four corners."
+    ]
 
 
 def repair_frames(context):
@@ -171,10 +181,14 @@ def _check_frames(chosen, settings, first, last):
 
 
 def _check_same_faces(frames, number):
+    if all(len(one.corners) == 0 for one in frames[-1]):
+        raise Refused(f"There is nothing to repair: no face is displayed in frame {number}.")
     for one, other in zip(frames[0], frames[-1]):
         if not (np.array_equal(one.corners, other.corners) and len(one.positions) == len(other.positions)):
-            raise Refused(f"The faces of '{one.name}' are others in frame {number} than before. Modifiers that change them "
-                          "over time cannot be repaired as frames.")
+            raise Refused(
+                f"The faces of '{one.name}' are others in frame {number} than before. Modifiers that change them "
+                "over time cannot be repaired as frames."
+            )
 
 
 def _write_frames(context, chosen, frames, came_to, paths, first):
@@ -199,14 +213,18 @@ def _notes_on_displayed_frames(frames, came_to, first, options):
     """Blender rounds what shape keys display: are the frames in which that shows clean too?"""
     notes = []
     for number, (surfaces, one) in enumerate(zip(frames, came_to), first):
-        displayed = [shape_keys.displayed(shape_keys.stored(own, basis, basis), basis, basis)
-                     for own, basis in zip(one.positions, came_to[0].positions)]
+        displayed = [
+            shape_keys.displayed(shape_keys.stored(own, basis, basis), basis, basis)
+            for own, basis in zip(one.positions, came_to[0].positions)
+        ]
         if all(np.array_equal(a, b) for a, b in zip(displayed, one.positions)):
             continue
         count = repair.pairs_left(surfaces, displayed, options)
         if count > one.after:
-            notes.append(f"Frame {number}: {_pairs(count)} intersect as Blender rounds what shape keys display. "
-                         "Choose Point Cache.")
+            notes.append(
+                f"Frame {number}: {_pairs(count)} intersect as Blender rounds what shape keys display. "
+                "Choose Point Cache."
+            )
     return notes
 
 
@@ -267,21 +285,29 @@ def _held_notes(chosen, settings):
 
 def _summary(scene, came_to, seconds, is_written, keep_incomplete):
     report = came_to.report
-    moved = f"moved {100 * (1 - report['untouched_share']):.3g} % of the vertices, by " \
-            f"{length_text(scene, report['displacement_max'] * came_to.length)} at most"
+    moved = (
+        f"moved {100 * (1 - report['untouched_share']):.3g} % of the vertices, by "
+        f"{length_text(scene, report['displacement_max'] * came_to.length)} at most"
+    )
     pairs = f"{came_to.before} intersecting pairs before, {came_to.after or 'none'} after"
     if came_to.before == 0 and not came_to.has_moved:
         lines = ["No self-intersections: nothing to repair."]
     else:
         lines = [f"{_status_words(scene, came_to)} {pairs}; {moved}; {seconds:.1f} s."]
     if came_to.status not in repair.CLEAN and not is_written:
-        lines.append("Nothing was written." + ("" if keep_incomplete or not came_to.has_moved else
-                                               " Switch on Keep Incomplete Results to have the best that was reached."))
+        lines.append(
+            "Nothing was written."
+            + (
+                ""
+                if keep_incomplete or not came_to.has_moved
+                else " Switch on Keep Incomplete Results to have the best that was reached."
+            )
+        )
     return lines
 
 
 def _on_parts(report, surfaces):
-    """What the library says of faces and parts, with the names of the objects. Ids of faces count through all of them."""
+    """What the library says of faces and parts, with the names of the objects. Faces count through all of them."""
     names = [surface.name for surface in surfaces]
     ends = np.cumsum([len(surface.offsets) - 1 for surface in surfaces])
 
@@ -291,13 +317,18 @@ def _on_parts(report, surfaces):
     lines = [_sentence(one["message"]) for one in report["obstructions"][:MOST_PARTS]]
     if lines and len(names) > 1:
         lines.append(f"Faces are counted through the objects in this order: {', '.join(names)}.")
-    lines += [_sentence(re.sub(r"^component \d+", part(one), one["message"])) for one in report["changed_components"][:MOST_PARTS]]
+    lines += [
+        _sentence(re.sub(r"^component \d+", part(one), one["message"]))
+        for one in report["changed_components"][:MOST_PARTS]
+    ]
     more = max(len(report["changed_components"]) - MOST_PARTS, 0) + max(len(report["obstructions"]) - MOST_PARTS, 0)
     if more:
         lines.append(f"And {more} more such parts.")
     if report["advice"]:
-        lines.append("Parts overlap by more than 10 % of their volume. If one has to keep its shape, make it Held or Rigid; if "
-                     "they are meant as one solid, unite them with a Boolean modifier.")
+        lines.append(
+            "Parts overlap by more than 10 % of their volume. If one has to keep its shape, make it Held or Rigid; if "
+            "they are meant as one solid, unite them with a Boolean modifier."
+        )
     return lines
 
 
@@ -306,10 +337,15 @@ def _sentence(text):
 
 
 STATUS = {
-    "embedded": "Clean:", "allowed": "Clean:", "gap_not_met": "Clean, but the gap is smaller than asked:",
-    "obstructed": "Repaired all that can be repaired:", "reduced": "Intersections are left:",
-    "no_progress": "Nothing better was found:", "time_limit": "Stopped by the limit of time:",
-    "memory_limit": "Stopped by the limit of memory:", "displacement_exceeded": "A vertex has to move farther than allowed:",
+    "embedded": "Clean:",
+    "allowed": "Clean:",
+    "gap_not_met": "Clean, but the gap is smaller than asked:",
+    "obstructed": "Repaired all that can be repaired:",
+    "reduced": "Intersections are left:",
+    "no_progress": "Nothing better was found:",
+    "time_limit": "Stopped by the limit of time:",
+    "memory_limit": "Stopped by the limit of memory:",
+    "displacement_exceeded": "A vertex has to move farther than allowed:",
 }
 
 
@@ -325,11 +361,15 @@ def _frames_summary(scene, came_to, first, bad, seconds):
     farthest = max(one.report["displacement_max"] * one.length for one in came_to)
     clean = sum(one.status in repair.CLEAN for one in came_to)
     narrow = [number for number, one in enumerate(came_to, first) if one.status == "gap_not_met"]
-    lines = [f"{clean} of {len(came_to)} frames are clean: {before} intersecting pairs before, {after or 'none'} after; "
-             f"vertices moved by {length_text(scene, farthest)} at most; {seconds:.1f} s."]
+    lines = [
+        f"{clean} of {len(came_to)} frames are clean: {before} intersecting pairs before, {after or 'none'} after; "
+        f"vertices moved by {length_text(scene, farthest)} at most; {seconds:.1f} s."
+    ]
     if bad:
-        lines.append(f"Nothing was written: intersections are left in frames {', '.join(map(str, bad[:10]))}"
-                     f"{' and others' if len(bad) > 10 else ''}. Keep Incomplete Results writes the best that was reached.")
+        lines.append(
+            f"Nothing was written: intersections are left in frames {', '.join(map(str, bad[:10]))}"
+            f"{' and others' if len(bad) > 10 else ''}. Keep Incomplete Results writes the best that was reached."
+        )
     if narrow:
         lines.append(f"The gap is smaller than asked in {len(narrow)} frames, first in frame {narrow[0]}.")
     for number, one in enumerate(came_to, first):

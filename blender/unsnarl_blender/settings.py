@@ -2,7 +2,15 @@
 """What the user chooses. Kept with the scene, the role of an object with the object, findings with the session."""
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
 
 from .repair import Options
 
@@ -17,8 +25,10 @@ class UnsnarlSettings(bpy.types.PropertyGroup):
     )
     as_displayed: BoolProperty(
         name="As Displayed",
-        description="Take the meshes with their modifiers and pose, as the viewport shows them. The result is a new object. "
-        "Off: the meshes before their modifiers",
+        description=(
+            "Take the meshes with their modifiers and pose, as the viewport shows them. The result is a new object. "
+            "Off: the meshes before their modifiers"
+        ),
     )
     held: EnumProperty(
         name="Hold",
@@ -41,22 +51,42 @@ class UnsnarlSettings(bpy.types.PropertyGroup):
     )
     gap: FloatProperty(
         name="Gap",
-        description="Distance to keep between surfaces. Use the contact offset of your solver and a little more; "
-        "0: only as much as is safe",
-        min=0, soft_max=1, precision=4, step=0.1, subtype="DISTANCE", unit="LENGTH",
+        description=(
+            "Distance to keep between surfaces. Use the contact offset of your solver and a little more; "
+            "0: only as much as is safe"
+        ),
+        min=0,
+        soft_max=1,
+        precision=4,
+        step=0.1,
+        subtype="DISTANCE",
+        unit="LENGTH",
     )
     gap_near_conflicts: BoolProperty(
         name="Only near Intersections", description="Open the gap only around what intersects"
     )
     max_displacement: FloatProperty(
-        name="Largest Move", description="No vertex may move farther; 0: any distance",
-        min=0, soft_max=10, precision=4, step=1, subtype="DISTANCE", unit="LENGTH",
+        name="Largest Move",
+        description="No vertex may move farther; 0: any distance",
+        min=0,
+        soft_max=10,
+        precision=4,
+        step=1,
+        subtype="DISTANCE",
+        unit="LENGTH",
     )
-    time_limit: FloatProperty(name="Time", description="Seconds after which to stop; 0: no limit", min=0, soft_max=3600)
-    memory_limit: IntProperty(name="Memory", description="MB that Blender may hold while it repairs; 0: no limit", min=0)
+    time_limit: FloatProperty(
+        name="Time", description="Seconds after which to stop; 0: no limit", min=0, soft_max=3600
+    )
+    memory_limit: IntProperty(
+        name="Memory", description="MB that Blender may hold while it repairs; 0: no limit", min=0
+    )
     keep_incomplete: BoolProperty(
         name="Keep Incomplete Results",
-        description="Write the best result that was reached also where intersections are left. Off: leave the meshes as they are",
+        description=(
+            "Write the best result that was reached also where intersections are left. Off: leave the meshes as"
+            " they are"
+        ),
     )
     both_diagonals: BoolProperty(
         name="Any Cut of Quads",
@@ -64,7 +94,9 @@ class UnsnarlSettings(bpy.types.PropertyGroup):
     )
     select: BoolProperty(name="Select", description="Select the faces that intersect", default=True)
     colour: BoolProperty(
-        name="Colour", description="Paint the faces that intersect red, in a colour attribute of their own", default=True
+        name="Colour",
+        description="Paint the faces that intersect red, in a colour attribute of their own",
+        default=True,
     )
     frames_result: EnumProperty(
         name="Result",
@@ -77,8 +109,10 @@ class UnsnarlSettings(bpy.types.PropertyGroup):
     frame_start: IntProperty(name="First Frame", default=1)
     frame_end: IntProperty(name="Last Frame", default=24)
     cache_folder: StringProperty(
-        name="Folder", description="Where point caches are written; // is the folder of the .blend file",
-        default="//unsnarl_cache", subtype="DIR_PATH",
+        name="Folder",
+        description="Where point caches are written; // is the folder of the .blend file",
+        default="//unsnarl_cache",
+        subtype="DIR_PATH",
     )
 
     def frames(self):
@@ -92,7 +126,12 @@ class UnsnarlSettings(bpy.types.PropertyGroup):
 
     def options(self):
         return Options(
-            self.gap, self.gap_near_conflicts, self.max_displacement, self.time_limit, self.memory_limit, self.both_diagonals
+            self.gap,
+            self.gap_near_conflicts,
+            self.max_displacement,
+            self.time_limit,
+            self.memory_limit,
+            self.both_diagonals,
         )
 
 

@@ -2,7 +2,8 @@
 """The coordinates in which the library sees objects, and back to the float32 numbers that Blender keeps.
 
 Objects that share one matrix without distortion, and so every object alone with an even scale, are seen in their own
-coordinates: the library's result is what Blender keeps, bit for bit. Others are seen in the world, in double precision.
+coordinates: the library's result is what Blender keeps, bit for bit. Others are seen in the world, in double
+precision.
 """
 
 import numpy as np

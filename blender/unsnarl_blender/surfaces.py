@@ -43,7 +43,7 @@ def object_of(name, scene):
 
 
 def targets(context, scope):
-    """The mesh objects that are meant, the active one first where it is among them. Raises Refused where there is none."""
+    """The mesh objects that are meant, the active one first if it is among them. Raises Refused if there is none."""
     active = context.active_object
     if scope == "ACTIVE":
         if active is None:
@@ -139,8 +139,10 @@ def mix_of(target):
     """The shape to which the shape keys of an object mix before its modifiers, as Blender itself computes it."""
     key = target.data.shape_keys
     if target.data.library or not key.use_relative:
-        raise Refused(f"'{target.name}' has shape keys that {'are linked' if target.data.library else 'are absolute'}. "
-                      "Choose As Displayed with the result New Object.")
+        raise Refused(
+            f"'{target.name}' has shape keys that {'are linked' if target.data.library else 'are absolute'}. "
+            "Choose As Displayed with the result New Object."
+        )
     active, pinned = target.active_shape_key_index, target.show_only_shape_key
     mix = target.shape_key_add(name="unsnarl mix", from_mix=True)
     try:
