@@ -28,7 +28,8 @@ Decimal decimal_of(Real value) {
     if (c != '.') decimal.digits += c;
   const std::size_t zeros = std::min(decimal.digits.find_first_not_of('0'), decimal.digits.size() - 1);
   const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
-  const int exponent_written = shortest.size() > mantissa.size() ? std::atoi(shortest.c_str() + mantissa.size() + 1) : 0;
+  const int exponent_written =
+      shortest.size() > mantissa.size() ? std::atoi(shortest.c_str() + mantissa.size() + 1) : 0;
   decimal.exponent = static_cast<int>(point) - 1 - static_cast<int>(zeros) + exponent_written;
   decimal.digits.erase(0, zeros);
   decimal.digits.erase(decimal.digits.find_last_not_of('0') + 1);
@@ -38,15 +39,16 @@ Decimal decimal_of(Real value) {
 
 std::string scientific(const Decimal& decimal) {
   const std::string point = decimal.digits.size() > 1 ? "." : "";
-  return fmt::format("{}{}{}e{}{:02}", decimal.digits[0], point, decimal.digits.substr(1), decimal.exponent < 0 ? '-' : '+',
-                     std::abs(decimal.exponent));
+  return fmt::format("{}{}{}e{}{:02}", decimal.digits[0], point, decimal.digits.substr(1),
+                     decimal.exponent < 0 ? '-' : '+', std::abs(decimal.exponent));
 }
 
 template <class Real>
 std::string fixed(const Decimal& decimal, Real value) {
   const int count = static_cast<int>(decimal.digits.size()), decimals = count - 1 - decimal.exponent;
   if (decimals <= 0) return fmt::format("{:.0f}", value);  // a whole number, with all its digits
-  if (decimal.exponent < 0) return "0." + std::string(static_cast<std::size_t>(-1 - decimal.exponent), '0') + decimal.digits;
+  if (decimal.exponent < 0)
+    return "0." + std::string(static_cast<std::size_t>(-1 - decimal.exponent), '0') + decimal.digits;
   std::string text = decimal.digits;
   return text.insert(static_cast<std::size_t>(decimal.exponent) + 1, ".");
 }

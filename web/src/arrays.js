@@ -26,7 +26,7 @@ const renamed = (object, rename) =>
 function checkedOption(name, value) {
   if (!['string', 'number', 'boolean'].includes(typeof value))
     throw new TypeError(`${name} is ${value}; see the types of this package`);
-  if (typeof value === 'number' && !Number.isFinite(value))
+  if (typeof value === 'number' && !(value >= 0 && value < Infinity))
     throw new TypeError(`${name} is ${value}; give a number from 0 on`);
   return value;
 }

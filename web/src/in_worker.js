@@ -103,7 +103,10 @@ class Caller {
 
 export async function loadInWorker(settings = {}) {
   const caller = new Caller(settings);
-  const { version } = await caller.start();
+  const { version } = await caller.start().catch(async (error) => {
+    await caller.close();
+    throw error;
+  });
   const others = ['findIntersections', 'certify', 'sample', 'samples'].map((name) => [
     name,
     (...given) => caller.call(name, ...given),

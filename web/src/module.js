@@ -6,24 +6,26 @@ import unsnarlModule from './unsnarl_module.js';
 /** Where the module lies: beside this file. */
 export const defaultWasm = () => new URL('./unsnarl_module.wasm', import.meta.url);
 
-async function bytesOf(wasm) {
-  if (wasm instanceof ArrayBuffer || ArrayBuffer.isView(wasm)) return wasm;
+async function compiledFrom(wasm) {
+  if (wasm instanceof ArrayBuffer || ArrayBuffer.isView(wasm)) return WebAssembly.compile(wasm);
   const url = wasm instanceof URL ? wasm : new URL(wasm, globalThis.location?.href ?? import.meta.url);
   if (url.protocol === 'file:') {
     const { readFile } = await nodeModule('fs/promises');
-    return readFile(url);
+    return WebAssembly.compile(await readFile(url));
   }
   const response = await fetch(url);
   if (!response.ok)
     throw new Error(
       `${url}: the server says ${response.status} ${response.statusText}; serve the file, or pass its bytes as load({wasm})`,
     );
-  return response.arrayBuffer();
+  // Browsers keep what they have compiled from a stream, but take one of this type alone.
+  const canStream = response.headers.get('content-type')?.startsWith('application/wasm') ?? false;
+  return canStream ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
 /** @param wasm its URL, its bytes, or a WebAssembly.Module of it; undefined: where it lies beside this file. */
 export const compile = async (wasm = defaultWasm()) =>
-  wasm instanceof WebAssembly.Module ? wasm : WebAssembly.compile(await bytesOf(wasm));
+  wasm instanceof WebAssembly.Module ? wasm : compiledFrom(wasm);
 
 /** An instance. settings: what the module calls and reads, see emscripten's Module and the sources that name it. */
 export const instantiate = (compiled, settings = {}) =>

@@ -6,6 +6,13 @@
 
 /// There is one process, which cannot start others.
 namespace unsnarl::platform {
+namespace {
+
+[[noreturn]] void refuse_processes() {
+  throw SystemError("WebAssembly has no processes, which a batch needs: call the program once for each mesh", ENOSYS);
+}
+
+}  // namespace
 
 struct ChildProcess::Handles {};
 
@@ -14,7 +21,7 @@ std::string reason_of_death(int exit_code) {
 }
 
 ChildProcess::ChildProcess(const std::string&, const std::vector<std::string>&, const std::filesystem::path&) {
-  throw SystemError("cannot start a process: WebAssembly has none; call the program once for each mesh", ENOSYS);
+  refuse_processes();
 }
 
 ChildProcess::~ChildProcess() = default;
@@ -33,7 +40,7 @@ std::filesystem::path program_file() {
 }
 
 std::filesystem::path program_path() {
-  return program_file();
+  refuse_processes();
 }
 
 int process_number() {

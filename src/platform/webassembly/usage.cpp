@@ -13,10 +13,10 @@ extern "C" void emscripten_notify_memory_growth(std::size_t memory);
 namespace unsnarl::platform {
 namespace {
 
-constexpr double bytes_a_megabyte = 1e6;                         ///< Bytes of a megabyte (fixed by SI units)
-constexpr double milliseconds_a_second = 1000;                   ///< Milliseconds of a second (fixed by SI units)
-constexpr std::size_t bytes_a_page = 65536;                      ///< Bytes of a page of memory (fixed by WebAssembly)
-constexpr std::size_t most_pages = 65536;                        ///< Pages of a memory, at most (fixed by WebAssembly)
+constexpr double bytes_a_megabyte = 1e6;        ///< Bytes of a megabyte (fixed by SI units)
+constexpr double milliseconds_a_second = 1000;  ///< Milliseconds of a second (fixed by SI units)
+constexpr std::size_t bytes_a_page = 65536;     ///< Bytes of a page of memory (fixed by WebAssembly)
+constexpr std::size_t most_pages = 65536;       ///< Pages of a memory, at most (fixed by WebAssembly)
 constexpr std::size_t pages_ahead = 256;  ///< Memory grows by so much at a time, where that is allowed (unit: pages)
 
 /// Memory grows no further than this (unit: pages).
