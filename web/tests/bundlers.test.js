@@ -6,7 +6,9 @@ import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import * as esbuild from 'esbuild';
+import { promisify } from 'node:util';
 import { chromium } from 'playwright-core';
+import webpack from 'webpack';
 import { here, packageFolder, runNative, sampleFile, temporaryFolder } from './support.js';
 
 const tools = join(here, 'node_modules');
@@ -124,7 +126,9 @@ test('Vite while it serves', async (t) => {
 
 test('webpack', async (t) => {
   const folder = pageSources(t);
-  runTool(folder, 'webpack/bin/webpack.js', '--mode', 'production', '--entry', './main.js', '--output-path', join(folder, 'dist'));
+  const settings = { context: folder, mode: 'production', entry: './main.js', output: { path: join(folder, 'dist') } };
+  const stats = await promisify(webpack)(settings);
+  assert.deepEqual([stats.compilation.errors, stats.compilation.warnings.filter(({ name }) => !/Size|Asset|Entrypoint|NoAsync/.test(name))], [[], []]);
   writeFileSync(join(folder, 'dist/index.html'), '<!doctype html><script type="module" src="./main.js"></script>');
   await check(t, join(folder, 'dist'));
 });
