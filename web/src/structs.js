@@ -1,5 +1,4 @@
 // The structs of include/unsnarl/unsnarl.h as they lie in the memory of WebAssembly: addresses and sizes have 32 bits.
-// tests compare sizes with those that the library expects.
 const kinds = {
   address: { size: 4, put: (view, at, value) => view.setUint32(at, value, true) },
   count: { size: 4, put: (view, at, value) => view.setUint32(at, value, true) },
