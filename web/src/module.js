@@ -24,8 +24,7 @@ async function compiledFrom(wasm) {
 }
 
 /** @param wasm its URL, its bytes, or a WebAssembly.Module of it; undefined: where it lies beside this file. */
-export const compile = async (wasm = defaultWasm()) =>
-  wasm instanceof WebAssembly.Module ? wasm : compiledFrom(wasm);
+export const compile = async (wasm = defaultWasm()) => (wasm instanceof WebAssembly.Module ? wasm : compiledFrom(wasm));
 
 /** An instance. settings: what the module calls and reads, see emscripten's Module and the sources that name it. */
 export const instantiate = (compiled, settings = {}) =>

@@ -6,13 +6,21 @@ import { runNative, unsnarl, UnsnarlError } from './support.js';
 /** The text of an OBJ file that holds these numbers exactly. */
 function objOf(V, F) {
   const vertices = Array.from({ length: V.length / 3 }, (_, v) => `v ${V[3 * v]} ${V[3 * v + 1]} ${V[3 * v + 2]}\n`);
-  const faces = Array.from({ length: F.length / 3 }, (_, f) => `f ${F[3 * f] + 1} ${F[3 * f + 1] + 1} ${F[3 * f + 2] + 1}\n`);
+  const faces = Array.from(
+    { length: F.length / 3 },
+    (_, f) => `f ${F[3 * f] + 1} ${F[3 * f + 1] + 1} ${F[3 * f + 2] + 1}\n`,
+  );
   return vertices.join('') + faces.join('');
 }
 
-const verticesOf = (obj) => obj.toString().match(/^v .*$/gm).flatMap((line) => line.split(' ').slice(1).map(Number));
+const verticesOf = (obj) =>
+  obj
+    .toString()
+    .match(/^v .*$/gm)
+    .flatMap((line) => line.split(' ').slice(1).map(Number));
 
-const rowsOf = (flat, size) => Array.from({ length: flat.length / size }, (_, i) => Array.from(flat.slice(size * i, size * i + size)));
+const rowsOf = (flat, size) =>
+  Array.from({ length: flat.length / size }, (_, i) => Array.from(flat.slice(size * i, size * i + size)));
 
 /** A tetrahedron, and another that pierces it. */
 const tetrahedra = {
@@ -30,7 +38,10 @@ test('samples are those of the program', async () => {
   const quads = await unsnarl.sample('overlapping_quads');
   assert.ok(quads.F.offsets.length > 1 && quads.F.offsets.at(-1) === quads.F.corners.length);
   const parameter = (await unsnarl.samples()).find(({ name }) => name === 'crossing_tubes').parameters[0];
-  const [one, other] = [await unsnarl.sample('crossing_tubes'), await unsnarl.sample('crossing_tubes', { [parameter.name]: parameter.maximum })];
+  const [one, other] = [
+    await unsnarl.sample('crossing_tubes'),
+    await unsnarl.sample('crossing_tubes', { [parameter.name]: parameter.maximum }),
+  ];
   assert.notDeepEqual(one.V, other.V);
 });
 
@@ -54,7 +65,8 @@ test('a mesh may be given flat, in rows, or as polygons', async () => {
     [V, rowsOf(F, 3).map((row) => Uint32Array.from(row))],
     [V, { corners: F, offsets }],
   ];
-  for (const [positions, faces] of others) assert.deepEqual((await unsnarl.findIntersections(positions, faces)).pairs, pairs);
+  for (const [positions, faces] of others)
+    assert.deepEqual((await unsnarl.findIntersections(positions, faces)).pairs, pairs);
 });
 
 test('a repair gives the positions of the program, and changes nothing that it was given', async () => {
@@ -90,7 +102,11 @@ test('32-bit positions come back as such', async () => {
 
 test('what must not move stays, what is rigid moves as a body, what may intersect does', async () => {
   const { V, F } = tetrahedra;
-  for (const fixed of [[0, 1, 2, 3], Uint8Array.from([1, 1, 1, 1, 0, 0, 0, 0]), [true, true, true, true, false, false, false, false]]) {
+  for (const fixed of [
+    [0, 1, 2, 3],
+    Uint8Array.from([1, 1, 1, 1, 0, 0, 0, 0]),
+    [true, true, true, true, false, false, false, false],
+  ]) {
     const result = await unsnarl.repair(V, F, { fixed });
     assert.equal(result.status, 'embedded');
     assert.deepEqual(Array.from(result.V.slice(0, 12)), V.slice(0, 12));
@@ -99,11 +115,35 @@ test('what must not move stays, what is rigid moves as a body, what may intersec
   const { V: moved, status } = await unsnarl.repair(V, F, { fixed: [0, 1, 2, 3], rigid: [[4, 5, 6, 7]] });
   assert.equal(status, 'embedded');
   const distance = (X, a, b) => Math.hypot(...[0, 1, 2].map((k) => X[3 * a + k] - X[3 * b + k]));
-  for (const [a, b] of [[4, 5], [5, 6], [6, 7]]) assert.ok(Math.abs(distance(moved, a, b) - distance(V, a, b)) < 1e-6);
-  const allowed = await unsnarl.repair(V, F, { allow: [[[0, 1, 2, 3], [4, 5, 6, 7]]] });
+  for (const [a, b] of [
+    [4, 5],
+    [5, 6],
+    [6, 7],
+  ])
+    assert.ok(Math.abs(distance(moved, a, b) - distance(V, a, b)) < 1e-6);
+  const allowed = await unsnarl.repair(V, F, {
+    allow: [
+      [
+        [0, 1, 2, 3],
+        [4, 5, 6, 7],
+      ],
+    ],
+  });
   assert.equal(allowed.status, 'allowed');
   assert.deepEqual(Array.from(allowed.V), V);
-  assert.equal((await unsnarl.findIntersections(V, F, { allow: [[[0, 1, 2, 3], [4, 5, 6, 7]]] })).kinds.length, 0);
+  assert.equal(
+    (
+      await unsnarl.findIntersections(V, F, {
+        allow: [
+          [
+            [0, 1, 2, 3],
+            [4, 5, 6, 7],
+          ],
+        ],
+      })
+    ).kinds.length,
+    0,
+  );
 });
 
 test('limits end a repair with a status', async () => {
@@ -122,7 +162,19 @@ test('progress is told, and may cancel', async () => {
   const cancelled = await unsnarl.repair(V, F, {}, { onProgress: () => (signal.aborted = true), signal });
   assert.equal(cancelled.status, 'cancelled');
   const thrown = new Error('enough');
-  await assert.rejects(unsnarl.repair(V, F, {}, { onProgress: () => { throw thrown; } }), thrown);
+  await assert.rejects(
+    unsnarl.repair(
+      V,
+      F,
+      {},
+      {
+        onProgress: () => {
+          throw thrown;
+        },
+      },
+    ),
+    thrown,
+  );
 });
 
 test('what makes no sense is refused, and the message says where', async () => {
@@ -147,5 +199,8 @@ test('what makes no sense is refused, and the message says where', async () => {
     [() => unsnarl.sample('none'), UnsnarlError, /no sample is called "none"/],
   ];
   for (const [call, kind, message] of refused)
-    await assert.rejects(call, (error) => error instanceof kind && (message.test(error.message) || assert.fail(error.message)));
+    await assert.rejects(
+      call,
+      (error) => error instanceof kind && (message.test(error.message) || assert.fail(error.message)),
+    );
 });

@@ -29,7 +29,10 @@ function pageSources(t, settings = '') {
   mkdirSync(join(folder, 'node_modules'));
   cpSync(packageFolder, join(folder, 'node_modules/unsnarl'), { recursive: true });
   writeFileSync(join(folder, 'package.json'), '{"private": true, "type": "module"}');
-  writeFileSync(join(folder, 'index.html'), '<!doctype html><title>unsnarl</title><script type="module" src="./main.js"></script>');
+  writeFileSync(
+    join(folder, 'index.html'),
+    '<!doctype html><title>unsnarl</title><script type="module" src="./main.js"></script>',
+  );
   writeFileSync(
     join(folder, 'main.js'),
     `import { load, loadInWorker } from 'unsnarl';
@@ -62,11 +65,15 @@ function pageSources(t, settings = '') {
 
 /** Serves a folder. isolated: its pages may share memory. */
 async function serve(t, folder, { isolated = false } = {}) {
-  const headers = isolated ? { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' } : {};
+  const headers = isolated
+    ? { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' }
+    : {};
   const server = createServer(({ url }, response) => {
     const file = join(folder, decodeURI(url === '/' ? '/index.html' : url.split('?')[0]));
     if (!existsSync(file)) return response.writeHead(404).end();
-    response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream', ...headers }).end(readFileSync(file));
+    response
+      .writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream', ...headers })
+      .end(readFileSync(file));
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
   t.after(() => server.close());
@@ -80,7 +87,13 @@ async function check(t, folder, { isolated = false } = {}) {
   const troubles = [];
   page.on('pageerror', (error) => troubles.push(String(error)));
   page.on('requestfailed', (request) => troubles.push(`${request.url()} failed`));
-  page.on('response', (response) => response.status() >= 400 && !response.url().endsWith('favicon.ico') && troubles.push(`${response.url()}: ${response.status()}`));
+  page.on(
+    'response',
+    (response) =>
+      response.status() >= 400 &&
+      !response.url().endsWith('favicon.ico') &&
+      troubles.push(`${response.url()}: ${response.status()}`),
+  );
   await page.goto(await serve(t, folder, { isolated }));
   await page.waitForFunction(() => document.title === 'ready').catch(() => assert.fail(troubles.join('\n')));
   assert.equal(await page.evaluate((text) => window.repairHere(text), input.toString()), wanted);
@@ -92,19 +105,30 @@ async function check(t, folder, { isolated = false } = {}) {
   assert.deepEqual(troubles, []);
 }
 
-const runTool = (cwd, tool, ...given) => execFileSync(process.execPath, [join(tools, tool), ...given], { cwd, stdio: ['ignore', 'pipe', 'pipe'], encoding: 'utf8' });
+const runTool = (cwd, tool, ...given) =>
+  execFileSync(process.execPath, [join(tools, tool), ...given], {
+    cwd,
+    stdio: ['ignore', 'pipe', 'pipe'],
+    encoding: 'utf8',
+  });
 
 test('without a bundler, from a web server', async (t) => {
   const folder = pageSources(t);
   const map = '<script type="importmap">{"imports": {"unsnarl": "./node_modules/unsnarl/index.js"}}</script>';
-  writeFileSync(join(folder, 'index.html'), readFileSync(join(folder, 'index.html'), 'utf8').replace('<script', `${map}<script`));
+  writeFileSync(
+    join(folder, 'index.html'),
+    readFileSync(join(folder, 'index.html'), 'utf8').replace('<script', `${map}<script`),
+  );
   await check(t, folder);
   await check(t, folder, { isolated: true });
 });
 
 test('Vite', async (t) => {
   const folder = pageSources(t);
-  writeFileSync(join(folder, 'vite.config.js'), "export default { base: './', worker: { format: 'es' }, build: { target: 'es2022' } };");
+  writeFileSync(
+    join(folder, 'vite.config.js'),
+    "export default { base: './', worker: { format: 'es' }, build: { target: 'es2022' } };",
+  );
   runTool(folder, 'vite/bin/vite.js', 'build', '--logLevel', 'warn');
   await check(t, join(folder, 'dist'));
 });
@@ -128,7 +152,13 @@ test('webpack', async (t) => {
   const folder = pageSources(t);
   const settings = { context: folder, mode: 'production', entry: './main.js', output: { path: join(folder, 'dist') } };
   const stats = await promisify(webpack)(settings);
-  assert.deepEqual([stats.compilation.errors, stats.compilation.warnings.filter(({ name }) => !/Size|Asset|Entrypoint|NoAsync/.test(name))], [[], []]);
+  assert.deepEqual(
+    [
+      stats.compilation.errors,
+      stats.compilation.warnings.filter(({ name }) => !/Size|Asset|Entrypoint|NoAsync/.test(name)),
+    ],
+    [[], []],
+  );
   writeFileSync(join(folder, 'dist/index.html'), '<!doctype html><script type="module" src="./main.js"></script>');
   await check(t, join(folder, 'dist'));
 });
@@ -142,14 +172,22 @@ function copyBeside(folder) {
 test('esbuild', async (t) => {
   const folder = pageSources(t);
   const entryPoints = { main: 'main.js', worker: 'node_modules/unsnarl/worker.js' };
-  await esbuild.build({ absWorkingDir: folder, entryPoints, bundle: true, format: 'esm', minify: true, outdir: 'dist' });
+  await esbuild.build({
+    absWorkingDir: folder,
+    entryPoints,
+    bundle: true,
+    format: 'esm',
+    minify: true,
+    outdir: 'dist',
+  });
   copyBeside(folder);
   await check(t, join(folder, 'dist'));
 });
 
 test('Rollup', async (t) => {
   const folder = pageSources(t);
-  const resolver = "{ name: 'packages', resolveId: (name) => (name === 'unsnarl' ? process.cwd() + '/node_modules/unsnarl/index.js' : null) }";
+  const resolver =
+    "{ name: 'packages', resolveId: (name) => (name === 'unsnarl' ? process.cwd() + '/node_modules/unsnarl/index.js' : null) }";
   writeFileSync(
     join(folder, 'rollup.config.js'),
     `export default { input: { main: 'main.js', worker: 'node_modules/unsnarl/worker.js' }, plugins: [${resolver}],

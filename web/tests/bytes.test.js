@@ -20,9 +20,13 @@ for (const format of formats)
 
 test('samples, in the formats that they can be written in', async () => {
   for (const sample of ['mobius_extended', 'linked_rings', 'klein_map', 'overlapping_quads', 'stool'])
-    for (const ending of ['obj', 'off', 'ply', 'glb'])
-      await runBoth(['sample', sample, '-o', `${sample}.${ending}`]);
-  for (const [sample, ending] of [['curve_star', 'svg'], ['curve_star', 'json'], ['knot_3_1', 'xyz'], ['routes_star_6', 'json']])
+    for (const ending of ['obj', 'off', 'ply', 'glb']) await runBoth(['sample', sample, '-o', `${sample}.${ending}`]);
+  for (const [sample, ending] of [
+    ['curve_star', 'svg'],
+    ['curve_star', 'json'],
+    ['knot_3_1', 'xyz'],
+    ['routes_star_6', 'json'],
+  ])
     await runBoth(['sample', sample, '-o', `${sample}.${ending}`]);
 });
 
@@ -38,17 +42,35 @@ test('pictures, animations, recordings, pages, reports', async () => {
   const files = { 'in.obj': sampleFile('stool', 'in.obj') };
   const made = ['out.obj', 'a.png', 'a.gif', 'marked.ply', 'a.rec', 'report.json'];
   const { files: written } = await runBoth(
-    ['fix', 'in.obj', '-o', 'out.obj', '--picture', 'a.png', '--highlight', 'marked.ply', '--record', 'a.rec', '--report', 'report.json'],
+    [
+      'fix',
+      'in.obj',
+      '-o',
+      'out.obj',
+      '--picture',
+      'a.png',
+      '--highlight',
+      'marked.ply',
+      '--record',
+      'a.rec',
+      '--report',
+      'report.json',
+    ],
     { files },
     { but: ['report.json'] },
   );
   assert.deepEqual(Object.keys(written).sort(), made.filter((name) => name !== 'a.gif').sort());
   await runBoth(['fix', 'in.obj', '-o', 'out.obj', '--picture', 'a.gif', '--quiet'], { files });
-  await runBoth(['view', 'in.obj', 'out.obj', '-o', 'view.html'], { files: { ...files, 'out.obj': written['out.obj'] } });
+  await runBoth(['view', 'in.obj', 'out.obj', '-o', 'view.html'], {
+    files: { ...files, 'out.obj': written['out.obj'] },
+  });
 });
 
 test('a scene of several files', async () => {
-  const files = { 'tubes.obj': sampleFile('crossing_tubes', 'tubes.obj'), 'sub/rings.ply': sampleFile('linked_rings', 'rings.ply') };
+  const files = {
+    'tubes.obj': sampleFile('crossing_tubes', 'tubes.obj'),
+    'sub/rings.ply': sampleFile('linked_rings', 'rings.ply'),
+  };
   const { files: written } = await runBoth(['fix', 'tubes.obj', 'sub/rings.ply', '-o', 'repaired'], { files });
   assert.deepEqual(Object.keys(written).sort(), ['repaired/rings.ply', 'repaired/tubes.obj']);
 });
@@ -61,7 +83,12 @@ test('a sequence of frames, and going on with it', async () => {
   const list = 'repaired/unsnarl-sequence.jsonl'; // names the program
   const { files: written, exitCode } = await runBoth(args, { files }, { other: [list] });
   assert.equal(exitCode, 0);
-  assert.deepEqual(Object.keys(written).filter((name) => name.endsWith('.obj')).sort(), ['repaired/0.obj', 'repaired/1.obj', 'repaired/2.obj']);
+  assert.deepEqual(
+    Object.keys(written)
+      .filter((name) => name.endsWith('.obj'))
+      .sort(),
+    ['repaired/0.obj', 'repaired/1.obj', 'repaired/2.obj'],
+  );
   const again = await unsnarl.run(args, { files: { ...files, ...written } });
   assert.equal(again.exitCode, 0);
   assert.match(again.stderr, /3 were done before/);
@@ -69,10 +96,18 @@ test('a sequence of frames, and going on with it', async () => {
 
 test('curves, surfaces of knots, isotopies, routes', async () => {
   const untimed = (name) => ({ but: [name] });
-  await runBoth(['curves', 'in.svg', '-o', 'out.svg', '--quiet'], { files: { 'in.svg': sampleFile('curve_star', 'in.svg') } });
-  await runBoth(['seifert', 'in.xyz', '-o', 'out.obj', '--quiet'], { files: { 'in.xyz': sampleFile('knot_3_1', 'in.xyz') } });
+  await runBoth(['curves', 'in.svg', '-o', 'out.svg', '--quiet'], {
+    files: { 'in.svg': sampleFile('curve_star', 'in.svg') },
+  });
+  await runBoth(['seifert', 'in.xyz', '-o', 'out.obj', '--quiet'], {
+    files: { 'in.xyz': sampleFile('knot_3_1', 'in.xyz') },
+  });
   const knots = { 'a.xyz': sampleFile('knot_kinks_1', 'a.xyz'), 'b.xyz': sampleFile('knot_circle', 'b.xyz') };
-  await runBoth(['knot-isotopy', 'a.xyz', 'b.xyz', '-o', 'isotopy', '--quiet'], { files: knots }, untimed('isotopy/isotopy.json'));
+  await runBoth(
+    ['knot-isotopy', 'a.xyz', 'b.xyz', '-o', 'isotopy', '--quiet'],
+    { files: knots },
+    untimed('isotopy/isotopy.json'),
+  );
   const plan = { 'plan.json': sampleFile('routes_star_6', 'plan.json') };
   await runBoth(['routes', 'plan.json', '-o', 'routes', '--quiet'], { files: plan }, untimed('routes/routes.json'));
 });
@@ -85,11 +120,21 @@ test('standard input and output', async () => {
 
 test('names in other alphabets', async () => {
   const bytes = sampleFile('klein_map', 'in.obj');
-  await runBoth(['fix', 'Größe 网格/σχήμα.obj', '-o', 'Größe 网格/☆.obj', '--quiet'], { files: { 'Größe 网格/σχήμα.obj': bytes } });
+  await runBoth(['fix', 'Größe 网格/σχήμα.obj', '-o', 'Größe 网格/☆.obj', '--quiet'], {
+    files: { 'Größe 网格/σχήμα.obj': bytes },
+  });
 });
 
 test('help, and what it refuses', async () => {
-  for (const args of [['--version'], ['--help'], ['fix', '--help'], ['fxi'], ['fix'], ['fix', 'none.obj', '-o', 'out.obj']]) await runBoth(args);
+  for (const args of [
+    ['--version'],
+    ['--help'],
+    ['fix', '--help'],
+    ['fxi'],
+    ['fix'],
+    ['fix', 'none.obj', '-o', 'out.obj'],
+  ])
+    await runBoth(args);
   const files = { 'bad.obj': 'v 0 0 0\nf 1 2 3\n', 'bad.ply': 'ply\nformat ascii 1.0\n', 'bad.gltf': '{' };
   for (const name of Object.keys(files)) {
     const { exitCode } = await runBoth(['fix', name, '-o', `out${name.slice(3)}`], { files });
@@ -103,7 +148,10 @@ test('exit codes', async () => {
   const tubes = { 'in.obj': sampleFile('crossing_tubes', 'in.obj') };
   assert.equal((await runBoth(['check', 'in.obj'], { files: tubes })).exitCode, 1);
   assert.equal((await runBoth(['fix', 'in.obj', '-o', 'none/out.obj'], { files: tubes })).exitCode, 4);
-  assert.equal((await runBoth(['fix', 'in.obj', '-o', 'out.obj', '--max-displacement', '1e-6'], { files: tubes })).exitCode, 5);
+  assert.equal(
+    (await runBoth(['fix', 'in.obj', '-o', 'out.obj', '--max-displacement', '1e-6'], { files: tubes })).exitCode,
+    5,
+  );
   assert.equal((await runBoth(['fix', 'in.obj', '-o', 'in.obj'], { files: tubes })).exitCode, 2);
   assert.equal((await runBoth(['fix', 'in.obj', '--in-place'], { files: tubes })).exitCode, 0);
 });

@@ -6,7 +6,8 @@ import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { here, packageFolder, project, sampleFile, runNative, temporaryFolder, unsnarl } from './support.js';
 
-const runIn = (cwd, program, ...args) => execFileSync(program, args, { cwd, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
+const runIn = (cwd, program, ...args) =>
+  execFileSync(program, args, { cwd, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 
 /** A new folder with the package installed from its tarball. */
 function installed(t) {
@@ -23,9 +24,25 @@ test('the package holds what it needs, and nothing else', () => {
   const names = files.map(({ path }) => path);
   const sources = readdirSync(join(project, 'web/src'));
   const licenses = readdirSync(join(packageFolder, 'licenses')).map((name) => `licenses/${name}`);
-  assert.deepEqual(names.sort(), [...sources, ...licenses, 'LICENSE', 'NOTICE', 'README.md', 'unsnarl_module.js', 'unsnarl_module.wasm'].sort());
-  for (const library of ['fmtlib', 'giflib', 'libpng1.6', 'libzip', 'pugixml', 'zlib', 'libeigen3-dev', 'nlohmann-json3-dev', 'libcli11-dev'])
-    assert.ok(licenses.some((name) => name.startsWith(`licenses/${library}`)), library);
+  assert.deepEqual(
+    names.sort(),
+    [...sources, ...licenses, 'LICENSE', 'NOTICE', 'README.md', 'unsnarl_module.js', 'unsnarl_module.wasm'].sort(),
+  );
+  for (const library of [
+    'fmtlib',
+    'giflib',
+    'libpng1.6',
+    'libzip',
+    'pugixml',
+    'zlib',
+    'libeigen3-dev',
+    'nlohmann-json3-dev',
+    'libcli11-dev',
+  ])
+    assert.ok(
+      licenses.some((name) => name.startsWith(`licenses/${library}`)),
+      library,
+    );
   const { version, license } = JSON.parse(readFileSync(join(packageFolder, 'package.json')));
   assert.equal(version.replace('-dev', '.dev'), unsnarl.version);
   assert.equal(license, 'Apache-2.0');
@@ -47,13 +64,17 @@ test('installed, it repairs as the program does', (t) => {
      await worker.close();`,
   );
   runIn(folder, process.execPath, 'repair.js');
-  const wanted = runNative(['fix', 'in.obj', '-o', 'out.obj', '--quiet'], { files: { 'in.obj': before } }).files['out.obj'];
+  const wanted = runNative(['fix', 'in.obj', '-o', 'out.obj', '--quiet'], { files: { 'in.obj': before } }).files[
+    'out.obj'
+  ];
   for (const name of ['here.obj', 'there.obj']) assert.ok(readFileSync(join(folder, name)).equals(wanted), name);
 });
 
 test('the example of the README does what it says', (t) => {
   const folder = installed(t);
-  const [, example] = readFileSync(join(packageFolder, 'README.md'), 'utf8').match(/```js\n(import \{ load \}[^`]*)```/);
+  const [, example] = readFileSync(join(packageFolder, 'README.md'), 'utf8').match(
+    /```js\n(import \{ load \}[^`]*)```/,
+  );
   writeFileSync(join(folder, 'example.js'), example);
   assert.match(runIn(folder, process.execPath, 'example.js'), /^\d+ embedded\n$/);
 });
@@ -71,7 +92,11 @@ test('its types are those of what it does', (t) => {
     const { files, exitCode } = await worker.run(['fix'], { files: { 'a.obj': new Uint8Array() }, signal: new AbortController().signal });
     await worker.close();
     export const all = [found.kinds, result.status === 'embedded', files['a.obj'].length, exitCode + 1, UnsnarlError];`;
-  const wrong = { 'a.ts': "await unsnarl.repair(V, F, { mingap: 1 });", 'b.ts': "await unsnarl.run('fix');", 'c.ts': "result.status === 'embeded';" };
+  const wrong = {
+    'a.ts': 'await unsnarl.repair(V, F, { mingap: 1 });',
+    'b.ts': "await unsnarl.run('fix');",
+    'c.ts': "result.status === 'embeded';",
+  };
   const lead = `
     import { load } from 'unsnarl';
     const unsnarl = await load();
@@ -82,7 +107,20 @@ test('its types are those of what it does', (t) => {
   for (const [name, text] of Object.entries(wrong)) writeFileSync(join(folder, name), `${lead}${text}\nexport {};`);
   const check = (name) => {
     try {
-      runIn(folder, process.execPath, join(here, 'node_modules/typescript/bin/tsc'), '--noEmit', '--strict', '--target', 'es2022', '--module', 'nodenext', '--lib', 'es2022,dom', name);
+      runIn(
+        folder,
+        process.execPath,
+        join(here, 'node_modules/typescript/bin/tsc'),
+        '--noEmit',
+        '--strict',
+        '--target',
+        'es2022',
+        '--module',
+        'nodenext',
+        '--lib',
+        'es2022,dom',
+        name,
+      );
       return '';
     } catch ({ stdout }) {
       return stdout;

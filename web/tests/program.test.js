@@ -23,12 +23,18 @@ test('what is passed in is not changed, and what has not changed does not come b
 
 test('runs at the same time do not see each other', async () => {
   const all = await Promise.all([0, 1, 2].map((n) => unsnarl.run(['sample', 'klein_map', '-o', `${n}.obj`])));
-  assert.deepEqual(all.map(({ files }) => Object.keys(files)), [['0.obj'], ['1.obj'], ['2.obj']]);
+  assert.deepEqual(
+    all.map(({ files }) => Object.keys(files)),
+    [['0.obj'], ['1.obj'], ['2.obj']],
+  );
 });
 
 test('lines of standard error come while the program is at work', async () => {
   const lines = [];
-  const { stderr } = await unsnarl.run([...fix, '--progress', 'json'], { files: tubes, onOutput: (line) => lines.push(line) });
+  const { stderr } = await unsnarl.run([...fix, '--progress', 'json'], {
+    files: tubes,
+    onOutput: (line) => lines.push(line),
+  });
   assert.equal(lines.join('\n') + '\n', stderr);
   const told = lines.filter((line) => line.startsWith('{')).map((line) => JSON.parse(line));
   assert.ok(told.length > 3 && told.at(-1).fraction === 1);
@@ -36,19 +42,34 @@ test('lines of standard error come while the program is at work', async () => {
 
 test('a run that is asked to end keeps what it has reached', async () => {
   const signal = { aborted: false };
-  const { exitCode, files } = await unsnarl.run([...fix, '--progress', 'json', '--keep-partial'], { files: tubes, signal, onOutput: () => (signal.aborted = true) });
+  const { exitCode, files } = await unsnarl.run([...fix, '--progress', 'json', '--keep-partial'], {
+    files: tubes,
+    signal,
+    onOutput: () => (signal.aborted = true),
+  });
   assert.equal(exitCode, 6);
   assert.ok(Object.keys(files).every((name) => name === 'out.obj'));
 });
 
 test('an error in onOutput ends the run and is thrown', async () => {
   const error = new Error('enough');
-  await assert.rejects(unsnarl.run([...fix, '--progress', 'json'], { files: tubes, onOutput: () => { throw error; } }), error);
+  await assert.rejects(
+    unsnarl.run([...fix, '--progress', 'json'], {
+      files: tubes,
+      onOutput: () => {
+        throw error;
+      },
+    }),
+    error,
+  );
 });
 
 test('names of files stay in the working folder', async () => {
   for (const name of ['../in.obj', '/in.obj', 'a//in.obj', './in.obj', ''])
-    await assert.rejects(unsnarl.run(['check', 'in.obj'], { files: { [name]: tubes['in.obj'] } }), /is no name of a file/);
+    await assert.rejects(
+      unsnarl.run(['check', 'in.obj'], { files: { [name]: tubes['in.obj'] } }),
+      /is no name of a file/,
+    );
   await assert.rejects(unsnarl.run(['check', 'in.obj'], { files: { 'in.obj': 7 } }), /is no Uint8Array/);
 });
 
@@ -75,7 +96,11 @@ test('a limit of time is kept', async () => {
 });
 
 test('deep nesting in files is refused as by the native program', async () => {
-  const deep = { 'a.gltf': `${'['.repeat(100000)}`, 'a.vtp': `<?xml version="1.0"?><VTKFile>${'<a>'.repeat(100000)}`, 'a.svg': `<svg>${'<g>'.repeat(100000)}` };
+  const deep = {
+    'a.gltf': `${'['.repeat(100000)}`,
+    'a.vtp': `<?xml version="1.0"?><VTKFile>${'<a>'.repeat(100000)}`,
+    'a.svg': `<svg>${'<g>'.repeat(100000)}`,
+  };
   for (const name of ['a.gltf', 'a.vtp']) {
     const there = runNative(['check', name], { files: deep });
     const here = await unsnarl.run(['check', name], { files: deep });
@@ -86,7 +111,9 @@ test('deep nesting in files is refused as by the native program', async () => {
 });
 
 test('a batch, which needs processes, says that there are none', async () => {
-  const { exitCode, stderr, files } = await unsnarl.run(['batch', 'meshes', '-o', 'repaired'], { files: { 'meshes/in.obj': tubes['in.obj'] } });
+  const { exitCode, stderr, files } = await unsnarl.run(['batch', 'meshes', '-o', 'repaired'], {
+    files: { 'meshes/in.obj': tubes['in.obj'] },
+  });
   assert.notEqual(exitCode, 0);
   assert.match(stderr, /process/);
   assert.ok(!Object.keys(files).some((name) => name.endsWith('.obj')), stderr);

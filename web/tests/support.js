@@ -4,7 +4,16 @@
 // build/release/unsnarl otherwise.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import {
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  statSync,
+  writeFileSync,
+} from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, relative, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
@@ -30,7 +39,10 @@ export function temporaryFolder(t) {
 export function filesIn(folder) {
   const names = readdirSync(folder, { recursive: true }).map((name) => join(folder, name));
   return Object.fromEntries(
-    names.filter((name) => statSync(name).isFile()).sort().map((name) => [relative(folder, name), readFileSync(name)]),
+    names
+      .filter((name) => statSync(name).isFile())
+      .sort()
+      .map((name) => [relative(folder, name), readFileSync(name)]),
   );
 }
 
@@ -42,10 +54,20 @@ export function runNative(args, { files = {}, input } = {}) {
       mkdirSync(dirname(join(folder, name)), { recursive: true });
       writeFileSync(join(folder, name), bytes);
     }
-    const { status, stdout, stderr } = spawnSync(program, args, { cwd: folder, input: input ?? '', maxBuffer: 2 ** 30 });
+    const { status, stdout, stderr } = spawnSync(program, args, {
+      cwd: folder,
+      input: input ?? '',
+      maxBuffer: 2 ** 30,
+    });
     const all = Object.entries(filesIn(folder));
     const changed = all.filter(([name, bytes]) => !(name in files && Buffer.from(files[name]).equals(bytes)));
-    return { exitCode: status, stdout: stdout.toString(), stdoutBytes: stdout, stderr: stderr.toString(), files: Object.fromEntries(changed) };
+    return {
+      exitCode: status,
+      stdout: stdout.toString(),
+      stdoutBytes: stdout,
+      stderr: stderr.toString(),
+      files: Object.fromEntries(changed),
+    };
   } finally {
     rmSync(folder, { recursive: true });
   }

@@ -28,7 +28,18 @@ test('tells progress, and is cancelled while this thread is free', async () => {
   const { V, F } = await worker.sample('trefoil_tube', { resolution: 200 });
   const abort = new AbortController();
   const told = [];
-  const result = await worker.repair(V, F, {}, { onProgress: (progress) => { told.push(progress); abort.abort(); }, signal: abort.signal });
+  const result = await worker.repair(
+    V,
+    F,
+    {},
+    {
+      onProgress: (progress) => {
+        told.push(progress);
+        abort.abort();
+      },
+      signal: abort.signal,
+    },
+  );
   assert.equal(result.status, 'cancelled');
   assert.ok(told.length > 0 && told[0].phase);
   const lines = [];
@@ -38,7 +49,10 @@ test('tells progress, and is cancelled while this thread is free', async () => {
 });
 
 test('passes errors on', async () => {
-  await assert.rejects(worker.sample('none'), (error) => error instanceof UnsnarlError && error.code === 'invalid_argument');
+  await assert.rejects(
+    worker.sample('none'),
+    (error) => error instanceof UnsnarlError && error.code === 'invalid_argument',
+  );
   await assert.rejects(worker.repair([1], [0]), TypeError);
 });
 
