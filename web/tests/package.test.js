@@ -29,6 +29,7 @@ test('the package holds what it needs, and nothing else', () => {
     [...sources, ...licenses, 'LICENSE', 'NOTICE', 'README.md', 'unsnarl_module.js', 'unsnarl_module.wasm'].sort(),
   );
   for (const library of [
+    'emscripten',
     'fmtlib',
     'giflib',
     'libpng1.6',
