@@ -14,6 +14,12 @@ foreach(flag IN LISTS unsafe_flags)
   endif()
 endforeach()
 
+# Shared libraries are made of the same objects; WebAssembly has none.
+set(UNSNARL_SHAREABLE ON)
+if(EMSCRIPTEN)
+  set(UNSNARL_SHAREABLE OFF)
+endif()
+
 add_library(unsnarl_compile_options INTERFACE)
 target_compile_features(unsnarl_compile_options INTERFACE cxx_std_20)
 target_compile_options(unsnarl_compile_options INTERFACE

@@ -24,10 +24,10 @@ def strip(file):
 
 
 def windows_licences_of(build):
-    """By name of a package, its copyright file: of what packaging/targets/windows_dependencies has put where this build
+    """By name of a package, its copyright file: of what packaging/targets/static_dependencies has put where this build
     finds it, and of the runtime."""
     cache = (Path(build) / "CMakeCache.txt").read_text()
-    prefix = Path(re.search(r"^UNSNARL_MINGW_PREFIX:\w+=(.*)$", cache, re.MULTILINE)[1])
+    prefix = Path(re.search(r"^UNSNARL_TARGET_PREFIX:\w+=(.*)$", cache, re.MULTILINE)[1])
     found = {file.stem: file for file in sorted((prefix / "share" / "licenses").iterdir())}
     found.update({name: Path("/usr/share/doc") / name / "copyright" for name in RUNTIME})
     return found

@@ -1,7 +1,6 @@
 #include "glb_file.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +15,12 @@ constexpr int vertex_buffer = 34962, index_buffer = 34963;  // targets
 
 void append_word(std::string& bytes, std::uint32_t word) {
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((word >> shift) & 0xFF);
+}
+
+std::uint32_t bits_of(float value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
 }
 
 void append_chunk(std::string& file, const char* type, std::string bytes, char padding) {
@@ -51,7 +56,7 @@ std::string glb_file(const SurfaceView& surface, std::span<const std::int32_t> p
           const auto value = static_cast<float>(surface.positions[3 * static_cast<std::size_t>(v) + k]);
           low[k] = count == 0 ? value : std::min(low[k], value);
           high[k] = count == 0 ? value : std::max(high[k], value);
-          append_word(positions, std::bit_cast<std::uint32_t>(value));
+          append_word(positions, bits_of(value));
         }
         own = count++;
       }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "platform/interruption.h"
 #include "platform/terminal.h"
 #include "standard_streams.h"
 #include "usage_error.h"
@@ -48,6 +49,7 @@ ProgressDisplay::~ProgressDisplay() {
 }
 
 void ProgressDisplay::show(const Context::Progress& progress) {
+  platform::look_for_requests_to_end();  // all work that can be cancelled shows its progress
   if (style_ == ProgressStyle::none) return;
   {
     const std::lock_guard lock(mutex_);

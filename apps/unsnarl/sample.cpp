@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <stdexcept>
 
@@ -13,6 +12,7 @@
 #include "standard_streams.h"
 #include "suggestions.h"
 #include "surface_files.h"
+#include "text/read_number.h"
 #include "unsnarl/curves.h"
 #include "unsnarl/exit_code.h"
 #include "unsnarl/link.h"
@@ -142,7 +142,7 @@ std::map<std::string, double> parsed(const std::vector<std::string>& assignments
     double value = 0;
     const char* const end = text.data() + text.size();
     const bool well_formed = equals != std::string::npos && equals > 0;
-    const auto [stop, error] = std::from_chars(well_formed ? text.data() + equals + 1 : end, end, value);
+    const auto [stop, error] = read_number(well_formed ? text.data() + equals + 1 : end, end, value);
     if (!well_formed || error != std::errc{} || stop != end)
       throw UsageError(fmt::format("--set needs NAME=NUMBER, as in seed=4, not '{}'", text));
     values[text.substr(0, equals)] = value;

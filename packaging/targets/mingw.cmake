@@ -1,8 +1,8 @@
 # A toolchain file of CMake: Debian's mingw-w64 with threads of POSIX makes programs of Windows, with what
-# windows_dependencies has put into UNSNARL_MINGW_PREFIX; wine runs them.
+# static_dependencies has put into UNSNARL_TARGET_PREFIX; wine runs them.
 #
-#   cmake -DCMAKE_TOOLCHAIN_FILE=packaging/targets/mingw.cmake -DUNSNARL_MINGW_PREFIX=FOLDER ...
-list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES UNSNARL_MINGW_PREFIX)
+#   cmake -DCMAKE_TOOLCHAIN_FILE=packaging/targets/mingw.cmake -DUNSNARL_TARGET_PREFIX=FOLDER ...
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES UNSNARL_TARGET_PREFIX)
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
@@ -14,7 +14,7 @@ if(WINE)
 endif()
 
 # Nothing of the system that compiles is taken but its programs.
-set(CMAKE_FIND_ROOT_PATH ${UNSNARL_MINGW_PREFIX} /usr/x86_64-w64-mingw32)
+set(CMAKE_FIND_ROOT_PATH ${UNSNARL_TARGET_PREFIX} /usr/x86_64-w64-mingw32)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "io/byte_order.h"
 #include "io/token_edits.h"
 #include "io/vertex_normals.h"
+#include "text/write_number.h"
 
 namespace unsnarl {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 /// In the JSON text, a float with the fewest digits.
 std::string number_text(float value) {
   std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+  return {digits.data(), write_number(digits.data(), digits.data() + digits.size(), value)};
 }
 
 }  // namespace

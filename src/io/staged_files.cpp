@@ -107,9 +107,11 @@ class StagedFiles::Moves {
   bool put_aside(std::size_t i) {
     const File& file = files_[i];
     failed_ = i;
-    const int reason = platform::give_second_name(file.target, file.old);
-    if (reason == ENOENT || reason == ENOTDIR) return true;  // there is none
-    const bool is_aside = reason == 0 || has_succeeded(platform::move_file(file.target, file.old));
+    int reason = platform::give_second_name(file.target, file.old);
+    const auto is_missing = [&] { return reason == ENOENT || reason == ENOTDIR; };
+    if (reason != 0 && !is_missing()) reason = platform::move_file(file.target, file.old);
+    if (is_missing()) return true;
+    const bool is_aside = has_succeeded(reason);
     if (is_aside) states_[i] = State::put_aside;
     return is_aside;
   }

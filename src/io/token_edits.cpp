@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 #include "io/text_scanner.h"
 #include "text/read_number.h"
+#include "text/write_number.h"
 #include "unsnarl/document.h"
 
 namespace unsnarl {
@@ -19,8 +19,8 @@ float to_float(double value) {
 }
 
 char* print(char* begin, char* end, double value, TextPrecision precision) {
-  return precision == TextPrecision::double_digits ? std::to_chars(begin, end, value).ptr
-                                                   : std::to_chars(begin, end, to_float(value)).ptr;
+  return precision == TextPrecision::double_digits ? write_number(begin, end, value)
+                                                   : write_number(begin, end, to_float(value));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class ChildProcess {
 };
 
 /// The file of the running program, as it can be read; what it is called, which another file may be by now. Throws
-/// FileError.
+/// FileError, and SystemError where it could not be started again.
 std::filesystem::path program_file();
 std::filesystem::path program_path();
 /// The number of this process.

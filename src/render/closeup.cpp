@@ -103,7 +103,7 @@ std::vector<Window> all_worth_magnifying(const Drawable& drawable, const Camera&
   for (Window next = *first;; next = around_most(left, largest)) {
     const auto inside = std::stable_partition(left.begin(), left.end(),
                                               [&](const Point& c) { return distance(next, c) > 0.5 * next.side; });
-    const auto members = std::span(inside, left.end());
+    const auto members = std::span(left).subspan(static_cast<std::size_t>(inside - left.begin()));
     const Window closer = red.around(members, height);
     if (closer.side < next.side) next = closer;
     const bool overlaps = std::any_of(windows.begin(), windows.end(), [&](const Window& window) {

@@ -3,11 +3,12 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <bit>
 #include <new>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
+
+#include "geometry/bit_cast.h"
 
 namespace unsnarl {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 template <class Word>
 std::vector<std::uint32_t> as_unsigned(std::span<const Word> words) {
   std::vector<std::uint32_t> result(words.size());
-  for (std::size_t i = 0; i < words.size(); ++i) result[i] = std::bit_cast<std::uint32_t>(words[i]);
+  for (std::size_t i = 0; i < words.size(); ++i) result[i] = bit_cast<std::uint32_t>(words[i]);
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "render/page_elements.h"
 
-#include <bit>
-
+#include "geometry/bit_cast.h"
 #include "render/packed_words.h"
 
 namespace unsnarl {
@@ -33,7 +32,7 @@ void PageElements::add_words(std::string_view id, const std::vector<float>& word
 void PageElements::add_words_like(std::string_view id, const std::vector<float>& words, std::string_view like_id,
                                   const std::vector<float>& like) {
   std::vector<std::uint32_t> bits(like.size());
-  for (std::size_t i = 0; i < like.size(); ++i) bits[i] = std::bit_cast<std::uint32_t>(like[i]);
+  for (std::size_t i = 0; i < like.size(); ++i) bits[i] = bit_cast<std::uint32_t>(like[i]);
   add_list(id, "float", words.size(), " data-like=\"" + std::string(like_id) + '"',
            pack_words(std::span<const float>(words), {.stride = 0, .like = bits}));
 }

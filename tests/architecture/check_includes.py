@@ -4,8 +4,9 @@
 layers  a file includes only from its own layer or one below, and the core, which works on arrays, nothing of files;
         public headers only each other and the standard library; the command line, the C interface and the examples
         only public headers and files of their own folder, and the command line those of src/platform
+        and src/text
 lgpl    the product includes nothing of libraries under the GPL or LGPL; its tests may
-systems only src/platform/posix and src/platform/windows include headers of a system, or ask which system it is
+systems only the folders of src/platform include headers of a system, or ask which system it is
 
 usage: check_includes.py {layers,lgpl,systems} PROJECT_DIR
 """
@@ -40,7 +41,7 @@ BELOW = {
 FILES = {"io", "render"}
 # They use the library as its users do.
 USERS = ["apps", "src/c_interface", "examples"]
-MAY_USE = {"apps": ("unsnarl/", "platform/")}
+MAY_USE = {"apps": ("unsnarl/", "platform/", "text/")}
 THIRD_PARTY = re.compile(r"^(Eigen|CGAL|tbb|oneapi|fmt|nlohmann|CLI|png|zlib|boost|gmp|mpfr|pugixml|gtest|benchmark)\b")
 OF_A_SYSTEM = re.compile(
     r"^(sys/|linux/|net/|netinet/|arpa/|mach|unistd\.h|fcntl\.h|signal\.h|csignal|pthread\.h|sched\.h|glob\.h|fnmatch\.h|"
@@ -122,7 +123,7 @@ def check_lgpl(project):
 
 
 def check_systems(project):
-    rooms = [project / "src" / "platform" / system for system in ("posix", "windows")]
+    rooms = [project / "src" / "platform" / system for system in ("posix", "webassembly", "windows")]
     for folder in ("include", "src", "samples", "apps", "examples"):
         for path in sources(project / folder):
             if any(room in path.parents for room in rooms):

@@ -147,7 +147,8 @@ class Batch {
       places.reads("the list of meshes", options_.input);
     places.reads("--fix-vertices", fix_vertices);
     std::vector<BatchMesh> meshes;
-    std::ranges::copy_if(all_, std::back_inserter(meshes), [](const BatchMesh& mesh) { return mesh.fault.empty(); });
+    std::copy_if(all_.begin(), all_.end(), std::back_inserter(meshes),
+                 [](const BatchMesh& mesh) { return mesh.fault.empty(); });
     for (const BatchMesh& mesh : meshes) places.reads("a mesh of the batch", mesh.path.string());
     for (const BatchMesh& mesh : meshes)
       places.writes("a result of a batch", (folder_.root / path_of(BatchFolder::mesh(mesh.name))).string(),

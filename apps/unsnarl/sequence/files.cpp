@@ -191,12 +191,14 @@ class NumberedFiles : public SequenceFiles {
                                   paths_[t], vertices, faces, names_[0], first.view().vertex_count(),
                                   first.view().face_count()));
     if (here.offsets == first.offsets && here.corners == first.corners) return;
-    for (std::size_t f = 0; f < faces; ++f)
-      if (!std::ranges::equal(here.view().face(f), first.view().face(f)))
+    for (std::size_t f = 0; f < faces; ++f) {
+      const auto face = here.view().face(f), its_first = first.view().face(f);
+      if (!std::equal(face.begin(), face.end(), its_first.begin(), its_first.end()))
         throw FileError(
             fmt::format("{}: face {} (counting from 0) has other vertices than in {}: frames need the same "
                         "faces",
                         paths_[t], f, names_[0]));
+    }
   }
 
   const std::vector<std::string> paths_, names_;

@@ -38,4 +38,6 @@ void take_requests_to_end(std::function<void()> take) {
   }).detach();
 }
 
+void look_for_requests_to_end() {}
+
 }  // namespace unsnarl::platform

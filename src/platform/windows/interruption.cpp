@@ -26,4 +26,6 @@ void take_requests_to_end(std::function<void()> take) {
   ::SetConsoleCtrlHandler(take_request, TRUE);
 }
 
+void look_for_requests_to_end() {}
+
 }  // namespace unsnarl::platform

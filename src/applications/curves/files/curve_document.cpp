@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -10,6 +9,7 @@
 #include "geometry/portable_math.h"
 #include "io/mesh_file.h"
 #include "text/read_number.h"
+#include "text/write_number.h"
 
 namespace unsnarl {
 namespace {
@@ -31,7 +31,7 @@ void check_flattening(double flatten_rel) {
 
 std::string digits_of(double value) {
   std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+  return {digits.data(), write_number(digits.data(), digits.data() + digits.size(), value)};
 }
 
 double rounded(double value, double rounding) {
