@@ -199,6 +199,11 @@ export class Viewer {
     }
   }
 
+  /** A sphere, in the units of the page. */
+  lookAt(middle, radius) {
+    this.stage.lookAt(new Vector3(...middle), radius);
+  }
+
   lookAtPicked() {
     if (this.state.face < 0) return;
     const { positions } = this.#positionsAt(this.#views()[0]);

@@ -1,0 +1,24 @@
+// Run by `build`, with the Vite of viewer/. Environment: UNSNARL_WEB, the folder with load.mjs and unsnarl_module.wasm.
+import { fileURLToPath } from 'node:url';
+import { inlinePage } from '../../viewer/inline_page.js';
+import { shellPage } from '../../viewer/shell_page.js';
+import { inlineProgram, withoutFiles } from './inline_program.js';
+
+const web = process.env.UNSNARL_WEB;
+if (!web) throw new Error('UNSNARL_WEB is not set: run web/page/build');
+
+export default {
+  root: fileURLToPath(new URL('.', import.meta.url)),
+  plugins: [shellPage(), inlinePage(), inlineProgram(`${web}/unsnarl_module.wasm`)],
+  resolve: { alias: { 'unsnarl-load': `${web}/load.mjs` } },
+  // A page that was opened from the disk may have no worker that is a module.
+  worker: { format: 'iife', plugins: () => [withoutFiles()] },
+  build: {
+    assetsInlineLimit: Number.MAX_SAFE_INTEGER,
+    cssCodeSplit: false,
+    modulePreload: false,
+    emptyOutDir: false,
+    target: 'es2022',
+    chunkSizeWarningLimit: 4000,
+  },
+};
