@@ -44,16 +44,15 @@ function listenToFiles(app) {
 }
 
 const theme = new Theme();
-const program = new Program(compiledProgram());
-const app = new App(program, theme);
+const app = new App(new Program(compiledProgram()), theme);
 arrange();
 listenToFiles(app);
 fillSamples(byId('samples'), (name) => app.openSample(name));
-program.run(['--version']).then(({ stdout }) => fillHelp(byId('help'), stdout.trim().split(/\s+/)[1] ?? '', [
+fillHelp(byId('help'), unsnarlVersion, [
   ['O', 'open another mesh'],
   ['H', 'hold the component of the picked face still, or let it go'],
   ['G', 'repair'],
-]), (error) => console.error(error));
+]);
 addEventListener('keydown', (event) => {
   if (app.viewer || event.ctrlKey || event.metaKey || event.altKey) return;
   if (event.key === 'o') byId('file-input').click();

@@ -1,6 +1,6 @@
 import { element } from '../../../viewer/src/element.js';
 
-const pictures = import.meta.glob('./samples/*.png', { eager: true, import: 'default' });
+const pictures = import.meta.glob('./samples/*.webp', { eager: true, import: 'default' });
 
 /** Built-in samples: [name, words]; each shows another use. */
 const samples = [
@@ -16,6 +16,6 @@ const samples = [
 export function fillSamples(list, onChoose) {
   list.replaceChildren(...samples.map(([name, words]) => element('li', {},
     element('button', { 'data-sample': name, onclick: () => onChoose(name) },
-      pictures[`./samples/${name}.png`] ? element('img', { src: pictures[`./samples/${name}.png`], alt: '', width: 200, height: 132 }) : null,
+      pictures[`./samples/${name}.webp`] ? element('img', { src: pictures[`./samples/${name}.webp`], alt: '', width: 200, height: 132 }) : null,
       element('span', {}, words)))));
 }

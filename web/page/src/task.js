@@ -30,6 +30,7 @@ export class Task {
   reset() {
     byId('verdict').hidden = true;
     byId('downloads').hidden = true;
+    byId('options').reset();
     byId('repair').textContent = 'Repair';
     byId('repair').className = 'primary';
     this.showRunning(false);

@@ -247,13 +247,14 @@ test('gap and limits are those of the program', async () => {
   assert.deepEqual(await downloaded('tubes_fixed.obj'), readFileSync(at('tubes_gap.obj')));
   await page.locator('#hold-boundary').uncheck();
   await page.locator('#gap').fill('');
-  await page.locator('#most-motion').fill('0.01');
+  await give([at('figure.obj')]);
+  await page.locator('#most-motion').fill('0.004');
   await page.locator('#unit').selectOption('absolute');
-  const limited = native(['fix', 'tubes.obj', '-o', 'tubes_near.obj', '-q', '--max-displacement', '0.01', '--absolute']);
+  const limited = native(['fix', 'figure.obj', '-o', 'figure_near.obj', '-q', '--max-displacement', '0.004', '--absolute']);
   assert.equal(limited.status, 5);
   await repair();
   assert.match(await page.locator('#verdict').textContent(), /Stopped at the largest move.*Allow larger moves/);
-  assert.deepEqual(await downloaded('tubes_fixed.partial.obj'), readFileSync(at('tubes_near.partial.obj')));
+  assert.deepEqual(await downloaded('figure_fixed.partial.obj'), readFileSync(at('figure_near.partial.obj')));
   await picture('left');
   await page.locator('#most-motion').fill('-1');
   await page.locator('#repair').click();
