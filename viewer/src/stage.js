@@ -68,6 +68,13 @@ export class Stage {
     this.drawSeconds = (performance.now() - began) / 1000;
   }
 
+  /** Resolves when it has drawn what it was told. */
+  drawn() {
+    this.changed();
+    // A page in the background draws nothing: nobody waits for that.
+    return document.hidden ? Promise.resolve() : new Promise((done) => { requestAnimationFrame(() => setTimeout(done)); });
+  }
+
   /** Is it so much taller than wide that two views fit better below each other? */
   get isTall() {
     return this.height > 1.2 * this.width;

@@ -112,8 +112,9 @@ export class App {
       this.task.reset();
       this.#show(page);
       this.#showPicked(-1);
-      this.firstPictureSeconds = (performance.now() - began) / 1000;
       done();
+      await this.viewer.stage.drawn();
+      this.firstPictureSeconds = (performance.now() - began) / 1000;
       await this.#listPlaces(input);
     } catch (error) {
       if (!(error instanceof Stopped)) this.#showTrouble(error, `${name} cannot be read`);
