@@ -68,6 +68,8 @@ export class App {
     } finally {
       this.isRepairing = false;
       this.program.goOn();
+      // The button that had the focus is gone; keys go to the drawing.
+      if ([document.body, byId('cancel')].includes(document.activeElement)) byId('canvas').focus({ preventScroll: true });
     }
   }
 
@@ -117,7 +119,7 @@ export class App {
       this.firstPictureSeconds = (performance.now() - began) / 1000;
       await this.#listPlaces(input);
     } catch (error) {
-      if (!(error instanceof Stopped)) this.#showTrouble(error, `${name} cannot be read`);
+      if (!(error instanceof Stopped)) this.#showTrouble(error, `${name} cannot be shown`);
     } finally {
       done();
     }

@@ -44,9 +44,11 @@ export function adviceOnReading(complaint) {
   return null;
 }
 
-/** What to say where the program itself broke down. */
+/** What to say where the browser or the program broke down. */
 export function breakdown(words) {
-  return /memory|allocat|OOM|RangeError/i.test(words)
-    ? 'The mesh needs more memory than a page of a browser may have. The program for the command line can take it.'
-    : `The program broke down: ${words}`;
+  if (/webgl/i.test(words)) return 'This browser cannot draw: WebGL is switched off or missing.';
+  if (/webassembly|wasm/i.test(words)) return 'This browser is too old to run the program. Chromium 111, Firefox 121, Safari 16.4, or newer can.';
+  if (/memory|allocat|RangeError/i.test(words))
+    return 'The mesh needs more memory than a page of a browser may have. The program for the command line can take it.';
+  return `The program broke down: ${words}`;
 }
