@@ -58,7 +58,8 @@ std::string part_of_face(std::span<const FaceLabels> labels, std::int32_t face);
 std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const FindOptions& options = {});
 
 /// All that Parts can name each face by: labels of kind "component", whose names are their numbers and not listed; then
-/// those of the file, of kind "object", "group" or "material", as options name these. Throws as find_intersections does.
+/// those of the file, of kind "object", "group" or "material", as options name these. Throws as find_intersections
+/// does.
 std::vector<FaceLabels> parts_of_faces(const SurfaceView& surface, std::span<const FaceLabels> labels,
                                        const FindOptions& options = {});
 
