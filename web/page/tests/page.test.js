@@ -363,8 +363,10 @@ test('what cannot be read is named, with what to do, and nothing is lost', async
 
 test('everything is done with the keyboard', async () => {
   const opened = await newPage();
-  const [chooser] = await Promise.all([opened.waitForEvent('filechooser'), opened.keyboard.press('o')]);
-  await chooser.setFiles(at('tubes.obj'));
+  const chosen = opened.waitForEvent('filechooser');
+  await opened.evaluate(() => {});  // the browser knows by now that the test waits
+  await opened.keyboard.press('o');
+  await (await chosen).setFiles(at('tubes.obj'));
   await isShown(opened);
   await opened.keyboard.press('n');
   await opened.keyboard.press('h');
