@@ -1,16 +1,29 @@
-import { readFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 
-/** Puts the WebAssembly module into the page, compressed, where it has <!--unsnarl-program-->; see src/compiled.js. */
-export function inlineProgram(wasm) {
+/** What must be said of all that is in the module: NOTICE, and the licences that its package brings. */
+function licences(folder) {
+  const texts = [readFileSync(new URL('../../NOTICE', import.meta.url), 'utf8')];
+  const brought = `${folder}/licenses`;
+  if (existsSync(brought))
+    for (const name of readdirSync(brought).sort()) texts.push(`${name}\n\n${readFileSync(`${brought}/${name}`, 'utf8')}`);
+  return texts.map((text) => text.trim()).join(`\n\n${'-'.repeat(72)}\n\n`);
+}
+
+/**
+ * Puts the WebAssembly module of a package (its folder), and the licences, into the page, compressed, where it has
+ * <!--unsnarl-program-->; src/embedded.js reads them.
+ */
+export function inlineProgram(folder) {
   return {
     name: 'inline-program',
     enforce: 'post',
     generateBundle(options, bundle) {
       const page = bundle['index.html'];
-      const text = gzipSync(readFileSync(wasm), { level: 9 }).toString('base64');
-      page.source = page.source.replace('<!--unsnarl-program-->',
-        () => `<script type="text/plain" id="program">${text}</script>`);
+      const element = (id, bytes) =>
+        `<script type="text/plain" id="${id}">${gzipSync(bytes, { level: 9 }).toString('base64')}</script>`;
+      const elements = [element('program', readFileSync(`${folder}/unsnarl_module.wasm`)), element('licences', licences(folder))];
+      page.source = page.source.replace('<!--unsnarl-program-->', () => elements.join('\n'));
     },
   };
 }

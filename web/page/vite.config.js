@@ -12,7 +12,7 @@ const { version } = JSON.parse(readFileSync(new URL('../../cmake/project.json', 
 
 export default {
   root: fileURLToPath(new URL('.', import.meta.url)),
-  plugins: [shellPage(), inlinePage(), inlineProgram(`${web}/unsnarl_module.wasm`)],
+  plugins: [shellPage(), inlinePage(), inlineProgram(web)],
   define: { unsnarlVersion: JSON.stringify(version) },
   resolve: { alias: { 'unsnarl-load': `${web}/load.js` } },
   // A page that was opened from the disk may have no worker that is a module.

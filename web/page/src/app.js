@@ -109,6 +109,7 @@ export class App {
       this.input = input;
       this.held = [];
       document.body.classList.remove('empty');
+      scrollTo(0, 0);  // on a phone the drawing is above all else
       this.viewer?.dispose();
       this.viewer = null;
       this.task.reset();

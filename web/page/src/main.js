@@ -4,7 +4,7 @@ import { element } from '../../../viewer/src/element.js';
 import { fillHelp } from '../../../viewer/src/help.js';
 import { Theme } from '../../../viewer/src/theme.js';
 import { App } from './app.js';
-import { compiledProgram } from './compiled.js';
+import { compiledProgram, licences } from './embedded.js';
 import { filesOfDrop, filesOfList } from './input_files.js';
 import { Program } from './program.js';
 import { fillSamples } from './samples.js';
@@ -53,6 +53,9 @@ fillHelp(byId('help'), unsnarlVersion, [
   ['H', 'hold the component of the picked face still, or let it go'],
   ['G', 'repair'],
 ]);
+const licenceText = element('pre', { tabindex: 0, 'aria-label': 'Licences' });
+byId('help').querySelector('.fine').append(element('details', { ontoggle: async () => { licenceText.textContent = await licences(); } },
+  element('summary', {}, 'Licences of what is in it'), licenceText));
 addEventListener('keydown', (event) => {
   if (app.viewer || event.ctrlKey || event.metaKey || event.altKey) return;
   if (event.key === 'o') byId('file-input').click();

@@ -375,6 +375,8 @@ test('everything is done with the keyboard', async () => {
   await opened.locator('#verdict').waitFor({ timeout: 60000 });
   await opened.keyboard.press('?');
   assert.match(await opened.locator('#help').textContent(), /G\s*repair/);
+  await opened.locator('#help summary').click();
+  await opened.locator('#help pre', { hasText: 'three.js' }).waitFor();
   await opened.keyboard.press('Escape');
   await opened.context().close();
 });
@@ -396,6 +398,7 @@ test('a phone has all of it', async () => {
     await opened.locator('[data-sample=anchored_balls]').tap();
     await isShown(opened);
     assert.ok(await isNarrow());
+    assert.equal(await opened.evaluate(() => scrollY), 0, 'the drawing is in sight');
     await picture(`${name}_loaded`, opened);
     const canvas = await opened.locator('#canvas').boundingBox();
     await opened.touchscreen.tap(canvas.x + canvas.width / 2, canvas.y + canvas.height / 2);
