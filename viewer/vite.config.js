@@ -1,8 +1,9 @@
 import { defineConfig } from 'vite';
 import { inlinePage } from './inline_page.js';
+import { shellPage } from './shell_page.js';
 
 export default defineConfig({
-  plugins: [inlinePage()],
+  plugins: [shellPage(), inlinePage()],
   build: {
     assetsInlineLimit: Number.MAX_SAFE_INTEGER,
     cssCodeSplit: false,

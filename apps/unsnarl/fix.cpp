@@ -206,6 +206,7 @@ void add_view(const FixOptions& options, const SceneDocument& scene, const Repai
   source.output_name = done.report.output.empty() ? "" : page_name(done.report.output);
   source.before = scene.surface();
   source.files = scene.files();
+  source.labels = scene.face_labels();
   source.after = done.result.positions;
   source.find = repair.find;
   source.goal = repair.goal;

@@ -119,6 +119,7 @@ int run_view(const ViewOptions& options, Interruption& interruption) {
   source.input_name = scene_name(meshes.inputs);
   source.before = scene.surface();
   source.files = scene.files();
+  source.labels = scene.face_labels();
   std::optional<SceneDocument> repaired;
   if (!meshes.repaired.empty()) {
     repaired.emplace(read_repaired(meshes, scene, format));

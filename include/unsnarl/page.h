@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "unsnarl/appearance.h"
+#include "unsnarl/document.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/recording.h"
 #include "unsnarl/repair.h"
@@ -17,13 +18,14 @@ namespace unsnarl {
 struct PageSource {
   std::string input_name, output_name;  ///< for the reader; any bytes. output_name may be empty
   SurfaceView before;
-  std::span<const double> after = {};      ///< 3 a vertex of `before`; empty: there is only one surface to look at
-  std::span<const SceneFile> files = {};   ///< of `before`; of several, each has a colour of its own. May be empty
-  const Appearance* appearance = nullptr;  ///< SceneDocument::appearance, to be looked at too; null: none
-  FindOptions find;                        ///< welding
-  Goal goal = Goal::all;                   ///< which pairs are shown
-  std::string report;                      ///< as of report_json; empty: none
-  std::span<const RecordedFrame> frames;   ///< RepairResult::frames; may be empty
+  std::span<const double> after = {};       ///< 3 a vertex of `before`; empty: there is only one surface to look at
+  std::span<const SceneFile> files = {};    ///< of `before`; of several, each has a colour of its own. May be empty
+  std::span<const FaceLabels> labels = {};  ///< of the faces, SceneDocument::face_labels; may be empty
+  const Appearance* appearance = nullptr;   ///< SceneDocument::appearance, to be looked at too; null: none
+  FindOptions find;                         ///< welding
+  Goal goal = Goal::all;                    ///< which pairs are shown
+  std::string report;                       ///< as of report_json; empty: none
+  std::span<const RecordedFrame> frames;    ///< RepairResult::frames; may be empty
 };
 
 /// The page that viewer/ builds, without data.

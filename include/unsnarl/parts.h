@@ -57,6 +57,12 @@ std::string part_of_face(std::span<const FaceLabels> labels, std::int32_t face);
 /// find_intersections does.
 std::vector<std::int32_t> component_of_faces(const SurfaceView& surface, const FindOptions& options = {});
 
+/// All that Parts can name each face by: labels of kind "component", whose names are their numbers and not listed; then
+/// those of the file, of kind "object", "group" or "material", as options name these. Throws as find_intersections
+/// does.
+std::vector<FaceLabels> parts_of_faces(const SurfaceView& surface, std::span<const FaceLabels> labels,
+                                       const FindOptions& options = {});
+
 /// One flag a face: belongs to one of the parts. Throws UnknownPart.
 std::vector<std::uint8_t> faces_in_parts(const SurfaceView& surface, std::span<const FaceLabels> labels,
                                          const Parts& parts, const FindOptions& options = {});

@@ -37,7 +37,10 @@ unsnarl_result page(const unsnarl_surface& surface, const unsnarl_page_content& 
   const std::vector<SceneFile> files = files_of(surface, source.input_name);
   source.files = files;
   Appearance appearance;
-  if (surface.document) appearance = surface.document->scene->appearance();
+  if (surface.document) {
+    appearance = surface.document->scene->appearance();
+    source.labels = surface.document->scene->face_labels();
+  }
   source.appearance = &appearance;
   source.find = options.find;
   source.goal = options.goal;

@@ -215,6 +215,16 @@ std::vector<NamedPart> counted_parts(const SurfaceView& surface, const FaceLabel
   return parts;
 }
 
+/// Calls visit(labels, kind) for those that Parts names: objects, then groups, then materials.
+template <class Visit>
+void for_each_named_kind(std::span<const FaceLabels> labels, const Visit& visit) {
+  for (const auto& [kinds, kind] :
+       {std::pair{&object_kinds, NamedPart::Kind::object}, std::pair{&group_kinds, NamedPart::Kind::group},
+        std::pair{&material_kinds, NamedPart::Kind::material}})
+    for (const FaceLabels& of_kind : labels)
+      if (is_of_kind(of_kind, *kinds)) visit(of_kind, kind);
+}
+
 }  // namespace
 
 std::string_view to_string(NamedPart::Kind kind) {
@@ -224,14 +234,19 @@ std::string_view to_string(NamedPart::Kind kind) {
 
 std::vector<NamedPart> named_parts(const SurfaceView& surface, std::span<const FaceLabels> labels) {
   std::vector<NamedPart> parts;
-  for (const auto& [kinds, kind] :
-       {std::pair{&object_kinds, NamedPart::Kind::object}, std::pair{&group_kinds, NamedPart::Kind::group},
-        std::pair{&material_kinds, NamedPart::Kind::material}})
-    for (const FaceLabels& of_kind : labels) {
-      if (!is_of_kind(of_kind, *kinds)) continue;
-      const std::vector<NamedPart> more = counted_parts(surface, of_kind, kind);
-      parts.insert(parts.end(), more.begin(), more.end());
-    }
+  for_each_named_kind(labels, [&](const FaceLabels& of_kind, NamedPart::Kind kind) {
+    const std::vector<NamedPart> more = counted_parts(surface, of_kind, kind);
+    parts.insert(parts.end(), more.begin(), more.end());
+  });
+  return parts;
+}
+
+std::vector<FaceLabels> parts_of_faces(const SurfaceView& surface, std::span<const FaceLabels> labels,
+                                       const FindOptions& options) {
+  std::vector<FaceLabels> parts = {{"component", {}, component_of_faces(surface, options)}};
+  for_each_named_kind(labels, [&](const FaceLabels& of_kind, NamedPart::Kind kind) {
+    parts.push_back({std::string(to_string(kind)), of_kind.names, of_kind.of_face});
+  });
   return parts;
 }
 

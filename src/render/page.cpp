@@ -124,6 +124,17 @@ Json add_frames(std::span<const RecordedFrame> frames, const PageUnits& units, P
   return described;
 }
 
+/// The list part_faces_K holds the parts of kind K by face: places in its names, or numbers where it has none; -1:
+/// none.
+Json add_parts(std::span<const FaceLabels> parts, PageElements& elements) {
+  Json described = Json::array();
+  for (const FaceLabels& labels : parts) {
+    elements.add_words("part_faces_" + std::to_string(described.size()), labels.of_face, 1);
+    described.push_back({{"kind", labels.kind}, {"names", labels.names}});
+  }
+  return described;
+}
+
 Json described(std::span<const SceneFile> files) {
   Json list = Json::array();
   for (const SceneFile& file : files)
@@ -146,6 +157,7 @@ std::string make_page(std::string_view page_template, const PageContent& content
 
   PageElements elements;
   const Json frames = add_frames(content.frames, units, elements);
+  const Json parts = add_parts(content.parts, elements);
   const PageTriangles triangles = add_faces(surface, elements);
   const Json appearance =
       content.appearance ? add_appearance(*content.appearance, surface, triangles, elements) : Json();
@@ -155,6 +167,7 @@ std::string make_page(std::string_view page_template, const PageContent& content
                               {"input", content.input_name},
                               {"output", content.output_name},
                               {"files", described(content.files)},
+                              {"parts", parts},
                               {"vertices", surface.vertex_count()},
                               {"faces", surface.face_count()},
                               {"centre", as_json(units.centre())},

@@ -10,6 +10,7 @@
 
 #include "geometry/types.h"
 #include "unsnarl/appearance.h"
+#include "unsnarl/document.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/recording.h"
 #include "unsnarl/scene_document.h"
@@ -32,6 +33,7 @@ struct PageContent {
   SurfaceView faces;                    ///< its faces; its positions are `before`'s
   PageState before;
   std::optional<PageState> after;          ///< of the same faces
+  std::vector<FaceLabels> parts;           ///< of `faces`, as parts_of_faces returns them; may be empty
   const Appearance* appearance = nullptr;  ///< of `faces`; null: unknown
   nlohmann::ordered_json report;           ///< as of report_json; null: none
   std::span<const RecordedFrame> frames;   ///< the repair on its way; may be empty

@@ -121,6 +121,16 @@ TEST(Page, pairs_and_curves_of_both_states) {
   EXPECT_EQ(text_of(page, "curves_before"), packed<float>({0, 0, 0, 0, 0, 1}, 3));
 }
 
+TEST(Page, parts_of_each_face) {
+  PageContent content = content_of(surface);
+  content.parts = {{"component", {}, {0, 0}}, {"object", {"</b>", "hat"}, {1, -1}}};
+  const std::string page = make_page(page_template, content);
+  EXPECT_EQ(Json::parse(text_of(page, "scene"))["parts"], Json({{{"kind", "component"}, {"names", Json::array()}},
+                                                                {{"kind", "object"}, {"names", {"</b>", "hat"}}}}));
+  EXPECT_EQ(text_of(page, "part_faces_0"), packed<Index>({0, 0}, 1));
+  EXPECT_EQ(text_of(page, "part_faces_1"), packed<Index>({1, -1}, 1));
+}
+
 TEST(Page, recorded_frames_end_to_end) {
   PageContent content = content_of(surface);
   std::vector<RecordedFrame> frames(2);

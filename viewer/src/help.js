@@ -17,10 +17,12 @@ const keys = [
   ['Esc', 'let the picked face go'],
 ];
 
-export function fillHelp(dialog, version) {
+/** more: further [key, meaning] of a page that has them. */
+export function fillHelp(dialog, version, more = []) {
+  document.getElementById('help-button').onclick = () => dialog.showModal();
   dialog.replaceChildren(
     element('h2', {}, 'Keys and mouse'),
-    element('dl', {}, keys.flatMap(([key, meaning]) => [
+    element('dl', {}, [...keys, ...more].flatMap(([key, meaning]) => [
       element('dt', {}, key.split(/ {2}| · /).flatMap((k, i) => [i ? ' ' : null, element('kbd', {}, k)])),
       element('dd', {}, meaning)])),
     element('p', {}, 'Red faces intersect another face; where they are hidden they show through as a tint. Curves are where '

@@ -1,5 +1,5 @@
-/** What each key does; see help.js for the words. */
-export function listenToKeys(viewer) {
+/** What each key does; see help.js for the words. more: { key: action } of a page that has more. */
+export function listenToKeys(viewer, { more = {}, signal } = {}) {
   const help = document.getElementById('help');
   const actions = {
     1: () => viewer.setLayout('pair'),
@@ -23,14 +23,15 @@ export function listenToKeys(viewer) {
     Escape: () => viewer.pick(-1),
     ArrowLeft: () => viewer.slide(-1),
     ArrowRight: () => viewer.slide(1),
+    ...more,
   };
   addEventListener('keydown', (event) => {
-    const isTyping = event.target.closest?.('select, dialog') || (event.target.type === 'range' && event.key.startsWith('Arrow'));
+    const isTyping = event.target.closest?.('select, dialog, input:not([type=range])') || (event.target.type === 'range' && event.key.startsWith('Arrow'));
     if (event.ctrlKey || event.metaKey || event.altKey || isTyping) return;
     if (event.key === ' ' && event.target.tagName === 'BUTTON') return;
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action) return;
     event.preventDefault();
     action();
-  });
+  }, { signal });
 }

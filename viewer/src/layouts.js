@@ -24,12 +24,14 @@ export function viewsOf({ layout, blend, divider }, tall = false) {
 /** How red the conflicts of each state are in a view, and how visible its curves, which hold for that state alone. */
 export function strengthsOf({ t, frame }, { colouring, curves }) {
   const red = colouring === 'displacement' ? 0 : 1;
-  if (frame) return { before: 0, after: 0, frame: red, curvesBefore: 0, curvesAfter: 0 };
+  const held = colouring === 'conflicts' ? 1 : 0;
+  if (frame) return { before: 0, after: 0, frame: red, held, curvesBefore: 0, curvesAfter: 0 };
   const shown = curves ? 1 : 0;
   return {
     before: red * (1 - t),
     after: red * t,
     frame: 0,
+    held,
     curvesBefore: shown * Math.max(0, 1 - 4 * t),
     curvesAfter: shown * Math.max(0, 4 * t - 3),
   };

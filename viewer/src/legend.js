@@ -9,13 +9,14 @@ export function heatRanges(displacement) {
 }
 
 /**
- * What the colours of intersections mean. shown: { red: are there any, curves: are they drawn, picked: is a face }.
+ * What the colours of intersections mean. shown: { red: are there any, curves: are they drawn, picked: is a face, held: are any }.
  * False: nothing to explain.
  */
-export function fillColourLegend(node, { red, curves, picked }) {
+export function fillColourLegend(node, { red, curves, picked, held }) {
   const entries = [
     red ? ['--red', '', 'intersects another face'] : null,
     red && curves ? ['--curve', 'line', 'where faces cross'] : null,
+    held ? ['--held', '', 'held still'] : null,
     picked ? ['--selected', '', 'picked face'] : null,
     picked && red ? ['--partner', '', 'faces that it meets'] : null,
   ].filter(Boolean);

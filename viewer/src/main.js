@@ -1,12 +1,15 @@
 import './style.css';
+import { fillHelp } from './help.js';
 import { listenToKeys } from './keyboard.js';
 import { readPage } from './page_data.js';
+import { Theme } from './theme.js';
 import { Viewer } from './viewer.js';
 
 try {
   const began = performance.now();
-  const viewer = new Viewer(await readPage(document));
+  const viewer = new Viewer(await readPage(document), new Theme());
   listenToKeys(viewer);
+  fillHelp(document.getElementById('help'), viewer.page.scene.version);
   viewer.loadSeconds = (performance.now() - began) / 1000;
   window.unsnarl = viewer;  // for the console
 } catch (error) {

@@ -20,6 +20,7 @@ async function readList(root, id) {
  *   after       the same, or null
  *   displacement  length of each vertex's motion, or null
  *   appearance    see readAppearance
+ *   parts       [{ kind, names, faces: the part of each face, see parts.js }]
  *   corners, sizes (null: triangles), triangles, triangleFaces (null: triangles are the faces)
  */
 export async function readPage(root) {
@@ -44,6 +45,7 @@ export async function readPage(root) {
     sizes: await list('sizes'),
     triangles,
     triangleFaces: await list('triangle_faces'),
+    parts: await Promise.all(scene.parts.map(async (part, k) => ({ ...part, faces: await list(`part_faces_${k}`) }))),
     frames: readFrames(scene.frames ?? [], {
       vertices: await list('frame_vertices'),
       displacements: await list('frame_displacements'),

@@ -1,6 +1,7 @@
 import { element } from './element.js';
 import { count, percentAndLength } from './numbers.js';
 import { classInWords } from './pair_classes.js';
+import { partsOfFace } from './parts.js';
 
 /** How many partner faces are listed; the rest is counted. */
 const listed = 24;
@@ -36,6 +37,7 @@ export function selectionSection(page, faces, before, after, face, { onPick, onN
     element('dl', {},
       element('dt', {}, 'face'), element('dd', { id: 'picked-face' }, String(face)),
       element('dt', {}, 'vertices'), element('dd', { id: 'picked-vertices' }, vertices.join(', ')),
+      partsOfFace(page, face).map(({ kind, name }) => [element('dt', {}, kind), element('dd', {}, name)]).flat(),
       moved === null ? null : [element('dt', {}, 'moved'),
         element('dd', {}, moved === 0 ? 'not at all' : `up to ${percentAndLength(moved, page.scene.diagonal)}`)],
       partnersOf(face, before, after ? 'before, meets' : 'meets', onPick),

@@ -21,9 +21,20 @@ export class Stage {
     this.controls = this.#newControls();
     this.draws = 0;
     this.drawSeconds = 0;
-    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
+    this.resizes = new ResizeObserver(() => this.#resize());
+    this.resizes.observe(canvas.parentElement);
     this.#resize();
     this.showAll();
+  }
+
+  /** Frees what it holds on the graphics card, and puts a canvas that has drawn nothing in place of its own. */
+  dispose() {
+    this.isDisposed = true;
+    this.resizes.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+    this.canvas.replaceWith(this.canvas.cloneNode());
   }
 
   changed() {
@@ -31,6 +42,7 @@ export class Stage {
     this.pending = true;
     requestAnimationFrame(() => {
       this.pending = false;
+      if (this.isDisposed) return;
       this.controls.update();
       this.draw();
     });
@@ -56,6 +68,13 @@ export class Stage {
     this.drawSeconds = (performance.now() - began) / 1000;
   }
 
+  /** Resolves when it has drawn what it was told. */
+  drawn() {
+    this.changed();
+    // A page in the background draws nothing: nobody waits for that.
+    return document.hidden ? Promise.resolve() : new Promise((done) => { requestAnimationFrame(() => setTimeout(done)); });
+  }
+
   /** Is it so much taller than wide that two views fit better below each other? */
   get isTall() {
     return this.height > 1.2 * this.width;
@@ -64,6 +83,21 @@ export class Stage {
   /** As the views have another shape now: shows all of them, unless the reader has turned to something. */
   fit() {
     if (this.isUntouched) this.showAll();
+  }
+
+  /** Looks from where another stage does, unless nobody has turned that. */
+  lookLike(other) {
+    if (other.isUntouched) return;
+    this.isUntouched = false;
+    this.toward = other.toward;
+    if (!this.camera.up.equals(other.camera.up)) {
+      this.camera.up.copy(other.camera.up);
+      this.controls.dispose();
+      this.controls = this.#newControls();
+    }
+    this.controls.target.copy(other.controls.target);
+    this.camera.position.copy(other.camera.position);
+    this.changed();
   }
 
   /** The direction in which pictures are taken, from as near as shows all. */

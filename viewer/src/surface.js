@@ -9,7 +9,7 @@ import { vertexNormals } from './faces.js';
 import { clayMaterial, edgeMaterial, hiddenMaterial, overlayMaterial, paintedMaterial, sharedUniforms } from './materials.js';
 
 /** Things are drawn in this order. */
-const order = { clay: 0, hiddenSelected: 1, hidden: 2, overlay: 3, selected: 4, edges: 5, hiddenCurves: 6, curves: 7 };
+const order = { clay: 0, held: 0.5, hiddenSelected: 1, hidden: 2, overlay: 3, selected: 4, edges: 5, hiddenCurves: 6, curves: 7 };
 
 /** What three.js draws: the surface between two states, its conflicts, edges, curves and the selection. */
 export class Surface {
@@ -34,6 +34,7 @@ export class Surface {
       after: this.#overlay(order.overlay, order.hidden, 0.38),
       frame: this.#overlay(order.overlay, order.hidden, 0.38),
     };
+    this.held = this.#overlay(order.held, order.held, 0);
     this.selected = this.#overlay(order.selected, order.hiddenSelected, 0.62);
     this.partners = this.#overlay(order.selected, order.hiddenSelected, 0.62);
     this.curves = { before: this.#curves(page.before.curves), after: this.#curves(page.after?.curves) };
@@ -82,6 +83,11 @@ export class Surface {
     this.red[name].setFaces(isChosen);
   }
 
+  /** flags: one a face, 1: it is drawn as held still. */
+  setHeld(flags) {
+    this.held.setFaces((f) => flags[f]);
+  }
+
   select(face, partners) {
     const others = new Set(partners);
     this.selected.setFaces((f) => f === face);
@@ -101,7 +107,8 @@ export class Surface {
   }
 
   /** How red the overlays are and how visible the curves, all in [0, 1]; see strengthsOf. */
-  setStrengths({ before, after, frame, curvesBefore, curvesAfter }) {
+  setStrengths({ before, after, frame, held, curvesBefore, curvesAfter }) {
+    this.held.setStrength(held);
     this.red.before.setStrength(before);
     this.red.after.setStrength(after);
     this.red.frame.setStrength(frame);
@@ -122,6 +129,7 @@ export class Surface {
       if (material) drawn.uniforms.colour.value.fromArray(material.colour);
       else set(drawn, colours.files[file % colours.files.length]);
     for (const overlay of Object.values(this.red)) overlay.setColour(colours.red, colours.tint);
+    this.held.setColour(colours.held);
     this.selected.setColour(colours.selected);
     this.partners.setColour(colours.partner);
     this.shared.heatStops.value.forEach((stop, i) => stop.copy(colours.heat[i]));
@@ -139,7 +147,7 @@ export class Surface {
   }
 
   #geometries() {
-    const overlays = [...Object.values(this.red), this.selected, this.partners];
+    const overlays = [...Object.values(this.red), this.held, this.selected, this.partners];
     const surfaces = [...this.clay, ...this.painted ?? []];
     return [...surfaces.map((m) => m.geometry), ...overlays.flatMap((o) => o.meshes.map((m) => m.geometry)), ...this.edges ? [this.edges.geometry] : []];
   }
@@ -192,6 +200,7 @@ export class Surface {
       },
       setStrength: (strength) => {
         for (const mesh of meshes) mesh.visible = strength > 0.005 && count > 0;
+        hidden.visible &&= tintOpacity > 0;
         solid.material.uniforms.opacity.value = strength;
         hidden.material.uniforms.opacity.value = tintOpacity * strength;
       },

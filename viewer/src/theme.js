@@ -3,8 +3,10 @@ import { fileColours } from './files.js';
 
 /** Light or dark: by the system until the reader chooses. Colours of the drawing are those of style.css. */
 export class Theme {
-  constructor(onChange) {
-    this.onChange = onChange;
+  onChange = null;  // (colours)
+
+  constructor() {
+    document.getElementById('theme').addEventListener('click', () => this.toggle());
     this.system = matchMedia('(prefers-color-scheme: dark)');
     this.system.addEventListener('change', () => this.#apply(null));
     this.#apply(null);
@@ -29,7 +31,7 @@ export class Theme {
     const colour = (name) => parsed(style.getPropertyValue(`--${name}`).trim());
     return {
       files: Array.from({ length: fileColours }, (_, i) => colour(`file-${i}`)), red: colour('red'), tint: colour('tint'), edge: colour('edge'), curve: colour('curve'),
-      selected: colour('selected'), partner: colour('partner'),
+      selected: colour('selected'), partner: colour('partner'), held: colour('held'),
       heat: [0, 1, 2, 3, 4].map((i) => colour(`heat-${i}`)),
     };
   }

@@ -2,7 +2,6 @@ import { Vector3 } from 'three';
 import { Conflicts } from './conflicts.js';
 import { Faces } from './faces.js';
 import { FramePlayer } from './frames.js';
-import { fillHelp } from './help.js';
 import { historySection } from './history.js';
 import { strengthsOf, viewsOf } from './layouts.js';
 import { fillColourLegend, fillLegend, heatRanges } from './legend.js';
@@ -11,7 +10,6 @@ import { selectionSection } from './selection.js';
 import { Stage } from './stage.js';
 import { statusOf, summary } from './summary.js';
 import { Surface } from './surface.js';
-import { Theme } from './theme.js';
 
 const byId = (id) => document.getElementById(id);
 
@@ -21,10 +19,18 @@ const facesWithEdges = 40000;
 const playSeconds = 3;
 const framesPerSecond = 12;
 
-/** The page: what is shown (state), and everything that shows it. Methods are what keys and buttons do. */
+/**
+ * What is shown of a page (state), and everything that shows it. Methods are what keys and buttons do. It fills the
+ * elements of shell.html until it is disposed of.
+ */
 export class Viewer {
-  constructor(page) {
+  #wires = new AbortController();
+  #isAnyHeld = false;
+
+  /** page: see readPage. onPick(face): a face was picked; -1: none is any more. */
+  constructor(page, theme, { onPick = () => {} } = {}) {
     this.page = page;
+    this.onPick = onPick;
     const { scene } = page;
     this.faces = new Faces(page.corners, page.sizes);
     this.before = new Conflicts(page.before.pairs, scene.faces, scene.pair_classes);
@@ -40,14 +46,35 @@ export class Viewer {
     if (this.after) this.surface.setRed('after', (f) => this.after.isRed[f]);
     this.meanEdge = this.#meanEdgeLength();
     this.stage = new Stage(byId('canvas'), this.surface, page, () => this.#views());
-    this.theme = new Theme((colours) => {
+    this.theme = theme;
+    theme.onChange = (colours) => {
       this.surface.applyColours(colours);
       this.stage.changed();
-    });
-    this.surface.applyColours(this.theme.colours());
+    };
+    this.surface.applyColours(theme.colours());
     this.#fillPanel();
-    fillHelp(byId('help'), scene.version);
     this.#wire();
+    this.update();
+  }
+
+  /** Leaves the elements to another viewer. */
+  dispose() {
+    this.stop();
+    this.#wires.abort();
+    this.theme.onChange = null;
+    this.stage.dispose();
+    byId('facts').replaceChildren();
+  }
+
+  /** Looks from where another viewer of the same mesh does, if its reader has turned it. */
+  lookLike(other) {
+    this.stage.lookLike(other.stage);
+  }
+
+  /** flags: one a face, 1: it is to be held still. */
+  setHeld(flags) {
+    this.#isAnyHeld = flags.includes(1);
+    this.surface.setHeld(flags);
     this.update();
   }
 
@@ -156,6 +183,7 @@ export class Viewer {
     this.surface.select(face, partners.map((p) => p.face));
     this.panelSelection.replaceWith(this.panelSelection = this.#selection(face));
     this.update();
+    this.onPick(face);
   }
 
   /** The next face (by) after the picked one that intersects another, before or after. */
@@ -169,6 +197,11 @@ export class Viewer {
       this.lookAtPicked();
       return;
     }
+  }
+
+  /** A sphere, in the units of the page. */
+  lookAt(middle, radius) {
+    this.stage.lookAt(new Vector3(...middle), radius);
   }
 
   lookAtPicked() {
@@ -249,7 +282,7 @@ export class Viewer {
     if (isScale) fillLegend(node, full, state.range, this.page.scene.diagonal, () => this.changeRange());
     else {
       const red = this.before.count > 0 || this.after?.count > 0;
-      node.hidden = !fillColourLegend(node, { red, curves: state.curves && state.layout !== 'replay', picked: state.face >= 0 });
+      node.hidden = !fillColourLegend(node, { red, curves: state.curves && state.layout !== 'replay', picked: state.face >= 0, held: this.#isAnyHeld });
     }
   }
 
@@ -311,7 +344,7 @@ export class Viewer {
       this.update();
     });
     const sections = summary(this.page, this.before, this.after);
-    byId('panel').append(sections[0], this.panelSelection, ...this.history ? [this.history.node] : [], ...sections.slice(1));
+    byId('facts').replaceChildren(sections[0], this.panelSelection, ...this.history ? [this.history.node] : [], ...sections.slice(1));
     for (const button of byId('layout').children) button.hidden = !this.#layouts().includes(button.dataset.value);
     byId('layout').hidden = !this.page.after;
     for (const button of byId('colouring').children) {
@@ -322,18 +355,18 @@ export class Viewer {
   }
 
   #wire() {
+    const { signal } = this.#wires;
+    const on = (id, type, action) => byId(id).addEventListener(type, action, { signal });
     for (const id of ['layout', 'colouring'])
-      byId(id).addEventListener('click', ({ target }) => {
+      on(id, 'click', ({ target }) => {
         if (!target.dataset.value) return;
         if (id === 'layout') this.setLayout(target.dataset.value);
         else this.setColouring(target.dataset.value);
       });
-    for (const id of ['edges', 'curves']) byId(id).addEventListener('click', () => this.toggle(id));
-    byId('save').addEventListener('click', () => this.save());
-    byId('theme').addEventListener('click', () => this.theme.toggle());
-    byId('help-button').addEventListener('click', () => byId('help').showModal());
-    byId('play').addEventListener('click', () => this.play());
-    byId('slider').addEventListener('input', ({ target }) => {
+    for (const id of ['edges', 'curves']) on(id, 'click', () => this.toggle(id));
+    on('save', 'click', () => this.save());
+    on('play', 'click', () => this.play());
+    on('slider', 'input', ({ target }) => {
       this.stop();
       if (this.state.layout === 'replay') this.setFrame(Number(target.value));
       else this.state.blend = Number(target.value);
@@ -344,14 +377,15 @@ export class Viewer {
   }
 
   #wireDivider() {
+    const { signal } = this.#wires;
     const divider = byId('divider');
-    divider.addEventListener('pointerdown', (event) => divider.setPointerCapture(event.pointerId));
+    divider.addEventListener('pointerdown', (event) => divider.setPointerCapture(event.pointerId), { signal });
     divider.addEventListener('pointermove', (event) => {
       if (!divider.hasPointerCapture(event.pointerId)) return;
       const box = byId('stage').getBoundingClientRect();
       this.state.divider = Math.min(1, Math.max(0, (event.clientX - box.left) / box.width));
       this.update();
-    });
+    }, { signal });
   }
 
   /** A click that did not drag picks; a double click looks there. */

@@ -27,7 +27,7 @@ class BuildPageTest(unittest.TestCase):
         self.assertEqual((run.returncode, run.stderr), (0, ""))
 
     def test_every_change_is_seen(self):
-        for name in ("page.html", "src/main.js", "src/style.css", "index.html", "package-lock.json", "vite.config.js"):
+        for name in ("page.html", "src/main.js", "src/style.css", "index.html", "shell.html", "package-lock.json", "vite.config.js"):
             with self.subTest(name):
                 before = (self.viewer / name).read_bytes()
                 (self.viewer / name).write_bytes(before + b"\n")

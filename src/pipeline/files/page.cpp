@@ -17,6 +17,7 @@
 #include "scene/face_pairs.h"
 #include "scene/prepared_surface.h"
 #include "unsnarl/document.h"
+#include "unsnarl/parts.h"
 
 namespace unsnarl {
 namespace {
@@ -56,6 +57,7 @@ std::string view_page(std::string_view page_template, const PageSource& source) 
   content.faces = source.before;
   content.before = state_at(source.before.positions, pairs_before);
   if (!source.after.empty()) content.after = state_at(source.after, pairs_after);
+  content.parts = parts_of_faces(source.before, source.labels, source.find);
   content.appearance = source.appearance;
   content.report = parsed(source.report);
   content.frames = source.frames;

@@ -70,6 +70,25 @@ TEST(Parts, all_names_are_listed_with_what_they_name) {
   EXPECT_EQ(parts[2].faces, 0u);
 }
 
+TEST(Parts, each_face_knows_its_parts_as_options_name_them) {
+  const Document document = two_squares();
+  const std::vector<FaceLabels> parts = parts_of_faces(document.surface(), document.face_labels());
+  ASSERT_EQ(parts.size(), 4u);
+  const auto is = [](const FaceLabels& labels, const std::string& kind, const std::vector<std::string>& names,
+                     const std::vector<std::int32_t>& of_face) {
+    return labels.kind == kind && labels.names == names && labels.of_face == of_face;
+  };
+  EXPECT_TRUE(is(parts[0], "component", {}, {0, 0, 0, 0, 1}));
+  EXPECT_TRUE(is(parts[1], "object", {"body", "hat"}, {0, 0, 0, 0, 1}));
+  EXPECT_TRUE(is(parts[2], "group", {"left skin", "right skin", "hat"}, {0, 0, 1, 1, 2}));
+  EXPECT_TRUE(is(parts[3], "material", {"red", "blue"}, {0, 0, 1, 1, 1}));
+  const std::vector<FaceLabels> of_gltf = {{"node", {"chair"}, {0, 0, -1, -1, 0}},
+                                           {"file", {"a.glb"}, {0, 0, 0, 0, 0}}};
+  const std::vector<FaceLabels> renamed = parts_of_faces(document.surface(), of_gltf);
+  ASSERT_EQ(renamed.size(), 2u);
+  EXPECT_TRUE(is(renamed[1], "object", {"chair"}, {0, 0, -1, -1, 0}));
+}
+
 TEST(Parts, components_are_counted_after_welding) {
   const Document document = two_squares();
   EXPECT_EQ(component_of_faces(document.surface()), (std::vector<std::int32_t>{0, 0, 0, 0, 1}));

@@ -209,6 +209,7 @@ test('a picked face shows its ids and what it meets', async () => {
   assert.equal(await page.locator('#picked-vertices').textContent(), known.vertices);
   assert.ok(known.partners.length > 0);
   assert.match(await page.locator('#selection').textContent(), /sharing no vertex/);
+  assert.match(await page.locator('#selection').textContent(), /component0/);
   assert.deepEqual(await page.locator('#selection .partners').first().locator('button').allTextContents(), known.partners);
   await page.locator('#selection .partners button').first().click();
   assert.equal(await page.locator('#picked-face').textContent(), known.partners[0]);
