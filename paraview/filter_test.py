@@ -20,7 +20,7 @@ import unsnarl
 from unsnarl.vtk import RepairFilter
 
 PROGRAM = sys.argv.pop(1)
-simple.LoadPlugin(str(Path(__file__).with_name("unsnarl_paraview.py")), remote=False)
+simple.LoadPlugin(str(Path(__file__).with_name("unsnarl_paraview.py")), remote=False, ns=globals())
 
 
 def surface_of(V, F, dtype=np.float32):
@@ -97,7 +97,7 @@ class Filter(unittest.TestCase):
                 given = with_arrays(tubes(dtype))
                 source = simple.TrivialProducer()
                 source.GetClientSideObject().SetOutput(given)
-                shown = simple.RepairSelfIntersections(source)
+                shown = RepairSelfIntersections(source)  # noqa: F821 (LoadPlugin brings it)
                 shown.MinGap = 0.001
                 result = servermanager.Fetch(shown)
                 self.assertEqual(status(result), "embedded")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ParaView plug-in: the filter "Repair self-intersections". Load it by Tools > Manage Plugins; docs/paraview.md.
+"""ParaView plug-in: the filter "Repair Self Intersections". Load it by Tools > Manage Plugins; docs/paraview.md.
 
 The filter itself is unsnarl.vtk.RepairFilter of the Python package, which has to be importable: on PYTHONPATH, or
 unpacked in the folder of this file.
@@ -68,7 +68,7 @@ def _with_properties(decorated):
     return decorated
 
 
-@smproxy.filter(name="RepairSelfIntersections", label="Repair self-intersections")
+@smproxy.filter(name="RepairSelfIntersections", label="Repair Self Intersections")
 @_with_properties
 @smproperty.input(name="Input")
 @smdomain.xml('<InputArrayDomain name="points" attribute_type="point" number_of_components="1" optional="1"/>')
