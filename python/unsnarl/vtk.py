@@ -13,11 +13,11 @@ import json
 from typing import Any, Optional
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkPolyData
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
+from vtkmodules.util.numpy_support import numpy_to_vtk  # type: ignore
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase  # type: ignore
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringArray  # type: ignore
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkPolyData  # type: ignore
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline  # type: ignore
 
 from ._intersections import find_intersections
 from ._progress import Progress
