@@ -176,6 +176,8 @@ def test_real_vtk(sheets, mixed):
         (np.concatenate(faces), np.cumsum([0, *map(len, faces)])),
     )
     assert moved.GetNumberOfLines() == 1 and moved.GetNumberOfPolys() == len(faces)
+    wide = unsnarl.repair(mesh, precision="float64")  # float points do not hold it
+    assert np.array_equal([wide.mesh.GetPoint(i) for i in range(len(V))], wide.V)
     empty = unsnarl.repair(model.vtkPolyData())
     assert empty.status == "embedded" and empty.mesh.GetNumberOfPoints() == 0
     mesh.SetStrips(lines)

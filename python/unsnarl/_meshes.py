@@ -17,6 +17,9 @@ MovedTo = Callable[[Any], Any]
 _FACES = re.compile(r"triangle|quad|polygon\d*")
 _NOT_FACES = re.compile(r"vertex|line\d*")
 
+#: Types of arrays, as VTK numbers them.
+_VTK_FLOAT, _VTK_DOUBLE = 10, 11
+
 
 def is_path(value: Any) -> bool:
     """Is this the name of a file?"""
@@ -61,6 +64,11 @@ def _moved_vtk(mesh: Any) -> MovedTo:
         moved = mesh.NewInstance()
         moved.DeepCopy(mesh)
         if len(positions) > 0:
+            if _points_of_vtk(moved).dtype != positions.dtype:  # one that does not hold these numbers
+                points = moved.GetPoints().NewInstance()
+                points.SetDataType(_VTK_FLOAT if positions.dtype == np.float32 else _VTK_DOUBLE)
+                points.SetNumberOfPoints(len(positions))
+                moved.SetPoints(points)
             _points_of_vtk(moved)[:] = positions
             moved.GetPoints().Modified()
         return moved
