@@ -16,7 +16,9 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk  # type: ignore
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase  # type: ignore
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringArray  # type: ignore
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkPolyData  # type: ignore
+from vtkmodules.vtkCommonDataModel import (  # type: ignore
+    vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkPolyData,
+)
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline  # type: ignore
 
 from ._intersections import find_intersections

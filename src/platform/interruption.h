@@ -12,8 +12,8 @@ namespace unsnarl::platform {
 /// reader of the output has gone away, or a file is beyond the limit that the shell sets.
 void take_requests_to_end(std::function<void()> take);
 
-/// To be called now and then by work that can be cancelled: in WebAssembly, where no thread could wait for them, requests
-/// are taken here, in the thread that calls. Elsewhere it does nothing.
+/// To be called now and then by work that can be cancelled: in WebAssembly, where no thread could wait for them,
+/// requests are taken here, in the thread that calls. Elsewhere it does nothing.
 void look_for_requests_to_end();
 
 }  // namespace unsnarl::platform

@@ -20,7 +20,7 @@ ABOUT = {"version": "1.2.3", "homepage": "https://example.org/unsnarl"}
 NAMES = {
     "libboost-dev": ("boost-multiprecision", "libboost-headers", "boost"),
     "libcli11-dev": ("cli11", "cli11", "cli11"),
-    "libeigen3-dev": ("eigen3", "eigen", "eigen"),
+    "libeigen3-dev": ("eigen3", "eigen", "eigen@3"),
     "libfmt-dev": ("fmt", "fmt", "fmt"),
     "libgif-dev": ("giflib", "giflib", "giflib"),
     "libpng-dev": ("libpng", "libpng", "libpng"),

@@ -62,6 +62,7 @@ TEST(Png, writes_the_file_and_nothing_beside_it) {
   write_png(image, folder / "picture.png");
   std::ifstream file(folder / "picture.png", std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  file.close();  // Windows removes no file that is open
   EXPECT_EQ(bytes, encode_png(image));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()), 1);
   std::filesystem::remove_all(folder);

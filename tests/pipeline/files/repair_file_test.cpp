@@ -10,6 +10,7 @@
 #include "io/folder.h"
 #include "pipeline/judged.h"
 #include "unsnarl/certify.h"
+#include "unsnarl/paths.h"
 
 namespace unsnarl {
 namespace {
@@ -193,7 +194,7 @@ TEST_F(RepairFile, puts_all_files_of_a_scene_in_place_or_none) {
   EXPECT_EQ(done.written, (std::vector<fs::path>{at("new/folder/floor.obj"), at("new/folder/blade.obj")}));
   EXPECT_TRUE(certify(input, read_scene(done.written).surface().positions).embedded());
   ASSERT_EQ(done.report.scene.files.size(), 2u);
-  EXPECT_EQ(done.report.scene.files[1].output, at("new/folder/blade.obj").string());
+  EXPECT_EQ(path_of(done.report.scene.files[1].output), at("new/folder/blade.obj"));
 }
 
 TEST_F(RepairFile, makes_no_folder_for_a_scene_that_is_refused) {
