@@ -10,7 +10,7 @@ function [W, status, said] = repair_off(V, F, program)
   fprintf(file, '%.17g %.17g %.17g\n', V');
   fprintf(file, '3 %d %d %d\n', (F - 1)');
   fclose(file);
-  [status, said] = system(sprintf('"%s" fix "%s" -o "%s" 2>&1', program, in, out));
+  [status, said] = system(sprintf('"%s" fix "%s" -o "%s" --no-partial 2>&1', program, in, out));
   W = V;
   if status == 0
     file = fopen(out, 'r'); fgetl(file); fgetl(file);
