@@ -237,6 +237,13 @@ def test_a_limit_of_time(folder, long_work):
     assert client.close() == 0
 
 
+def test_a_limit_before_any_result(folder, long_work):
+    client = Client(folder, "--time-limit", "0.001")
+    client.initialize()
+    assert "limit" in client.refusal("check", inputs=["long.obj"])
+    assert client.close() == 0
+
+
 def test_folders_must_be_there(tmp_path):
     done = subprocess.run([sys.executable, "-m", "unsnarl.mcp", tmp_path / "missing"], capture_output=True, text=True)
     assert done.returncode == 2 and "is no folder" in done.stderr

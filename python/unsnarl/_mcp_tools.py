@@ -78,8 +78,9 @@ class Work:
             if self._child is not None:
                 self._child.send_signal(signal.SIGTERM if sys.platform == "win32" else signal.SIGINT)
 
-    def run(self, words: Sequence[str]) -> tuple[int, str]:
-        """Runs the program. Returns its exit code and standard output. Raises Refused with what it complained of."""
+    def run(self, words: Sequence[str], result: Optional[Path] = None) -> str:
+        """Runs the program. Returns its standard output. Raises Refused with what it complained of where it failed, or
+        ended before there was a result: the file of this name or, without one, the standard output."""
         said = []
         with tempfile.TemporaryFile() as out:
             with self._lock:
@@ -101,9 +102,9 @@ class Work:
                     self._child = None
             out.seek(0)
             text = out.read().decode("utf-8", "replace")
-        if code in (2, 3, 4, 9, 70) or code < 0:
-            raise Refused("\n".join(said) or f"The program ended with code {code}")
-        return code, text
+        if code in (2, 3, 4, 9, 70) or code < 0 or not (result.exists() if result else text):
+            raise Refused("\n".join(said) or f"The program ended with code {code}, before there was a result")
+        return text
 
     def _taken(self, line: str) -> list[str]:
         """Complaints; progress is passed on."""
@@ -116,8 +117,7 @@ class Work:
 
 def check(folders: Folders, given: dict[str, Any], work: Work) -> Answer:
     inputs = [str(folders.existing(name)) for name in given["inputs"]]
-    _, out = work.run(["check", *inputs, "--json", *_words(given, _HOW_READ), *_limits(work)])
-    report = json.loads(out)
+    report = json.loads(work.run(["check", *inputs, "--json", *_words(given, _HOW_READ), *_limits(work)]))
     pairs, faces = report["pairs"]["total"], report["intersecting_faces"]
     text = f"{pairs} intersecting pairs among {faces} faces." if pairs else "No self-intersections."
     return Answer(text, _shortened(report))
@@ -130,8 +130,8 @@ def fix(folders: Folders, given: dict[str, Any], work: Work) -> Answer:
         report_file = scratch / "report.json"
         incomplete = "--keep-partial" if given.get("keep_partial") else "--no-partial"
         words = _words({**given, "keep_partial": None}, {**_HOW_READ, **_REPAIR, **_PARTS})
-        _, text = work.run(["fix", *inputs, "-o", str(unfinished), "--report", str(report_file), "--progress", "json",
-                            incomplete, *words, *_limits(work)])
+        text = work.run(["fix", *inputs, "-o", str(unfinished), "--report", str(report_file), "--progress", "json",
+                         incomplete, *words, *_limits(work)], report_file)
         report = json.loads(report_file.read_text("utf-8").replace(_inner(unfinished), _inner(output)))
         is_written = unfinished.exists()
     lines = [line for line in text.replace(str(unfinished), str(output)).splitlines() if str(report_file) not in line]
@@ -150,7 +150,7 @@ def view(folders: Folders, given: dict[str, Any], work: Work) -> Answer:
         raise Refused("'page' must end with .html")
     scene = ["--scene"] if len(inputs) > 1 else []
     with written_beside(page) as unfinished:
-        work.run(["view", *inputs, *repaired, *scene, "-o", str(unfinished), *_words(given, _HOW_READ)])
+        work.run(["view", *inputs, *repaired, *scene, "-o", str(unfinished), *_words(given, _HOW_READ)], unfinished)
     return Answer(f"Wrote {page}; any browser shows it.", {"page": str(page), "bytes": page.stat().st_size})
 
 

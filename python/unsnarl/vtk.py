@@ -1,4 +1,4 @@
-"""The repair as a filter of VTK: ``RepairFilter`` in a pipeline, with or without ParaView. Needs VTK 9.1 or newer.
+"""The repair as a filter of VTK: ``RepairFilter`` in a pipeline, with or without ParaView. Tested with VTK 9.2.
 
     repair = unsnarl.vtk.RepairFilter()
     repair.SetInputConnection(reader.GetOutputPort())
@@ -13,7 +13,7 @@ import json
 from typing import Any, Optional
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk  # type: ignore
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # type: ignore
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase  # type: ignore
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringArray  # type: ignore
 from vtkmodules.vtkCommonDataModel import (  # type: ignore
@@ -137,7 +137,7 @@ class RepairFilter(VTKPythonAlgorithmBase):  # type: ignore[misc]
                                       "unsnarl_report says why")
         find = {name: value for name, value in self._options.items() if name in _FIND_OPTIONS}
         before = find_intersections(surfaces, **find)
-        after = find_intersections(result.mesh, **find) if result.report["after"]["total"] > 0 else None
+        after = find_intersections(result.mesh, **find)
         moved = list(result.mesh)
         first = 0
         for surface, own in zip(surfaces, moved):
@@ -154,7 +154,7 @@ class RepairFilter(VTKPythonAlgorithmBase):  # type: ignore[misc]
             raise _Aborted
 
     def _say(self, event: str, text: str) -> None:
-        """To observers of the event or, where there are none, to VTK's output window."""
+        """Tells observers of the event that there is one, and writes the text to VTK's output window."""
         if self.HasObserver(event):
             self.InvokeEvent(event)
         window = vtkOutputWindow.GetInstance()
@@ -174,6 +174,8 @@ def _surfaces(given: Any) -> list[Any]:
     """The vtkPolyData, or all leaves of a composite data set in their order."""
     if isinstance(given, vtkPolyData):
         return [given]
+    if not isinstance(given, vtkDataObjectTree):
+        raise ValueError(f"a {given.GetClassName()} is no tree of surfaces; give vtkPolyData or blocks of it")
     surfaces = []
     for name, leaf in _leaves(given):
         if not isinstance(leaf, vtkPolyData):
@@ -195,8 +197,6 @@ def _put(given: Any, output: Any, moved: list[Any]) -> None:
     if isinstance(given, vtkPolyData):
         output.ShallowCopy(moved[0])
         return
-    if not isinstance(given, vtkDataObjectTree):
-        raise ValueError(f"a {given.GetClassName()} is no tree of surfaces; give vtkPolyData or blocks of it")
     output.CopyStructure(given)
     output.GetFieldData().PassData(given.GetFieldData())
     iterator = given.NewIterator()
@@ -217,7 +217,7 @@ def _mask(surface: Any, name: str) -> Any:
         raise ValueError(f"FixedArray is {name!r}, but there is no point array of numbers of this name")
     if array.GetNumberOfComponents() != 1:
         raise ValueError(f"FixedArray {name!r} has {array.GetNumberOfComponents()} components; give an array of one")
-    return np.array([array.GetTuple1(i) != 0 for i in range(array.GetNumberOfTuples())], dtype=bool)
+    return vtk_to_numpy(array) != 0
 
 
 def _add(data: Any, name: str, values: Any) -> None:
@@ -239,11 +239,10 @@ def _add_displacement(before: Any, after: Any) -> None:
 def _add_counts(surface: Any, name: str, found: Any, first: int) -> None:
     """`found`: the intersections of all surfaces, of which the polygons of this one are counted from `first` on."""
     counts = np.zeros(surface.GetNumberOfCells(), np.int32)
-    if found is not None:
-        begin = surface.GetNumberOfVerts() + surface.GetNumberOfLines()  # VTK numbers polygons after these
-        ids = found.pairs.ravel() - first
-        own = ids[(ids >= 0) & (ids < surface.GetNumberOfPolys())]
-        counts[begin:] = np.bincount(own, minlength=surface.GetNumberOfPolys())
+    begin = surface.GetNumberOfVerts() + surface.GetNumberOfLines()  # VTK numbers polygons after these
+    ids = found.pairs.ravel() - first
+    own = ids[(ids >= 0) & (ids < surface.GetNumberOfPolys())]
+    counts[begin:] = np.bincount(own, minlength=surface.GetNumberOfPolys())
     _add(surface.GetCellData(), name, counts)
 
 

@@ -5,7 +5,7 @@
 
 namespace unsnarl {
 
-/// What write_number() does, by the digits that fmt finds.
+/// Does what write_number() does, by the digits that fmt finds.
 template <class Real>
 char* write_number_by_fmt(char* first, Real value);
 extern template char* write_number_by_fmt(char*, double);

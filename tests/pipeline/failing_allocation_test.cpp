@@ -26,7 +26,7 @@ namespace {
 std::atomic<long> allocations_left{-1};                // until one fails; negative: none does
 std::atomic<std::size_t> bytes_now{0}, most_bytes{0};  // what is allocated; the most since it was set
 
-/// What lies before each block that operator new hands out.
+/// It lies before each block that operator new hands out.
 struct Header {
   void* memory;  // of malloc
   std::size_t size;

@@ -1,4 +1,4 @@
-// What npm packs, installed in a folder of its own, with the types that TypeScript sees.
+// The tests install what npm packs in a folder of its own, and check the types that TypeScript sees.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';

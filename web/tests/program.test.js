@@ -1,4 +1,4 @@
-// What is the package's own when it runs the program: files, lines, cancelling, memory, and what a browser cannot do.
+// The tests run the program by the package: files, lines, cancelling, memory, and refusals of what a browser cannot do.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { runNative, sampleFile, unsnarl } from './support.js';

@@ -1,4 +1,4 @@
-// What the tests share: the package as it was built, the native program of the same sources, and what both do compared.
+// All tests use these: the package as it was built, the native program of the same sources, and comparisons of both.
 //
 // UNSNARL_PACKAGE: the folder of the package, out/npm/unsnarl otherwise. UNSNARL_PROGRAM: the native program,
 // build/release/unsnarl otherwise.

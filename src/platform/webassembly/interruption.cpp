@@ -4,7 +4,7 @@
 
 #include <utility>
 
-// What calls the program from JavaScript sets Module.isAskedToEnd.
+// JavaScript that calls the program sets Module.isAskedToEnd.
 EM_JS(int, unsnarl_is_asked_to_end, (), { return Module["isAskedToEnd"] && Module["isAskedToEnd"]() ? 1 : 0; });
 
 namespace unsnarl::platform {

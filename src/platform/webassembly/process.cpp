@@ -34,7 +34,7 @@ ProcessEnd ChildProcess::end() {
   return {};
 }
 
-/// What calls the program from JavaScript puts a file there that tells one build from another.
+/// JavaScript that calls the program puts a file there, which tells one build from another.
 std::filesystem::path program_file() {
   return "/proc/self/exe";
 }

@@ -69,8 +69,8 @@ MemoryLimit::~MemoryLimit() {
 
 }  // namespace unsnarl::platform
 
-/// What sbrk() asks for more memory, in place of emscripten's own, which knows no limit that could be set at run time.
-/// Returns whether there are `size` bytes now.
+/// Makes room for `size` bytes in all; sbrk() calls it. It replaces emscripten's own function, which has no limit that
+/// can be set at run time. Returns whether there are so many bytes now.
 extern "C" int emscripten_resize_heap(std::size_t size) {
   using namespace unsnarl::platform;
   const std::size_t pages = __builtin_wasm_memory_size(0), wanted = (size - 1) / bytes_a_page + 1;
