@@ -18,7 +18,7 @@ def repair(folder, gap=0.0):
     result = unsnarl.repair(meshes, nested=[0, 1, 2], min_gap=gap, absolute=True, precision="float32")
     if result.status == "embedded":
         for path, moved, (_, faces, metadata) in zip(paths, result.V, surfaces):
-            mne.write_surface(path, moved, faces, volume_info=metadata, overwrite=True)
+            mne.write_surface(path, moved, faces, volume_info=metadata or None, overwrite=True, verbose="error")
     return result
 
 
