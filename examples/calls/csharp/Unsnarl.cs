@@ -27,7 +27,8 @@ public static unsafe class Unsnarl {
   }
   const string library = "unsnarl_c";
   [DllImport(library)] static extern int unsnarl_options_init(Options* options, UIntPtr size);
-  [DllImport(library)] static extern int unsnarl_repair(Surface* surface, Options* options, IntPtr context, out IntPtr result);
+  [DllImport(library)]
+  static extern int unsnarl_repair(Surface* surface, Options* options, IntPtr context, out IntPtr result);
   [DllImport(library)] static extern int unsnarl_result_array(IntPtr result, string name, Array* array);
   [DllImport(library)] static extern IntPtr unsnarl_result_status(IntPtr result);
   [DllImport(library)] static extern void unsnarl_result_free(IntPtr result);
@@ -37,14 +38,17 @@ public static unsafe class Unsnarl {
     if (code != 0) throw new ArgumentException(Marshal.PtrToStringAnsi(unsnarl_error_message()));
   }
 
-  // positions: x y z of each vertex, which are moved; corners: three vertices a face, from 0; precision: "auto", "float32"
-  // or "float64". Returns the status: "embedded" where no self-intersection is left.
+  // positions: x y z of each vertex, which are moved; corners: three vertices a face, from 0; precision: "auto",
+  // "float32" or "float64"; minGap: a fraction of the diagonal. Returns the status: "embedded" where no
+  // self-intersection is left.
   public static string Repair(double[] positions, int[] corners, string precision = "auto", double minGap = 0) {
     IntPtr result = IntPtr.Zero, name = Marshal.StringToHGlobalAnsi(precision);
     try {
       fixed (double* first = positions) fixed (int* corner = corners) {
-        var surface = new Surface { size = (UIntPtr)sizeof(Surface), positions = first, corners = corner,
-                                    vertexCount = (UIntPtr)(positions.Length / 3), cornerCount = (UIntPtr)corners.Length };
+        var surface = new Surface {
+          size = (UIntPtr)sizeof(Surface),
+          positions = first, vertexCount = (UIntPtr)(positions.Length / 3),
+          corners = corner, cornerCount = (UIntPtr)corners.Length };
         Options options;
         Check(unsnarl_options_init(&options, (UIntPtr)sizeof(Options)));
         options.precision = name;

@@ -32,8 +32,8 @@ end
 checked(code) = code == 0 || error(unsafe_string(ccall((:unsnarl_error_message, libunsnarl), Ptr{UInt8}, ())))
 
 """
-V: 3 x n positions, F: 3 x m vertex numbers from 1, precision: "auto", "float32" or "float64". Gives the new positions and
-the status: "embedded" where no self-intersection is left.
+V: 3 x n positions, F: 3 x m vertex numbers from 1, precision: "auto", "float32" or "float64". Gives the new positions
+and the status: "embedded" where no self-intersection is left.
 """
 function repair(V::Matrix{Float64}, F::Matrix{<:Integer}; precision = "auto")
     corners = Int32.(F .- 1)

@@ -7,6 +7,12 @@
 #include <mex.h>
 #include <unsnarl/unsnarl.h>
 
+/* A vertex number, from 0; -1, which the library refuses, where it is none. */
+static int32_t vertex_of(double number) {
+  if (!(number >= 1 && number <= INT32_MAX) || number != (double)(int32_t)number) return -1;
+  return (int32_t)number - 1;
+}
+
 void mexFunction(int result_count, mxArray** results, int count, const mxArray** arguments) {
   const double *V, *F;
   double *positions, *W;
@@ -18,8 +24,8 @@ void mexFunction(int result_count, mxArray** results, int count, const mxArray**
   unsnarl_result* repaired;
   unsnarl_array moved;
 
-  if (count < 2 || count > 3 || !mxIsDouble(arguments[0]) || !mxIsDouble(arguments[1]) ||
-      mxGetN(arguments[0]) != 3 || mxGetN(arguments[1]) != 3)
+  if (count < 2 || count > 3 || !mxIsDouble(arguments[0]) || !mxIsDouble(arguments[1]) || mxGetN(arguments[0]) != 3 ||
+      mxGetN(arguments[1]) != 3)
     mexErrMsgIdAndTxt("unsnarl:arguments", "repair_mex(V, F, precision): V is n x 3, F is m x 3, both double");
   if (count == 3 && mxGetString(arguments[2], precision, sizeof precision) != 0)
     mexErrMsgIdAndTxt("unsnarl:arguments", "precision is 'auto', 'float32' or 'float64'");
@@ -32,7 +38,7 @@ void mexFunction(int result_count, mxArray** results, int count, const mxArray**
   corners = mxMalloc(3 * m * sizeof *corners + 1);
   for (c = 0; c < 3; ++c) {
     for (k = 0; k < n; ++k) positions[3 * k + c] = V[c * n + k];
-    for (k = 0; k < m; ++k) corners[3 * k + c] = (int32_t)F[c * m + k] - 1;
+    for (k = 0; k < m; ++k) corners[3 * k + c] = vertex_of(F[c * m + k]);
   }
   surface.positions = positions, surface.vertex_count = n;
   surface.corners = corners, surface.corner_count = 3 * m;

@@ -1,7 +1,7 @@
 //! A repair by the C library, libunsnarl_c.
 use std::ffi::{CStr, CString};
 use std::os::raw::{c_char, c_int, c_void};
-use std::{mem::size_of, ptr::null_mut, slice};
+use std::{mem::size_of, ptr, ptr::null_mut};
 
 // The first fields of the structs of unsnarl.h; their size says where they end.
 #[repr(C)]
@@ -70,8 +70,8 @@ pub fn repair(positions: &[f64], corners: &[i32], precision: &str) -> Result<(Ve
         let mut moved: Array = std::mem::zeroed();
         let found = checked(unsnarl_result_array(result, b"positions\0".as_ptr().cast(), &mut moved));
         let repaired = found.map(|()| {
-            let count = moved.rows * moved.columns;
-            let numbers = if count == 0 { Vec::new() } else { slice::from_raw_parts(moved.data.cast(), count).to_vec() };
+            let mut numbers = vec![0.0; moved.rows * moved.columns];
+            ptr::copy_nonoverlapping(moved.data.cast(), numbers.as_mut_ptr(), numbers.len());
             (numbers, text(unsnarl_result_status(result)))
         });
         unsnarl_result_free(result);
