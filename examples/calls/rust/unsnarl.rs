@@ -71,7 +71,9 @@ pub fn repair(positions: &[f64], corners: &[i32], precision: &str) -> Result<(Ve
         let found = checked(unsnarl_result_array(result, b"positions\0".as_ptr().cast(), &mut moved));
         let repaired = found.map(|()| {
             let mut numbers = vec![0.0; moved.rows * moved.columns];
-            ptr::copy_nonoverlapping(moved.data.cast(), numbers.as_mut_ptr(), numbers.len());
+            if !numbers.is_empty() {
+                ptr::copy_nonoverlapping(moved.data.cast(), numbers.as_mut_ptr(), numbers.len());
+            }
             (numbers, text(unsnarl_result_status(result)))
         });
         unsnarl_result_free(result);
