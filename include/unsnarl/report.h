@@ -110,14 +110,14 @@ inline constexpr double large_overlap_share = 0.1;
 /// where there are none.
 std::string advice_on_overlaps(std::span<const OverlappingComponent> overlapping);
 
-/// A component that has lost more than 5 % of its volume or area, has turned by more than 5 degrees, or has moved far:
-/// by more than twice the depth of its overlap, with the gap that was asked for, and by more than 1 % of its own
-/// bounding box.
+/// A component that has lost more than 5 % of its volume or area, has turned by more than 5 degrees, has moved far (by
+/// more than twice the depth of its overlap, with the gap that was asked for, and by more than 1 % of its own bounding
+/// box), or has new creases on more than 2 % of its area.
 struct ChangedComponent {
   std::size_t component = 0;  ///< number in the order of the first faces (see component_of_faces)
   std::int32_t first_face = 0;
   std::string name = {};  ///< as of OverlappingComponent
-  bool has_shrunk = false, is_turned = false, is_far = false;
+  bool has_shrunk = false, is_turned = false, is_far = false, is_creased = false;
   bool is_closed = false;  ///< and its faces agree on what is inside: it has a volume
   /// Change of the signed volume of a closed component, of the area of any other: after / before - 1. -1: nothing is
   /// left; less: it is turned inside out.
@@ -130,6 +130,9 @@ struct ChangedComponent {
   /// the deepest pair of triangles that share no vertex. None: it intersects itself, or an open component while it is
   /// open itself, so that the depth is not known; then is_far is false.
   std::optional<double> depth_rel = {};
+  /// Share of its area in the input that belongs to triangles at a new crease: an edge of two triangles whose normals
+  /// are farther apart than in the input by more than 45 degrees. The same crease takes less of a finer mesh.
+  double creased_share = 0;
 };
 /// "component 3 (jaw) lost 57 % of its volume, turned by 12 degrees". `diagonal`: RepairReport::diagonal.
 std::string describe(const ChangedComponent& changed, double diagonal);

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include "energy/minkowski_penalty.h"
+#include "geometry/portable_math.h"
+#include "mesh/adjacency.h"
 #include "mesh/areas.h"
 #include "rigid/rigid_motion.h"
 #include "scene/component_mesh.h"
@@ -28,6 +31,11 @@ constexpr double far_in_depths = 2;
 /// A motion below this share of the diagonal of its own box is not far: what only touches has no depth (fixed by the
 /// report)
 constexpr double far_in_own_diagonals = 0.01;
+/// An edge is a new crease from this growth of the angle between the normals beside it on, in degrees (fixed by the
+/// report)
+constexpr double new_crease_deg = 45;
+/// A component is named from this share of its area beside new creases on (fixed by the report)
+constexpr double large_creased_share = 0.02;
 
 /// Where the nearest point of a surface is looked for at first, in diagonals of its box; it does not change what is
 /// found (no unit)
@@ -94,6 +102,39 @@ double depth_inside(const ComponentMesh& of, const SolidComponent& around, doubl
       depth = std::max(depth, depth_of(p, around, std::max(depth, guess)));
   }
   return depth;
+}
+
+/// In the direction from a to b, the corners of t are passed in their order.
+bool runs_along(const Triangle& t, Index a, Index b) {
+  return (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
+}
+
+/// In degrees; 0: one of the two triangles has no area. `sides_agree`: both look to the same side of the surface.
+double angle_between(const Positions& x, const Triangle& t, const Triangle& u, bool sides_agree) {
+  const Vec3 a = area_vector(x, t), b = sides_agree ? area_vector(x, u) : Vec3(-area_vector(x, u));
+  return portable::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+}
+
+/// See ChangedComponent::creased_share.
+double creased_share(const ComponentMesh& before, const ComponentMesh& after) {
+  const EdgeTable table = build_edges(before.triangles);
+  std::vector<bool> is_creased(before.triangles.size());
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    const std::span<const Index> around = table.triangles_of_edge[static_cast<Index>(e)];
+    if (around.size() != 2) continue;
+    const Triangle &t = before.triangles[around[0]], &u = before.triangles[around[1]];
+    const auto [a, b] = table.edges[e];
+    const bool sides_agree = runs_along(t, a, b) != runs_along(u, a, b);
+    if (angle_between(after.x, t, u, sides_agree) > angle_between(before.x, t, u, sides_agree) + new_crease_deg)
+      is_creased[around[0]] = is_creased[around[1]] = true;
+  }
+  double creased = 0, all = 0;
+  for (std::size_t t = 0; t < before.triangles.size(); ++t) {
+    const double area = triangle_area(before.x, before.triangles[t]);
+    all += area;
+    if (is_creased[t]) creased += area;
+  }
+  return all > 0 ? creased / all : 0;
 }
 
 /// How deep components overlap others in the input.
@@ -165,6 +206,10 @@ std::pair<Index, double> farthest_vertex(const Change& change, Index component) 
   return farthest;
 }
 
+bool is_named(const ChangedComponent& changed) {
+  return changed.has_shrunk || changed.is_turned || changed.is_far || changed.is_creased;
+}
+
 /// What became of a component that moved.
 ChangedComponent measured(const Change& change, Index number, const std::pair<Index, double>& farthest,
                           Depths& depths) {
@@ -179,10 +224,12 @@ ChangedComponent measured(const Change& change, Index number, const std::pair<In
   changed.has_shrunk = changed.size_change_rel < -large_loss;
   changed.rotation_deg = rotation_between(before, after);
   changed.is_turned = changed.rotation_deg > large_rotation_deg;
+  changed.creased_share = creased_share(before, after);
+  changed.is_creased = changed.creased_share > large_creased_share;
   changed.displacement_rel = farthest.second / change.diagonal;
   changed.farthest_vertex = change.prepared.weld_map.first[farthest.first];
   const bool may_be_far = farthest.second > change.gap + far_in_own_diagonals * box_of_all(before.x).diagonal();
-  if (!may_be_far && !changed.has_shrunk && !changed.is_turned) return changed;
+  if (!may_be_far && !is_named(changed)) return changed;
   changed.depth_rel = depths.of(number);
   changed.is_far = may_be_far && changed.depth_rel && farthest.second > change.gap + far_in_depths * *changed.depth_rel;
   if (changed.depth_rel) *changed.depth_rel /= change.diagonal;
@@ -205,7 +252,7 @@ std::vector<ChangedComponent> changed_components(const PreparedSurface& prepared
     const std::pair<Index, double> farthest = farthest_vertex(change, c);
     if (farthest.first < 0) continue;
     const ChangedComponent changed = measured(change, c, farthest, depths);
-    if (changed.has_shrunk || changed.is_turned || changed.is_far) result.push_back(changed);
+    if (is_named(changed)) result.push_back(changed);
   }
   const auto rank = [](const ChangedComponent& changed) {
     return std::tuple(changed.has_shrunk ? changed.size_change_rel : 0, -changed.displacement_rel);
@@ -233,6 +280,8 @@ std::string describe(const ChangedComponent& changed, double diagonal) {
   if (changed.is_far)
     what.push_back(fmt::format("moved by {} where it overlapped by {:.2g}",
                                length_text(changed.displacement_rel, diagonal), *changed.depth_rel * diagonal));
+  if (changed.is_creased)
+    what.push_back(fmt::format("has new creases on {:.2g} % of its area", 100 * changed.creased_share));
   return fmt::format("component {}{} {}", changed.component, changed.name.empty() ? "" : " (" + changed.name + ")",
                      fmt::join(what, ", "));
 }

@@ -87,6 +87,23 @@ TEST(ChangedComponents, rotations_are_named_with_their_angle) {
   EXPECT_NEAR(found[0].rotation_deg, 12, 1e-9);
 }
 
+TEST(ChangedComponents, new_creases_are_named_with_their_share) {
+  const auto folded = [](double degrees) {
+    const Eigen::Matrix3d turn = rotation_by(Vec3(0, degrees * std::numbers::pi / 180, 0));
+    return [turn](const Vec3& p) { return p[0] > 0 ? Vec3(turn * p) : p; };
+  };
+  const auto creased = [&](int cells, double degrees) {
+    const auto found = changed(shapes::bumpy_sheet(cells, 0), 0, folded(degrees));
+    return found.empty() ? 0 : found[0].creased_share;
+  };
+  EXPECT_NEAR(creased(8, 70), 0.125, 1e-12) << "half of the triangles of two of eight columns";
+  EXPECT_NEAR(creased(16, 70), 0.0625, 1e-12) << "half of it on a mesh twice as fine";
+  EXPECT_EQ(creased(8, 40), 0);
+  const auto found = changed(shapes::bumpy_sheet(8, 0), 0, folded(70));
+  EXPECT_TRUE(found[0].is_creased);
+  EXPECT_NE(describe(found[0], 1).find("has new creases on 12 % of its area"), std::string::npos);
+}
+
 TEST(ChangedComponents, far_is_more_than_twice_the_depth_and_the_gap) {
   const auto found = second_cube_changed(0.2, shift(0.5));
   ASSERT_EQ(found.size(), 1u);

@@ -62,8 +62,10 @@ Json changed_components_json(std::span<const ChangedComponent> changed, double d
   Json list = Json::array();
   for (const ChangedComponent& component : changed) {
     Json why = Json::array();
-    for (const auto& [holds, name] :
-         {std::pair{component.has_shrunk, "shrunk"}, {component.is_turned, "turned"}, {component.is_far, "far"}})
+    for (const auto& [holds, name] : {std::pair{component.has_shrunk, "shrunk"},
+                                      {component.is_turned, "turned"},
+                                      {component.is_far, "far"},
+                                      {component.is_creased, "creased"}})
       if (holds) why.push_back(name);
     list.push_back({{"component", component.component},
                     {"first_face", component.first_face},
@@ -74,6 +76,7 @@ Json changed_components_json(std::span<const ChangedComponent> changed, double d
                     {"displacement_rel", component.displacement_rel},
                     {"farthest_vertex", component.farthest_vertex},
                     {"depth_rel", component.depth_rel ? Json(*component.depth_rel) : Json()},
+                    {"creased_share", component.creased_share},
                     {"message", describe(component, diagonal)}});
   }
   return list;
