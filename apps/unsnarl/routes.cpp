@@ -37,11 +37,16 @@ std::string as_text(const RoutePlan& plan, const RouteFindings& f) {
     parts.push_back(measured(f.clearance) + (plan.timed ? " between agents at every time" : " between routes"));
   if (!plan.obstacles.empty()) parts.push_back(measured(f.obstacle_clearance) + " from obstacles");
   if (!plan.timed) parts.push_back(measured(f.self_clearance) + " within a route");
-  return text + fmt::format(
-                    "{}\n"
-                    "radius * curvature: {:.3f} at most; length / straight: mean {:.3f}, largest {:.3f}\n",
-                    parts.empty() ? "nothing is near" : fmt::format("{}", fmt::join(parts, ", ")), f.turn,
-                    f.mean_ratio(), f.max_ratio());
+  return text +
+         fmt::format(
+             "{}\n"
+             "radius * curvature: {:.3f} at most; length / straight: mean {:.3f}, largest {:.3f}\n",
+             parts.empty() ? "nothing is near" : fmt::format("{}", fmt::join(parts, ", ")), f.turn, f.mean_ratio(),
+             f.max_ratio()) +
+         (plan.timed ? fmt::format("all have arrived at {:.6g} of {:.6g}{}\n",
+                                   *std::max_element(f.arrival.begin(), f.arrival.end()), plan.duration,
+                                   f.speed > 0 ? fmt::format("; speed / the one allowed: {:.3f} at most", f.speed) : "")
+                     : "");
 }
 
 int check_file(const RoutesCommandOptions& options, const RoutePlan& plan) {
@@ -56,12 +61,14 @@ int check_file(const RoutesCommandOptions& options, const RoutePlan& plan) {
 }
 
 /// Pairs of faces of which at least one is of a tube: obstacles may intersect themselves and each other. In time, tubes
-/// may cross too: their agents are there at different times.
+/// may cross too, and obstacles that move may cross them: they are there at different times.
 std::vector<IntersectingPair> pairs_of_tubes(const RoutePlan& plan, const Surface& tubes) {
   const auto faces = static_cast<std::int32_t>(tubes.view().face_count());
   FindOptions find;
   find.weld = Weld::none;
-  std::vector<IntersectingPair> pairs = find_intersections(with_obstacles(plan, tubes), find);
+  RoutePlan still = plan;
+  std::erase_if(still.obstacles, [](const RouteObstacle& obstacle) { return !obstacle.motion.empty(); });
+  std::vector<IntersectingPair> pairs = find_intersections(with_obstacles(still, tubes), find);
   std::erase_if(pairs, [&](const IntersectingPair& pair) {
     return pair.a >= faces || (plan.timed && pair.b < faces);  // a < b
   });
@@ -173,9 +180,11 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
 
 void add_routes_options(CLI::App& command, RoutesCommandOptions& options) {
   command
-      .add_option("PLAN", options.plan,
-                  "Plan (JSON): agents (name, radius, start, goal, waypoints) and obstacles (file, hollow). With "
-                  "\"timed\": true, agents only have to keep their distance at the same time. '-' for standard input")
+      .add_option(
+          "PLAN", options.plan,
+          "Plan (JSON): agents (name, radius, start, goal, waypoints, planar, priority) and obstacles (file, "
+          "hollow). With \"timed\": true, agents only have to keep their distance at the same time; the plan may "
+          "have a duration, agents a speed and a window, obstacles a motion. '-' for standard input")
       ->required();
   command.add_option("-o,--output", options.folder, "Folder for the results; it must be new or empty")
       ->type_name("DIR");

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,22 @@ struct RouteAgent {
   double radius = 0;  ///< [1e-70, 1e70], and 1e-12 of the largest coordinate of the plan at least
   RoutePoint start{}, goal{};
   std::vector<RoutePoint> waypoints;  ///< places that the route goes through, in this order
+  /// The route keeps the height (z) of the start. Goal and way-points are due to have it too.
+  bool planar = false;
+  /// Agents with a higher number choose their ways before others.
+  double priority = 0;
+
+  /// In time only. When the agent may leave its start, and when it has to be at its goal; it stands at its start
+  /// before and at its goal afterwards. An end of infinity is that of all time. 0 <= first < second <= duration.
+  std::array<double, 2> window = {0, std::numeric_limits<double>::infinity()};
+  /// In time only. The fastest that the agent may move (length / time), above 0; infinity: any.
+  double speed = std::numeric_limits<double>::infinity();
+};
+
+/// Where an obstacle is at a time, compared with the positions of its surface.
+struct RouteMove {
+  double time = 0;
+  RoutePoint offset{};
 };
 
 /// Something that routes keep clear of.
@@ -30,21 +47,28 @@ struct RouteObstacle {
   Surface surface;  ///< faces of any size; they may intersect
   /// The inside of a closed surface is free too: a room, say. Otherwise it is solid, and no agent can be there.
   bool hollow = false;
+  /// In time only: the obstacle moves straight and evenly from each of these to the next, and stands before the first
+  /// and after the last. Times ascend. Empty: it stands where its surface is.
+  std::vector<RouteMove> motion;
 };
 
 struct RoutePlan {
   std::vector<RouteAgent> agents;
   std::vector<RouteObstacle> obstacles;
-  /// Time is a coordinate too: all agents set out at once and arrive at once, and only have to keep clear of where the
-  /// others are at the same time. Between two points of a route they move straight and evenly, each by the same part of
-  /// all time, so that routes have equally many points. Otherwise routes keep clear of each other for all times.
+  /// Time is a coordinate too: agents only have to keep clear of where the others are at the same time, and may wait.
+  /// Between two points of a route they move straight and evenly, each by the same part of all time, so that routes
+  /// have equally many points. Otherwise routes keep clear of each other for all times.
   bool timed = false;
+  /// In time: when the last point of all routes is reached; the first one is at 0. Above 0.
+  double duration = 1;
 };
 
 /// A plan from JSON: {"agents": [{"name": "a", "radius": 1, "start": [x, y, z], "goal": [x, y, z], "waypoints":
 /// [...]}], "obstacles": [{"name": "wall", "file": "wall.obj", "hollow": false}]}; a name, way-points, obstacles and
 /// "hollow" may be missing; instead of a file, an obstacle may have "vertices" ([[x, y, z], ...]) and "faces" ([[0, 1,
-/// 2], ...]); with "timed": true it is a plan in time. `folder`: the one that files are named relative to.
+/// 2], ...]). Agents may have "planar" and "priority". With "timed": true it is a plan in time, which may have a
+/// "duration", its agents a "speed" and a "window" ([from, to]), its obstacles a "motion" ([[time, x, y, z], ...]).
+/// `folder`: the one that files are named relative to.
 /// Throws FileError, naming the place as in "agents[2].radius", for anything that is not such a plan or check_plan()
 /// refuses.
 RoutePlan parse_route_plan(std::string_view text, const std::filesystem::path& folder = {});
@@ -52,12 +76,15 @@ RoutePlan parse_route_plan(std::string_view text, const std::filesystem::path& f
 std::string route_plan_json(const RoutePlan& plan);
 /// Throws std::invalid_argument, naming the place, for a plan without agents, names that are empty or stand twice,
 /// radii that are not within 1e-70 and 1e70 or below 1e-12 of the largest coordinate, coordinates that are not finite
-/// or beyond 1e70, two places of a route in a row that are the same, faces of vertices that do not exist.
+/// or beyond 1e70, two places of a route in a row that are the same, faces of vertices that do not exist, planar agents
+/// whose places differ in z; in time, for a duration, speed, window or motion out of range, and without, for any of
+/// them.
 void check_plan(const RoutePlan& plan);
 
 /// Lists what no routes can mend, one sentence each: a start, goal or way-point within the reach of one of another
 /// agent (in time: a start of another's start, a goal of another's goal), or nearer to an obstacle than the radius, or
-/// inside a solid one. Decided exactly, but for the inside. Empty: nothing.
+/// inside a solid one; a window too short for straight lines at full speed; a moving obstacle that comes to an agent
+/// which has to stand. Decided exactly, but for the inside and for moving obstacles. Empty: nothing.
 std::vector<std::string> route_obstructions(const RoutePlan& plan);
 
 /// A polyline from start to goal; way-points are among its points.
@@ -75,18 +102,25 @@ struct RouteFindings {
   std::array<int, 2> obstacle = {-1, -1};  ///< agent and obstacle that are nearest
   int self = -1;                           ///< agent whose route is nearest to itself
   /// Proven upper bound of radius * curvature, 2 tan(a / 2) / min(|e|, |f|) where edges e, f meet at an angle a
-  /// (E. Rawdon's MinRad): arcs of circles that are no smaller fit into all corners.
+  /// (E. Rawdon's MinRad): arcs of circles that are no smaller fit into all corners. In time, agents may turn on the
+  /// spot where they stand, which is at points that stand twice in a row; such corners do not count.
   double turn = 0;
   int turn_agent = -1;         ///< the one whose route turns most
+  double speed = 0;            ///< proven upper bound of speed / the one allowed; 0: none has a limit
+  int speed_agent = -1;        ///< the fastest, so measured
+  int late = -1;               ///< an agent that leaves or arrives out of its window; -1: none
+  int off_plane = -1;          ///< a planar agent whose route leaves its height; -1: none
   bool places_kept = true;     ///< starts, goals and way-points are points of their routes, bit for bit, in order
   std::vector<double> length;  ///< of each route
   /// The length of straight lines from place to place, for each agent. No route is shorter.
   std::vector<double> straight;
+  std::vector<double> arrival;  ///< in time: from when on each agent stands at its goal
 
   static constexpr double measured_up_to = 1.5;
 
   bool hold() const {
-    return clearance >= 1 && obstacle_clearance >= 1 && self_clearance >= 1 && turn <= 1 && places_kept;
+    return clearance >= 1 && obstacle_clearance >= 1 && self_clearance >= 1 && turn <= 1 && speed <= 1 && places_kept &&
+           late < 0 && off_plane < 0;
   }
   double mean_ratio() const;  ///< of length / straight
   double max_ratio() const;

@@ -27,7 +27,8 @@ class Routes:
     found does not hold. time_limit."""
     report: dict[str, Any]
     """What is certified: "hold", "clearance", "obstacle_clearance", "self_clearance" (distances / those needed),
-    "turn" (radius * curvature), "length" and "straight" of each route, "messages", "seconds"."""
+    "turn" (radius * curvature), "speed" (/ the one allowed), "length" and "straight" of each route, in time its
+    "arrival", "messages", "seconds"."""
 
 
 def plan_routes(
@@ -41,6 +42,7 @@ def plan_routes(
         A dict as the JSON of ``unsnarl routes``, arrays allowed: {"agents": [{"name": "a", "radius": 1, "start": [x, y,
         z], "goal": [x, y, z], "waypoints": [...]}], "obstacles": [{"vertices": V, "faces": F}, {"file": "wall.obj"}]}.
         With "timed": True, agents keep clear of where the others are at the same time; routes have equally many points.
+        Agents may then have a "speed" and a "window", obstacles a "motion", and the plan a "duration".
     spacing
         Distance of the points of a route, as a multiple of its radius, in (0, 2].
     time_limit

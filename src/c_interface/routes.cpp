@@ -18,9 +18,14 @@ Json json_of(const RouteFindings& found) {
           {"self", found.self},
           {"turn", found.turn},
           {"turn_agent", found.turn_agent},
+          {"speed", found.speed},
+          {"speed_agent", found.speed_agent},
+          {"late", found.late},
+          {"off_plane", found.off_plane},
           {"places_kept", found.places_kept},
           {"length", found.length},
-          {"straight", found.straight}};
+          {"straight", found.straight},
+          {"arrival", found.arrival}};
 }
 
 RoutePlan plan_of(const char* text) {

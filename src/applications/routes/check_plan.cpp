@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "applications/routes/moving_obstacles.h"
 #include "applications/routes/proven_bounds.h"
 #include "applications/routes/segments.h"
 #include "geometry/portable_math.h"
@@ -21,6 +22,15 @@ constexpr double least_radius = 1e-70;
 /// Smaller radii are refused: rings would lose their shape to rounding, of which this is a thousand times (unit:
 /// largest coordinate)
 constexpr double least_radius_rel = 1e-12;
+
+/// Shorter durations are refused, so that their square is not zero (unit: time)
+constexpr double least_time = 1e-70;
+/// Longer durations are refused, so that their square is finite (unit: time)
+constexpr double largest_time = 1e70;
+/// Slower agents are refused, so that the square of their speed is not zero (unit: length / time)
+constexpr double least_speed = 1e-70;
+/// Faster agents are refused, so that the square of their speed is finite (unit: length / time)
+constexpr double largest_speed = 1e70;
 
 /// Boxes are enlarged by this, twice what rounding could take away from a sum of two radii (unit: radius)
 constexpr double radius_reserve = 1e-12;
@@ -59,6 +69,50 @@ void check_agent(const RouteAgent& agent, const std::string& place) {
     if (places[k] == places[k + 1])
       throw std::invalid_argument(fmt::format("{}: agent '{}' goes from ({}, {}, {}) to the same place", place,
                                               agent.name, places[k][0], places[k][1], places[k][2]));
+  for (const Vec3& p : places)
+    if (agent.planar && p.z() != agent.start[2])
+      throw std::invalid_argument(fmt::format("{}: agent '{}' is planar, but its places have different z: {} and {}",
+                                              place, agent.name, agent.start[2], p.z()));
+}
+
+/// What only a plan in time has is refused without, since it would be ignored.
+void check_time(const RoutePlan& plan) {
+  const auto refuse_untimed = [&](const std::string& place) {
+    if (!plan.timed) throw std::invalid_argument(place + ": give the plan \"timed\": true too");
+  };
+  if (!(plan.duration >= least_time && plan.duration <= largest_time))
+    throw std::invalid_argument(
+        fmt::format("duration is {}; give a number from {} to {}", plan.duration, least_time, largest_time));
+  for (std::size_t i = 0; i < plan.agents.size(); ++i) {
+    const RouteAgent& agent = plan.agents[i];
+    const std::string place = fmt::format("agents[{}]", i);
+    if (!std::isfinite(agent.priority)) throw std::invalid_argument(place + ".priority is not a number");
+    if (agent.window != RouteAgent().window) {
+      refuse_untimed(place + ".window");
+      const auto [from, to] = agent.window;
+      if (!(from >= 0 && from < to && from < plan.duration && (to <= plan.duration || std::isinf(to))))
+        throw std::invalid_argument(
+            fmt::format("{}.window is [{}, {}]; give two times that ascend, from 0 to the "
+                        "plan's duration of {}",
+                        place, from, to, plan.duration));
+    }
+    if (agent.speed != RouteAgent().speed) {
+      refuse_untimed(place + ".speed");
+      if (!(agent.speed >= least_speed && agent.speed <= largest_speed))
+        throw std::invalid_argument(
+            fmt::format("{}.speed is {}; give a number from {} to {}", place, agent.speed, least_speed, largest_speed));
+    }
+  }
+  for (std::size_t o = 0; o < plan.obstacles.size(); ++o)
+    for (std::size_t k = 0; k < plan.obstacles[o].motion.size(); ++k) {
+      const std::string place = fmt::format("obstacles[{}].motion[{}]", o, k);
+      refuse_untimed(place);
+      const std::vector<RouteMove>& motion = plan.obstacles[o].motion;
+      if (!(std::abs(motion[k].time) <= largest_time) || (k > 0 && !(motion[k - 1].time < motion[k].time)))
+        throw std::invalid_argument(
+            fmt::format("{}: the time {} is not a number after the one before", place, motion[k].time));
+      check_point(motion[k].offset, place);
+    }
 }
 
 void check_obstacle(const RouteObstacle& obstacle, const std::string& place) {
@@ -82,6 +136,9 @@ double largest_coordinate_of(const RoutePlan& plan) {
     for (const Vec3& p : places_of(agent)) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   for (const RouteObstacle& obstacle : plan.obstacles)
     for (const double c : obstacle.surface.positions) largest = std::max(largest, std::abs(c));
+  for (const RouteObstacle& obstacle : plan.obstacles)
+    for (const RouteMove& move : obstacle.motion)
+      for (const double c : move.offset) largest = std::max(largest, std::abs(c));
   return largest;
 }
 
@@ -169,6 +226,47 @@ void add_obstructions_of_agents(const RoutePlan& plan, std::vector<std::string>&
   }
 }
 
+/// Windows too short for straight lines at full speed.
+void add_obstructions_in_time(const RoutePlan& plan, std::vector<std::string>& found) {
+  for (const RouteAgent& agent : plan.agents) {
+    const std::vector<Vec3> places = places_of(agent);
+    double straight = 0;
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) straight += (places[k + 1] - places[k]).norm();
+    const double left = std::min(agent.window[1], plan.duration) - agent.window[0];
+    if (straight * (1 - radius_reserve) > agent.speed * left)
+      found.push_back(
+          fmt::format("'{}' needs {:.6g} of time for its {:.6g} of straight lines at a speed of {:.6g}, but "
+                      "its window has {:.6g}",
+                      agent.name, straight / agent.speed, straight, agent.speed, left));
+  }
+}
+
+/// Obstacles that move to where an agent has to stand: at its start before its window, at its goal after it.
+void add_obstructions_of_moving_obstacles(const RoutePlan& plan, std::vector<std::string>& found) {
+  for (const MovingObstacle& obstacle : moving_obstacles(plan, 1))
+    for (const RouteAgent& agent : plan.agents) {
+      const auto comes_to = [&](const RoutePoint& place, double from, double to) {
+        const auto at = [&](double time) { return std::clamp(time / plan.duration, 0.0, 1.0); };
+        for (const MovingObstacle::Piece& piece : obstacle.pieces(0)) {
+          const double lo = std::max(at(from), piece.from), hi = std::min(at(to), piece.to);
+          if (lo > hi) continue;
+          const auto seen = [&](double share) {
+            const double part = (share - piece.from) / (piece.to - piece.from);
+            return Vec3(vec(place) - piece.offset_from - part * (piece.offset_to - piece.offset_from));
+          };
+          if (!obstacle.triangles().is_clear(seen(lo), seen(hi), agent.radius * (1 - radius_reserve))) return true;
+        }
+        return false;
+      };
+      const auto add = [&](const char* place) {
+        found.push_back(fmt::format("the obstacle '{}' comes to the {} of '{}' when the agent has to be there",
+                                    plan.obstacles[obstacle.triangles().obstacle(0)].name, place, agent.name));
+      };
+      if (comes_to(agent.start, 0, agent.window[0])) add("start");
+      if (comes_to(agent.goal, agent.window[1], plan.duration)) add("goal");
+    }
+}
+
 void add_obstructions_of_obstacles(const RoutePlan& plan, std::vector<std::string>& found) {
   const ObstacleTriangles triangles(plan);
   if (triangles.empty()) return;
@@ -226,6 +324,7 @@ void check_plan(const RoutePlan& plan) {
       throw std::invalid_argument(
           fmt::format("{}.name: '{}' is the name of obstacles[{}] too", place, plan.obstacles[o].name, at->second));
   }
+  check_time(plan);
   check_radii_beside_coordinates(plan);
 }
 
@@ -233,7 +332,9 @@ std::vector<std::string> route_obstructions(const RoutePlan& plan) {
   check_plan(plan);
   std::vector<std::string> found;
   add_obstructions_of_agents(plan, found);
+  if (plan.timed) add_obstructions_in_time(plan, found);
   add_obstructions_of_obstacles(plan, found);
+  add_obstructions_of_moving_obstacles(plan, found);
   return found;
 }
 

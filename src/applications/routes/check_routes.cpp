@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -108,6 +109,65 @@ void check_obstacles(const RoutePlan& plan, const Segments& segments, RouteFindi
   }
 }
 
+/// From which point on the agent stands at its goal.
+std::size_t arrival_of(const Route& route) {
+  std::size_t k = route.points.size() - 1;
+  while (k > 0 && route.points[k - 1] == route.points.back()) --k;
+  return k;
+}
+
+/// Whether the agent stands at its start until its window begins, and at its goal from where it ends.
+bool keeps_window(const RoutePlan& plan, const RouteAgent& agent, const Route& route) {
+  const std::size_t steps = route.points.size() - 1;
+  std::size_t leaves = 0;
+  while (leaves < steps && route.points[leaves + 1] == route.points.front()) ++leaves;
+  return is_at_or_after(leaves, steps, plan.duration, agent.window[0]) &&
+         is_at_or_before(arrival_of(route), steps, plan.duration, std::min(agent.window[1], plan.duration));
+}
+
+/// In time, obstacles that move count where they are.
+void check_moving_obstacles(const RoutePlan& plan, std::span<const Route> routes, RouteFindings& found) {
+  for (std::size_t o = 0; o < plan.obstacles.size(); ++o) {
+    const std::vector<RouteMove>& motion = plan.obstacles[o].motion;
+    if (motion.empty()) continue;
+    const ObstacleTriangles triangles(plan, static_cast<int>(o));
+    if (triangles.empty()) continue;
+    Box reach;  // of the obstacle, wherever it is
+    for (const RouteMove& move : motion)
+      for (const Vec3& end : {triangles.bounds().lo, triangles.bounds().hi}) reach.extend(Vec3(end + vec(move.offset)));
+    const double size = std::max(reach.lo.cwiseAbs().maxCoeff(), reach.hi.cwiseAbs().maxCoeff());
+    for (std::size_t i = 0; i < routes.size(); ++i) {
+      const std::vector<RoutePoint>& points = routes[i].points;
+      const double r = plan.agents[i].radius, near = RouteFindings::measured_up_to * r;
+      const Box around = reach.inflated(near * (1 + rounding_room) + rounding_room * size);
+      for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const Vec3 p = vec(points[k]), q = vec(points[k + 1]);
+        Box box;
+        box.extend(p);
+        box.extend(q);
+        if (!box.overlaps(around)) continue;
+        const std::vector<Vec3> seen = seen_from(motion, p, q, k, points.size() - 1, plan.duration);
+        for (std::size_t m = 0; m + 1 < seen.size(); ++m) {
+          const std::span<const Vec3> segment(&seen[m], 2);
+          Box own;
+          own.extend(segment[0]);
+          own.extend(segment[1]);
+          const double room = std::max(segment[0].cwiseAbs().maxCoeff(), segment[1].cwiseAbs().maxCoeff());
+          triangles.near(own.inflated(near * (1 + rounding_room) + rounding_room * (room + size)), [&](Index t) {
+            const std::array<Vec3, 3>& corners = triangles.corners(t);
+            const Vec3 direction = closest_segment_triangle(segment[0], segment[1], corners).direction;
+            const double bound = proven_clearance_of_rounded(segment, corners, direction, r);
+            if (bound < found.obstacle_clearance) {
+              found.obstacle_clearance = bound;
+              found.obstacle = {static_cast<int>(i), static_cast<int>(o)};
+            }
+          });
+        }
+      }
+    }
+  }
+}
+
 bool goes_through_places(const RouteAgent& agent, const Route& route) {
   if (route.points.front() != agent.start || route.points.back() != agent.goal) return false;
   auto at = route.points.begin() + 1;
@@ -154,12 +214,29 @@ RouteFindings check_routes(const RoutePlan& plan, std::span<const Route> routes)
           throw std::invalid_argument(fmt::format("point {} of the route of '{}' is not finite", k, agent.name));
     found.places_kept = found.places_kept && goes_through_places(agent, routes[i]);
     for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+      if (plan.timed && (points[k - 1] == points[k] || points[k] == points[k + 1])) continue;
       const double turn = proven_turn(vec(points[k - 1]), vec(points[k]), vec(points[k + 1]), agent.radius);
       if (turn > found.turn) {
         found.turn = turn;
         found.turn_agent = static_cast<int>(i);
       }
     }
+    for (std::size_t k = 0; k + 1 < points.size() && agent.speed < std::numeric_limits<double>::infinity(); ++k) {
+      const double speed =
+          proven_speed(vec(points[k]), vec(points[k + 1]), points.size() - 1, plan.duration, agent.speed);
+      if (speed > found.speed) {
+        found.speed = speed;
+        found.speed_agent = static_cast<int>(i);
+      }
+    }
+    if (plan.timed) {
+      const double step = plan.duration / static_cast<double>(points.size() - 1);
+      found.arrival.push_back(static_cast<double>(arrival_of(routes[i])) * step);
+      if (!keeps_window(plan, agent, routes[i])) found.late = static_cast<int>(i);
+    }
+    if (agent.planar &&
+        std::any_of(points.begin(), points.end(), [&](const RoutePoint& p) { return p[2] != agent.start[2]; }))
+      found.off_plane = static_cast<int>(i);
     double length = 0, straight = 0;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) length += (vec(points[k + 1]) - vec(points[k])).norm();
     const std::vector<Vec3> places = places_of(agent);
@@ -173,6 +250,7 @@ RouteFindings check_routes(const RoutePlan& plan, std::span<const Route> routes)
   else
     check_distances(plan, segments, found);
   check_obstacles(plan, segments, found);
+  check_moving_obstacles(plan, routes, found);
   return found;
 }
 
@@ -192,6 +270,10 @@ std::string route_faults(const RoutePlan& plan, const RouteFindings& f) {
                         f.self_clearance);
   if (!(f.turn <= 1))
     text += fmt::format("the route of '{}' turns {:.6g} times as tight as its radius\n", name(f.turn_agent), f.turn);
+  if (!(f.speed <= 1))
+    text += fmt::format("'{}' moves {:.6g} times as fast as its speed\n", name(f.speed_agent), f.speed);
+  if (f.late >= 0) text += fmt::format("'{}' does not leave and arrive within its window\n", name(f.late));
+  if (f.off_plane >= 0) text += fmt::format("the route of '{}' leaves its height, z\n", name(f.off_plane));
   return text;
 }
 

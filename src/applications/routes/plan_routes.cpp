@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
+#include "applications/routes/moving_obstacles.h"
+#include "applications/routes/proven_bounds.h"
 #include "applications/routes/route_energy.h"
+#include "applications/routes/time_search.h"
 #include "applications/routes/way_finder.h"
 #include "geometry/portable_math.h"
 #include "optimize/lbfgs.h"
@@ -35,6 +40,18 @@ constexpr int most_rounds = 9;  ///< Rounds of parting routes, at most (unit: ro
 /// Weight of contacts and turns at the beginning: small, since hard pushes at the start make kinks that take long to
 /// undo [E199] (no unit)
 constexpr double first_weight = 0.005;
+/// In time, unless its speed is limited, an agent moves this many times as fast as it needs to when it searches its
+/// way, one a try: so it can wait (no unit)
+constexpr std::array<double, 3> search_paces = {2, 4, 8};
+/// Width of the grid's cells in a search in time, one a try (unit: radius of the agent)
+constexpr std::array<double, 3> search_cells = {1, 0.5, 0.35};
+/// A search in time uses this share of a limited speed: round turns are longer than the corners of its ways [E290] (no
+/// unit)
+constexpr double search_speed = 0.9;
+/// Steps that all time is cut into, at most (unit: steps)
+constexpr double most_time_steps = 2000;
+/// Rounds of easing turns in which agents are not yet made to stand where a turn stays too tight (unit: rounds)
+constexpr int rounds_without_stops = 2;
 /// Weights of barriers while routes are pulled tight (no unit)
 constexpr std::array<double, 2> barrier_weights = {0.1, 0.01};
 constexpr int tightening_steps = 100;  ///< Steps at each of these weights (unit: steps)
@@ -49,6 +66,16 @@ constexpr int settled_steps = 10;
 constexpr double most_motion = 2;
 /// Left above the needed distance, and below the tightest turn, when barriers begin (unit: share of either)
 constexpr double margin = 1e-6;
+
+/// radius * curvature at a vertex.
+double turn_of_vertex(const Eigen::VectorXd& x, Index v, double radius) {
+  return proven_turn(x.segment<3>(3 * v - 3), x.segment<3>(3 * v), x.segment<3>(3 * v + 3), radius);
+}
+
+bool is_finite(RouteEnergy& energy, const Eigen::VectorXd& x) {
+  Eigen::VectorXd gradient;
+  return energy(x, gradient) < std::numeric_limits<double>::infinity();
+}
 
 class Planning {
  public:
@@ -65,30 +92,46 @@ class Planning {
       made_.asked = chains.routes(chains.x);
       return ended(Status::no_progress);
     }
-    for (std::size_t k = 0; k < pushed_aside.size() && !control_.stopped(); ++k) {
-      part(pushed_aside[k], static_cast<double>(k) / pushed_aside.size(), 1 << k);
-      if (made_.found.hold()) return ended(Status::embedded);
+    if (plan_.timed) {
+      run_in_time();
+    } else {
+      for (std::size_t k = 0; k < pushed_aside.size() && !control_.stopped() && !is_found(); ++k)
+        part(pushed_aside[k], static_cast<double>(k) / pushed_aside.size(), 1.0 / pushed_aside.size(), 1 << k);
     }
+    if (is_found()) return ended(Status::embedded);
     return ended(control_.stopped() ? control_.status_or(Status::no_progress) : Status::no_progress);
   }
 
  private:
+  bool is_found() const { return !made_.routes.empty() && made_.found.hold(); }
+
   RoutesResult ended(Status status) {
     made_.status = status;
     made_.seconds = control_.seconds();
     return std::move(made_);
   }
+  /// One for each height in which planar agents move, and one for all others.
+  using Finders = std::map<std::optional<double>, WayFinder>;
+  static std::optional<double> plane_of(const RouteAgent& agent) {
+    return agent.planar ? std::optional(agent.start[2]) : std::nullopt;
+  }
   /// Ways straight or past the obstacles; spread: later agents avoid the ways of earlier ones.
-  std::vector<Legs> ways(std::optional<WayFinder>& finder, bool spread) {
+  std::vector<Legs> ways(Finders& finders, bool spread) {
     double widest = 0;
     for (const RouteAgent& agent : plan_.agents) widest = std::max(widest, agent.radius);
-    std::vector<Legs> found;
-    for (const RouteAgent& agent : plan_.agents) {
-      Legs& legs = found.emplace_back();
+    std::vector<std::size_t> order(plan_.agents.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return plan_.agents[a].priority > plan_.agents[b].priority; });
+    std::vector<Legs> found(plan_.agents.size());
+    for (const std::size_t i : order) {
+      const RouteAgent& agent = plan_.agents[i];
+      Legs& legs = found[i];
+      WayFinder* const finder = triangles_.empty() ? nullptr : &finders.at(plane_of(agent));
       const std::vector<Vec3> places = places_of(agent);
       for (std::size_t k = 0; k + 1 < places.size() && !control_.stopped(); ++k) {
         std::optional<std::vector<Vec3>> way;
-        if (!finder) way = {places[k], places[k + 1]};
+        if (finder == nullptr) way = {places[k], places[k + 1]};
         for (std::size_t d = 0; d < way_distances.size() && !way; ++d)
           way = finder->find(places[k], places[k + 1], way_distances[d] * agent.radius);
         if (!way) {
@@ -100,7 +143,8 @@ class Planning {
                           places[k + 1][2], agent.radius));
           continue;
         }
-        if (spread) finder->avoid(*way, agent.radius + widest);
+        if (spread)
+          for (auto& [plane, other] : finders) other.avoid(*way, agent.radius + widest);
         legs.push_back(std::move(*way));
       }
     }
@@ -109,11 +153,13 @@ class Planning {
 
   bool find_ways() {
     control_.tell(0, "find ways");
-    std::optional<WayFinder> finder;
-    if (!triangles_.empty()) finder.emplace(plan_, triangles_);
-    shortest_ways_ = ways(finder, false);
+    Finders finders;
+    if (!triangles_.empty())
+      for (const RouteAgent& agent : plan_.agents)
+        finders.try_emplace(plane_of(agent), plan_, triangles_, plane_of(agent));
+    shortest_ways_ = ways(finders, false);
     if (!made_.messages.empty()) return false;
-    ways_ = finder && !plan_.timed ? ways(finder, true) : shortest_ways_;
+    ways_ = !finders.empty() && !plan_.timed ? ways(finders, true) : shortest_ways_;
     return !control_.stopped();
   }
 
@@ -126,7 +172,8 @@ class Planning {
         Index last = first + 1;
         while (!chains.pinned[last]) ++last;
         const Vec3 along = (chains.x.col(last) - chains.x.col(first)).normalized();
-        const Vec3 e = along.unitOrthogonal(), f = along.cross(e);
+        const Vec3 e = chain.planar ? Vec3(-along.y(), along.x(), 0) : along.unitOrthogonal();
+        const Vec3 f = chain.planar ? e : along.cross(e);
         const double angle = 2 * std::numbers::pi * std::fmod(leg * std::numbers::phi, 1);
         // Offsets differ: lines through one centre with equal offsets would touch one ball and cross on it.
         const double amount = by * chain.radius * (0.5 + std::fmod(leg * std::numbers::sqrt2, 1));
@@ -186,11 +233,131 @@ class Planning {
     }
   }
 
-  /// One try; `before`: part of all work that is done; `longer`: factor of the steps it may take.
-  void part(double by, double before, int longer) {
-    const auto tell = [&](double fraction, std::string_view phase) {
-      control_.tell(before + fraction / pushed_aside.size(), phase);
-    };
+  /// Whether agents may all move evenly all the time.
+  bool is_even_pace_allowed() const {
+    return std::all_of(plan_.agents.begin(), plan_.agents.end(),
+                       [](const RouteAgent& agent) {
+                         return agent.window == RouteAgent().window && agent.speed == RouteAgent().speed;
+                       }) &&
+           std::all_of(plan_.obstacles.begin(), plan_.obstacles.end(),
+                       [](const RouteObstacle& obstacle) { return obstacle.motion.empty(); });
+  }
+
+  /// First all at an even pace, where the plan lets them; then from ways that a search in time finds.
+  void run_in_time() {
+    const double share = 1.0 / (1 + search_paces.size());
+    if (is_even_pace_allowed()) part(pushed_aside[0], 0, share, 1);
+    for (std::size_t k = 0; k < search_paces.size() && !control_.stopped() && !is_found(); ++k)
+      search_and_smooth(static_cast<int>(k), share * (1 + k), share);
+    if (made_.routes.empty() && failed_ >= 0 && !control_.stopped())
+      made_.messages.push_back(
+          fmt::format("no way in time was found for '{}' past the other agents; more time, other windows or priorities "
+                      "may help",
+                      plan_.agents[failed_].name));
+  }
+
+  void search_and_smooth(int attempt, double before, double share) {
+    control_.tell(before, "search in time");
+    if (made_.alone_length.empty()) measure_alone();
+    TimeSearchSettings settings;
+    settings.cell = search_cells[attempt];
+    settings.stopped = [&] { return control_.stopped(); };
+    double steps = 1;
+    for (std::size_t i = 0; i < plan_.agents.size(); ++i) {
+      const RouteAgent& agent = plan_.agents[i];
+      const double time = std::min(agent.window[1], plan_.duration) - agent.window[0];
+      // A limit far beyond what is needed counts as none.
+      const double wanted = made_.alone_length[i] / time;
+      const double limit = search_speed * agent.speed;
+      const double speed = limit < search_paces.back() * wanted ? limit : search_paces[attempt] * wanted;
+      settings.stride.push_back(speed * plan_.duration);
+      steps = std::max(steps, settings.stride.back() / (options_.spacing * agent.radius));
+    }
+    settings.steps = static_cast<Index>(std::ceil(std::min(steps, most_time_steps)));
+    for (double& stride : settings.stride) stride /= settings.steps;
+    const std::vector<MovingObstacle> moving = moving_obstacles(plan_, settings.steps);
+    const std::vector<TimedWay> start = search_in_time(plan_, triangles_, moving, settings, failed_);
+    if (!start.empty()) smooth(chains_in_time(plan_, start), settings.steps, moving, before, share);
+  }
+
+  /// From ways in time that keep all distances to routes without turns that are too tight; distances are kept on the
+  /// way.
+  void smooth(RouteChains chains, Index steps, const std::vector<MovingObstacle>& moving, double before, double share) {
+    const auto tell = [&](double fraction, std::string_view phase) { control_.tell(before + fraction * share, phase); };
+    Eigen::VectorXd x = flat(chains.x);
+    RouteEnergySettings settings;
+    settings.strict = true;
+    settings.contact = barrier_weights[0];
+    double parting = barrier_weights[0];
+    bool is_round = false;
+    for (int round = 0; round < most_rounds && !control_.stopped() && !is_round; ++round) {
+      tell(swelling_share + parting_share * round / most_rounds, "smooth");
+      RouteEnergy energy(chains, triangles_, moving);
+      energy.settings = settings;
+      if (!is_finite(energy, x)) {  // agents that were made to stop are in the way of others
+        energy.settings.strict = false;
+        energy.settings.contact = parting *= harder;
+      }
+      minimise(energy, x, parting_steps, chains.least_radius);
+      energy.settings.strict = true;
+      is_round = energy.margins(x).turn <= 1 - margin && is_finite(energy, x);
+      if (is_round) break;
+      if (round >= rounds_without_stops) stop_at_tight_turns(chains, x, moving, settings);
+      settings.turn *= harder;
+    }
+    settings.strict_turns = true;
+    for (const double weight : barrier_weights) {
+      if (!is_round) break;
+      tell(tightening_from, "tighten");
+      RouteEnergy energy(chains, triangles_, moving);
+      energy.settings = settings;
+      energy.settings.contact = energy.settings.turn = weight;
+      minimise(energy, x, tightening_steps, chains.least_radius);
+    }
+    tell(certifying_from, "certify");
+    const RouteChains asked = sample_chains(plan_, ways_, options_.spacing, true);
+    std::vector<Route> routes = chains.routes(columns(x));
+    for (Route& route : routes) route.points.resize(static_cast<std::size_t>(steps) + 1, route.points.back());
+    keep(std::move(routes), asked.routes(asked.x));
+  }
+
+  /// Agents stand for a step where a turn stays too tight. The step is taken from the next place where they stand, or
+  /// from the one before; in between they pass each point a step later or earlier. Not where an obstacle is in
+  /// the way then.
+  void stop_at_tight_turns(RouteChains& chains, Eigen::VectorXd& x, const std::vector<MovingObstacle>& moving,
+                           const RouteEnergySettings& settings) {
+    const std::vector<RouteChains::Chain> all = chains.chains;
+    for (const RouteChains::Chain& chain : all)
+      for (Index v = chain.first + 1; v < chain.last() && !control_.stopped(); ++v) {
+        if (chains.stands(v) || turn_of_vertex(x, v, chain.radius) <= 1 - margin) continue;
+        for (const Index step : {1, -1}) {
+          RouteChains stopped = chains;
+          stopped.x = columns(x);
+          if (!insert_stop(stopped, chain, v, step)) continue;
+          RouteEnergy energy(stopped, triangles_, moving);
+          energy.settings = settings;
+          energy.settings.strict = false;
+          const Eigen::VectorXd moved = flat(stopped.x);
+          if (!is_finite(energy, moved)) continue;
+          chains = std::move(stopped);
+          x = moved;
+          break;
+        }
+      }
+  }
+  /// Keeps routes that are better than those found before.
+  void keep(std::vector<Route> routes, std::vector<Route> asked) {
+    RouteFindings found = check_routes(plan_, routes);
+    if (!made_.found.length.empty() && !found.hold() && !(found.clearance > made_.found.clearance)) return;
+    made_.routes = std::move(routes);
+    made_.asked = std::move(asked);
+    made_.found = std::move(found);
+  }
+
+  /// One try; `before`: part of all work that is done; `share`: of all work, this try's; `longer`: factor of the steps
+  /// it may take.
+  void part(double by, double before, double share, int longer) {
+    const auto tell = [&](double fraction, std::string_view phase) { control_.tell(before + fraction * share, phase); };
     RouteChains chains = sample_chains(plan_, ways_, options_.spacing, true);
     if (made_.alone_length.empty()) measure_alone();
     Eigen::VectorXd x = flat(aside(chains, by));
@@ -230,7 +397,7 @@ class Planning {
       energy.settings.turn *= harder;
     }
     if (is_apart()) {
-      energy.settings.strict = true;
+      energy.settings.strict = energy.settings.strict_turns = true;
       for (const double weight : barrier_weights) {
         tell(tightening_from, "tighten");
         energy.settings.contact = energy.settings.turn = weight;
@@ -238,13 +405,7 @@ class Planning {
       }
     }
     tell(certifying_from, "certify");
-    const std::vector<Route> routes = chains.routes(columns(x));
-    RouteFindings found = check_routes(plan_, routes);
-    if (made_.found.length.empty() || found.hold() || found.clearance > made_.found.clearance) {
-      made_.routes = routes;
-      made_.asked = sampled_alike(chains, ways_);
-      made_.found = std::move(found);
-    }
+    keep(chains.routes(columns(x)), sampled_alike(chains, ways_));
   }
 
   const RoutePlan& plan_;
@@ -253,6 +414,7 @@ class Planning {
   ObstacleTriangles triangles_;
   std::vector<Legs> shortest_ways_, ways_;
   RoutesResult made_;
+  int failed_ = -1;  // the agent for which the last search in time found no way
 };
 
 }  // namespace

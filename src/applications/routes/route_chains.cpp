@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace unsnarl {
 namespace {
@@ -12,6 +13,9 @@ constexpr double most_segments = 3000;
 constexpr double most_segments_of_all = 2e5;
 /// Segments of a leg, at least: fewer could not bend (unit: segments)
 constexpr double least_segments_a_leg = 4;
+
+/// Time that routes in time have after the last agent has arrived, for stops (unit: time until then)
+constexpr double spare_time = 0.1;
 
 double length_of(std::span<const Vec3> polyline) {
   double length = 0;
@@ -77,6 +81,20 @@ void refine(std::vector<Piece>& pieces, Index segments) {
       })->segments;
 }
 
+/// Adds the segments of the last chain and what its agent is held to; step: time between two vertices.
+void finish_chain(const RoutePlan& plan, double step, RouteChains& chains) {
+  const std::size_t agent = chains.chains.size() - 1;
+  RouteChains::Chain& chain = chains.chains.back();
+  chain.radius = plan.agents[agent].radius;
+  chain.planar = plan.agents[agent].planar;
+  if (plan.timed) chain.longest = plan.agents[agent].speed * step;
+  chains.least_radius = agent == 0 ? chain.radius : std::min(chains.least_radius, chain.radius);
+  for (Index v = chain.first; v < chain.last(); ++v) {
+    chains.segment_vertex.push_back(v);
+    chains.segment_chain.push_back(static_cast<Index>(agent));
+  }
+}
+
 }  // namespace
 
 std::vector<Route> RouteChains::routes(const Positions& at) const {
@@ -123,7 +141,6 @@ RouteChains sample_chains(const RoutePlan& plan, std::span<const Legs> routes, d
     if (plan.timed) refine(pieces[i], most);
     RouteChains::Chain& chain = made.chains.emplace_back();
     chain.first = static_cast<Index>(points.size());
-    chain.radius = plan.agents[i].radius;
     double length = 0;
     points.push_back(pieces[i].front().points.front());
     made.pinned.push_back(1);
@@ -136,15 +153,65 @@ RouteChains sample_chains(const RoutePlan& plan, std::span<const Legs> routes, d
     }
     chain.count = static_cast<Index>(points.size()) - chain.first;
     chain.edge = length / (chain.count - 1);
-    made.least_radius = i == 0 ? chain.radius : std::min(made.least_radius, chain.radius);
-    for (Index v = chain.first; v < chain.last(); ++v) {
-      made.segment_vertex.push_back(v);
-      made.segment_chain.push_back(static_cast<Index>(i));
-    }
+    finish_chain(plan, plan.duration / (chain.count - 1), made);
   }
+  made.stand.resize(points.size());
+  std::iota(made.stand.begin(), made.stand.end(), 0);
   made.x.resize(3, static_cast<Index>(points.size()));
   for (std::size_t v = 0; v < points.size(); ++v) made.x.col(static_cast<Index>(v)) = points[v];
+  // Rounding does not take planar agents off their height.
+  for (const RouteChains::Chain& chain : made.chains)
+    if (chain.planar) made.x.row(2).segment(chain.first, chain.count).setConstant(made.x(2, chain.first));
   return made;
+}
+
+RouteChains chains_in_time(const RoutePlan& plan, std::span<const TimedWay> ways) {
+  RouteChains made;
+  made.timed = true;
+  std::size_t last = 1;
+  for (const TimedWay& way : ways)
+    for (std::size_t k = last; k < way.points.size(); ++k)
+      if (way.points[k] != way.points.back()) last = k + 1;
+  last += static_cast<std::size_t>(std::ceil(spare_time * static_cast<double>(last)));
+  const auto count = static_cast<Index>(std::min(last + 1, ways[0].points.size()));
+  made.x.resize(3, count * static_cast<Index>(ways.size()));
+  for (const TimedWay& way : ways) {
+    RouteChains::Chain& chain = made.chains.emplace_back();
+    chain.first = static_cast<Index>(made.pinned.size());
+    chain.count = count;
+    Index moves = 0;
+    for (Index k = 0; k < count; ++k) {
+      const Index v = chain.first + k;
+      made.x.col(v) = way.points[k];
+      const bool is_same = k > 0 && way.points[k] == way.points[k - 1];
+      made.stand.push_back(is_same ? made.stand[v - 1] : v);
+      made.pinned.push_back(way.pinned[k]);
+      if (!is_same && k > 0) ++moves;
+    }
+    chain.edge = length_of(way.points) / std::max<Index>(1, moves);
+    finish_chain(plan, plan.duration / static_cast<double>(way.points.size() - 1), made);
+  }
+  return made;
+}
+
+bool insert_stop(RouteChains& chains, const RouteChains::Chain& chain, Index v, Index direction) {
+  const auto is_in = [&](Index w) { return w >= chain.first && w <= chain.last(); };
+  Index from = v + direction, to = from;  // of the stand
+  for (;;) {
+    for (to = from; is_in(to + direction) && chains.stand[to + direction] == chains.stand[from];) to += direction;
+    if (std::abs(to - from) > 1) break;
+    from = to + direction;
+    if (!is_in(from)) return false;
+  }
+  for (Index w = from; w != v; w -= direction) {
+    chains.x.col(w) = Vec3(chains.x.col(w - direction));
+    chains.pinned[w] = chains.pinned[w - direction];
+    chains.stand[w] = chains.stand[w - direction] + direction;
+  }
+  chains.stand[v + direction] = chains.stand[v] = std::min(v, v + direction);
+  const Index first = std::min(from + direction, to), last = std::max(from + direction, to);
+  for (Index w = first; w <= last; ++w) chains.stand[w] = first;
+  return true;
 }
 
 std::vector<Route> sampled_alike(const RouteChains& chains, std::span<const Legs> routes) {

@@ -54,9 +54,13 @@ Turn turn_at(const Vec3& a, const Vec3& b, const Vec3& c, double r) {
 
 }  // namespace
 
-RouteEnergy::RouteEnergy(const RouteChains& chains, const ObstacleTriangles& obstacles)
-    : chains_(chains), triangles_(obstacles) {
-  for (const std::uint8_t pinned : chains.pinned) free_.push_back(pinned ? -1 : free_count_++);
+RouteEnergy::RouteEnergy(const RouteChains& chains, const ObstacleTriangles& obstacles,
+                         std::span<const MovingObstacle> moving)
+    : chains_(chains), triangles_(obstacles), moving_(moving) {
+  for (Index v = 0; v < static_cast<Index>(chains.pinned.size()); ++v) {
+    const Index first = chains.stand[v];
+    free_.push_back(chains.pinned[v] ? -1 : first == v ? free_count_++ : free_[first]);
+  }
 }
 
 RouteEnergy::Push RouteEnergy::push_of(double excess, bool is_strict) const {
@@ -88,8 +92,13 @@ Closest RouteEnergy::closest_pair(const Points& x, const Pair& pair) const {
   Closest closest =
       (chains_.timed ? closest_in_time : closest_edge_edge)(x.col(a), x.col(a + 1), x.col(b), x.col(b + 1));
   if (closest.direction == Vec3::Zero()) {
-    // Segments that cross are pushed apart across both.
+    // Segments that cross are pushed apart across both, or in their plane.
     const Vec3 e = x.col(a + 1) - x.col(a), f = x.col(b + 1) - x.col(b);
+    if (chains_.chains[chains_.segment_chain[pair.a]].planar && chains_.chains[chains_.segment_chain[pair.b]].planar) {
+      const Vec3 change = e - f;
+      closest.direction = change.norm() > 0 ? Vec3(-change.y(), change.x(), 0).normalized() : Vec3(Vec3::UnitX());
+      return closest;
+    }
     const Vec3 across = e.cross(f);
     closest.direction = across.norm() > parallel_sine * e.norm() * f.norm() ? across.normalized() : e.unitOrthogonal();
   }
@@ -123,6 +132,7 @@ void RouteEnergy::find_neighbours(const Points& x) {
     const Index a_chain = chains_.segments() / static_cast<Index>(chains_.chains.size());
     for (Index a = 0; a < chains_.segments(); ++a)
       for (Index b = a + a_chain; b < chains_.segments(); b += a_chain) {
+        if (!boxes[a].overlaps(boxes[b])) continue;
         const double most = reach(a) + slack(chains_.segment_chain[a]) + reach(b) + slack(chains_.segment_chain[b]);
         if (closest_pair(x, {a, b}).distance < most) pairs_.push_back({a, b});
       }
@@ -142,11 +152,33 @@ void RouteEnergy::find_neighbours(const Points& x) {
     std::sort(pairs_.begin(), pairs_.end(),
               [](const Pair& p, const Pair& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
   }
-  if (!triangles_.empty())
-    for (Index s = 0; s < chains_.segments(); ++s)
-      triangles_.near(boxes[s].inflated((1 - settings.swelling) * reach(s) / settings.swelling), [&](Index t) {
-        obstacle_pairs_.push_back({s, t});
-      });
+  for (Index s = 0; s < chains_.segments(); ++s) {
+    const double rest_of_reach = (1 - settings.swelling) * reach(s) / settings.swelling;
+    triangles_.near(boxes[s].inflated(rest_of_reach), [&](Index t) {
+      obstacle_pairs_.push_back({s, &triangles_.corners(t)});
+    });
+    const Index v = chains_.segment_vertex[s], chain = chains_.segment_chain[s];
+    for (const MovingObstacle& obstacle : moving_) {
+      if (!boxes[s].inflated(rest_of_reach).overlaps(obstacle.reach())) continue;
+      for (const MovingObstacle::Piece& piece : obstacle.pieces(v - chains_.chains[chain].first)) {
+        Box box;
+        for (const Vec3& end : seen_in(piece, x.col(v), x.col(v + 1))) box.extend(end);
+        obstacle.triangles().near(box.inflated(reach(s) + slack(chain) + rest_of_reach), [&](Index t) {
+          obstacle_pairs_.push_back({s, &obstacle.triangles().corners(t), &piece});
+        });
+      }
+    }
+  }
+}
+
+ClosestToTriangle RouteEnergy::closest_obstacle(const Points& x, const ObstaclePair& pair) const {
+  const Index v = chains_.segment_vertex[pair.segment];
+  if (pair.piece == nullptr) return closest_segment_triangle(x.col(v), x.col(v + 1), *pair.triangle);
+  const auto [p, q] = seen_in(*pair.piece, x.col(v), x.col(v + 1));
+  ClosestToTriangle closest = closest_segment_triangle(p, q, *pair.triangle);
+  const double at_q = closest.weights[0] * pair.piece->from + closest.weights[1] * pair.piece->to;
+  closest.weights = {closest.weights[0] + closest.weights[1] - at_q, at_q};
+  return closest;
 }
 
 bool RouteEnergy::is_constant(Index v, const ClosestToTriangle& closest) const {
@@ -173,6 +205,7 @@ double RouteEnergy::elastic(const Points& x, Positions& gradient) const {
       gradient.col(v + 1) += e / h;
     }
     for (Index v = chain.first + 1; v < chain.last(); ++v) {
+      if (chains_.stands(v)) continue;
       const Vec3 bend = x.col(v - 1) - 2 * x.col(v) + x.col(v + 1);
       sum += 0.5 * stiff * bend.squaredNorm();
       gradient.col(v - 1) += stiff * bend;
@@ -188,14 +221,35 @@ double RouteEnergy::turns(const Points& x, Positions& gradient) const {
   const double width = 1 - settings.turn_from;
   for (const RouteChains::Chain& chain : chains_.chains)
     for (Index v = chain.first + 1; v < chain.last(); ++v) {
+      if (chains_.stands(v)) continue;
       const Turn turn = turn_at(x.col(v - 1), x.col(v), x.col(v + 1), chain.radius);
-      const Push push = push_of((turn.value - settings.turn_from) / width, settings.strict);
+      const Push push = push_of((turn.value - settings.turn_from) / width, settings.strict_turns);
       if (push.value == 0) continue;
       if (!(push.value < infinity)) return infinity;
       sum += settings.turn * chain.edge * push.value;
       for (int k = 0; k < 3; ++k)
         gradient.col(v - 1 + k) += settings.turn * chain.edge * push.slope / width * turn.gradient[k];
     }
+  return sum;
+}
+
+double RouteEnergy::paces(const Points& x, Positions& gradient) const {
+  double sum = 0;
+  const double width = 1 - settings.pace_from;
+  for (const RouteChains::Chain& chain : chains_.chains) {
+    if (!(chain.longest < infinity)) continue;
+    for (Index v = chain.first; v < chain.last(); ++v) {
+      const Vec3 e = x.col(v + 1) - x.col(v);
+      const double length = e.norm();
+      const Push push = push_of((length / chain.longest - settings.pace_from) / width, true);
+      if (push.value == 0) continue;
+      if (!(push.value < infinity)) return infinity;
+      sum += settings.pace * chain.edge * push.value;
+      const Vec3 force = settings.pace * chain.edge * push.slope / (width * chain.longest * length) * e;
+      gradient.col(v) -= force;
+      gradient.col(v + 1) += force;
+    }
+  }
   return sum;
 }
 
@@ -228,12 +282,11 @@ double RouteEnergy::obstacles(const Points& x, Positions& gradient) {
   sum_(static_cast<Index>(obstacle_pairs_.size()), pairs_a_task, gradient,
        [&](Index begin, Index end, Positions& columns, Index part) {
          for (Index k = begin; k < end; ++k) {
-           const Pair& pair = obstacle_pairs_[k];
-           const RouteChains::Chain& chain = chains_.chains[chains_.segment_chain[pair.a]];
+           const ObstaclePair& pair = obstacle_pairs_[k];
+           const RouteChains::Chain& chain = chains_.chains[chains_.segment_chain[pair.segment]];
            const double width = settings.cushion * chain.radius;
-           const Index v = chains_.segment_vertex[pair.a];
-           const ClosestToTriangle closest =
-               closest_segment_triangle(x.col(v), x.col(v + 1), triangles_.corners(pair.b));
+           const Index v = chains_.segment_vertex[pair.segment];
+           const ClosestToTriangle closest = closest_obstacle(x, pair);
            const Push push = push_of((chain.radius + width - closest.distance) / width, true);
            if (push.value == 0 || is_constant(v, closest)) continue;
            const double weight = settings.obstacle * chain.edge;
@@ -255,11 +308,21 @@ double RouteEnergy::operator()(const Eigen::VectorXd& flat, Eigen::VectorXd& fla
   find_neighbours(x);
   Positions gradient = Positions::Zero(3, x.cols());
   double sum = elastic(x, gradient) + turns(x, gradient);
+  if (sum < infinity) sum += paces(x, gradient);
   if (sum < infinity) sum += contacts(x, gradient);
   if (sum < infinity) sum += obstacles(x, gradient);
   if (!(sum < infinity)) return infinity;
   for (Index v = 0; v < x.cols(); ++v)
     if (chains_.pinned[v]) gradient.col(v).setZero();
+  for (const RouteChains::Chain& chain : chains_.chains) {
+    if (chain.planar) gradient.middleCols(chain.first, chain.count).row(2).setZero();
+    for (Index first = chain.first, last = first; first <= chain.last(); first = last) {
+      while (last <= chain.last() && chains_.stand[last] == first) ++last;
+      if (last - first < 2) continue;
+      const Vec3 mean = gradient.middleCols(first, last - first).rowwise().sum() / (last - first);
+      for (Index v = first; v < last; ++v) gradient.col(v) = mean;
+    }
+  }
   flat_gradient = Eigen::Map<const Eigen::VectorXd>(gradient.data(), gradient.size());
   return sum;
 }
@@ -274,7 +337,8 @@ RouteMargins RouteEnergy::margins(const Eigen::VectorXd& flat) {
   }
   for (const RouteChains::Chain& chain : chains_.chains)
     for (Index v = chain.first + 1; v < chain.last(); ++v)
-      margins.turn = std::max(margins.turn, turn_at(x.col(v - 1), x.col(v), x.col(v + 1), chain.radius).value);
+      if (!chains_.stands(v))
+        margins.turn = std::max(margins.turn, turn_at(x.col(v - 1), x.col(v), x.col(v + 1), chain.radius).value);
   return margins;
 }
 
@@ -293,12 +357,23 @@ void RouteEnergy::factorise(const Eigen::VectorXd& flat) {
       add(v + 1, v + 1, 1 / h);
       add(v, v + 1, -1 / h);
       add(v + 1, v, -1 / h);
+      if (!(chain.longest < infinity)) continue;
+      const double pace_width = (1 - settings.pace_from) * chain.longest;
+      const Push push =
+          push_of(((x.col(v + 1) - x.col(v)).norm() - settings.pace_from * chain.longest) / pace_width, true);
+      if (!(push.curvature > 0 && push.curvature < infinity)) continue;
+      const double stiff = settings.pace * h * push.curvature / (pace_width * pace_width);
+      add(v, v, stiff);
+      add(v + 1, v + 1, stiff);
+      add(v, v + 1, -stiff);
+      add(v + 1, v, -stiff);
     }
     /// Weights of a second difference (fixed by algebra)
     constexpr std::array<double, 3> second = {1, -2, 1};
     for (Index v = chain.first + 1; v < chain.last(); ++v) {
+      if (chains_.stands(v)) continue;
       const Turn turn = turn_at(x.col(v - 1), x.col(v), x.col(v + 1), chain.radius);
-      const Push push = push_of((turn.value - settings.turn_from) / width, settings.strict);
+      const Push push = push_of((turn.value - settings.turn_from) / width, settings.strict_turns);
       const double by_bend = chain.radius / (h * h * width);
       const double stiff = settings.stiffness * chain.radius * chain.radius / (h * h * h) +
                            (push.curvature < infinity ? settings.turn * h * push.curvature * by_bend * by_bend : 0);
@@ -318,11 +393,11 @@ void RouteEnergy::factorise(const Eigen::VectorXd& flat) {
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) add(vertices[i], vertices[j], stiff * closest.weights[i] * closest.weights[j]);
   }
-  for (const Pair& pair : obstacle_pairs_) {
-    const RouteChains::Chain& chain = chains_.chains[chains_.segment_chain[pair.a]];
+  for (const ObstaclePair& pair : obstacle_pairs_) {
+    const RouteChains::Chain& chain = chains_.chains[chains_.segment_chain[pair.segment]];
     const double gap = settings.cushion * chain.radius;
-    const Index v = chains_.segment_vertex[pair.a];
-    const ClosestToTriangle closest = closest_segment_triangle(x.col(v), x.col(v + 1), triangles_.corners(pair.b));
+    const Index v = chains_.segment_vertex[pair.segment];
+    const ClosestToTriangle closest = closest_obstacle(x, pair);
     const Push push = push_of((chain.radius + gap - closest.distance) / gap, true);
     if (!(push.curvature > 0 && push.curvature < infinity)) continue;
     const double stiff = settings.obstacle * chain.edge * push.curvature / (gap * gap);
@@ -337,10 +412,10 @@ void RouteEnergy::factorise(const Eigen::VectorXd& flat) {
 void RouteEnergy::precondition(const Eigen::VectorXd& v, Eigen::VectorXd& out) const {
   out.setZero(v.size());
   if (free_count_ == 0) return;
-  Eigen::MatrixXd columns(free_count_, 3);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(free_count_, 3);
   const Index n = static_cast<Index>(v.size() / 3);
   for (Index i = 0; i < n; ++i)
-    if (free_[i] >= 0) columns.row(free_[i]) = v.segment<3>(3 * i).transpose();
+    if (free_[i] >= 0) columns.row(free_[i]) += v.segment<3>(3 * i).transpose();
   const Eigen::MatrixXd solved = factor_.solve(columns);
   for (Index i = 0; i < n; ++i)
     if (free_[i] >= 0) out.segment<3>(3 * i) = solved.row(free_[i]).transpose();

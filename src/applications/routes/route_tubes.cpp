@@ -16,6 +16,8 @@ constexpr double inside_of_radius = 1e-9;
 /// Vertices lie within the tubes by this at least, so that rounding them does not take them out (unit: largest
 /// coordinate)
 constexpr double inside_of_coordinate = 1e-15;
+/// Where the sum of two unit directions is shorter, the route turns back on the spot (no unit)
+constexpr double turned_back = 1e-3;
 
 /// One tube: rings of points around centres, closed by a point at each end.
 class Tube {
@@ -67,6 +69,7 @@ void add_tube(const Route& route, double radius, int sides, Surface& surface) {
   std::vector<Vec3> p;
   double largest = 0;
   for (const RoutePoint& point : route.points) {
+    if (!p.empty() && p.back() == vec(point)) continue;  // the agent stands there
     p.push_back(vec(point));
     largest = std::max(largest, p.back().cwiseAbs().maxCoeff());
   }
@@ -79,8 +82,10 @@ void add_tube(const Route& route, double radius, int sides, Surface& surface) {
     const Vec3 before = k > 0 ? (p[k] - p[k - 1]).normalized() : (p[1] - p[0]).normalized();
     const Vec3 after = k + 1 < n ? (p[k + 1] - p[k]).normalized() : before;
     // The plane that halves the angle, so that the rings of two edges fit; frames turn as little as they can.
-    const Vec3 along = (before + after).normalized();
-    e = k == 0 ? along.unitOrthogonal() : Vec3((e - along.dot(e) * along).normalized());
+    const Vec3 middle = before + after;
+    const Vec3 along = middle.norm() > turned_back ? Vec3(middle.normalized()) : before;
+    const Vec3 across = e - along.dot(e) * along;
+    e = across.norm() > turned_back ? Vec3(across.normalized()) : along.unitOrthogonal();
     const Vec3 f = along.cross(e);
     if (k == 0) {
       tube.add_tip(p[0] - r * along);

@@ -51,17 +51,31 @@ ClosestToTriangle closest_segment_triangle(const Vec3& p, const Vec3& q, const s
 }
 
 ObstacleTriangles::ObstacleTriangles(const RoutePlan& plan) {
+  for (std::size_t o = 0; o < plan.obstacles.size(); ++o)
+    if (plan.obstacles[o].motion.empty()) add(plan, static_cast<int>(o));
+  build();
+}
+
+ObstacleTriangles::ObstacleTriangles(const RoutePlan& plan, int obstacle) {
+  add(plan, obstacle);
+  build();
+}
+
+void ObstacleTriangles::add(const RoutePlan& plan, int obstacle) {
+  const Surface& surface = plan.obstacles[static_cast<std::size_t>(obstacle)].surface;
+  for (const Triangle& t : triangulate(surface).triangles) {
+    std::array<Vec3, 3>& corners = corners_.emplace_back();
+    for (int k = 0; k < 3; ++k) corners[k] = Eigen::Map<const Vec3>(surface.positions.data() + 3 * t[k]);
+    obstacle_.push_back(obstacle);
+  }
+}
+
+void ObstacleTriangles::build() {
   std::vector<Box> boxes;
-  for (std::size_t o = 0; o < plan.obstacles.size(); ++o) {
-    const Surface& surface = plan.obstacles[o].surface;
-    for (const Triangle& t : triangulate(surface).triangles) {
-      std::array<Vec3, 3>& corners = corners_.emplace_back();
-      for (int k = 0; k < 3; ++k) corners[k] = Eigen::Map<const Vec3>(surface.positions.data() + 3 * t[k]);
-      obstacle_.push_back(static_cast<int>(o));
-      Box& box = boxes.emplace_back();
-      for (const Vec3& corner : corners) box.extend(corner);
-      bounds_.extend(box);
-    }
+  for (const std::array<Vec3, 3>& corners : corners_) {
+    Box& box = boxes.emplace_back();
+    for (const Vec3& corner : corners) box.extend(corner);
+    bounds_.extend(box);
   }
   bvh_.build(boxes);
 }

@@ -29,10 +29,11 @@ struct ClosestToTriangle {
 };
 ClosestToTriangle closest_segment_triangle(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& triangle);
 
-/// The triangles of all obstacles.
+/// The triangles of all obstacles that stand, or of one that moves, where its surface is.
 class ObstacleTriangles {
  public:
   explicit ObstacleTriangles(const RoutePlan& plan);
+  ObstacleTriangles(const RoutePlan& plan, int obstacle);
 
   bool empty() const { return corners_.empty(); }
   Index size() const { return static_cast<Index>(corners_.size()); }
@@ -51,6 +52,9 @@ class ObstacleTriangles {
   double distance(const Vec3& p, double most) const;
 
  private:
+  void add(const RoutePlan& plan, int obstacle);
+  void build();
+
   std::vector<std::array<Vec3, 3>> corners_;
   std::vector<int> obstacle_;
   Box bounds_;

@@ -33,7 +33,8 @@ std::array<Index, 3> direction_of(std::uint8_t step) {
 
 }  // namespace
 
-WayFinder::WayFinder(const RoutePlan& plan, const ObstacleTriangles& triangles) : triangles_(triangles) {
+WayFinder::WayFinder(const RoutePlan& plan, const ObstacleTriangles& triangles, std::optional<double> plane)
+    : triangles_(triangles) {
   Box box = triangles.bounds();
   double least = plan.agents[0].radius, most = 0;
   for (const RouteAgent& agent : plan.agents) {
@@ -43,15 +44,19 @@ WayFinder::WayFinder(const RoutePlan& plan, const ObstacleTriangles& triangles) 
   }
   box = box.inflated(room_in_radii * most);
   corner_ = box.lo;
+  const int dimensions = plane ? 2 : 3;
   const Vec3 extent = box.hi - box.lo;
-  cell_ = std::max(cell_of_radius * least, portable::pow(extent.prod() / most_nodes, 1.0 / 3));
+  const double size = plane ? extent.x() * extent.y() : extent.prod();
+  cell_ = std::max(cell_of_radius * least, portable::pow(size / most_nodes, 1.0 / dimensions));
   const auto count = [&] {
     double nodes = 1;
-    for (int k = 0; k < 3; ++k) nodes *= std::floor(extent[k] / cell_) + 2;
+    for (int k = 0; k < dimensions; ++k) nodes *= std::floor(extent[k] / cell_) + 2;
     return nodes;
   };
   while (count() > most_nodes) cell_ *= cell_growth;
-  for (int k = 0; k < 3; ++k) size_[k] = static_cast<Index>(extent[k] / cell_) + 2;
+  size_ = {1, 1, 1};
+  for (int k = 0; k < dimensions; ++k) size_[k] = static_cast<Index>(extent[k] / cell_) + 2;
+  if (plane) corner_[2] = *plane;
   far_ = 2 * most + 2 * cell_;
   const auto nodes = static_cast<std::size_t>(count());
   distance_.assign(nodes, -1.0F);

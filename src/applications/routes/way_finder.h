@@ -11,7 +11,8 @@ namespace unsnarl {
 /// Finds ways past obstacles: straight where that is clear, else the shortest on a grid (A*), pulled straight.
 class WayFinder {
  public:
-  WayFinder(const RoutePlan& plan, const ObstacleTriangles& triangles);
+  /// plane: all ways have this z; nothing: any.
+  WayFinder(const RoutePlan& plan, const ObstacleTriangles& triangles, std::optional<double> plane = {});
 
   /// A way from one place to another, at least `distance` from all obstacles. Steps near earlier ways, see avoid(),
   /// count as longer. Nothing if there is none on the grid.

@@ -13,7 +13,12 @@ namespace unsnarl {
 namespace {
 
 RouteAgent agent(const std::string& name, double radius, const RoutePoint& start, const RoutePoint& goal) {
-  return {name, radius, start, goal, {}};
+  RouteAgent made;
+  made.name = name;
+  made.radius = radius;
+  made.start = start;
+  made.goal = goal;
+  return made;
 }
 
 RouteObstacle box(const std::string& name, const RoutePoint& low, const RoutePoint& high) {
@@ -246,6 +251,121 @@ TEST(PlanRoutes, in_time_one_after_the_other_goes_through_a_door) {
   EXPECT_EQ(parse_route_plan(route_plan_json(plan)).timed, true);
 }
 
+/// A corridor with room for one, 12 long, and a bay in its middle; flat agents of radius 0.5 pass each other there
+/// only.
+RoutePlan corridor_with_bay() {
+  RoutePlan plan;
+  plan.timed = true;
+  plan.agents = {agent("a", 0.5, {-5, 0, 0}, {5, 0, 0}), agent("b", 0.5, {5, 0, 0}, {-5, 0, 0})};
+  for (RouteAgent& a : plan.agents) a.planar = true;
+  plan.obstacles = {box("south", {-6, -1, -1}, {6, -0.6, 1}),    box("west", {-6, 0.6, -1}, {-1, 1, 1}),
+                    box("east", {1, 0.6, -1}, {6, 1, 1}),        box("bay_west", {-1.4, 1, -1}, {-1, 2.5, 1}),
+                    box("bay_east", {1, 1, -1}, {1.4, 2.5, 1}),  box("bay_end", {-1.4, 2.5, -1}, {1.4, 3, 1}),
+                    box("west_end", {-6.4, -1, -1}, {-6, 1, 1}), box("east_end", {6, -1, -1}, {6.4, 1, 1})};
+  return plan;
+}
+
+TEST(PlanRoutes, in_a_corridor_one_waits_in_the_bay) {
+  const RoutePlan plan = corridor_with_bay();
+  const RoutesResult made = plan_routes(plan);
+  ASSERT_EQ(made.status, Status::embedded) << route_faults(plan, made.found);
+  EXPECT_GE(clearance_at_times(plan, made.routes), 1);
+  int in_the_bay = 0;
+  for (const Route& route : made.routes) {
+    bool was_there = false;
+    for (const RoutePoint& p : route.points) {
+      was_there = was_there || p[1] > 0.6;
+      EXPECT_EQ(p[2], 0);
+    }
+    in_the_bay += was_there ? 1 : 0;
+  }
+  EXPECT_EQ(in_the_bay, 1);
+}
+
+TEST(PlanRoutes, who_has_priority_does_not_wait) {
+  RoutePlan plan = corridor_with_bay();
+  plan.duration = 60;
+  plan.agents[1].start = {3, 0, 0};  // nearer to the bay
+  for (RouteAgent& a : plan.agents) a.speed = 1;
+  plan.agents[0].priority = 1;
+  RoutesResult made = plan_routes(plan);
+  ASSERT_EQ(made.status, Status::embedded) << route_faults(plan, made.found);
+  EXPECT_LT(made.found.arrival[0], 12);
+  EXPECT_GT(made.found.arrival[1], 12);
+  EXPECT_LE(made.found.speed, 1);
+  EXPECT_GT(made.found.speed, 0.5);
+  // The other way round, the first one is in the bay's mouth before 'a' could be in the bay.
+  plan.agents[1].priority = 2;
+  made = plan_routes(plan);
+  EXPECT_EQ(made.status, Status::no_progress);
+  ASSERT_EQ(made.messages.size(), 1U);
+  EXPECT_NE(made.messages[0].find("no way in time was found for 'a'"), std::string::npos) << made.messages[0];
+}
+
+TEST(PlanRoutes, agents_leave_and_arrive_within_their_windows) {
+  RoutePlan plan;
+  plan.timed = true;
+  plan.duration = 30;
+  plan.agents = {agent("a", 0.5, {-5, 0, 0}, {5, 0, 0}), agent("b", 0.5, {0, -5, 0}, {0, 5, 0})};
+  plan.agents[0].window = {2, 14};
+  plan.agents[1].window = {10, 30};
+  for (RouteAgent& a : plan.agents) a.speed = 1;
+  const RoutesResult made = plan_routes(plan);
+  ASSERT_EQ(made.status, Status::embedded) << route_faults(plan, made.found);
+  const auto at = [&](std::size_t i, double time) {
+    return made.routes[i].points[static_cast<std::size_t>(time / 30 * (made.routes[i].points.size() - 1))];
+  };
+  EXPECT_EQ(at(0, 2), plan.agents[0].start);
+  EXPECT_NE(at(0, 5), plan.agents[0].start);
+  EXPECT_EQ(at(0, 14.1), plan.agents[0].goal);
+  EXPECT_EQ(at(1, 10), plan.agents[1].start);
+  plan.agents[1].window = {10, 19.9};  // 10 at a speed of 1
+  const std::vector<std::string> named = route_obstructions(plan);
+  ASSERT_EQ(named.size(), 1U);
+  EXPECT_NE(named[0].find("'b' needs 10 of time for its 10 of straight lines"), std::string::npos) << named[0];
+  EXPECT_EQ(plan_routes(plan).status, Status::obstructed);
+}
+
+TEST(PlanRoutes, an_obstacle_that_moves_is_let_pass) {
+  // A gate slides over the only gap in a wall, and opens it again.
+  RoutePlan plan;
+  plan.timed = true;
+  plan.duration = 40;
+  plan.agents = {agent("a", 0.4, {-4, 0, 0}, {4, 0, 0})};
+  plan.agents[0].planar = true;
+  plan.agents[0].speed = 1;
+  plan.obstacles = {box("north", {-0.2, 0.6, -1}, {0.2, 20, 1}), box("south", {-0.2, -20, -1}, {0.2, -0.6, 1}),
+                    box("gate", {-0.2, -0.6, -1}, {0.2, 0.6, 1})};
+  plan.obstacles[2].motion = {{0, {0, 0, 0}}, {15.3, {0, 0, 0}}, {17, {0, 0, 3}}};
+  const RoutesResult made = plan_routes(plan);
+  ASSERT_EQ(made.status, Status::embedded) << route_faults(plan, made.found);
+  EXPECT_GT(made.found.arrival[0], 16);
+  const std::vector<Route> early = {straight(plan.agents[0], 80)};  // at the gate after 20
+  plan.duration = 30;                                               // after 15
+  const RouteFindings found = check_routes(plan, early);
+  EXPECT_EQ(found.obstacle_clearance, 0);
+  EXPECT_EQ(found.obstacle, (std::array<int, 2>{0, 2}));
+  plan.obstacles[2].motion = {{0, {0, 0, 0}}, {1, {0, 0, 3}}};
+  EXPECT_GE(check_routes(plan, early).obstacle_clearance, 1);
+  plan.obstacles[2].motion = {{0, {9, 0, 0}}, {1, {-4, 0, 0}}, {2, {-4, 0, 3}}};
+  plan.agents[0].window = {5, 30};
+  ASSERT_EQ(route_obstructions(plan).size(), 1U);
+  EXPECT_NE(route_obstructions(plan)[0].find("comes to the start of 'a'"), std::string::npos);
+}
+
+TEST(PlanRoutes, planar_agents_keep_their_height_without_time_too) {
+  RoutePlan plan;
+  plan.agents = {agent("a", 0.5, {-4, 0, 0.3}, {4, 0, 0.3}), agent("b", 0.5, {-3, 1.5, 0.3}, {3, 2, 0.3})};
+  plan.obstacles = {box("block", {-1, -3, -1}, {1, 0.5, 1})};
+  for (RouteAgent& a : plan.agents) a.planar = true;
+  RoutesResult made = plan_routes(plan);
+  expect_routes(plan, made);
+  for (const Route& route : made.routes)
+    for (const RoutePoint& p : route.points) EXPECT_EQ(p[2], 0.3);
+  made.routes[1].points[3][2] = 0.31;
+  EXPECT_EQ(check_routes(plan, made.routes).off_plane, 1);
+}
+
 TEST(PlanRoutes, stops_when_it_is_cancelled) {
   Context context;
   context.on_progress = [&](const Context::Progress& progress) {
@@ -273,6 +393,35 @@ TEST(CheckRoutes, in_time_only_meeting_at_one_time_counts) {
   plan.timed = true;
   routes[1] = straight(plan.agents[1], 21);
   EXPECT_THROW(check_routes(plan, routes), std::invalid_argument);
+}
+
+TEST(CheckRoutes, in_time_speeds_windows_and_turns_on_the_spot_are_looked_at) {
+  RoutePlan plan;
+  plan.timed = true;
+  plan.duration = 10;
+  plan.agents = {agent("a", 0.5, {0, 0, 0}, {10, 0, 0})};
+  plan.agents[0].speed = 1;
+  std::vector<Route> routes{straight(plan.agents[0], 10)};
+  EXPECT_EQ(check_routes(plan, routes).speed, 1);
+  EXPECT_TRUE(check_routes(plan, routes).hold());
+  plan.agents[0].speed = std::nextafter(1.0, 0.0);
+  EXPECT_GT(check_routes(plan, routes).speed, 1);
+  EXPECT_NE(route_faults(plan, check_routes(plan, routes)).find("'a' moves"), std::string::npos);
+  plan.agents[0].speed = 2;
+  plan.agents[0].window = {0, 9.5};
+  EXPECT_EQ(check_routes(plan, routes).late, 0);
+  routes[0].points[9] = routes[0].points[10];
+  EXPECT_EQ(check_routes(plan, routes).late, -1);
+  EXPECT_EQ(check_routes(plan, routes).arrival[0], 9);
+  plan.agents[0].window = {1.5, 9.5};
+  EXPECT_EQ(check_routes(plan, routes).late, 0);
+  // There, back, and there again: only after standing for a step.
+  plan.agents[0].window = RouteAgent().window;
+  plan.agents[0].speed = RouteAgent().speed;
+  routes[0].points = {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 0, 0}, {1, 0, 0}, {1, 0, 0}, {6, 0, 0}, {10, 0, 0}};
+  EXPECT_TRUE(check_routes(plan, routes).hold());
+  routes[0].points[3] = {5, 0, 0};
+  EXPECT_GT(check_routes(plan, routes).turn, 1);
 }
 
 TEST(CheckRoutes, finds_what_is_wrong) {
@@ -354,7 +503,7 @@ std::string refusal(const std::string& text) {
 TEST(CheckPlan, radii_that_double_precision_does_not_tell_from_none_are_refused) {
   const auto refusal = [](double radius, double place) {
     RoutePlan plan;
-    plan.agents = {{.name = "a", .radius = radius, .start = {place, 0, 0}, .goal = {place, place, 0}, .waypoints = {}}};
+    plan.agents = {agent("a", radius, {place, 0, 0}, {place, place, 0})};
     try {
       check_plan(plan);
     } catch (const std::invalid_argument& e) {
@@ -378,8 +527,9 @@ TEST(RoutePlanFile, what_is_wrong_is_named_with_its_place) {
   EXPECT_EQ(refusal("{}"), "the plan: \"agents\" is missing");
   EXPECT_EQ(refusal("{\"agents\": []}"), "agents: there are none");
   EXPECT_EQ(refusal(one("\"start\": [0, 0, 0]")), "agents[0]: \"radius\" is missing");
-  EXPECT_EQ(refusal(one("\"speed\": 1")),
-            "agents[0]: there is no \"speed\" to give here; there are name, radius, start, goal, waypoints");
+  EXPECT_EQ(refusal(one("\"colour\": 1")),
+            "agents[0]: there is no \"colour\" to give here; there are name, radius, start, goal, waypoints, planar, "
+            "priority, window, speed");
   EXPECT_EQ(refusal(one("\"radius\": 1, \"start\": [0, 0], \"goal\": [1, 0, 0]")),
             "agents[0].start: [0,0] is not [x, y, z]");
   EXPECT_EQ(refusal(one("\"radius\": 0, \"start\": [0, 0, 0], \"goal\": [1, 0, 0]")),
@@ -399,6 +549,34 @@ TEST(RoutePlanFile, what_is_wrong_is_named_with_its_place) {
             "obstacles[0].faces[0]: there is no vertex 1; there are 1, counted from 0");
   EXPECT_EQ(refusal(with("{\"vertices\": [], \"faces\": [], \"hollow\": 1}")),
             "obstacles[0].hollow: give true or false");
+}
+
+TEST(RoutePlanFile, what_belongs_to_time_is_refused_without_or_out_of_range) {
+  const auto plan = [](const std::string& agent, const std::string& more) {
+    return "{\"agents\": [{\"radius\": 1, \"start\": [0, 0, 0], \"goal\": [9, 0, 0]" + agent + "}]" + more + "}";
+  };
+  const std::string timed = ", \"timed\": true, \"duration\": 20";
+  const std::string without = ": give the plan \"timed\": true too";
+  EXPECT_EQ(refusal(plan(", \"speed\": 1", "")), "agents[0].speed" + without);
+  EXPECT_EQ(refusal(plan(", \"window\": [0, 0.5]", "")), "agents[0].window" + without);
+  EXPECT_EQ(refusal(plan("", ", \"duration\": 2")), "duration" + without);
+  EXPECT_EQ(refusal(plan(", \"speed\": 1, \"window\": [0, 15]", timed)), "taken");
+  EXPECT_EQ(refusal(plan(", \"window\": [3]", timed)), "agents[0].window: [3] is not [from, to]");
+  for (const char* const window : {"[-1, 5]", "[5, 5]", "[3, 21]", "[20, 21]"})
+    EXPECT_NE(refusal(plan(", \"window\": " + std::string(window), timed)).find("agents[0].window is "),
+              std::string::npos)
+        << window;
+  EXPECT_NE(refusal(plan(", \"speed\": 0", timed)).find("agents[0].speed is 0; give"), std::string::npos);
+  EXPECT_NE(refusal(plan("", ", \"timed\": true, \"duration\": 0")).find("duration is 0; give"), std::string::npos);
+  EXPECT_NE(refusal(plan(", \"planar\": true, \"waypoints\": [[5, 0, 1]]", "")).find("have different z: 0 and 1"),
+            std::string::npos);
+  const auto moving = [&](const std::string& motion) {
+    return plan("", timed + ", \"obstacles\": [{\"vertices\": [], \"faces\": [], \"motion\": " + motion + "}]");
+  };
+  EXPECT_EQ(refusal(moving("[[0, 0, 0, 0], [5, 1, 0, 0]]")), "taken");
+  EXPECT_EQ(refusal(moving("[[0, 0, 0]]")), "obstacles[0].motion[0]: [0,0,0] is not [time, x, y, z]");
+  EXPECT_NE(refusal(moving("[[5, 0, 0, 0], [5, 1, 0, 0]]")).find("obstacles[0].motion[1]: the time 5"),
+            std::string::npos);
 }
 
 TEST(RoutePlanFile, plans_and_routes_come_back_as_they_were) {

@@ -30,7 +30,19 @@ Vec3 at(const Route& route, const std::vector<double>& arc, double part) {
   return a + (length > 0 ? std::clamp((s - arc[after - 1]) / length, 0.0, 1.0) : 0.0) * (b - a);
 }
 
-void add_obstacles(const RoutePlan& plan, const Camera& camera, std::string& text) {
+/// Where an obstacle is at a time.
+Vec3 offset_at(const RouteObstacle& obstacle, double time) {
+  const std::vector<RouteMove>& motion = obstacle.motion;
+  if (motion.empty()) return Vec3::Zero();
+  const auto after = std::find_if(motion.begin(), motion.end(), [&](const RouteMove& m) { return m.time > time; });
+  if (after == motion.begin()) return vec(motion.front().offset);
+  if (after == motion.end()) return vec(motion.back().offset);
+  const RouteMove& before = *std::prev(after);
+  const double share = (time - before.time) / (after->time - before.time);
+  return vec(before.offset) + share * (vec(after->offset) - vec(before.offset));
+}
+
+void add_obstacles(const RoutePlan& plan, const Camera& camera, int frames, std::string& text) {
   std::size_t faces = 0;
   for (const RouteObstacle& obstacle : plan.obstacles) faces += obstacle.surface.view().face_count();
   if (faces == 0 || faces > most_faces) return;
@@ -38,12 +50,25 @@ void add_obstacles(const RoutePlan& plan, const Camera& camera, std::string& tex
   for (const RouteObstacle& obstacle : plan.obstacles) {
     const SurfaceView surface = obstacle.surface;
     for (std::size_t f = 0; f < surface.face_count(); ++f) {
-      text += "<polygon points=\"";
-      for (const std::int32_t v : surface.face(f)) {
-        const Vec3 p = camera.project(Eigen::Map<const Vec3>(surface.positions.data() + 3 * v), width, height);
-        fmt::format_to(std::back_inserter(text), "{:.1f},{:.1f} ", p.x(), p.y());
+      const auto points = [&](double time) {
+        std::string corners;
+        for (const std::int32_t v : surface.face(f)) {
+          const Vec3 at = Eigen::Map<const Vec3>(surface.positions.data() + 3 * v) + offset_at(obstacle, time);
+          const Vec3 p = camera.project(at, width, height);
+          fmt::format_to(std::back_inserter(corners), "{:.1f},{:.1f} ", p.x(), p.y());
+        }
+        return corners;
+      };
+      text += fmt::format("<polygon points=\"{}\"", points(0));
+      if (obstacle.motion.empty()) {
+        text += "/>\n";
+        continue;
       }
-      text += "\"/>\n";
+      text +=
+          fmt::format("><animate attributeName=\"points\" dur=\"{}s\" repeatCount=\"indefinite\" values=\"", seconds);
+      for (int frame = 0; frame < frames; ++frame)
+        text += fmt::format("{}{}", frame == 0 ? "" : ";", points(plan.duration * frame / (frames - 1)));
+      text += "\"/></polygon>\n";
     }
   }
   text += "</g>\n";
@@ -59,7 +84,7 @@ std::string routes_animation_svg(const RoutePlan& plan, std::span<const Route> r
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" viewBox=\"0 0 {0} {1}\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
       width, height);
-  add_obstacles(plan, camera, text);
+  add_obstacles(plan, camera, frames, text);
   // A ball's radius in pixels, at a place.
   const auto radius = [&](const Vec3& p, double r) {
     return (camera.project(p + r * camera.up, width, height) - camera.project(p, width, height)).head<2>().norm();

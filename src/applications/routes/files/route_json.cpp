@@ -56,11 +56,22 @@ std::string text(const Json& value, const std::string& place) {
   return value.get<std::string>();
 }
 
+bool yes_or_no(const Json& value, const std::string& place) {
+  if (!value.is_boolean()) refuse(place, "give true or false");
+  return value.get<bool>();
+}
+
+/// As many numbers as there are in `form`, which the message shows.
+std::vector<double> numbers(const Json& value, std::size_t count, const char* form, const std::string& place) {
+  if (!value.is_array() || value.size() != count) refuse(place, fmt::format("{} is not {}", shown(value), form));
+  std::vector<double> all;
+  for (const Json& item : value) all.push_back(number(item, fmt::format("{}[{}]", place, all.size())));
+  return all;
+}
+
 RoutePoint point(const Json& value, const std::string& place) {
-  if (!value.is_array() || value.size() != 3) refuse(place, fmt::format("{} is not [x, y, z]", shown(value)));
-  RoutePoint p;
-  for (std::size_t k = 0; k < 3; ++k) p[k] = number(value[k], fmt::format("{}[{}]", place, k));
-  return p;
+  const std::vector<double> p = numbers(value, 3, "[x, y, z]", place);
+  return {p[0], p[1], p[2]};
 }
 
 std::vector<RoutePoint> points(const Json& value, const std::string& place) {
@@ -71,13 +82,20 @@ std::vector<RoutePoint> points(const Json& value, const std::string& place) {
 
 RouteAgent agent(const Json& value, std::size_t number_of_agent) {
   const std::string place = fmt::format("agents[{}]", number_of_agent);
-  object(value, place, {"name", "radius", "start", "goal", "waypoints"});
+  object(value, place, {"name", "radius", "start", "goal", "waypoints", "planar", "priority", "window", "speed"});
   RouteAgent made;
   made.name = value.contains("name") ? text(value["name"], place + ".name") : fmt::format("agent_{}", number_of_agent);
   made.radius = number(member(value, place, "radius"), place + ".radius");
   made.start = point(member(value, place, "start"), place + ".start");
   made.goal = point(member(value, place, "goal"), place + ".goal");
   if (value.contains("waypoints")) made.waypoints = points(value["waypoints"], place + ".waypoints");
+  if (value.contains("planar")) made.planar = yes_or_no(value["planar"], place + ".planar");
+  if (value.contains("priority")) made.priority = number(value["priority"], place + ".priority");
+  if (value.contains("speed")) made.speed = number(value["speed"], place + ".speed");
+  if (value.contains("window")) {
+    const std::vector<double> window = numbers(value["window"], 2, "[from, to]", place + ".window");
+    made.window = {window[0], window[1]};
+  }
   return made;
 }
 
@@ -104,7 +122,7 @@ Surface written_surface(const Json& value, const std::string& place) {
 
 RouteObstacle obstacle(const Json& value, std::size_t number_of_obstacle, const std::filesystem::path& folder) {
   const std::string place = fmt::format("obstacles[{}]", number_of_obstacle);
-  object(value, place, {"name", "file", "vertices", "faces", "hollow"});
+  object(value, place, {"name", "file", "vertices", "faces", "hollow", "motion"});
   RouteObstacle made;
   made.name = fmt::format("obstacle_{}", number_of_obstacle);
   if (value.contains("file")) {
@@ -122,10 +140,13 @@ RouteObstacle obstacle(const Json& value, std::size_t number_of_obstacle, const 
     made.surface = written_surface(value, place);
   }
   if (value.contains("name")) made.name = text(value["name"], place + ".name");
-  if (value.contains("hollow")) {
-    if (!value["hollow"].is_boolean()) refuse(place + ".hollow", "give true or false");
-    made.hollow = value["hollow"].get<bool>();
-  }
+  if (value.contains("hollow")) made.hollow = yes_or_no(value["hollow"], place + ".hollow");
+  if (value.contains("motion"))
+    for (const Json& item : list(value["motion"], place + ".motion")) {
+      const std::vector<double> move =
+          numbers(item, 4, "[time, x, y, z]", fmt::format("{}.motion[{}]", place, made.motion.size()));
+      made.motion.push_back({move[0], {move[1], move[2], move[3]}});
+    }
   return made;
 }
 
@@ -133,11 +154,12 @@ RouteObstacle obstacle(const Json& value, std::size_t number_of_obstacle, const 
 
 RoutePlan parse_route_plan(std::string_view text, const std::filesystem::path& folder) {
   const Json root = parse_json(text);
-  object(root, "the plan", {"agents", "obstacles", "timed"});
+  object(root, "the plan", {"agents", "obstacles", "timed", "duration"});
   RoutePlan plan;
-  if (root.contains("timed")) {
-    if (!root["timed"].is_boolean()) refuse("timed", "give true or false");
-    plan.timed = root["timed"].get<bool>();
+  if (root.contains("timed")) plan.timed = yes_or_no(root["timed"], "timed");
+  if (root.contains("duration")) {
+    plan.duration = number(root["duration"], "duration");
+    if (!plan.timed) refuse("duration", "give the plan \"timed\": true too");
   }
   for (const Json& item : list(member(root, "the plan", "agents"), "agents"))
     plan.agents.push_back(agent(item, plan.agents.size()));
@@ -157,9 +179,14 @@ std::string route_plan_json(const RoutePlan& plan) {
   for (const RouteAgent& a : plan.agents) {
     Json item = {{"name", a.name}, {"radius", a.radius}, {"start", a.start}, {"goal", a.goal}};
     if (!a.waypoints.empty()) item["waypoints"] = a.waypoints;
+    if (a.planar) item["planar"] = true;
+    if (a.priority != 0) item["priority"] = a.priority;
+    if (a.window != RouteAgent().window) item["window"] = {a.window[0], std::min(a.window[1], plan.duration)};
+    if (a.speed != RouteAgent().speed) item["speed"] = a.speed;
     json["agents"].push_back(std::move(item));
   }
   if (plan.timed) json["timed"] = true;
+  if (plan.timed && plan.duration != 1) json["duration"] = plan.duration;
   if (!plan.obstacles.empty()) json["obstacles"] = Json::array();
   for (const RouteObstacle& o : plan.obstacles) {
     Json item = {{"name", o.name}, {"vertices", Json::array()}, {"faces", Json::array()}};
@@ -171,6 +198,7 @@ std::string route_plan_json(const RoutePlan& plan) {
     for (std::size_t f = 0; f < surface.face_count(); ++f)
       item["faces"].push_back(std::vector<std::int32_t>(surface.face(f).begin(), surface.face(f).end()));
     if (o.hollow) item["hollow"] = true;
+    for (const RouteMove& m : o.motion) item["motion"].push_back({m.time, m.offset[0], m.offset[1], m.offset[2]});
     json["obstacles"].push_back(std::move(item));
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -188,17 +216,20 @@ std::string routes_json(const RoutePlan& plan, const RoutesResult& result) {
                {"self_clearance", f.self_clearance},
                {"clearances_measured_up_to", RouteFindings::measured_up_to},
                {"turn", f.turn},
+               {"speed", f.speed},
                {"mean_ratio", f.mean_ratio()},
                {"max_ratio", f.max_ratio()},
                {"mean_alone_ratio", result.mean_alone_ratio()},
                {"seconds", result.seconds},
                {"routes", Json::array()}};
+  if (plan.timed) json["duration"] = plan.duration;
   for (std::size_t i = 0; i < result.routes.size(); ++i) {
     Json item = {{"name", plan.agents[i].name}, {"radius", plan.agents[i].radius}};
     if (i < f.length.size()) {
       item["length"] = f.length[i];
       item["straight"] = f.straight[i];
     }
+    if (i < f.arrival.size()) item["arrival"] = f.arrival[i];
     if (i < result.alone_length.size()) item["alone"] = result.alone_length[i];
     item["points"] = result.routes[i].points;
     json["routes"].push_back(std::move(item));
