@@ -21,9 +21,11 @@ constexpr double along_of_distance = 10;
 /// A piece between corners is halved this many times at most where strands are near: tips of needles are strands that
 /// meet (unit: halvings)
 constexpr int most_halvings_of_piece = 3;
+/// A laying is better where what is left is smaller by more than rounding (no unit)
+constexpr double better_laying = 1 - 1e-9;
 /// No curve gets more points than this (unit: points)
 constexpr std::size_t most_points_of_curve = 20000;
-constexpr double full_turn = 2 * std::numbers::pi;  ///< In radians (fixed by geometry)
+constexpr double full_turn = 2 * std::numbers::pi;  ///< A full turn in radians (fixed by geometry)
 
 /// The fraction of the length at which each point lies, and 1.
 std::vector<double> fractions_of(const Points2& p) {
@@ -259,7 +261,7 @@ double first_fraction(const Points2& start, const Points2& end, Laying laying) {
       squares += d.squaredNorm();
     }
     const double left = squares - sum.squaredNorm() / n;
-    if (left < least * (1 - 1e-9)) {
+    if (left < least * better_laying) {
       least = left;
       best = first;
     }

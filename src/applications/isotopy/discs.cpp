@@ -18,9 +18,10 @@ constexpr double disc_of_distance = 1.0 / 3;
 constexpr int most_detours = 1000;
 /// A way around is looked for where discs come closer on the way (unit: size of the place)
 constexpr double least_way_rel = 1e-3;
-/// Within another disc, ways around stay within this part of it, and discs on their way are no larger than that (unit:
-/// its radius)
-constexpr double detour_part = 0.5, guest_part = 0.2;
+/// Within another disc, ways around stay within this part of it (unit: its radius)
+constexpr double detour_part = 0.5;
+/// Within another disc, discs on their way are no larger than this (unit: its radius)
+constexpr double guest_part = 0.2;
 
 /// The smallest distance of two middles while each moves straight.
 double smallest_distance(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {

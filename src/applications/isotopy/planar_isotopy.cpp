@@ -32,9 +32,11 @@ constexpr Index most_points_untangled = 600;
 constexpr int join_halvings = 5;
 /// What lies in a round curve is drawn into this part of its radius (no unit)
 constexpr double contents_part = 0.4;
-constexpr double annulus_share = 0.3;  ///< Share of the progress when annuli have been tried (no unit)
-constexpr double start_share = 0.55;   ///< Share of the progress when the start is round (no unit)
-constexpr double end_share = 0.8;      ///< Share of the progress when the end is round too (no unit)
+constexpr double laying_share = 0.03;      ///< Share of the progress when annuli are being laid (no unit)
+constexpr double untangling_share = 0.09;  ///< Share of the progress when annuli are laid (no unit)
+constexpr double annulus_share = 0.3;      ///< Share of the progress when annuli have been tried (no unit)
+constexpr double start_share = 0.55;       ///< Share of the progress when the start is round (no unit)
+constexpr double end_share = 0.8;          ///< Share of the progress when the end is round too (no unit)
 /// The motion of all slabs together counts as this much at least (unit: bounding-box diagonal)
 constexpr double least_effort_rel = 1e-6;
 /// The time of a slab grows by this at least (unit: mean of all slabs)
@@ -176,7 +178,7 @@ class Making {
       for (const Points2& p : from) points += static_cast<std::size_t>(p.cols());
       for (const Blend blend : {Blend::straight, Blend::bending}) {
         if (control_.stopped()) return false;
-        control_.tell(annulus_share * 0.1, "lay annuli");
+        control_.tell(laying_share, "lay annuli");
         const std::size_t most = best ? best->annuli.tangles : static_cast<std::size_t>(most_tangles_a_point * points);
         Annuli annuli = naive_annuli(from, to, blend, most);
         if (annuli.tangles > most) continue;
@@ -192,7 +194,7 @@ class Making {
       Index points = 0;
       for (const Points2& p : best->annuli.rings.front()) points += static_cast<Index>(p.cols());
       if (points > most_points_untangled) return false;
-      control_.tell(annulus_share * 0.3, "untangle annuli");
+      control_.tell(untangling_share, "untangle annuli");
       best->annuli = untangled(best->annuli, [&] { return control_.stopped(); });
       if (best->annuli.tangles > 0) return false;
       made_.method = IsotopyMethod::untangled_annulus;
