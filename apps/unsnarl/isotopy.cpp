@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "cancellable_work.h"
 #include "command_options.h"
@@ -59,6 +61,42 @@ double signed_area(const Curve& curve) {
   return area;
 }
 
+/// The number of the curve that a word of --pairs names: a number, a name, or what a name has in quotes.
+std::int32_t curve_named(const std::string& word, std::span<const Curve> curves, const std::string& file) {
+  if (!word.empty() && word.size() < 10 && word.find_first_not_of("0123456789") == std::string::npos)
+    return std::stoi(word);
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    if (!word.empty() && (curves[c].name == word || curves[c].name.find("'" + word + "'") != std::string::npos))
+      return static_cast<std::int32_t>(c);
+  throw UsageError(fmt::format("--pairs: no curve of {} is named \"{}\"", visible_text(file), visible_text(word)));
+}
+
+std::vector<std::array<std::int32_t, 2>> pairs_of(const IsotopyCommandOptions& options, std::span<const Curve> start,
+                                                  std::span<const Curve> end) {
+  std::vector<std::array<std::int32_t, 2>> pairs;
+  for (const std::string& pair : options.pairs) {
+    const std::size_t sign = pair.find('=');
+    if (sign == std::string::npos)
+      throw UsageError(fmt::format("--pairs: \"{}\" is no pair; write START=END, such as 0=1", visible_text(pair)));
+    pairs.push_back({curve_named(pair.substr(0, sign), start, options.start),
+                     curve_named(pair.substr(sign + 1), end, options.end)});
+  }
+  return pairs;
+}
+
+std::string how(const Isotopy& isotopy) {
+  std::string text;
+  switch (isotopy.method) {
+    case IsotopyMethod::annulus: text = "an annulus between the curves"; break;
+    case IsotopyMethod::untangled_annulus: text = "an annulus between the curves, untangled"; break;
+    case IsotopyMethod::shortening:
+      text = fmt::format("curves shortened {:.0f} % of the way to round ones", 100 * isotopy.shortened);
+      break;
+  }
+  return text + fmt::format("; in between at least {:.0f} % of the lengths and {:.0f} % of the areas are kept",
+                            100 * isotopy.length_kept, 100 * isotopy.area_kept);
+}
+
 std::string correspondence_json(const IsotopyCommandOptions& options, const Isotopy& isotopy) {
   const auto places = [](const std::vector<IsotopyPlace>& list) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -70,12 +108,17 @@ std::string correspondence_json(const IsotopyCommandOptions& options, const Isot
                                  {"version", version},
                                  {"start", options.start},
                                  {"end", options.end},
+                                 {"method", to_string(isotopy.method)},
+                                 {"shortened", isotopy.shortened},
+                                 {"length_kept", isotopy.length_kept},
+                                 {"area_kept", isotopy.area_kept},
                                  {"height", isotopy.height},
                                  {"seconds", isotopy.seconds},
                                  {"curves", nlohmann::ordered_json::array()},
                                  {"rings", nlohmann::ordered_json::array()}};
   for (std::size_t c = 0; c < isotopy.points.size(); ++c)
-    json["curves"].push_back({{"points", isotopy.points[c]},
+    json["curves"].push_back({{"becomes", isotopy.partner[c]},
+                              {"points", isotopy.points[c]},
                               {"on_start", places(isotopy.on_start[c])},
                               {"on_end", places(isotopy.on_end[c])}});
   for (const IsotopyRing& ring : isotopy.rings) json["rings"].push_back({{"time", ring.time}, {"curves", ring.curves}});
@@ -86,19 +129,25 @@ std::string correspondence_json(const IsotopyCommandOptions& options, const Isot
 
 void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
   command.add_option("START", options.start, "File with closed curves: *.svg or *.json")->required();
-  command.add_option("END", options.end, "File with as many closed curves; curve k of START becomes curve k of END")
-      ->required();
+  command.add_option("END", options.end, "File with as many closed curves")->required();
   command.add_option("-o,--output", options.folder, "Folder for the results; it must be new or empty")
       ->required()
       ->type_name("DIR");
   command
       .add_option("--points", options.points,
-                  "Points of every curve during the motion. 0: as many as START or END has, but at least 200")
+                  "Points of every curve during the motion, at least; more where they are needed. 0: 200")
       ->check(whole_number_within(0, 100000))
       ->type_name("N");
   command.add_option("--frames", options.frames, "Number of SVG files, evenly spaced in time (2 to 10000, default 25)")
       ->check(whole_number_within(2, 10000))
       ->type_name("N");
+  command
+      .add_option(
+          "--pairs", options.pairs,
+          "Which curve becomes which: START=END, numbers from 0 or names, such as 0=1,a=b. Others are paired so "
+          "that curves lie in each other alike and are near")
+      ->delimiter(',')
+      ->type_name("A=B,...");
   command.add_flag("--reverse", options.reverse, "Reverse curves of END that have the other orientation");
   command
       .add_option("--flatten", options.flatten,
@@ -123,12 +172,15 @@ void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
 int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption) {
   const std::vector<Curve> start = read_curves(options.start, options.flatten);
   std::vector<Curve> end = read_curves(options.end, options.flatten);
-  if (options.reverse)
-    for (std::size_t c = 0; c < std::min(start.size(), end.size()); ++c)
-      if (signed_area(start[c]) * signed_area(end[c]) < 0) run_backwards(end[c]);
+  IsotopyOptions wanted;
+  wanted.pairs = pairs_of(options, start, end);
+  if (options.reverse) {
+    const std::vector<std::int32_t> partner = isotopy_partners(start, end, wanted.pairs);
+    for (std::size_t c = 0; c < start.size(); ++c)
+      if (signed_area(start[c]) * signed_area(end[partner[c]]) < 0) run_backwards(end[partner[c]]);
+  }
   prepare_picture_folder(options.folder, "-o");
 
-  IsotopyOptions wanted;
   wanted.points = options.points;
   wanted.time_limit_s = options.time_limit_s;
   const Isotopy made =
@@ -158,8 +210,8 @@ int run_isotopy(const IsotopyCommandOptions& options, Interruption& interruption
   if (!options.quiet)
     tell(fmt::format(
         "{} curve{}, {} rings, {} faces; no two faces intersect, so at every time no curve crosses itself or another\n"
-        "wrote {}, {:.1f} s\n",
-        start.size(), start.size() == 1 ? "" : "s", made.rings.size(), made.surface.view().face_count(),
+        "{}\nwrote {}, {:.1f} s\n",
+        start.size(), start.size() == 1 ? "" : "s", made.rings.size(), made.surface.view().face_count(), how(made),
         visible_text(options.folder), made.seconds));
   return exit_embedded;
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "interruption.h"
 
@@ -12,6 +13,7 @@ struct IsotopyCommandOptions {
   int points = 0, frames = 25;
   double flatten = 1e-4, time_limit_s = 0;
   bool reverse = false;
+  std::vector<std::string> pairs;
   std::string progress = "auto";
   bool quiet = false;
 };

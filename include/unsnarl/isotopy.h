@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "unsnarl/curves.h"
@@ -12,9 +14,12 @@
 namespace unsnarl {
 
 struct IsotopyOptions {
-  /// Points of every curve between the first and the last ring; 0: as many as the longer of each pair, 200 at least.
-  /// At least as many as either, [16, 100000].
+  /// Points of every curve between the first and the last ring, at least, [16, 100000]; 0: 200. There are more where
+  /// curves have more points, or come so close to themselves or each other that they need more.
   int points = 0;
+  /// Numbers of a curve of the start and of the one of the end that it becomes. The others are paired so that curves
+  /// lie in each other alike on both sides, and middles are near.
+  std::vector<std::array<std::int32_t, 2>> pairs;
   double time_limit_s = 0;  ///< wall-clock seconds; 0: none
 };
 
@@ -31,9 +36,24 @@ struct IsotopyPlace {
   double fraction = 0;    ///< of it, [0, 1)
 };
 
+/// What an isotopy was made of.
+enum class IsotopyMethod : std::uint8_t {
+  annulus,            ///< an annulus between the curves that is embedded as it was laid
+  untangled_annulus,  ///< one that was untangled with every ring's height held (paper §4.5)
+  shortening,         ///< both curves were shortened on the way to be round, until an annulus between them was embedded
+};
+std::string_view to_string(IsotopyMethod method);
+
 struct Isotopy {
   /// embedded, or cancelled or time_limit with nothing else in it.
   Status status = Status::no_progress;
+  IsotopyMethod method = IsotopyMethod::annulus;
+  double shortened = 0;  ///< part of the way to round curves that was gone, [0, 1]; 0: none
+  /// How far the shapes depart in between: the least ratio of a curve's length, and of its area, to what is evenly
+  /// between those of the start and of the end.
+  double length_kept = 1, area_kept = 1;
+  /// The curve of the end that each of the start becomes. Rings have the curves in the order of the start.
+  std::vector<std::int32_t> partner;
   std::vector<IsotopyRing> rings;
   std::vector<int> points;  ///< one a curve: of the rings between
   /// One list a curve, one entry a point of the rings between.
@@ -47,16 +67,21 @@ struct Isotopy {
 };
 
 /// An isotopy in the plane between two sets of closed curves that cross neither themselves nor each other (paper §4.5):
-/// curve k of the start becomes curve k of the end. Both sides are made round by shortening them under bounds that keep
-/// all apart, then joined; of the rings only those stay that the surface needs to be embedded, which is decided by
-/// exact arithmetic. docs/isotopy.md explains how. The same input gives the same result on every run (time limits and
-/// cancellation aside).
+/// annuli between the curves in space, z being time, which are untangled while every ring keeps its height. Where that
+/// leaves intersections, both sides are first made rounder by shortening them, no farther than needed. That the surface
+/// is embedded is decided by exact arithmetic. docs/isotopy.md explains how. The same input gives the same result on
+/// every run (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument, naming the curve: for open curves, another number of curves, curves that cross, curves
-/// that run around the other way (no isotopy of the plane reverses them), curves within others, coordinates that are
-/// not finite, options out of range.
+/// that run around the other way (no isotopy of the plane reverses them), curves that lie in each other otherwise at
+/// the end than at the start (none can enter or leave another), coordinates that are not finite, options out of range.
 Isotopy planar_isotopy(std::span<const Curve> start, std::span<const Curve> end, const IsotopyOptions& options = {},
                        Context* context = nullptr);
+
+/// The curve of the end that each of the start becomes (IsotopyOptions::pairs). Throws as planar_isotopy does, but for
+/// curves that run around the other way.
+std::vector<std::int32_t> isotopy_partners(std::span<const Curve> start, std::span<const Curve> end,
+                                           std::span<const std::array<std::int32_t, 2>> pairs = {});
 
 /// The curves at a time in [0, 1]: cuts of the surface, points in order.
 std::vector<Curve> isotopy_slice(const Isotopy& isotopy, double time);

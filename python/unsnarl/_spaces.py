@@ -111,6 +111,9 @@ class Isotopy:
     """(m, 3) triangles."""
     status: Status
     """embedded; time_limit or cancelled with nothing else in it."""
+    report: dict[str, Any]
+    """method ("annulus", "untangled annulus" or "shortening"), shortened (the part of the way to round curves that was
+    gone), length_kept and area_kept (least ratio to what is evenly between start and end)."""
 
 
 def planar_isotopy(
@@ -128,7 +131,7 @@ def planar_isotopy(
     start, end
         Lists of equally many arrays (n, 2), or one array each; curve k of the start becomes curve k of the end.
     points
-        Of every curve on the way; 0: as many as the longer of both has, 200 at least.
+        Of every curve on the way, at least; 0: 200. There are more where curves have more or need more.
     time_limit
         Seconds after which to stop. 0: none.
     progress
@@ -137,7 +140,7 @@ def planar_isotopy(
     Raises
     ------
     ValueError, TypeError
-        For curves that cross, run around the other way or lie within others, naming the curve.
+        For curves that cross, run around the other way or lie in each other otherwise at the end, naming the curve.
     """
     both = [polylines_of(side, 2, "curve") for side in (start, end)]
     options = options_of(points=points, time_limit=time_limit)
@@ -145,7 +148,7 @@ def planar_isotopy(
     curves = made.polylines()
     count = len(both[0].sizes)
     rings = [curves[first : first + count] for first in range(0, len(made.array("times")) * count, count)]
-    return Isotopy(made.array("times"), rings, made.array("positions"), made.array("corners"), made.status)
+    return Isotopy(made.array("times"), rings, made.array("positions"), made.array("corners"), made.status, made.report)
 
 
 @dataclass(frozen=True)

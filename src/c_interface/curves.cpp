@@ -1,5 +1,9 @@
 #include "unsnarl/curves.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "arguments.h"
 #include "results.h"
 #include "unsnarl/isotopy.h"
@@ -39,10 +43,14 @@ unsnarl_result isotopy(const std::vector<Curve>& start, const std::vector<Curve>
   IsotopyOptions options;
   options.points = given.points;
   options.time_limit_s = given.time_limit;
+  for (std::size_t c = 0; c < std::min(start.size(), end.size()); ++c)
+    options.pairs.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(c)});
   Isotopy made = planar_isotopy(start, end, options, context);
 
   unsnarl_result result;
   result.status = to_string(made.status);
+  result.report = fmt::format(R"({{"method": "{}", "shortened": {}, "length_kept": {}, "area_kept": {}}})",
+                              to_string(made.method), made.shortened, made.length_kept, made.area_kept);
   std::vector<double> times;
   std::vector<std::vector<double>> points;
   for (const IsotopyRing& ring : made.rings) {

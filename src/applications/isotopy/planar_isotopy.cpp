@@ -1,15 +1,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <queue>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 
+#include "applications/isotopy/annulus.h"
+#include "applications/isotopy/correspondence.h"
+#include "applications/isotopy/discs.h"
+#include "applications/isotopy/pairing.h"
 #include "applications/isotopy/rings.h"
 #include "applications/isotopy/round_curves.h"
-#include "geometry/portable_math.h"
 #include "geometry/sort_unique.h"
 #include "run/run_control.h"
 #include "unsnarl/isotopy.h"
@@ -17,46 +22,25 @@
 namespace unsnarl {
 namespace {
 
-/// Points of a curve unless the caller says otherwise, at least: fewer make coarse spirals of what turns (unit: points)
+/// Points of a curve unless the caller says otherwise, at least (unit: points)
 constexpr int least_points = 200;
-constexpr double turn = 2 * std::numbers::pi;  ///< A full turn in radians (fixed by geometry)
-/// Discs that change places have at most this radius: a third for each, a third between (unit: their smallest distance
-/// on the way)
-constexpr double disc_of_distance = 1.0 / 3;
-/// Ways around that are tried for discs that would meet (unit: ways)
-constexpr int most_detours = 1000;
-/// A way around is looked for where discs come closer on the way (unit: bounding-box diagonal)
-constexpr double least_way_rel = 1e-3;
-constexpr double start_fraction = 0.3;  ///< Share of the progress when the start is round (no unit)
-constexpr double end_fraction = 0.6;    ///< Share of the progress when the end is round too (no unit)
+/// Annuli whose rings have more crossings are not untangled (unit: crossings a point of a ring)
+constexpr double most_tangles_a_point = 0.5;
+/// Curves with more points are not untangled, since an iteration takes too long (unit: points)
+constexpr Index most_points_untangled = 600;
+/// How often the part is halved by which both sides are shortened before an annulus joins them (unit: halvings)
+constexpr int join_halvings = 5;
+/// What lies in a round curve is drawn into this part of its radius (no unit)
+constexpr double contents_part = 0.4;
+constexpr double laying_share = 0.03;      ///< Share of the progress when annuli are being laid (no unit)
+constexpr double untangling_share = 0.09;  ///< Share of the progress when annuli are laid (no unit)
+constexpr double annulus_share = 0.3;      ///< Share of the progress when annuli have been tried (no unit)
+constexpr double start_share = 0.55;       ///< Share of the progress when the start is round (no unit)
+constexpr double end_share = 0.8;          ///< Share of the progress when the end is round too (no unit)
 /// The motion of all slabs together counts as this much at least (unit: bounding-box diagonal)
 constexpr double least_effort_rel = 1e-6;
 /// The time of a slab grows by this at least (unit: mean of all slabs)
 constexpr double least_time = 0.2;
-
-Vec2 point(const Curve& curve, std::size_t k) {
-  return {curve.points[2 * k], curve.points[2 * k + 1]};
-}
-
-double signed_area(const Curve& curve) {
-  double area = 0;
-  const Vec2 origin = point(curve, 0);
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    const Vec2 a = point(curve, k) - origin, b = point(curve, (k + 1) % curve.size()) - origin;
-    area += 0.5 * (a.x() * b.y() - a.y() * b.x());
-  }
-  return area;
-}
-
-bool contains(const Curve& curve, const Vec2& p) {
-  bool inside = false;
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    const Vec2 a = point(curve, k), b = point(curve, (k + 1) % curve.size());
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-      inside = !inside;
-  }
-  return inside;
-}
 
 void check_side(std::span<const Curve> curves, const char* side) {
   check_curves(curves);
@@ -72,109 +56,23 @@ void check_side(std::span<const Curve> curves, const char* side) {
                     side, at.segment_a, name_of_curve(curves[at.curve_a], at.curve_a), at.segment_b,
                     name_of_curve(curves[at.curve_b], at.curve_b)));
   }
-  for (std::size_t c = 0; c < curves.size(); ++c)
-    for (std::size_t d = 0; d < curves.size(); ++d)
-      if (c != d && contains(curves[d], point(curves[c], 0)))
-        throw std::invalid_argument(fmt::format("the {}: {} lies within {}; curves within others are not supported",
-                                                side, name_of_curve(curves[c], c), name_of_curve(curves[d], d)));
 }
 
-void check(std::span<const Curve> start, std::span<const Curve> end, const IsotopyOptions& options) {
-  if (start.empty()) throw std::invalid_argument("the start has no curves");
-  if (start.size() != end.size())
-    throw std::invalid_argument(
-        fmt::format("the start has {} curves, the end {}; curve k becomes curve k, so give equally many", start.size(),
-                    end.size()));
-  check_side(start, "start");
-  check_side(end, "end");
-  for (std::size_t c = 0; c < start.size(); ++c)
-    if (signed_area(start[c]) * signed_area(end[c]) < 0)
-      throw std::invalid_argument(fmt::format(
-          "{} of the end runs around the other way than that of the start, which no isotopy in the plane brings about; "
-          "give its points in the other order (--reverse)",
-          name_of_curve(end[c], c)));
+void check_options(const IsotopyOptions& options) {
   if (options.points != 0 && (options.points < 16 || options.points > 100000))
     throw std::invalid_argument(fmt::format("points is {}; give 16 to 100000, or 0", options.points));
-  for (const auto& side : {start, end})
-    for (std::size_t c = 0; c < side.size(); ++c)
-      if (options.points != 0 && static_cast<std::size_t>(options.points) < side[c].size())
-        throw std::invalid_argument(fmt::format("{} has {} points, more than the {} of the rings between",
-                                                name_of_curve(side[c], c), side[c].size(), options.points));
   if (!(options.time_limit_s >= 0)) throw std::invalid_argument("time_limit_s is below 0");
 }
 
-/// The curve with points inserted until it has this many: always into the longest piece.
-std::vector<IsotopyPlace> places_on(const Curve& curve, int points) {
-  const std::size_t n = curve.size();
-  std::vector<double> length(n);
-  std::vector<int> pieces(n, 1);
-  std::priority_queue<std::pair<double, std::int64_t>> longest;
-  for (std::size_t k = 0; k < n; ++k) {
-    length[k] = (point(curve, (k + 1) % n) - point(curve, k)).norm();
-    longest.emplace(length[k], -static_cast<std::int64_t>(k));
-  }
-  for (std::size_t count = n; count < static_cast<std::size_t>(points); ++count) {
-    const auto k = static_cast<std::size_t>(-longest.top().second);
-    longest.pop();
-    ++pieces[k];
-    longest.emplace(length[k] / pieces[k], -static_cast<std::int64_t>(k));
-  }
-  std::vector<IsotopyPlace> places;
-  for (std::size_t k = 0; k < n; ++k)
-    for (int i = 0; i < pieces[k]; ++i)
-      places.push_back({static_cast<std::int32_t>(k), static_cast<double>(i) / pieces[k]});
-  return places;
+void check_orientations(std::span<const Curve> start, std::span<const Curve> end,
+                        std::span<const std::int32_t> partner) {
+  for (std::size_t c = 0; c < start.size(); ++c)
+    if (signed_area(start[c]) * signed_area(end[partner[c]]) < 0)
+      throw std::invalid_argument(fmt::format(
+          "{} of the end runs around the other way than {} of the start, which no isotopy in the plane brings about; "
+          "give its points in the other order (--reverse)",
+          name_of_curve(end[partner[c]], partner[c]), name_of_curve(start[c], c)));
 }
-
-Curve with_places(const Curve& curve, const std::vector<IsotopyPlace>& places) {
-  Curve result;
-  result.closed = true;
-  for (const IsotopyPlace& place : places) {
-    const Vec2 a = point(curve, place.edge), b = point(curve, (place.edge + 1) % curve.size());
-    const Vec2 p = place.fraction == 0 ? a : Vec2((1 - place.fraction) * a + place.fraction * b);
-    result.points.insert(result.points.end(), {p.x(), p.y()});
-  }
-  return result;
-}
-
-/// A regular polygon; point k is at the angle phase + k / n turns, to the side of the curve that it stands for.
-struct Disc {
-  Vec2 middle;
-  double radius = 0, phase = 0;
-
-  Points2 polygon(Index n, double side) const {
-    Points2 p(2, n);
-    for (Index k = 0; k < n; ++k) {
-      const double angle = phase + side * turn * k / n;
-      p.col(k) = middle + radius * Vec2(portable::cos(angle), portable::sin(angle));
-    }
-    return p;
-  }
-};
-
-Disc disc_like(const Points2& p, double side) {
-  Disc disc;
-  disc.middle = p.rowwise().mean();
-  const auto n = static_cast<Index>(p.cols());
-  double x = 0, y = 0;
-  for (Index k = 0; k < n; ++k) {
-    const Vec2 d = p.col(k) - disc.middle;
-    disc.radius += d.norm() / n;
-    const double ahead = portable::atan2(d.y(), d.x()) - side * turn * k / n;
-    x += portable::cos(ahead);
-    y += portable::sin(ahead);
-  }
-  disc.phase = portable::atan2(y, x);
-  return disc;
-}
-
-/// Start or end: its curves, with the points of the rings between, and the states until all are discs.
-struct Side {
-  Polygons exact;
-  std::vector<std::vector<IsotopyPlace>> places;
-  std::vector<Polygons> states;
-  std::vector<Disc> discs;
-};
 
 Polygons polygons_of(std::span<const Curve> curves) {
   Polygons polygons;
@@ -183,199 +81,348 @@ Polygons polygons_of(std::span<const Curve> curves) {
   return polygons;
 }
 
-/// False: stopped. `backwards`: the states are to be gone through from the last to the first.
-bool make_round(std::span<const Curve> curves, std::span<const int> points, bool backwards,
-                const std::function<bool()>& stop, Side& side) {
-  side.exact = polygons_of(curves);
-  std::vector<Curve> finer;
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    side.places.push_back(places_on(curves[c], points[c]));
-    finer.push_back(with_places(curves[c], side.places[c]));
-  }
-  const CurveNet net = make_net(finer, {}, false);
-  const auto polygons_at = [&](const Points2& x) {
-    Polygons polygons;
-    for (const CurveNet::Chain& chain : net.chains) {
-      Points2& p = polygons.emplace_back(2, chain.size());
-      for (Index k = 0; k < chain.size(); ++k) p.col(k) = x.col(chain.vertices[k]);
-    }
-    return polygons;
-  };
-  std::size_t thinned = 0;  // states up to this one have been
-  const auto compact = [&](std::vector<Points2>& states) {
-    std::vector<Polygons> rings;
-    for (std::size_t k = thinned; k < states.size(); ++k) rings.push_back(polygons_at(states[k]));
-    std::vector<Points2> kept(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(thinned));
-    for (const std::size_t k : thin_out(rings, net.diagonal, backwards, [] { return false; }))
-      kept.push_back(std::move(states[thinned + k]));
-    states = std::move(kept);
-    thinned = states.size() - 1;
-  };
-  const std::vector<Points2> states = round_curves(net, net.rest, {}, stop, compact);
-  if (states.empty()) return false;
-  for (const Points2& x : states) side.states.push_back(polygons_at(x));
-  Polygons& discs = side.states.emplace_back();
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    const double direction = signed_area(curves[c]) > 0 ? 1 : -1;
-    side.discs.push_back(disc_like(side.states[side.states.size() - 2][c], direction));
-    discs.push_back(side.discs[c].polygon(points[c], direction));
-  }
-  return true;
+Polygons finer(const Polygons& exact, const std::vector<std::vector<IsotopyPlace>>& places) {
+  Polygons polygons;
+  for (std::size_t c = 0; c < exact.size(); ++c) polygons.push_back(points_at(exact[c], places[c]));
+  return polygons;
 }
 
-/// Renumbers the points of a side so that point 0 of its discs is near where it is on the other side.
-void renumber(Side& side, const std::vector<Disc>& like, std::span<const double> directions) {
-  for (std::size_t c = 0; c < like.size(); ++c) {
-    const auto n = static_cast<Index>(side.places[c].size());
-    const double ahead = directions[c] * (like[c].phase - side.discs[c].phase) / turn;
-    const Index shift = static_cast<Index>(std::lround((ahead - std::floor(ahead)) * n)) % n;
-    std::rotate(side.places[c].begin(), side.places[c].begin() + shift, side.places[c].end());
-    for (Polygons& state : side.states) {
-      const Points2 p = state[c];
-      for (Index k = 0; k < n; ++k) state[c].col(k) = p.col((k + shift) % n);
-    }
-    side.discs[c].phase += directions[c] * turn * shift / n;
+/// The same polygons, counted from another of their points on: one number a polygon.
+Polygons renumbered(const Polygons& polygons, std::span<const Index> first) {
+  Polygons made;
+  for (std::size_t c = 0; c < polygons.size(); ++c) {
+    const Points2& p = polygons[c];
+    Points2& q = made.emplace_back(2, p.cols());
+    q << p.rightCols(p.cols() - first[c]), p.leftCols(first[c]);
   }
+  return made;
 }
 
-/// The smallest distance of two middles while each moves straight.
-double smallest_distance(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < from.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const Vec2 a = from[i] - from[j], b = to[i] - to[j];
-      least = std::min(least, (a + nearest_fraction(Vec2(0, 0), a, b) * (b - a)).norm());
-    }
-  return least;
-}
+/// Start or end: its curves with the points of the rings between, and the states on the way to be round.
+struct Side {
+  std::vector<std::vector<IsotopyPlace>> places;
+  std::vector<Polygons> states;
 
-/// Inverse of the plastic number, which makes a sequence of low discrepancy (fixed by algebra)
-constexpr double plastic_ratio = 0.7548776662;
-constexpr double first_shift = 0.37;   ///< Shift of the sequence's first coordinate from disc to disc (no unit)
-constexpr double second_shift = 0.61;  ///< Shift of the sequence's second coordinate from disc to disc (no unit)
-
-/// Ways of the discs' middles from one side to the other: straight if that keeps them apart; else by way of one place
-/// each, from a sequence of low discrepancy, the try that keeps them farthest apart.
-std::vector<std::vector<Vec2>> ways(const std::vector<Disc>& from, const std::vector<Disc>& to, double diagonal) {
-  std::vector<Vec2> a, b;
-  for (const Disc& disc : from) a.push_back(disc.middle);
-  for (const Disc& disc : to) b.push_back(disc.middle);
-  if (smallest_distance(a, b) >= least_way_rel * diagonal) return {a, b};
-  std::vector<Vec2> best = a;
-  double best_distance = -1;
-  for (int k = 1; k <= most_detours; ++k) {
-    std::vector<Vec2> way;
-    for (std::size_t c = 0; c < a.size(); ++c) {
-      const double s = std::fmod((k + first_shift * static_cast<double>(c)) * std::numbers::phi, 1),
-                   t = std::fmod(k * plastic_ratio + second_shift * static_cast<double>(c), 1);
-      way.push_back(0.5 * (a[c] + b[c]) + diagonal * Vec2(s - 0.5, t - 0.5));
-    }
-    const double distance = std::min(smallest_distance(a, way), smallest_distance(way, b));
-    if (distance > best_distance) {
-      best_distance = distance;
-      best = way;
-    }
+  /// The first state in which this part of the length is gone that goes until all is round.
+  std::size_t shorter_by(double part) const {
+    const double longest = length_of(states.front()), shortest = length_of(states.back());
+    std::size_t k = 0;
+    while (k + 1 < states.size() && length_of(states[k]) > longest + part * (shortest - longest)) ++k;
+    return k;
   }
-  return {a, best, b};
-}
+};
+
+/// An annulus between a state of the start and one of the end, which is counted from other points on.
+struct Join {
+  std::size_t from = 0, to = 0;  ///< states
+  std::vector<Index> first;      ///< point of the end's curves that are point 0
+  std::vector<Polygons> rings;   ///< the states themselves included
+};
 
 class Making {
  public:
-  Making(std::span<const Curve> start, std::span<const Curve> end, const IsotopyOptions& options, Context* context)
-      : start_(start), end_(end), options_(options), control_(context, {.time_s = options.time_limit_s}) {}
-
-  Isotopy run() {
-    std::vector<double> directions;
-    for (std::size_t c = 0; c < start_.size(); ++c) {
-      const auto most = static_cast<int>(std::max(start_[c].size(), end_[c].size()));
-      made_.points.push_back(options_.points > 0 ? options_.points : std::max(most, least_points));
-      directions.push_back(signed_area(start_[c]) > 0 ? 1 : -1);
-    }
+  Making(std::span<const Curve> start, std::span<const Curve> end, std::vector<std::int32_t> partner,
+         const IsotopyOptions& options, Context* context)
+      : start_(start), options_(options), control_(context, {.time_s = options.time_limit_s}) {
+    for (const std::int32_t c : partner) end_.push_back(end[c]);
+    made_.partner = std::move(partner);
+    for (std::size_t c = 0; c < start_.size(); ++c) sides_.push_back(signed_area(start_[c]) > 0 ? 1 : -1);
+    start_exact_ = polygons_of(start_);
+    end_exact_ = polygons_of(end_);
+    parent_ = parents_of(start_);
     std::vector<Curve> all(start_.begin(), start_.end());
     all.insert(all.end(), end_.begin(), end_.end());
     made_.height = diagonal_of(all);
-    Side from, to;
-    const auto stop = [&] { return is_stopped(); };
-    control_.tell(0, "shorten");
-    if (!make_round(start_, made_.points, false, stop, from)) return given_up();
-    control_.tell(start_fraction, "shorten");
-    if (!make_round(end_, made_.points, true, stop, to)) return given_up();
-    renumber(to, from.discs, directions);
-    made_.on_start = from.places;
-    made_.on_end = to.places;
+  }
 
-    std::vector<Polygons> states = std::move(from.states);
-    join(from.discs, to.discs, directions, states);
-    states.insert(states.end(), to.states.rbegin(), to.states.rend());
-    control_.tell(end_fraction, "thin out");
-    std::vector<std::size_t> kept = thin_out(states, made_.height, false, stop);
-    if (kept.empty()) return given_up();
-    bool is_refined = true;
-    while (made_.status == Status::no_progress && is_refined) {
-      build(from, to, states, kept);
-      is_refined = refine_where_strips_meet(kept);
+  Isotopy run() {
+    if (annulus() || shortening() || control_.stopped()) {
+      if (made_.status != Status::embedded) return given_up();
+      made_.seconds = control_.seconds();
+      return std::move(made_);
     }
-    made_.seconds = control_.seconds();
-    return std::move(made_);
+    throw std::logic_error("round curves could not be joined");
   }
 
  private:
-  bool is_stopped() {
-    if (control_.stopped()) made_.status = control_.status_or(made_.status);
-    return made_.status != Status::no_progress;
-  }
   Isotopy given_up() {
     Isotopy nothing;
-    nothing.status = made_.status;
+    nothing.status = control_.status_or(Status::no_progress);
     nothing.seconds = control_.seconds();
     return nothing;
   }
-  /// Moves discs to discs; several discs shrink first, so that they can pass each other.
-  void join(std::vector<Disc> from, const std::vector<Disc>& to, std::span<const double> directions,
-            std::vector<Polygons>& states) const {
-    if (from.size() == 1) return;
-    const std::vector<std::vector<Vec2>> way = ways(from, to, made_.height);
-    double distance = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k + 1 < way.size(); ++k)
-      distance = std::min(distance, smallest_distance(way[k], way[k + 1]));
-    for (std::size_t k = 0; k < way.size(); ++k) {
-      Polygons& polygons = states.emplace_back();
-      for (std::size_t c = 0; c < from.size(); ++c) {
-        Disc disc = k + 1 < way.size() ? from[c] : to[c];
-        disc.middle = way[k][c];
-        disc.radius = std::min({from[c].radius, to[c].radius, disc_of_distance * distance});
-        polygons.push_back(disc.polygon(made_.points[c], directions[c]));
+
+  int least_count() const { return options_.points > 0 ? options_.points : least_points; }
+
+  Correspondence correspondence_of(Laying laying) const {
+    std::vector<double> first;
+    for (std::size_t c = 0; c < start_.size(); ++c)
+      first.push_back(first_fraction(start_exact_[c], end_exact_[c], laying));
+    return correspondence(start_exact_, end_exact_, first, least_count());
+  }
+
+  /// Annuli between the curves themselves: of those that are embedded the one that keeps the shapes best, else what
+  /// untangling makes of the one with the fewest intersections.
+  bool annulus() {
+    struct Try {
+      Correspondence places;
+      Annuli annuli;
+      Blend blend;
+    };
+    std::optional<Try> best;
+    double best_kept = 0;
+    for (const Laying laying : {Laying::places, Laying::directions}) {
+      const Correspondence places = correspondence_of(laying);
+      const Polygons from = finer(start_exact_, places.on_start), to = finer(end_exact_, places.on_end);
+      std::size_t points = 0;
+      for (const Points2& p : from) points += static_cast<std::size_t>(p.cols());
+      for (const Blend blend : {Blend::straight, Blend::bending}) {
+        if (control_.stopped()) return false;
+        control_.tell(laying_share, "lay annuli");
+        const std::size_t most = best ? best->annuli.tangles : static_cast<std::size_t>(most_tangles_a_point * points);
+        Annuli annuli = naive_annuli(from, to, blend, most);
+        if (annuli.tangles > most) continue;
+        const double kept = annuli.tangles == 0 ? shape_kept(annuli.rings, annuli.heights).least() : 0;
+        if (best && annuli.tangles == best->annuli.tangles && kept <= best_kept) continue;
+        best = Try{places, std::move(annuli), blend};
+        best_kept = kept;
       }
+    }
+    if (!best) return false;
+    made_.method = IsotopyMethod::annulus;
+    if (best->annuli.tangles > 0) {
+      Index points = 0;
+      for (const Points2& p : best->annuli.rings.front()) points += static_cast<Index>(p.cols());
+      if (points > most_points_untangled) return false;
+      control_.tell(untangling_share, "untangle annuli");
+      best->annuli = untangled(best->annuli, [&] { return control_.stopped(); });
+      if (best->annuli.tangles > 0) return false;
+      made_.method = IsotopyMethod::untangled_annulus;
+    }
+    made_.on_start = std::move(best->places.on_start);
+    made_.on_end = std::move(best->places.on_end);
+    std::vector<Polygons>& rings = best->annuli.rings;
+    std::vector<std::size_t> kept(rings.size());
+    std::iota(kept.begin(), kept.end(), 0);
+    // Straight ways stay the same with fewer rings.
+    if (made_.method == IsotopyMethod::annulus && best->blend == Blend::straight)
+      kept = thin_out(rings, made_.height, false, [] { return false; });
+    return finish(rings, std::move(kept));
+  }
+
+  /// Both sides are shortened toward round curves, by Grayson's theorem without end, but no farther than until an
+  /// annulus between them is embedded.
+  bool shortening() {
+    std::vector<int> count = points_needed(start_exact_, least_count());
+    const std::vector<int> at_end = points_needed(end_exact_, least_count());
+    for (std::size_t c = 0; c < count.size(); ++c) count[c] = std::max(count[c], at_end[c]);
+    Side from{even_places(start_exact_, count), {}}, to{even_places(end_exact_, count), {}};
+    control_.tell(annulus_share, "shorten");
+    if (!make_round(start_exact_, false, from)) return false;
+    control_.tell(start_share, "shorten the end");
+    if (!make_round(end_exact_, true, to)) return false;
+    control_.tell(end_share, "join");
+    made_.method = IsotopyMethod::shortening;
+    made_.shortened = 1;
+    std::optional<Join> join = joined(from, to, 1);
+    if (join) {
+      double good = 1, bad = 0;
+      for (int k = 0; k < join_halvings && !control_.stopped(); ++k) {
+        const double part = 0.5 * (good + bad);
+        std::optional<Join> earlier = joined(from, to, part);
+        (earlier ? good : bad) = part;
+        if (earlier) join = std::move(earlier);
+      }
+      made_.shortened = good;
+    } else {
+      join = joined_by_discs(from, to);
+    }
+    if (control_.stopped()) return false;
+    control_.tell(end_share, "thin out");
+    from.states.resize(join->from + 1);
+    to.states.resize(join->to + 1);
+    std::reverse(to.states.begin(), to.states.end());
+    for (Polygons& state : to.states) state = renumbered(state, join->first);
+    std::vector<Polygons> states;
+    std::vector<std::size_t> kept;
+    const auto add = [&](const std::vector<Polygons>& more, const std::vector<std::size_t>& of_them) {
+      for (const std::size_t k : of_them) kept.push_back(states.size() + k);
+      states.insert(states.end(), more.begin(), more.end());
+    };
+    std::vector<std::size_t> between(join->rings.size() - 2);
+    std::iota(between.begin(), between.end(), 0);
+    const auto stop = [&] { return control_.stopped(); };
+    add(from.states, thin_out(from.states, made_.height, false, stop));
+    add({join->rings.begin() + 1, join->rings.end() - 1}, between);
+    add(to.states, thin_out(to.states, made_.height, false, stop));
+    if (control_.stopped()) return false;
+    for (std::size_t c = 0; c < to.places.size(); ++c)
+      std::rotate(to.places[c].begin(), to.places[c].begin() + join->first[c], to.places[c].end());
+    made_.on_start = std::move(from.places);
+    made_.on_end = std::move(to.places);
+    return finish(states, std::move(kept));
+  }
+
+  /// False: stopped. `backwards`: the states are to be gone through from the last to the first.
+  bool make_round(const Polygons& exact, bool backwards, Side& side) {
+    const CurveNet net = net_of(finer(exact, side.places));
+    const auto polygons_at = [&](const Points2& x) {
+      Polygons polygons;
+      for (const CurveNet::Chain& chain : net.chains) {
+        Points2& p = polygons.emplace_back(2, chain.size());
+        for (Index k = 0; k < chain.size(); ++k) p.col(k) = x.col(chain.vertices[k]);
+      }
+      return polygons;
+    };
+    std::size_t thinned = 0;  // states up to this one have been
+    const auto compact = [&](std::vector<Points2>& states) {
+      std::vector<Polygons> rings;
+      for (std::size_t k = thinned; k < states.size(); ++k) rings.push_back(polygons_at(states[k]));
+      std::vector<Points2> kept(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(thinned));
+      for (const std::size_t k : thin_out(rings, net.diagonal, backwards, [] { return false; }))
+        kept.push_back(std::move(states[thinned + k]));
+      states = std::move(kept);
+      thinned = states.size() - 1;
+    };
+    RoundOptions options;
+    options.holds_others.assign(exact.size(), 0);
+    for (const Index parent : parent_)
+      if (parent >= 0) options.holds_others[parent] = 1;
+    const auto stop = [&] { return control_.stopped(); };
+    for (const Points2& x : round_curves(net, net.rest, options, stop, compact)) side.states.push_back(polygons_at(x));
+    return !side.states.empty();
+  }
+
+  /// The embedded annuli between the states of both sides at a part of their ways that keep the shapes best.
+  std::optional<Join> joined(const Side& from, const Side& to, double part) {
+    Join join;
+    join.from = from.shorter_by(part);
+    join.to = to.shorter_by(part);
+    double best = -1;
+    for (const Laying laying : {Laying::places, Laying::directions}) {
+      std::vector<Index> first;
+      for (std::size_t c = 0; c < start_.size(); ++c) {
+        const Points2 &p = from.states[join.from][c], &q = to.states[join.to][c];
+        first.push_back(point_near(q, first_fraction(p, q, laying)));
+      }
+      const Polygons end = renumbered(to.states[join.to], first);
+      for (const Blend blend : {Blend::straight, Blend::bending}) {
+        if (control_.stopped()) return std::nullopt;
+        Annuli annuli = naive_annuli(from.states[join.from], end, blend, 0);
+        if (annuli.tangles > 0) continue;
+        const double kept = shape_kept(annuli.rings, annuli.heights).least();
+        if (kept <= best) continue;
+        best = kept;
+        join.rings = std::move(annuli.rings);
+        join.first = first;
+      }
+    }
+    if (best < 0) return std::nullopt;
+    return join;
+  }
+
+  /// What lies in curves, which are round, is drawn into the middle of each; the states on the way are appended.
+  void draw_in(std::vector<Polygons>& states) const {
+    const auto is_within = [&](Index c, Index p) {
+      while (c >= 0 && c != p) c = parent_[c];
+      return c >= 0;
+    };
+    const auto count = static_cast<Index>(parent_.size());
+    std::vector<Index> outer{-1};  // the curves of one depth, whose contents are drawn in at once
+    while (!outer.empty()) {
+      std::vector<Index> inner;
+      for (Index c = 0; c < count; ++c)
+        if (std::find(outer.begin(), outer.end(), parent_[c]) != outer.end()) inner.push_back(c);
+      Polygons now = states.back();
+      bool moves = false;
+      for (const Index p : inner) {
+        const Disc disc = disc_within(now[p], sides_[p]);
+        double reach = 0;
+        for (Index c = 0; c < count; ++c)
+          if (c != p && is_within(c, p))
+            reach = std::max(reach, std::sqrt((now[c].colwise() - disc.middle).colwise().squaredNorm().maxCoeff()));
+        const double part = contents_part * disc.radius / reach;
+        if (!(reach > 0) || part >= 1) continue;
+        moves = true;
+        for (Index c = 0; c < count; ++c)
+          if (c != p && is_within(c, p)) now[c] = ((now[c].colwise() - disc.middle) * part).colwise() + disc.middle;
+      }
+      if (moves) states.push_back(std::move(now));
+      outer = std::move(inner);
     }
   }
 
-  /// Checks the whole surface: where triangles of a strip meet, the state halfway is kept too. Returns false if nothing
-  /// meets, or if there is no state to keep.
-  bool refine_where_strips_meet(std::vector<std::size_t>& kept) {
-    FindOptions find;
-    find.weld = Weld::none;
-    const std::vector<IntersectingPair> pairs = find_intersections(made_.surface, find);
-    if (pairs.empty()) made_.status = Status::embedded;
-    std::vector<std::size_t> halfway;
-    for (const IntersectingPair& pair : pairs)
-      for (const std::int32_t face : {pair.a, pair.b}) {
-        const auto strip = std::upper_bound(first_face_.begin(), first_face_.end(), face) - first_face_.begin() - 1;
-        // The first and the last strip lead to the exact curves, the others from one kept state to the next.
-        if (strip < 1 || static_cast<std::size_t>(strip) >= kept.size()) continue;
-        const std::size_t before = kept[strip - 1], after = kept[strip];
-        if (after - before > 1) halfway.push_back((before + after) / 2);
-      }
-    kept.insert(kept.end(), halfway.begin(), halfway.end());
-    sort_unique(kept);
-    return !halfway.empty();
+  /// From round curves to round curves by discs that pass each other.
+  Join joined_by_discs(const Side& from, const Side& to) const {
+    Join join;
+    join.from = from.states.size() - 1;
+    join.to = to.states.size() - 1;
+    std::vector<Polygons> back{to.states.back()};
+    join.rings.push_back(from.states.back());
+    draw_in(join.rings);
+    draw_in(back);
+    std::vector<Disc> discs, to_discs;
+    for (std::size_t c = 0; c < start_.size(); ++c) {
+      discs.push_back(disc_within(join.rings.back()[c], sides_[c]));
+      to_discs.push_back(disc_within(back.back()[c], sides_[c]));
+      const auto n = static_cast<Index>(back.back()[c].cols());
+      const double ahead = sides_[c] * (discs[c].phase - to_discs[c].phase) / (2 * std::numbers::pi);
+      join.first.push_back(static_cast<Index>(std::lround((ahead - std::floor(ahead)) * n)) % n);
+    }
+    const auto add = [&](const std::vector<Disc>& state) {
+      Polygons& polygons = join.rings.emplace_back();
+      for (std::size_t c = 0; c < state.size(); ++c)
+        polygons.push_back(state[c].polygon(static_cast<Index>(from.places[c].size()), sides_[c]));
+    };
+    for (const std::vector<Disc>& state : disc_ways(discs, to_discs, parent_, made_.height)) add(state);
+    for (auto state = back.rbegin(); state != back.rend(); ++state)
+      join.rings.push_back(renumbered(*state, join.first));
+    return join;
   }
 
-  void build(const Side& from, const Side& to, const std::vector<Polygons>& states,
-             const std::vector<std::size_t>& kept) {
-    std::vector<const Polygons*> rings;
+  /// Makes rings and surface of the states that are kept; where triangles of a strip meet, the state halfway is kept
+  /// too. True: the surface is embedded.
+  bool finish(const std::vector<Polygons>& states, std::vector<std::size_t> kept) {
+    made_.points.clear();
+    for (const auto& places : made_.on_start) made_.points.push_back(static_cast<int>(places.size()));
+    FindOptions find;
+    find.weld = Weld::none;
+    while (true) {
+      build(states, kept);
+      const std::vector<IntersectingPair> pairs = find_intersections(made_.surface, find);
+      if (pairs.empty()) break;
+      std::vector<std::size_t> halfway;
+      for (const IntersectingPair& pair : pairs)
+        for (const std::int32_t face : {pair.a, pair.b}) {
+          const auto strip = std::upper_bound(first_face_.begin(), first_face_.end(), face) - first_face_.begin() - 1;
+          // The first and the last strip lead to the exact curves, the others from one kept state to the next.
+          if (strip < 1 || static_cast<std::size_t>(strip) >= kept.size()) continue;
+          const std::size_t before = kept[strip - 1], after = kept[strip];
+          if (after - before > 1) halfway.push_back((before + after) / 2);
+        }
+      if (halfway.empty()) return false;
+      kept.insert(kept.end(), halfway.begin(), halfway.end());
+      sort_unique(kept);
+    }
+    std::vector<Polygons> rings;
+    std::vector<double> heights;
+    for (const IsotopyRing& ring : made_.rings) {
+      heights.push_back(ring.time);
+      Polygons& polygons = rings.emplace_back();
+      for (const std::vector<double>& p : ring.curves)
+        polygons.emplace_back(Eigen::Map<const Points2>(p.data(), 2, static_cast<Eigen::Index>(p.size() / 2)));
+    }
+    const ShapeKept shape = shape_kept(rings, heights);
+    made_.length_kept = shape.length;
+    made_.area_kept = shape.area;
+    made_.status = Status::embedded;
+    return true;
+  }
+
+  void build(const std::vector<Polygons>& states, const std::vector<std::size_t>& kept) {
+    std::vector<const Polygons*> rings{&start_exact_};
     for (const std::size_t k : kept) rings.push_back(&states[k]);
-    rings.insert(rings.begin(), &from.exact);
-    rings.push_back(&to.exact);
+    rings.push_back(&end_exact_);
     std::vector<double> effort{0};
     for (std::size_t k = 1; k < rings.size(); ++k) {
       double most = 0;
@@ -409,19 +456,46 @@ class Making {
     }
   }
 
-  std::span<const Curve> start_, end_;
+  std::span<const Curve> start_;
+  std::vector<Curve> end_;
   const IsotopyOptions& options_;
   RunControl control_;
+  Polygons start_exact_, end_exact_;
+  std::vector<Index> parent_;  // which curve of the start each lies in
+  std::vector<double> sides_;  // 1: counter-clockwise, -1
   Isotopy made_;
   std::vector<std::int32_t> first_face_;  // of each strip
 };
 
 }  // namespace
 
+std::string_view to_string(IsotopyMethod method) {
+  switch (method) {
+    case IsotopyMethod::annulus: return "annulus";
+    case IsotopyMethod::untangled_annulus: return "untangled annulus";
+    case IsotopyMethod::shortening: return "shortening";
+  }
+  return "";
+}
+
 Isotopy planar_isotopy(std::span<const Curve> start, std::span<const Curve> end, const IsotopyOptions& options,
                        Context* context) {
-  check(start, end, options);
-  return Making(start, end, options, context).run();
+  check_options(options);
+  std::vector<std::int32_t> partner = isotopy_partners(start, end, options.pairs);
+  check_orientations(start, end, partner);
+  return Making(start, end, std::move(partner), options, context).run();
+}
+
+std::vector<std::int32_t> isotopy_partners(std::span<const Curve> start, std::span<const Curve> end,
+                                           std::span<const std::array<std::int32_t, 2>> pairs) {
+  if (start.empty()) throw std::invalid_argument("the start has no curves");
+  if (start.size() != end.size())
+    throw std::invalid_argument(
+        fmt::format("the start has {} curves, the end {}; each becomes one of the end, so give equally many",
+                    start.size(), end.size()));
+  check_side(start, "start");
+  check_side(end, "end");
+  return pair_curves(start, end, pairs);
 }
 
 }  // namespace unsnarl

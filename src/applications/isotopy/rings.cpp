@@ -2,10 +2,42 @@
 
 #include <algorithm>
 
-namespace unsnarl {
-namespace {
+#include "applications/curves/crossings.h"
 
-bool strips_are_embedded(const Polygons& lower, const Polygons& upper, double height) {
+namespace unsnarl {
+
+CurveNet net_of(const Polygons& ring) {
+  std::vector<Curve> curves;
+  for (const Points2& p : ring) {
+    Curve& curve = curves.emplace_back();
+    curve.closed = true;
+    curve.points.assign(p.data(), p.data() + p.size());
+  }
+  return make_net(curves, {}, false);
+}
+
+Points2 joined_points(const Polygons& ring) {
+  Eigen::Index count = 0;
+  for (const Points2& p : ring) count += p.cols();
+  Points2 all(2, count);
+  count = 0;
+  for (const Points2& p : ring) {
+    all.middleCols(count, p.cols()) = p;
+    count += p.cols();
+  }
+  return all;
+}
+
+double height_beside(const Polygons& ring) {
+  Eigen::AlignedBox2d box;
+  for (const Points2& p : ring)
+    for (Index k = 0; k < p.cols(); ++k) box.extend(Vec2(p.col(k)));
+  return box.diagonal().norm();
+}
+
+bool strips_are_embedded(const CurveNet& net, const Polygons& lower, const Polygons& upper, double height) {
+  // Between them most that is tangled is seen at once.
+  if (!find_meetings(net, 0.5 * (joined_points(lower) + joined_points(upper))).empty()) return false;
   Surface surface;
   std::vector<Index> first;
   for (const auto& [ring, z] : {std::pair(&lower, 0.0), std::pair(&upper, height)})
@@ -19,8 +51,6 @@ bool strips_are_embedded(const Polygons& lower, const Polygons& upper, double he
   options.weld = Weld::none;
   return find_intersections(surface, options).empty();
 }
-
-}  // namespace
 
 std::vector<Rung> straight_rungs(Index n) {
   std::vector<Rung> rungs;
@@ -74,13 +104,14 @@ void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::ve
 
 std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height, bool backwards,
                                   const std::function<bool()>& stop) {
+  const CurveNet net = net_of(rings.front());
   std::vector<std::size_t> kept{0};
   std::size_t last_step = 2;
   while (kept.back() + 1 < rings.size()) {
     if (stop()) return {};
     const std::size_t at = kept.back(), most = rings.size() - 1 - at;
     const auto fits = [&](std::size_t step) {
-      return strips_are_embedded(rings[backwards ? at + step : at], rings[backwards ? at : at + step], height);
+      return strips_are_embedded(net, rings[backwards ? at + step : at], rings[backwards ? at : at + step], height);
     };
     // The search begins with the last step, since steps change little.
     std::size_t good = 1, bad = most + 1;

@@ -28,6 +28,16 @@ std::vector<Rung> rungs_of(const Isotopy& isotopy, std::size_t ring, std::size_t
 /// The triangles of a strip, appended to the corners. `lower`, `upper`: the first vertices of both polygons.
 void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::vector<std::int32_t>& corners);
 
+/// A net of closed polygons: vertex k of it is the start of segment k.
+CurveNet net_of(const Polygons& ring);
+/// The points of all polygons, one after the other.
+Points2 joined_points(const Polygons& ring);
+/// The diagonal of the polygons' bounding box: a height at which strips above them are neither flat nor long.
+double height_beside(const Polygons& ring);
+/// Whether no two triangles of the strips between two rings of polygons of as many points intersect, decided exactly.
+/// `net`: of a ring.
+bool strips_are_embedded(const CurveNet& net, const Polygons& lower, const Polygons& upper, double height);
+
 /// A subsequence of the rings, with the first and the last: from each ring the next one is as late as the strips to it
 /// are embedded, found by doubling and halving. Strips between neighbouring rings are assumed to be embedded.
 /// `backwards`: later rings are the lower ones, which decides how quads are cut. `stop`: true ends it; the result is

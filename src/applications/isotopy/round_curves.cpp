@@ -87,7 +87,10 @@ class Flow {
         break;
     }
     for (std::size_t c = 0; c < net_.chains.size(); ++c)
-      is_round_[c] ? shrink(net_.chains[c], to) : spread(net_.chains[c], to);
+      if (!is_round_[c])
+        spread(net_.chains[c], to);
+      else if (options_.holds_others[c] == 0)
+        shrink(net_.chains[c], to);
     for (Index v = 0; v < net_.vertex_count(); ++v) {
       const Vec2 move = to.col(v) - x_.col(v);
       const double allowed = options_.move_of_distance * distance_[v], wanted = move.norm();

@@ -18,6 +18,8 @@ struct RoundOptions {
   int most_steps = 200000;
   /// Curves that wait for others shrink by this factor in each step, so that they are in no one's way (no unit)
   double shrinking = 0.98;
+  /// One flag a chain: others lie in it, so that it does not shrink while it waits.
+  std::vector<std::uint8_t> holds_others;
 };
 
 /// Shortens the closed curves of a net, which are simple and disjoint, until each is convex and round. Returns their

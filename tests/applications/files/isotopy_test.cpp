@@ -35,9 +35,11 @@ Curve letter(double x = 0, double flip = 1, double y = 0) {
   return curve;
 }
 
-void expect_isotopy(const std::vector<Curve>& start, const std::vector<Curve>& end) {
-  const Isotopy made = planar_isotopy(start, end);
-  ASSERT_EQ(made.status, Status::embedded);
+Isotopy expect_isotopy(const std::vector<Curve>& start, const std::vector<Curve>& end,
+                       const IsotopyOptions& wanted = {}) {
+  Isotopy made = planar_isotopy(start, end, wanted);
+  EXPECT_EQ(made.status, Status::embedded);
+  if (made.status != Status::embedded) return made;
   FindOptions options;
   options.weld = Weld::none;
   EXPECT_TRUE(find_intersections(made.surface, options).empty());
@@ -45,7 +47,7 @@ void expect_isotopy(const std::vector<Curve>& start, const std::vector<Curve>& e
   EXPECT_EQ(made.rings.back().time, 1);
   for (std::size_t c = 0; c < start.size(); ++c) {
     EXPECT_EQ(made.rings.front().curves[c], start[c].points);
-    EXPECT_EQ(made.rings.back().curves[c], end[c].points);
+    EXPECT_EQ(made.rings.back().curves[c], end[made.partner[c]].points);
     EXPECT_EQ(made.on_start[c].size(), static_cast<std::size_t>(made.points[c]));
     EXPECT_EQ(made.on_end[c].size(), static_cast<std::size_t>(made.points[c]));
   }
@@ -54,6 +56,21 @@ void expect_isotopy(const std::vector<Curve>& start, const std::vector<Curve>& e
     EXPECT_EQ(oracle::count_crossings(isotopy_slice(made, ring.time), {}), 0U) << ring.time;
   const std::string animation = isotopy_animation_svg(made);
   EXPECT_NE(animation.find("<animate attributeName=\"points\""), std::string::npos);
+  return made;
+}
+
+/// A comb of teeth that point upward, counter-clockwise.
+Curve comb(int teeth) {
+  std::vector<double> points{0, 0, 2.0 * teeth - 1, 0};
+  for (int k = teeth - 1; k >= 0; --k) {
+    points.insert(points.end(), {2.0 * k + 1, 10, 2.0 * k, 10});
+    if (k > 0) points.insert(points.end(), {2.0 * k, 1, 2.0 * k - 1, 1});
+  }
+  return polygon(points);
+}
+
+Curve square(double x, double y, double half) {
+  return polygon({x - half, y - half, x + half, y - half, x + half, y + half, x - half, y + half});
 }
 
 std::string refusal(const std::vector<Curve>& start, const std::vector<Curve>& end) {
@@ -79,7 +96,31 @@ TEST(PlanarIsotopy, clockwise_curves_go_the_same_way) {
 
 TEST(PlanarIsotopy, locked_letters_come_apart_and_change_places) {
   expect_isotopy({letter(), letter(1, -1, 0.9)}, {letter(-3), letter(3, -1)});
-  expect_isotopy({letter(-3), letter(3)}, {letter(3), letter(-3)});
+  IsotopyOptions exchange;
+  exchange.pairs = {{0, 1}, {1, 0}};
+  const Isotopy made = expect_isotopy({letter(-3), letter(3)}, {letter(-3), letter(3)}, exchange);
+  EXPECT_EQ(made.partner, (std::vector<std::int32_t>{1, 0}));
+}
+
+TEST(PlanarIsotopy, curves_become_those_that_are_near) {
+  const Isotopy made = expect_isotopy({square(0, 0, 1), square(9, 0, 1)}, {square(9, 1, 2), square(0, 1, 2)});
+  EXPECT_EQ(made.partner, (std::vector<std::int32_t>{1, 0}));
+  EXPECT_EQ(made.method, IsotopyMethod::annulus);
+}
+
+TEST(PlanarIsotopy, what_lies_in_a_curve_stays_in_it) {
+  const std::vector<Curve> start{square(0, 0, 5), square(-2, 0, 1), square(2, 0, 1), square(20, 0, 3)};
+  IsotopyOptions exchange;
+  exchange.pairs = {{1, 2}, {2, 1}};
+  const Isotopy made = expect_isotopy(start, start, exchange);
+  EXPECT_EQ(made.partner, (std::vector<std::int32_t>{0, 2, 1, 3}));
+}
+
+TEST(PlanarIsotopy, a_comb_keeps_its_length_on_the_way_to_a_square) {
+  const Isotopy made = expect_isotopy({comb(12)}, {square(0, 0, 9)});
+  EXPECT_EQ(made.method, IsotopyMethod::annulus);
+  EXPECT_GT(made.length_kept, 0.8);
+  EXPECT_GT(made.area_kept, 0.8);
 }
 
 TEST(IsotopyFrame, curves_are_simple_as_they_are_read_back_far_from_the_origin_too) {
@@ -100,13 +141,29 @@ TEST(PlanarIsotopy, refuses_what_cannot_be) {
   EXPECT_NE(refusal({square}, {backwards}).find("runs around the other way"), std::string::npos);
   EXPECT_NE(refusal({square}, {polygon({0, 0, 1, 1, 1, 0, 0, 1})}).find("cross"), std::string::npos);
   EXPECT_NE(refusal({square}, {square, letter()}).find("equally many"), std::string::npos);
-  EXPECT_NE(refusal({letter(), polygon({-1.05, 0, -0.95, 0, -1, 0.05})}, {square, letter(9)}).find("lies within"),
+  const Curve inner = polygon({-1.05, 0, -0.95, 0, -1, 0.05});
+  EXPECT_NE(refusal({letter(), inner}, {square, letter(9)}).find("at the start 1 in none, 1 in curve 0; at the end 2"),
             std::string::npos);
+  const auto with_pairs = [&](std::vector<std::array<std::int32_t, 2>> pairs) {
+    IsotopyOptions options;
+    options.pairs = std::move(pairs);
+    try {
+      planar_isotopy(std::vector{letter(), inner}, std::vector{letter(), inner}, options);
+    } catch (const std::invalid_argument& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(with_pairs({{0, 1}}).find("only the latter lies in another curve"), std::string::npos)
+      << with_pairs({{0, 1}});
+  EXPECT_NE(with_pairs({{0, 2}}).find("a pair names curve 2 of the end, which has 2"), std::string::npos);
+  EXPECT_NE(with_pairs({{0, 0}, {0, 1}}).find("two pairs name curve 0 of the start"), std::string::npos);
   Curve open = square;
   open.closed = false;
   EXPECT_NE(refusal({open}, {square}).find("is open"), std::string::npos);
-  EXPECT_EQ(planar_isotopy(std::vector{letter()}, std::vector{square}, {.time_limit_s = 1e-9}).status,
-            Status::time_limit);
+  IsotopyOptions soon;
+  soon.time_limit_s = 1e-9;
+  EXPECT_EQ(planar_isotopy(std::vector{letter()}, std::vector{square}, soon).status, Status::time_limit);
 }
 
 }  // namespace
