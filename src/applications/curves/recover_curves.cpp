@@ -118,7 +118,9 @@ class Recovery {
             elastic_terms_.emplace_back(2 * unknown_[it.row()] + d, 2 * unknown_[c] + d, it.value());
   }
 
-  std::vector<Contact> contacts_within(double distance) const {
+  /// Contacts closer than a distance; where the ends of their segments want to move no farther than `reach` says, one a
+  /// segment, only those that are closer than the gap and that.
+  std::vector<Contact> contacts_within(double distance, const std::vector<double>& reach = {}) const {
     std::vector<Contact> result;
     const auto add = [&](Index v, const Edge& segment) {
       const auto [a, b] = segment;
@@ -134,11 +136,20 @@ class Recovery {
       result.push_back(contact);
     };
     tree_.pairs_within(distance, [&](Index i, Index j) {
+      if (!reach.empty() && are_apart(i, j, gap_ + std::max(reach[i], reach[j]))) return;
       for (const auto& [s, t] : {std::pair{i, j}, std::pair{j, i}})
         for (const Index v : net_.segments[s])
           if (owner_[v] == s) add(v, net_.segments[t]);
     });
     return result;
+  }
+
+  /// Are the boxes of two segments farther apart than this in x or in y?
+  bool are_apart(Index i, Index j, double distance) const {
+    const Vec2 a = state_.x.col(net_.segments[i][0]), b = state_.x.col(net_.segments[i][1]);
+    const Vec2 c = state_.x.col(net_.segments[j][0]), d = state_.x.col(net_.segments[j][1]);
+    return (a.cwiseMin(b) - c.cwiseMax(d)).maxCoeff() > distance ||
+           (c.cwiseMin(d) - a.cwiseMax(b)).maxCoeff() > distance;
   }
 
   void set_activations(std::vector<Contact>& contacts) const {
@@ -155,9 +166,11 @@ class Recovery {
   /// curve.
   double activation(const Contact& contact) const {
     const double to_a = along_.between(contact.vertex, contact.a), to_b = along_.between(contact.vertex, contact.b);
-    if (std::isinf(std::max(to_a, to_b)) || std::min(to_a, to_b) > options_.beside_gaps * gap_) return gap_;
+    const double room = std::min({net_.room[contact.vertex], net_.room[contact.a], net_.room[contact.b]});
+    const double gap = std::clamp(room, options_.least_room * gap_, gap_);
+    if (std::isinf(std::max(to_a, to_b)) || std::min(to_a, to_b) > options_.beside_gaps * gap_) return gap;
     const double wanted = std::max(nearest(state_.target, contact).distance, options_.least_beside_part * gap_);
-    return std::min(gap_, 0.5 * wanted);
+    return std::min(gap, 0.5 * wanted);
   }
 
   double weight_of(Index vertex) const {
@@ -211,7 +224,11 @@ class Recovery {
   double take(const Points2& wanted_move, double wanted) {
     const double largest = std::min(wanted, options_.largest_step * net_.diagonal);
     const double radius = gap_ + largest / options_.safe_part;
-    std::vector<Contact> near = contacts_within(radius);
+    std::vector<double> reach(net_.segment_count(), 0);
+    for (Index s = 0; s < net_.segment_count(); ++s)
+      for (const Index v : net_.segments[s])
+        reach[s] = std::max(reach[s], std::min(wanted_move.col(v).norm(), largest) / options_.safe_part);
+    std::vector<Contact> near = contacts_within(radius, reach);
     std::vector<double> bound(net_.vertex_count(), largest);
     for (const Contact& contact : near) {
       const double safe = options_.safe_part * contact.distance;
