@@ -135,21 +135,41 @@ class Recovery {
       if (contact.distance >= distance) return;
       result.push_back(contact);
     };
-    tree_.pairs_within(distance, [&](Index i, Index j) {
-      if (!reach.empty() && are_apart(i, j, gap_ + std::max(reach[i], reach[j]))) return;
+    const auto add_pair = [&](Index i, Index j) {
+      if (are_apart(i, j, reach.empty() ? distance : gap_ + std::max(reach[i], reach[j]))) return;
       for (const auto& [s, t] : {std::pair{i, j}, std::pair{j, i}})
         for (const Index v : net_.segments[s])
           if (owner_[v] == s) add(v, net_.segments[t]);
+    };
+    if (reach.empty()) {
+      tree_.pairs_within(distance, add_pair);
+      return result;
+    }
+    // Most segments want to move little, and meet only what is near; those that want more look around for themselves.
+    tree_.pairs_within(2 * gap_, [&](Index i, Index j) {
+      if (std::max(reach[i], reach[j]) <= gap_) add_pair(i, j);
     });
+    for (Index s = 0; s < net_.segment_count(); ++s) {
+      if (reach[s] <= gap_) continue;
+      const Vec2 a = state_.x.col(net_.segments[s][0]), b = state_.x.col(net_.segments[s][1]);
+      const Vec2 around = Vec2::Constant(gap_ + reach[s]);
+      tree_.near(a.cwiseMin(b) - around, a.cwiseMax(b) + around, [&](Index t) {
+        if (reach[t] < reach[s] || (reach[t] == reach[s] && t > s)) add_pair(std::min(s, t), std::max(s, t));
+      });
+    }
     return result;
   }
 
   /// Are the boxes of two segments farther apart than this in x or in y?
   bool are_apart(Index i, Index j, double distance) const {
-    const Vec2 a = state_.x.col(net_.segments[i][0]), b = state_.x.col(net_.segments[i][1]);
-    const Vec2 c = state_.x.col(net_.segments[j][0]), d = state_.x.col(net_.segments[j][1]);
-    return (a.cwiseMin(b) - c.cwiseMax(d)).maxCoeff() > distance ||
-           (c.cwiseMin(d) - a.cwiseMax(b)).maxCoeff() > distance;
+    const auto [a, b] = net_.segments[i];
+    const auto [c, d] = net_.segments[j];
+    const auto is_apart = [&](int axis) {
+      const auto [low, high] = std::minmax({state_.x(axis, a), state_.x(axis, b)});
+      const auto [other_low, other_high] = std::minmax({state_.x(axis, c), state_.x(axis, d)});
+      return low > other_high + distance || other_low > high + distance;
+    };
+    return is_apart(0) || is_apart(1);
   }
 
   void set_activations(std::vector<Contact>& contacts) const {

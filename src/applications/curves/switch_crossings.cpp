@@ -130,7 +130,9 @@ class Switcher {
       const bool dense = static_cast<double>(pairs.size()) > options_.dense * net_.segment_count();
       if (!dense && pass_with_growing_reach(pairs)) continue;
       // Turning loops shortens a curve each time, so that it ends.
-      if (!turn_all(stop)) return find_meetings(net_, tree_, state_.x);
+      if (turn_all(stop)) continue;
+      if (stop(pairs.size()) || round++ >= options_.jitters || !move_apart_what_nearly_touches())
+        return find_meetings(net_, tree_, state_.x);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "applications/curves/closeness.h"
 #include "applications/curves/recover_curves.h"
@@ -107,23 +108,63 @@ class CurveUntangling {
       show(0.5 * (1 - static_cast<double>(seen) / before), "untangle", seen, state);
       return control_.stopped() || (left > 0 && left <= obstructions);
     };
-    if (!options_.move_strands && before <= most_rerouted) reroute(state, stop);
-    std::vector<SegmentPair> left = switch_crossings(net_, state, switching_, stop);
-    if (left.size() > obstructions && !control_.stopped())
-      left = repel_curves(net_, state, repelling_, [&] { return control_.stopped(); });
-    if (left.size() > obstructions && !control_.stopped()) left = shrink_curves(net_, state, shrinking_);
-    if (left.size() > before) {
+    std::size_t left = before;
+    const auto is_solved = [&] { return left <= obstructions || control_.stopped(); };
+    if (!options_.move_strands && before <= most_rerouted) {
+      reroute(state, stop);
+      left = move_strands(state, stop);
+    }
+    // Where joints or fixed points bar the way after re-routing, they may not without.
+    const bool is_bad = is_worse(left, before, state);
+    if (!is_solved() || is_bad) {
+      const CurveNet rerouted = std::exchange(net_, input_);
+      CurveState other = at_rest(net_);
+      const std::size_t left_then = move_strands(other, stop);
+      if (left_then < left || is_bad) {
+        left = left_then;
+        state = std::move(other);
+      } else {
+        net_ = rerouted;
+      }
+    }
+    if (is_worse(left, before, state)) {
       net_ = input_;
       state = at_rest(net_);
       return;
     }
-    if (left.size() > obstructions || !options_.recover) return;
+    if (left > obstructions || !options_.recover) return;
     int step = 0;
     recover_curves(net_, state, options_.gap_rel * net_.diagonal, recovering_, [&] {
       show(0.5 + 0.5 * step++ / recovering_.max_steps, "recover", 0, state);
       return control_.stopped();
     });
     snap(state);
+  }
+
+  /// Moves strands past each other until nothing crosses. Returns what is left.
+  std::size_t move_strands(CurveState& state, const std::function<bool(std::size_t)>& stop) {
+    const std::size_t obstructions = result_.report.fixed.size();
+    std::vector<SegmentPair> left = switch_crossings(net_, state, switching_, stop);
+    if (left.size() > obstructions && !control_.stopped())
+      left = repel_curves(net_, state, repelling_, [&] { return control_.stopped(); });
+    if (left.size() > obstructions && !control_.stopped()) left = shrink_curves(net_, state, shrinking_);
+    return left.size();
+  }
+
+  /// More crossings than before, or a curve that crosses itself where it did not.
+  bool is_worse(std::size_t left, std::size_t before, const CurveState& state) const {
+    if (left == 0) return false;
+    if (left > before) return true;
+    const auto of_curves = [](const CurveNet& net, const Points2& x) {
+      std::vector<std::uint8_t> crosses(net.chains.size(), 0);
+      for (const SegmentPair& pair : find_meetings(net, x))
+        if (net.chain_of[pair.i] == net.chain_of[pair.j]) crosses[net.chain_of[pair.i]] = 1;
+      return crosses;
+    };
+    const std::vector<std::uint8_t> then = of_curves(input_, input_.rest), now = of_curves(net_, state.x);
+    for (std::size_t c = 0; c < now.size(); ++c)
+      if (now[c] > then[c]) return true;
+    return false;
   }
 
   /// Gives the curves points beside their crossings and joins them there in another way.

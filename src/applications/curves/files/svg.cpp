@@ -450,8 +450,11 @@ std::string SvgFile::points_of(const Shape& shape, const Piece& piece, const Cur
   const std::vector<std::ptrdiff_t> own = own_points(curves[*piece.curve], moved);
   std::string text;
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    const Vec2 local = own[i] >= 0 ? piece.path.points[static_cast<std::size_t>(own[i])]
-                                   : places.local({moved.points[2 * i], moved.points[2 * i + 1]}, shape.transform);
+    const Vec2 place(moved.points[2 * i], moved.points[2 * i + 1]);
+    const bool is_own =
+        own[i] >= 0 && places.is_read_as(place, piece.path.points[static_cast<std::size_t>(own[i])], shape.transform);
+    const Vec2 local =
+        is_own ? piece.path.points[static_cast<std::size_t>(own[i])] : places.local(place, shape.transform);
     text += fmt::format("{}{},{}", i == 0 ? "" : " ", digits_of(local.x()), digits_of(local.y()));
   }
   return text;

@@ -106,7 +106,10 @@ std::optional<Vec2> TransformedPlaces::local_of(const Vec2& read, const Affine& 
 }
 
 Vec2 TransformedPlaces::choose(const Vec2& moved, const Use& use) const {
-  if (kept_.is_kept(moved)) return moved;
+  const auto is_expressed_by = [&](const Affine& transform) { return local_of(moved, transform).has_value(); };
+  if (kept_.is_kept(moved) &&
+      (use.transforms.size() == 1 || std::all_of(use.transforms.begin(), use.transforms.end(), is_expressed_by)))
+    return moved;
   const Affine& first = use.transforms.front();
   const Vec2 near = rounded_point(into_element(moved, first), rounding_within(first, rounding_));
   Vec2 result = first(near);
@@ -119,6 +122,12 @@ Vec2 TransformedPlaces::choose(const Vec2& moved, const Use& use) const {
       return fits;
     });
   return result;
+}
+
+bool TransformedPlaces::is_read_as(const Vec2& moved, const Vec2& local, const Affine& transform) {
+  Use& use = uses_.at({moved.x(), moved.y()});
+  if (!use.read) use.read = choose(moved, use);
+  return transform(local) == *use.read;
 }
 
 Vec2 TransformedPlaces::local(const Vec2& moved, const Affine& transform) {
