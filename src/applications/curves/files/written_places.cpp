@@ -110,17 +110,22 @@ Vec2 TransformedPlaces::choose(const Vec2& moved, const Use& use) const {
   if (kept_.is_kept(moved) &&
       (use.transforms.size() == 1 || std::all_of(use.transforms.begin(), use.transforms.end(), is_expressed_by)))
     return moved;
-  const Affine& first = use.transforms.front();
-  const Vec2 near = rounded_point(into_element(moved, first), rounding_within(first, rounding_));
-  Vec2 result = first(near);
-  if (use.transforms.size() > 1)
-    look_around(near, [&](const Vec2& p) {
-      const Vec2 read = first(p);
-      const bool fits = std::all_of(use.transforms.begin() + 1, use.transforms.end(),
+  // Around the coordinates in each element, for one of these that the other elements can express too.
+  const auto near_in = [&](const Affine& transform) {
+    return rounded_point(into_element(moved, transform), rounding_within(transform, rounding_));
+  };
+  Vec2 result = use.transforms.front()(near_in(use.transforms.front()));
+  if (use.transforms.size() == 1) return result;
+  for (const Affine& base : use.transforms) {
+    const bool is_found = look_around(near_in(base), [&](const Vec2& p) {
+      const Vec2 read = base(p);
+      const bool fits = std::all_of(use.transforms.begin(), use.transforms.end(),
                                     [&](const Affine& other) { return local_of(read, other).has_value(); });
       if (fits) result = read;
       return fits;
     });
+    if (is_found) break;
+  }
   return result;
 }
 
