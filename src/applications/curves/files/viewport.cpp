@@ -18,15 +18,16 @@ struct LengthUnit {
   std::string_view name;
   double pixels;
 };
-constexpr double inch = 96;  ///< An inch (unit: px; fixed by CSS)
+constexpr double inch = 96;          ///< Length of an inch in pixels (fixed by CSS)
+constexpr double inch_in_cm = 2.54;  ///< Length of an inch in centimetres (fixed by its definition)
 constexpr std::array<LengthUnit, 8> length_units = {{{"", 1},
                                                      {"px", 1},
                                                      {"in", inch},
-                                                     {"cm", inch / 2.54},  // (fixed by geometry)
-                                                     {"mm", inch / 25.4},  // (fixed by geometry)
-                                                     {"q", inch / 101.6},  // (fixed by geometry)
-                                                     {"pt", inch / 72},    // (fixed by CSS)
-                                                     {"pc", inch / 6}}};   // (fixed by CSS)
+                                                     {"cm", inch / inch_in_cm},
+                                                     {"mm", inch / (10 * inch_in_cm)},
+                                                     {"q", inch / (40 * inch_in_cm)},
+                                                     {"pt", inch / 72},
+                                                     {"pc", inch / 6}}};
 constexpr std::array<LengthUnit, 5> angle_units = {{{"", std::numbers::pi / 180},
                                                     {"deg", std::numbers::pi / 180},
                                                     {"grad", std::numbers::pi / 200},
