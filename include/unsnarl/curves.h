@@ -84,13 +84,15 @@ struct CurveResult {
   /// embedded: nothing crosses, by exact arithmetic. obstructed: only segments that must not move do. reduced,
   /// no_progress: crossings are left. time_limit, cancelled: stopped with crossings left.
   Status status = Status::no_progress;
-  std::vector<Curve> curves;  ///< those of the input, moved; points inserted where an open curve ends on a segment
+  /// As many as in the input, open or closed as there; joined in another way at crossings and moved, with points inserted
+  /// beside crossings and where an open curve ends on a segment.
+  std::vector<Curve> curves;
   std::vector<Curve> joined;  ///< the same before anything moved: the input with its open ends joined
   CurveReport report;
 };
 
-/// Moves the points of curves in the plane as little as possible until no two segments meet but in points that they
-/// share (paper §3.1.1). Never gives back more crossings than the input has; curves without any come back unchanged.
+/// Joins curves in the plane in another way at their crossings and moves their points as little as possible until no two
+/// segments meet but in points that they share (paper §3.1.1). Never gives back more crossings than the input has; curves without any come back unchanged.
 /// The same input gives the same result on every run. docs/curves.md explains the method.
 ///
 /// Throws std::invalid_argument, naming the curve and the point, for curves with too few points, coordinates that are
