@@ -98,6 +98,7 @@ class Curves {
     wanted.gap_rel = options_.gap;
     wanted.junction_rel = options_.junction;
     wanted.fix_ends = options_.fix_ends;
+    wanted.move_strands = options_.move_strands;
     wanted.recover = !options_.no_recover;
     wanted.time_limit_s = options_.time_limit_s;
     result_ = cancellable(display_, options_.quiet, interruption_, options_.input,
@@ -173,7 +174,7 @@ class Curves {
 
   void add_report(bool is_written, StagedOutput& outputs) const {
     nlohmann::ordered_json json = {{"schema", "unsnarl-curves-report"},
-                                   {"schema_version", 2},
+                                   {"schema_version", 3},
                                    {"version", version},
                                    {"input", options_.input},
                                    {"output", is_written ? options_.output : ""}};
@@ -194,9 +195,12 @@ class Curves {
         return fmt::format("{:.2g} %{} ({:.2g})", 100 * rel, of, rel * r.diagonal);
       };
       text += fmt::format(
-          "points moved {} on average, {} at most\ndistance from the drawing of the input: {} on average, {} at most\n",
+          "points moved {} on average, {} at most\n"
+          "distance of the result from the drawing of the input: {} on average, {} at most\n"
+          "distance of the drawing from the result: {} on average, {} at most; lost: {:.2g} % of its length\n",
           length(r.displacement_mean_rel, " of the diagonal"), length(r.displacement_max_rel),
-          length(r.distance_mean_rel), length(r.distance_max_rel));
+          length(r.distance_mean_rel), length(r.distance_max_rel), length(r.drawing_distance_mean_rel),
+          length(r.drawing_distance_max_rel), 100 * r.drawing_lost);
     }
     for (std::size_t k = 0; k < std::min(r.fixed.size(), most_places); ++k)
       text +=
@@ -245,6 +249,9 @@ void add_curves_options(CLI::App& command, CurvesOptions& options) {
                   "diagonal (default 1e-9), to which flattened curves add --flatten")
       ->check(number_within(0, 0.1, unit::share_of_diagonal))
       ->type_name("NUMBER");
+  command.add_flag("--move-strands", options.move_strands,
+                   "Keep the points of every curve and their order, and move strands past each other. Default: curves "
+                   "get points beside their crossings and are joined there in another way, which keeps the drawing");
   const std::string what = "What may move";
   command
       .add_option("--fix", options.fix,

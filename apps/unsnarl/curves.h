@@ -13,6 +13,7 @@ struct CurvesOptions {
   double flatten = 1e-4, gap = 4e-3, junction = 1e-9;  ///< fractions of the diagonal
   std::vector<std::string> fix;                        ///< ids of elements, names or numbers of curves
   bool fix_ends = false;
+  bool move_strands = false;
   bool keep_partial = false, no_recover = false;
   double time_limit_s = 0;
   std::string report, picture, integrand;

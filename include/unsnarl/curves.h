@@ -52,6 +52,9 @@ struct CurveOptions {
   /// their own tolerance. [0, 0.1]
   double junction_rel = 1e-9;
   bool fix_ends = false;    ///< the ends of open curves must not move
+  /// false: curves are joined in another way at their crossings, where they get points, so that the drawing stays.
+  /// true: every curve keeps its points, in their order, and strands are moved past each other
+  bool move_strands = false;
   bool recover = true;      ///< false: stop once nothing crosses, without moving back toward the input
   double time_limit_s = 0;  ///< wall-clock seconds; 0: none
 };
@@ -62,12 +65,14 @@ struct CurveReport {
   double diagonal = 0;                                    ///< of the input's bounding box: the unit of all `_rel`
   /// How far points are from where they were in the input: mean over the length of the curves, and the largest.
   double displacement_mean_rel = 0, displacement_max_rel = 0;
-  /// How far points are from the nearest place on any curve of the input. Small where the drawing looks the same,
-  /// although a loop was turned over and its points have changed sides.
+  /// How far the result is from the nearest place of the input's drawing, all along its segments.
   double distance_mean_rel = 0, distance_max_rel = 0;
-  std::size_t turned_points = 0;      ///< points of loops that were turned over
+  /// How far the input is from the nearest place of the result's drawing, all along its segments.
+  double drawing_distance_mean_rel = 0, drawing_distance_max_rel = 0;
+  double drawing_lost = 0;            ///< share of the input's length that is farther than 0.005 from the result
+  std::size_t turned_points = 0;      ///< points that are passed backwards, or by another curve
   std::size_t moved_points = 0;       ///< points that are not bit-identical to the input
-  std::size_t inserted_points = 0;    ///< points added where an open curve ends on a segment
+  std::size_t inserted_points = 0;    ///< points added beside crossings, and where an open curve ends on a segment
   std::vector<CurveJoint> joints;     ///< in terms of the result's curves
   std::vector<CurveCrossing> before;  ///< crossings of `joined`
   std::vector<CurveCrossing> fixed;   ///< obstructions: crossings of segments that must not move
@@ -79,13 +84,15 @@ struct CurveResult {
   /// embedded: nothing crosses, by exact arithmetic. obstructed: only segments that must not move do. reduced,
   /// no_progress: crossings are left. time_limit, cancelled: stopped with crossings left.
   Status status = Status::no_progress;
-  std::vector<Curve> curves;  ///< those of the input, moved; points inserted where an open curve ends on a segment
+  /// As many as in the input, open or closed as there; joined in another way at crossings and moved, with points inserted
+  /// beside crossings and where an open curve ends on a segment.
+  std::vector<Curve> curves;
   std::vector<Curve> joined;  ///< the same before anything moved: the input with its open ends joined
   CurveReport report;
 };
 
-/// Moves the points of curves in the plane as little as possible until no two segments meet but in points that they
-/// share (paper §3.1.1). Never gives back more crossings than the input has; curves without any come back unchanged.
+/// Joins curves in the plane in another way at their crossings and moves their points as little as possible until no two
+/// segments meet but in points that they share (paper §3.1.1). Never gives back more crossings than the input has; curves without any come back unchanged.
 /// The same input gives the same result on every run. docs/curves.md explains the method.
 ///
 /// Throws std::invalid_argument, naming the curve and the point, for curves with too few points, coordinates that are

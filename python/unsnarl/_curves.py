@@ -20,8 +20,8 @@ class CurveResult:
     """What untangle_curves gives back."""
 
     curves: list[NDArray[np.float64]]
-    """Points (n, 2) of each curve, in the order of the input. Where an open curve ends on a segment of another one,
-    that has a point more."""
+    """Points (n, 2) of each curve, in the order of the input. Beside crossings, and where an open curve ends on a
+    segment, curves have more points; at crossings they are joined in another way."""
     status: Status
     """embedded, obstructed (only what must not move crosses), reduced, no_progress, time_limit or cancelled."""
     report: dict[str, Any]
@@ -51,7 +51,7 @@ def untangle_curves(
     recover: bool = True,
     progress: OnProgress = None,
 ) -> CurveResult:
-    """Moves the points of polylines in the plane as little as possible until no two segments cross or touch.
+    """Joins polylines in the plane in another way at crossings until no two segments cross or touch.
 
     Parameters
     ----------

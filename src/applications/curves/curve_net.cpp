@@ -133,6 +133,26 @@ bool closes_a_segment(const std::vector<Curve>& curves, const std::vector<CurveP
   });
 }
 
+/// The segments of the chains, and what depends on them.
+void add_segments(CurveNet& net) {
+  net.segments.clear();
+  net.chain_of.clear();
+  net.weight.assign(net.vertex_count(), 0);
+  for (std::size_t c = 0; c < net.chains.size(); ++c) {
+    CurveNet::Chain& chain = net.chains[c];
+    chain.first_segment = net.segment_count();
+    for (Index k = 0; k < chain.segment_count(); ++k) {
+      net.segments.push_back({chain.at(k), chain.at(k + 1)});
+      net.chain_of.push_back(static_cast<Index>(c));
+    }
+  }
+  for (const auto& [a, b] : net.segments) {
+    const double half = 0.5 * (net.rest.col(b) - net.rest.col(a)).norm();
+    net.weight[a] += half;
+    net.weight[b] += half;
+  }
+}
+
 }  // namespace
 
 std::string name_of_curve(const Curve& curve, std::size_t number) {
@@ -239,28 +259,20 @@ CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joi
       if (v < 0) v = count++;
   net.rest.resize(2, count);
   net.fixed.assign(count, 0);
-  net.weight.assign(count, 0);
+  net.flags.assign(count, 0);
+  net.room.assign(count, std::numeric_limits<double>::infinity());
   for (std::size_t c = 0; c < curves.size(); ++c) {
     CurveNet::Chain& chain = net.chains[c];
     for (Index k = 0; k < chain.size(); ++k) {
       const Index v = chain.vertices[k];
       net.rest.col(v) = point(curves[c], k);
-      if (!curves[c].fixed.empty() && curves[c].fixed[k]) net.fixed[v] = 1;
+      if (!curves[c].fixed.empty() && curves[c].fixed[k]) net.fixed[v] = net.flags[v] = 1;
       if (fix_ends && !chain.closed && (k == 0 || k + 1 == chain.size())) net.fixed[v] = 1;
-    }
-    chain.first_segment = net.segment_count();
-    for (Index k = 0; k < chain.segment_count(); ++k) {
-      net.segments.push_back({chain.at(k), chain.at(k + 1)});
-      net.chain_of.push_back(static_cast<Index>(c));
     }
   }
   net.pinned = net.fixed;
   for (Index v = 0; v < joined; ++v) net.pinned[v] = 1;
-  for (const auto& [a, b] : net.segments) {
-    const double half = 0.5 * (net.rest.col(b) - net.rest.col(a)).norm();
-    net.weight[a] += half;
-    net.weight[b] += half;
-  }
+  add_segments(net);
   return net;
 }
 
@@ -285,15 +297,34 @@ double ArcLengths::between(Index v, Index w) const {
   return closed[chain] ? std::min(along, length[chain] - along) : along;
 }
 
+CurveNet with_chains(CurveNet net, std::vector<std::vector<Index>> chains) {
+  for (std::size_t c = 0; c < chains.size(); ++c) net.chains[c].vertices = std::move(chains[c]);
+  add_segments(net);
+  return net;
+}
+
 std::vector<Curve> with_positions(std::span<const Curve> curves, const CurveNet& net, const Points2& x) {
-  std::vector<Curve> result(curves.begin(), curves.end());
-  for (std::size_t c = 0; c < curves.size(); ++c)
-    for (std::size_t k = 0; k < result[c].size(); ++k) {
-      const Index v = net.chains[c].vertices[k];
-      result[c].points[2 * k] = x(0, v);
-      result[c].points[2 * k + 1] = x(1, v);
+  const bool any_fixed = std::any_of(net.flags.begin(), net.flags.end(), [](std::uint8_t flag) { return flag != 0; });
+  std::vector<Curve> result;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    Curve curve{.points = {}, .closed = curves[c].closed, .fixed = {}, .name = curves[c].name};
+    curve.tolerance = curves[c].tolerance;
+    for (const Index v : net.chains[c].vertices) {
+      curve.points.insert(curve.points.end(), {x(0, v), x(1, v)});
+      if (any_fixed) curve.fixed.push_back(net.flags[v]);
     }
+    result.push_back(std::move(curve));
+  }
   return result;
+}
+
+std::vector<CurveJoint> joints_of(const CurveNet& net) {
+  std::vector<CurveJoint> places(net.vertex_count());
+  for (std::size_t c = 0; c < net.chains.size(); ++c)
+    for (Index k = 0; k < net.chains[c].size(); ++k)
+      places[net.chains[c].vertices[k]].push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(k)});
+  std::erase_if(places, [](const CurveJoint& joint) { return joint.size() < 2; });
+  return places;
 }
 
 }  // namespace unsnarl

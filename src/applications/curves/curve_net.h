@@ -37,9 +37,11 @@ struct CurveNet {
   std::vector<Chain> chains;         ///< one a curve
   std::vector<Edge> segments;        ///< two vertices, in the order of the chain; chain after chain
   std::vector<Index> chain_of;       ///< one a segment
-  std::vector<std::uint8_t> fixed;   ///< one a vertex
+  std::vector<std::uint8_t> fixed;   ///< one a vertex: must not move
+  std::vector<std::uint8_t> flags;   ///< one a vertex: fixed, and not only as an end of an open curve
   std::vector<std::uint8_t> pinned;  ///< fixed, or in more places than one: cannot change its place in a chain
   std::vector<double> weight;        ///< one a vertex: half the length of its segments at rest
+  std::vector<double> room;          ///< one a vertex: more than this cannot be kept free around it; infinite: any
   double diagonal = 0;               ///< of the bounding box at rest
 
   Index slot_of(Index segment) const { return segment - chains[chain_of[segment]].first_segment; }
@@ -80,8 +82,15 @@ std::vector<CurveJoint> joints_at_one_position(std::span<const Curve> curves, st
 /// Precondition: the points of a joint are at one position.
 CurveNet make_net(std::span<const Curve> curves, std::span<const CurveJoint> joints, bool fix_ends);
 
-/// The curves with the positions x of the net's vertices.
+/// The net with other chains of its vertices, as many and closed as before; segments and weights are made anew.
+CurveNet with_chains(CurveNet net, std::vector<std::vector<Index>> chains);
+
+/// The curves that the chains are now: with the positions x of their vertices, of which `fixed` says which the input
+/// fixes; names and tolerances as in `curves`.
 std::vector<Curve> with_positions(std::span<const Curve> curves, const CurveNet& net, const Points2& x);
+
+/// The vertices that are in several places of chains, as joints of the curves that the chains are.
+std::vector<CurveJoint> joints_of(const CurveNet& net);
 
 /// "curve 3" or its name, for messages.
 std::string name_of_curve(const Curve& curve, std::size_t number);

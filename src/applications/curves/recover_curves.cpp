@@ -118,7 +118,9 @@ class Recovery {
             elastic_terms_.emplace_back(2 * unknown_[it.row()] + d, 2 * unknown_[c] + d, it.value());
   }
 
-  std::vector<Contact> contacts_within(double distance) const {
+  /// Contacts closer than a distance; where the ends of their segments want to move no farther than `reach` says, one a
+  /// segment, only those that are closer than the gap and that.
+  std::vector<Contact> contacts_within(double distance, const std::vector<double>& reach = {}) const {
     std::vector<Contact> result;
     const auto add = [&](Index v, const Edge& segment) {
       const auto [a, b] = segment;
@@ -133,12 +135,41 @@ class Recovery {
       if (contact.distance >= distance) return;
       result.push_back(contact);
     };
-    tree_.pairs_within(distance, [&](Index i, Index j) {
+    const auto add_pair = [&](Index i, Index j) {
+      if (are_apart(i, j, reach.empty() ? distance : gap_ + std::max(reach[i], reach[j]))) return;
       for (const auto& [s, t] : {std::pair{i, j}, std::pair{j, i}})
         for (const Index v : net_.segments[s])
           if (owner_[v] == s) add(v, net_.segments[t]);
+    };
+    if (reach.empty()) {
+      tree_.pairs_within(distance, add_pair);
+      return result;
+    }
+    // Most segments want to move little, and meet only what is near; those that want more look around for themselves.
+    tree_.pairs_within(2 * gap_, [&](Index i, Index j) {
+      if (std::max(reach[i], reach[j]) <= gap_) add_pair(i, j);
     });
+    for (Index s = 0; s < net_.segment_count(); ++s) {
+      if (reach[s] <= gap_) continue;
+      const Vec2 a = state_.x.col(net_.segments[s][0]), b = state_.x.col(net_.segments[s][1]);
+      const Vec2 around = Vec2::Constant(gap_ + reach[s]);
+      tree_.near(a.cwiseMin(b) - around, a.cwiseMax(b) + around, [&](Index t) {
+        if (reach[t] < reach[s] || (reach[t] == reach[s] && t > s)) add_pair(std::min(s, t), std::max(s, t));
+      });
+    }
     return result;
+  }
+
+  /// Are the boxes of two segments farther apart than this in x or in y?
+  bool are_apart(Index i, Index j, double distance) const {
+    const auto [a, b] = net_.segments[i];
+    const auto [c, d] = net_.segments[j];
+    const auto is_apart = [&](int axis) {
+      const auto [low, high] = std::minmax({state_.x(axis, a), state_.x(axis, b)});
+      const auto [other_low, other_high] = std::minmax({state_.x(axis, c), state_.x(axis, d)});
+      return low > other_high + distance || other_low > high + distance;
+    };
+    return is_apart(0) || is_apart(1);
   }
 
   void set_activations(std::vector<Contact>& contacts) const {
@@ -155,9 +186,11 @@ class Recovery {
   /// curve.
   double activation(const Contact& contact) const {
     const double to_a = along_.between(contact.vertex, contact.a), to_b = along_.between(contact.vertex, contact.b);
-    if (std::isinf(std::max(to_a, to_b)) || std::min(to_a, to_b) > options_.beside_gaps * gap_) return gap_;
+    const double room = std::min({net_.room[contact.vertex], net_.room[contact.a], net_.room[contact.b]});
+    const double gap = std::clamp(room, options_.least_room * gap_, gap_);
+    if (std::isinf(std::max(to_a, to_b)) || std::min(to_a, to_b) > options_.beside_gaps * gap_) return gap;
     const double wanted = std::max(nearest(state_.target, contact).distance, options_.least_beside_part * gap_);
-    return std::min(gap_, 0.5 * wanted);
+    return std::min(gap, 0.5 * wanted);
   }
 
   double weight_of(Index vertex) const {
@@ -211,7 +244,11 @@ class Recovery {
   double take(const Points2& wanted_move, double wanted) {
     const double largest = std::min(wanted, options_.largest_step * net_.diagonal);
     const double radius = gap_ + largest / options_.safe_part;
-    std::vector<Contact> near = contacts_within(radius);
+    std::vector<double> reach(net_.segment_count(), 0);
+    for (Index s = 0; s < net_.segment_count(); ++s)
+      for (const Index v : net_.segments[s])
+        reach[s] = std::max(reach[s], std::min(wanted_move.col(v).norm(), largest) / options_.safe_part);
+    std::vector<Contact> near = contacts_within(radius, reach);
     std::vector<double> bound(net_.vertex_count(), largest);
     for (const Contact& contact : near) {
       const double safe = options_.safe_part * contact.distance;

@@ -19,6 +19,8 @@ struct CurveRecoverOptions {
   /// Their barrier sets in at no less than this, so that no pull can close what is opening (unit: bounding-box
   /// diagonal)
   double least_activation_rel = 1e-5;
+  /// Where vertices have little room between crossings, no less than this is kept (unit: gap)
+  double least_room = 0.1;
   /// Points of one curve that are no farther apart along it may be as near as the target wants (unit: gaps)
   double beside_gaps = 3;
   /// Half of this is where the barrier of such points sets in at least (unit: gap)

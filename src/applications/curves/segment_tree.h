@@ -20,15 +20,18 @@ class SegmentTree {
   }
 
   void refit(const Points2& x) {
-    for (Index leaf = 0; leaf < first_leaf_; ++leaf) {
-      Box box;
-      for (Index s = leaf * run; s < std::min((leaf + 1) * run, net_->segment_count()); ++s)
-        for (const Index v : net_->segments[s]) box.add(x.col(v));
-      boxes_[first_leaf_ + leaf] = box;
-    }
-    for (Index node = first_leaf_ - 1; node > 0; --node) {
-      boxes_[node] = boxes_[2 * node];
-      boxes_[node].add(boxes_[2 * node + 1]);
+    for (Index leaf = 0; leaf < first_leaf_; ++leaf) fit_leaf(x, leaf);
+    for (Index node = first_leaf_ - 1; node > 0; --node) join_children(node);
+  }
+
+  /// The same where only the ends of the segments from `first` to `last` have moved since.
+  void refit(const Points2& x, Index first, Index last) {
+    Index low = first / run, high = last / run;
+    for (Index leaf = low; leaf <= high; ++leaf) fit_leaf(x, leaf);
+    for (low += first_leaf_, high += first_leaf_; low > 1;) {
+      low /= 2;
+      high /= 2;
+      for (Index node = low; node <= high; ++node) join_children(node);
     }
   }
 
@@ -65,6 +68,17 @@ class SegmentTree {
              low.y() <= other.high.y() + distance && other.low.y() <= high.y() + distance;
     }
   };
+
+  void fit_leaf(const Points2& x, Index leaf) {
+    Box box;
+    for (Index s = leaf * run; s < std::min((leaf + 1) * run, net_->segment_count()); ++s)
+      for (const Index v : net_->segments[s]) box.add(x.col(v));
+    boxes_[first_leaf_ + leaf] = box;
+  }
+  void join_children(Index node) {
+    boxes_[node] = boxes_[2 * node];
+    boxes_[node].add(boxes_[2 * node + 1]);
+  }
 
   template <class Visit>
   void within(Index node, double distance, Visit& visit) const {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "applications/curves/touching.h"
 #include "geometry/sort_unique.h"
-#include "geometry/splitmix.h"
 
 namespace unsnarl {
 namespace {
@@ -108,11 +108,6 @@ Path straight(const Vec2& from, const Vec2& to, Index m) {
   return result;
 }
 
-/// A pseudo-random number in [-1, 1), a function of its arguments.
-double noise(std::uint64_t vertex, std::uint64_t axis, std::uint64_t round) {
-  return 2 * splitmix_number((vertex * 2 + axis) * splitmix_step + round * 0xD1B54A32D192ED03ULL) - 1;
-}
-
 class Switcher {
  public:
   Switcher(const CurveNet& net, CurveState& state, const SwitchOptions& options)
@@ -127,13 +122,17 @@ class Switcher {
 
   std::vector<SegmentPair> run(const std::function<bool(std::size_t)>& stop) {
     for (int round = 0;;) {
-      const std::vector<SegmentPair> pairs = move_apart_what_touches();
+      if (!is_drawn_in_) draw_in_what_lies_on_others(net_, tree_, state_.x, touching_);
+      is_drawn_in_ = true;
+      const std::vector<SegmentPair> pairs = move_apart_what_touches(net_, tree_, state_.x, jitter_round_, touching_);
       if (pairs.empty() && round++ < options_.jitters && move_apart_what_nearly_touches()) continue;
       if (pairs.empty() || stop(pairs.size())) return pairs;
       const bool dense = static_cast<double>(pairs.size()) > options_.dense * net_.segment_count();
       if (!dense && pass_with_growing_reach(pairs)) continue;
       // Turning loops shortens a curve each time, so that it ends.
-      if (!turn_all(stop)) return find_meetings(net_, tree_, state_.x);
+      if (turn_all(stop)) continue;
+      if (stop(pairs.size()) || round++ >= options_.jitters || !move_apart_what_nearly_touches())
+        return find_meetings(net_, tree_, state_.x);
     }
   }
 
@@ -189,74 +188,6 @@ class Switcher {
     return sums.back() - sums[begin] + sums[end - chain.size()] > 0;
   }
 
-  /// Curves that lie on each other (copies, borders of a map): the later one is drawn in a little where they touch.
-  bool inset(const std::vector<SegmentPair>& pairs) {
-    std::vector<std::uint8_t> moves(net_.vertex_count(), 0);
-    for (const SegmentPair& pair : pairs)
-      if (pair.kind == SegmentMeeting::touching && net_.chain_of[pair.i] != net_.chain_of[pair.j])
-        for (const Index v : net_.segments[std::max(pair.i, pair.j)]) moves[v] = !net_.pinned[v];
-    const Points2 old = state_.x;
-    bool any = false;
-    for (const CurveNet::Chain& chain : net_.chains) {
-      double area = 0;
-      for (Index k = 0; k < chain.size(); ++k) {
-        const Vec2 a = old.col(chain.at(k)), b = old.col(chain.at(k + 1));
-        area += a.x() * b.y() - b.x() * a.y();
-      }
-      const double inwards = chain.closed && area < 0 ? -1 : 1;
-      for (Index k = 0; k < chain.size(); ++k) {
-        const Index v = chain.vertices[k];
-        if (!moves[v]) continue;
-        const bool first = !chain.closed && k == 0, last = !chain.closed && k + 1 == chain.size();
-        const Vec2 p = old.col(v);
-        const Vec2 before = first ? Vec2(0, 0) : Vec2(p - old.col(chain.at((k + chain.size() - 1) % chain.size())));
-        const Vec2 after = last ? Vec2(0, 0) : Vec2(old.col(chain.at(k + 1)) - p);
-        const Vec2 along = before.stableNormalized() + after.stableNormalized();
-        if (along.squaredNorm() == 0) continue;
-        double length = std::max(before.norm(), after.norm());
-        if (!first && !last) length = std::min(before.norm(), after.norm());
-        const Vec2 normal = Vec2(-along.y(), along.x()).normalized();
-        state_.x.col(v) +=
-            inwards * std::min(options_.inset_rel * net_.diagonal, options_.inset_part * length) * normal;
-        any = true;
-      }
-    }
-    tree_.refit(state_.x);
-    return any;
-  }
-
-  /// Moves segments that only touch a little, so that they cross or do not: touching ones cannot be switched.
-  std::vector<SegmentPair> move_apart_what_touches() {
-    std::vector<SegmentPair> pairs = find_meetings(net_, tree_, state_.x);
-    if (!is_inset_) {
-      is_inset_ = true;
-      if (inset(pairs)) pairs = find_meetings(net_, tree_, state_.x);
-    }
-    double part = options_.jitter;
-    for (int round = 0; round < options_.jitters; ++round, part *= 10) {
-      std::vector<std::uint8_t> moves(net_.vertex_count(), 0);
-      bool any = false;
-      for (const SegmentPair& pair : pairs)
-        if (pair.kind == SegmentMeeting::touching)
-          for (const Index s : {pair.i, pair.j})
-            for (const Index v : net_.segments[s])
-              if (!net_.pinned[v]) {
-                moves[v] = 1;
-                any = true;
-              }
-      if (!any) break;
-      for (Index v = 0; v < net_.vertex_count(); ++v) {
-        if (!moves[v]) continue;
-        const double length = std::max(net_.weight[v], options_.least_jitter_rel * net_.diagonal);
-        state_.x.col(v) += part * length * Vec2(noise(v, 0, jitter_round_), noise(v, 1, jitter_round_));
-      }
-      ++jitter_round_;
-      tree_.refit(state_.x);
-      pairs = find_meetings(net_, tree_, state_.x);
-    }
-    return pairs;
-  }
-
   /// Widens gaps of a few units in the last place, which recovery could not open and a file could not hold.
   bool move_apart_what_nearly_touches() {
     const double least = options_.least_gap_rel * net_.diagonal;
@@ -269,7 +200,7 @@ class Switcher {
     if (!any) return false;
     for (Index v = 0; v < net_.vertex_count(); ++v)
       if (moves[v])
-        state_.x.col(v) += options_.gap_jitter * least * Vec2(noise(v, 0, jitter_round_), noise(v, 1, jitter_round_));
+        state_.x.col(v) += options_.gap_jitter * least * jitter_of(static_cast<std::uint64_t>(v), jitter_round_);
     ++jitter_round_;
     tree_.refit(state_.x);
     return true;
@@ -589,6 +520,23 @@ class Switcher {
     }
   }
 
+  /// The tree, after vertices of the run have moved, which no other curve shares.
+  void refit(const Run& run) {
+    if (run.count == 0) return;
+    const CurveNet::Chain& chain = net_.chains[run.chain];
+    const Index last = chain.first_segment + chain.segment_count() - 1;
+    const Index begin = (run.begin - 1 + chain.size()) % chain.size(), end = begin + run.count;
+    if (!chain.closed) {
+      tree_.refit(state_.x, chain.first_segment + std::max(Index{0}, run.begin - 1),
+                  std::min(last, chain.first_segment + run.begin + run.count - 1));
+    } else if (end < chain.size()) {
+      tree_.refit(state_.x, chain.first_segment + begin, chain.first_segment + end);
+    } else {
+      tree_.refit(state_.x, chain.first_segment + begin, last);
+      tree_.refit(state_.x, chain.first_segment, std::min(last, chain.first_segment + end - chain.size()));
+    }
+  }
+
   /// Makes a move. Returns false and changes nothing if it would remove no crossing; `forced`: it is made nevertheless.
   bool make(const Move& move, bool forced = false) {
     const std::size_t before = count_meetings(changed_segments(move, false));
@@ -599,11 +547,13 @@ class Switcher {
       place(move.a, move.way_a, move.kind == Move::Kind::exchange);
       place(move.b, move.way_b, move.kind == Move::Kind::exchange);
     }
-    tree_.refit(state_.x);
+    refit(move.a);
+    refit(move.b);
     if (forced || count_meetings(changed_segments(move, true)) < before) return true;
     put(move.a, old_a);
     put(move.b, old_b);
-    tree_.refit(state_.x);
+    refit(move.a);
+    refit(move.b);
     return false;
   }
 
@@ -617,7 +567,7 @@ class Switcher {
         if (i % 256 == 0 && stop(0)) return false;
         for (std::optional<Run> run = loop_at(i); run; run = loop_at(i)) {
           reorder(*run, {{0, run->count, true}}, content_of(*run));
-          tree_.refit(state_.x);
+          refit(*run);
           any = changed = true;
         }
       }
@@ -647,11 +597,12 @@ class Switcher {
   const CurveNet& net_;
   CurveState& state_;
   const SwitchOptions& options_;
+  TouchingOptions touching_;
   SegmentTree tree_;
   std::vector<std::uint8_t> touched_;              // in this pass; one a vertex
   std::vector<std::vector<Index>> pinned_before_;  // of each chain: pinned vertices before each slot
   std::uint64_t jitter_round_ = 0;
-  bool is_inset_ = false;
+  bool is_drawn_in_ = false;
   Index reach_ = 0;  // vertices that a move may change, at most
 };
 

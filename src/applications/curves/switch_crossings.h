@@ -22,15 +22,7 @@ struct SwitchOptions {
   double dense = 3;
   /// Another numbering of a curve is judged at this many of its points [E192] [E193] (unit: points)
   Index renumber_samples = 400;
-  /// A curve that lies on another one is drawn in by this, a quarter of the default gap (unit: bounding-box diagonal)
-  double inset_rel = 1e-3;
-  /// A curve is drawn in by no more than this (unit: the shorter segment beside the point)
-  double inset_part = 0.25;
-  /// Tries of moving touching segments apart, each ten times as far as the one before (unit: tries)
-  int jitters = 5;
-  double jitter = 1e-7;  ///< Motion of the first try (unit: length of the segment)
-  /// Shorter segments count as this long in these tries (unit: bounding-box diagonal)
-  double least_jitter_rel = 1e-6;
+  int jitters = 5;  ///< Tries of moving apart what nearly touches (unit: tries)
   /// Curves that are closer than this are moved apart (unit: bounding-box diagonal)
   double least_gap_rel = 1e-8;
   /// Such curves are moved apart by this many times as much (unit: least_gap_rel)

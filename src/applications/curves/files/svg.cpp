@@ -11,10 +11,11 @@
 
 #include "applications/curves/files/curve_file.h"
 #include "applications/curves/files/path_data.h"
+#include "applications/curves/files/style_sheet.h"
+#include "applications/curves/files/viewport.h"
 #include "applications/curves/files/written_places.h"
 #include "io/text_edits.h"
 #include "io/xml_text.h"
-#include "text/read_number.h"
 #include "unsnarl/depth_limit.h"
 
 namespace unsnarl {
@@ -88,19 +89,6 @@ std::size_t end_tag_of(std::string_view text, std::size_t at) {
   return at;
 }
 
-bool hides(const pugi::xml_node& node) {
-  const std::string_view style = node.attribute("style").value();
-  const std::size_t at = style.find("display");
-  return std::string_view(node.attribute("display").value()) == "none" ||
-         (at != std::string_view::npos && style.substr(at, 14).find("none") != std::string_view::npos);
-}
-
-bool has_css_transform(std::string_view style) {
-  for (std::size_t at = style.find("transform"); at != std::string_view::npos; at = style.find("transform", at + 1))
-    if (at == 0 || style[at - 1] != '-') return true;
-  return false;
-}
-
 /// One subpath of an element.
 struct Piece {
   Subpath path;
@@ -108,7 +96,8 @@ struct Piece {
 };
 
 struct Shape {
-  std::string kind;
+  std::string kind;      ///< name of the element; of a <use> "use"
+  std::string style;     ///< of a <use>: the attributes that the path in its place takes from the element that it shows
   std::size_t name = 0;  ///< where its name is in the text
   std::string data;      ///< of a path
   Affine transform;
@@ -130,6 +119,8 @@ class SvgFile final : public CurveFile {
   bool is_moved(const Piece& piece, std::span<const Curve> moved) const;
   std::string path_of(const Shape& shape, std::span<const Curve> moved, TransformedPlaces& places) const;
   std::string points_of(const Shape& shape, const Piece& piece, const Curve& moved, TransformedPlaces& places) const;
+  void replace_use(const Shape& shape, const std::string& data,
+                   const std::map<std::string, Attribute, std::less<>>& attributes, std::vector<TextEdit>& edits) const;
 };
 
 class SvgParser {
@@ -152,10 +143,12 @@ class SvgParser {
     const pugi::xml_node root = document.document_element();
     if (local_name(root) != "svg")
       throw FileError(fmt::format("the root element is <{}>; an SVG file has <svg>", root.name()));
+    std::vector<std::string> unknown;
+    read_styles(root, unknown);
     if (flatten <= 0) {
       // Twice: the diagonal, on which the tolerance depends, is that of the curves themselves.
       flatten_ = std::numeric_limits<double>::infinity();
-      visit(root, {}, true);
+      visit(root, {}, {}, true);
       flatten = flatten_rel_ * diagonal_of(file_.curves);
       file_.curves.clear();
       file_.ids.clear();
@@ -164,17 +157,29 @@ class SvgParser {
       skipped_.clear();
     }
     file_.flatten = flatten_ = flatten > 0 ? flatten : flatten_rel_;
-    visit(root, {}, true);
+    visit(root, {}, {}, true);
     for (const auto& [name, count] : skipped_)
       file_.notes.push_back(fmt::format("{} <{}> {} left as {}", count, name,
                                         count == 1 ? "element is" : "elements are", count == 1 ? "it is" : "they are"));
+    for (const std::string& what : unknown)
+      file_.notes.push_back(fmt::format("the style rule '{}' is not understood; it is ignored", what));
   }
 
  private:
-  static std::string_view local_name(const pugi::xml_node& node) {
-    const std::string_view name = node.name();
-    const std::size_t colon = name.find(':');
-    return colon == std::string_view::npos ? name : name.substr(colon + 1);
+  void read_styles(const pugi::xml_node& node, std::vector<std::string>& unknown) {
+    if (local_name(node) == "style") {
+      const std::string_view type = node.attribute("type").value();
+      std::string text;
+      for (const pugi::xml_node& child : node.children()) text += child.value();
+      if (type.empty() || type == "text/css") styles_.add(text, unknown);
+      return;
+    }
+    for (const pugi::xml_node& child : node.children())
+      if (child.type() == pugi::node_element) {
+        read_styles(child, unknown);
+        if (const std::string_view id = child.attribute("id").value(); !id.empty())
+          by_id_.emplace(std::string(id), child);
+      }
   }
 
   std::string place_of(const pugi::xml_node& node) const {
@@ -184,49 +189,109 @@ class SvgParser {
                       : fmt::format("<{}> '{}' on line {}", node.name(), id, line);
   }
 
-  void visit(const pugi::xml_node& node, const Affine& outer, bool is_root) {
+  /// What elements take from those around them.
+  struct Surroundings {
+    Affine transform;
+    Viewport viewport;
+    bool is_visible = true;
+  };
+
+  /// What is not understood is left as it is, with all within it, and noted.
+  void visit(const pugi::xml_node& node, const Affine& outer, const Viewport& viewport, bool is_root) {
+    visit(node, Surroundings{outer, viewport, true}, is_root);
+  }
+  void visit(const pugi::xml_node& node, const Surroundings& around, bool is_root) {
     const std::string_view name = local_name(node);
     for (const char* const aside : {"defs", "symbol", "clipPath", "mask", "marker", "pattern", "linearGradient",
                                     "radialGradient", "filter", "metadata", "style", "script", "title", "desc"})
       if (name == aside) return;
-    if (hides(node)) return;
-    for (const char* const other : {"use", "text", "image", "foreignObject"})
+    if (styles_.declared(node, "display") == "none") return;
+    for (const char* const other : {"text", "image", "foreignObject"})
       if (name == other) {
         ++skipped_[other];
         return;
       }
-    Affine transform = outer;
     try {
-      if (name == "svg" && !is_root)
-        for (const char* const placing : {"x", "y", "viewBox"})
-          if (node.attribute(placing))
-            throw FileError(
-                fmt::format("an inner <svg> with {} has coordinates of its own, which is not supported; "
-                            "make it a <g> with a transform",
-                            placing));
-      if (has_css_transform(node.attribute("style").value()) || node.attribute("transform-origin"))
-        throw FileError("transforms in CSS are not supported; use the attribute 'transform'");
-      if (node.attribute("transform")) transform = outer * parse_transform(node.attribute("transform").value());
-      if (is_shape(name) && has_percentages(node)) {
-        ++skipped_[fmt::format("{} in %", name)];
-      } else if (is_shape(name)) {
-        if (!transform.is_invertible())
-          throw FileError("its transforms flatten the plane, so its coordinates cannot be computed");
-        add_shape(node, std::string(name), transform);
+      const Surroundings within = surroundings_within(node, around, is_root);
+      if (name == "use") {
+        add_use(node, within);
+      } else if (is_shape(name)) {  // shapes within it are not drawn
+        if (is_background(node)) {
+          ++skipped_[fmt::format("{} in %", name)];
+        } else if (within.is_visible) {
+          add_shape(node, node, std::string(name), within, {});
+        }
+      } else {
+        for (const pugi::xml_node& child : node.children())
+          if (child.type() == pugi::node_element) visit(child, within, false);
       }
     } catch (const FileError& e) {
-      throw FileError(fmt::format("{}: {}", place_of(node), e.what()));
+      file_.notes.push_back(fmt::format("{} is left as it is: {}", place_of(node), e.what()));
     }
-    if (is_shape(name)) return;  // shapes within it are not drawn
-    for (const pugi::xml_node& child : node.children())
-      if (child.type() == pugi::node_element) visit(child, transform, false);
   }
 
-  /// Parts of the page, mostly a background.
-  static bool has_percentages(const pugi::xml_node& node) {
-    for (const char* const measure : measures)
-      if (std::string_view(node.attribute(measure).value()).ends_with('%')) return true;
-    return false;
+  Surroundings surroundings_within(const pugi::xml_node& node, const Surroundings& around, bool is_root) const {
+    Surroundings within = around;
+    if (const std::string visibility = styles_.declared(node, "visibility"); !visibility.empty())
+      within.is_visible = visibility == "visible" || (visibility == "inherit" && around.is_visible);
+    within.transform = around.transform * transform_of(node, around.viewport);
+    if (local_name(node) == "svg") {
+      if (is_root) {
+        try {
+          within.viewport = viewport_of(node, around.viewport);
+        } catch (const FileError&) {  // only percentages need it
+        }
+      } else {
+        within.transform = within.transform * placing_of(node, around.viewport);
+        within.viewport = viewport_of(node, around.viewport);
+      }
+    }
+    return within;
+  }
+
+  /// The property of CSS, which overrides the attribute, about its origin.
+  Affine transform_of(const pugi::xml_node& node, const Viewport& viewport) const {
+    for (const char* const single : {"translate", "rotate", "scale", "offset-path"})
+      if (const std::string value = styles_.declared_in_css(node, single); !value.empty() && value != "none")
+        throw FileError(fmt::format("the property '{}' of CSS is not supported; use 'transform'", single));
+    const std::string in_css = styles_.declared_in_css(node, "transform");
+    Affine transform;
+    if (!in_css.empty()) {
+      transform = parse_css_transform(in_css, viewport);
+    } else if (node.attribute("transform")) {
+      transform = parse_transform(node.attribute("transform").value());
+    }
+    const std::string origin = styles_.declared(node, "transform-origin");
+    if (origin.empty() || transform.is_identity()) return transform;
+    const std::string box = styles_.declared(node, "transform-box");
+    if (!box.empty() && box != "view-box") throw FileError(fmt::format("transform-box: {} is not supported", box));
+    return about_origin(transform, origin, viewport);
+  }
+
+  /// The page itself.
+  static bool is_background(const pugi::xml_node& node) {
+    return local_name(node) == "rect" && std::string_view(node.attribute("width").value()) == "100%" &&
+           std::string_view(node.attribute("height").value()) == "100%";
+  }
+
+  /// A <use> of a shape is that shape in another place; when it moves, a group with a path takes its place.
+  void add_use(const pugi::xml_node& node, const Surroundings& within) {
+    std::string_view target = node.attribute("href").value();
+    if (target.empty()) target = node.attribute("xlink:href").value();
+    const auto found = target.starts_with('#') ? by_id_.find(target.substr(1)) : by_id_.end();
+    if (found == by_id_.end() || !is_shape(local_name(found->second))) {
+      ++skipped_["use"];
+      return;
+    }
+    const pugi::xml_node& shown = found->second;
+    if (styles_.declared(shown, "display") == "none") return;
+    Surroundings place = surroundings_within(shown, {Affine(), within.viewport, within.is_visible}, false);
+    if (!place.is_visible) return;
+    Affine moved;
+    moved.offset = {length(node, "x", within.viewport), length(node, "y", within.viewport)};
+    const Affine inner = moved * place.transform;
+    place.transform = within.transform;
+    add_shape(node, shown, "use", place, inner);
   }
 
   static bool is_shape(std::string_view name) {
@@ -235,48 +300,74 @@ class SvgParser {
     return false;
   }
 
-  static double length(const pugi::xml_node& node, const char* name) {
-    std::string_view text = node.attribute(name).value();
-    if (text.empty()) return 0;
-    double value = 0;
-    const auto [end, error] = read_number(text.data(), text.data() + text.size(), value);
-    std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
-    if (error != std::errc{} || !std::isfinite(value) || (!unit.empty() && unit != "px"))
-      throw FileError(
-          fmt::format("{}=\"{}\": give a plain number (units other than px are not supported)", name, text));
-    return value;
+  static double length(const pugi::xml_node& node, const char* name, const Viewport& viewport) {
+    const std::string_view text = node.attribute(name).value(), key = name;
+    if (text.empty() || text == "auto") return 0;
+    const bool across = key.starts_with('x') || key == "cx" || key == "width" || key == "rx";
+    const bool up = key.starts_with('y') || key == "cy" || key == "height" || key == "ry";
+    try {
+      return parse_length(text, viewport.whole(across ? 'x' : up ? 'y' : 'r'));
+    } catch (const FileError& e) {
+      throw FileError(fmt::format("{}=\"{}\": {}", name, text, e.what()));
+    }
   }
 
-  void add_shape(const pugi::xml_node& node, const std::string& kind, const Affine& transform) {
+  /// What the element `shown` draws, at `node`: itself, or a <use> of it, in whose coordinates `inner` puts it.
+  void add_shape(const pugi::xml_node& node, const pugi::xml_node& shown, const std::string& kind,
+                 const Surroundings& place, const Affine& inner) {
+    for (const char* const measure : measures)
+      if (!styles_.declared_in_css(shown, measure).empty())
+        throw FileError(fmt::format("'{}' in CSS is not supported; use the attribute", measure));
+    const Affine whole = place.transform * inner;
+    if (!whole.is_invertible())
+      throw FileError("its transforms flatten the plane, so its coordinates cannot be computed");
     Shape shape{.kind = kind,
+                .style = {},
                 .name = static_cast<std::size_t>(node.offset_debug()),
                 .data = {},
-                .transform = transform,
+                .transform = place.transform,
                 .pieces = {}};
-    const double tolerance = flatten_ / std::max(transform.scale(), least_scale);
+    const double tolerance = flatten_ / std::max(whole.scale(), least_scale);
+    const std::string_view drawn = local_name(shown);
     std::vector<Subpath> paths;
-    if (kind == "path") {
-      shape.data = node.attribute("d").value();
+    if (drawn == "path") {
+      shape.data = shown.attribute("d").value();
       paths = parse_path_data(shape.data, tolerance);
-    } else if (kind == "polyline" || kind == "polygon") {
-      const std::vector<double> numbers = parse_number_list(node.attribute("points").value());
+    } else if (drawn == "polyline" || drawn == "polygon") {
+      const std::vector<double> numbers = parse_number_list(shown.attribute("points").value());
       if (numbers.size() % 2 != 0)
         throw FileError(fmt::format("points holds {} numbers; give x and y of each point", numbers.size()));
       Subpath path;
       for (std::size_t k = 0; k < numbers.size(); k += 2) path.points.emplace_back(numbers[k], numbers[k + 1]);
-      path.closed = kind == "polygon";
+      path.closed = drawn == "polygon";
       paths.push_back(std::move(path));
     } else {
       // By the path that SVG says they are (SVG 1.1, §9).
-      const std::string data = data_of_shape(node, kind);
+      const std::string data = data_of_shape(shown, drawn, place.viewport);
       if (!data.empty()) paths = parse_path_data(data, tolerance);
     }
+    for (Subpath& path : paths) {
+      for (Vec2& p : path.points) p = inner(p);
+      path.start = inner(path.start);
+    }
+    if (kind == "use") shape.style = attributes_besides_geometry(shown);
     for (Subpath& path : paths) add_piece(node, std::move(path), paths.size() > 1, shape);
     file_.shapes.push_back(std::move(shape));
   }
 
-  static std::string data_of_shape(const pugi::xml_node& node, const std::string& kind) {
-    const auto get = [&](const char* name) { return length(node, name); };
+  /// The attributes of a shape that say nothing of where it is, as they are in the text.
+  std::string attributes_besides_geometry(const pugi::xml_node& shape) const {
+    std::string result;
+    for (const auto& [key, attribute] : attributes_of(file_.bytes, static_cast<std::size_t>(shape.offset_debug()))) {
+      const bool is_place = key == "id" || key == "d" || key == "points" || key == "transform" ||
+                            std::find(measures.begin(), measures.end(), key) != measures.end();
+      if (!is_place) result += ' ' + file_.bytes.substr(attribute.begin, attribute.end - attribute.begin);
+    }
+    return result;
+  }
+
+  static std::string data_of_shape(const pugi::xml_node& node, std::string_view kind, const Viewport& viewport) {
+    const auto get = [&](const char* name) { return length(node, name, viewport); };
     if (kind == "line") return fmt::format("M{} {}L{} {}", get("x1"), get("y1"), get("x2"), get("y2"));
     if (kind == "rect") {
       const double x = get("x"), y = get("y"), w = get("width"), h = get("height");
@@ -327,6 +418,8 @@ class SvgParser {
 
   SvgFile& file_;
   double flatten_rel_, flatten_ = 0;
+  StyleSheet styles_;
+  std::map<std::string, pugi::xml_node, std::less<>> by_id_;
   std::map<std::string, int> skipped_;
 };
 
@@ -357,8 +450,11 @@ std::string SvgFile::points_of(const Shape& shape, const Piece& piece, const Cur
   const std::vector<std::ptrdiff_t> own = own_points(curves[*piece.curve], moved);
   std::string text;
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    const Vec2 local = own[i] >= 0 ? piece.path.points[static_cast<std::size_t>(own[i])]
-                                   : places.local({moved.points[2 * i], moved.points[2 * i + 1]}, shape.transform);
+    const Vec2 place(moved.points[2 * i], moved.points[2 * i + 1]);
+    const bool is_own =
+        own[i] >= 0 && places.is_read_as(place, piece.path.points[static_cast<std::size_t>(own[i])], shape.transform);
+    const Vec2 local =
+        is_own ? piece.path.points[static_cast<std::size_t>(own[i])] : places.local(place, shape.transform);
     text += fmt::format("{}{},{}", i == 0 ? "" : " ", digits_of(local.x()), digits_of(local.y()));
   }
   return text;
@@ -368,7 +464,7 @@ std::string SvgFile::path_of(const Shape& shape, std::span<const Curve> moved, T
   std::string text;
   for (const Piece& piece : shape.pieces) {
     if (!text.empty()) text += ' ';
-    if (is_moved(piece, moved)) {
+    if (piece.curve && (is_moved(piece, moved) || shape.kind == "use")) {
       text += "M " + points_of(shape, piece, moved[*piece.curve], places);
       if (moved[*piece.curve].closed) text += " Z";
     } else {
@@ -382,11 +478,37 @@ std::string SvgFile::path_of(const Shape& shape, std::span<const Curve> moved, T
   return text;
 }
 
+/// A <use> becomes a group with a path: the attributes that do not say what it shows are those of the group.
+void SvgFile::replace_use(const Shape& shape, const std::string& data,
+                          const std::map<std::string, Attribute, std::less<>>& attributes,
+                          std::vector<TextEdit>& edits) const {
+  const std::size_t colon = bytes.find_first_of(": \t\r\n/>", shape.name);
+  const std::size_t name = bytes[colon] == ':' ? colon + 1 : shape.name;
+  const std::string prefix = bytes.substr(shape.name, name - shape.name);
+  edits.push_back({name, name + shape.kind.size(), "g"});
+  std::size_t behind = name + shape.kind.size();
+  for (const auto& [key, attribute] : attributes) {
+    behind = std::max(behind, attribute.end);
+    for (const char* const showing : {"href", "xlink:href", "x", "y", "width", "height"})
+      if (key == showing) edits.push_back({attribute.begin - 1, attribute.end, ""});
+  }
+  const std::string path = fmt::format("<{}path{} d=\"{}\"/>", prefix, shape.style, data);
+  const std::size_t tag_end = bytes.find('>', behind);
+  if (bytes[tag_end - 1] == '/') {
+    edits.push_back({tag_end - 1, tag_end + 1, fmt::format(">{}</{}g>", path, prefix)});
+  } else {
+    edits.push_back({tag_end + 1, tag_end + 1, path});
+    const std::size_t at = end_tag_of(bytes, tag_end) + 2 + prefix.size();
+    edits.push_back({at, at + shape.kind.size(), "g"});
+  }
+}
+
 std::string SvgFile::patched(std::span<const Curve> moved, double rounding) const {
   TransformedPlaces places(curves, moved, rounding);
   for (const Shape& shape : shapes)
     for (const Piece& piece : shape.pieces)
-      for (std::size_t k = 0; is_moved(piece, moved) && k < moved[*piece.curve].size(); ++k)
+      for (std::size_t k = 0;
+           piece.curve && (is_moved(piece, moved) || shape.kind == "use") && k < moved[*piece.curve].size(); ++k)
         places.expect({moved[*piece.curve].points[2 * k], moved[*piece.curve].points[2 * k + 1]}, shape.transform);
   std::vector<TextEdit> edits;
   for (const Shape& shape : shapes) {
@@ -397,6 +519,10 @@ std::string SvgFile::patched(std::span<const Curve> moved, double rounding) cons
     if (shape.kind == "path") {
       const Attribute& d = attributes.find("d")->second;
       edits.push_back({d.value_begin, d.value_end, path_of(shape, moved, places)});
+      continue;
+    }
+    if (shape.kind == "use") {
+      replace_use(shape, path_of(shape, moved, places), attributes, edits);
       continue;
     }
     const Piece& piece = shape.pieces[0];

@@ -106,19 +106,33 @@ std::optional<Vec2> TransformedPlaces::local_of(const Vec2& read, const Affine& 
 }
 
 Vec2 TransformedPlaces::choose(const Vec2& moved, const Use& use) const {
-  if (kept_.is_kept(moved)) return moved;
-  const Affine& first = use.transforms.front();
-  const Vec2 near = rounded_point(into_element(moved, first), rounding_within(first, rounding_));
-  Vec2 result = first(near);
-  if (use.transforms.size() > 1)
-    look_around(near, [&](const Vec2& p) {
-      const Vec2 read = first(p);
-      const bool fits = std::all_of(use.transforms.begin() + 1, use.transforms.end(),
+  const auto is_expressed_by = [&](const Affine& transform) { return local_of(moved, transform).has_value(); };
+  if (kept_.is_kept(moved) &&
+      (use.transforms.size() == 1 || std::all_of(use.transforms.begin(), use.transforms.end(), is_expressed_by)))
+    return moved;
+  // Around the coordinates in each element, for one of these that the other elements can express too.
+  const auto near_in = [&](const Affine& transform) {
+    return rounded_point(into_element(moved, transform), rounding_within(transform, rounding_));
+  };
+  Vec2 result = use.transforms.front()(near_in(use.transforms.front()));
+  if (use.transforms.size() == 1) return result;
+  for (const Affine& base : use.transforms) {
+    const bool is_found = look_around(near_in(base), [&](const Vec2& p) {
+      const Vec2 read = base(p);
+      const bool fits = std::all_of(use.transforms.begin(), use.transforms.end(),
                                     [&](const Affine& other) { return local_of(read, other).has_value(); });
       if (fits) result = read;
       return fits;
     });
+    if (is_found) break;
+  }
   return result;
+}
+
+bool TransformedPlaces::is_read_as(const Vec2& moved, const Vec2& local, const Affine& transform) {
+  Use& use = uses_.at({moved.x(), moved.y()});
+  if (!use.read) use.read = choose(moved, use);
+  return transform(local) == *use.read;
 }
 
 Vec2 TransformedPlaces::local(const Vec2& moved, const Affine& transform) {

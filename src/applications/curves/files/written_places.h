@@ -38,6 +38,8 @@ class TransformedPlaces {
   /// Its coordinates in the element. Points of one position are read back at one position wherever doubles of all
   /// elements allow it; the check of the written file finds where they do not.
   Vec2 local(const Vec2& moved, const Affine& transform);
+  /// Would coordinates in the element be read at the position that all points of this one are to be read at?
+  bool is_read_as(const Vec2& moved, const Vec2& local, const Affine& transform);
 
  private:
   using Place = std::array<double, 2>;

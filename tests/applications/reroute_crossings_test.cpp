@@ -1,0 +1,61 @@
+#include "applications/curves/reroute_crossings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace unsnarl {
+namespace {
+
+CrossedCurves crossed(const std::vector<Curve>& curves, double beside) {
+  const CurveNet net = make_net(curves, {}, false);
+  return with_crossing_points(net, net.rest, find_meetings(net, net.rest), beside);
+}
+
+TEST(CrossingPoints, lie_beside_the_crossings_of_their_segments) {
+  const std::vector<Curve> curves{{.points = {0, 0, 10, 0}, .closed = false, .fixed = {}, .name = {}},
+                                  {.points = {5, -5, 5, 5}, .closed = false, .fixed = {}, .name = {}},
+                                  {.points = {5.1, -5, 5.1, 5}, .closed = false, .fixed = {}, .name = {}}};
+  const CrossedCurves result = crossed(curves, 0.5);
+  ASSERT_EQ(result.crossings.size(), 2U);
+  // One on either side, and one in the middle between the two.
+  ASSERT_EQ(result.net.chains[0].size(), 5);
+  std::vector<double> x;
+  for (const Index v : result.net.chains[0].vertices) x.push_back(result.x(0, v));
+  for (const auto& [found, expected] :
+       {std::pair{x[1], 4.5}, std::pair{x[2], 5.05}, std::pair{x[3], 5.6}, std::pair{x[4], 10.0}})
+    EXPECT_NEAR(found, expected, 1e-12);
+  EXPECT_EQ(result.ways[0].size(), 7U);
+}
+
+TEST(RerouteCrossings, one_closed_curve_stays_one_and_keeps_its_points) {
+  const Curve bow{.points = {0, 0, 4, 2, 4, 0, 0, 2}, .closed = true, .fixed = {}, .name = {}};
+  const CrossedCurves before = crossed({bow}, 0.1);
+  const ReroutedCurves after = reroute_crossings(before);
+  EXPECT_TRUE(find_meetings(after.net, before.x).empty());
+  std::vector<Index> one = before.net.chains[0].vertices, other = after.net.chains[0].vertices;
+  std::sort(one.begin(), one.end());
+  std::sort(other.begin(), other.end());
+  EXPECT_EQ(one, other);
+}
+
+TEST(RerouteCrossings, the_shortest_parts_are_exchanged_and_pinned_ones_are_not) {
+  // A long bar and a small square that reaches into it.
+  const Curve bar{.points = {0, 0, 20, 0, 20, 2, 0, 2}, .closed = true, .fixed = {}, .name = {}};
+  Curve square{.points = {9, 1, 11, 1, 11, 4, 9, 4}, .closed = true, .fixed = {}, .name = {}};
+  const auto rerouted = [&] {
+    const CrossedCurves before = crossed({bar, square}, 0.1);
+    const ReroutedCurves after = reroute_crossings(before);
+    EXPECT_TRUE(find_meetings(after.net, before.x).empty());
+    return after.net.chains[1].vertices;
+  };
+  const std::vector<Index> outside = rerouted();  // what is left of the square: its corners above the bar, at 6 and 7
+  EXPECT_NE(std::find(outside.begin(), outside.end(), 6), outside.end());
+  EXPECT_EQ(std::find(outside.begin(), outside.end(), 4), outside.end());
+  square.fixed = {1, 0, 0, 0};
+  const std::vector<Index> inside = rerouted();
+  EXPECT_NE(std::find(inside.begin(), inside.end(), 4), inside.end());
+}
+
+}  // namespace
+}  // namespace unsnarl
