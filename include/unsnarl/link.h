@@ -28,8 +28,8 @@ struct Link {
 /// - Gauss code: "{-1, 2, -3, 1, -2, 3}", numbers above 0 where the strand is above; "O1-U2-O3-U1-O2-U3-" with signs.
 /// - Braid word: "braid 3: 1 -2 1 -2", the number of strands and the generators, or "BR[3,{1,-2,1,-2}]", "{1,-2,1,-2}";
 ///   the link is its closure.
-/// Codes that a diagram shares with its mirror image are drawn with the first crossing right-handed. docs/seifert.md has
-/// all variants.
+/// Codes that a diagram shares with its mirror image are drawn with the first crossing right-handed. docs/seifert.md
+/// has all variants.
 ///
 /// Codes and words are laid out in space: units of length are theirs.
 /// Throws FileError, which names the line, or the crossing, and what to do.
