@@ -23,12 +23,17 @@
 namespace unsnarl::app {
 namespace {
 
-std::string as_text(const SeifertFindings& f, int handles) {
-  std::string text = fmt::format("{} component{}, genus {}, Euler characteristic {} (the diagram's{}: {})\n",
-                                 f.components, f.components == 1 ? "" : "s", f.genus, f.euler_characteristic,
-                                 handles > 0 ? " with its handles" : "", f.expected_euler_characteristic);
+std::string as_text(const SeifertFindings& f, int handles, bool is_brought = false) {
+  const char* const expected = is_brought    ? "that of the start"
+                               : handles > 0 ? "the diagram's with its handles"
+                                             : "the diagram's";
+  std::string text = fmt::format("{} component{}, genus {}, Euler characteristic {} ({}: {})\n", f.components,
+                                 f.components == 1 ? "" : "s", f.genus, f.euler_characteristic, expected,
+                                 f.expected_euler_characteristic);
   text += fmt::format("Alexander polynomial {} (the diagram's: {})\n", polynomial_text(f.alexander_of_surface),
                       polynomial_text(f.alexander_of_link));
+  text += fmt::format("determinant {}, signature {}", f.determinant, f.signature);
+  text += f.genus_is_least ? "; the polynomial's degree proves that no connected surface has a smaller genus\n" : "\n";
   return text;
 }
 
@@ -43,6 +48,9 @@ nlohmann::ordered_json as_json(const SeifertFindings& f) {
           {"expected_euler_characteristic", f.expected_euler_characteristic},
           {"alexander_of_surface", f.alexander_of_surface},
           {"alexander_of_link", f.alexander_of_link},
+          {"determinant", f.determinant},
+          {"signature", f.signature},
+          {"genus_is_least", f.genus_is_least},
           {"hold", f.hold()}};
 }
 
@@ -70,6 +78,12 @@ int check_file(const SeifertCommandOptions& options, const Link& link, FilePlace
 
 int tell_failure(const SeifertCommandOptions& options, std::string why) {
   while (why.ends_with('\n')) why.pop_back();
+  if (!options.surface.empty()) {
+    if (!options.quiet)
+      tell(fmt::format("{}: no surface could be certified: {}\n{}: no file written\n", visible_text(options.surface),
+                       why, to_string(Status::no_progress)));
+    return exit_code_of(Status::no_progress);
+  }
   if (!options.quiet)
     tell(
         fmt::format("{}: no surface could be certified: {}. Strands may be too close to each other for double "
@@ -81,13 +95,11 @@ int tell_failure(const SeifertCommandOptions& options, std::string why) {
 }  // namespace
 
 void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
-  command
-      .add_option(
-          "IN", options.input,
-          "File with a knot or link: points 'x y z', one per line, an empty line between components; or a planar "
-          "diagram code, 'X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]'; or a braid, 'braid 2: 1 1 1'. '-' for standard "
-          "input")
-      ->required();
+  command.add_option(
+      "IN", options.input,
+      "File with a knot or link: points 'x y z', one per line, an empty line between components; or a planar "
+      "diagram code, 'X[1,4,2,5] X[3,6,4,1] X[5,2,6,3]'; or a DT or Gauss code; or a braid, 'braid 2: 1 1 1'. '-' "
+      "for standard input. Not needed with --surface");
   command
       .add_option("-o,--output", options.output,
                   "File to write the surface to: *.obj, *.off or *.ply; '-' for standard output")
@@ -119,6 +131,11 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
       ->type_name("SECONDS");
   add_quiet(command, options.quiet);
   command.add_option("--check", options.check, "Certify this surface instead of making one")->type_name("MESH");
+  command
+      .add_option("--surface", options.surface,
+                  "Start from this surface, which may intersect itself: it is untangled with its boundary held, then "
+                  "smoothed")
+      ->type_name("MESH");
   const std::string shown = outputs_to_look_at;
   command.add_option("--report", options.report, "Write a JSON report: what was certified")
       ->type_name("FILE")
@@ -133,19 +150,43 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
                   "  unsnarl sample knot_4_1 -o knot.xyz\n"
                   "  unsnarl seifert knot.xyz -o surface.obj --picture surface.png\n"
                   "  echo 'braid 3: 1 -2 1 -2 1 -2' | unsnarl seifert - -o borromean.obj\n"
+                  "  unsnarl seifert --surface start.obj -o surface.obj\n"
                   "  unsnarl seifert knot.xyz --check surface.obj\n\n") +
       exit_codes({{exit_embedded, "a certified surface"}, {exit_intersecting, "none found (--check: not certified)"}}));
 }
 
 int run_seifert(const SeifertCommandOptions& options, Interruption& interruption) {
+  if (options.input.empty() == options.surface.empty())
+    throw UsageError("'unsnarl seifert' needs a file IN with a link, or --surface MESH, whose boundary is one");
+  if (!options.surface.empty() && (!options.check.empty() || options.handles > 0))
+    throw UsageError("--surface goes neither with --check nor with --handles");
   if (options.output.empty() == options.check.empty())
     throw UsageError("'unsnarl seifert' needs -o OUT, to make a surface, or --check MESH, to certify one");
   FilePlaces places;
-  places.reads("the input", options.input);
+  if (options.surface.empty()) places.reads("the input", options.input);
   places.writes("-o", options.output);
   places.writes("--report", options.report);
   places.writes("--picture", options.picture);
-  const Link link = read_link(options.input);
+  Link link;
+  Surface start;
+  std::optional<int> euler_characteristic;
+  if (options.surface.empty()) {
+    link = read_link(options.input);
+  } else {
+    const Document document = read_mesh(options.surface, {});
+    claim_input(places, "--surface", options.surface, document);
+    start = {{document.surface().positions.begin(), document.surface().positions.end()},
+             {document.surface().corners.begin(), document.surface().corners.end()},
+             {document.surface().offsets.begin(), document.surface().offsets.end()}};
+    try {
+      SpanningBoundary boundary = spanning_boundary(start);
+      link = std::move(boundary.link);
+      euler_characteristic = boundary.euler_characteristic;
+    } catch (const std::invalid_argument& e) {
+      throw FileError(fmt::format("{}: {}", options.surface, e.what()));
+    }
+  }
+  const std::string& source = options.surface.empty() ? options.input : options.surface;
   if (!options.check.empty()) return check_file(options, link, places, interruption);
   std::optional<Format> format = format_from_name(options.format);
   if (!format) format = format_from_extension(options.output);
@@ -159,8 +200,11 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   wanted.fair = !options.no_fair;
   wanted.handles = options.handles;
   wanted.time_limit_s = options.time_limit_s;
-  const SeifertResult result = cancellable(options.progress, options.quiet, interruption, options.input,
-                                           [&](Context* context) { return seifert_surface(link, wanted, context); });
+  const auto make = [&](Context* context) {
+    return options.surface.empty() ? seifert_surface(link, wanted, context)
+                                   : untangled_seifert_surface(start, wanted, context);
+  };
+  const SeifertResult result = cancellable(options.progress, options.quiet, interruption, source, make);
   if (result.status == Status::cancelled) {
     if (!options.quiet) tell(fmt::format("{}: nothing was written\n", to_string(result.status)));
     return exit_cancelled;
@@ -168,13 +212,13 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   if (result.status == Status::no_progress) return tell_failure(options, result.message);
 
   const std::string bytes =
-      surface_file(result.surface, *format, fmt::format("Seifert surface of {}, by unsnarl", options.input));
+      surface_file(result.surface, *format, fmt::format("Seifert surface of {}, by unsnarl", source));
   SeifertFindings found;
   const auto certify = [&](const Document& document) {
     try {
-      found = check_seifert_surface(document.surface(), link, options.views, options.handles);
+      found = check_seifert_surface(document.surface(), link, options.views, options.handles, euler_characteristic);
     } catch (const std::invalid_argument& e) {
-      throw FileError(fmt::format("{}: {}; no file written", options.input, e.what()));
+      throw FileError(fmt::format("{}: {}; no file written", source, e.what()));
     }
     return found.hold();
   };
@@ -189,16 +233,17 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   if (!options.picture.empty()) {
     wanted.fair = false;
     PictureOptions picture;
-    picture.before_label = "Seifert's algorithm";
+    picture.before_label = options.surface.empty() ? "Seifert's algorithm" : "as brought";
     picture.after_label = "faired";
     picture.inset = false;
-    outputs.add(options.picture, picture_png(seifert_surface(link, wanted).surface, {}, result.surface, {}, picture));
+    outputs.add(options.picture, picture_png(options.surface.empty() ? seifert_surface(link, wanted).surface : start,
+                                             {}, result.surface, {}, picture));
   }
   if (!options.report.empty()) {
     nlohmann::ordered_json json = {{"schema", "unsnarl-seifert-report"},
                                    {"schema_version", 2},
                                    {"version", version},
-                                   {"input", options.input},
+                                   {"input", source},
                                    {"output", options.output},
                                    {"points", link.point_count()},
                                    {"link_components", link.components.size()},
@@ -215,12 +260,14 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   }
   outputs.commit();
   if (!options.quiet) {
-    tell(fmt::format("{}: {} points, {} component{}; seen with {} crossings and {} Seifert circles\n",
-                     visible_text(options.input), link.point_count(), link.components.size(),
-                     link.components.size() == 1 ? "" : "s", result.crossings, result.circles));
+    tell(fmt::format("{}: {} points, {} component{}", visible_text(source), link.point_count(), link.components.size(),
+                     link.components.size() == 1 ? "" : "s"));
+    tell(options.surface.empty()
+             ? fmt::format("; seen with {} crossings and {} Seifert circles\n", result.crossings, result.circles)
+             : " on the boundary, which was held\n");
     tell(fmt::format("{} faces, no two intersect; its boundary is the link, point by point\n",
                      result.surface.view().face_count()));
-    tell(as_text(found, options.handles));
+    tell(as_text(found, options.handles, !options.surface.empty()));
     if (!result.message.empty()) tell(result.message + "\n");
     if (result.status == Status::time_limit) tell("smoothing was stopped by the time limit\n");
     tell(fmt::format("wrote {}, {:.1f} s\n", visible_text(options.output), result.seconds));

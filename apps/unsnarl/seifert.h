@@ -8,7 +8,7 @@
 namespace unsnarl::app {
 
 struct SeifertCommandOptions {
-  std::string input, output, format, check;
+  std::string input, output, format, check, surface;
   double edge = 0, time_limit_s = 0;
   int views = 60, handles = 0;
   bool no_fair = false;

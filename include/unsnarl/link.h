@@ -18,13 +18,18 @@ struct Link {
   std::size_t point_count() const;
 };
 
-/// Reads a link. Which of three ways its text is in, it tells by itself; '#' starts a comment.
+/// Reads a link. In which of these ways its text is, it tells by itself; '#' starts a comment.
 ///
 /// - Points: "x y z", one a line; an empty line ends a component. A last point that repeats the first is left out.
 /// - Planar diagram code: "PD[X[1,4,2,5], X[3,6,4,1], X[5,2,6,3]]" or just the numbers in brackets: for each crossing
 ///   the four edges around it, counter-clockwise from the one that arrives below. Edges are numbered from 1 along the
-///   components.
-/// - Braid word: "braid 3: 1 -2 1 -2", the number of strands and the generators; the link is its closure.
+///   components, or from 0.
+/// - Dowker-Thistlethwaite code: "DT[4,6,2]", "[4, 6, 2]", "DT[bca]".
+/// - Gauss code: "{-1, 2, -3, 1, -2, 3}", numbers above 0 where the strand is above; "O1-U2-O3-U1-O2-U3-" with signs.
+/// - Braid word: "braid 3: 1 -2 1 -2", the number of strands and the generators, or "BR[3,{1,-2,1,-2}]", "{1,-2,1,-2}";
+///   the link is its closure.
+/// Codes that a diagram shares with its mirror image are drawn with the first crossing right-handed. docs/seifert.md
+/// has all variants.
 ///
 /// Codes and words are laid out in space: units of length are theirs.
 /// Throws FileError, which names the line, or the crossing, and what to do.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +41,14 @@ struct SeifertFindings {
   /// the last one positive; empty: zero. That of the surface is det(V - t V'), V the linking numbers of a basis of its
   /// loops with their push-offs; that of the link is found by Fox calculus on a diagram.
   std::vector<std::string> alexander_of_surface, alexander_of_link;
+  /// |polynomial of the surface at -1|, in decimal digits.
+  std::string determinant = "0";
+  /// Of V + V': how many more eigenvalues are positive than negative. -2 for the right-handed trefoil; many tables
+  /// count the other way.
+  int signature = 0;
+  /// The degree of the polynomial is 1 - euler_characteristic (for a knot: twice the genus): no connected surface of
+  /// the link has a smaller genus. False: unknown.
+  bool genus_is_least = false;
 
   /// All that a Seifert surface promises.
   bool hold() const {
@@ -47,13 +57,23 @@ struct SeifertFindings {
   }
 };
 
+/// What a surface that somebody brings spans.
+struct SpanningBoundary {
+  Link link;  ///< the boundary, in the order of its faces, each component from its first vertex on
+  std::vector<std::int32_t> vertices;  ///< the vertices of the surface that are these points, in their order
+  int euler_characteristic = 0;        ///< of the surface
+};
+/// Throws std::invalid_argument for a surface that is no oriented manifold of triangles with a boundary.
+SpanningBoundary spanning_boundary(const SurfaceView& surface);
+
 /// The findings that do not hold, one line each; empty: all hold.
 std::string seifert_faults(const SeifertFindings& findings);
 
 /// Everything by exact arithmetic and integers. The surface must consist of triangles. views, handles: as in
-/// SeifertOptions. Throws std::invalid_argument for a surface that is no triangle mesh, or whose sides 64-bit numbers
-/// cannot tell apart, or as check_link does.
-SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views = 60, int handles = 0);
+/// SeifertOptions. euler_characteristic: expected instead of that of Seifert's algorithm. Throws std::invalid_argument
+/// for a surface that is no triangle mesh, or whose sides 64-bit numbers cannot tell apart, or as check_link does.
+SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views = 60, int handles = 0,
+                                      std::optional<int> euler_characteristic = {});
 
 struct SeifertResult {
   /// embedded; cancelled or time_limit where fairing was stopped: the surface is embedded then too. no_progress: none
@@ -75,6 +95,15 @@ struct SeifertResult {
 /// Throws std::invalid_argument as check_link does, for an option out of range, and for a link that no view tells
 /// apart, or whose surface is too thin to be certified.
 SeifertResult seifert_surface(const Link& link, const SeifertOptions& options = {}, Context* context = nullptr);
+
+/// The paper's own construction (§4.4, Fig. 10): a surface that may intersect itself is untangled by repair() with its
+/// boundary held, then faired as in seifert_surface(). The boundary stays bit for bit, and so does the Euler
+/// characteristic; the points of the boundary come first, as spanning_boundary() has them. options.handles must be 0.
+/// `crossings` and `circles` stay 0.
+///
+/// Throws std::invalid_argument as spanning_boundary and check_link do.
+SeifertResult untangled_seifert_surface(const SurfaceView& start, const SeifertOptions& options = {},
+                                        Context* context = nullptr);
 
 /// "1 - 3t + t^2" of such coefficients.
 std::string polynomial_text(std::span<const std::string> coefficients);

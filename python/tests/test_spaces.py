@@ -11,6 +11,8 @@ def test_a_trefoil_is_spanned():
     surface = unsnarl.seifert_surface(knot, fair=False)
     assert surface.report["hold"] and surface.report["genus"] == 1
     assert surface.report["alexander_of_link"] == [1, -1, 1]
+    assert surface.report["determinant"] == 3 and abs(surface.report["signature"]) == 2
+    assert surface.report["genus_is_least"] is True
     np.testing.assert_array_equal(surface.positions[: len(knot[0])], knot[0])
     assert len(unsnarl.find_intersections(surface.positions, surface.faces)) == 0
     assert unsnarl.check_seifert_surface(surface.positions, surface.faces, knot)["hold"]

@@ -76,7 +76,8 @@ def check_seifert_surface(positions: Any, faces: Any, link: Any, *, views: int =
     are tried for a regular projection, and the number of handles that were added. Returns a dictionary: "hold" is True where all does: "intersecting_pairs"
     is 0, it is "oriented", its boundary "spans_link" bit for bit, "euler_characteristic" is
     "expected_euler_characteristic", and "alexander_of_surface" is "alexander_of_link", both lists of coefficients from
-    the constant up.
+    the constant up. Also in it are the "determinant", the "signature" (-2 for the right-handed trefoil), and
+    "genus_is_least": the degree of the polynomial proves that no connected surface has a smaller genus.
     """
     polygons = polylines_of(link, 3, "component")
     surface = surface_of(positions, faces)
@@ -87,6 +88,8 @@ def _findings(outcome: Outcome) -> dict[str, Any]:
     report: dict[str, Any] = outcome.report
     for polynomial in ("alexander_of_surface", "alexander_of_link"):
         report[polynomial] = [int(coefficient) for coefficient in report[polynomial]]
+    if "determinant" in report:
+        report["determinant"] = int(report["determinant"])
     return report
 
 

@@ -19,6 +19,9 @@ Json json_of(const SeifertFindings& found) {
           {"expected_euler_characteristic", found.expected_euler_characteristic},
           {"alexander_of_surface", found.alexander_of_surface},
           {"alexander_of_link", found.alexander_of_link},
+          {"determinant", found.determinant},
+          {"signature", found.signature},
+          {"genus_is_least", found.genus_is_least},
           {"hold", found.hold()}};
 }
 

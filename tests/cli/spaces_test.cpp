@@ -20,6 +20,9 @@ TEST(SeifertCommand, a_knot_is_spanned_and_certified) {
   EXPECT_EQ("unsnarl " + report["version"].get<std::string>() + "\n", run({"--version"}).out);
   EXPECT_EQ(report["hold"], true);
   EXPECT_EQ(report["genus"], 1);
+  EXPECT_EQ(report["determinant"], "3");
+  EXPECT_EQ(std::abs(report["signature"].get<int>()), 2);
+  EXPECT_EQ(report["genus_is_least"], true);
   EXPECT_EQ(run({"seifert", knot, "--check", surface}).exit_code, 0);
   const Outcome handles = run({"seifert", knot, "-o", folder / "h.obj", "--handles", "2", "--no-fair"});
   ASSERT_EQ(handles.exit_code, 0) << handles.err;
@@ -28,6 +31,23 @@ TEST(SeifertCommand, a_knot_is_spanned_and_certified) {
   EXPECT_EQ(run({"seifert", knot, "--check", folder / "h.obj"}).exit_code, 1);
   ASSERT_EQ(run({"sample", "knot_4_1", "-o", knot}).exit_code, 0);
   EXPECT_EQ(run({"seifert", knot, "--check", surface, "-q"}).exit_code, 1);
+}
+
+TEST(SeifertCommand, a_surface_that_is_brought_is_untangled) {
+  Folder folder;
+  const std::string start = folder / "start.obj", out = folder / "s.obj";
+  // A square with a bump that hangs over.
+  write(start,
+        "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 2 0\nv 3 2 0\nv 2 1 0\nv 2 3 0\nv 3.4 2 0.5\n"
+        "f 1 2 7\nf 2 6 7\nf 2 3 6\nf 3 8 6\nf 3 4 8\nf 4 5 8\nf 4 1 5\nf 1 7 5\n"
+        "f 7 6 9\nf 6 8 9\nf 8 5 9\nf 5 7 9\n");
+  const Outcome made = run({"seifert", "--surface", start, "-o", out, "--report", folder / "r.json"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(contains(made.err, "4 points, 1 component on the boundary, which was held")) << made.err;
+  EXPECT_TRUE(contains(made.err, "genus 0, Euler characteristic 1 (that of the start: 1)")) << made.err;
+  EXPECT_EQ(nlohmann::json::parse(contents(folder / "r.json"))["hold"], true);
+  EXPECT_EQ(run({"seifert", "--surface", start, "-o", out, "--handles", "1"}).exit_code, 2);
+  EXPECT_EQ(run({"seifert", "-o", out}).exit_code, 2);
 }
 
 TEST(SeifertCommand, an_interruption_cancels_it) {

@@ -84,6 +84,12 @@ std::vector<std::vector<Index>> boundary_loops(const Sides& sides) {
   return loops;
 }
 
+int euler_characteristic_of(const Mesh& mesh, const Sides& sides) {
+  std::size_t edges = 0;
+  for (const auto& [edge, face] : sides) edges += edge[0] < edge[1] || !sides.contains({edge[1], edge[0]});
+  return static_cast<int>(mesh.x.size()) - static_cast<int>(edges) + static_cast<int>(mesh.faces.size());
+}
+
 /// Every loop runs through the points of a component of its own, in their order.
 bool runs_along(const std::vector<std::vector<Index>>& loops, const Mesh& mesh, const Link& link) {
   if (loops.size() != link.components.size()) return false;
@@ -114,7 +120,27 @@ std::vector<std::string> as_text(const Polynomial& polynomial) {
 
 }  // namespace
 
-SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views, int handles) {
+SpanningBoundary spanning_boundary(const SurfaceView& surface) {
+  const Mesh mesh = mesh_of(surface);
+  Sides sides;
+  if (!collect_sides(mesh, sides))
+    throw std::invalid_argument("its faces do not agree on a side: a Seifert surface is oriented");
+  if (!has_single_fans(mesh, sides)) throw std::invalid_argument("it is not a manifold, or has vertices without faces");
+  SpanningBoundary found;
+  for (const std::vector<Index>& loop : boundary_loops(sides)) {
+    std::vector<double>& points = found.link.components.emplace_back();
+    for (const Index v : loop) {
+      points.insert(points.end(), mesh.x[v].data(), mesh.x[v].data() + 3);
+      found.vertices.push_back(v);
+    }
+  }
+  if (found.vertices.empty()) throw std::invalid_argument("it has no boundary");
+  found.euler_characteristic = euler_characteristic_of(mesh, sides);
+  return found;
+}
+
+SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& link, int views, int handles,
+                                      std::optional<int> euler_characteristic) {
   check_link(link);
   const Mesh mesh = mesh_of(surface);
   SeifertFindings found;
@@ -123,17 +149,15 @@ SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& li
   found.intersecting_pairs = find_intersections(surface, every_vertex_by_itself).size();
   const std::optional<LinkDiagram> diagram = best_diagram(link, views);
   if (!diagram) throw std::invalid_argument("no view of the link tells its strands apart");
-  found.expected_euler_characteristic = diagram->euler_characteristic() - 2 * handles;
+  found.expected_euler_characteristic =
+      euler_characteristic.value_or(static_cast<int>(diagram->euler_characteristic()) - 2 * handles);
   found.alexander_of_link = as_text(alexander_polynomial(*diagram));
   Sides sides;
   found.oriented = collect_sides(mesh, sides) && has_single_fans(mesh, sides);
   if (!found.oriented) return found;
   const std::vector<std::vector<Index>> loops = boundary_loops(sides);
   found.spans_link = runs_along(loops, mesh, link);
-  std::size_t edges = 0;
-  for (const auto& [edge, face] : sides) edges += edge[0] < edge[1] || !sides.contains({edge[1], edge[0]});
-  found.euler_characteristic =
-      static_cast<int>(mesh.x.size()) - static_cast<int>(edges) + static_cast<int>(mesh.faces.size());
+  found.euler_characteristic = euler_characteristic_of(mesh, sides);
   UnionFind parts = vertices_joined_by(mesh.faces, static_cast<Index>(mesh.x.size()));
   for (std::size_t v = 0; v < mesh.x.size(); ++v)
     found.components += parts.find(static_cast<Index>(v)) == static_cast<Index>(v);
@@ -141,9 +165,17 @@ SeifertFindings check_seifert_surface(const SurfaceView& surface, const Link& li
   for (const std::vector<Index>& loop : loops) is_bounded[parts.find(loop[0])] = true;
   found.closed_components = found.components - static_cast<int>(std::count(is_bounded.begin(), is_bounded.end(), true));
   found.genus = (2 * found.components - found.euler_characteristic - static_cast<int>(loops.size())) / 2;
-  // In several parts it bounds a link whose polynomial is zero: a tube between them would add a loop that links none.
-  if (found.components == 1 && found.intersecting_pairs == 0 && found.spans_link)
-    found.alexander_of_surface = as_text(alexander_polynomial(seifert_matrix(mesh.x, mesh.faces)));
+  if (found.intersecting_pairs > 0 || !found.spans_link) return found;
+  const SeifertMatrix matrix = seifert_matrix(mesh.x, mesh.faces);
+  // Tubes that join its components would add loops that link none: the signature stays, and the polynomial is zero.
+  found.signature = signature(matrix);
+  if (found.components > 1) return found;
+  const Polynomial polynomial = alexander_polynomial(matrix);
+  found.alexander_of_surface = as_text(polynomial);
+  found.determinant = Integer(abs(value_at(polynomial, -1))).str();
+  // The degree is at most 1 - Euler characteristic, whatever connected surface the link has.
+  found.genus_is_least =
+      !polynomial.empty() && static_cast<int>(polynomial.size()) - 1 == 1 - found.euler_characteristic;
   return found;
 }
 
@@ -154,7 +186,7 @@ std::string seifert_faults(const SeifertFindings& f) {
   if (f.oriented && !f.spans_link) text += "its boundary is not the link\n";
   if (f.closed_components > 0) text += fmt::format("{} of its components have no boundary\n", f.closed_components);
   if (f.oriented && f.euler_characteristic != f.expected_euler_characteristic)
-    text += "its Euler characteristic is not that of Seifert's algorithm\n";
+    text += "its Euler characteristic is not the expected one\n";
   if (f.oriented && f.spans_link && f.intersecting_pairs == 0 && f.alexander_of_surface != f.alexander_of_link)
     text += "its Alexander polynomial is not that of the diagram\n";
   return text;

@@ -54,6 +54,18 @@ bool are_separated_along(const Vec3& axis, const TrianglePoints& a, const Triang
   return magnitude > detail::underflow_guard && lowest - highest > room + few_roundings * magnitude;
 }
 
+/// Whether a plane through the first corner, which both have, has the rest of one triangle on one side and that of the
+/// other one on the other: cheap, and true of most that have one corner alone in common. Never true of triangles that
+/// meet elsewhere, whatever is rounded.
+bool are_on_two_sides(const TrianglePoints& a, const TrianglePoints& b) {
+  const auto middle = [](const TrianglePoints& t) -> Vec3 {
+    return (t[1] - t[0]).normalized() + (t[2] - t[0]).normalized();
+  };
+  const Vec3 axis = middle(b) - middle(a);
+  return are_separated_along(axis, {a[0], a[1], a[2]}, {b[1], b[1], b[2]}, 0) &&
+         are_separated_along(axis, {a[1], a[1], a[2]}, {b[0], b[1], b[2]}, 0);
+}
+
 double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto angle = [](const Vec3& p, const Vec3& q, const Vec3& r) {
     return portable::atan2((q - p).cross(r - p).norm(), (q - p).dot(r - p));
@@ -166,14 +178,18 @@ Vec3 EmbeddedMesh::normal(const Triangle& t) const {
   return (x_[t[1]] - x_[t[0]]).cross(x_[t[2]] - x_[t[0]]);
 }
 
-double EmbeddedMesh::soundness_of(const Triangle& t) const {
-  const double area = normal(t).norm();
+double EmbeddedMesh::squared_longest_edge(const Triangle& t) const {
   double longest = 0;
   for (int k = 0; k < 3; ++k) longest = std::max(longest, (x_[t[(k + 1) % 3]] - x_[t[k]]).squaredNorm());
+  return longest;
+}
+
+double EmbeddedMesh::soundness_of(const Triangle& t) const {
+  const double area = normal(t).norm(), longest = squared_longest_edge(t);
   return longest > 0 ? area / longest / thin : -1;
 }
 
-double EmbeddedMesh::soundness_of_pair(const Triangle& a, const Triangle& b) const {
+double EmbeddedMesh::soundness_of_pair(const Triangle& a, const Triangle& b, double gap) const {
   const auto points = [&](const Triangle& t) { return TrianglePoints{x_[t[0]], x_[t[1]], x_[t[2]]}; };
   std::array<int, 3> shared{};
   int count = 0;
@@ -182,13 +198,14 @@ double EmbeddedMesh::soundness_of_pair(const Triangle& a, const Triangle& b) con
   if (count == 3) return -1;
   if (count == 0) {
     const TrianglePoints p = points(a), q = points(b);
-    const double wanted = std::min(gap_, gap_of_edge * std::min(shortest_edge(p), shortest_edge(q)));
+    const double wanted = std::min(gap, gap_of_edge * std::min(shortest_edge(p), shortest_edge(q)));
     if (are_separated(p, q, wanted)) return 1;
     if (triangles_meet(p, q) != Meeting::no) return -1;
-    return std::sqrt(squared_distance(p, q)) / wanted;
+    return wanted > 0 ? std::sqrt(squared_distance(p, q)) / wanted : 1;
   }
   if (count == 1) {
     const Triangle s = rotated(a, shared[0]), t = rotated(b, place_of(b, s[0]));
+    if (are_on_two_sides(points(s), points(t))) return 1;
     return triangles_meet_beyond_vertex(points(s), points(t)) == Meeting::no ? 1 : -1;
   }
   const int first = (shared[0] + 1) % 3 == shared[1] ? shared[0] : shared[1];
@@ -201,23 +218,24 @@ double EmbeddedMesh::soundness_of_pair(const Triangle& a, const Triangle& b) con
   return (1 + cosine) / sharp_fold;
 }
 
-double EmbeddedMesh::soundness(std::span<const Triangle> faces, std::span<const Index> without) {
+double EmbeddedMesh::soundness(std::span<const Triangle> faces, std::span<const Index> without, double gap) {
   for (const Index f : without) is_without_[f] = 1;
   double result = 1;
   for (std::size_t i = 0; i < faces.size() && result >= 0; ++i) {
     const Triangle& t = faces[i];
     result = std::min(result, soundness_of(t));
     for (std::size_t j = i + 1; j < faces.size() && result >= 0; ++j)
-      result = std::min(result, soundness_of_pair(t, faces[j]));
-    const Vec3 lo = (x_[t[0]].cwiseMin(x_[t[1]]).cwiseMin(x_[t[2]]).array() - gap_).matrix();
-    const Vec3 hi = (x_[t[0]].cwiseMax(x_[t[1]]).cwiseMax(x_[t[2]]).array() + gap_).matrix();
+      result = std::min(result, soundness_of_pair(t, faces[j], gap));
+    const double reach = std::min(gap, gap_of_edge * shortest_edge({x_[t[0]], x_[t[1]], x_[t[2]]}));
+    const Vec3 lo = (x_[t[0]].cwiseMin(x_[t[1]]).cwiseMin(x_[t[2]]).array() - reach).matrix();
+    const Vec3 hi = (x_[t[0]].cwiseMax(x_[t[1]]).cwiseMax(x_[t[2]]).array() + reach).matrix();
     grid_.query(lo, hi, [&](Index f) {
       if (result < 0 || is_without_[f]) return;
       const Triangle& other = faces_[f];
       const Vec3 &a = x_[other[0]], &b = x_[other[1]], &c = x_[other[2]];
       for (int k = 0; k < 3; ++k)
         if (std::min({a[k], b[k], c[k]}) > hi[k] || std::max({a[k], b[k], c[k]}) < lo[k]) return;
-      result = std::min(result, soundness_of_pair(t, other));
+      result = std::min(result, soundness_of_pair(t, other, gap));
     });
   }
   for (const Index f : without) is_without_[f] = 0;
@@ -230,11 +248,11 @@ bool EmbeddedMesh::move(Index v, const Vec3& to) {
   for (const Index f : star) faces.push_back(faces_[f]);
   const Vec3 from = x_[v];
   x_[v] = to;
-  const double after = soundness(faces, star);
+  const double after = soundness(faces, star, gap_);
   bool fits = after >= 1;
   if (!fits && after >= 0) {
     x_[v] = from;
-    fits = after >= soundness(faces, star);
+    fits = after >= soundness(faces, star, gap_);
     x_[v] = to;
   }
   if (!fits) {
@@ -255,17 +273,20 @@ bool EmbeddedMesh::split(const Edge& edge) {
   const auto middle = static_cast<Index>(x_.size());
   x_.push_back(0.5 * (x_[edge[0]] + x_[edge[1]]));
   std::vector<Triangle> faces;
+  bool becomes_thin = false;
   for (const Index f : old) {
     const Triangle t = faces_[f];
+    const bool is_longest = squared_longest_edge(t) == (x_[edge[1]] - x_[edge[0]]).squaredNorm();
     for (const Index end : edge) {
       Triangle half = t;
       half[place_of(t, end)] = middle;
       faces.push_back(half);
+      becomes_thin |= !is_longest && soundness_of(half) < 1;
     }
   }
-  // The halves cover what was there, but for rounding, and are nearer to their surroundings by no more than that.
+  // The halves cover what was there, but for rounding: gaps stay as they are.
   faces_of_.emplace_back();
-  if (soundness(faces, old) < 0) {
+  if (becomes_thin || soundness(faces, old, 0) < 0) {
     x_.pop_back();
     faces_of_.pop_back();
     return false;
@@ -284,9 +305,12 @@ bool EmbeddedMesh::collapse(const Edge& edge, double longest) {
   std::vector<Index> common;
   std::set_intersection(of_kept.begin(), of_kept.end(), of_gone.begin(), of_gone.end(), std::back_inserter(common));
   if (common.size() != 2) return false;
-  std::vector<Index> old = faces_of_[kept];
-  for (const Index f : faces_of_[gone])
-    if (f != between[0] && f != between[1]) old.push_back(f);
+  if (faces_of_[kept].size() + faces_of_[gone].size() < 6) return false;
+  const bool stays = kept < boundary_count_;
+  std::vector<Index> old = faces_of_[gone];
+  if (!stays)
+    for (const Index f : faces_of_[kept])
+      if (f != between[0] && f != between[1]) old.push_back(f);
   std::vector<Triangle> faces, before;
   for (const Index f : old) {
     before.push_back(faces_[f]);
@@ -295,18 +319,17 @@ bool EmbeddedMesh::collapse(const Edge& edge, double longest) {
     if (const int k = place_of(t, gone); k >= 0) t[k] = kept;
     faces.push_back(t);
   }
-  if (faces.size() < 2) return false;
   const Vec3 from = x_[kept];
-  const Vec3 to = kept < boundary_count_ ? from : Vec3(0.5 * (x_[kept] + x_[gone]));
+  const Vec3 to = stays ? from : Vec3(0.5 * (x_[kept] + x_[gone]));
   for (const Index v : of_gone)
     if (v != kept && (x_[v] - to).norm() > std::max(longest, (x_[v] - x_[gone]).norm())) return false;
   double was = -2;
   x_[kept] = to;
-  const double is = soundness(faces, old);
+  const double is = soundness(faces, old, gap_);
   bool fits = is >= 1;
   if (!fits && is >= 0) {
     x_[kept] = from;
-    was = soundness(before, old);
+    was = soundness(before, old, gap_);
     x_[kept] = to;
     fits = is >= was;
   }
@@ -338,11 +361,11 @@ bool EmbeddedMesh::flip(const Edge& edge) {
   if (after < before + angle_gain) return false;
   const std::array<Triangle, 2> faces = forward ? std::array<Triangle, 2>{Triangle{a, d, c}, Triangle{d, b, c}}
                                                 : std::array<Triangle, 2>{Triangle{d, a, c}, Triangle{b, d, c}};
-  const double is = soundness(faces, old);
+  const double is = soundness(faces, old, gap_);
   if (is < 0) return false;
   if (is < 1) {
     const std::array<Triangle, 2> was{faces_[old[0]], faces_[old[1]]};
-    if (is < soundness(was, old)) return false;
+    if (is < soundness(was, old, gap_)) return false;
   }
   replace(old, faces);
   return true;

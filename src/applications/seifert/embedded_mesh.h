@@ -75,6 +75,8 @@ class EmbeddedMesh {
   // Each says whether it was done.
 
   bool move(Index v, const Vec3& to);
+  /// Not where a half becomes thin, but for an edge that is the longest of its triangle. Else triangles beside long
+  /// boundary edges would be halved without end: one of their sides always is as long as half that edge.
   bool split(const Edge& edge);
   bool collapse(const Edge& edge, double longest);
   bool flip(const Edge& edge);
@@ -87,9 +89,10 @@ class EmbeddedMesh {
   std::vector<Index> neighbours(Index v) const;
   Vec3 normal(const Triangle& t) const;  // not of unit length
   /// How far the faces are from what is wrong with a mesh: below 0: they intersect the others; 1: nothing is near.
-  /// `without`: faces that are not there.
-  double soundness(std::span<const Triangle> faces, std::span<const Index> without);
-  double soundness_of_pair(const Triangle& a, const Triangle& b) const;
+  /// `without`: faces that are not there. gap: to keep; 0: only intersections count.
+  double soundness(std::span<const Triangle> faces, std::span<const Index> without, double gap);
+  double soundness_of_pair(const Triangle& a, const Triangle& b, double gap) const;
+  double squared_longest_edge(const Triangle& t) const;
   double soundness_of(const Triangle& t) const;
   void erase(Index face);
   void put(Index face, const Triangle& t);

@@ -43,18 +43,22 @@ class Pace {
   bool is_over_ = false;
 };
 
+void collapse_short_edges(EmbeddedMesh& mesh, double edge, Pace& pace) {
+  for (const Edge& e : mesh.interior_edges()) {
+    if (!pace()) return;
+    if (!mesh.is_alive(e[0]) || !mesh.is_alive(e[1]) || length(mesh, e) > collapse_below * edge) continue;
+    mesh.collapse(e, split_above * edge);
+  }
+}
+
+/// Short edges go before long ones are split, so that thousands of needles beside a fine boundary become few first.
 void remesh(EmbeddedMesh& mesh, double edge, Pace& pace) {
   for (int round = 0; round < most_split_rounds; ++round) {
+    collapse_short_edges(mesh, edge, pace);
     bool any = false;
     for (const Edge& e : mesh.interior_edges())
       if (pace() && length(mesh, e) > split_above * edge) any |= mesh.split(e);
     if (!any) break;
-  }
-  std::vector<Edge> edges = mesh.interior_edges();
-  for (const Edge& e : edges) {
-    if (!pace()) return;
-    if (!mesh.is_alive(e[0]) || !mesh.is_alive(e[1]) || length(mesh, e) > collapse_below * edge) continue;
-    mesh.collapse(e, split_above * edge);
   }
   for (const Edge& e : mesh.interior_edges())
     if (pace()) mesh.flip(e);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "geometry/portable_math.h"
 #include "geometry/predicates.h"
@@ -68,57 +69,72 @@ Sign turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return orient2d(a.x(), a.y(), b.x(), b.y(), c.x(), c.y());
 }
 
+/// Pairs (i, j), i < j, whose boxes in the picture meet, sorted.
+std::vector<std::array<std::size_t, 2>> near_pairs(const std::vector<FlatEdge>& edges) {
+  std::vector<std::size_t> order(edges.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return edges[i].lo.x() < edges[j].lo.x(); });
+  std::vector<std::array<std::size_t, 2>> pairs;
+  for (std::size_t a = 0; a < order.size(); ++a)
+    for (std::size_t b = a + 1; b < order.size() && edges[order[b]].lo.x() <= edges[order[a]].hi.x(); ++b) {
+      const FlatEdge &e = edges[order[a]], &f = edges[order[b]];
+      if (e.lo.y() <= f.hi.y() && f.lo.y() <= e.hi.y())
+        pairs.push_back({std::min(order[a], order[b]), std::max(order[a], order[b])});
+    }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 /// False: the view is not generic.
 bool find_crossings(const Link& link, const std::vector<FlatEdge>& edges, double size, LinkDiagram& diagram) {
   const double room = least_room_rel * size;
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    for (std::size_t j = i + 1; j < edges.size(); ++j) {
-      const FlatEdge &e = edges[i], &f = edges[j];
-      if (are_neighbours(e, f)) continue;
-      if ((e.lo.array() > f.hi.array()).any() || (f.lo.array() > e.hi.array()).any()) continue;
-      const Sign fa = turn(e.a, e.b, f.a), fb = turn(e.a, e.b, f.b), ea = turn(f.a, f.b, e.a), eb = turn(f.a, f.b, e.b);
-      if (fa * fb > 0 || ea * eb > 0) continue;
-      if (fa * fb * ea * eb == 0) return false;
-      const Vec2 de = e.b - e.a, df = f.b - f.a;
-      const double cross = de.x() * df.y() - de.y() * df.x();
-      if (cross == 0) return false;
-      const Vec2 between = f.a - e.a;
-      const double at_e = (between.x() * df.y() - between.y() * df.x()) / cross;
-      const double at_f = (between.x() * de.y() - between.y() * de.x()) / cross;
-      LinkDiagram::Crossing crossing;
-      crossing.place = e.a + at_e * de;
-      const auto height = [&](const FlatEdge& edge, double t) {
-        const Positions& p = diagram.points[edge.component];
-        return (1 - t) * p(2, edge.edge) + t * p(2, (edge.edge + 1) % edge.count);
-      };
-      const double gap = height(e, at_e) - height(f, at_f);
-      crossing.gap = std::abs(gap);
-      // On top is what exact arithmetic on the link's own points says; the frame may have rounded it away.
-      const Sign side = orient3d(point_of(link, e.component, e.edge), point_of(link, e.component, e.edge + 1),
-                                 point_of(link, f.component, f.edge), point_of(link, f.component, f.edge + 1));
-      const bool e_is_over = side * detail::sign_of(cross) > 0;
-      if (side == 0 || crossing.gap < room || e_is_over != (gap > 0)) return false;
-      const LinkDiagram::Strand of_e{e.component, e.edge, at_e}, of_f{f.component, f.edge, at_f};
-      crossing.over = e_is_over ? of_e : of_f;
-      crossing.under = e_is_over ? of_f : of_e;
-      crossing.sign = (e_is_over ? cross : -cross) > 0 ? 1 : -1;
-      crossing.radius = std::min(std::min(at_e, 1 - at_e) * de.norm(), std::min(at_f, 1 - at_f) * df.norm());
-      for (std::size_t k = 0; k < edges.size(); ++k)
-        if (k != i && k != j)
-          crossing.radius = std::min(crossing.radius, distance(crossing.place, edges[k].a, edges[k].b));
-      if (crossing.radius < room) return false;
-      const auto slope = [&](const FlatEdge& edge) {
-        const Positions& p = diagram.points[edge.component];
-        return std::abs(p(2, (edge.edge + 1) % edge.count) - p(2, edge.edge)) / (edge.b - edge.a).norm();
-      };
-      crossing.band = band_of_room * crossing.radius;
-      if (const double climb = crossing.band * (slope(e) + slope(f)); climb > climb_of_gap * crossing.gap)
-        crossing.band *= climb_of_gap * crossing.gap / climb;
-      crossing.beside = crossing.band * std::abs(cross) / (de.norm() * df.norm());
-      const double longest = std::max(de.norm(), df.norm());
-      if (std::min(crossing.gap, crossing.beside) * crossing.band / longest < least_nesting_rel * size) return false;
-      diagram.crossings.push_back(crossing);
-    }
+  for (const auto& [i, j] : near_pairs(edges)) {
+    const FlatEdge &e = edges[i], &f = edges[j];
+    if (are_neighbours(e, f)) continue;
+    const Sign fa = turn(e.a, e.b, f.a), fb = turn(e.a, e.b, f.b), ea = turn(f.a, f.b, e.a), eb = turn(f.a, f.b, e.b);
+    if (fa * fb > 0 || ea * eb > 0) continue;
+    if (fa * fb * ea * eb == 0) return false;
+    const Vec2 de = e.b - e.a, df = f.b - f.a;
+    const double cross = de.x() * df.y() - de.y() * df.x();
+    if (cross == 0) return false;
+    const Vec2 between = f.a - e.a;
+    const double at_e = (between.x() * df.y() - between.y() * df.x()) / cross;
+    const double at_f = (between.x() * de.y() - between.y() * de.x()) / cross;
+    LinkDiagram::Crossing crossing;
+    crossing.place = e.a + at_e * de;
+    const auto height = [&](const FlatEdge& edge, double t) {
+      const Positions& p = diagram.points[edge.component];
+      return (1 - t) * p(2, edge.edge) + t * p(2, (edge.edge + 1) % edge.count);
+    };
+    const double gap = height(e, at_e) - height(f, at_f);
+    crossing.gap = std::abs(gap);
+    // On top is what exact arithmetic on the link's own points says; the frame may have rounded it away.
+    const Sign side = orient3d(point_of(link, e.component, e.edge), point_of(link, e.component, e.edge + 1),
+                               point_of(link, f.component, f.edge), point_of(link, f.component, f.edge + 1));
+    const bool e_is_over = side * detail::sign_of(cross) > 0;
+    if (side == 0 || crossing.gap < room || e_is_over != (gap > 0)) return false;
+    const LinkDiagram::Strand of_e{e.component, e.edge, at_e}, of_f{f.component, f.edge, at_f};
+    crossing.over = e_is_over ? of_e : of_f;
+    crossing.under = e_is_over ? of_f : of_e;
+    crossing.sign = (e_is_over ? cross : -cross) > 0 ? 1 : -1;
+    crossing.radius = std::min(std::min(at_e, 1 - at_e) * de.norm(), std::min(at_f, 1 - at_f) * df.norm());
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      if (k != i && k != j)
+        crossing.radius = std::min(crossing.radius, distance(crossing.place, edges[k].a, edges[k].b));
+    if (crossing.radius < room) return false;
+    const auto slope = [&](const FlatEdge& edge) {
+      const Positions& p = diagram.points[edge.component];
+      return std::abs(p(2, (edge.edge + 1) % edge.count) - p(2, edge.edge)) / (edge.b - edge.a).norm();
+    };
+    crossing.band = band_of_room * crossing.radius;
+    if (const double climb = crossing.band * (slope(e) + slope(f)); climb > climb_of_gap * crossing.gap)
+      crossing.band *= climb_of_gap * crossing.gap / climb;
+    crossing.beside = crossing.band * std::abs(cross) / (de.norm() * df.norm());
+    const double longest = std::max(de.norm(), df.norm());
+    if (std::min(crossing.gap, crossing.beside) * crossing.band / longest < least_nesting_rel * size) return false;
+    diagram.crossings.push_back(crossing);
+  }
   return true;
 }
 

@@ -166,22 +166,30 @@ class Diagram {
 
   /// W. T. Tutte, "How to Draw a Graph", 1963: the longest face is outside, evenly around a circle; every other node is
   /// at the mean of its neighbours. An additional node in each face, joined to all nodes around it, makes the graph
-  /// 3-connected, so that no two nodes coincide. These nodes have a larger weight, which keeps faces open.
+  /// 3-connected, so that no two nodes coincide. These nodes have a larger weight, which keeps faces open. In a face
+  /// that comes to a node twice, as beside a crossing that a twist removes, a ring of nodes of its own lies between.
   void draw() {
     const auto outer = std::max_element(faces_.begin(), faces_.end(),
                                         [](const auto& f, const auto& g) { return f.size() < g.size(); }) -
                        faces_.begin();
-    const int nodes = crossings_ + 2 * edges_, all = nodes + static_cast<int>(faces_.size());
+    const int nodes = crossings_ + 2 * edges_;
+    int all = nodes + static_cast<int>(faces_.size());
+    std::vector<std::vector<int>> rings = faces_;  // around the additional node of each face
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      std::vector<int> sorted = faces_[f];
+      std::sort(sorted.begin(), sorted.end());
+      if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) continue;
+      for (int& v : rings[f]) v = all++;
+    }
     place_ = Points2::Zero(2, all);
     std::vector<int> unknown(all, -1);
     std::vector<bool> is_fixed(all, false);
-    const std::vector<int>& rim = faces_[outer];
+    const std::vector<int>& rim = rings[outer];
     for (std::size_t k = 0; k < rim.size(); ++k) {
       // Faces are followed counter-clockwise from inside, so that the outer one runs clockwise around the rest.
       const double angle = -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(rim.size());
       place_.col(rim[k]) =
           radius_a_node * static_cast<double>(rim.size()) * Vec2(portable::cos(angle), portable::sin(angle));
-      if (is_fixed[rim[k]]) refuse("a crossing can be taken out by a turn (a nugatory one); take it out first");
       is_fixed[rim[k]] = true;
     }
     is_fixed[nodes + outer] = true;
@@ -200,11 +208,19 @@ class Diagram {
           right.row(unknown[v]) += place_.col(w).transpose();
       }
     };
-    for (std::size_t f = 0; f < faces_.size(); ++f)
-      for (std::size_t k = 0; k < faces_[f].size(); ++k) {
-        join(faces_[f][k], faces_[f][(k + 1) % faces_[f].size()]);
-        if (static_cast<std::ptrdiff_t>(f) != outer) join(faces_[f][k], nodes + static_cast<int>(f));
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const std::size_t n = faces_[f].size();
+      for (std::size_t k = 0; k < n; ++k) {
+        const int v = faces_[f][k], next = faces_[f][(k + 1) % n], on_ring = rings[f][k];
+        join(v, next);
+        if (on_ring != v) {
+          join(on_ring, v);
+          join(on_ring, next);
+          join(on_ring, rings[f][(k + 1) % n]);
+        }
+        if (static_cast<std::ptrdiff_t>(f) != outer) join(on_ring, nodes + static_cast<int>(f));
       }
+    }
     Eigen::SparseMatrix<double> matrix(count, count);
     matrix.setFromTriplets(terms.begin(), terms.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);

@@ -64,20 +64,24 @@ class Loops {
     through_.assign(faces_.size(), -1);
     depth_.assign(faces_.size(), 0);
     std::vector<bool> is_crossed(edges_.size(), false);
-    std::vector<Index> queue{0};
+    std::vector<Index> queue;
     std::vector<bool> seen(faces_.size(), false);
-    seen[0] = true;
-    for (std::size_t k = 0; k < queue.size(); ++k)
-      for (const Index e : edges_of_[queue[k]]) {
-        const Index other = sides_[e][0] == queue[k] ? sides_[e][1] : sides_[e][0];
-        if (other < 0 || seen[other]) continue;
-        seen[other] = true;
-        parent_[other] = queue[k];
-        through_[other] = e;
-        depth_[other] = depth_[queue[k]] + 1;
-        is_crossed[e] = true;
-        queue.push_back(other);
-      }
+    for (std::size_t root = 0; root < faces_.size(); ++root) {  // one a component
+      if (seen[root]) continue;
+      seen[root] = true;
+      queue.push_back(static_cast<Index>(root));
+      for (std::size_t k = queue.size() - 1; k < queue.size(); ++k)
+        for (const Index e : edges_of_[queue[k]]) {
+          const Index other = sides_[e][0] == queue[k] ? sides_[e][1] : sides_[e][0];
+          if (other < 0 || seen[other]) continue;
+          seen[other] = true;
+          parent_[other] = queue[k];
+          through_[other] = e;
+          depth_[other] = depth_[queue[k]] + 1;
+          is_crossed[e] = true;
+          queue.push_back(other);
+        }
+    }
     UnionFind joined(x_.size() + 1);
     const auto boundary = static_cast<Index>(x_.size());
     for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -267,6 +271,38 @@ SeifertMatrix seifert_matrix(std::span<const Vec3> x, std::span<const Triangle> 
       matrix.entries[i * basis.size() + j] = *number;
     }
   return matrix;
+}
+
+/// By symmetric elimination as in Bareiss's: what is left is the Schur complement times the last pivot, in integers.
+int signature(const SeifertMatrix& matrix) {
+  const Index n = matrix.size;
+  std::vector<Integer> m(matrix.entries.size());
+  const auto at = [&](Index i, Index j) -> Integer& { return m[std::size_t(i) * n + j]; };
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j)
+      at(i, j) = Integer(matrix.entries[std::size_t(i) * n + j]) + matrix.entries[std::size_t(j) * n + i];
+  Integer previous = 1;
+  int result = 0;
+  for (Index k = 0; k < n; ++k) {
+    Index pivot = k;
+    while (pivot < n && at(pivot, pivot) == 0) ++pivot;
+    if (pivot == n) {  // a pivot comes from a sum of two rows, and of their columns
+      Index i = k, j = k;
+      while (i < n && at(i, j) == 0)
+        if (++j == n) j = ++i;
+      if (i == n) break;
+      for (Index l = k; l < n; ++l) at(i, l) += at(j, l);
+      for (Index l = k; l < n; ++l) at(l, i) += at(l, j);
+      pivot = i;
+    }
+    for (Index l = k; l < n; ++l) std::swap(at(k, l), at(pivot, l));
+    for (Index l = k; l < n; ++l) std::swap(at(l, k), at(l, pivot));
+    result += (at(k, k) > 0) == (previous > 0) ? 1 : -1;
+    for (Index i = k + 1; i < n; ++i)
+      for (Index j = k + 1; j < n; ++j) at(i, j) = (at(i, j) * at(k, k) - at(i, k) * at(k, j)) / previous;
+    previous = at(k, k);
+  }
+  return result;
 }
 
 Polynomial alexander_polynomial(const SeifertMatrix& matrix) {

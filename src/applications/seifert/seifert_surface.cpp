@@ -80,6 +80,37 @@ std::size_t intersecting_pairs(const SpanningMesh& mesh) {
   return find_intersections(surface_of(mesh), find).size();
 }
 
+/// `start` is embedded, and the points of the link come first in it.
+SeifertResult faired_and_certified(SeifertResult result, const SpanningMesh& start, const Link& link, double edge,
+                                   const SeifertOptions& options, std::optional<int> euler_characteristic,
+                                   RunControl& control) {
+  SpanningMesh mesh = start;
+  if (options.fair) {
+    const auto progress = [&](double fraction) { control.tell(fraction, "fair"); };
+    const auto goes_on = [&] { return !control.stopped(); };
+    mesh = fair(std::move(mesh), static_cast<Index>(link.point_count()), edge, {}, progress, goes_on);
+    result.status = control.status_or(Status::embedded);
+  }
+  const auto faults = [&](const SpanningMesh& made) {
+    return seifert_faults(
+        check_seifert_surface(surface_of(made), link, options.views, options.handles, euler_characteristic));
+  };
+  std::string wrong;
+  try {
+    wrong = faults(mesh);
+  } catch (const std::invalid_argument& e) {  // faired to triangles so thin that their sides are not told apart
+    if (!options.fair) throw;
+    wrong = faults(start);
+    mesh = start;
+    result.message = fmt::format("the surface is left as it was before fairing, since after fairing {}", e.what());
+  }
+  if (!wrong.empty()) return without_surface(std::move(result), wrong);
+  result.surface = surface_of(mesh);
+  result.area = area_of(mesh);
+  result.seconds = control.seconds();
+  return result;
+}
+
 }  // namespace
 
 SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, Context* context) {
@@ -101,30 +132,45 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options, C
   }
   if (const std::size_t pairs = intersecting_pairs(start); pairs > 0)
     return without_surface(std::move(result), fmt::format("{} pairs of its faces intersect", pairs));
-  SpanningMesh mesh = start;
-  if (options.fair) {
-    const auto progress = [&](double fraction) { control.tell(fraction, "fair"); };
-    const auto goes_on = [&] { return !control.stopped(); };
-    mesh = fair(std::move(mesh), static_cast<Index>(link.point_count()), edge, {}, progress, goes_on);
-    result.status = control.status_or(Status::embedded);
-  }
-  const auto faults = [&](const SpanningMesh& made) {
-    return seifert_faults(check_seifert_surface(surface_of(made), link, options.views, options.handles));
-  };
-  std::string wrong;
-  try {
-    wrong = faults(mesh);
-  } catch (const std::invalid_argument& e) {  // faired to triangles so thin that their sides are not told apart
-    if (!options.fair) throw;
-    wrong = faults(start);
-    mesh = std::move(start);
-    result.message = fmt::format("the surface is left as it was built, since after fairing {}", e.what());
-  }
-  if (!wrong.empty()) return without_surface(std::move(result), wrong);
-  result.surface = surface_of(mesh);
-  result.area = area_of(mesh);
+  return faired_and_certified(std::move(result), start, link, edge, options, {}, control);
+}
+
+SeifertResult untangled_seifert_surface(const SurfaceView& start, const SeifertOptions& options, Context* context) {
+  check(options);
+  if (options.handles != 0) throw std::invalid_argument("handles are not added to a surface that is brought");
+  const SpanningBoundary boundary = spanning_boundary(start);
+  check_link(boundary.link);
+  RunControl control(context, {.time_s = options.time_limit_s});
+  RepairOptions hold_boundary;
+  hold_boundary.find.weld = Weld::none;
+  hold_boundary.precision = Precision::float64;
+  hold_boundary.time_limit_s = options.time_limit_s;
+  hold_boundary.fixed.assign(start.vertex_count(), 0);
+  for (const std::int32_t v : boundary.vertices) hold_boundary.fixed[v] = 1;
+  const RepairResult untangled = repair(start, hold_boundary, context);
+  SeifertResult result;
   result.seconds = control.seconds();
-  return result;
+  if (untangled.status != Status::embedded) {
+    result.status = untangled.status == Status::cancelled ? Status::cancelled : Status::no_progress;
+    result.message = fmt::format("with the boundary held, {} pairs of faces still intersect ({})",
+                                 untangled.report.after.total(), to_string(untangled.status));
+    return result;
+  }
+  SpanningMesh mesh;  // the boundary first
+  std::vector<Index> id(start.vertex_count(), -1);
+  const auto add = [&](std::size_t v) {
+    id[v] = static_cast<Index>(mesh.x.size());
+    mesh.x.emplace_back(Eigen::Map<const Vec3>(&untangled.positions[3 * v]));
+  };
+  for (const std::int32_t v : boundary.vertices) add(static_cast<std::size_t>(v));
+  for (std::size_t v = 0; v < start.vertex_count(); ++v)
+    if (id[v] < 0) add(v);
+  for (std::size_t f = 0; f < start.face_count(); ++f) {
+    const auto corners = start.face(f);
+    mesh.faces.push_back({id[corners[0]], id[corners[1]], id[corners[2]]});
+  }
+  return faired_and_certified(std::move(result), mesh, boundary.link, edge_length(boundary.link, options), options,
+                              boundary.euler_characteristic, control);
 }
 
 }  // namespace unsnarl
