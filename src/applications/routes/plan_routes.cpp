@@ -45,7 +45,7 @@ constexpr double first_weight = 0.005;
 constexpr std::array<double, 3> search_paces = {2, 4, 8};
 /// Width of the grid's cells in a search in time, one a try (unit: radius of the agent)
 constexpr std::array<double, 3> search_cells = {1, 0.5, 0.35};
-/// A search in time uses this share of a limited speed: round turns are longer than the corners of its ways [E290] (no
+/// A search in time uses this share of a limited speed: round turns are longer than the corners of its ways [E255] (no
 /// unit)
 constexpr double search_speed = 0.9;
 /// Steps that all time is cut into, at most (unit: steps)
