@@ -51,7 +51,7 @@ struct CurveOptions {
   /// An open curve that ends this close to another one ends *on* it, and stays there / diagonal. Flattened curves add
   /// their own tolerance. [0, 0.1]
   double junction_rel = 1e-9;
-  bool fix_ends = false;    ///< the ends of open curves must not move
+  bool fix_ends = false;  ///< the ends of open curves must not move
   /// false: curves are joined in another way at their crossings, where they get points, so that the drawing stays.
   /// true: every curve keeps its points, in their order, and strands are moved past each other
   bool move_strands = false;
@@ -84,16 +84,17 @@ struct CurveResult {
   /// embedded: nothing crosses, by exact arithmetic. obstructed: only segments that must not move do. reduced,
   /// no_progress: crossings are left. time_limit, cancelled: stopped with crossings left.
   Status status = Status::no_progress;
-  /// As many as in the input, open or closed as there; joined in another way at crossings and moved, with points inserted
-  /// beside crossings and where an open curve ends on a segment.
+  /// As many as in the input, open or closed as there; joined in another way at crossings and moved, with points
+  /// inserted beside crossings and where an open curve ends on a segment.
   std::vector<Curve> curves;
   std::vector<Curve> joined;  ///< the same before anything moved: the input with its open ends joined
   CurveReport report;
 };
 
-/// Joins curves in the plane in another way at their crossings and moves their points as little as possible until no two
-/// segments meet but in points that they share (paper §3.1.1). Never gives back more crossings than the input has; curves without any come back unchanged.
-/// The same input gives the same result on every run. docs/curves.md explains the method.
+/// Joins curves in the plane in another way at their crossings and moves their points as little as possible until no
+/// two segments meet but in points that they share (paper §3.1.1). Never gives back more crossings than the input has;
+/// curves without any come back unchanged. The same input gives the same result on every run. docs/curves.md explains
+/// the method.
 ///
 /// Throws std::invalid_argument, naming the curve and the point, for curves with too few points, coordinates that are
 /// not finite or beyond 1e70, a diagonal below 1e-70, segments without length, flags of another number than points, or
