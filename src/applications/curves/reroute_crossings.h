@@ -15,8 +15,7 @@ struct ReroutedCurves {
 ///   - where a curve crosses itself, it passes the loop between the two visits backwards, and stays one curve. Of all
 ///     such crossings the one comes first whose strands go on the straightest.
 ///   - two curves that cross twice exchange the parts between, the shortest parts first. Two open curves that cross
-///   once
-///     exchange the parts behind the crossing. Parts with pinned vertices are not exchanged.
+///     once exchange the parts behind the crossing. Parts with pinned vertices are not exchanged.
 /// What neither resolves, an open curve that ends within a closed one for instance, crosses as before.
 ReroutedCurves reroute_crossings(const CrossedCurves& curves);
 
