@@ -27,8 +27,8 @@ enum class Blend {
 Annuli naive_annuli(const Polygons& start, const Polygons& end, Blend blend, std::size_t most);
 
 /// Untangles annuli in space while every ring keeps its height (paper §3.3 and §4.5): rings between the first and the
-/// last move in the plane, so that Gaussian self-contact energy + Minkowski penalty of the triangles + change of the
-/// edges becomes least. Ends when nothing intersects or nothing is gained; the best that was found is returned.
+/// last move in the plane, so that Gaussian self-contact energy + Minkowski penalty of the rings' segments + change of
+/// the edges becomes least. Ends when nothing intersects or nothing is gained; the best that was found is returned.
 Annuli untangled(const Annuli& annuli, const std::function<bool()>& stop);
 
 /// The length of all polygons together.
