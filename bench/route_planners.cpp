@@ -371,8 +371,8 @@ std::size_t best_velocity(const std::vector<Line>& lines, double speed, Vec want
   return lines.size();
 }
 
-/// Where no velocity is allowed by all, the one that breaks the lines from `first` on the least; those before `fixed`
-/// are kept.
+/// If no velocity is allowed by all lines, finds the one that breaks those from `first` on the least; those before
+/// `fixed` are kept.
 void least_bad_velocity(const std::vector<Line>& lines, std::size_t fixed, std::size_t first, double speed, Vec& best) {
   double distance = 0;
   for (std::size_t i = first; i < lines.size(); ++i) {
@@ -442,7 +442,7 @@ Paths orca(const Plan& plan, const Clock& clock) {
     p.push_back(agent.start);
   }
   const int nx = static_cast<int>((plan.room.hi.x - plan.room.lo.x) / pitch) + 1;
-  /// Where to go: the farthest visible point of the way down the distances.
+  /// The goal of the moment: the farthest visible point of the way down the distances.
   const auto target = [&](std::size_t i) {
     const Vec goal = plan.agents[i].goal;
     if (is_clear(plan, p[i], goal, radius)) return goal;

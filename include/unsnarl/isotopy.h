@@ -36,7 +36,7 @@ struct IsotopyPlace {
   double fraction = 0;    ///< of it, [0, 1)
 };
 
-/// What an isotopy was made of.
+/// The construction that made an isotopy.
 enum class IsotopyMethod : std::uint8_t {
   annulus,            ///< an annulus between the curves that is embedded as it was laid
   untangled_annulus,  ///< one that was untangled with every ring's height held (paper §4.5)

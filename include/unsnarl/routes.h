@@ -35,7 +35,7 @@ struct RouteAgent {
   double speed = std::numeric_limits<double>::infinity();
 };
 
-/// Where an obstacle is at a time, compared with the positions of its surface.
+/// The place of an obstacle at a time, compared with the positions of its surface.
 struct RouteMove {
   double time = 0;
   RoutePoint offset{};

@@ -57,7 +57,7 @@ struct SeifertFindings {
   }
 };
 
-/// What a surface that somebody brings spans.
+/// The link that a given surface spans.
 struct SpanningBoundary {
   Link link;  ///< the boundary, in the order of its faces, each component from its first vertex on
   std::vector<std::int32_t> vertices;  ///< the vertices of the surface that are these points, in their order

@@ -4,7 +4,7 @@
 
 namespace unsnarl {
 
-/// What a curve passes: a vertex, or one of its crossings.
+/// A curve passes waypoints; each is a vertex or one of its crossings.
 struct Waypoint {
   Index vertex = -1;       ///< -1: a crossing
   Index crossing = -1;     ///< its number; a crossing is passed twice, by one curve or by two

@@ -22,7 +22,8 @@ struct SeifertMatrix {
 /// Throws std::runtime_error if rounding leaves no room between sheets.
 SeifertMatrix seifert_matrix(std::span<const Vec3> x, std::span<const Triangle> faces);
 
-/// Of V + V': how many more eigenvalues are positive than negative. -2 for the right-handed trefoil. Exactly.
+/// The signature of V + V': the number of its positive eigenvalues less that of its negative ones, found exactly. It is
+/// -2 for the right-handed trefoil.
 int signature(const SeifertMatrix& matrix);
 
 /// det(V - t V').

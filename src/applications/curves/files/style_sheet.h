@@ -25,8 +25,8 @@ class StyleSheet {
   /// Adds the rules of the text of a <style> element. What is not understood is left out, and named in `unknown`.
   void add(std::string_view text, std::vector<std::string>& unknown);
 
-  /// What a property of an element is declared to be, lower case, by rules, its `style` or its attribute of this name;
-  /// empty: nothing. Nothing is inherited.
+  /// The value in lower case that rules, the `style` or the attribute of this name declare for a property of an
+  /// element; empty: none. Nothing is inherited.
   std::string declared(const pugi::xml_node& node, std::string_view property) const;
   /// The same without the attribute.
   std::string declared_in_css(const pugi::xml_node& node, std::string_view property) const;
@@ -36,7 +36,7 @@ class StyleSheet {
     std::string name, value;
     bool any_value = false;
   };
-  /// What one element has to be.
+  /// The conditions of a selector on one element.
   struct Compound {
     std::string type, id;  ///< empty: any
     std::vector<std::string> classes;

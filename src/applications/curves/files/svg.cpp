@@ -189,14 +189,14 @@ class SvgParser {
                       : fmt::format("<{}> '{}' on line {}", node.name(), id, line);
   }
 
-  /// What elements take from those around them.
+  /// The properties that elements take from those around them.
   struct Surroundings {
     Affine transform;
     Viewport viewport;
     bool is_visible = true;
   };
 
-  /// What is not understood is left as it is, with all within it, and noted.
+  /// Reads an element and what is in it; leaves one that is not understood as it is, and notes it.
   void visit(const pugi::xml_node& node, const Affine& outer, const Viewport& viewport, bool is_root) {
     visit(node, Surroundings{outer, viewport, true}, is_root);
   }
@@ -312,7 +312,7 @@ class SvgParser {
     }
   }
 
-  /// What the element `shown` draws, at `node`: itself, or a <use> of it, in whose coordinates `inner` puts it.
+  /// The drawing of the element `shown`, at `node`: itself, or a <use> of it, in whose coordinates `inner` puts it.
   void add_shape(const pugi::xml_node& node, const pugi::xml_node& shown, const std::string& kind,
                  const Surroundings& place, const Affine& inner) {
     for (const char* const measure : measures)

@@ -30,7 +30,7 @@ Vec3 at(const Route& route, const std::vector<double>& arc, double part) {
   return a + (length > 0 ? std::clamp((s - arc[after - 1]) / length, 0.0, 1.0) : 0.0) * (b - a);
 }
 
-/// Where an obstacle is at a time.
+/// The place of an obstacle at a time.
 Vec3 offset_at(const RouteObstacle& obstacle, double time) {
   const std::vector<RouteMove>& motion = obstacle.motion;
   if (motion.empty()) return Vec3::Zero();
