@@ -136,11 +136,8 @@ class Curves {
   }
 
   void add_output(StagedOutput& outputs) {
-    std::string bytes = document_.patched(result_.curves);
-    if (!curve_file_faults(document_, bytes, result_).empty()) {
-      bytes = document_.patched(result_.curves, true);
-      require_kept(bytes);
-    }
+    const std::string bytes = written_curves(document_, result_);
+    require_kept(bytes);
     if (is_stream(options_.output)) {
       outputs.add(options_.output, bytes);
       return;

@@ -116,7 +116,7 @@ std::optional<CurveFormat> curve_format_from_extension(std::string_view path);
 /// SVG: path, polyline, polygon, line, rect, circle and ellipse elements with their transforms; what is only referred
 /// to (defs, symbol, clipPath, mask, marker, pattern) is left alone. Béziers and arcs are flattened. An element of
 /// which nothing moved keeps its bytes; one that moved keeps all but its geometry, and becomes a path where it was a
-/// line, rect, circle or ellipse. A subpath that did not move keeps its Béziers.
+/// line, rect, circle or ellipse. Where its points did not move, Béziers and arcs are Béziers again.
 /// JSON: {"curves": [{"points": [[x, y], ...], "closed": true, "fixed": true or [point, ...], "name": "..."}, ...]};
 /// only "points" is needed.
 class CurveDocument {
@@ -140,8 +140,11 @@ class CurveDocument {
   /// Coordinates that moved are rounded to 1e-9 of the diagonal, unless all digits are asked for: where curves are
   /// closer than that, only these keep them apart. Points at one position are read as one position again; only where
   /// elements of a drawing have different transforms can it happen that no doubles say so.
-  std::string patched(std::span<const Curve> curves, bool all_digits = false) const;
-  /// The curves of a file that patched() wrote, flattened as here: compare point by point. Throws FileError.
+  /// polylines: one flag a curve, nonzero: if it moved, it is written as a polyline, point by point; empty: none is.
+  std::string patched(std::span<const Curve> curves, bool all_digits = false,
+                      std::span<const std::uint8_t> polylines = {}) const;
+  /// The curves of a file that patched() wrote, flattened as here; along Béziers they may have other points. Throws
+  /// FileError.
   std::vector<Curve> read_back(const std::string& bytes) const;
 
  private:
@@ -150,10 +153,15 @@ class CurveDocument {
   std::unique_ptr<class CurveFile> file_;
 };
 
-/// Certifies the bytes of a file that patched() wrote for a result: it has the curves, points and joints of the result
-/// and no more crossings than the result says, counted on the numbers that are read back, by exact arithmetic. Returns
-/// what does not hold; empty: all holds. Throws FileError.
+/// Certifies the bytes of a file that patched() wrote for a result: it has the curves and joints of the result, point
+/// by point or, where there are Béziers, no farther from it than twice the tolerance of flattening and a thousandth of
+/// the diagonal; and no more crossings than the result says, counted on the numbers that are read back, by exact
+/// arithmetic. Returns what does not hold; empty: all holds. Throws FileError.
 std::string curve_file_faults(const CurveDocument& document, const std::string& bytes, const CurveResult& result);
+
+/// The bytes of a file for a result, by patched(): as few curves as the certificate allows are written as polylines,
+/// and all digits only where it asks for them. curve_file_faults() says whether it holds then. Throws FileError.
+std::string written_curves(const CurveDocument& document, const CurveResult& result);
 
 /// The integrand of the Gaussian self-contact energy over pairs of points of one curve (paper eq. (1), Fig. 4), with
 /// the intrinsic distance as weight: w(s, t) / epsilon exp(-|y(s) - y(t)|^2 / epsilon^2), as the bytes of a PNG of

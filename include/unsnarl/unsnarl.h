@@ -199,6 +199,10 @@ typedef struct unsnarl_options {
 
   /* unsnarl_repair, unsnarl_repair_sequence, unsnarl_document_repair */
   int32_t gap_near_conflicts; /* open gaps to min_gap only around what intersects, and promise none. Default 0 */
+
+  /* unsnarl_untangle_curves */
+  int32_t move_strands; /* every curve keeps its points, in their order, and strands are moved past each other; else
+                           curves are joined in another way at crossings, so that the drawing stays. Default 0 */
 } unsnarl_options;
 
 /* Sets all options to their defaults. size: sizeof(unsnarl_options). */

@@ -45,6 +45,7 @@ def untangle_curves(
     *,
     fixed: Sequence[Any] | None = None,
     fix_ends: bool = False,
+    move_strands: bool = False,
     gap: float = 4e-3,
     junction: float = 1e-9,
     time_limit: float = 0,
@@ -63,6 +64,9 @@ def untangle_curves(
         For each curve the points that must not move, as a mask (n,) of bool, ids, or None. None: all may move.
     fix_ends
         The ends of open curves must not move.
+    move_strands
+        True: every curve keeps its points, in their order, and strands are moved past each other. False: curves are
+        joined in another way at crossings, so that the drawing stays.
     gap
         Distance to keep where a crossing was opened, as a fraction of the diagonal, in (0, 0.1].
     junction
@@ -84,7 +88,14 @@ def untangle_curves(
     struct = polylines.struct(
         closed=_closed(closed, len(polylines.sizes)), fixed=_fixed(fixed, polylines.sizes)
     )
-    options = options_of(gap=gap, junction=junction, fix_ends=fix_ends, time_limit=time_limit, recover=recover)
+    options = options_of(
+        gap=gap,
+        junction=junction,
+        fix_ends=fix_ends,
+        move_strands=move_strands,
+        time_limit=time_limit,
+        recover=recover,
+    )
     done = call_and_wait("untangle_curves", struct, options, progress=progress)
     report = done.report
     for crossings in ("obstructions", "left"):

@@ -119,6 +119,7 @@ unsnarl_options default_options() {
   options.gap = curves.gap_rel;
   options.junction = curves.junction_rel;
   options.fix_ends = curves.fix_ends;
+  options.move_strands = curves.move_strands;
   options.edge = seifert.edge_rel;
   options.views = seifert.views;
   options.fair = seifert.fair;

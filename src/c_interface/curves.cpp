@@ -23,6 +23,7 @@ unsnarl_result untangled(const std::vector<Curve>& curves, const unsnarl_options
   options.gap_rel = given.gap;
   options.junction_rel = given.junction;
   options.fix_ends = given.fix_ends != 0;
+  options.move_strands = given.move_strands != 0;
   options.recover = given.recover != 0;
   options.time_limit_s = given.time_limit;
   const CurveResult made = untangle_curves(curves, options, context);

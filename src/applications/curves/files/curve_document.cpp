@@ -101,10 +101,13 @@ const std::vector<std::string>& CurveDocument::notes() const {
   return file_->notes;
 }
 
-std::string CurveDocument::patched(std::span<const Curve> curves, bool all_digits) const {
+std::string CurveDocument::patched(std::span<const Curve> curves, bool all_digits,
+                                   std::span<const std::uint8_t> polylines) const {
   if (curves.size() != file_->curves.size())
     throw std::invalid_argument(fmt::format("{} curves for a file of {}", curves.size(), file_->curves.size()));
-  return file_->patched(curves, all_digits ? 0 : written_rel * diagonal_of(file_->curves));
+  if (!polylines.empty() && polylines.size() != curves.size())
+    throw std::invalid_argument(fmt::format("{} flags for {} curves", polylines.size(), curves.size()));
+  return file_->patched(curves, all_digits ? 0 : written_rel * diagonal_of(file_->curves), polylines);
 }
 
 std::vector<Curve> CurveDocument::read_back(const std::string& bytes) const {

@@ -12,9 +12,10 @@ namespace unsnarl {
 class CurveFile {
  public:
   virtual ~CurveFile() = default;
-  /// The file with these curves in place of its own. Moved coordinates are
-  /// rounded to about `rounding`, a length.
-  virtual std::string patched(std::span<const Curve> moved, double rounding) const = 0;
+  /// The file with these curves in place of its own. Moved coordinates are rounded to about `rounding`, a length.
+  /// polylines: one flag a curve, as of CurveDocument::patched.
+  virtual std::string patched(std::span<const Curve> moved, double rounding,
+                              std::span<const std::uint8_t> polylines) const = 0;
   /// Another text of this kind, curves flattened as here.
   virtual std::unique_ptr<CurveFile> parse_alike(std::string text) const = 0;
 

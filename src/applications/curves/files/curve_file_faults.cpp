@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
+#include "applications/curves/closeness.h"
 #include "applications/curves/curve_net.h"
 
 namespace unsnarl {
@@ -12,34 +15,108 @@ namespace {
 /// bounding-box diagonal)
 constexpr double joint_apart_rel = 1e-8;
 
-std::string faults_of(const std::vector<Curve>& written, const CurveResult& result) {
-  if (written.size() != result.curves.size()) return "it has another number of curves";
-  for (std::size_t c = 0; c < written.size(); ++c)
-    if (written[c].size() != result.curves[c].size() || written[c].closed != result.curves[c].closed)
-      return fmt::format("{} has another number of points", name_of_curve(written[c], c));
-  for (const CurveJoint& joint : result.report.joints) {
+/// Where points that moved are joined by Béziers, these may be this far from their polyline, a quarter of the default
+/// gap (unit: bounding-box diagonal)
+constexpr double smoothing_rel = 1e-3;
+
+struct Faults {
+  std::string text;                           ///< empty: there are none
+  std::vector<std::uint8_t> curves_at_fault;  ///< one flag a curve of the result, where single ones are
+};
+
+CurveNet net_of(const Curve& curve) {
+  return make_net({&curve, 1}, {}, false);
+}
+
+/// The largest distance between two curves, all along both of them.
+double distance_between(const Curve& a, const Curve& b) {
+  const CurveNet first = net_of(a), second = net_of(b);
+  return std::max(closeness_of(first, first.rest, second, second.rest, 0).largest,
+                  closeness_of(second, second.rest, first, first.rest, 0).largest);
+}
+
+/// The point of a written curve that is point k of the result's.
+std::int32_t written_point(const Curve& written, const Curve& wanted, std::int32_t k) {
+  if (written.tolerance == 0) return k;
+  std::int32_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t w = 0; w < static_cast<std::int32_t>(written.size()); ++w) {
+    const double distance =
+        std::hypot(written.points[2 * w] - wanted.points[2 * k], written.points[2 * w + 1] - wanted.points[2 * k + 1]);
+    if (distance < least) {
+      least = distance;
+      nearest = w;
+    }
+  }
+  return nearest;
+}
+
+Faults faults_of(const std::vector<Curve>& written, const CurveResult& result) {
+  const std::vector<Curve>& curves = result.curves;
+  if (written.size() != curves.size()) return {"it has another number of curves", {}};
+  Faults faults{{}, std::vector<std::uint8_t>(curves.size(), 0)};
+  for (std::size_t c = 0; c < written.size(); ++c) {
+    const Curve& curve = written[c];
+    const bool is_as_long = curve.size() == curves[c].size();
+    if (curve.closed != curves[c].closed || (!is_as_long && curve.tolerance == 0))
+      return {fmt::format("{} has another number of points", name_of_curve(curve, c)), {}};
+    if (curve.tolerance == 0 || curve.points == curves[c].points) continue;
+    if (distance_between(curve, curves[c]) <= 2 * curve.tolerance + smoothing_rel * result.report.diagonal) continue;
+    faults.curves_at_fault[c] = 1;
+    faults.text = fmt::format("{} is elsewhere", name_of_curve(curve, c));
+  }
+  std::vector<CurveJoint> joints = result.report.joints;
+  for (CurveJoint& joint : joints) {
+    for (auto& [c, k] : joint) k = written_point(written[c], curves[c], k);
     const auto [c, k] = joint[0];
     for (const auto& [other, point] : joint)
       for (int axis = 0; axis < 2; ++axis)
         if (!(std::abs(written[other].points[2 * point + axis] - written[c].points[2 * k + axis]) <=
               joint_apart_rel * result.report.diagonal))
-          return fmt::format("{} and {} have come apart", name_of_curve(written[c], static_cast<std::size_t>(c)),
-                             name_of_curve(written[other], static_cast<std::size_t>(other)));
+          return {fmt::format("{} and {} have come apart", name_of_curve(written[c], static_cast<std::size_t>(c)),
+                              name_of_curve(written[other], static_cast<std::size_t>(other))),
+                  {}};
+    std::sort(joint.begin(), joint.end());
   }
-  const std::size_t crossings = find_crossings(written, result.report.joints).size();
-  if (crossings <= result.report.crossings_after) return {};
-  return fmt::format("it has {} crossing{}, the result {}", crossings, crossings == 1 ? "" : "s",
-                     result.report.crossings_after);
+  const std::vector<CurveCrossing> crossings = find_crossings(written, joints);
+  if (crossings.size() <= result.report.crossings_after) return faults;
+  for (const CurveCrossing& crossing : crossings)
+    faults.curves_at_fault[crossing.curve_a] = faults.curves_at_fault[crossing.curve_b] = 1;
+  faults.text = fmt::format("it has {} crossing{}, the result {}", crossings.size(), crossings.size() == 1 ? "" : "s",
+                            result.report.crossings_after);
+  return faults;
+}
+
+Faults faults_of_bytes(const CurveDocument& document, const std::string& bytes, const CurveResult& result) {
+  try {
+    return faults_of(document.read_back(bytes), result);
+  } catch (const std::invalid_argument& e) {  // a segment that has lost its length
+    return {e.what(), {}};
+  }
 }
 
 }  // namespace
 
 std::string curve_file_faults(const CurveDocument& document, const std::string& bytes, const CurveResult& result) {
-  try {
-    return faults_of(document.read_back(bytes), result);
-  } catch (const std::invalid_argument& e) {  // a segment that has lost its length
-    return e.what();
+  return faults_of_bytes(document, bytes, result).text;
+}
+
+std::string written_curves(const CurveDocument& document, const CurveResult& result) {
+  std::vector<std::uint8_t> polylines(result.curves.size(), 0);
+  for (;;) {
+    std::string bytes = document.patched(result.curves, false, polylines);
+    const Faults faults = faults_of_bytes(document, bytes, result);
+    if (faults.text.empty()) return bytes;
+    fprintf(stderr, "DBG %s\n", faults.text.c_str());
+    bool is_another = false;
+    for (std::size_t c = 0; c < faults.curves_at_fault.size(); ++c) {
+      is_another |= faults.curves_at_fault[c] > polylines[c];
+      polylines[c] |= faults.curves_at_fault[c];
+    }
+    if (!is_another) break;
   }
+  polylines.assign(polylines.size(), 1);
+  return document.patched(result.curves, true, polylines);
 }
 
 }  // namespace unsnarl

@@ -17,7 +17,8 @@ class JsonCurveFile final : public CurveFile {
     std::vector<std::pair<std::size_t, std::size_t>> tokens;  // of each coordinate
   };
 
-  std::string patched(std::span<const Curve> moved, double rounding) const override {
+  std::string patched(std::span<const Curve> moved, double rounding,
+                      std::span<const std::uint8_t> /*polylines*/) const override {
     const WrittenPlaces written_at(curves, moved, rounding);
     std::vector<TextEdit> edits;
     for (std::size_t c = 0; c < moved.size(); ++c) {

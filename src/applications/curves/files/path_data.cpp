@@ -82,57 +82,86 @@ int pieces_of(double second_difference, int degree, double tolerance) {
   return pieces(std::sqrt(degree * (degree - 1) / 8.0 * second_difference / tolerance), tolerance);
 }
 
-void add_quadratic(std::vector<Vec2>& points, const Vec2& a, const Vec2& b, const Vec2& c, double tolerance) {
-  const int n = pieces_of((a - 2 * b + c).norm(), 2, tolerance);
-  for (int k = 1; k < n; ++k) {
-    const double t = static_cast<double>(k) / n, u = 1 - t;
-    points.push_back(u * u * a + 2 * t * u * b + t * t * c);
-  }
-  points.push_back(c);
-}
+/// Adds points to a subpath, with the pieces that lead to them.
+class Flattening {
+ public:
+  Flattening(Subpath& subpath, int command, double tolerance)
+      : subpath_(subpath), command_(command), tolerance_(tolerance) {}
 
-void add_cubic(std::vector<Vec2>& points, const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d,
-               double tolerance) {
-  const int n = pieces_of(std::max((a - 2 * b + c).norm(), (b - 2 * c + d).norm()), 3, tolerance);
-  for (int k = 1; k < n; ++k) {
-    const double t = static_cast<double>(k) / n, u = 1 - t;
-    points.push_back(u * u * u * a + 3 * t * u * u * b + 3 * t * t * u * c + t * t * t * d);
+  void line(const Vec2& to) {
+    subpath_.points.push_back(to);
+    subpath_.pieces.emplace_back();
   }
-  points.push_back(d);
-}
+  void quadratic(const Vec2& b, const Vec2& c) {
+    const Vec2 a = subpath_.points.back();
+    add(
+        pieces_of((a - 2 * b + c).norm(), 2, tolerance_), c,
+        [&](double t, double u) -> Vec2 { return u * u * a + 2 * t * u * b + t * t * c; },
+        [&](double t, double u) -> Vec2 { return 2 * (u * (b - a) + t * (c - b)); });
+  }
+  void cubic(const Vec2& b, const Vec2& c, const Vec2& d) {
+    const Vec2 a = subpath_.points.back();
+    add(
+        pieces_of(std::max((a - 2 * b + c).norm(), (b - 2 * c + d).norm()), 3, tolerance_), d,
+        [&](double t, double u) -> Vec2 {
+          return u * u * u * a + 3 * t * u * u * b + 3 * t * t * u * c + t * t * t * d;
+        },
+        [&](double t, double u) -> Vec2 { return 3 * (u * u * (b - a) + 2 * t * u * (c - b) + t * t * (d - c)); });
+  }
+  /// SVG 1.1, appendix F.6: from end points to centre.
+  void arc(Vec2 radii, double degrees, bool large, bool sweep, const Vec2& to) {
+    const Vec2 from = subpath_.points.back();
+    radii = radii.cwiseAbs();
+    if (from == to) return;
+    if (radii.x() == 0 || radii.y() == 0) return line(to);
+    const double angle = degrees * std::numbers::pi / 180;
+    Eigen::Matrix2d turn;
+    turn << portable::cos(angle), -portable::sin(angle), portable::sin(angle), portable::cos(angle);
+    const Vec2 p = turn.transpose() * (0.5 * (from - to));
+    const double too_small = p.cwiseQuotient(radii).squaredNorm();
+    if (too_small > 1) radii *= std::sqrt(too_small);
+    const Vec2 q = p.cwiseQuotient(radii);
+    const double factor = std::sqrt(std::max(0.0, 1 / q.squaredNorm() - 1)) * (large == sweep ? -1 : 1);
+    const Vec2 centre_unit(factor * q.y(), -factor * q.x());
+    const Vec2 centre = turn * centre_unit.cwiseProduct(radii) + 0.5 * (from + to);
+    const Vec2 u = q - centre_unit, v = -q - centre_unit;
+    const double first = portable::atan2(u.y(), u.x());
+    double swept = portable::atan2(v.y(), v.x()) - first;
+    if (sweep && swept < 0) swept += 2 * std::numbers::pi;
+    if (!sweep && swept > 0) swept -= 2 * std::numbers::pi;
+    const double step = 2 * portable::acos(std::max(0.0, 1 - tolerance_ / radii.maxCoeff()));
+    turn_ = std::abs(swept);
+    add(
+        pieces(turn_ / step, tolerance_), to,
+        [&](double t, double) -> Vec2 {
+          const double at = first + swept * t;
+          return centre + turn * Vec2(radii.x() * portable::cos(at), radii.y() * portable::sin(at));
+        },
+        [&](double t, double) -> Vec2 {
+          const double at = first + swept * t;
+          return swept * (turn * Vec2(-radii.x() * portable::sin(at), radii.y() * portable::cos(at)));
+        });
+  }
 
-/// SVG 1.1, appendix F.6: from end points to centre.
-void add_arc(std::vector<Vec2>& points, const Vec2& from, Vec2 radii, double degrees, bool large, bool sweep,
-             const Vec2& to, double tolerance) {
-  radii = radii.cwiseAbs();
-  if (from == to) return;
-  if (radii.x() == 0 || radii.y() == 0) {
-    points.push_back(to);
-    return;
+ private:
+  /// A curve up to `to`, in n pieces of equal parameter t; functions of t and 1 - t.
+  template <class Position, class Derivative>
+  void add(int n, const Vec2& to, Position&& position, Derivative&& derivative) {
+    Vec2 direction = derivative(0.0, 1.0);
+    for (int k = 1; k <= n; ++k) {
+      const double t = static_cast<double>(k) / n, before = static_cast<double>(k - 1) / n;
+      const Vec2 next = derivative(t, 1 - t);
+      subpath_.pieces.push_back({command_, before, t, direction, next, turn_});
+      subpath_.points.push_back(k < n ? position(t, 1 - t) : to);
+      direction = next;
+    }
   }
-  const double angle = degrees * std::numbers::pi / 180;
-  Eigen::Matrix2d turn;
-  turn << portable::cos(angle), -portable::sin(angle), portable::sin(angle), portable::cos(angle);
-  const Vec2 p = turn.transpose() * (0.5 * (from - to));
-  const double too_small = p.cwiseQuotient(radii).squaredNorm();
-  if (too_small > 1) radii *= std::sqrt(too_small);
-  const Vec2 q = p.cwiseQuotient(radii);
-  const double factor = std::sqrt(std::max(0.0, 1 / q.squaredNorm() - 1)) * (large == sweep ? -1 : 1);
-  const Vec2 centre_unit(factor * q.y(), -factor * q.x());
-  const Vec2 centre = turn * centre_unit.cwiseProduct(radii) + 0.5 * (from + to);
-  const Vec2 u = q - centre_unit, v = -q - centre_unit;
-  const double first = portable::atan2(u.y(), u.x());
-  double swept = portable::atan2(v.y(), v.x()) - first;
-  if (sweep && swept < 0) swept += 2 * std::numbers::pi;
-  if (!sweep && swept > 0) swept -= 2 * std::numbers::pi;
-  const double step = 2 * portable::acos(std::max(0.0, 1 - tolerance / radii.maxCoeff()));
-  const int n = pieces(std::abs(swept) / step, tolerance);
-  for (int k = 1; k < n; ++k) {
-    const double t = first + swept * k / n;
-    points.push_back(centre + turn * Vec2(radii.x() * portable::cos(t), radii.y() * portable::sin(t)));
-  }
-  points.push_back(to);
-}
+
+  Subpath& subpath_;
+  int command_;
+  double tolerance_;
+  double turn_ = 0;
+};
 
 /// State between the commands of a path.
 struct Pen {
@@ -142,10 +171,10 @@ struct Pen {
 };
 
 /// Adds to the subpath what a command other than M draws. False: there is no such command.
-bool draw(char kind, bool relative, Reader& reader, Pen& pen, Subpath& subpath, double tolerance) {
+bool draw(char kind, bool relative, Reader& reader, Pen& pen, Subpath& subpath, int command, double tolerance) {
   const Vec2 origin = relative ? pen.at : Vec2(0, 0);
   const auto follows = [&](char one, char other) { return pen.last == one || pen.last == other; };
-  std::vector<Vec2>& points = subpath.points;
+  Flattening flattened(subpath, command, tolerance);
   Vec2 to = pen.at;
   switch (kind) {
     case 'Z':
@@ -155,15 +184,15 @@ bool draw(char kind, bool relative, Reader& reader, Pen& pen, Subpath& subpath, 
       return true;
     case 'L':
       to = reader.point() + origin;
-      points.push_back(to);
+      flattened.line(to);
       break;
     case 'H':
       to.x() = reader.number() + origin.x();
-      points.push_back(to);
+      flattened.line(to);
       break;
     case 'V':
       to.y() = reader.number() + origin.y();
-      points.push_back(to);
+      flattened.line(to);
       break;
     case 'C':
     case 'S': {
@@ -175,7 +204,7 @@ bool draw(char kind, bool relative, Reader& reader, Pen& pen, Subpath& subpath, 
       }
       pen.control = reader.point() + origin;
       to = reader.point() + origin;
-      add_cubic(points, pen.at, first, pen.control, to, tolerance);
+      flattened.cubic(first, pen.control, to);
       break;
     }
     case 'Q':
@@ -186,14 +215,14 @@ bool draw(char kind, bool relative, Reader& reader, Pen& pen, Subpath& subpath, 
         pen.control = follows('Q', 'T') ? Vec2(2 * pen.at - pen.control) : pen.at;
       }
       to = reader.point() + origin;
-      add_quadratic(points, pen.at, pen.control, to, tolerance);
+      flattened.quadratic(pen.control, to);
       break;
     case 'A': {
       const Vec2 radii = reader.point();
       const double degrees = reader.number();
       const bool large = reader.flag(), sweep = reader.flag();
       to = reader.point() + origin;
-      add_arc(points, pen.at, radii, degrees, large, sweep, to, tolerance);
+      flattened.arc(radii, degrees, large, sweep, to);
       break;
     }
     default: return false;
@@ -268,6 +297,7 @@ std::vector<Subpath> parse_path_data(std::string_view text, double tolerance) {
     result.back().start = pen.at = start;
     result.back().points.push_back(start);
   };
+  int commands = 0;
   bool needs_subpath = true;  // after a close-path, unless a move-to follows
   while (!reader.at_end()) {
     const std::size_t begin = reader.offset();
@@ -290,7 +320,7 @@ std::vector<Subpath> parse_path_data(std::string_view text, double tolerance) {
         open(Vec2(result.back().start), begin);
         result.back().begin = begin;
       }
-      if (!draw(kind, relative, reader, pen, result.back(), tolerance))
+      if (!draw(kind, relative, reader, pen, result.back(), commands++, tolerance))
         throw FileError(fmt::format("'{}' at character {} is not a command of path data", command, begin));
     }
     needs_subpath = kind == 'Z';

@@ -28,9 +28,19 @@ struct Affine {
   }
 };
 
+/// What leads from a point of a flattened subpath to the next one: a segment, or a part of a Bézier curve or an arc.
+struct DrawnPiece {
+  int command = -1;                             ///< the curve that it is a part of, counted in its path; -1: none
+  double begin = 0, end = 1;                    ///< the part's parameters, in [0, 1]
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< derivatives of the curve by its parameter at both ends
+  double turn = 0;                              ///< of an arc: the angle in radians that it turns by in all
+};
+
 /// One move-to and what follows it.
 struct Subpath {
   std::vector<Vec2> points;  ///< flattened, in the coordinates of the element; one point: nothing is drawn
+  /// pieces[k] leads from point k to the next, of a closed subpath around its end; an open one has no last piece.
+  std::vector<DrawnPiece> pieces;
   bool closed = false;
   bool has_curves = false;
   Vec2 start = Vec2::Zero();

@@ -9,6 +9,7 @@
 #include <optional>
 #include <pugixml.hpp>
 
+#include "applications/curves/files/bezier_steps.h"
 #include "applications/curves/files/curve_file.h"
 #include "applications/curves/files/path_data.h"
 #include "applications/curves/files/style_sheet.h"
@@ -89,6 +90,26 @@ std::size_t end_tag_of(std::string_view text, std::size_t at) {
   return at;
 }
 
+DrawnPiece transformed(DrawnPiece piece, const Affine& transform) {
+  if (transform.is_identity()) return piece;
+  piece.from = transform.linear * piece.from;
+  piece.to = transform.linear * piece.to;
+  return piece;
+}
+
+/// Leaves out points that repeat the point before them, with the pieces that lead to them. Then there are as many
+/// pieces as points.
+void leave_out_repeated_points(Subpath& path) {
+  path.pieces.resize(path.points.size());
+  std::size_t kept = 0;
+  for (std::size_t k = 1; k < path.points.size(); ++k) {
+    if (path.points[k] != path.points[kept]) path.points[++kept] = path.points[k];
+    path.pieces[kept] = path.pieces[k];
+  }
+  path.points.resize(std::min(path.points.size(), kept + 1));
+  path.pieces.resize(path.points.size());
+}
+
 /// One subpath of an element.
 struct Piece {
   Subpath path;
@@ -104,21 +125,33 @@ struct Shape {
   std::vector<Piece> pieces;
 };
 
+/// The curves to be written, and where.
+struct MovedCurves {
+  std::span<const Curve> curves;
+  std::span<const std::uint8_t> polylines;  ///< one flag a curve; empty: none
+  TransformedPlaces& places;
+
+  bool is_polyline(std::size_t curve) const { return !polylines.empty() && polylines[curve] != 0; }
+};
+
 class SvgFile final : public CurveFile {
  public:
-  std::string patched(std::span<const Curve> moved, double rounding) const override;
+  std::string patched(std::span<const Curve> moved, double rounding,
+                      std::span<const std::uint8_t> polylines) const override;
 
   std::unique_ptr<CurveFile> parse_alike(std::string text) const override {
     return parse_svg(std::move(text), 1, flatten);
   }
 
   std::vector<Shape> shapes;
+  DrawnPieces drawn;
   double flatten = 0;
 
  private:
   bool is_moved(const Piece& piece, std::span<const Curve> moved) const;
-  std::string path_of(const Shape& shape, std::span<const Curve> moved, TransformedPlaces& places) const;
-  std::string points_of(const Shape& shape, const Piece& piece, const Curve& moved, TransformedPlaces& places) const;
+  std::string path_of(const Shape& shape, const MovedCurves& moved) const;
+  std::string data_of(const Shape& shape, const Piece& piece, const MovedCurves& moved) const;
+  std::vector<Vec2> points_of(const Shape& shape, const Piece& piece, const MovedCurves& moved) const;
   void replace_use(const Shape& shape, const std::string& data,
                    const std::map<std::string, Attribute, std::less<>>& attributes, std::vector<TextEdit>& edits) const;
 };
@@ -151,6 +184,7 @@ class SvgParser {
       visit(root, {}, {}, true);
       flatten = flatten_rel_ * diagonal_of(file_.curves);
       file_.curves.clear();
+      file_.drawn = {};
       file_.ids.clear();
       file_.notes.clear();
       file_.shapes.clear();
@@ -348,6 +382,7 @@ class SvgParser {
     }
     for (Subpath& path : paths) {
       for (Vec2& p : path.points) p = inner(p);
+      for (DrawnPiece& piece : path.pieces) piece = transformed(piece, inner);
       path.start = inner(path.start);
     }
     if (kind == "use") shape.style = attributes_besides_geometry(shown);
@@ -393,11 +428,13 @@ class SvgParser {
   void add_piece(const pugi::xml_node& node, Subpath path, bool is_one_of_several, Shape& shape) {
     Piece piece;
     std::vector<Vec2>& points = path.points;
-    points.erase(std::unique(points.begin(), points.end()), points.end());
+    leave_out_repeated_points(path);
     double largest = 0;
     for (const Vec2& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-    while (path.closed && points.size() > 1 && (points.back() - points.front()).norm() <= closing_gap * largest)
+    while (path.closed && points.size() > 1 && (points.back() - points.front()).norm() <= closing_gap * largest) {
       points.pop_back();
+      path.pieces.pop_back();
+    }
     if (points.size() > 1) {
       Curve curve;
       curve.closed = path.closed && points.size() > 2;
@@ -409,6 +446,9 @@ class SvgParser {
       curve.name = place_of(node);
       if (is_one_of_several) curve.name += fmt::format(", subpath {}", shape.pieces.size() + 1);
       piece.curve = file_.curves.size();
+      std::vector<DrawnPiece> placed;
+      for (const DrawnPiece& drawn : path.pieces) placed.push_back(transformed(drawn, shape.transform));
+      file_.drawn.add(curve, placed);
       file_.curves.push_back(std::move(curve));
       file_.ids.emplace_back(node.attribute("id").value());
     }
@@ -422,6 +462,10 @@ class SvgParser {
   std::map<std::string, pugi::xml_node, std::less<>> by_id_;
   std::map<std::string, int> skipped_;
 };
+
+std::string text_of(const Vec2& point) {
+  return fmt::format("{},{}", digits_of(point.x()), digits_of(point.y()));
+}
 
 /// For each point of a moved curve the point of the file's that it is still; -1: none.
 std::vector<std::ptrdiff_t> own_points(const Curve& own, const Curve& moved) {
@@ -445,30 +489,52 @@ bool SvgFile::is_moved(const Piece& piece, std::span<const Curve> moved) const {
   return piece.curve && moved[*piece.curve].points != curves[*piece.curve].points;
 }
 
-std::string SvgFile::points_of(const Shape& shape, const Piece& piece, const Curve& moved,
-                               TransformedPlaces& places) const {
-  const std::vector<std::ptrdiff_t> own = own_points(curves[*piece.curve], moved);
-  std::string text;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    const Vec2 place(moved.points[2 * i], moved.points[2 * i + 1]);
-    const bool is_own =
-        own[i] >= 0 && places.is_read_as(place, piece.path.points[static_cast<std::size_t>(own[i])], shape.transform);
-    const Vec2 local =
-        is_own ? piece.path.points[static_cast<std::size_t>(own[i])] : places.local(place, shape.transform);
-    text += fmt::format("{}{},{}", i == 0 ? "" : " ", digits_of(local.x()), digits_of(local.y()));
+/// The points of a moved curve in the coordinates of its element.
+std::vector<Vec2> SvgFile::points_of(const Shape& shape, const Piece& piece, const MovedCurves& moved) const {
+  const Curve& curve = moved.curves[*piece.curve];
+  const std::vector<std::ptrdiff_t> own = own_points(curves[*piece.curve], curve);
+  std::vector<Vec2> result;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const Vec2 place(curve.points[2 * i], curve.points[2 * i + 1]);
+    const bool is_own = own[i] >= 0 && moved.places.is_read_as(
+                                           place, piece.path.points[static_cast<std::size_t>(own[i])], shape.transform);
+    result.push_back(is_own ? piece.path.points[static_cast<std::size_t>(own[i])]
+                            : moved.places.local(place, shape.transform));
   }
-  return text;
+  return result;
 }
 
-std::string SvgFile::path_of(const Shape& shape, std::span<const Curve> moved, TransformedPlaces& places) const {
+std::string SvgFile::data_of(const Shape& shape, const Piece& piece, const MovedCurves& moved) const {
+  const Curve& curve = moved.curves[*piece.curve];
+  const std::vector<Vec2> points = points_of(shape, piece, moved);
+  const auto is_shared = [&](std::size_t k) {
+    return moved.places.is_shared({curve.points[2 * k], curve.points[2 * k + 1]});
+  };
+  std::string text = "M " + text_of(points[0]);
+  if (moved.is_polyline(*piece.curve)) {
+    for (std::size_t k = 1; k < points.size(); ++k) text += " " + text_of(points[k]);
+  } else {
+    bool is_curve = false;  // further pairs of numbers behind a move-to are segments
+    for (const PathStep& step : drawn.along(curve, is_shared)) {
+      if (!step.controls && step.to == 0) continue;  // closing says it
+      if (step.controls.has_value() != is_curve) text += is_curve ? " L" : " C";
+      is_curve = step.controls.has_value();
+      for (int k = 0; is_curve && k < 2; ++k)
+        text += " " + text_of(moved.places.control((*step.controls)[k], shape.transform));
+      text += " " + text_of(points[step.to]);
+    }
+  }
+  return curve.closed ? text + " Z" : text;
+}
+
+std::string SvgFile::path_of(const Shape& shape, const MovedCurves& moved) const {
   std::string text;
   for (const Piece& piece : shape.pieces) {
     if (!text.empty()) text += ' ';
-    if (piece.curve && (is_moved(piece, moved) || shape.kind == "use")) {
-      text += "M " + points_of(shape, piece, moved[*piece.curve], places);
-      if (moved[*piece.curve].closed) text += " Z";
+    if (piece.curve && (is_moved(piece, moved.curves) || shape.kind == "use")) {
+      text += data_of(shape, piece, moved);
     } else {
-      text += fmt::format("M {},{}", digits_of(piece.path.start.x()), digits_of(piece.path.start.y()));
+      text += "M " + text_of(piece.path.start);
       if (piece.path.implicit != 0) text += fmt::format(" {}", piece.path.implicit);
       std::string rest = shape.data.substr(piece.path.begin, piece.path.end - piece.path.begin);
       while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\n')) rest.pop_back();
@@ -503,8 +569,10 @@ void SvgFile::replace_use(const Shape& shape, const std::string& data,
   }
 }
 
-std::string SvgFile::patched(std::span<const Curve> moved, double rounding) const {
+std::string SvgFile::patched(std::span<const Curve> moved, double rounding,
+                             std::span<const std::uint8_t> polylines) const {
   TransformedPlaces places(curves, moved, rounding);
+  const MovedCurves written{moved, polylines, places};
   for (const Shape& shape : shapes)
     for (const Piece& piece : shape.pieces)
       for (std::size_t k = 0;
@@ -518,17 +586,18 @@ std::string SvgFile::patched(std::span<const Curve> moved, double rounding) cons
     const auto attributes = attributes_of(bytes, shape.name);
     if (shape.kind == "path") {
       const Attribute& d = attributes.find("d")->second;
-      edits.push_back({d.value_begin, d.value_end, path_of(shape, moved, places)});
+      edits.push_back({d.value_begin, d.value_end, path_of(shape, written)});
       continue;
     }
     if (shape.kind == "use") {
-      replace_use(shape, path_of(shape, moved, places), attributes, edits);
+      replace_use(shape, path_of(shape, written), attributes, edits);
       continue;
     }
     const Piece& piece = shape.pieces[0];
-    const std::string points = points_of(shape, piece, moved[*piece.curve], places);
     if (shape.kind == "polyline" || shape.kind == "polygon") {
       const Attribute& list = attributes.find("points")->second;
+      std::string points;
+      for (const Vec2& point : points_of(shape, piece, written)) points += (points.empty() ? "" : " ") + text_of(point);
       edits.push_back({list.value_begin, list.value_end, points});
       continue;
     }
@@ -536,7 +605,7 @@ std::string SvgFile::patched(std::span<const Curve> moved, double rounding) cons
     const std::size_t colon = bytes.find_first_of(": \t\r\n/>", shape.name);
     const std::size_t name = bytes[colon] == ':' ? colon + 1 : shape.name;
     edits.push_back({name, name + shape.kind.size(), "path"});
-    const std::string data = fmt::format("d=\"M {}{}\"", points, moved[*piece.curve].closed ? " Z" : "");
+    const std::string data = fmt::format("d=\"{}\"", data_of(shape, piece, written));
     bool is_written = false;
     std::size_t behind = name + shape.kind.size();
     for (const auto& [key, attribute] : attributes) {

@@ -86,7 +86,19 @@ bool WrittenPlaces::is_kept(const Vec2& moved) const {
 }
 
 TransformedPlaces::TransformedPlaces(std::span<const Curve> own, std::span<const Curve> moved, double rounding)
-    : kept_(own, moved, rounding), rounding_(rounding) {}
+    : kept_(own, moved, rounding), rounding_(rounding) {
+  for (const Curve& curve : moved)
+    for (std::size_t k = 0; k < curve.size(); ++k) ++counts_[place_at(curve, k)];
+}
+
+bool TransformedPlaces::is_shared(const Vec2& moved) const {
+  const auto found = counts_.find({moved.x(), moved.y()});
+  return found != counts_.end() && found->second > 1;
+}
+
+Vec2 TransformedPlaces::control(const Vec2& at, const Affine& transform) const {
+  return rounded_point(into_element(at, transform), rounding_within(transform, rounding_));
+}
 
 void TransformedPlaces::expect(const Vec2& moved, const Affine& transform) {
   std::vector<Affine>& known = uses_[{moved.x(), moved.y()}].transforms;

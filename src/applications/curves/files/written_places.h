@@ -38,6 +38,10 @@ class TransformedPlaces {
   /// Its coordinates in the element. Points of one position are read back at one position wherever doubles of all
   /// elements allow it; the check of the written file finds where they do not.
   Vec2 local(const Vec2& moved, const Affine& transform);
+  /// Are there several points of this position among those of the moved curves?
+  bool is_shared(const Vec2& moved) const;
+  /// The coordinates of a control in an element: rounded, whatever else is near.
+  Vec2 control(const Vec2& at, const Affine& transform) const;
   /// Would coordinates in the element be read at the position that all points of this one are to be read at?
   bool is_read_as(const Vec2& moved, const Vec2& local, const Affine& transform);
 
@@ -52,6 +56,7 @@ class TransformedPlaces {
 
   WrittenPlaces kept_;
   std::map<Place, Use> uses_;
+  std::map<Place, int> counts_;  ///< of the points of the moved curves
   double rounding_;
 };
 
