@@ -111,6 +111,13 @@ std::string_view to_string(CurveFormat format);
 /// By the extension of a path, or the bare name. Case does not matter.
 std::optional<CurveFormat> curve_format_from_extension(std::string_view path);
 
+/// How a curve that moved is written in a file with Bézier curves.
+enum class CurveWriting : std::uint8_t {
+  smooth,    ///< Béziers where its points did not move, and joined by Béziers without kinks where they did
+  beziers,   ///< Béziers where its points did not move, segments where they did
+  polyline,  ///< point by point
+};
+
 /// A file of curves with its bytes: curves out, moved curves patched back in, every other byte as it was.
 ///
 /// SVG: path, polyline, polygon, line, rect, circle and ellipse elements with their transforms; what is only referred
@@ -140,9 +147,9 @@ class CurveDocument {
   /// Coordinates that moved are rounded to 1e-9 of the diagonal, unless all digits are asked for: where curves are
   /// closer than that, only these keep them apart. Points at one position are read as one position again; only where
   /// elements of a drawing have different transforms can it happen that no doubles say so.
-  /// polylines: one flag a curve, nonzero: if it moved, it is written as a polyline, point by point; empty: none is.
+  /// writing: of each curve, how it is written if it moved; empty: all smooth.
   std::string patched(std::span<const Curve> curves, bool all_digits = false,
-                      std::span<const std::uint8_t> polylines = {}) const;
+                      std::span<const CurveWriting> writing = {}) const;
   /// The curves of a file that patched() wrote, flattened as here; along Béziers they may have other points. Throws
   /// FileError.
   std::vector<Curve> read_back(const std::string& bytes) const;
@@ -159,8 +166,8 @@ class CurveDocument {
 /// arithmetic. Returns what does not hold; empty: all holds. Throws FileError.
 std::string curve_file_faults(const CurveDocument& document, const std::string& bytes, const CurveResult& result);
 
-/// The bytes of a file for a result, by patched(): as few curves as the certificate allows are written as polylines,
-/// and all digits only where it asks for them. curve_file_faults() says whether it holds then. Throws FileError.
+/// The bytes of a file for a result, by patched(): as many curves as the certificate allows are written smoothly, and
+/// all digits only where it asks for them. curve_file_faults() says whether it holds then. Throws FileError.
 std::string written_curves(const CurveDocument& document, const CurveResult& result);
 
 /// The integrand of the Gaussian self-contact energy over pairs of points of one curve (paper eq. (1), Fig. 4), with

@@ -28,6 +28,16 @@ def test_a_figure_eight_opens():
     np.testing.assert_array_equal(curve, figure_eight())
 
 
+def test_strands_are_moved_if_wanted():
+    k = 5 * np.arange(13) / 13
+    star = np.stack([np.cos(2 * np.pi * k), np.sin(2 * np.pi * k)], axis=1)
+    kept = unsnarl.untangle_curves(star, closed=True)
+    moved = unsnarl.untangle_curves(star, closed=True, move_strands=True)
+    assert kept.status == moved.status == "embedded"
+    assert len(kept.curves[0]) > 13 and kept.report["drawing_lost"] == 0
+    assert len(moved.curves[0]) == 13 and moved.report["drawing_lost"] > 0.5
+
+
 def test_sets_with_fixed_points():
     t = 2 * np.pi * np.arange(80) / 80
     circle = np.stack([np.cos(t), np.sin(t)], axis=1)

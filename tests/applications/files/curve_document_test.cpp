@@ -70,6 +70,59 @@ TEST(CurveDocument, a_moved_subpath_leaves_the_others_their_beziers) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(back[c].points, moved[c].points) << c;
 }
 
+TEST(CurveDocument, beziers_and_arcs_stay_where_their_points_did_not_move) {
+  const CurveDocument document =
+      svg("<path id=\"p\" d=\"M 0,0 C 0,8 4,12 10,12 Q 20,12 20,0 L 20,-10 10,-10\"/>\n"
+          "<circle id=\"c\" transform=\"scale(2 1)\" cx=\"20\" cy=\"0\" r=\"3\"/>");
+  std::vector<Curve> moved = document.curves();
+  moved[0].points.end()[-2] += 1;
+  EXPECT_TRUE(says(document.patched(moved), "d=\"M 0,0 C 0,8 4,12 10,12 16.66666667,12 20,8 20,0 L 20,-10 11,-10\""))
+      << document.patched(moved);
+
+  // A moved point of the circle: quarter circles or less on both sides of it, and its own radius all around.
+  moved = document.curves();
+  const std::size_t half = moved[1].size() / 2 + 3;
+  moved[1].points[2 * half] += 0.001;
+  const std::string text = document.patched(moved);
+  EXPECT_TRUE(says(text, "d=\"M 23,0 C 23,0.3")) << text;
+  const Curve back = document.read_back(text)[1];
+  for (std::size_t k = 0; k < back.size(); ++k)
+    EXPECT_NEAR(std::hypot((back.points[2 * k] - 40) / 2, back.points[2 * k + 1]), 3, 1e-3) << k;
+}
+
+TEST(CurveDocument, points_that_moved_between_beziers_are_joined_without_kinks) {
+  const CurveDocument document = svg("<path d=\"M 0,0 C 0,40 100,40 100,0\"/>", 1e-3);
+  std::vector<Curve> moved = document.curves();
+  const std::size_t middle = moved[0].size() / 2;
+  for (std::size_t k = middle - 1; k <= middle + 1; ++k) moved[0].points[2 * k + 1] += 1 + k % 2;
+  const CurveDocument fine = CurveDocument::parse(document.patched(moved), CurveFormat::svg, 1e-6);
+  const Curve& curve = fine.curves()[0];
+  ASSERT_GT(curve.size(), 100U);
+  double largest = 0;
+  for (std::size_t k = 1; k + 1 < curve.size(); ++k) {
+    const double ax = curve.points[2 * k] - curve.points[2 * k - 2],
+                 ay = curve.points[2 * k + 1] - curve.points[2 * k - 1];
+    const double bx = curve.points[2 * k + 2] - curve.points[2 * k],
+                 by = curve.points[2 * k + 3] - curve.points[2 * k + 1];
+    largest = std::max(largest, std::abs(std::atan2(ax * by - ay * bx, ax * bx + ay * by)));
+  }
+  EXPECT_LT(largest, 0.1);
+  // Straight lines on one side of them: they are segments.
+  const CurveDocument line = svg("<path d=\"M 0,0 L 10,0 C 20,0 20,10 20,20\"/>");
+  std::vector<Curve> bent = line.curves();
+  bent[0].points[3] -= 1;
+  EXPECT_TRUE(says(line.patched(bent), "d=\"M 0,0 10,-1 ")) << line.patched(bent);
+}
+
+TEST(CurveDocument, one_that_is_written_as_a_polyline_has_all_its_points) {
+  const CurveDocument document = svg("<path d=\"M 0,0 C 0,40 100,40 100,0\"/>");
+  std::vector<Curve> moved = document.curves();
+  moved[0].points[4] += 1;
+  const std::vector<CurveWriting> polylines{CurveWriting::polyline};
+  EXPECT_EQ(document.read_back(document.patched(moved, true, polylines))[0].points, moved[0].points);
+  EXPECT_THROW(document.patched(moved, true, std::vector<CurveWriting>(2)), std::invalid_argument);
+}
+
 TEST(CurveDocument, shapes_become_paths_only_when_they_move) {
   const CurveDocument document =
       svg("<line id=\"a\" x1=\"0\" y1=\"0\" x2=\"4\" y2=\"1\" stroke=\"red\"/>"

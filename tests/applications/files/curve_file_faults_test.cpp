@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <string>
 #include <tuple>
 
@@ -91,6 +92,43 @@ std::optional<Status> status_of_written(const CurveDocument& document) {
     if (faults.empty()) return result.status;
   }
   return std::nullopt;
+}
+
+/// Closed curves of Béziers through random points, some of them turned.
+CurveDocument random_beziers(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto number = [&] { return 100 * (static_cast<double>(random() >> 11) * 0x1p-53); };
+  std::string text = "<svg>";
+  for (int c = 0; c < 3; ++c) {
+    std::string data;
+    for (int k = 0; k < 4; ++k) {
+      data += k == 0 ? "M" : k == 1 ? " C" : " S";
+      for (int n = 0; n < (k == 0 ? 1 : k == 1 ? 3 : 2); ++n) {
+        const double x = number();
+        data += fmt::format(" {:.3f},{:.3f}", x, number());
+      }
+    }
+    text += fmt::format("<path transform=\"rotate({})\" d=\"{}Z\"/>", c == 2 ? 20 : 0, data);
+  }
+  return CurveDocument::parse(text + "</svg>", CurveFormat::svg);
+}
+
+TEST(CurveFileFaults, random_beziers_are_written_as_beziers_that_do_not_cross) {
+  int with_beziers = 0, curves = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const CurveDocument document = random_beziers(seed);
+    const CurveResult result = untangle_curves(document.curves());
+    ASSERT_EQ(result.status, Status::embedded) << seed;
+    const std::string bytes = written_curves(document, result);
+    EXPECT_EQ(curve_file_faults(document, bytes, result), "") << seed;
+    const std::vector<Curve> written = document.read_back(bytes);
+    EXPECT_EQ(oracle::count_crossings(written, {}), 0U) << seed;
+    for (const Curve& curve : written) {
+      with_beziers += curve.tolerance > 0;
+      ++curves;
+    }
+  }
+  EXPECT_GT(with_beziers, 4 * curves / 5);
 }
 
 TEST(CurveFileFaults, joints_of_random_nets_are_one_point_in_the_file_too) {

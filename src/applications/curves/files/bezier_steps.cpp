@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "applications/curves/files/fit_beziers.h"
 #include "geometry/portable_math.h"
 
 namespace unsnarl {
@@ -31,11 +32,6 @@ double turn_of(const DrawnPiece& piece) {
 double handle_of(const DrawnPiece& piece) {
   const double range = std::abs(piece.end - piece.begin), turn = turn_of(piece);
   return turn > 0 ? range * 4 / 3 * portable::tan(turn / 4) / turn : range / 3;
-}
-
-Vec2 direction_of(const Vec2& v) {
-  const double length = v.norm();
-  return length > 0 ? Vec2(v / length) : Vec2(Vec2::Zero());
 }
 
 }  // namespace
@@ -71,7 +67,8 @@ std::vector<DrawnPiece> DrawnPieces::pieces_of(const Curve& curve, std::vector<i
   return pieces;
 }
 
-std::vector<PathStep> DrawnPieces::along(const Curve& curve, const std::function<bool(std::size_t)>& is_stop) const {
+std::vector<PathStep> DrawnPieces::along(const Curve& curve, bool smooth, double tolerance,
+                                         const std::function<bool(std::size_t)>& is_stop) const {
   std::vector<int> curve_of;
   const std::vector<DrawnPiece> pieces = pieces_of(curve, curve_of);
   const std::size_t count = pieces.size();
@@ -79,9 +76,8 @@ std::vector<PathStep> DrawnPieces::along(const Curve& curve, const std::function
   const auto is_curved = [&](std::size_t k) { return is_drawn(k) && pieces[k].command >= 0; };
   const auto before = [&](std::size_t k) { return (k + count - 1) % count; };
 
-  // Which segments that are not the drawing's have a curve on both sides of their run, around the end of a closed
-  // curve.
-  std::vector<std::uint8_t> is_smooth(count, 1);
+  // Which segments that are not the drawing's have curves on both sides of their run, around the end of a closed curve.
+  std::vector<std::uint8_t> is_smooth(count, smooth ? 1 : 0);
   for (const bool from_end : {false, true}) {
     bool is_behind_curve = false;
     for (std::size_t i = 0; i < (curve.closed ? 2 * count : count); ++i) {
@@ -91,16 +87,16 @@ std::vector<PathStep> DrawnPieces::along(const Curve& curve, const std::function
       if (is_seen_whole && !is_behind_curve) is_smooth[k] = 0;
     }
   }
-  const auto direction_at = [&](std::size_t k) {
-    if (is_curved(before(k))) return direction_of(pieces[before(k)].to);
-    if (is_curved(k % count)) return direction_of(pieces[k % count].from);
+  // The direction at a point where two runs of segments meet.
+  const auto direction_at = [&](std::size_t k) -> Vec2 {
+    if (is_curved(before(k))) return pieces[before(k)].to;
+    if (is_curved(k % count)) return pieces[k % count].from;
     const Vec2 a = point_of(curve, before(k)), b = point_of(curve, k), c = point_of(curve, k + 1);
-    return direction_of(direction_of(b - a) + direction_of(c - b));
+    return (b - a).normalized() + (c - b).normalized();
   };
 
   std::vector<PathStep> steps;
   for (std::size_t k = 0, end = 1; k < count; k = end, ++end) {
-    const Vec2 a = point_of(curve, k);
     if (is_curved(k)) {
       DrawnPiece whole = pieces[k];
       const auto goes_on = [&](std::size_t next) {
@@ -113,13 +109,14 @@ std::vector<PathStep> DrawnPieces::along(const Curve& curve, const std::function
         whole.to = pieces[end].to;
       }
       const double handle = handle_of(whole);
-      const Vec2 b = point_of(curve, end);
-      steps.push_back({end % curve.size(), std::array<Vec2, 2>{a + handle * whole.from, b - handle * whole.to}});
+      steps.push_back({end % curve.size(), std::array<Vec2, 2>{point_of(curve, k) + handle * whole.from,
+                                                               point_of(curve, end) - handle * whole.to}});
     } else if (!is_drawn(k) && is_smooth[k] != 0) {
-      const Vec2 b = point_of(curve, end);
-      const double handle = (b - a).norm() / 3;
-      steps.push_back(
-          {end % curve.size(), std::array<Vec2, 2>{a + handle * direction_at(k), b - handle * direction_at(k + 1)}});
+      while (end < count && !is_stop(end) && !is_drawn(end)) ++end;
+      std::vector<Vec2> points;
+      for (std::size_t to = k; to <= end; ++to) points.push_back(point_of(curve, to));
+      for (const FittedBezier& bezier : fit_beziers(points, direction_at(k), direction_at(end), tolerance))
+        steps.push_back({(k + bezier.to) % curve.size(), bezier.controls});
     } else {
       steps.push_back({end % curve.size(), std::nullopt});
     }

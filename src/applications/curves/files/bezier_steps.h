@@ -25,9 +25,11 @@ class DrawnPieces {
 
   /// The steps along a curve that has points of the drawing and others, from its point 0 on; of a closed curve the last
   /// one leads to point 0. Neighbouring parts of one Bézier curve or arc are one Bézier curve again, to within 2e-7 of
-  /// the radius of an arc, passed either way; none goes past a point k of which is_stop(k). Points that are not the
-  /// drawing's are joined to Béziers on both sides of them by Béziers without kinks, and by segments elsewhere.
-  std::vector<PathStep> along(const Curve& curve, const std::function<bool(std::size_t)>& is_stop) const;
+  /// the radius of an arc, passed either way. If `smooth` and a run of other points lies between two of them, it is
+  /// joined to both by Bézier curves without kinks, within `tolerance` of its points; elsewhere there are segments. No
+  /// curve goes past a point k of which is_stop(k).
+  std::vector<PathStep> along(const Curve& curve, bool smooth, double tolerance,
+                              const std::function<bool(std::size_t)>& is_stop) const;
 
  private:
   using Ends = std::array<double, 4>;

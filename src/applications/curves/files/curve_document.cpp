@@ -102,12 +102,12 @@ const std::vector<std::string>& CurveDocument::notes() const {
 }
 
 std::string CurveDocument::patched(std::span<const Curve> curves, bool all_digits,
-                                   std::span<const std::uint8_t> polylines) const {
+                                   std::span<const CurveWriting> writing) const {
   if (curves.size() != file_->curves.size())
     throw std::invalid_argument(fmt::format("{} curves for a file of {}", curves.size(), file_->curves.size()));
-  if (!polylines.empty() && polylines.size() != curves.size())
-    throw std::invalid_argument(fmt::format("{} flags for {} curves", polylines.size(), curves.size()));
-  return file_->patched(curves, all_digits ? 0 : written_rel * diagonal_of(file_->curves), polylines);
+  if (!writing.empty() && writing.size() != curves.size())
+    throw std::invalid_argument(fmt::format("ways to write {} curves, of {}", writing.size(), curves.size()));
+  return file_->patched(curves, all_digits ? 0 : written_rel * diagonal_of(file_->curves), writing);
 }
 
 std::vector<Curve> CurveDocument::read_back(const std::string& bytes) const {

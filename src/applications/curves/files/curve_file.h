@@ -13,9 +13,9 @@ class CurveFile {
  public:
   virtual ~CurveFile() = default;
   /// The file with these curves in place of its own. Moved coordinates are rounded to about `rounding`, a length.
-  /// polylines: one flag a curve, as of CurveDocument::patched.
+  /// writing: one a curve, or empty, as of CurveDocument::patched.
   virtual std::string patched(std::span<const Curve> moved, double rounding,
-                              std::span<const std::uint8_t> polylines) const = 0;
+                              std::span<const CurveWriting> writing) const = 0;
   /// Another text of this kind, curves flattened as here.
   virtual std::unique_ptr<CurveFile> parse_alike(std::string text) const = 0;
 

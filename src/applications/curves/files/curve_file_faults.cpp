@@ -15,9 +15,9 @@ namespace {
 /// bounding-box diagonal)
 constexpr double joint_apart_rel = 1e-8;
 
-/// Where points that moved are joined by Béziers, these may be this far from their polyline, a quarter of the default
-/// gap (unit: bounding-box diagonal)
-constexpr double smoothing_rel = 1e-3;
+/// Written Béziers may be this far from the curves of the result: near points that moved they are up to five tolerances
+/// from them, and both are flattened (unit: tolerances of flattening)
+constexpr double most_apart = 10;
 
 struct Faults {
   std::string text;                           ///< empty: there are none
@@ -61,7 +61,7 @@ Faults faults_of(const std::vector<Curve>& written, const CurveResult& result) {
     if (curve.closed != curves[c].closed || (!is_as_long && curve.tolerance == 0))
       return {fmt::format("{} has another number of points", name_of_curve(curve, c)), {}};
     if (curve.tolerance == 0 || curve.points == curves[c].points) continue;
-    if (distance_between(curve, curves[c]) <= 2 * curve.tolerance + smoothing_rel * result.report.diagonal) continue;
+    if (distance_between(curve, curves[c]) <= most_apart * curve.tolerance) continue;
     faults.curves_at_fault[c] = 1;
     faults.text = fmt::format("{} is elsewhere", name_of_curve(curve, c));
   }
@@ -102,21 +102,21 @@ std::string curve_file_faults(const CurveDocument& document, const std::string& 
 }
 
 std::string written_curves(const CurveDocument& document, const CurveResult& result) {
-  std::vector<std::uint8_t> polylines(result.curves.size(), 0);
+  std::vector<CurveWriting> writing(result.curves.size(), CurveWriting::smooth);
   for (;;) {
-    std::string bytes = document.patched(result.curves, false, polylines);
+    std::string bytes = document.patched(result.curves, false, writing);
     const Faults faults = faults_of_bytes(document, bytes, result);
     if (faults.text.empty()) return bytes;
-    fprintf(stderr, "DBG %s\n", faults.text.c_str());
     bool is_another = false;
     for (std::size_t c = 0; c < faults.curves_at_fault.size(); ++c) {
-      is_another |= faults.curves_at_fault[c] > polylines[c];
-      polylines[c] |= faults.curves_at_fault[c];
+      if (faults.curves_at_fault[c] == 0 || writing[c] == CurveWriting::polyline) continue;
+      writing[c] = writing[c] == CurveWriting::smooth ? CurveWriting::beziers : CurveWriting::polyline;
+      is_another = true;
     }
     if (!is_another) break;
   }
-  polylines.assign(polylines.size(), 1);
-  return document.patched(result.curves, true, polylines);
+  writing.assign(writing.size(), CurveWriting::polyline);
+  return document.patched(result.curves, true, writing);
 }
 
 }  // namespace unsnarl

@@ -18,7 +18,7 @@ class JsonCurveFile final : public CurveFile {
   };
 
   std::string patched(std::span<const Curve> moved, double rounding,
-                      std::span<const std::uint8_t> /*polylines*/) const override {
+                      std::span<const CurveWriting> /*writing*/) const override {
     const WrittenPlaces written_at(curves, moved, rounding);
     std::vector<TextEdit> edits;
     for (std::size_t c = 0; c < moved.size(); ++c) {

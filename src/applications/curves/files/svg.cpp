@@ -128,16 +128,16 @@ struct Shape {
 /// The curves to be written, and where.
 struct MovedCurves {
   std::span<const Curve> curves;
-  std::span<const std::uint8_t> polylines;  ///< one flag a curve; empty: none
+  std::span<const CurveWriting> writing;  ///< one a curve; empty: all smooth
   TransformedPlaces& places;
 
-  bool is_polyline(std::size_t curve) const { return !polylines.empty() && polylines[curve] != 0; }
+  CurveWriting writing_of(std::size_t curve) const { return writing.empty() ? CurveWriting::smooth : writing[curve]; }
 };
 
 class SvgFile final : public CurveFile {
  public:
   std::string patched(std::span<const Curve> moved, double rounding,
-                      std::span<const std::uint8_t> polylines) const override;
+                      std::span<const CurveWriting> writing) const override;
 
   std::unique_ptr<CurveFile> parse_alike(std::string text) const override {
     return parse_svg(std::move(text), 1, flatten);
@@ -511,11 +511,12 @@ std::string SvgFile::data_of(const Shape& shape, const Piece& piece, const Moved
     return moved.places.is_shared({curve.points[2 * k], curve.points[2 * k + 1]});
   };
   std::string text = "M " + text_of(points[0]);
-  if (moved.is_polyline(*piece.curve)) {
+  const CurveWriting writing = moved.writing_of(*piece.curve);
+  if (writing == CurveWriting::polyline) {
     for (std::size_t k = 1; k < points.size(); ++k) text += " " + text_of(points[k]);
   } else {
     bool is_curve = false;  // further pairs of numbers behind a move-to are segments
-    for (const PathStep& step : drawn.along(curve, is_shared)) {
+    for (const PathStep& step : drawn.along(curve, writing == CurveWriting::smooth, flatten, is_shared)) {
       if (!step.controls && step.to == 0) continue;  // closing says it
       if (step.controls.has_value() != is_curve) text += is_curve ? " L" : " C";
       is_curve = step.controls.has_value();
@@ -570,9 +571,9 @@ void SvgFile::replace_use(const Shape& shape, const std::string& data,
 }
 
 std::string SvgFile::patched(std::span<const Curve> moved, double rounding,
-                             std::span<const std::uint8_t> polylines) const {
+                             std::span<const CurveWriting> writing) const {
   TransformedPlaces places(curves, moved, rounding);
-  const MovedCurves written{moved, polylines, places};
+  const MovedCurves written{moved, writing, places};
   for (const Shape& shape : shapes)
     for (const Piece& piece : shape.pieces)
       for (std::size_t k = 0;
