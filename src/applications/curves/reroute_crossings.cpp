@@ -23,10 +23,11 @@ struct Exchange {
 
 class Rerouting {
  public:
-  explicit Rerouting(const CrossedCurves& curves) : curves_(curves), ways_(curves.ways) {}
+  Rerouting(const CrossedCurves& curves, const std::function<bool()>& stop)
+      : curves_(curves), stop_(stop), ways_(curves.ways) {}
 
   ReroutedCurves operator()() {
-    for (;;) {
+    while (!stop_()) {
       for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c) turn_all_loops(c);
       const std::optional<Exchange> next = shortest_exchange();
       if (!next) break;
@@ -68,7 +69,7 @@ class Rerouting {
   /// Turns loops of a curve until it does not cross itself.
   void turn_all_loops(Index chain) {
     Way& way = ways_[chain];
-    for (;;) {
+    while (!stop_()) {
       std::vector<std::ptrdiff_t> first(curves_.crossings.size(), -1);
       std::ptrdiff_t from = -1, to = -1;
       double straightest = std::numeric_limits<double>::infinity();
@@ -259,13 +260,14 @@ class Rerouting {
   }
 
   const CrossedCurves& curves_;
+  const std::function<bool()>& stop_;
   std::vector<Way> ways_;
 };
 
 }  // namespace
 
-ReroutedCurves reroute_crossings(const CrossedCurves& curves) {
-  return Rerouting(curves)();
+ReroutedCurves reroute_crossings(const CrossedCurves& curves, const std::function<bool()>& stop) {
+  return Rerouting(curves, stop)();
 }
 
 }  // namespace unsnarl

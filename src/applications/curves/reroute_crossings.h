@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "applications/curves/crossing_points.h"
 
 namespace unsnarl {
@@ -16,7 +18,8 @@ struct ReroutedCurves {
 ///     such crossings the one comes first whose strands go on the straightest.
 ///   - two curves that cross twice exchange the parts between, the shortest parts first. Two open curves that cross
 ///     once exchange the parts behind the crossing. Parts with pinned vertices are not exchanged.
-/// What neither resolves, an open curve that ends within a closed one for instance, crosses as before.
-ReroutedCurves reroute_crossings(const CrossedCurves& curves);
+/// What neither resolves, an open curve that ends within a closed one for instance, crosses as before; so does what is
+/// left when stop() says true. Asked at every crossing.
+ReroutedCurves reroute_crossings(const CrossedCurves& curves, const std::function<bool()>& stop);
 
 }  // namespace unsnarl

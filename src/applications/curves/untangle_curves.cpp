@@ -31,9 +31,6 @@ constexpr double largest_junction_rel = 0.1;
 /// Distance beside a crossing at which curves get points: where strands cross at right angles, the corners are then one
 /// gap apart (unit: gap)
 constexpr double beside_gaps = 0.7;
-/// With more crossings, the drawing is not kept (unit: crossings)
-constexpr std::size_t most_rerouted = 5000;
-constexpr int most_rounds = 4;  ///< Rounds of re-routing what still crosses (unit: rounds)
 /// What is farther from the drawing of the result counts as lost, five pixels in a drawing of 1,000 (unit: bounding-box
 /// diagonal)
 constexpr double lost_rel = 5e-3;
@@ -110,7 +107,7 @@ class CurveUntangling {
     };
     std::size_t left = before;
     const auto is_solved = [&] { return left <= obstructions || control_.stopped(); };
-    if (!options_.move_strands && before <= most_rerouted) {
+    if (!options_.move_strands) {
       reroute(state, stop);
       left = move_strands(state, stop);
     }
@@ -174,10 +171,10 @@ class CurveUntangling {
     draw_in_what_lies_on_others(net_, tree, state.x, touching_);
     std::uint64_t jitters = 0;
     std::vector<SegmentPair> pairs = move_apart_what_touches(net_, tree, state.x, jitters, touching_);
-    for (int round = 0; round < most_rounds && !pairs.empty() && !stop(pairs.size()); ++round) {
+    while (!pairs.empty() && !stop(pairs.size())) {
       const CrossedCurves crossed =
           with_crossing_points(net_, state.x, pairs, beside_gaps * options_.gap_rel * net_.diagonal);
-      ReroutedCurves rerouted = reroute_crossings(crossed);
+      ReroutedCurves rerouted = reroute_crossings(crossed, [&] { return control_.stopped(); });
       std::vector<SegmentPair> left = find_meetings(rerouted.net, crossed.x);
       if (left.size() >= pairs.size()) return;
       net_ = std::move(rerouted.net);
