@@ -35,8 +35,8 @@ bool meet(const PictureSegment& s, const PictureSegment& t) {
 
 class CutFinder {
  public:
-  CutFinder(const LinkDiagram& diagram, double longest, double collar, double room)
-      : diagram_(diagram), longest_(longest), collar_(collar), room_(room) {}
+  CutFinder(const LinkDiagram& diagram, const std::vector<std::vector<double>>& depths, double longest, double room)
+      : diagram_(diagram), depths_(depths), longest_(longest), room_(room) {}
 
   std::vector<std::vector<ShortCut>> all() {
     std::vector<std::vector<ShortCut>> cuts;
@@ -71,6 +71,10 @@ class CutFinder {
     const Positions& p = diagram_.points[component_];
     return p.col(k % p.cols());
   }
+  Vec3 rim(Index k) const {
+    const std::vector<double>& depths = depths_[component_];
+    return point(k) - depths[k % static_cast<Index>(depths.size())] * Vec3::UnitZ();
+  }
   PictureSegment segment(Index k, Index edges) const { return {point(k).head<2>(), point(k + edges).head<2>()}; }
 
   std::optional<ShortCut> cut(Index k, Index edges) const {
@@ -92,10 +96,10 @@ class CutFinder {
     return is_free(s, k, edges) ? std::optional(found) : std::nullopt;
   }
 
-  /// Whether from a collar's width below `first` the vertices after it, and then the other end of the cut, are seen
+  /// Whether from the rim below `first` the vertices after it, and then the other end of the cut, are seen
   /// lower and lower.
   bool goes_lower(Index first, Index last, int step, Index count, const Vec2& along) const {
-    const Vec3 down = collar_ * Vec3::UnitZ(), tip = point(first) - down;
+    const Vec3 tip = rim(first);
     const auto slope = [&](const Vec3& p) { return (p.z() - tip.z()) / along.dot((p - tip).head<2>()); };
     double before = std::numeric_limits<double>::infinity();
     for (Index i = 1; i <= count; ++i) {
@@ -103,7 +107,7 @@ class CutFinder {
       if (!(next < before)) return false;
       before = next;
     }
-    return slope(point(last) - down) < before;
+    return slope(rim(last)) < before;
   }
 
   bool is_free(const PictureSegment& s, Index k, Index edges) const {
@@ -126,16 +130,18 @@ class CutFinder {
   }
 
   const LinkDiagram& diagram_;
-  const double longest_, collar_, room_;
+  const std::vector<std::vector<double>>& depths_;
+  const double longest_, room_;
   Index component_ = 0;
   std::vector<PictureSegment> taken_;
 };
 
 }  // namespace
 
-std::vector<std::vector<ShortCut>> rim_short_cuts(const LinkDiagram& diagram, double longest, double collar,
+std::vector<std::vector<ShortCut>> rim_short_cuts(const LinkDiagram& diagram,
+                                                  const std::vector<std::vector<double>>& depths, double longest,
                                                   double room) {
-  return CutFinder(diagram, longest, collar, room).all();
+  return CutFinder(diagram, depths, longest, room).all();
 }
 
 }  // namespace unsnarl

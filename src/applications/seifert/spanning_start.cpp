@@ -79,7 +79,8 @@ class Construction {
       beside_ = std::min(beside_, c.beside);
       collar = std::min({collar, collar_of_gap * c.gap, collar_of_room * beside_});
     }
-    const std::vector<std::vector<ShortCut>> cuts = rim_short_cuts(diagram_, step_, collar, room_);
+    const std::vector<std::vector<double>> depths = rim_depths();
+    const std::vector<std::vector<ShortCut>> cuts = rim_short_cuts(diagram_, depths, step_, room_);
     Index first_vertex = 0;
     for (std::size_t c = 0; c < diagram_.points.size(); ++c) {
       const Positions& p = diagram_.points[c];
@@ -91,7 +92,7 @@ class Construction {
         const double length = (b - a).head<2>().norm();
         const auto put = [&](double t) -> RimPoint& {
           RimPoint& r = rim_.emplace_back();
-          r.x = (1 - t) * a + t * b - collar * Vec3::UnitZ();
+          r.x = (1 - t) * a + t * b - (t == 0 ? depths[c][k] : collar) * Vec3::UnitZ();
           r.fraction = t;
           r.link_vertex = first_vertex + k;
           r.next_link_vertex = first_vertex + (k + 1) % n;
@@ -126,6 +127,20 @@ class Construction {
       first_vertex += n;
     }
     for (const RimPoint& r : rim_) rim_vertex_.push_back(add(r.x));
+  }
+
+  /// Below every point of the link. Only where an edge crosses another one is the collar narrow: else nothing but it is
+  /// there in the picture.
+  std::vector<std::vector<double>> rim_depths() const {
+    std::vector<std::vector<double>> depths;
+    for (const Positions& p : diagram_.points) depths.emplace_back(p.cols(), step_);
+    for (const LinkDiagram::Crossing& crossing : diagram_.crossings)
+      for (const LinkDiagram::Strand& strand : {crossing.over, crossing.under}) {
+        std::vector<double>& of_component = depths[strand.component];
+        for (const std::size_t k : {std::size_t(strand.edge), std::size_t(strand.edge) + 1})
+          of_component[k % of_component.size()] = collar_;
+      }
+    return depths;
   }
 
   /// From every edge of the link to the rim below it: a fan from its first end, up to the middle, and one from its
