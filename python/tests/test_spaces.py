@@ -23,6 +23,20 @@ def test_a_trefoil_is_spanned():
     assert not unsnarl.check_seifert_surface(surface.positions, surface.faces[1:], knot)["hold"]
 
 
+def test_a_surface_that_is_brought_is_untangled():
+    # A square with a bump that hangs over and runs through it.
+    positions = [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [1, 2, 0], [3, 2, 0], [2, 1, 0], [2, 3, 0], [3.4, 2, -0.5]]
+    faces = [[0, 1, 6], [1, 5, 6], [1, 2, 5], [2, 7, 5], [2, 3, 7], [3, 4, 7], [3, 0, 4], [0, 6, 4]]
+    faces += [[6, 5, 8], [5, 7, 8], [7, 4, 8], [4, 6, 8]]
+    assert len(unsnarl.find_intersections(positions, faces)) > 0
+    surface = unsnarl.untangled_seifert_surface(positions, faces)
+    assert surface.status == "embedded" and surface.report["hold"] and surface.report["euler_characteristic"] == 1
+    assert {tuple(p) for p in surface.positions[:4]} == {tuple(p) for p in positions[:4]}
+    assert len(unsnarl.find_intersections(surface.positions, surface.faces)) == 0
+    with pytest.raises(ValueError):
+        unsnarl.untangled_seifert_surface(positions, [[0, 1, 2], [0, 1, 3]])
+
+
 def test_a_square_becomes_an_l():
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
     ell = np.array([[0, 0], [5, 0], [5, 1], [1, 1], [1, 5], [0, 5]])
