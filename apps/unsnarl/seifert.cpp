@@ -13,6 +13,7 @@
 #include "standard_streams.h"
 #include "surface_files.h"
 #include "unsnarl/exit_code.h"
+#include "unsnarl/knot_isotopy.h"
 #include "unsnarl/paths.h"
 #include "unsnarl/pictures.h"
 #include "unsnarl/seifert.h"
@@ -136,6 +137,17 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
                   "Start from this surface, which may intersect itself: it is untangled with its boundary held, then "
                   "smoothed")
       ->type_name("MESH");
+  command.add_flag(
+      "--relax", options.relax,
+      "Let the knot repel itself first, until it comes to rest; the surface spans that shape. For knots of "
+      "one component and up to 2,000 points");
+  command.add_option("--wire", options.wire, "Write the link that the surface spans: points 'x y z', one per line")
+      ->type_name("FILE.xyz");
+  command
+      .add_option("--tube", options.tube,
+                  "Write a tube around the link: *.obj, *.off or *.ply. It does not run through itself and touches the "
+                  "surface only along the link")
+      ->type_name("FILE");
   const std::string shown = outputs_to_look_at;
   command.add_option("--report", options.report, "Write a JSON report: what was certified")
       ->type_name("FILE")
@@ -151,6 +163,7 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
                   "  unsnarl seifert knot.xyz -o surface.obj --picture surface.png\n"
                   "  echo 'braid 3: 1 -2 1 -2 1 -2' | unsnarl seifert - -o borromean.obj\n"
                   "  unsnarl seifert --surface start.obj -o surface.obj\n"
+                  "  unsnarl seifert knot.xyz --relax --wire relaxed.xyz --tube tube.obj -o surface.obj\n"
                   "  unsnarl seifert knot.xyz --check surface.obj\n\n") +
       exit_codes({{exit_embedded, "a certified surface"}, {exit_intersecting, "none found (--check: not certified)"}}));
 }
@@ -162,11 +175,17 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     throw UsageError("--surface goes neither with --check nor with --handles");
   if (options.output.empty() == options.check.empty())
     throw UsageError("'unsnarl seifert' needs -o OUT, to make a surface, or --check MESH, to certify one");
+  if (options.relax && !(options.check.empty() && options.surface.empty()))
+    throw UsageError("--relax goes neither with --check nor with --surface: the boundary of these stays");
+  if (!options.check.empty() && !(options.wire.empty() && options.tube.empty()))
+    throw UsageError("--wire and --tube do not go with --check: they belong to a surface that is made");
   FilePlaces places;
   if (options.surface.empty()) places.reads("the input", options.input);
   places.writes("-o", options.output);
   places.writes("--report", options.report);
   places.writes("--picture", options.picture);
+  places.writes("--wire", options.wire);
+  places.writes("--tube", options.tube);
   Link link;
   Surface start;
   std::optional<int> euler_characteristic;
@@ -192,8 +211,28 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
   if (!format) format = format_from_extension(options.output);
   if (format != Format::obj && format != Format::off && format != Format::ply)
     throw UsageError(options.output + ": name it *.obj, *.off or *.ply, or add --format");
+  std::optional<Format> tube_format;
+  if (!options.tube.empty()) {
+    tube_format = format_from_extension(options.tube);
+    if (tube_format != Format::obj && tube_format != Format::off && tube_format != Format::ply)
+      throw UsageError(options.tube + ": name it *.obj, *.off or *.ply");
+  }
   places.require_writable(interruption);
 
+  std::optional<RelaxedWire> relaxed;
+  if (options.relax) {
+    try {
+      relaxed = cancellable(options.progress, options.quiet, interruption, source,
+                            [&](Context* context) { return relaxed_wire(link, options.time_limit_s, context); });
+    } catch (const std::invalid_argument& e) {
+      throw FileError(fmt::format("{}: {}", source, e.what()));
+    }
+    if (relaxed->status == Status::cancelled) {
+      if (!options.quiet) tell(fmt::format("{}: nothing was written\n", to_string(relaxed->status)));
+      return exit_cancelled;
+    }
+    link = relaxed->link;
+  }
   SeifertOptions wanted;
   wanted.edge_rel = options.edge;
   wanted.views = options.views;
@@ -230,6 +269,18 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     const std::filesystem::path place = outputs.add(path_of(options.output), {OutputFile{{}, bytes}});
     if (!certify(Document::read(place, *format))) return tell_failure(options, seifert_faults(found));
   }
+  KnotTube tube;
+  if (!options.tube.empty()) {
+    tube = knot_tube(link, result.surface);
+    if (tube.radius > 0) {
+      const std::string tube_bytes =
+          surface_file(tube.surface, *tube_format, fmt::format("tube around {}, by unsnarl", source));
+      if (!is_clear_tube(Document::parse(tube_bytes, *tube_format).surface(), result.surface))
+        throw std::logic_error("the tube to be written does not hold");
+      outputs.add(options.tube, tube_bytes);
+    }
+  }
+  if (!options.wire.empty()) outputs.add(options.wire, link_text(link));
   if (!options.picture.empty()) {
     wanted.fair = false;
     PictureOptions picture;
@@ -255,6 +306,11 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
                                    {"area", result.area},
                                    {"fairing_stopped", result.status == Status::time_limit},
                                    {"seconds", result.seconds}};
+    if (relaxed) {
+      json["at_rest"] = relaxed->at_rest;
+      json["energy"] = relaxed->energy;
+    }
+    if (!options.tube.empty()) json["tube_radius"] = tube.radius;
     json.update(as_json(found));
     outputs.add(options.report, text_of(json));
   }
@@ -268,9 +324,19 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     tell(fmt::format("{} faces, no two intersect; its boundary is the link, point by point\n",
                      result.surface.view().face_count()));
     tell(as_text(found, options.handles, !options.surface.empty()));
+    if (relaxed)
+      tell(fmt::format("the knot {}, with energy {:.2f}\n",
+                       relaxed->at_rest ? "came to rest" : "was relaxed, but did not come to rest", relaxed->energy));
+    if (tube.radius > 0)
+      tell(
+          fmt::format("a tube of radius {:.3g} does not run through itself, and touches the surface only along the "
+                      "link\n",
+                      tube.radius));
     if (!result.message.empty()) tell(result.message + "\n");
     if (result.status == Status::time_limit) tell("smoothing was stopped by the time limit\n");
     tell(fmt::format("wrote {}, {:.1f} s\n", visible_text(options.output), result.seconds));
+    if (!options.tube.empty() && !(tube.radius > 0))
+      tell("no tube was written: even a thin one would touch the surface elsewhere\n");
   }
   return exit_embedded;
 }

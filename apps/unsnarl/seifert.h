@@ -11,8 +11,8 @@ struct SeifertCommandOptions {
   std::string input, output, format, check, surface;
   double edge = 0, time_limit_s = 0;
   int views = 60, handles = 0;
-  bool no_fair = false;
-  std::string report, picture;
+  bool no_fair = false, relax = false;
+  std::string report, picture, wire, tube;
   std::string progress = "auto";
   bool quiet = false;
 };

@@ -76,6 +76,18 @@ struct KnotIsotopy {
 KnotIsotopy knot_isotopy(const Link& start, const Link& end, const KnotIsotopyOptions& options = {},
                          Context* context = nullptr);
 
+/// A knot at rest.
+struct RelaxedWire {
+  Status status = Status::embedded;  ///< cancelled or time_limit where it was stopped; it is the same knot then too
+  Link link;
+  bool at_rest = false;  ///< false: stopped, or no further step could be proven
+  double energy = 0;     ///< see docs/knot_isotopy.md
+  double seconds = 0;
+};
+/// Lets a knot repel itself until it comes to rest; every step is proven to be an isotopy, as those of knot_isotopy().
+/// Its length stays. It gets at least 200 points. Throws std::invalid_argument as knot_isotopy() does.
+RelaxedWire relaxed_wire(const Link& knot, double time_limit_s = 0, Context* context = nullptr);
+
 /// The properties of an isotopy that are certified.
 struct KnotIsotopyFindings {
   bool ends_kept = false;  ///< the first ring is the start, the last one the end, bit for bit

@@ -105,6 +105,18 @@ SeifertResult seifert_surface(const Link& link, const SeifertOptions& options = 
 SeifertResult untangled_seifert_surface(const SurfaceView& start, const SeifertOptions& options = {},
                                         Context* context = nullptr);
 
+/// A tube around each component of a link, of triangles.
+struct KnotTube {
+  Surface surface;
+  double radius = 0;  ///< 0: none was found, and there is no surface
+};
+/// The thickest of some radii, from 0.02 of the diagonal of the link down to 4e-6 of it, for which is_clear_tube holds.
+/// spanning: a surface of triangles that spans the link. Throws std::invalid_argument as check_link does.
+KnotTube knot_tube(const Link& link, const SurfaceView& spanning);
+/// Whether a tube is closed, does not run through itself, and meets the surface in a single band of faces around each
+/// component: where the surface leaves it, and not elsewhere. By exact arithmetic.
+bool is_clear_tube(const SurfaceView& tube, const SurfaceView& spanning);
+
 /// "1 - 3t + t^2" of such coefficients.
 std::string polynomial_text(std::span<const std::string> coefficients);
 

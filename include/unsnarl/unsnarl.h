@@ -165,7 +165,7 @@ typedef struct unsnarl_options {
                        diagonal, [0, 0.1]. Default 1e-9 */
   int32_t fix_ends; /* the ends of open curves must not move. Default 0 */
 
-  /* unsnarl_seifert_surface; `views` also unsnarl_check_seifert_surface */
+  /* unsnarl_seifert_surface, unsnarl_untangled_seifert_surface; `views` also unsnarl_check_seifert_surface */
   double edge; /* edge length inside the surface, a fraction of the diagonal, [0, 0.5]; 0: that of the link (default) */
   int32_t views; /* from how many sides to look for the simplest diagram, [3, 10000]. Default 60 */
   int32_t fair;  /* 0: the surface as Seifert's algorithm builds it. Default 1 */
@@ -478,6 +478,14 @@ UNSNARL_EXPORT int unsnarl_check_routes(const char* plan, const unsnarl_curves* 
  * with another status "message" is there where the surface was left as it was built. */
 UNSNARL_EXPORT int unsnarl_seifert_surface(const unsnarl_curves* link, const unsnarl_options* options,
                                            unsnarl_context* context, unsnarl_result** result);
+
+/* The same from a surface of your own, of triangles, oriented, with a boundary, which may run through itself: it is
+ * untangled with its boundary held bit for bit, and then smoothed (`fair`). Arrays and report as above; the points of
+ * the boundary come first, "expected_euler_characteristic" is that of the start, "crossings" and "circles" are 0.
+ * Status "no_progress": pairs of faces are left; the arrays are empty and "message" says how many. `handles` must be
+ * 0. */
+UNSNARL_EXPORT int unsnarl_untangled_seifert_surface(const unsnarl_surface* start, const unsnarl_options* options,
+                                                     unsnarl_context* context, unsnarl_result** result);
 
 /* Checks a Seifert surface, of triangles, from the mesh and the link alone.
  *

@@ -23,6 +23,28 @@ def test_a_trefoil_is_spanned():
     assert not unsnarl.check_seifert_surface(surface.positions, surface.faces[1:], knot)["hold"]
 
 
+def test_a_surface_that_is_brought_is_untangled():
+    # A strip of straight ways between two linked circles, which runs through itself.
+    around, across = 24, 8
+    angles = 2 * np.pi * np.arange(around) / around
+    first = np.c_[np.cos(angles), np.sin(angles), 0 * angles]
+    second = np.c_[1 + np.cos(angles + np.pi / 2), 0 * angles, np.sin(angles + np.pi / 2)]
+    positions = np.concatenate([first + t * (second - first) for t in np.linspace(0, 1, across + 1)])
+    faces = []
+    for row in range(across):
+        for k in range(around):
+            a, b = row * around + k, row * around + (k + 1) % around
+            faces += [[a, b, b + around], [a, b + around, a + around]]
+    assert len(unsnarl.find_intersections(positions, faces)) > 0
+    surface = unsnarl.untangled_seifert_surface(positions, faces)
+    assert surface.status == "embedded" and surface.report["hold"] and surface.report["euler_characteristic"] == 0
+    boundary = {tuple(p) for p in np.concatenate([positions[:around], positions[-around:]])}
+    assert {tuple(p) for p in surface.positions[: 2 * around]} == boundary
+    assert len(unsnarl.find_intersections(surface.positions, surface.faces)) == 0
+    with pytest.raises(ValueError):
+        unsnarl.untangled_seifert_surface(positions, [[0, 1, 2], [0, 1, 3]])
+
+
 def test_a_square_becomes_an_l():
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
     ell = np.array([[0, 0], [5, 0], [5, 1], [1, 1], [1, 5], [0, 5]])

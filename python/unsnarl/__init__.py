@@ -52,6 +52,7 @@ from ._spaces import (
     knot_of_table,
     planar_isotopy,
     seifert_surface,
+    untangled_seifert_surface,
 )
 from ._view import Page, view
 
@@ -100,6 +101,7 @@ __all__ = [
     "samples",
     "seifert_surface",
     "untangle_curves",
+    "untangled_seifert_surface",
     "vertices_of_faces",
     "view",
 ]

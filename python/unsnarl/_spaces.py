@@ -69,6 +69,28 @@ def seifert_surface(
     return SeifertSurface(made.array("positions"), made.array("corners"), made.status, _findings(made))
 
 
+def untangled_seifert_surface(
+    positions: Any,
+    faces: Any,
+    *,
+    edge: float = 0,
+    fair: bool = True,
+    time_limit: float = 0,
+    progress: OnProgress = None,
+) -> SeifertSurface:
+    """A surface of your own that spans a link and may run through itself, untangled with its boundary held bit for bit.
+
+    Takes positions (n, 3) and faces (m, 3) of an oriented surface with a boundary, and edge, fair, time_limit and
+    progress as seifert_surface does. The points of the boundary come first in the result. If pairs of faces are left,
+    its status is no_progress, its arrays are empty, and report["message"] says how many. Raises ValueError for a surface
+    that is not oriented or has no boundary.
+    """
+    start = surface_of(positions, faces)
+    options = options_of(edge=edge, fair=fair, time_limit=time_limit)
+    made = call_and_wait("untangled_seifert_surface", start.struct(), options, progress=progress)
+    return SeifertSurface(made.array("positions"), made.array("corners"), made.status, _findings(made))
+
+
 def check_seifert_surface(positions: Any, faces: Any, link: Any, *, views: int = 60, handles: int = 0) -> dict[str, Any]:
     """Checks a Seifert surface of a link by exact arithmetic, from the mesh and the link alone.
 
@@ -87,7 +109,8 @@ def check_seifert_surface(positions: Any, faces: Any, link: Any, *, views: int =
 def _findings(outcome: Outcome) -> dict[str, Any]:
     report: dict[str, Any] = outcome.report
     for polynomial in ("alexander_of_surface", "alexander_of_link"):
-        report[polynomial] = [int(coefficient) for coefficient in report[polynomial]]
+        if polynomial in report:
+            report[polynomial] = [int(coefficient) for coefficient in report[polynomial]]
     if "determinant" in report:
         report["determinant"] = int(report["determinant"])
     return report

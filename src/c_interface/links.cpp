@@ -25,18 +25,17 @@ Json json_of(const SeifertFindings& found) {
           {"hold", found.hold()}};
 }
 
-unsnarl_result spanned(const Link& link, const unsnarl_options& given, Context* context) {
+SeifertOptions seifert_options(const unsnarl_options& given) {
   SeifertOptions options;
   options.edge_rel = given.edge;
   options.views = given.views;
   options.fair = given.fair != 0;
   options.handles = given.handles;
   options.time_limit_s = given.time_limit;
-  SeifertResult made = seifert_surface(link, options, context);
+  return options;
+}
 
-  Json json = Json::object();
-  if (made.status != Status::no_progress)
-    json = json_of(check_seifert_surface(made.surface, link, options.views, options.handles));
+unsnarl_result result_of(SeifertResult made, Json json) {
   if (!made.message.empty()) json["message"] = made.message;
   json["crossings"] = made.crossings;
   json["circles"] = made.circles;
@@ -49,6 +48,25 @@ unsnarl_result spanned(const Link& link, const unsnarl_options& given, Context* 
   return result;
 }
 
+unsnarl_result spanned(const Link& link, const unsnarl_options& given, Context* context) {
+  const SeifertOptions options = seifert_options(given);
+  SeifertResult made = seifert_surface(link, options, context);
+  Json json = Json::object();
+  if (made.status != Status::no_progress)
+    json = json_of(check_seifert_surface(made.surface, link, options.views, options.handles));
+  return result_of(std::move(made), std::move(json));
+}
+
+unsnarl_result untangled(const SurfaceView& start, const unsnarl_options& given, Context* context) {
+  const SeifertOptions options = seifert_options(given);
+  const SpanningBoundary boundary = spanning_boundary(start);
+  SeifertResult made = untangled_seifert_surface(start, options, context);
+  Json json = Json::object();
+  if (!made.surface.positions.empty())
+    json = json_of(check_seifert_surface(made.surface, boundary.link, options.views, 0, boundary.euler_characteristic));
+  return result_of(std::move(made), std::move(json));
+}
+
 }  // namespace
 }  // namespace unsnarl::c_interface
 
@@ -59,6 +77,15 @@ int unsnarl_seifert_surface(const unsnarl_curves* link, const unsnarl_options* o
                             unsnarl_result** result) {
   return hand_out(result, [&] {
     return spanned(link_of(curves_of(link, "link")), options_of(options, Work::seifert), context_of(context));
+  });
+}
+
+int unsnarl_untangled_seifert_surface(const unsnarl_surface* start, const unsnarl_options* options,
+                                      unsnarl_context* context, unsnarl_result** result) {
+  return hand_out(result, [&] {
+    const SurfaceView view = view_of(surface_of(start));
+    check_corners(view);
+    return untangled(view, options_of(options, Work::seifert), context_of(context));
   });
 }
 

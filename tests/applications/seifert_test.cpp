@@ -285,6 +285,54 @@ TEST(SeifertSurface, the_time_limit_holds_while_triangles_are_split) {
   EXPECT_THROW(seifert_surface(link, {.edge_rel = 1e-4}), std::invalid_argument);
 }
 
+/// Of a knot with thousands of points, the surface as it is built has hardly more triangles than edges at the boundary.
+TEST(SeifertSurface, fine_boundaries_are_spanned_with_few_triangles) {
+  constexpr int n = 1500;
+  Link link;
+  std::vector<double>& p = link.components.emplace_back();
+  for (int k = 0; k < n; ++k) {
+    const double t = 2 * std::numbers::pi * k / n;
+    p.insert(p.end(), {std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t), -std::sin(3 * t)});
+  }
+  const Surface built = seifert_surface(link, {.fair = false}).surface;
+  EXPECT_LT(built.view().face_count(), 2U * n);
+  EXPECT_TRUE(check_seifert_surface(built, link).hold());
+  const SeifertResult faired = seifert_surface(link);
+  EXPECT_EQ(faired.status, Status::embedded);
+  EXPECT_TRUE(faired.message.empty()) << faired.message;
+  EXPECT_TRUE(check_seifert_surface(faired.surface, link).hold());
+}
+
+TEST(KnotTube, runs_beside_the_surface_or_is_refused) {
+  const Link link = knot_of_table("borromean");
+  const Surface surface = seifert_surface(link, {.fair = false}).surface;
+  const KnotTube tube = knot_tube(link, surface);
+  ASSERT_GT(tube.radius, 0);
+  EXPECT_TRUE(is_clear_tube(tube.surface, surface));
+  EXPECT_TRUE(find_intersections(tube.surface).empty());
+  // A tube elsewhere, one with a hole, and one through itself.
+  Surface wrong = tube.surface;
+  for (std::size_t k = 2; k < wrong.positions.size(); k += 3) wrong.positions[k] += 100;
+  EXPECT_FALSE(is_clear_tube(wrong, surface));
+  wrong = tube.surface;
+  wrong.corners.resize(wrong.corners.size() - 3);
+  EXPECT_FALSE(is_clear_tube(wrong, surface));
+  wrong = tube.surface;
+  for (double& x : wrong.positions) x = std::round(x);
+  EXPECT_FALSE(is_clear_tube(wrong, surface));
+  // Another sheet of surface through the middle of the tube.
+  Surface pierced = surface;
+  const auto first = static_cast<Index>(pierced.positions.size() / 3);
+  const std::vector<double>& p = link.components[0];
+  for (const std::array<double, 3>& by : {std::array<double, 3>{9, 0, 0}, {0, 9, 0}, {0, 0, 9}})
+    for (int i = 0; i < 3; ++i) pierced.positions.push_back(p[3 * 20 + i] + by[i]);
+  pierced.corners.insert(pierced.corners.end(), {first, first + 1, first + 2});
+  EXPECT_TRUE(is_clear_tube(tube.surface, pierced));  // far away
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) pierced.positions[3 * (first + k) + i] -= 3;  // its middle is at point 20
+  EXPECT_FALSE(is_clear_tube(tube.surface, pierced));
+}
+
 TEST(SeifertSurface, repeats_itself_and_stops_when_asked) {
   const Link link = knot_of_table("3_1");
   EXPECT_EQ(seifert_surface(link).surface.positions, seifert_surface(link).surface.positions);

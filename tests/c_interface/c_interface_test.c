@@ -537,6 +537,14 @@ static void spans_links(void) {
   CHECK(unsnarl_check_seifert_surface(&surface, &link, NULL, &checked) == UNSNARL_OK);
   CHECK(says(unsnarl_result_report(checked), "\"hold\":true"));
   unsnarl_result_free(checked);
+  checked = NULL;
+  CHECK(unsnarl_untangled_seifert_surface(&surface, &options, NULL, &checked) == UNSNARL_OK);
+  CHECK(says(unsnarl_result_report(checked), "\"hold\":true"));
+  CHECK(array(checked, "positions").rows == surface.vertex_count);
+  unsnarl_result_free(checked);
+  checked = NULL;
+  options.handles = 1;
+  CHECK(unsnarl_untangled_seifert_surface(&surface, &options, NULL, &checked) == UNSNARL_INVALID_ARGUMENT);
   unsnarl_result_free(spanned);
   unsnarl_result_free(knot);
 }

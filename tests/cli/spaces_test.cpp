@@ -50,6 +50,32 @@ TEST(SeifertCommand, a_surface_that_is_brought_is_untangled) {
   EXPECT_EQ(run({"seifert", "-o", out}).exit_code, 2);
 }
 
+TEST(SeifertCommand, a_relaxed_wire_and_a_tube) {
+  Folder folder;
+  const std::string knot = folder / "knot.xyz", out = folder / "s.obj", wire = folder / "w.xyz",
+                    tube = folder / "t.obj";
+  ASSERT_EQ(run({"sample", "knot_3_1", "-o", knot}).exit_code, 0);
+  const Outcome made =
+      run({"seifert", knot, "--relax", "--wire", wire, "--tube", tube, "-o", out, "--report", folder / "r.json"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(contains(made.err, "the knot came to rest")) << made.err;
+  EXPECT_TRUE(contains(made.err, "touches the surface only along the link")) << made.err;
+  const auto report = nlohmann::json::parse(contents(folder / "r.json"));
+  EXPECT_EQ(report["at_rest"], true);
+  EXPECT_EQ(report["points"], 200);
+  EXPECT_GT(report["tube_radius"], 0);
+  EXPECT_EQ(run({"seifert", wire, "--check", out}).exit_code, 0);
+  EXPECT_EQ(run({"seifert", knot, "--check", out}).exit_code, 1);
+  EXPECT_EQ(run({"check", tube}).exit_code, 0);
+  EXPECT_EQ(run({"knot-isotopy", knot, wire, "-o", folder / "way"}).exit_code, 0);
+  EXPECT_EQ(run({"seifert", "--surface", out, "--relax", "-o", folder / "x.obj"}).exit_code, 2);
+  EXPECT_EQ(run({"seifert", wire, "--check", out, "--tube", folder / "x.obj"}).exit_code, 2);
+  EXPECT_EQ(run({"seifert", wire, "-o", folder / "x.obj", "--tube", folder / "x.stl"}).exit_code, 2);
+  const Outcome link = run({"seifert", "-", "--relax", "-o", folder / "x.obj"}, {.input = "braid 2: 1 1\n"});
+  EXPECT_EQ(link.exit_code, 3);
+  EXPECT_TRUE(contains(link.err, "has 2 components")) << link.err;
+}
+
 TEST(SeifertCommand, an_interruption_cancels_it) {
   Folder folder;
   const Outcome ended = run({"seifert", "-", "-o", folder / "s.obj", "--progress", "json"},

@@ -47,20 +47,31 @@ constexpr double least_effort_rel = 1e-6;
 /// The time grows by this from ring to ring, at least (unit: mean of all rings)
 constexpr double least_time = 0.2;
 
-void check_options(const Link& start, const Link& end, const KnotIsotopyOptions& options) {
-  for (const auto& [side, link] : {std::pair("start", &start), std::pair("end", &end)}) {
-    try {
-      check_link(*link);
-    } catch (const std::invalid_argument& e) {
-      throw std::invalid_argument(fmt::format("the {}: {}", side, e.what()));
-    }
-    if (link->components.size() != 1)
-      throw std::invalid_argument(fmt::format(
-          "the {} has {} components; an isotopy is made between knots, which have one", side, link->components.size()));
-    if (link->point_count() > most_points)
-      throw std::invalid_argument(
-          fmt::format("the {} has {} points; knots may have {} at most", side, link->point_count(), most_points));
+void check_knot(const char* which, const Link& link) {
+  try {
+    check_link(link);
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(fmt::format("{}: {}", which, e.what()));
   }
+  if (link.components.size() != 1)
+    throw std::invalid_argument(
+        fmt::format("{} has {} components; only knots, which have one, are moved", which, link.components.size()));
+  if (link.point_count() > most_points)
+    throw std::invalid_argument(
+        fmt::format("{} has {} points; knots may have {} at most", which, link.point_count(), most_points));
+}
+
+/// Whether points that were added on edges changed no knot.
+void check_room(const char* which, const Positions& exact, const DensePolygon& dense) {
+  if (!meeting_pairs(exact, dense.points, strip_to_finer(dense.pieces), 1).empty() ||
+      !stays_simple(dense.points, dense.points))
+    throw std::invalid_argument(
+        fmt::format("{}: two edges are nearer to each other than rounding can tell; move them apart", which));
+}
+
+void check_options(const Link& start, const Link& end, const KnotIsotopyOptions& options) {
+  check_knot("the start", start);
+  check_knot("the end", end);
   const int given = options.points;
   if (given != 0 && (given < fewest_points || given > most_points))
     throw std::invalid_argument(fmt::format("points is {}; give {} to {}, or 0", given, fewest_points, most_points));
@@ -108,8 +119,8 @@ class Making {
                               {std::size_t{least_points}, start_link_.point_count(), end_link_.point_count()}));
     start_ = densified(start_exact_, n);
     end_ = densified(end_exact_, n);
-    check_room("start", start_exact_, start_);
-    check_room("end", end_exact_, end_);
+    check_room("the start", start_exact_, start_);
+    check_room("the end", end_exact_, end_);
     straight();
     const bool everything = options_.method == KnotMethod::automatic;
     if (is_open() && (everything || options_.method == KnotMethod::relax)) relax();
@@ -129,13 +140,6 @@ class Making {
     unit_ = exact_unit(both);
     start_exact_ = both[0] / unit_;
     end_exact_ = both[1] / unit_;
-  }
-
-  static void check_room(const char* side, const Positions& exact, const DensePolygon& dense) {
-    if (!meeting_pairs(exact, dense.points, strip_to_finer(dense.pieces), 1).empty() ||
-        !stays_simple(dense.points, dense.points))
-      throw std::invalid_argument(
-          fmt::format("the {}: two edges are nearer to each other than rounding can tell; move them apart", side));
   }
 
   bool is_open() { return made_.status != Status::embedded && !control_.stopped(); }
@@ -309,6 +313,31 @@ class Making {
 KnotIsotopy knot_isotopy(const Link& start, const Link& end, const KnotIsotopyOptions& options, Context* context) {
   check_options(start, end, options);
   return Making(start, end, options, context).run();
+}
+
+RelaxedWire relaxed_wire(const Link& knot, double time_limit_s, Context* context) {
+  check_knot("the knot", knot);
+  if (!(time_limit_s >= 0))
+    throw std::invalid_argument(fmt::format("time_limit_s is {}; give 0 or more", time_limit_s));
+  RunControl control(context, {.time_s = time_limit_s});
+  std::array<Positions, 1> exact{points_of(knot.components[0])};
+  const double unit = exact_unit(exact);
+  exact[0] /= unit;
+  const DensePolygon dense =
+      densified(exact[0], static_cast<Index>(std::max(std::size_t{least_points}, knot.point_count())));
+  check_room("the knot", exact[0], dense);
+  const RelaxedKnot relaxed = relax_knot(dense.points, {}, [&] {
+    control.tell(0, "relax");
+    return control.stopped();
+  });
+  const Positions x = unit * relaxed.states.back();
+  RelaxedWire made;
+  made.status = control.status_or(Status::embedded);
+  made.link.components = {{x.data(), x.data() + x.size()}};
+  made.at_rest = relaxed.at_rest;
+  made.energy = relaxed.energy;
+  made.seconds = control.seconds();
+  return made;
 }
 
 }  // namespace unsnarl

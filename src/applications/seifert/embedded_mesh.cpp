@@ -23,6 +23,9 @@ constexpr double thin = 0.05;
 /// A flip must raise the smallest angle by this, so that edges do not flip to and fro (unit: radian)
 constexpr double angle_gain = 0.05;
 
+/// What clearance() says of faces that intersect, or less (no unit)
+constexpr double intersecting = -1;
+
 double shortest_edge(const TrianglePoints& t) {
   return std::sqrt(std::min({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}));
 }
@@ -38,20 +41,24 @@ double squared_distance(const TrianglePoints& a, const TrianglePoints& b) {
   return least;
 }
 
-/// Whether there is this much room between the triangles along the axis, whatever is rounded: the difference of two
-/// points and its product with the axis are off by a few roundings of the magnitudes that they are made of.
-bool are_separated_along(const Vec3& axis, const TrianglePoints& a, const TrianglePoints& b, double room) {
+/// Whether there is this much room between the triangles along the axis, b beyond a, or on either side: whatever is
+/// rounded, since the difference of two points and its product with the axis are off by a few roundings of the
+/// magnitudes that they are made of.
+enum class Order { beyond, either };
+bool are_separated_along(const Vec3& axis, const TrianglePoints& a, const TrianglePoints& b, double room,
+                         Order order = Order::beyond) {
   /// Relative error of a handful of operations that each round once (fixed by float64)
   constexpr double few_roundings = 16 * detail::half_ulp;
   const Vec3 origin = a[0], size = axis.cwiseAbs();
-  double highest = 0, lowest = std::numeric_limits<double>::infinity(), magnitude = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (k > 0) highest = std::max(highest, axis.dot(a[k] - origin));
-    lowest = std::min(lowest, axis.dot(b[k] - origin));
-    magnitude = std::max(magnitude, size.dot(a[k].cwiseAbs()) + size.dot(b[k].cwiseAbs()));
-  }
+  const double a1 = axis.dot(a[1] - origin), a2 = axis.dot(a[2] - origin);
+  const double b0 = axis.dot(b[0] - origin), b1 = axis.dot(b[1] - origin), b2 = axis.dot(b[2] - origin);
+  double between = std::min({b0, b1, b2}) - std::max({0.0, a1, a2});
+  if (order == Order::either) between = std::max(between, std::min({0.0, a1, a2}) - std::max({b0, b1, b2}));
+  if (!(between > room)) return false;
+  double magnitude = 0;
+  for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, size.dot(a[k].cwiseAbs()) + size.dot(b[k].cwiseAbs()));
   magnitude += size.dot(origin.cwiseAbs());
-  return magnitude > detail::underflow_guard && lowest - highest > room + few_roundings * magnitude;
+  return magnitude > detail::underflow_guard && between > room + few_roundings * magnitude;
 }
 
 /// Whether a plane through the first corner, which both have, has the rest of one triangle on one side and that of the
@@ -86,8 +93,7 @@ int place_of(const Triangle& t, Index v) {
 bool are_separated(const TrianglePoints& a, const TrianglePoints& b, double by) {
   for (const auto& [s, t] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     const Vec3 normal = ((*s)[1] - (*s)[0]).cross((*s)[2] - (*s)[0]);
-    const double room = by * normal.norm();
-    if (are_separated_along(normal, *s, *t, room) || are_separated_along(-normal, *s, *t, room)) return true;
+    if (are_separated_along(normal, *s, *t, by * normal.norm(), Order::either)) return true;
     for (int k = 0; k < 3; ++k) {
       const Vec3 out = ((*s)[(k + 1) % 3] - (*s)[k]).cross(normal);
       if (are_separated_along(out, *s, *t, by * out.norm())) return true;
@@ -218,19 +224,25 @@ double EmbeddedMesh::soundness_of_pair(const Triangle& a, const Triangle& b, dou
   return (1 + cosine) / sharp_fold;
 }
 
-double EmbeddedMesh::soundness(std::span<const Triangle> faces, std::span<const Index> without, double gap) {
+double EmbeddedMesh::shape(std::span<const Triangle> faces) const {
+  double result = 1;
+  for (const Triangle& t : faces) result = std::min(result, soundness_of(t));
+  return result;
+}
+
+double EmbeddedMesh::clearance(std::span<const Triangle> faces, std::span<const Index> without, double gap,
+                               double enough) {
   for (const Index f : without) is_without_[f] = 1;
   double result = 1;
-  for (std::size_t i = 0; i < faces.size() && result >= 0; ++i) {
+  for (std::size_t i = 0; i < faces.size() && result > enough; ++i) {
     const Triangle& t = faces[i];
-    result = std::min(result, soundness_of(t));
-    for (std::size_t j = i + 1; j < faces.size() && result >= 0; ++j)
+    for (std::size_t j = i + 1; j < faces.size() && result > enough; ++j)
       result = std::min(result, soundness_of_pair(t, faces[j], gap));
     const double reach = std::min(gap, gap_of_edge * shortest_edge({x_[t[0]], x_[t[1]], x_[t[2]]}));
     const Vec3 lo = (x_[t[0]].cwiseMin(x_[t[1]]).cwiseMin(x_[t[2]]).array() - reach).matrix();
     const Vec3 hi = (x_[t[0]].cwiseMax(x_[t[1]]).cwiseMax(x_[t[2]]).array() + reach).matrix();
     grid_.query(lo, hi, [&](Index f) {
-      if (result < 0 || is_without_[f]) return;
+      if (result <= enough || is_without_[f]) return;
       const Triangle& other = faces_[f];
       const Vec3 &a = x_[other[0]], &b = x_[other[1]], &c = x_[other[2]];
       for (int k = 0; k < 3; ++k)
@@ -242,23 +254,27 @@ double EmbeddedMesh::soundness(std::span<const Triangle> faces, std::span<const 
   return result;
 }
 
+bool EmbeddedMesh::is_improved(std::span<const Triangle> before, std::span<const Triangle> after,
+                               std::span<const Index> old, Index v, const Vec3& to) {
+  const Vec3 from = x_[v];
+  const auto at = [&](const Vec3& place, const auto& measure) {
+    x_[v] = place;
+    const double result = measure();
+    x_[v] = from;
+    return result;
+  };
+  const double shaped = at(to, [&] { return shape(after); });
+  if (shaped < 0 || (shaped < 1 && shaped < shape(before))) return false;
+  const double cleared = at(to, [&] { return clearance(after, old, gap_, intersecting); });
+  return cleared >= 1 || (cleared >= 0 && cleared >= clearance(before, old, gap_, cleared));
+}
+
 bool EmbeddedMesh::move(Index v, const Vec3& to) {
   const std::vector<Index> star = faces_of_[v];
   std::vector<Triangle> faces;
   for (const Index f : star) faces.push_back(faces_[f]);
-  const Vec3 from = x_[v];
+  if (!is_improved(faces, faces, star, v, to)) return false;
   x_[v] = to;
-  const double after = soundness(faces, star, gap_);
-  bool fits = after >= 1;
-  if (!fits && after >= 0) {
-    x_[v] = from;
-    fits = after >= soundness(faces, star, gap_);
-    x_[v] = to;
-  }
-  if (!fits) {
-    x_[v] = from;
-    return false;
-  }
   for (std::size_t k = 0; k < star.size(); ++k) {
     grid_.remove(star[k]);
     const Vec3 &a = x_[faces[k][0]], &b = x_[faces[k][1]], &c = x_[faces[k][2]];
@@ -286,7 +302,7 @@ bool EmbeddedMesh::split(const Edge& edge) {
   }
   // The halves cover what was there, but for rounding: gaps stay as they are.
   faces_of_.emplace_back();
-  if (becomes_thin || soundness(faces, old, 0) < 0) {
+  if (becomes_thin || shape(faces) < 0 || clearance(faces, old, 0, intersecting) < 0) {
     x_.pop_back();
     faces_of_.pop_back();
     return false;
@@ -323,18 +339,7 @@ bool EmbeddedMesh::collapse(const Edge& edge, double longest) {
   const Vec3 to = stays ? from : Vec3(0.5 * (x_[kept] + x_[gone]));
   for (const Index v : of_gone)
     if (v != kept && (x_[v] - to).norm() > std::max(longest, (x_[v] - x_[gone]).norm())) return false;
-  double was = -2;
-  x_[kept] = to;
-  const double is = soundness(faces, old, gap_);
-  bool fits = is >= 1;
-  if (!fits && is >= 0) {
-    x_[kept] = from;
-    was = soundness(before, old, gap_);
-    x_[kept] = to;
-    fits = is >= was;
-  }
-  x_[kept] = from;
-  if (!fits) return false;
+  if (!is_improved(before, faces, old, kept, to)) return false;
   for (const Index f : old) {
     erase(f);
     free_faces_.push_back(f);
@@ -361,12 +366,8 @@ bool EmbeddedMesh::flip(const Edge& edge) {
   if (after < before + angle_gain) return false;
   const std::array<Triangle, 2> faces = forward ? std::array<Triangle, 2>{Triangle{a, d, c}, Triangle{d, b, c}}
                                                 : std::array<Triangle, 2>{Triangle{d, a, c}, Triangle{b, d, c}};
-  const double is = soundness(faces, old, gap_);
-  if (is < 0) return false;
-  if (is < 1) {
-    const std::array<Triangle, 2> was{faces_[old[0]], faces_[old[1]]};
-    if (is < soundness(was, old, gap_)) return false;
-  }
+  const std::array<Triangle, 2> was{faces_[old[0]], faces_[old[1]]};
+  if (!is_improved(was, faces, old, a, x_[a])) return false;
   replace(old, faces);
   return true;
 }

@@ -88,9 +88,16 @@ class EmbeddedMesh {
   std::array<Index, 2> faces_at(const Edge& edge) const;
   std::vector<Index> neighbours(Index v) const;
   Vec3 normal(const Triangle& t) const;  // not of unit length
+  /// How far the thinnest of the faces is from being too thin: 0: no area; 1: none is thin.
+  double shape(std::span<const Triangle> faces) const;
   /// How far the faces are from what is wrong with a mesh: below 0: they intersect the others; 1: nothing is near.
-  /// `without`: faces that are not there. gap: to keep; 0: only intersections count.
-  double soundness(std::span<const Triangle> faces, std::span<const Index> without, double gap);
+  /// `without`: faces that are not there. gap: to keep; 0: only intersections count. enough: whatever is no more than
+  /// this may be given back as soon as it is known.
+  double clearance(std::span<const Triangle> faces, std::span<const Index> without, double gap, double enough);
+  /// Whether with vertex v at `to` the faces after are embedded, and neither nearer to others nor thinner than those
+  /// before, which are `old`, or else than they need be.
+  bool is_improved(std::span<const Triangle> before, std::span<const Triangle> after, std::span<const Index> old,
+                   Index v, const Vec3& to);
   double soundness_of_pair(const Triangle& a, const Triangle& b, double gap) const;
   double squared_longest_edge(const Triangle& t) const;
   double soundness_of(const Triangle& t) const;

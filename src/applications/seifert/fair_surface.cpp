@@ -18,6 +18,9 @@ constexpr double least_weight = 0.05;
 constexpr double largest_weight = 5;
 /// Vertices that want to go no farther are left alone (unit: wanted edge length)
 constexpr double settled = 6e-3;
+/// Where the vector area of the faces around a vertex is below this, they are folded and have no normal: the vertex
+/// goes all of its way, not across and along the surface apart [E270] (unit: their area)
+constexpr double folded_below = 0.4;
 /// Share of a step that is tried where the whole one fails (no unit)
 constexpr double shorter_step = 0.3;
 /// Rounds of splitting, at most; each halves what is too long (unit: rounds)
@@ -123,6 +126,7 @@ Vec3 wanted(const EmbeddedMesh& mesh, Index v, const FairOptions& options) {
   const Vec3 along = middle / areas - p;
   const double curvature = 2 * options.curvature;
   const Vec3 across = (pull / weights + curvature * (own.arrow - others)) / (1 + curvature * squared_shares);
+  if (norm < folded_below * areas) return p + across;
   return p + options.over_relaxation * across.dot(n) * n + (along - along.dot(n) * n);
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "applications/seifert/handles.h"
+#include "applications/seifert/rim_short_cuts.h"
 #include "geometry/splitmix.h"
 #include "mesh/ear_clipper.h"
 
@@ -34,6 +35,7 @@ struct RimPoint {
   bool over = false, arrives = false;             // of its strand, there
   Index next = -1;                                // along the link
   Index link_vertex = -1, next_link_vertex = -1;  // its edge
+  ShortCut cut;                                   // of edges of the link, where it begins with the first of them
 };
 
 class Construction {
@@ -77,24 +79,26 @@ class Construction {
       beside_ = std::min(beside_, c.beside);
       collar = std::min({collar, collar_of_gap * c.gap, collar_of_room * beside_});
     }
+    const std::vector<std::vector<double>> depths = rim_depths();
+    const std::vector<std::vector<ShortCut>> cuts = rim_short_cuts(diagram_, depths, step_, room_);
     Index first_vertex = 0;
     for (std::size_t c = 0; c < diagram_.points.size(); ++c) {
       const Positions& p = diagram_.points[c];
       const auto n = static_cast<Index>(p.cols());
       const auto first = static_cast<Index>(rim_.size());
       std::size_t pass = 0;
-      for (Index k = 0; k < n; ++k) {
+      for (Index k = 0; k < n; k += cuts[c][k].edges) {
         const Vec3 a = p.col(k), b = p.col((k + 1) % n);
         const double length = (b - a).head<2>().norm();
         const auto put = [&](double t) -> RimPoint& {
           RimPoint& r = rim_.emplace_back();
-          r.x = (1 - t) * a + t * b - collar * Vec3::UnitZ();
+          r.x = (1 - t) * a + t * b - (t == 0 ? depths[c][k] : collar) * Vec3::UnitZ();
           r.fraction = t;
           r.link_vertex = first_vertex + k;
           r.next_link_vertex = first_vertex + (k + 1) % n;
           return r;
         };
-        put(0);
+        put(0).cut = cuts[c][k];
         for (; pass < diagram_.passes[c].size(); ++pass) {
           const LinkDiagram::Pass& visit = diagram_.passes[c][pass];
           const LinkDiagram::Crossing& crossing = diagram_.crossings[visit.crossing];
@@ -125,6 +129,20 @@ class Construction {
     for (const RimPoint& r : rim_) rim_vertex_.push_back(add(r.x));
   }
 
+  /// Below every point of the link. Only where an edge crosses another one is the collar narrow: else nothing but it is
+  /// there in the picture.
+  std::vector<std::vector<double>> rim_depths() const {
+    std::vector<std::vector<double>> depths;
+    for (const Positions& p : diagram_.points) depths.emplace_back(p.cols(), step_);
+    for (const LinkDiagram::Crossing& crossing : diagram_.crossings)
+      for (const LinkDiagram::Strand& strand : {crossing.over, crossing.under}) {
+        std::vector<double>& of_component = depths[strand.component];
+        for (const std::size_t k : {std::size_t(strand.edge), std::size_t(strand.edge) + 1})
+          of_component[k % of_component.size()] = collar_;
+      }
+    return depths;
+  }
+
   /// From every edge of the link to the rim below it: a fan from its first end, up to the middle, and one from its
   /// second.
   ///
@@ -135,6 +153,10 @@ class Construction {
   void hang_collar() {
     for (std::size_t k = 0; k < rim_.size(); ++k) {
       const RimPoint &r = rim_[k], &next = rim_[r.next];
+      if (r.cut.edges > 1) {
+        hang_below_cut(k);
+        continue;
+      }
       const double end = next.link_vertex == r.link_vertex ? next.fraction : 1;
       const bool second_half = 0.5 * (r.fraction + end) > 0.5;
       const Index from = rim_vertex_[k], to = rim_vertex_[r.next];
@@ -143,6 +165,16 @@ class Construction {
       if (second_half && was_first_half) mesh_.faces.push_back({r.link_vertex, r.next_link_vertex, from});
       if (!second_half && end == 1) mesh_.faces.push_back({r.link_vertex, r.next_link_vertex, to});
     }
+  }
+
+  /// Fans from the ends of the cut: ShortCut says why they do not meet.
+  void hang_below_cut(std::size_t k) {
+    const RimPoint& r = rim_[k];
+    const Index from = rim_vertex_[k], to = rim_vertex_[r.next];
+    const auto vertex = [&](Index i) { return i < r.cut.edges ? r.link_vertex + i : rim_[r.next].link_vertex; };
+    for (Index i = 0; i < r.cut.edges; ++i)
+      mesh_.faces.push_back({vertex(i), vertex(i + 1), i < r.cut.middle ? from : to});
+    mesh_.faces.push_back({vertex(r.cut.middle), to, from});
   }
 
   void place_bands() {
