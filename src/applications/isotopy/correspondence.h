@@ -31,8 +31,4 @@ Correspondence correspondence(const Polygons& start, const Polygons& end, std::s
 /// All corners of each polygon and points on the longest pieces until there are `count` (one a polygon) of them.
 std::vector<std::vector<IsotopyPlace>> even_places(const Polygons& polygons, std::span<const int> count);
 
-/// Points that each polygon needs, `least` and its corners at least: pieces are halved where they are longer than the
-/// distance to another strand.
-std::vector<int> points_needed(const Polygons& polygons, int least);
-
 }  // namespace unsnarl

@@ -14,7 +14,7 @@
 #include "applications/isotopy/discs.h"
 #include "applications/isotopy/pairing.h"
 #include "applications/isotopy/rings.h"
-#include "applications/isotopy/round_curves.h"
+#include "applications/isotopy/round_polygons.h"
 #include "geometry/sort_unique.h"
 #include "run/run_control.h"
 #include "unsnarl/isotopy.h"
@@ -30,8 +30,6 @@ constexpr double most_tangles_a_point = 0.5;
 constexpr Index most_points_untangled = 600;
 /// How often the part is halved by which both sides are shortened before an annulus joins them (unit: halvings)
 constexpr int join_halvings = 5;
-/// What lies in a round curve is drawn into this part of its radius (no unit)
-constexpr double contents_part = 0.4;
 constexpr double laying_share = 0.03;      ///< Share of the progress when annuli are being laid (no unit)
 constexpr double untangling_share = 0.09;  ///< Share of the progress when annuli are laid (no unit)
 constexpr double annulus_share = 0.3;      ///< Share of the progress when annuli have been tried (no unit)
@@ -213,14 +211,17 @@ class Making {
   /// Both sides are shortened toward round curves, by Grayson's theorem without end, but no farther than until an
   /// annulus between them is embedded.
   bool shortening() {
-    std::vector<int> count = points_needed(start_exact_, least_count());
-    const std::vector<int> at_end = points_needed(end_exact_, least_count());
-    for (std::size_t c = 0; c < count.size(); ++c) count[c] = std::max(count[c], at_end[c]);
+    std::vector<int> count;
+    for (std::size_t c = 0; c < start_.size(); ++c)
+      count.push_back(
+          static_cast<int>(std::max<Eigen::Index>({least_count(), start_exact_[c].cols(), end_exact_[c].cols()})));
     Side from{even_places(start_exact_, count), {}}, to{even_places(end_exact_, count), {}};
+    const auto stop = [&] { return control_.stopped(); };
     control_.tell(annulus_share, "shorten");
-    if (!make_round(start_exact_, false, from)) return false;
+    from.states = round_polygons(start_exact_, from.places, parent_, sides_, stop);
     control_.tell(start_share, "shorten the end");
-    if (!make_round(end_exact_, true, to)) return false;
+    to.states = round_polygons(end_exact_, to.places, parent_, sides_, stop);
+    if (stop()) return false;
     control_.tell(end_share, "join");
     made_.method = IsotopyMethod::shortening;
     made_.shortened = 1;
@@ -251,7 +252,6 @@ class Making {
     };
     std::vector<std::size_t> between(join->rings.size() - 2);
     std::iota(between.begin(), between.end(), 0);
-    const auto stop = [&] { return control_.stopped(); };
     add(from.states, thin_out(from.states, made_.height, false, stop));
     add({join->rings.begin() + 1, join->rings.end() - 1}, between);
     add(to.states, thin_out(to.states, made_.height, false, stop));
@@ -261,36 +261,6 @@ class Making {
     made_.on_start = std::move(from.places);
     made_.on_end = std::move(to.places);
     return finish(states, std::move(kept));
-  }
-
-  /// False: stopped. `backwards`: the states are to be gone through from the last to the first.
-  bool make_round(const Polygons& exact, bool backwards, Side& side) {
-    const CurveNet net = net_of(finer(exact, side.places));
-    const auto polygons_at = [&](const Points2& x) {
-      Polygons polygons;
-      for (const CurveNet::Chain& chain : net.chains) {
-        Points2& p = polygons.emplace_back(2, chain.size());
-        for (Index k = 0; k < chain.size(); ++k) p.col(k) = x.col(chain.vertices[k]);
-      }
-      return polygons;
-    };
-    std::size_t thinned = 0;  // states up to this one have been
-    const auto compact = [&](std::vector<Points2>& states) {
-      std::vector<Polygons> rings;
-      for (std::size_t k = thinned; k < states.size(); ++k) rings.push_back(polygons_at(states[k]));
-      std::vector<Points2> kept(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(thinned));
-      for (const std::size_t k : thin_out(rings, net.diagonal, backwards, [] { return false; }))
-        kept.push_back(std::move(states[thinned + k]));
-      states = std::move(kept);
-      thinned = states.size() - 1;
-    };
-    RoundOptions options;
-    options.holds_others.assign(exact.size(), 0);
-    for (const Index parent : parent_)
-      if (parent >= 0) options.holds_others[parent] = 1;
-    const auto stop = [&] { return control_.stopped(); };
-    for (const Points2& x : round_curves(net, net.rest, options, stop, compact)) side.states.push_back(polygons_at(x));
-    return !side.states.empty();
   }
 
   /// The embedded annuli between the states of both sides at a part of their ways that keep the shapes best.
@@ -321,51 +291,18 @@ class Making {
     return join;
   }
 
-  /// What lies in curves, which are round, is drawn into the middle of each; the states on the way are appended.
-  void draw_in(std::vector<Polygons>& states) const {
-    const auto is_within = [&](Index c, Index p) {
-      while (c >= 0 && c != p) c = parent_[c];
-      return c >= 0;
-    };
-    const auto count = static_cast<Index>(parent_.size());
-    std::vector<Index> outer{-1};  // the curves of one depth, whose contents are drawn in at once
-    while (!outer.empty()) {
-      std::vector<Index> inner;
-      for (Index c = 0; c < count; ++c)
-        if (std::find(outer.begin(), outer.end(), parent_[c]) != outer.end()) inner.push_back(c);
-      Polygons now = states.back();
-      bool moves = false;
-      for (const Index p : inner) {
-        const Disc disc = disc_within(now[p], sides_[p]);
-        double reach = 0;
-        for (Index c = 0; c < count; ++c)
-          if (c != p && is_within(c, p))
-            reach = std::max(reach, std::sqrt((now[c].colwise() - disc.middle).colwise().squaredNorm().maxCoeff()));
-        const double part = contents_part * disc.radius / reach;
-        if (!(reach > 0) || part >= 1) continue;
-        moves = true;
-        for (Index c = 0; c < count; ++c)
-          if (c != p && is_within(c, p)) now[c] = ((now[c].colwise() - disc.middle) * part).colwise() + disc.middle;
-      }
-      if (moves) states.push_back(std::move(now));
-      outer = std::move(inner);
-    }
-  }
-
   /// From round curves to round curves by discs that pass each other.
   Join joined_by_discs(const Side& from, const Side& to) const {
     Join join;
     join.from = from.states.size() - 1;
     join.to = to.states.size() - 1;
-    std::vector<Polygons> back{to.states.back()};
-    join.rings.push_back(from.states.back());
-    draw_in(join.rings);
-    draw_in(back);
+    const Polygons &start = from.states.back(), &end = to.states.back();
+    join.rings.push_back(start);
     std::vector<Disc> discs, to_discs;
     for (std::size_t c = 0; c < start_.size(); ++c) {
-      discs.push_back(disc_within(join.rings.back()[c], sides_[c]));
-      to_discs.push_back(disc_within(back.back()[c], sides_[c]));
-      const auto n = static_cast<Index>(back.back()[c].cols());
+      discs.push_back(disc_within(start[c], sides_[c]));
+      to_discs.push_back(disc_within(end[c], sides_[c]));
+      const auto n = static_cast<Index>(end[c].cols());
       const double ahead = sides_[c] * (discs[c].phase - to_discs[c].phase) / (2 * std::numbers::pi);
       join.first.push_back(static_cast<Index>(std::lround((ahead - std::floor(ahead)) * n)) % n);
     }
@@ -375,8 +312,7 @@ class Making {
         polygons.push_back(state[c].polygon(static_cast<Index>(from.places[c].size()), sides_[c]));
     };
     for (const std::vector<Disc>& state : disc_ways(discs, to_discs, parent_, made_.height)) add(state);
-    for (auto state = back.rbegin(); state != back.rend(); ++state)
-      join.rings.push_back(renumbered(*state, join.first));
+    join.rings.push_back(renumbered(end, join.first));
     return join;
   }
 
