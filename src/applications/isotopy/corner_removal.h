@@ -23,10 +23,9 @@ struct CornerRemoval {
   Index before = 0, corner = 0, after = 0;
 };
 
-/// Removes corners, one after the other, until polygons are triangles or nothing can be removed: first those that change
-/// little compared with what is free around them. A polygon in which no others lie always becomes a triangle, since
-/// every simple polygon has two ears (G. H. Meisters 1975).
-/// Precondition: the polygons are simple and disjoint.
+/// Removes corners, one after the other, until polygons are triangles or nothing can be removed: first those that
+/// change little compared with what is free around them. A polygon in which no others lie always becomes a triangle,
+/// since every simple polygon has two ears (G. H. Meisters 1975). Precondition: the polygons are simple and disjoint.
 std::vector<CornerRemoval> remove_corners(Corners corners);
 
 /// The same for one polygon as if it were alone, and inward only: what is cut off are the triangles of a triangulation;

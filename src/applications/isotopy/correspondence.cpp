@@ -260,6 +260,26 @@ Correspondence correspondence(const Polygons& start, const Polygons& end, std::s
   return made;
 }
 
+std::vector<IsotopyPlace> places_along(const Points2& polygon, std::span<const Index> corners,
+                                       const std::vector<IsotopyPlace>& on_other) {
+  const auto n = static_cast<Index>(polygon.cols());
+  const std::vector<double> at = fractions_of(polygon);
+  std::vector<IsotopyPlace> places;
+  for (const IsotopyPlace& place : on_other) {
+    const Index from = corners[place.edge], to = corners[(static_cast<std::size_t>(place.edge) + 1) % corners.size()];
+    const double way = to > from ? at[to] - at[from] : at[to] + 1 - at[from];
+    double left = place.fraction * way;
+    Index edge = from;
+    while (edge + 1 != to && edge + 1 - n != to && left >= at[edge % n + 1] - at[edge % n]) {
+      left -= at[edge % n + 1] - at[edge % n];
+      ++edge;
+    }
+    const double length = at[edge % n + 1] - at[edge % n];
+    places.push_back({edge % n, length > 0 ? std::clamp(left / length, 0.0, 1 - 0x1p-53) : 0.0});
+  }
+  return places;
+}
+
 std::vector<std::vector<IsotopyPlace>> even_places(const Polygons& polygons, std::span<const int> count) {
   std::vector<std::vector<IsotopyPlace>> places;
   for (std::size_t c = 0; c < polygons.size(); ++c) {
