@@ -120,6 +120,7 @@ class OptionsStruct(_Struct):
         ("keep_partial", c_int32),
         ("no_partial", c_int32),
         ("gap_near_conflicts", c_int32),
+        ("pairs", c_char_p),
     ]
 
 

@@ -72,6 +72,7 @@ constexpr auto option_uses = [] {
       UNSNARL_OPTION(keep_partial, document),
       UNSNARL_OPTION(no_partial, document),
       UNSNARL_OPTION(gap_near_conflicts, search, repair, document, sequence),
+      UNSNARL_OPTION(pairs, isotopy),
   });
 }();
 #undef UNSNARL_OPTION

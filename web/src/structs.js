@@ -88,6 +88,7 @@ export const optionsStruct = layout([
   ['keep_partial', 'int'],
   ['no_partial', 'int'],
   ['gap_near_conflicts', 'int'],
+  ['pairs', 'address'],
 ]);
 
 /** Writes these values into a struct that begins at address `at`. */

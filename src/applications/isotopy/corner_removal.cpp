@@ -74,8 +74,8 @@ class RemovalOrder {
     key_[v] = out_of_reach;
   }
 
-  /// How far corner v is from where the curve would be, over the distance to the nearest other corner. That changes
-  /// only as corners beside it are removed, or the nearest one is.
+  /// By how much the polygon would be shorter without corner v, over the distance to the nearest other corner. That
+  /// changes only as corners beside it are removed, or the nearest one is.
   void rate(Index v) {
     unqueue(v);
     hindered_by_[v] = -1;
@@ -109,7 +109,7 @@ class RemovalOrder {
       hinders_[hindrance].push_back(v);
     }
     if (nearest == 0) return;
-    key_[v] = distance_to_segment(b, a, c) / nearest;
+    key_[v] = ((b - a).norm() + (c - b).norm() - (c - a).norm()) / nearest;
     queue_.insert({key_[v], v});
   }
 
