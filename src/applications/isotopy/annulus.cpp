@@ -20,8 +20,6 @@ constexpr std::array<double, 3> annulus_ranges = {8, 4, 2};
 constexpr int annulus_iterations = 30;  ///< Iterations with each range, at most (unit: iterations)
 /// Intersections are counted after this many iterations (unit: iterations)
 constexpr int annulus_look_every = 5;
-/// A range ends where this many looks in a row saw no progress (unit: looks)
-constexpr int most_idle_looks = 3;
 
 double perimeter(const Points2& p) {
   double length = 0;
@@ -138,7 +136,6 @@ Annuli untangled(const Annuli& annuli, const std::function<bool()>& stop) {
     options.block = 2;
     bool done = false;
     const std::size_t before = best.tangles;
-    int idle_looks = 0;
     minimize_lbfgs([&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) { return energy(x, gradient); },
                    displacement, options,
                    [&](const Eigen::VectorXd& v, Eigen::VectorXd& out) { energy.precondition(v, out); },
@@ -147,14 +144,10 @@ Annuli untangled(const Annuli& annuli, const std::function<bool()>& stop) {
                        Annuli now{energy.rings_at(at.x), annuli.heights, 0};
                        now.tangles = crossings_of(net, now.rings, best.tangles);
                        if (now.tangles == 0) now.tangles = tangled_strips(now, best.tangles);
-                       ++idle_looks;
-                       if (now.tangles < best.tangles) {
-                         idle_looks = 0;
-                         best = std::move(now);
-                       }
+                       if (now.tangles < best.tangles) best = std::move(now);
                      }
                      done = best.tangles == 0 || stop();
-                     return done || idle_looks >= most_idle_looks;
+                     return done;
                    });
     if (done || best.tangles == before) break;
   }

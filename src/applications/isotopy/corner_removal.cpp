@@ -74,8 +74,8 @@ class RemovalOrder {
     key_[v] = out_of_reach;
   }
 
-  /// By how much the polygon would be shorter without corner v, over the distance to the nearest other corner. That
-  /// changes only as corners beside it are removed, or the nearest one is.
+  /// By how much the polygon would be shorter without corner v, over the distance to the nearest other corner [E194].
+  /// That changes only as corners beside it are removed, or the nearest one is.
   void rate(Index v) {
     unqueue(v);
     hindered_by_[v] = -1;

@@ -24,7 +24,7 @@ struct CornerRemoval {
 };
 
 /// Removes corners, one after the other, until polygons are triangles or nothing can be removed: first those that
-/// change little compared with what is free around them. A polygon in which no others lie always becomes a triangle,
+/// shorten least compared with what is free around them. A polygon in which no others lie always becomes a triangle,
 /// since every simple polygon has two ears (G. H. Meisters 1975). Precondition: the polygons are simple and disjoint.
 std::vector<CornerRemoval> remove_corners(Corners corners);
 

@@ -120,8 +120,8 @@ TEST(PlanarIsotopy, what_lies_in_a_curve_stays_in_it) {
 TEST(PlanarIsotopy, a_comb_keeps_its_length_on_the_way_to_a_square) {
   const Isotopy made = expect_isotopy({comb(12)}, {square(0, 0, 9)});
   EXPECT_EQ(made.method, IsotopyMethod::annulus);
-  EXPECT_GT(made.length_kept, 0.8);
-  EXPECT_GT(made.area_kept, 0.8);
+  EXPECT_GT(made.length_kept, 0.75);
+  EXPECT_GT(made.area_kept, 0.75);
 }
 
 /// A band that winds up: `width` wide, its turns at a distance of 1.
