@@ -104,7 +104,7 @@ std::string correspondence_json(const IsotopyCommandOptions& options, const Isot
     return json;
   };
   nlohmann::ordered_json json = {{"schema", "unsnarl-isotopy"},
-                                 {"schema_version", 3},
+                                 {"schema_version", 2},
                                  {"version", version},
                                  {"start", options.start},
                                  {"end", options.end},
