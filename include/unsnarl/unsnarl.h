@@ -447,8 +447,8 @@ UNSNARL_EXPORT int unsnarl_untangle_curves(const unsnarl_curves* curves, const u
  *
  * Report: "method" ("annulus", "untangled annulus", "shortening"), "shortened", "length_kept", "area_kept"
  * (docs/isotopy.md); "becomes", the number of the curve of the end that each of the start becomes. Arrays: "times"
- * (r, 1) float64 from 0 to 1; the curves at these times, those of the first, then those of the second, ..., in the order
- * of the start: "points" (p, 2) float64 and "offsets" (r * curves + 1, 1) int32; the surface that they sweep:
+ * (r, 1) float64 from 0 to 1; the curves at these times, those of the first, then those of the second, ..., in the
+ * order of the start: "points" (p, 2) float64 and "offsets" (r * curves + 1, 1) int32; the surface that they sweep:
  * "positions" (n, 3) float64, z being time times the diagonal of both sides' bounding box, and "corners" (m, 3) int32.
  */
 UNSNARL_EXPORT int unsnarl_planar_isotopy(const unsnarl_curves* start, const unsnarl_curves* end,
