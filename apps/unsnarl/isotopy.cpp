@@ -90,7 +90,7 @@ std::string how(const Isotopy& isotopy) {
     case IsotopyMethod::annulus: text = "an annulus between the curves"; break;
     case IsotopyMethod::untangled_annulus: text = "an annulus between the curves, untangled"; break;
     case IsotopyMethod::shortening:
-      text = fmt::format("curves shortened {:.0f} % of the way to round ones", 100 * isotopy.shortened);
+      text = fmt::format("curves shortened {:.0f} % of the way to triangles", 100 * isotopy.shortened);
       break;
   }
   return text + fmt::format("; in between at least {:.0f} % of the lengths and {:.0f} % of the areas are kept",
@@ -135,7 +135,7 @@ void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
       ->type_name("DIR");
   command
       .add_option("--points", options.points,
-                  "Points of every curve during the motion, at least; more where they are needed. 0: 200")
+                  "Points of every curve in the middle of the motion, at least; more where curves have more. 0: 200")
       ->check(whole_number_within(0, 100000))
       ->type_name("N");
   command.add_option("--frames", options.frames, "Number of SVG files, evenly spaced in time (2 to 10000, default 25)")

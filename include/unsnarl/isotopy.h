@@ -14,8 +14,8 @@
 namespace unsnarl {
 
 struct IsotopyOptions {
-  /// Points of every curve between the first and the last ring, at least, [16, 100000]; 0: 200. There are more where
-  /// curves have more points, or come so close to themselves or each other that they need more.
+  /// Points of every curve in the rings in the middle, at least, [16, 100000]; 0: 200. There are more where curves have
+  /// more.
   int points = 0;
   /// Numbers of a curve of the start and of the one of the end that it becomes. The others are paired so that curves
   /// lie in each other alike on both sides, and middles are near.
@@ -23,14 +23,18 @@ struct IsotopyOptions {
   double time_limit_s = 0;  ///< wall-clock seconds; 0: none
 };
 
-/// The curves at one height. The first ring has the points of the start, the last those of the end, the rings between
-/// equally many each (Isotopy::points).
+/// The curves at one height. The first ring has the points of the start, the last those of the end.
 struct IsotopyRing {
   double time = 0;                          ///< in [0, 1], ascending
   std::vector<std::vector<double>> curves;  ///< x and y in turns, one list a curve
 };
 
-/// Where a point of the rings between lies on the start and on the end.
+/// An edge of the surface from a ring to the next one: a point of each.
+struct IsotopyRung {
+  std::int32_t lower = 0, upper = 0;
+};
+
+/// Where a point of the rings in the middle lies on the start or on the end.
 struct IsotopyPlace {
   std::int32_t edge = 0;  ///< starts at the point of this number
   double fraction = 0;    ///< of it, [0, 1)
@@ -40,7 +44,7 @@ struct IsotopyPlace {
 enum class IsotopyMethod : std::uint8_t {
   annulus,            ///< an annulus between the curves that is embedded as it was laid
   untangled_annulus,  ///< one that was untangled with every ring's height held (paper §4.5)
-  shortening,         ///< both curves were shortened on the way to be round, until an annulus between them was embedded
+  shortening,         ///< corners of both were removed until an annulus between what was left was embedded
 };
 std::string_view to_string(IsotopyMethod method);
 
@@ -48,15 +52,21 @@ struct Isotopy {
   /// embedded, or cancelled or time_limit with nothing else in it.
   Status status = Status::no_progress;
   IsotopyMethod method = IsotopyMethod::annulus;
-  double shortened = 0;  ///< part of the way to round curves that was gone, [0, 1]; 0: none
+  double shortened = 0;  ///< part of the way to triangles that was gone, by length, [0, 1]; 0: none
   /// How far the shapes depart in between: the least ratio of a curve's length, and of its area, to what is evenly
   /// between those of the start and of the end.
   double length_kept = 1, area_kept = 1;
   /// The curve of the end that each of the start becomes. Rings have the curves in the order of the start.
   std::vector<std::int32_t> partner;
   std::vector<IsotopyRing> rings;
-  std::vector<int> points;  ///< one a curve: of the rings between
-  /// One list a curve, one entry a point of the rings between.
+  /// One entry a ring but the last, in it one list a curve: the edges from this ring to the next, around the curve.
+  /// From one to the next either point stays or goes on by one.
+  std::vector<std::vector<std::vector<IsotopyRung>>> rungs;
+  /// One a curve: of the rings in the middle, which are those of the annulus. All rings but the first and the last are
+  /// in the middle, unless curves were shortened: below are then rings of fewer and fewer points of the start, above
+  /// rings of more and more points of the end.
+  std::vector<int> points;
+  /// One list a curve, one entry a point of the rings in the middle.
   std::vector<std::vector<IsotopyPlace>> on_start, on_end;
   /// The annuli that the curves sweep, triangles: vertices ring by ring, in a ring curve by curve; z = time * `height`.
   /// A cut at any height is one closed polygon a curve, and as the surface is embedded all of them are simple and
@@ -68,9 +78,9 @@ struct Isotopy {
 
 /// An isotopy in the plane between two sets of closed curves that cross neither themselves nor each other (paper §4.5):
 /// annuli between the curves in space, z being time, which are untangled while every ring keeps its height. Where that
-/// leaves intersections, both sides are first made rounder by shortening them, no farther than needed. That the surface
-/// is embedded is decided by exact arithmetic. docs/isotopy.md explains how. The same input gives the same result on
-/// every run (time limits and cancellation aside).
+/// leaves intersections, both sides are first made simpler by removing corners, no farther than needed. That the
+/// surface is embedded is decided by exact arithmetic. docs/isotopy.md explains how. The same input gives the same
+/// result on every run (time limits and cancellation aside).
 ///
 /// Throws std::invalid_argument, naming the curve: for open curves, another number of curves, curves that cross, curves
 /// that run around the other way (no isotopy of the plane reverses them), curves that lie in each other otherwise at

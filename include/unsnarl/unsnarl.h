@@ -172,7 +172,7 @@ typedef struct unsnarl_options {
 
   /* unsnarl_planar_isotopy, unsnarl_knot_isotopy */
   int32_t points; /* of every curve on the way, 0 or [16, 100000] (of knots 2000); 0: as many as the longer, 200 at
-                     least (default). Curves in the plane get more where they need more */
+                     least (default). Curves in the plane have as many in the middle of their way */
 
   /* unsnarl_repair with `paper`: the settings of unsnarl::PaperOptions (paper.h), which names their sources */
   const char* paper_bandwidth;   /* "global", "independent" or "symmetric" (default) */
@@ -203,6 +203,11 @@ typedef struct unsnarl_options {
   /* unsnarl_untangle_curves */
   int32_t move_strands; /* every curve keeps its points, in their order, and strands are moved past each other; else
                            curves are joined in another way at crossings, so that the drawing stays. Default 0 */
+
+  /* unsnarl_planar_isotopy */
+  const char* pairs; /* which curve of the start becomes which of the end: "0=1,1=0", numbers from 0. The others are
+                        paired so that curves lie in each other alike on both sides and are near: with "" all are.
+                        Default NULL: curve k becomes curve k */
 } unsnarl_options;
 
 /* Sets all options to their defaults. size: sizeof(unsnarl_options). */
@@ -442,13 +447,14 @@ UNSNARL_EXPORT int unsnarl_untangle_curves(const unsnarl_curves* curves, const u
                                            unsnarl_context* context, unsnarl_result** result);
 
 /* Moves closed curves to others so that at no time one crosses itself or another (docs/isotopy.md). Curve k of the
- * start becomes curve k of the end; curves must lie in each other alike on both sides.
+ * start becomes curve k of the end, or as the option `pairs` says; curves must lie in each other alike on both sides.
  *
  * Report: "method" ("annulus", "untangled annulus", "shortening"), "shortened", "length_kept", "area_kept"
- * (docs/isotopy.md). Arrays: "times" (r, 1) float64 from 0 to 1; the curves at these times, those of the first, then
- * those of the second,
- * ...: "points" (p, 2) float64 and "offsets" (r * curves + 1, 1) int32; the surface that they sweep: "positions" (n, 3)
- * float64, z being time times the diagonal of both sides' bounding box, and "corners" (m, 3) int32. */
+ * (docs/isotopy.md); "becomes", the number of the curve of the end that each of the start becomes. Arrays: "times"
+ * (r, 1) float64 from 0 to 1; the curves at these times, those of the first, then those of the second, ..., in the
+ * order of the start: "points" (p, 2) float64 and "offsets" (r * curves + 1, 1) int32; the surface that they sweep:
+ * "positions" (n, 3) float64, z being time times the diagonal of both sides' bounding box, and "corners" (m, 3) int32.
+ */
 UNSNARL_EXPORT int unsnarl_planar_isotopy(const unsnarl_curves* start, const unsnarl_curves* end,
                                           const unsnarl_options* options, unsnarl_context* context,
                                           unsnarl_result** result);

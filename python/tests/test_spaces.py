@@ -58,6 +58,22 @@ def test_a_square_becomes_an_l():
         unsnarl.planar_isotopy(square, ell[::-1])
 
 
+def test_pairs_say_which_curve_becomes_which():
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    sides = [square, square + 9]
+    assert unsnarl.planar_isotopy(sides, sides).report["becomes"] == [0, 1]
+    exchanged = unsnarl.planar_isotopy(sides, sides, pairs=[(0, 1), (1, 0)])
+    assert exchanged.status == "embedded" and exchanged.report["becomes"] == [1, 0]
+    np.testing.assert_array_equal(exchanged.rings[-1][0], sides[1])
+    for ring in exchanged.rings:
+        assert len(unsnarl.find_crossings(ring, closed=True)) == 0
+    assert unsnarl.planar_isotopy(sides, sides[::-1], pairs=[]).report["becomes"] == [1, 0]
+    with pytest.raises(ValueError, match="two pairs name curve 0 of the start"):
+        unsnarl.planar_isotopy(sides, sides, pairs=[(0, 0), (0, 1)])
+    with pytest.raises(ValueError, match="is no list of pairs"):
+        unsnarl.planar_isotopy(sides, sides, pairs=[(0, -1)])
+
+
 def test_an_unknot_becomes_a_circle_and_a_trefoil_does_not():
     knot, circle, trefoil = (unsnarl.knot_of_table(name)[0] for name in ("kinks_1", "circle", "3_1"))
     way = unsnarl.knot_isotopy(knot, circle)

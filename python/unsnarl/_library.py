@@ -121,6 +121,7 @@ class OptionsStruct(_Struct):
         ("no_partial", c_int32),
         ("gap_near_conflicts", c_int32),
         ("move_strands", c_int32),
+        ("pairs", c_char_p),
     ]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -138,8 +140,9 @@ class Isotopy:
     status: Status
     """embedded; time_limit or cancelled with nothing else in it."""
     report: dict[str, Any]
-    """method ("annulus", "untangled annulus" or "shortening"), shortened (the part of the way to round curves that was
-    gone), length_kept and area_kept (least ratio to what is evenly between start and end)."""
+    """method ("annulus", "untangled annulus" or "shortening"), shortened (the part of the way to triangles that was
+    gone), length_kept and area_kept (least ratio to what is evenly between start and end), becomes (the number of the
+    curve of the end that each of the start becomes; rings have the curves in the order of the start)."""
 
 
 def planar_isotopy(
@@ -147,6 +150,7 @@ def planar_isotopy(
     end: Any,
     *,
     points: int = 0,
+    pairs: Sequence[tuple[int, int]] | None = None,
     time_limit: float = 0,
     progress: OnProgress = None,
 ) -> Isotopy:
@@ -155,9 +159,13 @@ def planar_isotopy(
     Parameters
     ----------
     start, end
-        Lists of equally many arrays (n, 2), or one array each; curve k of the start becomes curve k of the end.
+        Lists of equally many arrays (n, 2), or one array each.
     points
-        Of every curve on the way, at least; 0: 200. There are more where curves have more or need more.
+        Of every curve in the middle of the way, at least; 0: 200. There are more where curves have more.
+    pairs
+        Numbers of a curve of the start and of the one of the end that it becomes, such as [(0, 1), (1, 0)]. The others
+        are paired so that curves lie in each other alike on both sides and are near: with [] all are. None: curve k
+        becomes curve k.
     time_limit
         Seconds after which to stop. 0: none.
     progress
@@ -170,6 +178,8 @@ def planar_isotopy(
     """
     both = [polylines_of(side, 2, "curve") for side in (start, end)]
     options = options_of(points=points, time_limit=time_limit)
+    if pairs is not None:
+        options.pairs = ",".join(f"{operator.index(a)}={operator.index(b)}" for a, b in pairs).encode()
     made = call_and_wait("planar_isotopy", *(side.struct() for side in both), options, progress=progress)
     curves = made.polylines()
     count = len(both[0].sizes)

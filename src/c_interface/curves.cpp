@@ -1,12 +1,18 @@
 #include "unsnarl/curves.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <string_view>
 
 #include "arguments.h"
 #include "results.h"
 #include "unsnarl/isotopy.h"
+#include "unsnarl/visible_text.h"
 
 namespace unsnarl::c_interface {
 namespace {
@@ -39,19 +45,44 @@ unsnarl_result untangled(const std::vector<Curve>& curves, const unsnarl_options
   return result;
 }
 
+/// Numbers of a text such as "0=1,2=0".
+std::vector<std::array<std::int32_t, 2>> pairs_of(std::string_view text) {
+  std::vector<std::array<std::int32_t, 2>> pairs;
+  const std::string_view all = text;
+  while (!text.empty()) {
+    std::array<std::int32_t, 2>& pair = pairs.emplace_back();
+    for (const int k : {0, 1}) {
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), pair[k]);
+      const auto read = static_cast<std::size_t>(end - text.data());
+      const char wanted = k == 0 ? '=' : ',';
+      if (error != std::errc() || pair[k] < 0 || (read == text.size() ? k == 0 : text[read] != wanted) ||
+          (k == 1 && read + 1 == text.size()))
+        throw std::invalid_argument(
+            fmt::format("pairs: \"{}\" is no list of pairs; write START=END,..., such as 0=1,1=0", visible_text(all)));
+      text.remove_prefix(std::min(read + 1, text.size()));
+    }
+  }
+  return pairs;
+}
+
 unsnarl_result isotopy(const std::vector<Curve>& start, const std::vector<Curve>& end, const unsnarl_options& given,
                        Context* context) {
   IsotopyOptions options;
   options.points = given.points;
   options.time_limit_s = given.time_limit;
-  for (std::size_t c = 0; c < std::min(start.size(), end.size()); ++c)
-    options.pairs.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(c)});
+  if (given.pairs != nullptr) {
+    options.pairs = pairs_of(given.pairs);
+  } else {
+    for (std::size_t c = 0; c < std::min(start.size(), end.size()); ++c)
+      options.pairs.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(c)});
+  }
   Isotopy made = planar_isotopy(start, end, options, context);
 
   unsnarl_result result;
   result.status = to_string(made.status);
-  result.report = fmt::format(R"({{"method": "{}", "shortened": {}, "length_kept": {}, "area_kept": {}}})",
-                              to_string(made.method), made.shortened, made.length_kept, made.area_kept);
+  result.report = fmt::format(
+      R"({{"method": "{}", "shortened": {}, "length_kept": {}, "area_kept": {}, "becomes": [{}]}})",
+      to_string(made.method), made.shortened, made.length_kept, made.area_kept, fmt::join(made.partner, ", "));
   std::vector<double> times;
   std::vector<std::vector<double>> points;
   for (const IsotopyRing& ring : made.rings) {

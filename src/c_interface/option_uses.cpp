@@ -73,6 +73,7 @@ constexpr auto option_uses = [] {
       UNSNARL_OPTION(no_partial, document),
       UNSNARL_OPTION(gap_near_conflicts, search, repair, document, sequence),
       UNSNARL_OPTION(move_strands, curves),
+      UNSNARL_OPTION(pairs, isotopy),
   });
 }();
 #undef UNSNARL_OPTION

@@ -489,6 +489,8 @@ static void untangles_curves(void) {
   const int32_t offsets[] = {0, 6}, square_offsets[] = {0, 4};
   unsnarl_curves curves = {.size = sizeof curves, .points = bow, .offsets = offsets, .curve_count = 1};
   unsnarl_curves start = {.size = sizeof start, .points = square, .offsets = square_offsets, .curve_count = 1};
+  const char* const bad_pairs[] = {"0", "0=", "0=0,", "=0", "0=-1", "0 = 0", "0=1", "0=0,0=0", "0=0;0=0"};
+  unsnarl_options options = defaults();
   unsnarl_result* result = NULL;
   unsnarl_result* found = NULL;
 
@@ -510,7 +512,17 @@ static void untangles_curves(void) {
   CHECK(strcmp(unsnarl_result_status(result), "embedded") == 0);
   CHECK(array(result, "offsets").rows == array(result, "times").rows + 1);
   CHECK(memcmp(array(result, "points").data, square, sizeof square) == 0);
+  CHECK(says(unsnarl_result_report(result), "\"becomes\": [0]"));
   unsnarl_result_free(result);
+
+  options.pairs = "0=0";
+  CHECK(unsnarl_planar_isotopy(&start, &curves, &options, NULL, &result) == UNSNARL_OK);
+  unsnarl_result_free(result);
+  for (size_t k = 0; k < sizeof bad_pairs / sizeof *bad_pairs; ++k) {
+    options.pairs = bad_pairs[k];
+    CHECK(unsnarl_planar_isotopy(&start, &curves, &options, NULL, &result) == UNSNARL_INVALID_ARGUMENT);
+    CHECK(says(unsnarl_error_message(), "pair"));
+  }
 }
 
 static void spans_links(void) {

@@ -89,6 +89,7 @@ export const optionsStruct = layout([
   ['no_partial', 'int'],
   ['gap_near_conflicts', 'int'],
   ['move_strands', 'int'],
+  ['pairs', 'address'],
 ]);
 
 /** Writes these values into a struct that begins at address `at`. */

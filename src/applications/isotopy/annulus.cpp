@@ -20,8 +20,6 @@ constexpr std::array<double, 3> annulus_ranges = {8, 4, 2};
 constexpr int annulus_iterations = 30;  ///< Iterations with each range, at most (unit: iterations)
 /// Intersections are counted after this many iterations (unit: iterations)
 constexpr int annulus_look_every = 5;
-/// A range ends where this many looks in a row saw no progress (unit: looks)
-constexpr int most_idle_looks = 3;
 
 double perimeter(const Points2& p) {
   double length = 0;
@@ -38,27 +36,14 @@ double area_of(const Points2& p) {
   return area;
 }
 
-/// Counts what meets in annuli between polygons of the same numbers of points.
-class Tangles {
- public:
-  explicit Tangles(const Polygons& ring) : net_(net_of(ring)), height_(height_beside(ring)) {}
-
-  /// Until there are more than `most`. The middle ring comes first, since most is amiss there.
-  std::size_t count(const std::vector<Polygons>& rings, std::size_t most) const {
-    std::size_t sum = 0;
-    const std::size_t middle = rings.size() / 2;
-    for (std::size_t k = 0; k < rings.size() && sum <= most; ++k)
-      sum += find_meetings(net_, joined_points(rings[k % 2 == 0 ? middle + k / 2 : middle - (k + 1) / 2])).size();
-    if (sum > 0) return sum;
-    for (std::size_t k = 0; k + 1 < rings.size() && sum <= most; ++k)
-      sum += strips_are_embedded(net_, rings[k], rings[k + 1], height_) ? 0 : 1;
-    return sum;
-  }
-
- private:
-  CurveNet net_;
-  double height_;
-};
+/// Crossings of the rings, until there are more than `most`. The middle ring comes first, since most is amiss there.
+std::size_t crossings_of(const CurveNet& net, const std::vector<Polygons>& rings, std::size_t most) {
+  std::size_t sum = 0;
+  const std::size_t middle = rings.size() / 2;
+  for (std::size_t k = 0; k < rings.size() && sum <= most; ++k)
+    sum += find_meetings(net, joined_points(rings[k % 2 == 0 ? middle + k / 2 : middle - (k + 1) / 2])).size();
+  return sum;
+}
 
 /// Edges of a polygon: their lengths, and directions as angles that go on around it without jumps.
 struct Edges {
@@ -126,13 +111,22 @@ Annuli naive_annuli(const Polygons& start, const Polygons& end, Blend blend, std
       ring.push_back(bent(from[c], to[c], middle, 2 * std::numbers::pi * turns, t));
     }
   }
-  made.tangles = Tangles(start).count(made.rings, most);
+  made.tangles = crossings_of(net_of(start), made.rings, most);
   return made;
+}
+
+std::size_t tangled_strips(const Annuli& annuli, std::size_t most) {
+  const CurveNet net = net_of(annuli.rings.front());
+  const double height = height_beside(annuli.rings.front());
+  std::size_t sum = 0;
+  for (std::size_t k = 0; k + 1 < annuli.rings.size() && sum <= most; ++k)
+    sum += strips_are_embedded(net, annuli.rings[k], annuli.rings[k + 1], height) ? 0 : 1;
+  return sum;
 }
 
 Annuli untangled(const Annuli& annuli, const std::function<bool()>& stop) {
   Annuli best = annuli;
-  const Tangles tangles(annuli.rings.front());
+  const CurveNet net = net_of(annuli.rings.front());
   AnnulusEnergy energy(annuli.rings);
   Eigen::VectorXd displacement = Eigen::VectorXd::Zero(energy.size());
   for (const double range : annulus_ranges) {
@@ -142,20 +136,15 @@ Annuli untangled(const Annuli& annuli, const std::function<bool()>& stop) {
     options.block = 2;
     bool done = false;
     const std::size_t before = best.tangles;
-    int idle_looks = 0;
     minimize_lbfgs([&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) { return energy(x, gradient); },
                    displacement, options,
                    [&](const Eigen::VectorXd& v, Eigen::VectorXd& out) { energy.precondition(v, out); },
                    [&](LbfgsIteration& at) {
                      if (at.iteration % annulus_look_every == 0) {
-                       std::vector<Polygons> now = energy.rings_at(at.x);
-                       const std::size_t left = tangles.count(now, best.tangles);
-                       ++idle_looks;
-                       if (left < best.tangles) {
-                         idle_looks = 0;
-                         best.tangles = left;
-                         best.rings = std::move(now);
-                       }
+                       Annuli now{energy.rings_at(at.x), annuli.heights, 0};
+                       now.tangles = crossings_of(net, now.rings, best.tangles);
+                       if (now.tangles == 0) now.tangles = tangled_strips(now, best.tangles);
+                       if (now.tangles < best.tangles) best = std::move(now);
                      }
                      done = best.tangles == 0 || stop();
                      return done;

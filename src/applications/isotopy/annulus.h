@@ -13,7 +13,7 @@ namespace unsnarl {
 struct Annuli {
   std::vector<Polygons> rings;
   std::vector<double> heights;
-  /// Crossings of the rings, or, if there are none, strips that are not embedded, decided exactly; 0: an isotopy.
+  /// Crossings of the rings, or, if there are none, tangled_strips once they are counted.
   std::size_t tangles = 0;
 };
 
@@ -23,8 +23,12 @@ enum class Blend {
   bending,   ///< edges change their directions and lengths evenly, so that what is rolled up unrolls; middles go
              ///< straight
 };
-/// Tangles are counted until there are more than `most`.
+/// Crossings of the rings are counted until there are more than `most`.
 Annuli naive_annuli(const Polygons& start, const Polygons& end, Blend blend, std::size_t most);
+
+/// The strips from ring to ring that are not embedded, decided exactly, until there are more than `most`; 0: an
+/// isotopy.
+std::size_t tangled_strips(const Annuli& annuli, std::size_t most);
 
 /// Untangles annuli in space while every ring keeps its height (paper §3.3 and §4.5): rings between the first and the
 /// last move in the plane, so that Gaussian self-contact energy + Minkowski penalty of the rings' segments + change of

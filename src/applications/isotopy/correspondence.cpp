@@ -5,7 +5,6 @@
 #include <numbers>
 #include <queue>
 
-#include "applications/curves/segment_tree.h"
 #include "geometry/portable_math.h"
 
 namespace unsnarl {
@@ -16,15 +15,8 @@ namespace {
 constexpr double one_corner = 0.25;
 /// Places of a curve at which layings are compared (unit: places)
 constexpr int laying_samples = 128;
-/// Parts of a curve are another strand where the way between them along it is longer than this (unit: their distance)
-constexpr double along_of_distance = 10;
-/// A piece between corners is halved this many times at most where strands are near: tips of needles are strands that
-/// meet (unit: halvings)
-constexpr int most_halvings_of_piece = 3;
 /// A laying is better where what is left is smaller by more than rounding (no unit)
 constexpr double better_laying = 1 - 1e-9;
-/// No curve gets more points than this (unit: points)
-constexpr std::size_t most_points_of_curve = 20000;
 constexpr double full_turn = 2 * std::numbers::pi;  ///< A full turn in radians (fixed by geometry)
 
 /// The fraction of the length at which each point lies, and 1.
@@ -170,36 +162,6 @@ std::vector<IsotopyPlace> places_of(const std::vector<Item>& items, const std::v
   return places;
 }
 
-/// One flag an edge, polygon by polygon: a strand that is not beside it along its own curve is nearer than it is long.
-std::vector<std::vector<std::uint8_t>> longer_than_room(const Polygons& polygons) {
-  const CurveNet net = net_of(polygons);
-  SegmentTree tree(net);
-  tree.refit(net.rest);
-  const ArcLengths arcs(net, net.rest);
-  std::vector<std::vector<std::uint8_t>> flags;
-  for (const CurveNet::Chain& chain : net.chains) {
-    std::vector<std::uint8_t>& flag = flags.emplace_back(chain.size(), 0);
-    for (Index k = 0; k < chain.size(); ++k) {
-      const Index s = chain.first_segment + k;
-      const Vec2 a = net.rest.col(chain.at(k)), b = net.rest.col(chain.at(k + 1)), middle = 0.5 * (a + b);
-      const double length = (b - a).norm();
-      const Vec2 room = Vec2::Constant(length);
-      tree.near(middle - room, middle + room, [&](Index t) {
-        if (flag[k] != 0 || t == s) return;
-        const auto [c, d] = net.segments[t];
-        const double fraction = nearest_fraction(middle, net.rest.col(c), net.rest.col(d));
-        const Vec2 foot = net.rest.col(c) + fraction * (net.rest.col(d) - net.rest.col(c));
-        const double distance = (foot - middle).norm();
-        if (distance >= length) return;
-        const Index v = fraction < 0.5 ? c : d;
-        const double along = std::min(arcs.between(chain.at(k), v), arcs.between(chain.at(k + 1), v)) + 0.5 * length;
-        if (along > along_of_distance * distance) flag[k] = 1;
-      });
-    }
-  }
-  return flags;
-}
-
 }  // namespace
 
 Points2 points_at(const Points2& polygon, std::span<const IsotopyPlace> places) {
@@ -298,6 +260,26 @@ Correspondence correspondence(const Polygons& start, const Polygons& end, std::s
   return made;
 }
 
+std::vector<IsotopyPlace> places_along(const Points2& polygon, std::span<const Index> corners,
+                                       const std::vector<IsotopyPlace>& on_other) {
+  const auto n = static_cast<Index>(polygon.cols());
+  const std::vector<double> at = fractions_of(polygon);
+  std::vector<IsotopyPlace> places;
+  for (const IsotopyPlace& place : on_other) {
+    const Index from = corners[place.edge], to = corners[(static_cast<std::size_t>(place.edge) + 1) % corners.size()];
+    const double way = to > from ? at[to] - at[from] : at[to] + 1 - at[from];
+    double left = place.fraction * way;
+    Index edge = from;
+    while (edge + 1 != to && edge + 1 - n != to && left >= at[edge % n + 1] - at[edge % n]) {
+      left -= at[edge % n + 1] - at[edge % n];
+      ++edge;
+    }
+    const double length = at[edge % n + 1] - at[edge % n];
+    places.push_back({edge % n, length > 0 ? std::clamp(left / length, 0.0, 1 - 0x1p-53) : 0.0});
+  }
+  return places;
+}
+
 std::vector<std::vector<IsotopyPlace>> even_places(const Polygons& polygons, std::span<const int> count) {
   std::vector<std::vector<IsotopyPlace>> places;
   for (std::size_t c = 0; c < polygons.size(); ++c) {
@@ -312,30 +294,6 @@ std::vector<std::vector<IsotopyPlace>> even_places(const Polygons& polygons, std
       for (int i = 0; i < parts[k]; ++i) list.push_back({k, static_cast<double>(i) / parts[k]});
   }
   return places;
-}
-
-std::vector<int> points_needed(const Polygons& polygons, int least) {
-  Polygons finer;
-  std::vector<int> count(polygons.size(), least);
-  const auto places = even_places(polygons, count);
-  for (std::size_t c = 0; c < polygons.size(); ++c) finer.push_back(points_at(polygons[c], places[c]));
-  for (int round = 0; round < most_halvings_of_piece; ++round) {
-    const auto halve = longer_than_room(finer);
-    for (std::size_t c = 0; c < polygons.size(); ++c) {
-      const Points2 p = finer[c];
-      const auto n = static_cast<Index>(p.cols());
-      std::vector<Vec2> more;
-      for (Index k = 0; k < n; ++k) {
-        more.push_back(p.col(k));
-        if (halve[c][k] != 0) more.push_back(0.5 * (p.col(k) + p.col((k + 1) % n)));
-      }
-      if (more.size() > most_points_of_curve) continue;
-      finer[c].resize(2, static_cast<Eigen::Index>(more.size()));
-      for (std::size_t k = 0; k < more.size(); ++k) finer[c].col(static_cast<Index>(k)) = more[k];
-    }
-  }
-  for (std::size_t c = 0; c < polygons.size(); ++c) count[c] = static_cast<int>(finer[c].cols());
-  return count;
 }
 
 }  // namespace unsnarl

@@ -28,11 +28,12 @@ double first_fraction(const Points2& start, const Points2& end, Laying laying);
 /// that nearly fall together become one, then points on the longest pieces until there are `least`.
 Correspondence correspondence(const Polygons& start, const Polygons& end, std::span<const double> first, int least);
 
+/// Places on a polygon of which some points, ascending, make another one: its places, as parts of its edges, become
+/// parts of the length between.
+std::vector<IsotopyPlace> places_along(const Points2& polygon, std::span<const Index> corners,
+                                       const std::vector<IsotopyPlace>& on_other);
+
 /// All corners of each polygon and points on the longest pieces until there are `count` (one a polygon) of them.
 std::vector<std::vector<IsotopyPlace>> even_places(const Polygons& polygons, std::span<const int> count);
-
-/// Points that each polygon needs, `least` and its corners at least: pieces are halved where they are longer than the
-/// distance to another strand.
-std::vector<int> points_needed(const Polygons& polygons, int least);
 
 }  // namespace unsnarl

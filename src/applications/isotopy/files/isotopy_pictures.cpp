@@ -84,7 +84,7 @@ std::vector<Curve> isotopy_slice(const Isotopy& isotopy, double time) {
       curve.points = t == 0 ? from.curves[c] : to.curves[c];
       continue;
     }
-    for (const Rung& rung : rungs_of(isotopy, k, c))
+    for (const IsotopyRung& rung : isotopy.rungs[k][c])
       for (int axis = 0; axis < 2; ++axis)
         curve.points.push_back((1 - t) * from.curves[c][2 * rung.lower + axis] +
                                t * to.curves[c][2 * rung.upper + axis]);
@@ -100,31 +100,19 @@ std::string isotopy_frame_svg(const Isotopy& isotopy, double time) {
 
 std::string isotopy_animation_svg(const Isotopy& isotopy, int frames) {
   if (frames < 2 || frames > 1000) throw std::invalid_argument(fmt::format("frames is {}; give 2 to 1000", frames));
-  // Keyframes are rings between start and end, which all have the same points: evenly in time.
-  std::vector<std::size_t> keys;
-  for (int f = 0; f < frames; ++f) {
-    const auto [k, t] = strip_at(isotopy, static_cast<double>(f) / (frames - 1));
-    const std::size_t nearest = std::clamp<std::size_t>(k + (t > 0.5 ? 1 : 0), 1, isotopy.rings.size() - 2);
-    if (keys.empty() || keys.back() != nearest) keys.push_back(nearest);
-  }
-  std::string times;
-  for (const std::size_t k : keys)
-    times += fmt::format("{}{:.5g}", times.empty() ? "0;" : ";", 0.05 + 0.4 * isotopy.rings[k].time);
-  for (auto k = keys.rbegin(); k != keys.rend(); ++k)
-    times += fmt::format(";{:.5g}", 0.95 - 0.4 * isotopy.rings[*k].time);
-  times += ";1";
+  // Drawings have their own numbers of points, so one replaces the other.
+  std::vector<std::vector<Curve>> drawings;
+  for (int f = 0; f < frames; ++f) drawings.push_back(isotopy_slice(isotopy, static_cast<double>(f) / (frames - 1)));
+  for (int f = frames - 1; f >= 0; --f) drawings.push_back(drawings[f]);
   std::string text = opening(isotopy);
   for (std::size_t c = 0; c < isotopy.points.size(); ++c) {
-    const auto at = [&](std::size_t k) { return points_text(isotopy.rings[k].curves[c]); };
-    std::string values = at(keys.front());
-    const auto then = [&](std::size_t k) { values.append(";").append(at(k)); };
-    for (const std::size_t k : keys) then(k);
-    for (auto k = keys.rbegin(); k != keys.rend(); ++k) then(*k);
-    then(keys.front());
+    std::string values;
+    for (const std::vector<Curve>& drawing : drawings)
+      values.append(values.empty() ? "" : ";").append(points_text(drawing[c].points));
     text += fmt::format(
-        "<polygon points=\"{}\"><animate attributeName=\"points\" dur=\"{:.6g}s\" repeatCount=\"indefinite\" "
-        "keyTimes=\"{}\" values=\"{}\"/></polygon>\n",
-        at(keys.front()), 2 * seconds_a_way, times, values);
+        "<polygon points=\"{}\"><animate attributeName=\"points\" calcMode=\"discrete\" dur=\"{:.6g}s\" "
+        "repeatCount=\"indefinite\" values=\"{}\"/></polygon>\n",
+        points_text(drawings.front()[c].points), 2 * seconds_a_way, values);
   }
   return text + "</g>\n</svg>\n";
 }
