@@ -8,11 +8,11 @@
 // orca: optimal reciprocal collision avoidance (J. van den Berg et al. 2011), steered to the farthest visible point of
 //   each agent's own shortest way.
 //
-// usage: unsnarl_route_planners cbs|orca PLAN.json ROUTES.json SECONDS; exit code 0: found, 1: not.
+// usage: unsnarl_route_planners cbs|orca PLAN.json ROUTES.json CPU_SECONDS; exit code 0: found, 1: not.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -185,13 +185,14 @@ double closest(Vec from, Vec to) {  // of a difference that changes evenly
   return norm(from + t * change);
 }
 
+/// CPU time.
 class Clock {
  public:
-  explicit Clock(double seconds) : end_(std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds)) {}
-  bool is_over() const { return std::chrono::steady_clock::now() > end_; }
+  explicit Clock(double seconds) : seconds_(seconds) {}
+  bool is_over() const { return static_cast<double>(std::clock()) > seconds_ * CLOCKS_PER_SEC; }
 
  private:
-  std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> end_;
+  double seconds_;
 };
 
 // ---- Conflict-based search ------------------------------------------------------------------------------------------
@@ -517,7 +518,7 @@ Paths orca(const Plan& plan, const Clock& clock) {
 
 int main(int count, char** given) {
   if (count != 5) {
-    std::cerr << "usage: unsnarl_route_planners cbs|orca PLAN.json ROUTES.json SECONDS\n";
+    std::cerr << "usage: unsnarl_route_planners cbs|orca PLAN.json ROUTES.json CPU_SECONDS\n";
     return 2;
   }
   const Plan plan = read_plan(given[2]);

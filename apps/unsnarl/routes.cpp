@@ -89,16 +89,29 @@ RoutePlan seen_from_above(const RoutePlan& plan, const Surface& tubes) {
   return seen;
 }
 
-std::string picture(const RoutePlan& plan, const Surface& before, const Surface& after, std::vector<SceneFile> parts,
-                    const std::string& label = "routes") {
-  const RoutePlan seen = seen_from_above(plan, after);
+/// Tubes, a part each.
+struct Tubes {
+  Surface surface;
+  std::vector<SceneFile> parts;
+};
+Tubes tubes_of(const RoutePlan& plan, std::span<const Route> routes, int sides) {
+  Tubes tubes;
+  tubes.surface = route_tubes(plan, routes, sides, &tubes.parts);
+  return tubes;
+}
+
+std::string picture(const RoutePlan& plan, Tubes before, Tubes after, const std::string& label = "routes") {
+  const RoutePlan seen = seen_from_above(plan, after.surface);
   PictureOptions options;
   options.before_label = "as asked";
   options.after_label = label;
   options.inset = false;
-  const Surface all_before = with_obstacles(seen, before), all_after = with_obstacles(seen, after, &parts);
-  options.files = parts;
-  return picture_png(all_before, intersecting_faces(pairs_of_tubes(seen, before)), all_after, {}, options);
+  options.translucent_from = plan.agents.size();
+  const Surface all_before = with_obstacles(seen, before.surface, &before.parts),
+                all_after = with_obstacles(seen, after.surface, &after.parts);
+  options.files_before = before.parts;
+  options.files = after.parts;
+  return picture_png(all_before, intersecting_faces(pairs_of_tubes(seen, before.surface)), all_after, {}, options);
 }
 
 std::vector<std::string> names_of(const RoutePlan& plan) {
@@ -136,8 +149,7 @@ int tell_broken_tubes(const RoutesCommandOptions& options) {
 /// The paper's own way: surfaces of straight tubes, untangled as any surface is; only their ends stay.
 int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, const RoutesResult& made,
                    Interruption& interruption) {
-  std::vector<SceneFile> parts;
-  const Surface tubes = route_tubes(plan, made.asked, options.sides, &parts);
+  const auto [tubes, parts] = tubes_of(plan, made.asked, options.sides);
   Surface scene = with_obstacles(plan, tubes);
   RepairOptions wanted;
   wanted.find.weld = Weld::none;
@@ -166,7 +178,7 @@ int run_free_tubes(const RoutesCommandOptions& options, const RoutePlan& plan, c
   const auto path = [&](const std::string& name) { return (path_of(options.folder) / path_of(name)).string(); };
   StagedOutput outputs(interruption);
   if (!add_tubes(path("tubes.obj"), plan, after, outputs)) return tell_broken_tubes(options);
-  outputs.add(path("picture.png"), picture(plan, tubes, after, parts, "free tubes"));
+  outputs.add(path("picture.png"), picture(plan, {tubes, parts}, {after, parts}, "free tubes"));
   outputs.commit();
   if (!options.quiet)
     tell(
@@ -239,16 +251,14 @@ int run_routes(const RoutesCommandOptions& options, Interruption& interruption) 
   if (made.status != Status::embedded) return tell_failure(options, plan, made);
 
   const auto path = [&](const std::string& name) { return (path_of(options.folder) / path_of(name)).string(); };
-  std::vector<SceneFile> parts;
-  const Surface tubes = route_tubes(plan, made.routes, options.sides, &parts);
+  const Tubes tubes = tubes_of(plan, made.routes, options.sides);
   StagedOutput outputs(interruption);
   const fs::path written = outputs.add(path_of(path("routes.json")), {OutputFile{{}, routes_json(plan, made)}});
   const RouteFindings found = check_routes(plan, parse_routes(read_bytes(written.string()), plan));
   if (!found.hold()) throw std::logic_error("the routes to be written do not hold: " + route_faults(plan, found));
-  if (!add_tubes(path("tubes.obj"), plan, tubes, outputs)) return tell_broken_tubes(options);
+  if (!add_tubes(path("tubes.obj"), plan, tubes.surface, outputs)) return tell_broken_tubes(options);
   outputs.add(path("animation.svg"), routes_animation_svg(plan, made.routes));
-  outputs.add(path("picture.png"),
-              picture(plan, route_tubes(plan, made.asked, options.sides), tubes, std::move(parts)));
+  outputs.add(path("picture.png"), picture(plan, tubes_of(plan, made.asked, options.sides), tubes));
   outputs.commit();
   if (!options.quiet)
     tell(fmt::format("{} route{}, certified as written:\n{}{}wrote {}, {:.1f} s\n", made.routes.size(),

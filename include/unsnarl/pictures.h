@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,10 @@ struct PictureOptions {
   bool inset = true;
   /// The files that the surface is of: of several, each gets a colour of its own; empty: it is one.
   std::span<const SceneFile> files = {};
+  /// Those of `before`, where they have other numbers of faces; empty: `files`.
+  std::span<const SceneFile> files_before = {};
+  /// Files from this number on are grey and translucent.
+  std::size_t translucent_from = std::numeric_limits<std::size_t>::max();
 };
 
 /// A label of two lines: `title`, and how many pairs of faces intersect; `allowed`: besides those.

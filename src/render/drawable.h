@@ -13,12 +13,13 @@ namespace unsnarl {
 
 /// A surface made ready for drawing.
 struct Drawable {
+  static constexpr Index grey = -1;  ///< Stands for the file of triangles that have no colour of their own
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;  ///< fans of the polygons; those with non-finite corners are left out
   std::vector<std::array<Eigen::Vector3f, 3>> normals;  ///< of the corners, smooth except across creases
   std::vector<std::uint8_t> drawn_edges;  ///< bit k: the edge from corner k to k + 1 is an edge of the polygon
   std::vector<std::uint8_t> red;          ///< 1: highlighted
-  std::vector<Index> file;                ///< number of the triangle's file
+  std::vector<Index> file;                ///< number of the triangle's file, or `grey`
   double median_edge = 0;                 ///< length of the polygons' edges
 };
 

@@ -1,6 +1,7 @@
 #include "render/picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -27,10 +28,45 @@ constexpr double most_hidden = 0.03;
 /// (no unit)
 constexpr double much_magnified = 2;
 
+/// What is behind something translucent keeps this much of its own light (no unit)
+constexpr double shining_through = 0.65;
+
 struct Panel {
   Drawable drawable;
+  Drawable opaque;  ///< the same without what is translucent
   std::string label;
 };
+
+Panel make_panel(const SurfaceView& surface, std::span<const Index> red, std::span<const SceneFile> files,
+                 std::size_t translucent_from, const std::string& label) {
+  Panel panel{make_drawable(surface, red, files), {}, label};
+  for (Index& file : panel.drawable.file)
+    if (static_cast<std::size_t>(file) >= translucent_from) file = Drawable::grey;
+  panel.opaque = panel.drawable;
+  std::vector<Triangle>& triangles = panel.opaque.triangles;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (panel.drawable.file[t] == Drawable::grey) continue;
+    triangles[kept] = triangles[t];
+    panel.opaque.normals[kept] = panel.drawable.normals[t];
+    panel.opaque.drawn_edges[kept] = panel.drawable.drawn_edges[t];
+    panel.opaque.red[kept] = panel.drawable.red[t];
+    panel.opaque.file[kept++] = panel.drawable.file[t];
+  }
+  triangles.resize(kept);
+  return panel;
+}
+
+/// Everything as if it were opaque, mixed with the same view of what is opaque alone.
+Image shade(const Panel& panel, const Camera& camera, int width, int height) {
+  Image image = shade(panel.drawable, camera, width, height);
+  if (panel.opaque.triangles.size() == panel.drawable.triangles.size()) return image;
+  const Image behind = shade(panel.opaque, camera, width, height);
+  for (std::size_t k = 0; k < image.pixels.size(); ++k)
+    image.pixels[k] = static_cast<std::uint8_t>(
+        std::lround(shining_through * behind.pixels[k] + (1 - shining_through) * image.pixels[k]));
+  return image;
+}
 
 void check_size(const PictureOptions& options) {
   for (int size : {options.width, options.height})
@@ -96,12 +132,12 @@ std::vector<Inset> insets_of(const Drawable& drawable, const Camera& camera, con
   return insets;
 }
 
-void draw_inset(Image& view, const Drawable& drawable, const Camera& camera, const Inset& inset, int width, int height,
+void draw_inset(Image& view, const Panel& panel, const Camera& camera, const Inset& inset, int width, int height,
                 int line) {
   const auto& [window, place] = inset;
   const auto half = static_cast<int>(window.side / 2);
   outline(view, {static_cast<int>(window.x) - half, static_cast<int>(window.y) - half, 2 * half, 2 * half}, line, ink);
-  paste(view, shade(drawable, narrowed(camera, window, width, height), place.width, place.height), place.x, place.y);
+  paste(view, shade(panel, narrowed(camera, window, width, height), place.width, place.height), place.x, place.y);
   outline(view, place, line, ink);
 }
 
@@ -136,13 +172,13 @@ Image render_panels(std::vector<Panel> panels, const PictureOptions& options) {
 
   Image image(options.width, options.height);
   std::vector<Image> views;
-  for (const Panel& panel : panels) views.push_back(shade(panel.drawable, camera, width, height));
+  for (const Panel& panel : panels) views.push_back(shade(panel, camera, width, height));
 
   if (options.inset) {
     const std::vector<Inset> insets = insets_of(panels.front().drawable, camera, views, width, height);
     const int line = std::max(1, options.height / 600);
     for (std::size_t k = 0; k < views.size(); ++k)
-      for (const Inset& inset : insets) draw_inset(views[k], panels[k].drawable, camera, inset, width, height, line);
+      for (const Inset& inset : insets) draw_inset(views[k], panels[k], camera, inset, width, height, line);
     if (insets.size() > 1)
       for (Image& view : views) number_insets(view, insets, 0.6 * letters, line);
   }
@@ -160,15 +196,16 @@ Image render_pair(const SurfaceView& before, std::span<const Index> red_before, 
                   std::span<const Index> red_after, const PictureOptions& options) {
   check_size(options);
   std::vector<Panel> panels;
-  panels.push_back({make_drawable(before, red_before, options.files), options.before_label});
-  panels.push_back({make_drawable(after, red_after, options.files), options.after_label});
+  panels.push_back(make_panel(before, red_before, options.files_before.empty() ? options.files : options.files_before,
+                              options.translucent_from, options.before_label));
+  panels.push_back(make_panel(after, red_after, options.files, options.translucent_from, options.after_label));
   return render_panels(std::move(panels), options);
 }
 
 Image render_surface(const SurfaceView& surface, std::span<const Index> red, const PictureOptions& options) {
   check_size(options);
   std::vector<Panel> panels;
-  panels.push_back({make_drawable(surface, red, options.files), options.before_label});
+  panels.push_back(make_panel(surface, red, options.files, options.translucent_from, options.before_label));
   return render_panels(std::move(panels), options);
 }
 

@@ -27,6 +27,12 @@ const std::array<FileColours, 6> file_colours = {{
     {{0.55F, 0.42F, 0.30F}, {0.55F, 0.48F, 0.42F}},
 }};
 
+const FileColours grey = {{0.42F, 0.44F, 0.48F}, {0.42F, 0.44F, 0.48F}};
+
+const FileColours& colours_of(Index file) {
+  return file == Drawable::grey ? grey : file_colours[file % file_colours.size()];
+}
+
 /// Red faces that are narrower on the screen are drawn this wide, so that a row of them on a fine mesh shows as a line
 /// [E182] (unit: pixels)
 constexpr double least_red_width = 2;
@@ -257,7 +263,7 @@ Image shade(const Drawable& drawable, const Camera& camera, int width, int heigh
               drawable.red[triangle] != 0 ||
               (is_marked && view.marks.inverse_depth[at] >= (1 - view.mark_slack_rel) * view.nearest.inverse_depth[at]);
           const float visible_sky = sky[std::size_t(y) * width + x];
-          const FileColours& own = file_colours[drawable.file[triangle] % file_colours.size()];
+          const FileColours& own = colours_of(drawable.file[triangle]);
           Linear colour = lit(is_red ? material.red : front ? own.front : own.back, normal, to_eye, visible_sky);
           if (line_strength > 0) {
             const float away = distance_to_edges(corners, drawable.drawn_edges[triangle], i + 0.5F, j + 0.5F) / samples;

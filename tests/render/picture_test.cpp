@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -95,6 +96,32 @@ TEST(Picture, narrow_red_faces_are_seen) {
   const Surface hidden = together(fine, plate(1, 0.3));
   const Counts through = count(render_pair(hidden, row, hidden, {}, small()), 0, 200);
   EXPECT_GT(through.tinted, 100U);
+}
+
+TEST(Picture, what_is_behind_something_translucent_shows_through) {
+  Surface low = plate(1, -0.1);
+  for (std::size_t k = 0; k < low.positions.size(); ++k)
+    if (k % 3 != 2) low.positions[k] *= 0.3;
+  const Surface surface = together(low, plate(1, 0.1));
+  const std::vector<SceneFile> files = {{"low", 0, 4, 0, 1}, {"high", 4, 4, 1, 1}};
+  PictureOptions options = small();
+  options.files = files;
+  // The middle of the upper plate, and a place of it that has nothing behind it.
+  const auto contrast = [&](const Image& image) {
+    const int x = image.width / 4, y = image.height / 2 + 10;
+    int most = 0;
+    for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(image.at(x, y)[c] - image.at(x - 50, y)[c]));
+    return most;
+  };
+  EXPECT_LT(contrast(render_pair(surface, {}, surface, {}, options)), 12);
+  options.translucent_from = 1;
+  EXPECT_GT(contrast(render_pair(surface, {}, surface, {}, options)), 40);
+  // Before, the upper plate has four faces.
+  const Surface before = together(low, plate(2, 0.1));
+  EXPECT_LT(contrast(render_pair(before, {}, surface, {}, options)), 12);
+  const std::vector<SceneFile> files_before = {{"low", 0, 4, 0, 1}, {"high", 4, 9, 1, 4}};
+  options.files_before = files_before;
+  EXPECT_GT(contrast(render_pair(before, {}, surface, {}, options)), 40);
 }
 
 TEST(Picture, both_states_are_seen_by_one_camera) {

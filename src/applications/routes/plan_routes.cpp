@@ -40,8 +40,8 @@ constexpr int most_rounds = 9;  ///< Rounds of parting routes, at most (unit: ro
 /// Weight of contacts and turns at the beginning: small, since hard pushes at the start make kinks that take long to
 /// undo [E199] (no unit)
 constexpr double first_weight = 0.005;
-/// In time, unless its speed is limited, an agent moves this many times as fast as it needs to when it searches its
-/// way, one a try: so it can wait (no unit)
+/// In time, unless their speed is limited, agents move this many times as fast as the one that has to be fastest when
+/// they search their ways, one a try: so they can wait (no unit)
 constexpr std::array<double, 3> search_paces = {2, 4, 8};
 /// Width of the grid's cells in a search in time, one a try (unit: radius of the agent)
 constexpr std::array<double, 3> search_cells = {1, 0.5, 0.35};
@@ -262,14 +262,16 @@ class Planning {
     TimeSearchSettings settings;
     settings.cell = search_cells[attempt];
     settings.stopped = [&] { return control_.stopped(); };
-    double steps = 1;
+    double needed = 0;  // by the agent that has to be fastest
     for (std::size_t i = 0; i < plan_.agents.size(); ++i) {
-      const RouteAgent& agent = plan_.agents[i];
-      const double time = std::min(agent.window[1], plan_.duration) - agent.window[0];
-      // A limit far beyond what is needed counts as none.
-      const double wanted = made_.alone_length[i] / time;
+      const std::array<double, 2>& window = plan_.agents[i].window;
+      needed = std::max(needed, made_.alone_length[i] / (std::min(window[1], plan_.duration) - window[0]));
+    }
+    double steps = 1;
+    for (const RouteAgent& agent : plan_.agents) {
+      // A limit far beyond what is needed counts as none: steps that short would be too many.
       const double limit = search_speed * agent.speed;
-      const double speed = limit < search_paces.back() * wanted ? limit : search_paces[attempt] * wanted;
+      const double speed = limit < search_paces.back() * needed ? limit : search_paces[attempt] * needed;
       settings.stride.push_back(speed * plan_.duration);
       steps = std::max(steps, settings.stride.back() / (options_.spacing * agent.radius));
     }

@@ -282,6 +282,18 @@ TEST(PlanRoutes, in_a_corridor_one_waits_in_the_bay) {
   EXPECT_EQ(in_the_bay, 1);
 }
 
+TEST(PlanRoutes, who_has_a_short_way_arrives_soon) {
+  RoutePlan plan;
+  plan.timed = true;
+  plan.duration = 100;
+  plan.agents = {agent("far", 0.5, {-10, 0, 0}, {10, 0, 0}), agent("near", 0.5, {0, -3, 0}, {0, -5, 0})};
+  for (RouteAgent& a : plan.agents) a.speed = 1;
+  const RoutesResult made = plan_routes(plan);
+  ASSERT_EQ(made.status, Status::embedded) << route_faults(plan, made.found);
+  EXPECT_LT(made.found.arrival[0], 25);
+  EXPECT_LT(made.found.arrival[1], 4);
+}
+
 TEST(PlanRoutes, who_has_priority_does_not_wait) {
   RoutePlan plan = corridor_with_bay();
   plan.duration = 60;
