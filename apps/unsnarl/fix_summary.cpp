@@ -202,6 +202,11 @@ std::string fix_summary(const RepairResult& result, const RepairOptions& options
                      100 * (1 - r.untouched_share), length_in_words(r.displacement_max_rel, r.diagonal),
                      length_in_words(r.displacement_mean_rel, r.diagonal, ""),
                      length_in_words(r.displacement_area_rms_rel, r.diagonal, "")));
+  if (r.before_recovery)
+    line(fmt::format("  before recovery: {}, vertices moved by {} at most, {} on average",
+                     r.before_recovery->is_clean ? "clean" : "not clean",
+                     length_in_words(r.before_recovery->displacement_max_rel, r.diagonal),
+                     length_in_words(r.before_recovery->displacement_mean_rel, r.diagonal, "")));
   for (const NestedPair& pair : files.nested) line("  " + nested_in_words(pair));
   for (const RigidPartReport& part : r.rigid_parts) line("  " + rigid_part_in_words(part, r.diagonal));
   for (const std::string& words : far_regions(r)) line("  " + words);

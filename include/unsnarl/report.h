@@ -89,6 +89,13 @@ struct RegionReport {
   std::int32_t farthest_vertex = -1;
 };
 
+/// What the method of the paper (RepairOptions::paper) reached by untangling, before recovery.
+struct PaperUntangling {
+  bool is_clean = false;  ///< no two faces that share no vertex intersect: the paper's criterion
+  /// Over the vertices, from their input positions, as RepairReport has them of the result.
+  double displacement_mean_rel = 0, displacement_max_rel = 0;
+};
+
 /// A component with self-intersections of its own, before or after.
 struct ComponentReport {
   std::size_t component = 0;  ///< number in the order of the first faces (see component_of_faces)
@@ -242,6 +249,7 @@ struct RepairReport {
   bool float32_embedded = false;             ///< holds after rounding all positions to float32
   Precision precision = Precision::float64;  ///< the format in which the result was made to hold
   std::vector<RegionReport> regions;
+  std::optional<PaperUntangling> before_recovery;  ///< none: not by RepairOptions::paper
   std::vector<ComponentReport> components;
   std::vector<OverlappingComponent> overlapping_components;  ///< in the order of their numbers
   std::vector<ChangedComponent> changed_components;          ///< those that lost most first, then those that moved most

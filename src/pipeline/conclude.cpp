@@ -165,6 +165,7 @@ RepairResult conclude(const RepairTask& task, const RepairControl& control, Pair
   report.precision = state.format.float32() ? Precision::float32 : Precision::float64;
   report.float32_embedded = census.is_embedded_in_float32(reached.x);
   report.regions = state.regions;
+  report.before_recovery = state.before_recovery;
   measure_change(task.surface, task.prepared, task.diagnosis, result.positions, report);
   report.min_gap_rel = std::isfinite(state.smallest_gap) && task.diagonal > 0 ? state.smallest_gap / task.diagonal : 0;
   report.gap = measured_gap(task, state, reached.x, reached.left.triangles);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct RepairState {
   std::vector<Moved> moved;
   std::size_t recovered = 0;  ///< so many of these, from the first on, have been recovered
   std::vector<RegionReport> regions;
+  std::optional<PaperUntangling> before_recovery;  ///< with RepairOptions::paper
   AttemptLog attempts;
   Recorder recorder;
   double smallest_gap = std::numeric_limits<double>::infinity();  ///< met while contacts were listed

@@ -106,6 +106,22 @@ void recover_moved(const RepairTask& task, const RepairControl& control, std::sp
   state.smallest_gap = std::min(state.smallest_gap, gap);
 }
 
+/// What untangling reached; `left`: the pairs of triangles that it left.
+PaperUntangling measure_untangled(const RepairTask& task, const RepairState& state,
+                                  std::span<const IntersectingPair> left) {
+  PaperUntangling reached;
+  reached.is_clean = std::none_of(left.begin(), left.end(),
+                                  [](const IntersectingPair& pair) { return pair.kind == PairClass::disjoint; });
+  const std::vector<Index>& vertex_of = task.prepared.weld_map.vertex_of;
+  if (!(task.diagonal > 0)) return reached;
+  for (const Index v : vertex_of) {
+    const double displacement_rel = (state.scene.x.col(v) - task.prepared.rest.col(v)).norm() / task.diagonal;
+    reached.displacement_mean_rel += displacement_rel / static_cast<double>(vertex_of.size());
+    reached.displacement_max_rel = std::max(reached.displacement_max_rel, displacement_rel);
+  }
+  return reached;
+}
+
 /// Says of the regions of what moved since the last recovery how deep they were and how far they went.
 void measure_regions(const RepairTask& task, RepairState& state) {
   if (!(task.diagonal > 0)) return;
@@ -234,6 +250,7 @@ Rounds work_in_rounds(const RepairTask& task, const RepairControl& control, Find
     control.phases.start("untangle");
     auto left = untangle(task, control, index, state, round == 0);
     if (!left) break;
+    if (round == 0 && task.options.paper) state.before_recovery = measure_untangled(task, state, *left);
     if (task.options.recover) {
       control.phases.start("recover");
       report_progress(task, control, state, untangled_fraction, *left);

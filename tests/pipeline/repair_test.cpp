@@ -236,6 +236,27 @@ TEST(Repair, what_no_motion_can_embed_is_refused_untouched) {
   }
 }
 
+TEST(Repair, the_paper_s_method_says_how_far_it_untangled_before_it_recovered) {
+  const Surface surface = shapes::crossing_bumps(8, 0.3).surface();
+  RepairOptions options;
+  options.goal = Goal::disjoint;
+  options.paper.emplace();
+  options.recover = false;
+  const RepairResult untangled = repair(surface, options);
+  ASSERT_TRUE(untangled.report.before_recovery);
+  EXPECT_TRUE(untangled.report.before_recovery->is_clean);
+  EXPECT_NEAR(untangled.report.before_recovery->displacement_mean_rel, untangled.report.displacement_mean_rel, 1e-6);
+  EXPECT_NEAR(untangled.report.before_recovery->displacement_max_rel, untangled.report.displacement_max_rel, 1e-6);
+  options.recover = true;
+  const RepairResult recovered = repair(surface, options);
+  EXPECT_EQ(recovered.report.before_recovery->displacement_mean_rel,
+            untangled.report.before_recovery->displacement_mean_rel);
+  EXPECT_LT(recovered.report.displacement_mean_rel, 0.5 * recovered.report.before_recovery->displacement_mean_rel);
+  options.paper->max_iterations = 0;
+  EXPECT_FALSE(repair(surface, options).report.before_recovery->is_clean);
+  EXPECT_FALSE(repair(surface).report.before_recovery);
+}
+
 TEST(Repair, the_goal_disjoint_leaves_faces_that_share_a_vertex) {
   // A fan whose faces cross beyond their common vertex, next to two sheets that cross.
   Shape shape = shapes::crossing_bumps(8, 0.3);

@@ -171,6 +171,10 @@ std::string report_json(const RepairResult& result, const RepairOptions& options
                                {"depth_rel", region.depth_rel},
                                {"displacement_rel", region.displacement_rel},
                                {"farthest_vertex", region.farthest_vertex}});
+  if (r.before_recovery)
+    json["before_recovery"] = {{"clean", r.before_recovery->is_clean},
+                               {"displacement_mean_rel", r.before_recovery->displacement_mean_rel},
+                               {"displacement_max_rel", r.before_recovery->displacement_max_rel}};
   json["components"] = Json::array();
   for (const ComponentReport& component : r.components)
     json["components"].push_back({{"component", component.component},

@@ -38,6 +38,7 @@ TEST(ReportJson, holds_what_the_report_holds) {
   EXPECT_EQ(json["seconds"], 4);
   EXPECT_EQ(json["peak_memory_mb"], 6);
   EXPECT_FALSE(json.contains("history"));
+  EXPECT_FALSE(json.contains("before_recovery")) << "of --paper alone";
 }
 
 TEST(ReportJson, lengths_are_in_the_units_of_the_positions_too) {
@@ -47,6 +48,7 @@ TEST(ReportJson, lengths_are_in_the_units_of_the_positions_too) {
   result.report.area_change_rel = 0.5;
   result.report.regions.push_back({});
   result.report.regions[0].depth_rel = 0.125;
+  result.report.before_recovery = PaperUntangling{true, 0.0625, 0.125};
   RigidPartReport part;
   part.translation_rel = 0.5;
   part.translation = {1, 2, 3};
@@ -58,6 +60,9 @@ TEST(ReportJson, lengths_are_in_the_units_of_the_positions_too) {
   EXPECT_EQ(json["regions"][0]["depth"], 1);
   EXPECT_EQ(json["rigid_parts"][0]["translation_length"], 4);
   EXPECT_EQ(json["rigid_parts"][0]["translation"], nlohmann::json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(json["before_recovery"]["clean"], true);
+  EXPECT_EQ(json["before_recovery"]["displacement_mean"], 0.5);
+  EXPECT_EQ(json["before_recovery"]["displacement_max"], 1);
   EXPECT_FALSE(json.contains("area_change")) << "a share of the area";
   const auto& clearance = json["clearance"]["before"];
   ASSERT_TRUE(clearance["gap_rel"].contains("value"));
