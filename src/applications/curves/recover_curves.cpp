@@ -162,11 +162,10 @@ class Recovery {
 
   /// Are the boxes of two segments farther apart than this in x or in y?
   bool are_apart(Index i, Index j, double distance) const {
-    const auto [a, b] = net_.segments[i];
-    const auto [c, d] = net_.segments[j];
+    const Edge &segment = net_.segments[i], &other = net_.segments[j];
     const auto is_apart = [&](int axis) {
-      const auto [low, high] = std::minmax({state_.x(axis, a), state_.x(axis, b)});
-      const auto [other_low, other_high] = std::minmax({state_.x(axis, c), state_.x(axis, d)});
+      const auto [low, high] = std::minmax({state_.x(axis, segment[0]), state_.x(axis, segment[1])});
+      const auto [other_low, other_high] = std::minmax({state_.x(axis, other[0]), state_.x(axis, other[1])});
       return low > other_high + distance || other_low > high + distance;
     };
     return is_apart(0) || is_apart(1);
