@@ -30,6 +30,7 @@ enum class Work : unsigned {
   check_seifert = 1 << 6,
   isotopy = 1 << 7,
   routes = 1 << 8,
+  knot_isotopy = 1 << 9,
 };
 
 /// What the caller's struct says, and defaults for fields that it does not have yet. NULL: the defaults. Throws where

@@ -567,6 +567,7 @@ static void moves_knots(void) {
   unsnarl_result* way = NULL;
   unsnarl_curves start = {.size = sizeof start};
   unsnarl_curves end = {.size = sizeof end};
+  unsnarl_options options = defaults();
 
   CHECK(unsnarl_knot_of_table("kinks_1", &knot) == UNSNARL_OK);
   CHECK(unsnarl_knot_of_table("circle", &circle) == UNSNARL_OK);
@@ -575,6 +576,8 @@ static void moves_knots(void) {
   end.points = array(circle, "points").data;
   end.offsets = array(circle, "offsets").data;
   start.curve_count = end.curve_count = 1;
+  options.pairs = "0=0";
+  CHECK(unsnarl_knot_isotopy(&start, &end, &options, NULL, &way) == UNSNARL_INVALID_ARGUMENT);
   CHECK(unsnarl_knot_isotopy(&start, &end, NULL, NULL, &way) == UNSNARL_OK);
   CHECK(strcmp(unsnarl_result_status(way), "embedded") == 0);
   CHECK(says(unsnarl_result_report(way), "\"hold\":true"));

@@ -18,19 +18,19 @@ constexpr double search_reach = 1.01;
 /// Times of blocked moments that begin or end with a step are moved by this, which makes the step's end belong to
 /// them: any part of a step does, since times are rounded to steps then (fixed by rounding)
 constexpr double part_of_step = 0.25;
-/// Room for agents around everything in the plan [E294] (unit: radius of the largest agent)
+/// Room for agents around everything in the plan [E261] (unit: radius of the largest agent)
 constexpr double search_room = 8;
 /// A search that looked at so many nodes finds nothing (unit: nodes)
 constexpr int most_looked_at = 200000;
-/// New orders of the agents, at most [E293] (unit: orders)
+/// New orders of the agents, at most [E260] (unit: orders)
 constexpr int most_orders = 20;
 /// An agent that found no way and then chooses first leaves later by what it takes to go this far, each time: two that
-/// meet head on would else both block the bay between them [E290] (unit: radius)
+/// meet head on would else both block the bay between them [E257] (unit: radius)
 constexpr double wait_of_first = 4;
-/// Orders that give all agents a way, at most: the one with the shortest ways is taken [E291] (unit: orders)
+/// Orders that give all agents a way, at most: the one with the shortest ways is taken [E258] (unit: orders)
 constexpr int most_found = 3;
 /// An agent whose way is longer than this beside the one that it gets alone chooses first in another order
-/// [E292] (unit: length of the way alone)
+/// [E259] (unit: length of the way alone)
 constexpr double least_detour = 1.2;
 /// A place is joined to the grid within this many cells to each side (unit: cells)
 constexpr int cells_around_a_place = 2;

@@ -19,7 +19,7 @@ constexpr double largest_weight = 5;
 /// Vertices that want to go no farther are left alone (unit: wanted edge length)
 constexpr double settled = 6e-3;
 /// Where the vector area of the faces around a vertex is below this, they are folded and have no normal: the vertex
-/// goes all of its way, not across and along the surface apart [E270] (unit: their area)
+/// goes all of its way, not across and along the surface apart [E256] (unit: their area)
 constexpr double folded_below = 0.4;
 /// Share of a step that is tried where the whole one fails (no unit)
 constexpr double shorter_step = 0.3;
