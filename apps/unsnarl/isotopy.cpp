@@ -162,7 +162,7 @@ void add_isotopy_options(CLI::App& command, IsotopyCommandOptions& options) {
                              "  surface.obj          the surface that the curves sweep; z is time\n"
                              "  animation.svg        the curves move from START to END and back\n"
                              "  frame_0000.svg ...   the curves at evenly spaced times\n"
-                             "  correspondence.json  rings, and where their points lie on START and END\n\n"
+                             "  correspondence.json  rings, and where the points of most lie on START and END\n\n"
                              "Examples:\n"
                              "  unsnarl isotopy spiral.svg square.svg -o way\n"
                              "  unsnarl isotopy letters.svg dots.json -o way --frames 100\n\n") +

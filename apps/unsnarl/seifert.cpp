@@ -127,7 +127,9 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
       ->type_name("N");
   command.add_flag("--no-fair", options.no_fair,
                    "Do not smooth the surface; leave it as Seifert's algorithm builds it");
-  command.add_option("--time-limit", options.time_limit_s, "Stop smoothing after this many seconds. 0: no limit")
+  command
+      .add_option("--time-limit", options.time_limit_s,
+                  "Stop smoothing, and before it --relax, after this many seconds each. 0: no limit")
       ->check(not_negative(unit::seconds))
       ->type_name("SECONDS");
   add_quiet(command, options.quiet);
@@ -145,8 +147,8 @@ void add_seifert_options(CLI::App& command, SeifertCommandOptions& options) {
       ->type_name("FILE.xyz");
   command
       .add_option("--tube", options.tube,
-                  "Write a tube around the link: *.obj, *.off or *.ply. It does not run through itself and touches the "
-                  "surface only along the link")
+                  "Write a tube around the link: *.obj, *.off or *.ply. It does not run through itself and meets the "
+                  "surface in a single band of faces along each component")
       ->type_name("FILE");
   const std::string shown = outputs_to_look_at;
   command.add_option("--report", options.report, "Write a JSON report: what was certified")
@@ -262,20 +264,22 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
     return found.hold();
   };
   StagedOutput outputs(interruption);
+  std::optional<Document> written;
   if (is_stream(options.output)) {
-    if (!certify(Document::parse(bytes, *format))) return tell_failure(options, seifert_faults(found));
+    written = Document::parse(bytes, *format);
     outputs.add(options.output, bytes);
   } else {
     const std::filesystem::path place = outputs.add(path_of(options.output), {OutputFile{{}, bytes}});
-    if (!certify(Document::read(place, *format))) return tell_failure(options, seifert_faults(found));
+    written = Document::read(place, *format);
   }
+  if (!certify(*written)) return tell_failure(options, seifert_faults(found));
   KnotTube tube;
   if (!options.tube.empty()) {
     tube = knot_tube(link, result.surface);
     if (tube.radius > 0) {
       const std::string tube_bytes =
           surface_file(tube.surface, *tube_format, fmt::format("tube around {}, by unsnarl", source));
-      if (!is_clear_tube(Document::parse(tube_bytes, *tube_format).surface(), result.surface))
+      if (!is_clear_tube(Document::parse(tube_bytes, *tube_format).surface(), written->surface()))
         throw std::logic_error("the tube to be written does not hold");
       outputs.add(options.tube, tube_bytes);
     }
@@ -329,8 +333,8 @@ int run_seifert(const SeifertCommandOptions& options, Interruption& interruption
                        relaxed->at_rest ? "came to rest" : "was relaxed, but did not come to rest", relaxed->energy));
     if (tube.radius > 0)
       tell(
-          fmt::format("a tube of radius {:.3g} does not run through itself, and touches the surface only along the "
-                      "link\n",
+          fmt::format("a tube of radius {:.3g} does not run through itself, and meets the surface in a single band "
+                      "of faces along each component\n",
                       tube.radius));
     if (!result.message.empty()) tell(result.message + "\n");
     if (result.status == Status::time_limit) tell("smoothing was stopped by the time limit\n");

@@ -161,9 +161,9 @@ class CurveDocument {
 };
 
 /// Certifies the bytes of a file that patched() wrote for a result: it has the curves and joints of the result, point
-/// by point or, where there are Béziers, no farther from it than twice the tolerance of flattening and a thousandth of
-/// the diagonal; and no more crossings than the result says, counted on the numbers that are read back, by exact
-/// arithmetic. Returns what does not hold; empty: all holds. Throws FileError.
+/// by point or, where there are Béziers, no farther from it than ten times the tolerance of flattening; and no more
+/// crossings than the result says, counted on the numbers that are read back, by exact arithmetic. Returns what does
+/// not hold; empty: all holds. Throws FileError.
 std::string curve_file_faults(const CurveDocument& document, const std::string& bytes, const CurveResult& result);
 
 /// The bytes of a file for a result, by patched(): as many curves as the certificate allows are written smoothly, and

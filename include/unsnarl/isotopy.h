@@ -60,7 +60,8 @@ struct Isotopy {
   std::vector<std::int32_t> partner;
   std::vector<IsotopyRing> rings;
   /// One entry a ring but the last, in it one list a curve: the edges from this ring to the next, around the curve.
-  /// From one to the next either point stays or goes on by one.
+  /// From one to the next one point goes on by one, or both do; then all four lie in a plane but for rounding, and a
+  /// cut has no point between.
   std::vector<std::vector<std::vector<IsotopyRung>>> rungs;
   /// One a curve: of the rings in the middle, which are those of the annulus. All rings but the first and the last are
   /// in the middle, unless curves were shortened: below are then rings of fewer and fewer points of the start, above
@@ -96,7 +97,8 @@ std::vector<std::int32_t> isotopy_partners(std::span<const Curve> start, std::sp
 /// The curves at a time in [0, 1]: cuts of the surface, points in order.
 std::vector<Curve> isotopy_slice(const Isotopy& isotopy, double time);
 
-/// An SVG file in which the curves move from start to end and back; frames: [2, 1000] keyframes at most.
+/// An SVG file that shows the curves on the way from start to end and back. frames: [2, 1000] drawings each way, evenly
+/// in time.
 std::string isotopy_animation_svg(const Isotopy& isotopy, int frames = 60);
 /// The curves at a time as an SVG file, all of one size; coordinates have six digits, or all of them where curves would
 /// cross as they are read back.

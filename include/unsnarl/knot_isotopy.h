@@ -85,7 +85,8 @@ struct RelaxedWire {
   double seconds = 0;
 };
 /// Lets a knot repel itself until it comes to rest; every step is proven to be an isotopy, as those of knot_isotopy().
-/// Its length stays. It gets at least 200 points. Throws std::invalid_argument as knot_isotopy() does.
+/// Its length stays. It gets at least 200 points. time_limit_s: wall-clock seconds, >= 0; 0: none. At most 2,000
+/// points. Throws std::invalid_argument as knot_isotopy() does.
 RelaxedWire relaxed_wire(const Link& knot, double time_limit_s = 0, Context* context = nullptr);
 
 /// The properties of an isotopy that are certified.

@@ -110,11 +110,12 @@ struct KnotTube {
   Surface surface;
   double radius = 0;  ///< 0: none was found, and there is no surface
 };
-/// The thickest of some radii, from 0.02 of the diagonal of the link down to 4e-6 of it, for which is_clear_tube holds.
+/// The thickest of some radii, from 0.02 of the diagonal of the link down to 5e-6 of it, for which is_clear_tube holds.
 /// spanning: a surface of triangles that spans the link. Throws std::invalid_argument as check_link does.
 KnotTube knot_tube(const Link& link, const SurfaceView& spanning);
-/// Whether a tube is closed, does not run through itself, and meets the surface in a single band of faces around each
-/// component: where the surface leaves it, and not elsewhere. By exact arithmetic.
+/// Whether a tube is closed, does not run through itself, and each of its components meets the surface in one connected
+/// set of pairs of faces; contacts in neighbouring faces count as one. By exact arithmetic. Both surfaces are of
+/// triangles.
 bool is_clear_tube(const SurfaceView& tube, const SurfaceView& spanning);
 
 /// "1 - 3t + t^2" of such coefficients.

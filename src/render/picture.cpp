@@ -28,30 +28,35 @@ constexpr double most_hidden = 0.03;
 /// (no unit)
 constexpr double much_magnified = 2;
 
-/// What is behind something translucent keeps this much of its own light (no unit)
+/// What is behind something translucent keeps this much of its own colour (no unit)
 constexpr double shining_through = 0.65;
 
 struct Panel {
   Drawable drawable;
-  Drawable opaque;  ///< the same without what is translucent
+  std::optional<Drawable> opaque;  ///< the same without what is translucent; none where nothing is
   std::string label;
 };
 
 Panel make_panel(const SurfaceView& surface, std::span<const Index> red, std::span<const SceneFile> files,
                  std::size_t translucent_from, const std::string& label) {
-  Panel panel{make_drawable(surface, red, files), {}, label};
+  Panel panel{make_drawable(surface, red, files), std::nullopt, label};
+  bool is_translucent = false;
   for (Index& file : panel.drawable.file)
-    if (static_cast<std::size_t>(file) >= translucent_from) file = Drawable::grey;
-  panel.opaque = panel.drawable;
-  std::vector<Triangle>& triangles = panel.opaque.triangles;
+    if (static_cast<std::size_t>(file) >= translucent_from) {
+      file = Drawable::grey;
+      is_translucent = true;
+    }
+  if (!is_translucent) return panel;
+  Drawable& opaque = panel.opaque.emplace(panel.drawable);
+  std::vector<Triangle>& triangles = opaque.triangles;
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (panel.drawable.file[t] == Drawable::grey) continue;
     triangles[kept] = triangles[t];
-    panel.opaque.normals[kept] = panel.drawable.normals[t];
-    panel.opaque.drawn_edges[kept] = panel.drawable.drawn_edges[t];
-    panel.opaque.red[kept] = panel.drawable.red[t];
-    panel.opaque.file[kept++] = panel.drawable.file[t];
+    opaque.normals[kept] = panel.drawable.normals[t];
+    opaque.drawn_edges[kept] = panel.drawable.drawn_edges[t];
+    opaque.red[kept] = panel.drawable.red[t];
+    opaque.file[kept++] = panel.drawable.file[t];
   }
   triangles.resize(kept);
   return panel;
@@ -60,8 +65,8 @@ Panel make_panel(const SurfaceView& surface, std::span<const Index> red, std::sp
 /// Everything as if it were opaque, mixed with the same view of what is opaque alone.
 Image shade(const Panel& panel, const Camera& camera, int width, int height) {
   Image image = shade(panel.drawable, camera, width, height);
-  if (panel.opaque.triangles.size() == panel.drawable.triangles.size()) return image;
-  const Image behind = shade(panel.opaque, camera, width, height);
+  if (!panel.opaque) return image;
+  const Image behind = shade(*panel.opaque, camera, width, height);
   for (std::size_t k = 0; k < image.pixels.size(); ++k)
     image.pixels[k] = static_cast<std::uint8_t>(
         std::lround(shining_through * behind.pixels[k] + (1 - shining_through) * image.pixels[k]));

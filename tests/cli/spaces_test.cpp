@@ -59,7 +59,7 @@ TEST(SeifertCommand, a_relaxed_wire_and_a_tube) {
       run({"seifert", knot, "--relax", "--wire", wire, "--tube", tube, "-o", out, "--report", folder / "r.json"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_TRUE(contains(made.err, "the knot came to rest")) << made.err;
-  EXPECT_TRUE(contains(made.err, "touches the surface only along the link")) << made.err;
+  EXPECT_TRUE(contains(made.err, "meets the surface in a single band of faces along each component")) << made.err;
   const auto report = nlohmann::json::parse(contents(folder / "r.json"));
   EXPECT_EQ(report["at_rest"], true);
   EXPECT_EQ(report["points"], 200);

@@ -11,6 +11,7 @@ namespace unsnarl {
 namespace {
 
 constexpr double out_of_reach = std::numeric_limits<double>::infinity();
+constexpr double most_key = std::numeric_limits<double>::max();  ///< Of corners that can be removed (fixed by float64)
 
 Sign turn_at(const Vec2& a, const Vec2& b, const Vec2& c) {
   return orient2d(a.x(), a.y(), b.x(), b.y(), c.x(), c.y());
@@ -23,19 +24,23 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
 class RemovalOrder {
  public:
   /// `side`: of the polygons' insides to which corners may move, 1 or -1; 0: to both sides.
-  RemovalOrder(Corners corners, double side) : c_(std::move(corners)), side_(side) {
+  RemovalOrder(Corners corners, double side, const std::function<bool()>& stop)
+      : c_(std::move(corners)), side_(side), stop_(stop) {
     const auto n = static_cast<Index>(c_.x.cols());
     for (Index v = 0; v < n; ++v)
       if (c_.is_corner[v] != 0) there_.push_back(v);
     key_.assign(n, out_of_reach);
     hindered_by_.assign(n, -1);
     hinders_.resize(n);
-    for (const Index v : there_) rate(v);
+    for (const Index v : there_) {
+      if (stop_()) return;
+      rate(v);
+    }
   }
 
   std::vector<CornerRemoval> all() {
     std::vector<CornerRemoval> made;
-    while (!queue_.empty()) {
+    while (!queue_.empty() && !stop_()) {
       const Index v = queue_.begin()->second;
       const CornerRemoval removal{c_.before[v], v, c_.after[v]};
       made.push_back(removal);
@@ -83,38 +88,46 @@ class RemovalOrder {
     const CornerRemoval removal{c_.before[v], v, c_.after[v]};
     const Vec2 a = c_.x.col(removal.before), b = c_.x.col(v), c = c_.x.col(removal.after);
     const Sign turn = turn_at(a, b, c);
-    if (turn * side_ < 0) return;
+    // What moves along ears needs room in them; a simple polygon of four corners or more always has one that is not
+    // flat.
+    if (side_ != 0 && turn * side_ <= 0) return;
     const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     double nearest = out_of_reach;
     Index hindrance = -1;
+    bool is_free = true;
     for (const Index w : there_) {
       if (c_.is_corner[w] == 0 || w == removal.before || w == v || w == removal.after) continue;
       const Vec2 p = c_.x.col(w);
       const double off_x = std::max(low.x() - p.x(), p.x() - high.x()),
                    off_y = std::max(low.y() - p.y(), p.y() - high.y());
-      if (std::max(off_x, off_y) >= nearest) continue;
+      if (std::max(off_x, off_y) > nearest) continue;
       const bool is_within =
           turn != 0 && turn * turn_at(a, b, p) >= 0 && turn * turn_at(b, c, p) >= 0 && turn * turn_at(c, a, p) >= 0;
       const double distance =
           is_within
               ? 0
               : std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
-      if (distance >= nearest) continue;
+      if (!is_within && distance >= nearest) continue;
       nearest = distance;
       hindrance = w;
-      if (is_within) break;
+      if (is_within) {
+        is_free = false;
+        break;
+      }
     }
     if (hindrance >= 0) {
       hindered_by_[v] = hindrance;
       hinders_[hindrance].push_back(v);
     }
-    if (nearest == 0) return;
-    key_[v] = ((b - a).norm() + (c - b).norm() - (c - a).norm()) / nearest;
+    if (!is_free) return;
+    const double shorter = (b - a).norm() + (c - b).norm() - (c - a).norm();
+    key_[v] = nearest > 0 ? std::min(shorter / nearest, most_key) : most_key;
     queue_.insert({key_[v], v});
   }
 
   Corners c_;
   double side_;
+  const std::function<bool()>& stop_;
   std::vector<Index> there_;  // the corners, and some that are removed
   std::size_t removed_ = 0;   // of them
   std::vector<double> key_;
@@ -143,23 +156,25 @@ bool is_parted_by(const Points2& x, const CornerRemoval& a, const CornerRemoval&
 
 }  // namespace
 
-std::vector<CornerRemoval> remove_corners(Corners corners) {
-  return RemovalOrder(std::move(corners), 0).all();
+std::vector<CornerRemoval> remove_corners(Corners corners, const std::function<bool()>& stop) {
+  return RemovalOrder(std::move(corners), 0, stop).all();
 }
 
-std::vector<CornerRemoval> remove_ears(Corners corners, Index polygon, double side) {
+std::vector<CornerRemoval> remove_ears(Corners corners, Index polygon, double side, const std::function<bool()>& stop) {
   for (std::size_t v = 0; v < corners.is_corner.size(); ++v)
     if (corners.polygon[v] != polygon) corners.is_corner[v] = 0;
-  return RemovalOrder(std::move(corners), side).all();
+  return RemovalOrder(std::move(corners), side, stop).all();
 }
 
-std::vector<int> rounds_of(const Points2& x, const std::vector<CornerRemoval>& removals) {
+std::vector<int> rounds_of(const Points2& x, const std::vector<CornerRemoval>& removals,
+                           const std::function<bool()>& stop) {
   struct Box {
     Vec2 low, high;
   };
   std::vector<Box> boxes;
   std::vector<int> rounds;
   for (std::size_t i = 0; i < removals.size(); ++i) {
+    if (stop()) return {};
     const Vec2 a = x.col(removals[i].before), b = x.col(removals[i].corner), c = x.col(removals[i].after);
     const Box box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
     int round = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "applications/isotopy/rings.h"
@@ -24,16 +25,18 @@ struct CornerRemoval {
 };
 
 /// Removes corners, one after the other, until polygons are triangles or nothing can be removed: first those that
-/// shorten least compared with what is free around them. A polygon in which no others lie always becomes a triangle,
-/// since every simple polygon has two ears (G. H. Meisters 1975). Precondition: the polygons are simple and disjoint.
-std::vector<CornerRemoval> remove_corners(Corners corners);
+/// shorten least compared with what is free around them. A polygon that has no other in it always becomes a
+/// triangle, since every simple polygon has two ears (G. H. Meisters 1975), unless corners are kept. Precondition: the
+/// polygons are simple and disjoint. Ends early where stop() says true, as the others here do.
+std::vector<CornerRemoval> remove_corners(Corners corners, const std::function<bool()>& stop);
 
 /// The same for one polygon as if it were alone, and inward only: what is cut off are the triangles of a triangulation;
 /// the last one is what is left.
-std::vector<CornerRemoval> remove_ears(Corners corners, Index polygon, double side);
+std::vector<CornerRemoval> remove_ears(Corners corners, Index polygon, double side, const std::function<bool()>& stop);
 
 /// Which removals can be done at once: those of one number can, one after the other as the numbers say. Triangles of
 /// one number have nothing in common but ends.
-std::vector<int> rounds_of(const Points2& x, const std::vector<CornerRemoval>& removals);
+std::vector<int> rounds_of(const Points2& x, const std::vector<CornerRemoval>& removals,
+                           const std::function<bool()>& stop);
 
 }  // namespace unsnarl

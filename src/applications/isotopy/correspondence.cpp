@@ -175,15 +175,6 @@ Points2 points_at(const Points2& polygon, std::span<const IsotopyPlace> places) 
   return made;
 }
 
-Index point_near(const Points2& polygon, double fraction) {
-  const std::vector<double> at = fractions_of(polygon);
-  const auto n = static_cast<Index>(polygon.cols());
-  Index nearest = 0;
-  for (Index k = 1; k <= n; ++k)
-    if (std::abs(at[k] - fraction) < std::abs(at[nearest] - fraction)) nearest = k;
-  return nearest % n;
-}
-
 double first_fraction(const Points2& start, const Points2& end, Laying laying) {
   constexpr int n = laying_samples;
   Points2 a = evenly(start, n), b = evenly(end, n);

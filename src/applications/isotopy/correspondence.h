@@ -20,8 +20,6 @@ enum class Laying {
   places,      ///< the squares of the distances that are left once the middles are moved onto each other are least
   directions,  ///< the turn from one to the other differs least along the curves
 };
-/// The point of a polygon nearest to a fraction of its length.
-Index point_near(const Points2& polygon, double fraction);
 double first_fraction(const Points2& start, const Points2& end, Laying laying);
 
 /// Places at equal fractions of the lengths, from `first` (one a curve) on: all corners of both sides, of which those

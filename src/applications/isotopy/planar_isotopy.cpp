@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -16,7 +14,6 @@
 #include "applications/isotopy/pairing.h"
 #include "applications/isotopy/rings.h"
 #include "applications/isotopy/shrink_to_triangles.h"
-#include "geometry/sort_unique.h"
 #include "run/run_control.h"
 #include "unsnarl/isotopy.h"
 
@@ -31,11 +28,10 @@ constexpr double most_tangles_a_point = 0.5;
 constexpr Index most_points_untangled = 600;
 /// How often the part is halved by which both sides are shortened before an annulus joins them (unit: halvings)
 constexpr int join_halvings = 5;
-constexpr double laying_share = 0.03;      ///< Share of the progress when annuli are being laid (no unit)
-constexpr double untangling_share = 0.09;  ///< Share of the progress when annuli are laid (no unit)
-constexpr double annulus_share = 0.3;      ///< Share of the progress when annuli have been tried (no unit)
-constexpr double start_share = 0.55;       ///< Share of the progress when the start is round (no unit)
-constexpr double end_share = 0.8;          ///< Share of the progress when the end is round too (no unit)
+constexpr double laying_share = 0.03;  ///< Share of the progress when annuli are being laid (no unit)
+constexpr double annulus_share = 0.3;  ///< Share of the progress when annuli have been tried (no unit)
+constexpr double start_share = 0.55;   ///< Share of the progress when the start is triangles (no unit)
+constexpr double end_share = 0.8;      ///< Share of the progress when the end is triangles too (no unit)
 /// The motion of all slabs together counts as this much at least (unit: bounding-box diagonal)
 constexpr double least_effort_rel = 1e-6;
 /// The time of a slab grows by this at least (unit: mean of all slabs)
@@ -97,7 +93,7 @@ Polygons renumbered(const Polygons& polygons, std::span<const Index> first) {
   return made;
 }
 
-/// The first ring of the way to triangles in which this part of the length is gone that goes until there are triangles.
+/// The first ring by which `part` of the length is gone that is gone once triangles are left.
 std::size_t shorter_by(const TrianglesWay& way, double part) {
   const std::vector<Polygons>& rings = way.stack.rings;
   const double longest = length_of(rings.front()), shortest = length_of(rings.back());
@@ -184,8 +180,7 @@ class Making {
       std::vector<Polygons>& rings = best.annuli.rings;
       if (best.blend == Blend::straight) {
         std::vector<Polygons> fewer;
-        for (const std::size_t k : thin_out(rings, made_.height, false, [] { return false; }))
-          fewer.push_back(std::move(rings[k]));
+        for (const std::size_t k : thin_out(rings, made_.height)) fewer.push_back(std::move(rings[k]));
         rings = std::move(fewer);
       }
       return annulus_of(start, end, std::move(best.annuli), std::move(best.places), false);
@@ -257,14 +252,25 @@ class Making {
       join = joined_by_discs(from.stack.rings.back(), to.stack.rings.back());
     }
     if (stop()) return false;
+    if (finish_joined(from, at_start, std::move(*join), to, at_end)) return true;
+    // An annulus may be embedded but for its ends.
+    made_.shortened = 1;
+    const std::size_t start_triangles = from.stack.rings.size() - 1, end_triangles = to.stack.rings.size() - 1;
+    return finish_joined(from, start_triangles, joined_by_discs(from.stack.rings.back(), to.stack.rings.back()), to,
+                         end_triangles);
+  }
+
+  /// The way of the start up to a ring, what joins it to a ring of the way of the end, and that way back.
+  bool finish_joined(const TrianglesWay& from, std::size_t at_start, Annulus join, const TrianglesWay& to,
+                     std::size_t at_end) {
     Stack all = from.stack.first(at_start + 1);
-    all.add_above(std::move(join->stack));
+    all.add_above(std::move(join.stack));
     all.add_above(to.stack.first(at_end + 1).upside_down());
     made_.on_start.clear();
     made_.on_end.clear();
     for (std::size_t c = 0; c < start_.size(); ++c) {
-      made_.on_start.push_back(places_along(start_exact_[c], from.corners[at_start][c], join->places.on_start[c]));
-      made_.on_end.push_back(places_along(end_exact_[c], to.corners[at_end][c], join->places.on_end[c]));
+      made_.on_start.push_back(places_along(start_exact_[c], from.corners[at_start][c], join.places.on_start[c]));
+      made_.on_end.push_back(places_along(end_exact_[c], to.corners[at_end][c], join.places.on_end[c]));
     }
     return finish(all);
   }
@@ -311,7 +317,7 @@ class Making {
     return true;
   }
 
-  /// A strip takes the longer the farther points go in it.
+  /// A strip takes the longer the longer its longest rung is.
   std::vector<double> times_of(const Stack& stack) const {
     std::vector<double> effort{0};
     for (std::size_t k = 0; k < stack.rungs.size(); ++k) {

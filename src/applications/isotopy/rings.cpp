@@ -132,17 +132,13 @@ void add_strip(const std::vector<Rung>& rungs, Index lower, Index upper, std::ve
   }
 }
 
-std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height, bool backwards,
-                                  const std::function<bool()>& stop) {
+std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height) {
   const CurveNet net = net_of(rings.front());
   std::vector<std::size_t> kept{0};
   std::size_t last_step = 2;
   while (kept.back() + 1 < rings.size()) {
-    if (stop()) return {};
     const std::size_t at = kept.back(), most = rings.size() - 1 - at;
-    const auto fits = [&](std::size_t step) {
-      return strips_are_embedded(net, rings[backwards ? at + step : at], rings[backwards ? at : at + step], height);
-    };
+    const auto fits = [&](std::size_t step) { return strips_are_embedded(net, rings[at], rings[at + step], height); };
     // The search begins with the last step, since steps change little.
     std::size_t good = 1, bad = most + 1;
     for (std::size_t step = std::min(last_step, most); good < most && step > good; step = std::min(2 * good, most)) {

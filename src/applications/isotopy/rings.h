@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "applications/curves/curve_net.h"
@@ -11,8 +10,8 @@ namespace unsnarl {
 /// Polygons at one height: one a curve.
 using Polygons = std::vector<Points2>;
 
-/// An edge between two rings. Around the strip of triangles between them either point stays or goes on by one from one
-/// rung to the next.
+/// An edge between two rings. Around the strip of triangles between them one point goes on by one from one rung to the
+/// next, or both do.
 using Rung = IsotopyRung;
 /// Polygons of n points: quads, cut from point k to k + 1.
 std::vector<Rung> straight_rungs(Index n);
@@ -54,9 +53,6 @@ bool strips_are_embedded(const CurveNet& net, const Polygons& lower, const Polyg
 
 /// A subsequence of the rings, with the first and the last: from each ring the next one is as late as the strips to it
 /// are embedded, found by doubling and halving. Strips between neighbouring rings are assumed to be embedded.
-/// `backwards`: later rings are the lower ones, which decides how quads are cut. `stop`: true ends it; the result is
-/// then empty.
-std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height, bool backwards,
-                                  const std::function<bool()>& stop);
+std::vector<std::size_t> thin_out(const std::vector<Polygons>& rings, double height);
 
 }  // namespace unsnarl

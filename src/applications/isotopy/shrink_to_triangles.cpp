@@ -108,8 +108,9 @@ class Shrinking {
   }
 
   void remove_all() {
-    const std::vector<CornerRemoval> removals = remove_corners(c_);
-    const std::vector<int> rounds = rounds_of(c_.x, removals);
+    const std::vector<CornerRemoval> removals = remove_corners(c_, stop_);
+    const std::vector<int> rounds = rounds_of(c_.x, removals, stop_);
+    if (stop_()) return;
     const int last = rounds.empty() ? -1 : *std::max_element(rounds.begin(), rounds.end());
     std::vector<std::vector<CornerRemoval>> of_round(last + 1);
     for (std::size_t k = 0; k < removals.size(); ++k) of_round[rounds[k]].push_back(removals[k]);
@@ -144,7 +145,8 @@ class Shrinking {
   void gather_contents(Index host) {
     Corners all_free = c_;
     all_free.is_kept.assign(all_free.is_kept.size(), 0);
-    const std::vector<CornerRemoval> ears = remove_ears(all_free, host, sides_[host]);
+    const std::vector<CornerRemoval> ears = remove_ears(all_free, host, sides_[host], stop_);
+    if (stop_()) return;
     std::vector<Index> left;
     const std::vector<Index> edges = corners_of(host);
     for (const Index v : edges)
@@ -166,6 +168,7 @@ class Shrinking {
     for (const Guest& guest : guests) standing.push_back(guest.way.front());
     std::vector<std::uint8_t> is_taken(guests.size(), 0);
     for (std::size_t g = 0; g < guests.size(); ++g) {
+      if (stop_()) return;
       std::vector<Vec2>& way = guests[g].way;
       const auto apart = [&](const Vec2& a, const Vec2& b) {
         double least = std::numeric_limits<double>::infinity();
@@ -174,12 +177,16 @@ class Shrinking {
             least = std::min(least, (standing[other] - (a + nearest_fraction(standing[other], a, b) * (b - a))).norm());
         return least;
       };
-      double best = -1;
+      double best = -1, farthest = -1;
       std::size_t place = 0;
       for (std::size_t k = 0; k < guests.size(); ++k) {
         if (is_taken[k] != 0) continue;
-        if (const double d = apart(way.back(), place_in(room, k, guests.size())); d > best) {
+        const Vec2 at = place_in(room, k, guests.size());
+        // Of places that are as free the farthest one, so that the others stay reachable.
+        const double d = apart(way.back(), at), far = (at - way.back()).norm();
+        if (d > best || (d == best && far > farthest)) {
           best = d;
+          farthest = far;
           place = k;
         }
       }

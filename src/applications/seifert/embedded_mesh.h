@@ -94,8 +94,8 @@ class EmbeddedMesh {
   /// `without`: faces that are not there. gap: to keep; 0: only intersections count. enough: whatever is no more than
   /// this may be given back as soon as it is known.
   double clearance(std::span<const Triangle> faces, std::span<const Index> without, double gap, double enough);
-  /// Whether with vertex v at `to` the faces after are embedded, and neither nearer to others nor thinner than those
-  /// before, which are `old`, or else than they need be.
+  /// Whether, with vertex v at `to`, the faces `after` intersect nothing, and are thin or near others only where
+  /// `before` (faces `old`) was no better.
   bool is_improved(std::span<const Triangle> before, std::span<const Triangle> after, std::span<const Index> old,
                    Index v, const Vec3& to);
   double soundness_of_pair(const Triangle& a, const Triangle& b, double gap) const;

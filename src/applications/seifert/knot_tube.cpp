@@ -120,6 +120,9 @@ KnotTube knot_tube(const Link& link, const SurfaceView& spanning) {
   for (int k = 0; k < most_tube_tries; ++k, made.radius *= thinner) {
     made.surface = {};
     for (const std::vector<double>& component : link.components) add_tube(component, made.radius, made.surface);
+    // Where the link turns right back, rounding may leave nothing to divide by.
+    const std::vector<double>& positions = made.surface.positions;
+    if (!std::all_of(positions.begin(), positions.end(), [](double p) { return std::isfinite(p); })) return {};
     if (is_clear_tube(made.surface, spanning)) return made;
   }
   return {};

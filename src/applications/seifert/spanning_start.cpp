@@ -167,7 +167,7 @@ class Construction {
     }
   }
 
-  /// Fans from the ends of the cut: ShortCut says why they do not meet.
+  /// Fans from the ends of the cut: rim_short_cuts() says why they do not meet.
   void hang_below_cut(std::size_t k) {
     const RimPoint& r = rim_[k];
     const Index from = rim_vertex_[k], to = rim_vertex_[r.next];

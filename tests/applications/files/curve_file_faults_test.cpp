@@ -174,6 +174,18 @@ TEST(CurveFileFaults, an_end_that_is_shifted_by_the_last_digit_is_refused) {
   EXPECT_EQ(tee.faults(corrupted), "curve 0 and curve 1 have come apart");
 }
 
+TEST(CurveFileFaults, an_open_bezier_that_ends_where_it_begins_keeps_its_joint) {
+  const CurveDocument document = CurveDocument::parse(
+      "<svg><path d=\"M 0,0 C 20,0 20,20 0,0\"/><path d=\"M 30,0 C 40,40 60,40 70,0 M 30,10 L 70,12\"/></svg>",
+      CurveFormat::svg);
+  const CurveResult result = untangle_curves(document.curves());
+  ASSERT_EQ(result.status, Status::embedded);
+  ASSERT_EQ(result.report.joints.size(), 1U);
+  EXPECT_EQ(curve_file_faults(document, written_curves(document, result), result), "");
+  const CurveDocument loop = CurveDocument::parse("<svg><path d=\"M 0,0 C 20,0 20,20 0,0\"/></svg>", CurveFormat::svg);
+  EXPECT_EQ(curve_file_faults(loop, loop.patched(loop.curves()), untangle_curves(loop.curves())), "");
+}
+
 TEST(CurveFileFaults, other_curves_are_refused) {
   const Tee tee;
   std::vector<Curve> corrupted = tee.result.curves;

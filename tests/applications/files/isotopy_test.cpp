@@ -161,14 +161,30 @@ TEST(PlanarIsotopy, combs_whose_teeth_differ) {
 
 TEST(PlanarIsotopy, what_lies_in_a_bent_curve_is_not_left_behind) {
   // The squares lie at both ends of the letter, in which neither end can be cut off.
-  const std::vector<Curve> start{letter(), square(0.5, 0.866, 0.05), square(0.5, -0.866, 0.05),
-                                 square(-1, 0, 0.05)};
+  const std::vector<Curve> start{letter(), square(0.5, 0.866, 0.05), square(0.5, -0.866, 0.05), square(-1, 0, 0.05)};
   const std::vector<Curve> end{square(0, 0, 1), square(-0.5, 0, 0.1), square(0.5, 0, 0.1), square(0, 0.5, 0.1)};
   IsotopyOptions around;
   around.pairs = {{1, 1}, {2, 2}, {3, 3}};
   const Isotopy made = expect_isotopy(start, end, around);
   EXPECT_EQ(made.method, IsotopyMethod::shortening);
   expect_isotopy(end, start, around);
+}
+
+TEST(PlanarIsotopy, what_lies_in_a_curve_along_the_axes_changes_places_from_every_first_point) {
+  // A plus, in whose corners squares stand, with a square in each arm. Many corners and middles are in line.
+  const std::vector<double> plus{-1, 3, -1, 1, -3, 1, -3, -1, -1, -1, -1, -3, 1, -3, 1, -1, 3, -1, 3, 1, 1, 1, 1, 3};
+  for (std::size_t first = 0; first < plus.size(); first += 6) {
+    std::vector<double> points = plus;
+    std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(first), points.end());
+    std::vector<Curve> start{polygon(points)};
+    for (const auto& [x, y] : {std::pair{0.0, 2.1}, std::pair{0.0, -2.1}, std::pair{2.1, 0.0}, std::pair{-2.1, 0.0}})
+      start.push_back(square(x, y, 0.7));
+    for (const double x : {-1.4, 1.4})
+      for (const double y : {-1.4, 1.4}) start.push_back(square(x, y, 0.3));
+    IsotopyOptions exchange;
+    exchange.pairs = {{1, 3}, {3, 1}};
+    EXPECT_EQ(planar_isotopy(start, start, exchange).status, Status::embedded) << first;
+  }
 }
 
 TEST(PlanarIsotopy, rungs_lead_around_every_curve) {

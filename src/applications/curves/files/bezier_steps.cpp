@@ -9,8 +9,8 @@
 namespace unsnarl {
 namespace {
 
-/// An arc is written as Bézier curves that turn by no more than this, which are 2e-7 of its radius from it (unit:
-/// radians)
+/// Pieces of an arc are merged into Bézier curves that turn by no more than this, less than 2e-7 of its radius from it;
+/// a single piece may turn farther (unit: radians)
 constexpr double most_turn = std::numbers::pi / 8;
 
 constexpr int not_drawn = -1;  ///< In place of a curve's number: the drawing has no such piece (no unit)
@@ -22,6 +22,10 @@ Vec2 point_of(const Curve& curve, std::size_t k) {
 
 DrawnPiece backwards(const DrawnPiece& piece) {
   return {piece.command, piece.end, piece.begin, -piece.to, -piece.from, piece.turn};
+}
+
+bool is_forward(const DrawnPiece& piece) {
+  return piece.end > piece.begin;
 }
 
 double turn_of(const DrawnPiece& piece) {
@@ -59,7 +63,7 @@ std::vector<DrawnPiece> DrawnPieces::pieces_of(const Curve& curve, std::vector<i
     const Place* best = &found->second.front();
     for (const Place& place : found->second)
       if (k > 0 && place.curve == curve_of[k - 1] && place.piece.command == pieces[k - 1].command &&
-          place.piece.begin == pieces[k - 1].end)
+          place.piece.begin == pieces[k - 1].end && is_forward(place.piece) == is_forward(pieces[k - 1]))
         best = &place;
     pieces[k] = best->piece;
     curve_of[k] = best->curve;
@@ -102,6 +106,7 @@ std::vector<PathStep> DrawnPieces::along(const Curve& curve, bool smooth, double
       const auto goes_on = [&](std::size_t next) {
         return next < count && !is_stop(next) && curve_of[next] == curve_of[k] &&
                pieces[next].command == whole.command && pieces[next].begin == whole.end &&
+               is_forward(pieces[next]) == is_forward(whole) &&
                whole.turn * std::abs(pieces[next].end - whole.begin) <= most_turn;
       };
       for (; goes_on(end); ++end) {

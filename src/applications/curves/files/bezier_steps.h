@@ -24,10 +24,10 @@ class DrawnPieces {
   void add(const Curve& flattened, std::span<const DrawnPiece> pieces);
 
   /// The steps along a curve that has points of the drawing and others, from its point 0 on; of a closed curve the last
-  /// one leads to point 0. Neighbouring parts of one Bézier curve or arc are one Bézier curve again, to within 2e-7 of
-  /// the radius of an arc, passed either way. If `smooth` and a run of other points lies between two of them, it is
-  /// joined to both by Bézier curves without kinks, within `tolerance` of its points; elsewhere there are segments. No
-  /// curve goes past a point k of which is_stop(k).
+  /// one leads to point 0. Passed either way, neighbouring parts of one Bézier curve are one Bézier
+  /// curve again; those of an arc too, to within 2e-7 of its radius, or of --flatten where its pieces are coarse. If
+  /// `smooth` and a run of other points lies between two of them, it is joined to both by Bézier curves without kinks,
+  /// within `tolerance` of its points; elsewhere there are segments. No curve goes past a point k of which is_stop(k).
   std::vector<PathStep> along(const Curve& curve, bool smooth, double tolerance,
                               const std::function<bool(std::size_t)>& is_stop) const;
 

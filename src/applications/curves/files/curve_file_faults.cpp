@@ -19,6 +19,9 @@ constexpr double joint_apart_rel = 1e-8;
 /// from them, and both are flattened (unit: tolerances of flattening)
 constexpr double most_apart = 10;
 
+/// Rounds in which curves at fault are written more plainly, before all are (unit: rounds)
+constexpr int most_rounds = 8;
+
 struct Faults {
   std::string text;                           ///< empty: there are none
   std::vector<std::uint8_t> curves_at_fault;  ///< one flag a curve of the result, where single ones are
@@ -28,23 +31,27 @@ CurveNet net_of(const Curve& curve) {
   return make_net({&curve, 1}, {}, false);
 }
 
-/// The largest distance between two curves, all along both of them.
-double distance_between(const Curve& a, const Curve& b) {
-  const CurveNet first = net_of(a), second = net_of(b);
+/// The largest distance between two curves of a drawing, all along both of them.
+double distance_between(const Curve& a, const Curve& b, double diagonal) {
+  CurveNet first = net_of(a), second = net_of(b);
+  first.diagonal = second.diagonal = diagonal;
   return std::max(closeness_of(first, first.rest, second, second.rest, 0).largest,
                   closeness_of(second, second.rest, first, first.rest, 0).largest);
 }
 
 /// The point of a written curve that is point k of the result's.
 std::int32_t written_point(const Curve& written, const Curve& wanted, std::int32_t k) {
-  if (written.tolerance == 0) return k;
-  std::int32_t nearest = 0;
+  if (written.tolerance == 0 || written.points == wanted.points) return k;
+  const auto size = static_cast<std::int32_t>(written.size());
+  if (k == 0) return 0;  // paths begin and end where their curves do
+  if (!written.closed && k + 1 == static_cast<std::int32_t>(wanted.size())) return size - 1;
+  std::int32_t nearest = 1;
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t w = 0; w < static_cast<std::int32_t>(written.size()); ++w) {
-    const double distance =
-        std::hypot(written.points[2 * w] - wanted.points[2 * k], written.points[2 * w + 1] - wanted.points[2 * k + 1]);
-    if (distance < least) {
-      least = distance;
+  for (std::int32_t w = 1; w < (written.closed ? size : size - 1); ++w) {
+    const double x = written.points[2 * w] - wanted.points[2 * k],
+                 y = written.points[2 * w + 1] - wanted.points[2 * k + 1];
+    if (x * x + y * y < least) {
+      least = x * x + y * y;
       nearest = w;
     }
   }
@@ -61,7 +68,7 @@ Faults faults_of(const std::vector<Curve>& written, const CurveResult& result) {
     if (curve.closed != curves[c].closed || (!is_as_long && curve.tolerance == 0))
       return {fmt::format("{} has another number of points", name_of_curve(curve, c)), {}};
     if (curve.tolerance == 0 || curve.points == curves[c].points) continue;
-    if (distance_between(curve, curves[c]) <= most_apart * curve.tolerance) continue;
+    if (distance_between(curve, curves[c], result.report.diagonal) <= most_apart * curve.tolerance) continue;
     faults.curves_at_fault[c] = 1;
     faults.text = fmt::format("{} is elsewhere", name_of_curve(curve, c));
   }
@@ -103,17 +110,19 @@ std::string curve_file_faults(const CurveDocument& document, const std::string& 
 
 std::string written_curves(const CurveDocument& document, const CurveResult& result) {
   std::vector<CurveWriting> writing(result.curves.size(), CurveWriting::smooth);
-  for (;;) {
-    std::string bytes = document.patched(result.curves, false, writing);
-    const Faults faults = faults_of_bytes(document, bytes, result);
-    if (faults.text.empty()) return bytes;
-    bool is_another = false;
-    for (std::size_t c = 0; c < faults.curves_at_fault.size(); ++c) {
-      if (faults.curves_at_fault[c] == 0 || writing[c] == CurveWriting::polyline) continue;
-      writing[c] = writing[c] == CurveWriting::smooth ? CurveWriting::beziers : CurveWriting::polyline;
-      is_another = true;
+  for (const bool all_digits : {false, true}) {
+    for (int round = 0; round < most_rounds; ++round) {
+      std::string bytes = document.patched(result.curves, all_digits, writing);
+      const Faults faults = faults_of_bytes(document, bytes, result);
+      if (faults.text.empty()) return bytes;
+      bool is_another = false;
+      for (std::size_t c = 0; c < faults.curves_at_fault.size(); ++c) {
+        if (faults.curves_at_fault[c] == 0 || writing[c] == CurveWriting::polyline) continue;
+        writing[c] = writing[c] == CurveWriting::smooth ? CurveWriting::beziers : CurveWriting::polyline;
+        is_another = true;
+      }
+      if (!is_another) break;
     }
-    if (!is_another) break;
   }
   writing.assign(writing.size(), CurveWriting::polyline);
   return document.patched(result.curves, true, writing);

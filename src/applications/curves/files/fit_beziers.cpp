@@ -33,24 +33,8 @@ class BezierFit {
       add_between_neighbours(first, arriving, leaving);
       return;
     }
-    const Vec2 a = points_[first], d = points_[last];
-    std::vector<double> t = parameters(first, last);
-    std::size_t farthest = first + 1;
-    for (int round = 0; round < rounds; ++round) {
-      const std::array<Vec2, 2> controls = best_controls(first, last, t, arriving, leaving);
-      double largest = -1;
-      for (std::size_t k = first + 1; k < last; ++k) {
-        const double distance = approach({a, controls[0], controls[1], d}, points_[k], t[k - first]);
-        if (distance > largest) {
-          largest = distance;
-          farthest = k;
-        }
-      }
-      if (largest <= tolerance_) {
-        result.push_back({last, controls});
-        return;
-      }
-    }
+    const std::size_t farthest = add_or_split(first, last, arriving, leaving);
+    if (farthest == last) return;
     const Vec2 direction =
         unit(unit(points_[farthest] - points_[farthest - 1]) + unit(points_[farthest + 1] - points_[farthest]));
     fit(first, farthest, arriving, direction);
@@ -60,6 +44,43 @@ class BezierFit {
   std::vector<FittedBezier> result;
 
  private:
+  /// Adds one curve over these points where it comes near enough and returns `last`; else returns where to split. That
+  /// is in the middle three quarters, so that splitting ends soon.
+  std::size_t add_or_split(std::size_t first, std::size_t last, const Vec2& arriving, const Vec2& leaving) {
+    const Vec2 a = points_[first], d = points_[last];
+    std::vector<double> t = parameters(first, last);
+    std::size_t farthest = first + 1;
+    for (int round = 0; round < rounds; ++round) {
+      const std::array<Vec2, 2> controls = best_controls(first, last, t, arriving, leaving);
+      const std::array<Vec2, 4> curve{a, controls[0], controls[1], d};
+      double largest = -1;
+      for (std::size_t k = first + 1; k < last; ++k) {
+        const double distance = approach(curve, points_[k], t[k - first]);
+        if (distance > largest) {
+          largest = distance;
+          farthest = k;
+        }
+      }
+      if (largest <= tolerance_ && is_near_segments(curve, first, last, t)) {
+        result.push_back({last, controls});
+        return last;
+      }
+    }
+    const std::size_t eighth = std::max<std::size_t>(1, (last - first) / 8);
+    return std::clamp(farthest, first + eighth, last - eighth);
+  }
+
+  /// Whether the curve, half-way between points, is within the greatest bulge of their segments.
+  bool is_near_segments(const std::array<Vec2, 4>& curve, std::size_t first, std::size_t last,
+                        std::span<const double> t) const {
+    for (std::size_t k = first; k < last; ++k) {
+      const Vec2 &a = points_[k], &b = points_[k + 1];
+      const Vec2 place = place_at(curve, 0.5 * (t[k - first] + t[k + 1 - first]));
+      if ((place - (a + nearest_fraction(place, a, b) * (b - a))).norm() > most_bulge * tolerance_) return false;
+    }
+    return true;
+  }
+
   void add_between_neighbours(std::size_t first, const Vec2& arriving, const Vec2& leaving) {
     const Vec2 a = points_[first], d = points_[first + 1], along = unit(d - a);
     const double third = (d - a).norm() / 3;
@@ -70,11 +91,16 @@ class BezierFit {
     result.push_back({first + 1, {a + handle(arriving) * arriving, d - handle(leaving) * leaving}});
   }
 
+  static Vec2 place_at(const std::array<Vec2, 4>& curve, double t) {
+    const double u = 1 - t;
+    return u * u * u * curve[0] + 3 * t * u * u * curve[1] + 3 * t * t * u * curve[2] + t * t * t * curve[3];
+  }
+
   /// The distance of a point from the place of a curve at t, which then goes one step of Newton's method nearer to it.
   static double approach(const std::array<Vec2, 4>& curve, const Vec2& point, double& t) {
     const Vec2 &a = curve[0], &b = curve[1], &c = curve[2], &d = curve[3];
     const double u = 1 - t;
-    const Vec2 apart = u * u * u * a + 3 * t * u * u * b + 3 * t * t * u * c + t * t * t * d - point;
+    const Vec2 apart = place_at(curve, t) - point;
     const Vec2 first = 3 * (u * u * (b - a) + 2 * t * u * (c - b) + t * t * (d - c));
     const Vec2 second = 6 * (u * (a - 2 * b + c) + t * (b - 2 * c + d));
     const double slope = first.squaredNorm() + apart.dot(second);

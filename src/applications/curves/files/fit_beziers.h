@@ -15,8 +15,8 @@ struct FittedBezier {
   std::array<Vec2, 2> controls;
 };
 
-/// Joins points by cubic Bézier curves without kinks, as few as come within `tolerance` of all points (Schneider 1990,
-/// "An algorithm for automatically fitting digitized curves"). Between neighbouring points a curve stays within 5
+/// Joins points by few cubic Bézier curves without kinks, which come within `tolerance` of all points (Schneider 1990,
+/// "An algorithm for automatically fitting digitized curves"). Half-way between neighbouring points a curve is within 5
 /// tolerances of their segment.
 ///
 /// points: at least two, neighbours differ. arriving, leaving: the directions at the first and the last point, of any
