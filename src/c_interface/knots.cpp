@@ -37,7 +37,7 @@ using namespace unsnarl::c_interface;
 int unsnarl_knot_isotopy(const unsnarl_curves* start, const unsnarl_curves* end, const unsnarl_options* options,
                          unsnarl_context* context, unsnarl_result** result) {
   return hand_out(result, [&] {
-    return moved(link_of(curves_of(start, "start")), link_of(curves_of(end, "end")), options_of(options, Work::knot_isotopy),
-                 context_of(context));
+    return moved(link_of(curves_of(start, "start")), link_of(curves_of(end, "end")),
+                 options_of(options, Work::knot_isotopy), context_of(context));
   });
 }
