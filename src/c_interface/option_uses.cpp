@@ -87,6 +87,7 @@ bool are_equal(const OptionUse& option, const unsnarl_options& a, const unsnarl_
   const char *text_a = nullptr, *text_b = nullptr;
   std::memcpy(&text_a, of_a, sizeof text_a);
   std::memcpy(&text_b, of_b, sizeof text_b);
+  if (text_a == nullptr || text_b == nullptr) return text_a == text_b;
   return std::strcmp(text_a, text_b) == 0;
 }
 
