@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "applications/seifert/link_diagram.h"
 #include "geometry/splitmix.h"
@@ -50,6 +51,44 @@ TEST(Polynomial, determinants_of_linear_matrices) {
   EXPECT_EQ(to_text(determinant(m)), "1 - 7t");
   EXPECT_EQ(to_text(determinant(LinearMatrix(0))), "1");
   EXPECT_EQ(to_text(without_units({0, 0, 2, -3})), "-2 + 3t");
+}
+
+TEST(Polynomial, determinants_have_the_values_of_determinants_of_numbers) {
+  std::mt19937_64 random(5);
+  for (const Index n : {1, 2, 3, 5, 8, 13}) {
+    for (const bool is_singular : {false, true}) {
+      LinearMatrix m(n);
+      for (std::size_t k = 0; k < m.constant.size(); ++k) {
+        m.constant[k] = static_cast<std::int64_t>(random() % 2001) - 1000;
+        m.slope[k] = random() % 3 == 0 ? static_cast<std::int64_t>(random() % 2000001) - 1000000 : 0;
+      }
+      for (Index j = 0; j < n && is_singular; ++j) {  // the last row is the first one, or zero
+        m.constant[m.at(n - 1, j)] = n > 1 ? m.constant[m.at(0, j)] : 0;
+        m.slope[m.at(n - 1, j)] = n > 1 ? m.slope[m.at(0, j)] : 0;
+      }
+      const Polynomial p = determinant(m);
+      ASSERT_EQ(p.size(), static_cast<std::size_t>(n) + 1);
+      for (const int t : {-7, -1, 0, 1, 2, 11}) {
+        // Gauss's elimination with fractions.
+        std::vector<boost::multiprecision::cpp_rational> a;
+        for (std::size_t k = 0; k < m.constant.size(); ++k) a.emplace_back(m.constant[k] + t * m.slope[k]);
+        boost::multiprecision::cpp_rational expected = 1;
+        for (Index k = 0; k < n; ++k) {
+          Index pivot = k;
+          while (pivot + 1 < n && a[m.at(pivot, k)] == 0) ++pivot;
+          if (pivot != k) expected = -expected;
+          for (Index j = 0; j < n && pivot != k; ++j) std::swap(a[m.at(k, j)], a[m.at(pivot, j)]);
+          expected *= a[m.at(k, k)];
+          if (expected == 0) break;
+          for (Index i = k + 1; i < n; ++i) {
+            const boost::multiprecision::cpp_rational factor = a[m.at(i, k)] / a[m.at(k, k)];
+            for (Index j = k; j < n; ++j) a[m.at(i, j)] -= factor * a[m.at(k, j)];
+          }
+        }
+        EXPECT_EQ(boost::multiprecision::cpp_rational(value_at(p, t)), expected) << n << " at " << t;
+      }
+    }
+  }
 }
 
 TEST(ParseLink, points_codes_and_braids) {

@@ -35,7 +35,7 @@ Vec3 point_of(const Link& link, Index component, Index k) {
   return {at[0], at[1], at[2]};
 }
 
-double distance(const Vec2& p, const Vec2& a, const Vec2& b) {
+double distance_to_edge(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 d = b - a;
   const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
   return (p - a - t * d).norm();
@@ -121,7 +121,7 @@ bool find_crossings(const Link& link, const std::vector<FlatEdge>& edges, double
     crossing.radius = std::min(std::min(at_e, 1 - at_e) * de.norm(), std::min(at_f, 1 - at_f) * df.norm());
     for (std::size_t k = 0; k < edges.size(); ++k)
       if (k != i && k != j)
-        crossing.radius = std::min(crossing.radius, distance(crossing.place, edges[k].a, edges[k].b));
+        crossing.radius = std::min(crossing.radius, distance_to_edge(crossing.place, edges[k].a, edges[k].b));
     if (crossing.radius < room) return false;
     const auto slope = [&](const FlatEdge& edge) {
       const Positions& p = diagram.points[edge.component];

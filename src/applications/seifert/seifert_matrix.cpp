@@ -136,11 +136,17 @@ class PushOffs {
     }
   }
 
-  /// The loop on either side; none where some part of it meets the surface.
-  /// The distance is at most `limit_rel` / size.
+  /// The loop on either side, at most `limit_rel` / size away from it; none where some part of it meets the surface, or
+  /// would three times as far away. So push-offs of two sheets that face each other keep their order.
   std::optional<std::array<Polygon, 2>> push(const Loop& loop, double limit_rel) {
+    if (!push_so_far(loop, limit_rel, 3)) return {};
+    return push_so_far(loop, limit_rel, 1);
+  }
+
+ private:
+  std::optional<std::array<Polygon, 2>> push_so_far(const Loop& loop, double limit_rel, double times) {
     const double limit = limit_rel * size_;
-    const auto offset = [&](Index f) { return std::min(offset_of_height * room(f), limit); };
+    const auto offset = [&](Index f) { return times * std::min(offset_of_height * room(f), limit); };
     std::array<Polygon, 2> sides;
     const std::size_t n = loop.faces.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -164,7 +170,6 @@ class PushOffs {
     return sides;
   }
 
- private:
   static std::array<Vec3, 2> box(const std::array<Vec3, 3>& t) {
     return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
   }
