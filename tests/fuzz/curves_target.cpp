@@ -58,9 +58,15 @@ bool has_short_segments(const std::vector<Curve>& curves, double diagonal, doubl
 void check_patching(const CurveDocument& document, const std::string& text, double diagonal, bool exact) {
   const std::vector<Curve>& curves = document.curves();
   const std::vector<Curve> to = moved(curves);
+  const std::vector<CurveWriting> polylines(curves.size(), CurveWriting::polyline);
   for (const bool all_digits : {false, true}) {
     promise(document.patched(curves, all_digits) == text, "without motion the file comes back byte for byte");
-    const std::vector<Curve> back = document.read_back(document.patched(to, all_digits));
+    for (const CurveWriting writing : {CurveWriting::smooth, CurveWriting::beziers}) {
+      const std::vector<CurveWriting> all(curves.size(), writing);
+      const std::vector<Curve> with_beziers = document.read_back(document.patched(to, all_digits, all));
+      promise(with_beziers.size() <= curves.size(), "a file with Béziers has no more curves");
+    }
+    const std::vector<Curve> back = document.read_back(document.patched(to, all_digits, polylines));
     if (!exact || has_short_segments(to, diagonal, 1e-8)) continue;
     promise(back.size() == curves.size(), "a patched file has as many curves");
     for (std::size_t c = 0; c < curves.size(); ++c) {
@@ -86,7 +92,8 @@ void check_untangling(const CurveDocument& document, double diagonal, bool exact
       for (int axis = 0; axis < 2; ++axis)
         promise(result.curves[c].points[2 * k + axis] == result.curves[joint[0][0]].points[2 * joint[0][1] + axis],
                 "joints stay together");
-  const std::vector<Curve> back = document.read_back(document.patched(result.curves, true));
+  const std::vector<CurveWriting> polylines(result.curves.size(), CurveWriting::polyline);
+  const std::vector<Curve> back = document.read_back(document.patched(result.curves, true, polylines));
   if (!exact || has_short_segments(result.curves, diagonal, 0)) return;
   promise(find_crossings(back, report.joints) == report.left, "a written file has the crossings of the result");
 }
