@@ -34,7 +34,7 @@ struct IsotopyRung {
   std::int32_t lower = 0, upper = 0;
 };
 
-/// Where a point of the rings in the middle lies on the start or on the end.
+/// The place on the start or on the end of a point of the rings in the middle.
 struct IsotopyPlace {
   std::int32_t edge = 0;  ///< starts at the point of this number
   double fraction = 0;    ///< of it, [0, 1)

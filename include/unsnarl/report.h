@@ -89,7 +89,7 @@ struct RegionReport {
   std::int32_t farthest_vertex = -1;
 };
 
-/// What the method of the paper (RepairOptions::paper) reached by untangling, before recovery.
+/// The state that the method of the paper (RepairOptions::paper) reached by untangling, before recovery.
 struct PaperUntangling {
   bool is_clean = false;  ///< no two faces that share no vertex intersect: the paper's criterion
   /// Over the vertices, from their input positions, as RepairReport has them of the result.

@@ -106,7 +106,7 @@ void recover_moved(const RepairTask& task, const RepairControl& control, std::sp
   state.smallest_gap = std::min(state.smallest_gap, gap);
 }
 
-/// What untangling reached; `left`: the pairs of triangles that it left.
+/// The state that untangling reached; `left`: the pairs of triangles that it left.
 PaperUntangling measure_untangled(const RepairTask& task, const RepairState& state,
                                   std::span<const IntersectingPair> left) {
   PaperUntangling reached;

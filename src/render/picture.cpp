@@ -28,7 +28,7 @@ constexpr double most_hidden = 0.03;
 /// (no unit)
 constexpr double much_magnified = 2;
 
-/// What is behind something translucent keeps this much of its own colour (no unit)
+/// The part of its own colour that a surface behind something translucent keeps (no unit)
 constexpr double shining_through = 0.65;
 
 struct Panel {

@@ -42,7 +42,7 @@ Closeness closeness_of(const CurveNet& from, const Points2& x, const CurveNet& t
       const Vec2 r = Vec2::Constant(reach);
       tree.near(p - r, p + r, [&](Index s) {
         const Vec2 a = y.col(to.segments[s][0]), b = y.col(to.segments[s][1]);
-        nearest = std::min(nearest, (a + nearest_fraction(p, a, b) * (b - a) - p).norm());
+        nearest = std::min(nearest, distance_to_segment(p, a, b));
       });
       if (nearest <= reach) return nearest;
     }

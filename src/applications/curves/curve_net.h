@@ -21,6 +21,10 @@ inline double nearest_fraction(const Vec2& p, const Vec2& a, const Vec2& b) {
   return squared > 0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
 }
 
+inline double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  return (p - (a + nearest_fraction(p, a, b) * (b - a))).norm();
+}
+
 /// Curves as the solvers see them: vertices, which several curves may share, and chains of them.
 struct CurveNet {
   struct Chain {

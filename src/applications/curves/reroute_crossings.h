@@ -18,8 +18,8 @@ struct ReroutedCurves {
 ///     such crossings the one comes first whose strands go on the straightest.
 ///   - two curves that cross twice exchange the parts between, the shortest parts first. Two open curves that cross
 ///     once exchange the parts behind the crossing. Parts with pinned vertices are not exchanged.
-/// What neither resolves, an open curve that ends within a closed one for instance, crosses as before; so does what is
-/// left when stop() says true. Asked at every crossing.
+/// Crossings that neither resolves stay, those of an open curve that ends within a closed one for instance; so do those
+/// that are left when stop() says true. It is asked at every crossing.
 ReroutedCurves reroute_crossings(const CrossedCurves& curves, const std::function<bool()>& stop);
 
 }  // namespace unsnarl

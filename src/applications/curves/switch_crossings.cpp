@@ -88,7 +88,7 @@ double lost_area(const Path& path, const Path& way) {
     // Both run the same way: the nearest piece does not go back.
     const auto distance = [&](std::size_t i) {
       const Vec2 a = i == 0 ? path.front() : way[i - 1], b = i < way.size() ? way[i] : path.back();
-      return (a + nearest_fraction(path[k], a, b) * (b - a) - path[k]).norm();
+      return distance_to_segment(path[k], a, b);
     };
     double best = distance(near);
     for (std::size_t i = near + 1; i <= way.size() && i <= near + 2; ++i)

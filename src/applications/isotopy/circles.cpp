@@ -11,7 +11,7 @@ namespace unsnarl {
 namespace {
 
 constexpr double circle_turn = 2 * std::numbers::pi;  ///< A full turn in radians (fixed by geometry)
-/// What lies in a circle is drawn into this part of its radius; discs.h asks for less than half (no unit)
+/// The curves in a circle are drawn into this part of its radius; discs.h asks for less than half (no unit)
 constexpr double contents_part = 0.4;
 /// Points turn about the middle of a circle by at most this from ring to ring; below a quarter turn their order stays
 /// (unit: turns)
@@ -91,7 +91,7 @@ CirclesWay make_circles(Polygons triangles, std::span<const Index> parent, std::
   };
   add(triangles);
 
-  // What lies in a triangle is drawn to the middle of its circle, from the outermost triangles inward.
+  // The curves in a triangle are drawn to the middle of its circle, from the outermost triangles inward.
   std::vector<Index> order(size);
   for (Index p = 0; p < size; ++p) order[p] = p;
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return depth_of(a) < depth_of(b); });

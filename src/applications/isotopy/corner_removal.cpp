@@ -17,10 +17,6 @@ Sign turn_at(const Vec2& a, const Vec2& b, const Vec2& c) {
   return orient2d(a.x(), a.y(), b.x(), b.y(), c.x(), c.y());
 }
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  return (p - (a + nearest_fraction(p, a, b) * (b - a))).norm();
-}
-
 class RemovalOrder {
  public:
   /// `side`: of the polygons' insides to which corners may move, 1 or -1; 0: to both sides.
@@ -80,7 +76,7 @@ class RemovalOrder {
   }
 
   /// By how much the polygon would be shorter without corner v, over the distance to the nearest other corner [E194].
-  /// That changes only as corners beside it are removed, or the nearest one is.
+  /// The key changes only as corners beside it are removed, or the nearest one is.
   void rate(Index v) {
     unqueue(v);
     hindered_by_[v] = -1;
@@ -88,8 +84,8 @@ class RemovalOrder {
     const CornerRemoval removal{c_.before[v], v, c_.after[v]};
     const Vec2 a = c_.x.col(removal.before), b = c_.x.col(v), c = c_.x.col(removal.after);
     const Sign turn = turn_at(a, b, c);
-    // What moves along ears needs room in them; a simple polygon of four corners or more always has one that is not
-    // flat.
+    // Curves that move along ears need room in them; a simple polygon of four corners or more always has one that is
+    // not flat.
     if (side_ != 0 && turn * side_ <= 0) return;
     const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     double nearest = out_of_reach;

@@ -29,7 +29,7 @@ double smallest_distance(const std::vector<Vec2>& from, const std::vector<Vec2>&
   for (std::size_t i = 0; i < from.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const Vec2 a = from[i] - from[j], b = to[i] - to[j];
-      least = std::min(least, (a + nearest_fraction(Vec2(0, 0), a, b) * (b - a)).norm());
+      least = std::min(least, distance_to_segment(Vec2(0, 0), a, b));
     }
   return least;
 }

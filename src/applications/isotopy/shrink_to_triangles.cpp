@@ -13,18 +13,16 @@
 namespace unsnarl {
 namespace {
 
-/// What moves within a polygon shrinks to this part of the free space around its way; below half, nothing meets (no
-/// unit)
+/// A curve that moves within a polygon shrinks to this part of the free space around its way; below half, nothing meets
+/// (no unit)
 constexpr double guest_size = 0.2;
 /// Places in a triangle lie on a circle of this part of its incircle's radius (no unit)
 constexpr double places_radius = 0.5;
 
 double distance_of_segments(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const auto to_segment = [](const Vec2& p, const Vec2& q, const Vec2& r) {
-    return (p - (q + nearest_fraction(p, q, r) * (r - q))).norm();
-  };
   // They do not cross where this is called.
-  return std::min({to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)});
+  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
+                   distance_to_segment(d, a, b)});
 }
 
 class Shrinking {
@@ -141,7 +139,7 @@ class Shrinking {
     std::vector<Vec2> way;  // of its middle
   };
 
-  /// What lies in a polygon shrinks and moves, one after the other, to the triangle that is left of a triangulation.
+  /// The curves in a polygon shrink and move, one after the other, to the triangle that is left of a triangulation.
   void gather_contents(Index host) {
     Corners all_free = c_;
     all_free.is_kept.assign(all_free.is_kept.size(), 0);
@@ -173,8 +171,7 @@ class Shrinking {
       const auto apart = [&](const Vec2& a, const Vec2& b) {
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t other = 0; other < guests.size(); ++other)
-          if (other != g)
-            least = std::min(least, (standing[other] - (a + nearest_fraction(standing[other], a, b) * (b - a))).norm());
+          if (other != g) least = std::min(least, distance_to_segment(standing[other], a, b));
         return least;
       };
       double best = -1, farthest = -1;
@@ -182,7 +179,7 @@ class Shrinking {
       for (std::size_t k = 0; k < guests.size(); ++k) {
         if (is_taken[k] != 0) continue;
         const Vec2 at = place_in(room, k, guests.size());
-        // Of places that are as free the farthest one, so that the others stay reachable.
+        // The farthest of the places that are as free is taken, so that the others stay reachable.
         const double d = apart(way.back(), at), far = (at - way.back()).norm();
         if (d > best || (d == best && far > farthest)) {
           best = d;

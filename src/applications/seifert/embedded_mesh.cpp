@@ -23,7 +23,7 @@ constexpr double thin = 0.05;
 /// A flip must raise the smallest angle by this, so that edges do not flip to and fro (unit: radian)
 constexpr double angle_gain = 0.05;
 
-/// What clearance() says of faces that intersect (no unit)
+/// The clearance of faces that intersect (no unit)
 constexpr double intersecting = -1;
 
 double shortest_edge(const TrianglePoints& t) {

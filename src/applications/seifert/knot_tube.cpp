@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
+#include "applications/seifert/closed_tube.h"
 #include "geometry/box.h"
-#include "geometry/portable_math.h"
 #include "mesh/union_find.h"
 #include "unsnarl/intersections.h"
 #include "unsnarl/seifert.h"
@@ -18,44 +17,6 @@ constexpr int sides_of_tube = 12;  ///< Corners of a ring (unit: corners)
 constexpr double thickest_tube_rel = 0.02;
 constexpr double thinner = 0.7;      ///< Each next radius that is tried (unit: the one before)
 constexpr int most_tube_tries = 24;  ///< Radii that are tried: the last is 3e-4 of the first (unit: tries)
-
-/// `e`, which is across `from`, turned as little as possible so that it is across `to`; both of unit length.
-Vec3 turned_along(const Vec3& e, const Vec3& from, const Vec3& to) {
-  return e - e.dot(to) / (1 + from.dot(to)) * (from + to);
-}
-
-/// Rings across the bisector of each corner, and strips between them.
-void add_tube(const std::vector<double>& component, double radius, Surface& tube) {
-  const Eigen::Map<const Positions> x(component.data(), 3, static_cast<Index>(component.size() / 3));
-  const auto n = static_cast<Index>(x.cols());
-  const auto first = static_cast<Index>(tube.positions.size() / 3);
-  const auto direction = [&](Index k) { return Vec3((x.col((k + 1) % n) - x.col(k % n)).normalized()); };
-  Vec3 e = direction(n - 1).unitOrthogonal();
-  for (Index k = 0; k < n; ++k) {
-    const Vec3 before = direction(k + n - 1), after = direction(k), across = (before + after).normalized();
-    const Vec3 u = turned_along(e, before, across).normalized(), v = across.cross(u);
-    e = turned_along(e, before, after).normalized();
-    for (int s = 0; s < sides_of_tube; ++s) {
-      const double angle = 2 * std::numbers::pi * s / sides_of_tube;
-      const Vec3 p = x.col(k) + radius * (portable::cos(angle) * u + portable::sin(angle) * v);
-      tube.positions.insert(tube.positions.end(), p.begin(), p.end());
-    }
-  }
-  const auto at = [&](Index k, int s) {
-    return Vec3(Eigen::Map<const Vec3>(tube.positions.data() + 3 * (first + k * sides_of_tube + s % sides_of_tube)));
-  };
-  int shift = 0;  // the last ring meets the first one turned
-  for (int s = 1; s < sides_of_tube; ++s)
-    if ((at(0, s) - at(n - 1, 0)).norm() < (at(0, shift) - at(n - 1, 0)).norm()) shift = s;
-  for (Index k = 0; k < n; ++k)
-    for (int s = 0; s < sides_of_tube; ++s) {
-      const Index ring = first + k * sides_of_tube, next = first + (k + 1) % n * sides_of_tube;
-      const int turn = k + 1 == n ? shift : 0;
-      const Index a = ring + s, b = ring + (s + 1) % sides_of_tube;
-      const Index c = next + (s + 1 + turn) % sides_of_tube, d = next + (s + turn) % sides_of_tube;
-      tube.corners.insert(tube.corners.end(), {a, b, c, a, c, d});
-    }
-}
 
 bool have_common_corner(const SurfaceView& s, Index f, Index g) {
   const auto a = s.face(static_cast<std::size_t>(f)), b = s.face(static_cast<std::size_t>(g));
@@ -119,7 +80,9 @@ KnotTube knot_tube(const Link& link, const SurfaceView& spanning) {
   made.radius = thickest_tube_rel * box.diagonal();
   for (int k = 0; k < most_tube_tries; ++k, made.radius *= thinner) {
     made.surface = {};
-    for (const std::vector<double>& component : link.components) add_tube(component, made.radius, made.surface);
+    for (const std::vector<double>& p : link.components)
+      add_closed_tube(Eigen::Map<const Positions>(p.data(), 3, static_cast<Index>(p.size() / 3)), made.radius,
+                      sides_of_tube, made.surface);
     // Where the link turns right back, rounding may leave nothing to divide by.
     const std::vector<double>& positions = made.surface.positions;
     if (!std::all_of(positions.begin(), positions.end(), [](double p) { return std::isfinite(p); })) return {};

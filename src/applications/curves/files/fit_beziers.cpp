@@ -76,7 +76,7 @@ class BezierFit {
     for (std::size_t k = first; k < last; ++k) {
       const Vec2 &a = points_[k], &b = points_[k + 1];
       const Vec2 place = place_at(curve, 0.5 * (t[k - first] + t[k + 1 - first]));
-      if ((place - (a + nearest_fraction(place, a, b) * (b - a))).norm() > most_bulge * tolerance_) return false;
+      if (distance_to_segment(place, a, b) > most_bulge * tolerance_) return false;
     }
     return true;
   }

@@ -234,6 +234,13 @@ bool draw(char kind, bool relative, Reader& reader, Pen& pen, Subpath& subpath, 
 
 }  // namespace
 
+DrawnPiece transformed(DrawnPiece piece, const Affine& transform) {
+  if (transform.is_identity()) return piece;
+  piece.from = transform.linear * piece.from;
+  piece.to = transform.linear * piece.to;
+  return piece;
+}
+
 std::vector<double> parse_number_list(std::string_view text) {
   Reader reader(text);
   std::vector<double> numbers;

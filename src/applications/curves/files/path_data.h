@@ -28,13 +28,16 @@ struct Affine {
   }
 };
 
-/// What leads from a point of a flattened subpath to the next one: a segment, or a part of a Bézier curve or an arc.
+/// The way from a point of a flattened subpath to the next one: a segment, or a part of a Bézier curve or an arc.
 struct DrawnPiece {
   int command = -1;                             ///< the curve that it is a part of, counted in its path; -1: none
   double begin = 0, end = 1;                    ///< the part's parameters, in [0, 1]
   Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< derivatives of the curve by its parameter at both ends
   double turn = 0;                              ///< of an arc: the angle in radians that it turns by in all
 };
+
+/// The same piece in the coordinates that a transform leads to.
+DrawnPiece transformed(DrawnPiece piece, const Affine& transform);
 
 /// One move-to and what follows it.
 struct Subpath {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,13 +8,10 @@
 #include <optional>
 #include <pugixml.hpp>
 
-#include "applications/curves/files/bezier_steps.h"
-#include "applications/curves/files/curve_file.h"
-#include "applications/curves/files/path_data.h"
+#include "applications/curves/files/start_tags.h"
 #include "applications/curves/files/style_sheet.h"
+#include "applications/curves/files/svg_file.h"
 #include "applications/curves/files/viewport.h"
-#include "applications/curves/files/written_places.h"
-#include "io/text_edits.h"
 #include "io/xml_text.h"
 #include "unsnarl/depth_limit.h"
 
@@ -32,71 +28,6 @@ std::size_t line_of(std::string_view text, std::size_t offset) {
          static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
 }
 
-/// Attributes that say where a line, rect, circle or ellipse is.
-constexpr std::array<const char*, 13> measures = {"x",  "y", "width", "height", "rx", "ry", "cx",
-                                                  "cy", "r", "x1",    "y1",     "x2", "y2"};
-
-/// An attribute of a start tag in the text.
-struct Attribute {
-  std::size_t begin = 0, end = 0;              // with its name and quotation marks
-  std::size_t value_begin = 0, value_end = 0;  // without
-};
-
-/// The attributes of the start tag whose name begins at `name`; the text is well-formed.
-std::map<std::string, Attribute, std::less<>> attributes_of(std::string_view text, std::size_t name) {
-  std::map<std::string, Attribute, std::less<>> result;
-  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
-  std::size_t i = name;
-  while (i < text.size() && !is_space(text[i]) && text[i] != '>' && text[i] != '/') ++i;
-  while (i < text.size()) {
-    while (i < text.size() && is_space(text[i])) ++i;
-    if (i >= text.size() || text[i] == '>' || text[i] == '/') break;
-    Attribute a;
-    a.begin = i;
-    while (i < text.size() && !is_space(text[i]) && text[i] != '=') ++i;
-    std::string key(text.substr(a.begin, i - a.begin));
-    while (i < text.size() && text[i] != '"' && text[i] != '\'') ++i;
-    const char quote = i < text.size() ? text[i] : '"';
-    a.value_begin = ++i;
-    while (i < text.size() && text[i] != quote) ++i;
-    a.value_end = i++;
-    a.end = i;
-    result.emplace(std::move(key), a);
-  }
-  return result;
-}
-
-/// The place of the end tag that belongs to a start tag; `at` is behind that. The text is well-formed.
-std::size_t end_tag_of(std::string_view text, std::size_t at) {
-  for (int depth = 1; (at = text.find('<', at)) != std::string_view::npos;) {
-    const auto behind = [&](std::string_view mark) { return std::min(text.find(mark, at), text.size()); };
-    const std::string_view tag = text.substr(at);
-    if (tag.starts_with("<!--")) {
-      at = behind("-->");
-    } else if (tag.starts_with("<![CDATA[")) {
-      at = behind("]]>");
-    } else if (tag.starts_with("<?")) {
-      at = behind("?>");
-    } else if (tag.starts_with("</")) {
-      if (--depth == 0) return at;
-      at = behind(">");
-    } else {
-      std::size_t end = at + 1;
-      for (const auto& [key, attribute] : attributes_of(text, end)) end = std::max(end, attribute.end);
-      at = std::min(text.find('>', end), text.size());
-      if (at > 0 && text[at - 1] != '/') ++depth;
-    }
-  }
-  return at;
-}
-
-DrawnPiece transformed(DrawnPiece piece, const Affine& transform) {
-  if (transform.is_identity()) return piece;
-  piece.from = transform.linear * piece.from;
-  piece.to = transform.linear * piece.to;
-  return piece;
-}
-
 /// Leaves out points that repeat the point before them, with the pieces that lead to them. Then there are as many
 /// pieces as points.
 void leave_out_repeated_points(Subpath& path) {
@@ -109,52 +40,6 @@ void leave_out_repeated_points(Subpath& path) {
   path.points.resize(std::min(path.points.size(), kept + 1));
   path.pieces.resize(path.points.size());
 }
-
-/// One subpath of an element.
-struct Piece {
-  Subpath path;
-  std::optional<std::size_t> curve;  ///< nothing: fewer than two points
-};
-
-struct Shape {
-  std::string kind;      ///< name of the element; of a <use> "use"
-  std::string style;     ///< of a <use>: the attributes that the path in its place takes from the element that it shows
-  std::size_t name = 0;  ///< where its name is in the text
-  std::string data;      ///< of a path
-  Affine transform;
-  std::vector<Piece> pieces;
-};
-
-/// The curves to be written, and where.
-struct MovedCurves {
-  std::span<const Curve> curves;
-  std::span<const CurveWriting> writing;  ///< one a curve; empty: all smooth
-  TransformedPlaces& places;
-
-  CurveWriting writing_of(std::size_t curve) const { return writing.empty() ? CurveWriting::smooth : writing[curve]; }
-};
-
-class SvgFile final : public CurveFile {
- public:
-  std::string patched(std::span<const Curve> moved, double rounding,
-                      std::span<const CurveWriting> writing) const override;
-
-  std::unique_ptr<CurveFile> parse_alike(std::string text) const override {
-    return parse_svg(std::move(text), 1, flatten);
-  }
-
-  std::vector<Shape> shapes;
-  DrawnPieces drawn;
-  double flatten = 0;
-
- private:
-  bool is_moved(const Piece& piece, std::span<const Curve> moved) const;
-  std::string path_of(const Shape& shape, const MovedCurves& moved) const;
-  std::string data_of(const Shape& shape, const Piece& piece, const MovedCurves& moved) const;
-  std::vector<Vec2> points_of(const Shape& shape, const Piece& piece, const MovedCurves& moved) const;
-  void replace_use(const Shape& shape, const std::string& data,
-                   const std::map<std::string, Attribute, std::less<>>& attributes, std::vector<TextEdit>& edits) const;
-};
 
 class SvgParser {
  public:
@@ -184,7 +69,6 @@ class SvgParser {
       visit(root, {}, {}, true);
       flatten = flatten_rel_ * diagonal_of(file_.curves);
       file_.curves.clear();
-      file_.drawn = {};
       file_.ids.clear();
       file_.notes.clear();
       file_.shapes.clear();
@@ -355,12 +239,12 @@ class SvgParser {
     const Affine whole = place.transform * inner;
     if (!whole.is_invertible())
       throw FileError("its transforms flatten the plane, so its coordinates cannot be computed");
-    Shape shape{.kind = kind,
-                .style = {},
-                .name = static_cast<std::size_t>(node.offset_debug()),
-                .data = {},
-                .transform = place.transform,
-                .pieces = {}};
+    SvgShape shape{.kind = kind,
+                   .style = {},
+                   .name = static_cast<std::size_t>(node.offset_debug()),
+                   .data = {},
+                   .transform = place.transform,
+                   .pieces = {}};
     const double tolerance = flatten_ / std::max(whole.scale(), least_scale);
     const std::string_view drawn = local_name(shown);
     std::vector<Subpath> paths;
@@ -425,8 +309,8 @@ class SvgParser {
     return fmt::format("M{} {}{}{} {}{}{} {}Z", cx + rx, cy, arc, cx - rx, cy, arc, cx + rx, cy);
   }
 
-  void add_piece(const pugi::xml_node& node, Subpath path, bool is_one_of_several, Shape& shape) {
-    Piece piece;
+  void add_piece(const pugi::xml_node& node, Subpath path, bool is_one_of_several, SvgShape& shape) {
+    SvgPiece piece;
     std::vector<Vec2>& points = path.points;
     leave_out_repeated_points(path);
     double largest = 0;
@@ -446,9 +330,6 @@ class SvgParser {
       curve.name = place_of(node);
       if (is_one_of_several) curve.name += fmt::format(", subpath {}", shape.pieces.size() + 1);
       piece.curve = file_.curves.size();
-      std::vector<DrawnPiece> placed;
-      for (const DrawnPiece& drawn : path.pieces) placed.push_back(transformed(drawn, shape.transform));
-      file_.drawn.add(curve, placed);
       file_.curves.push_back(std::move(curve));
       file_.ids.emplace_back(node.attribute("id").value());
     }
@@ -462,172 +343,6 @@ class SvgParser {
   std::map<std::string, pugi::xml_node, std::less<>> by_id_;
   std::map<std::string, int> skipped_;
 };
-
-std::string text_of(const Vec2& point) {
-  return fmt::format("{},{}", digits_of(point.x()), digits_of(point.y()));
-}
-
-/// For each point of a moved curve the point of the file's that it is still; -1: none.
-std::vector<std::ptrdiff_t> own_points(const Curve& own, const Curve& moved) {
-  const auto at = [](const Curve& curve, std::size_t k) {
-    return std::array<double, 2>{curve.points[2 * k], curve.points[2 * k + 1]};
-  };
-  std::map<std::array<double, 2>, std::size_t> places;
-  for (std::size_t k = 0; k < own.size(); ++k) places.emplace(at(own, k), k);
-  std::vector<std::ptrdiff_t> result(moved.size(), -1);
-  for (std::size_t k = 0; k < moved.size(); ++k) {
-    const auto found = places.find(at(moved, k));
-    if (moved.size() == own.size() && at(own, k) == at(moved, k))
-      result[k] = static_cast<std::ptrdiff_t>(k);
-    else if (moved.size() != own.size() && found != places.end())
-      result[k] = static_cast<std::ptrdiff_t>(found->second);
-  }
-  return result;
-}
-
-bool SvgFile::is_moved(const Piece& piece, std::span<const Curve> moved) const {
-  return piece.curve && moved[*piece.curve].points != curves[*piece.curve].points;
-}
-
-/// The points of a moved curve in the coordinates of its element.
-std::vector<Vec2> SvgFile::points_of(const Shape& shape, const Piece& piece, const MovedCurves& moved) const {
-  const Curve& curve = moved.curves[*piece.curve];
-  const std::vector<std::ptrdiff_t> own = own_points(curves[*piece.curve], curve);
-  std::vector<Vec2> result;
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    const Vec2 place(curve.points[2 * i], curve.points[2 * i + 1]);
-    const bool is_own = own[i] >= 0 && moved.places.is_read_as(
-                                           place, piece.path.points[static_cast<std::size_t>(own[i])], shape.transform);
-    result.push_back(is_own ? piece.path.points[static_cast<std::size_t>(own[i])]
-                            : moved.places.local(place, shape.transform));
-  }
-  return result;
-}
-
-std::string SvgFile::data_of(const Shape& shape, const Piece& piece, const MovedCurves& moved) const {
-  const Curve& curve = moved.curves[*piece.curve];
-  const std::vector<Vec2> points = points_of(shape, piece, moved);
-  const auto is_shared = [&](std::size_t k) {
-    return moved.places.is_shared({curve.points[2 * k], curve.points[2 * k + 1]});
-  };
-  std::string text = "M " + text_of(points[0]);
-  const CurveWriting writing = moved.writing_of(*piece.curve);
-  if (writing == CurveWriting::polyline) {
-    for (std::size_t k = 1; k < points.size(); ++k) text += " " + text_of(points[k]);
-  } else {
-    bool is_curve = false;  // further pairs of numbers behind a move-to are segments
-    for (const PathStep& step : drawn.along(curve, writing == CurveWriting::smooth, flatten, is_shared)) {
-      if (!step.controls && step.to == 0) continue;  // closing says it
-      if (step.controls.has_value() != is_curve) text += is_curve ? " L" : " C";
-      is_curve = step.controls.has_value();
-      for (int k = 0; is_curve && k < 2; ++k)
-        text += " " + text_of(moved.places.control((*step.controls)[k], shape.transform));
-      text += " " + text_of(points[step.to]);
-    }
-  }
-  return curve.closed ? text + " Z" : text;
-}
-
-std::string SvgFile::path_of(const Shape& shape, const MovedCurves& moved) const {
-  std::string text;
-  for (const Piece& piece : shape.pieces) {
-    if (!text.empty()) text += ' ';
-    if (piece.curve && (is_moved(piece, moved.curves) || shape.kind == "use")) {
-      text += data_of(shape, piece, moved);
-    } else {
-      text += "M " + text_of(piece.path.start);
-      if (piece.path.implicit != 0) text += fmt::format(" {}", piece.path.implicit);
-      std::string rest = shape.data.substr(piece.path.begin, piece.path.end - piece.path.begin);
-      while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\n')) rest.pop_back();
-      text += rest;
-    }
-  }
-  return text;
-}
-
-/// A <use> becomes a group with a path: the attributes that do not say what it shows are those of the group.
-void SvgFile::replace_use(const Shape& shape, const std::string& data,
-                          const std::map<std::string, Attribute, std::less<>>& attributes,
-                          std::vector<TextEdit>& edits) const {
-  const std::size_t colon = bytes.find_first_of(": \t\r\n/>", shape.name);
-  const std::size_t name = bytes[colon] == ':' ? colon + 1 : shape.name;
-  const std::string prefix = bytes.substr(shape.name, name - shape.name);
-  edits.push_back({name, name + shape.kind.size(), "g"});
-  std::size_t behind = name + shape.kind.size();
-  for (const auto& [key, attribute] : attributes) {
-    behind = std::max(behind, attribute.end);
-    for (const char* const showing : {"href", "xlink:href", "x", "y", "width", "height"})
-      if (key == showing) edits.push_back({attribute.begin - 1, attribute.end, ""});
-  }
-  const std::string path = fmt::format("<{}path{} d=\"{}\"/>", prefix, shape.style, data);
-  const std::size_t tag_end = bytes.find('>', behind);
-  if (bytes[tag_end - 1] == '/') {
-    edits.push_back({tag_end - 1, tag_end + 1, fmt::format(">{}</{}g>", path, prefix)});
-  } else {
-    edits.push_back({tag_end + 1, tag_end + 1, path});
-    const std::size_t at = end_tag_of(bytes, tag_end) + 2 + prefix.size();
-    edits.push_back({at, at + shape.kind.size(), "g"});
-  }
-}
-
-std::string SvgFile::patched(std::span<const Curve> moved, double rounding,
-                             std::span<const CurveWriting> writing) const {
-  TransformedPlaces places(curves, moved, rounding);
-  const MovedCurves written{moved, writing, places};
-  for (const Shape& shape : shapes)
-    for (const Piece& piece : shape.pieces)
-      for (std::size_t k = 0;
-           piece.curve && (is_moved(piece, moved) || shape.kind == "use") && k < moved[*piece.curve].size(); ++k)
-        places.expect({moved[*piece.curve].points[2 * k], moved[*piece.curve].points[2 * k + 1]}, shape.transform);
-  std::vector<TextEdit> edits;
-  for (const Shape& shape : shapes) {
-    if (std::none_of(shape.pieces.begin(), shape.pieces.end(),
-                     [&](const Piece& piece) { return is_moved(piece, moved); }))
-      continue;
-    const auto attributes = attributes_of(bytes, shape.name);
-    if (shape.kind == "path") {
-      const Attribute& d = attributes.find("d")->second;
-      edits.push_back({d.value_begin, d.value_end, path_of(shape, written)});
-      continue;
-    }
-    if (shape.kind == "use") {
-      replace_use(shape, path_of(shape, written), attributes, edits);
-      continue;
-    }
-    const Piece& piece = shape.pieces[0];
-    if (shape.kind == "polyline" || shape.kind == "polygon") {
-      const Attribute& list = attributes.find("points")->second;
-      std::string points;
-      for (const Vec2& point : points_of(shape, piece, written)) points += (points.empty() ? "" : " ") + text_of(point);
-      edits.push_back({list.value_begin, list.value_end, points});
-      continue;
-    }
-    // It becomes a path: its name, and its measures.
-    const std::size_t colon = bytes.find_first_of(": \t\r\n/>", shape.name);
-    const std::size_t name = bytes[colon] == ':' ? colon + 1 : shape.name;
-    edits.push_back({name, name + shape.kind.size(), "path"});
-    const std::string data = fmt::format("d=\"{}\"", data_of(shape, piece, written));
-    bool is_written = false;
-    std::size_t behind = name + shape.kind.size();
-    for (const auto& [key, attribute] : attributes) {
-      behind = std::max(behind, attribute.end);
-      for (const char* const measure : measures)
-        if (key == measure) {
-          // A space before it goes too, unless the data comes in its place.
-          const std::size_t begin = attribute.begin - (is_written ? 1 : 0);
-          edits.push_back({begin, attribute.end, is_written ? "" : data});
-          is_written = true;
-        }
-    }
-    if (!is_written) edits.push_back({behind, behind, " " + data});
-    const std::size_t tag_end = bytes.find('>', behind);
-    if (bytes[tag_end - 1] != '/') {
-      const std::size_t at = end_tag_of(bytes, tag_end) + 2 + (name - shape.name);
-      edits.push_back({at, at + shape.kind.size(), "path"});
-    }
-  }
-  return with_edits(bytes, std::move(edits));
-}
 
 }  // namespace
 

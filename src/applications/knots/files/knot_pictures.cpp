@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 
 #include "applications/knots/knot_path.h"
+#include "applications/seifert/closed_tube.h"
 #include "geometry/box.h"
-#include "geometry/portable_math.h"
 #include "render/camera.h"
 #include "render/drawable.h"
 #include "render/gif.h"
@@ -51,36 +50,9 @@ double strand_distance(const Positions& x, double radius) {
 }
 
 Surface tube_around(const Positions& x, double radius) {
-  const auto n = static_cast<Index>(x.cols());
   const double r = std::min(radius, tube_of_distance * strand_distance(x, radius));
   Surface tube;
-  Vec3 e = (x.col(1) - x.col(0)).unitOrthogonal();
-  for (Index k = 0; k < n; ++k) {
-    const Vec3 before = x.col(k) - x.col((k + n - 1) % n), after = x.col((k + 1) % n) - x.col(k);
-    const Vec3 along = (before.normalized() + after.normalized()).normalized();
-    e = (e - along.dot(e) * along).normalized();
-    const Vec3 f = along.cross(e);
-    for (int s = 0; s < tube_sides; ++s) {
-      const double angle = 2 * std::numbers::pi * s / tube_sides;
-      const Vec3 p = x.col(k) + r * (portable::cos(angle) * e + portable::sin(angle) * f);
-      tube.positions.insert(tube.positions.end(), p.begin(), p.end());
-    }
-  }
-  // The last ring meets the first one turned: by as many sides as bring their points nearest.
-  const auto at = [&](Index k, int s) {
-    return Vec3(Eigen::Map<const Vec3>(tube.positions.data() + 3 * (k * tube_sides + s % tube_sides)));
-  };
-  int shift = 0;
-  for (int s = 1; s < tube_sides; ++s)
-    if ((at(0, s) - at(n - 1, 0)).norm() < (at(0, shift) - at(n - 1, 0)).norm()) shift = s;
-  for (Index k = 0; k < n; ++k)
-    for (int s = 0; s < tube_sides; ++s) {
-      const Index next = (k + 1) % n;
-      const int turn = next == 0 ? shift : 0;
-      const Index a = k * tube_sides + s, b = k * tube_sides + (s + 1) % tube_sides;
-      const Index c = next * tube_sides + (s + 1 + turn) % tube_sides, d = next * tube_sides + (s + turn) % tube_sides;
-      tube.corners.insert(tube.corners.end(), {a, b, c, a, c, d});
-    }
+  add_closed_tube(x, r, tube_sides, tube);
   return tube;
 }
 
