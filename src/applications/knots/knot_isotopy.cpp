@@ -305,7 +305,6 @@ class Making {
   Positions start_exact_, end_exact_;
   DensePolygon start_, end_;
   KnotIsotopy made_;
-  double fraction_ = 0;
 };
 
 }  // namespace

@@ -103,7 +103,7 @@ bool are_separated(const TrianglePoints& a, const TrianglePoints& b, double by) 
 }
 
 EmbeddedMesh::EmbeddedMesh(SpanningMesh mesh, Index boundary_count, double edge, double gap)
-    : x_(std::move(mesh.x)), faces_of_(x_.size()), boundary_count_(boundary_count), edge_(edge), gap_(gap), grid_([&] {
+    : x_(std::move(mesh.x)), faces_of_(x_.size()), boundary_count_(boundary_count), gap_(gap), grid_([&] {
         Vec3 lo = x_[0], hi = x_[0];
         for (const Vec3& p : x_) {
           lo = lo.cwiseMin(p);

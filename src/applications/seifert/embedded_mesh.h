@@ -111,7 +111,7 @@ class EmbeddedMesh {
   std::vector<Index> free_faces_;
   std::vector<std::uint8_t> is_without_;
   Index boundary_count_, living_faces_ = 0;
-  double edge_, gap_;
+  double gap_;
   FaceGrid grid_;
 };
 
