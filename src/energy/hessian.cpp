@@ -101,13 +101,14 @@ Eigen::Matrix3d HessianTerms::Strain::apply(const Eigen::Matrix3d& v) const {
   return result;
 }
 
-Eigen::Matrix3d HessianTerms::Strain::block(int k) const {
-  const double a = coefficient_a[k];
-  const double b = coefficient_b[k];
-  const Eigen::Vector2d t = a * turn.head<2>() + b * turn.tail<2>();
-  const Eigen::Matrix2d in_plane = (a * a + b * b) * Eigen::Matrix2d::Identity() - t * t.transpose();
-  return stiffness * ((1 - uniform) * rotation * in_plane * rotation.transpose() +
-                      uniform * (a * a + b * b) * Eigen::Matrix3d::Identity());
+Eigen::Matrix3d HessianTerms::Strain::block(int k, int l) const {
+  const double both = coefficient_a[k] * coefficient_a[l] + coefficient_b[k] * coefficient_b[l];
+  const auto turn_at = [this](int corner) -> Eigen::Vector2d {
+    return coefficient_a[corner] * turn.head<2>() + coefficient_b[corner] * turn.tail<2>();
+  };
+  const Eigen::Matrix2d in_plane = both * Eigen::Matrix2d::Identity() - turn_at(k) * turn_at(l).transpose();
+  return stiffness *
+         ((1 - uniform) * rotation * in_plane * rotation.transpose() + uniform * both * Eigen::Matrix3d::Identity());
 }
 
 void HessianTerms::clear() {
@@ -161,14 +162,44 @@ void Hessian::apply(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const {
     for (const HessianTerms::Dense& t : part.dense) add_dense(t, v, result);
 }
 
-void Hessian::inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const {
+Eigen::SparseMatrix<double> Hessian::lower_triangle() const {
+  const Index n = static_cast<Index>(diagonal_.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](Index i, Index j, const Eigen::Matrix3d& block) {
+    if (i < j) return;
+    for (int c = 0; c < 3; ++c)
+      for (int r = i == j ? c : 0; r < 3; ++r) entries.emplace_back(3 * i + r, 3 * j + c, block(r, c));
+  };
+  for (Index i = 0; i < n; ++i) add(i, i, diagonal_[i] * Eigen::Matrix3d::Identity());
+  for (const HessianTerms& part : parts_) {
+    for (const HessianTerms::Strain& t : part.strains)
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+          if (t.vertices[k] >= 0 && t.vertices[l] >= 0) add(t.vertices[k], t.vertices[l], t.block(k, l));
+    for (const HessianTerms::RankOne& t : part.rank_ones)
+      for (int k = 0; k < 4; ++k)
+        for (int l = 0; l < 4; ++l)
+          if (t.vertices[k] >= 0 && t.vertices[l] >= 0)
+            add(t.vertices[k], t.vertices[l], t.stiffness * t.g.col(k) * t.g.col(l).transpose());
+    for (const HessianTerms::Dense& t : part.dense)
+      for (std::size_t k = 0; k < t.vertices.size(); ++k)
+        for (std::size_t l = 0; l < t.vertices.size(); ++l)
+          add(t.vertices[k], t.vertices[l],
+              t.stiffness * t.g.col(static_cast<Index>(k)) * t.g.col(static_cast<Index>(l)).transpose());
+  }
+  Eigen::SparseMatrix<double> result(3 * n, 3 * n);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+void Hessian::inverse_blocks(std::vector<Eigen::Matrix3d>& blocks) const {
   const Index n = static_cast<Index>(diagonal_.size());
   blocks.resize(n);
   for (Index i = 0; i < n; ++i) blocks[i] = diagonal_[i] * Eigen::Matrix3d::Identity();
   for (const HessianTerms& part : parts_)
     for (const HessianTerms::Strain& t : part.strains)
       for (int k = 0; k < 3; ++k) {
-        if (t.vertices[k] >= 0) blocks[t.vertices[k]] += t.block(k);
+        if (t.vertices[k] >= 0) blocks[t.vertices[k]] += t.block(k, k);
       }
   for (const HessianTerms& part : parts_)
     for (const HessianTerms::RankOne& t : part.rank_ones)
@@ -182,14 +213,7 @@ void Hessian::inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& b
         blocks[t.vertices[k]].noalias() += t.stiffness * g * g.transpose();
       }
   for_chunks(n, chunk, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      Eigen::Matrix3d& block = blocks[i];
-      if (diagonal_only) {
-        block = Vec3(block.diagonal().cwiseInverse()).asDiagonal();
-      } else {
-        block = inverse_of(block);
-      }
-    }
+    for (Index i = begin; i < end; ++i) blocks[i] = inverse_of(blocks[i]);
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <array>
 #include <span>
 #include <vector>
@@ -41,8 +42,8 @@ struct HessianTerms {
 
     /// Corner k of the result: sum_l H_kl v_l.
     Eigen::Matrix3d apply(const Eigen::Matrix3d& v) const;
-    /// Diagonal block H_kk.
-    Eigen::Matrix3d block(int k) const;
+    /// Block H_kl: what corner l does to corner k.
+    Eigen::Matrix3d block(int k, int l) const;
     /// `turn` of a triangle with these rest edges (edge k from corner k to k + 1), in its own plane.
     static Eigen::Vector4d turn_of(const Eigen::Matrix<double, 2, 3>& rest_edges);
   };
@@ -55,7 +56,7 @@ struct HessianTerms {
   void clear();
 };
 
-/// The Hessian over the vertices that move ("unknowns"), as a sum of terms that is never assembled to a matrix.
+/// The Hessian over the vertices that move ("unknowns"), as a sum of terms.
 class Hessian {
  public:
   /// So many empty lists of terms, to be filled; assemble() takes them in order. They stay here, since they may be most
@@ -65,8 +66,10 @@ class Hessian {
   void assemble(std::span<const Index> slot, Index unknowns);
 
   void apply(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const;
-  /// Inverses of the 3 x 3 blocks on the diagonal, or of the diagonals of these.
-  void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const;
+  /// Inverses of the 3 x 3 blocks on the diagonal.
+  void inverse_blocks(std::vector<Eigen::Matrix3d>& blocks) const;
+  /// Its lower triangle as a matrix, three rows an unknown.
+  Eigen::SparseMatrix<double> lower_triangle() const;
 
  private:
   std::vector<double> diagonal_;

@@ -18,7 +18,7 @@ struct PcgOptions {
 };
 
 /// Conjugate gradients for symmetric positive definite systems over 3-vectors, preconditioned by the inverses of the
-/// 3 x 3 blocks on the diagonal (of their diagonals only: the classical Jacobi preconditioner). Keeps its workspace.
+/// 3 x 3 blocks on the diagonal. Keeps its workspace.
 class BlockJacobiPcg {
  public:
   /// Solves A x = b from x = 0; `apply(v, result)` sets result = A v. Returns the number of iterations. At a direction

@@ -1,9 +1,12 @@
 #include "optimize/newton.h"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
+
+#include "geometry/fit.h"
 
 namespace unsnarl {
 namespace {
@@ -34,6 +37,18 @@ Search search_line(NewtonProblem& problem, const NewtonOptions& options, const E
   return Search::none;
 }
 
+/// The Newton step; zero where the Hessian has no factor.
+void solve_by_factor(const Eigen::SparseMatrix<double>& lower_triangle, const Eigen::Matrix3Xd& gradient,
+                     Eigen::Matrix3Xd& step) {
+  fit(step, 3, static_cast<Index>(gradient.cols()));
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(lower_triangle);
+  if (factor.info() == Eigen::Success) {
+    step.reshaped() = -factor.solve(gradient.reshaped());
+  } else {
+    step.setZero();
+  }
+}
+
 /// Whether the last steps lowered the value by less than the wanted share. `falls`: of all steps; `value`: now.
 bool hardly_falls(std::span<const double> falls, double value, const NewtonOptions& options) {
   const std::size_t window = static_cast<std::size_t>(options.window);
@@ -54,9 +69,13 @@ NewtonResult minimise_newton(NewtonProblem& problem, const NewtonOptions& option
   double value = problem.linearise(gradient);
   while (result.iterations < options.max_steps) {
     if (stop && (result.stopped = stop())) break;
-    problem.inverse_blocks(options.scalar_jacobi, blocks);
-    result.solver_iterations += pcg.solve([&](const auto& v, auto& out) { problem.apply_hessian(v, out); }, blocks,
-                                          -gradient, step, options.solver);
+    if (options.factors) {
+      solve_by_factor(problem.lower_triangle(), gradient, step);
+    } else {
+      problem.inverse_blocks(blocks);
+      result.solver_iterations += pcg.solve([&](const auto& v, auto& out) { problem.apply_hessian(v, out); }, blocks,
+                                            -gradient, step, options.solver);
+    }
     ++result.iterations;
     const double longest = std::sqrt(step.colwise().squaredNorm().maxCoeff());
     if (!(longest > 0) || !(gradient.cwiseProduct(step).sum() < 0)) break;

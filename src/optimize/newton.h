@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -19,8 +20,10 @@ class NewtonProblem {
   /// The value at the current point. Sets the gradient; the calls of the next two refer to the Hessian there.
   virtual double linearise(Eigen::Matrix3Xd& gradient) = 0;
   virtual void apply_hessian(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const = 0;
-  /// Inverses of the Hessian's 3 x 3 blocks on the diagonal, or of the diagonals of these.
-  virtual void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const = 0;
+  /// Inverses of the Hessian's 3 x 3 blocks on the diagonal.
+  virtual void inverse_blocks(std::vector<Eigen::Matrix3d>& blocks) const = 0;
+  /// The Hessian's lower triangle, three rows an unknown.
+  virtual Eigen::SparseMatrix<double> lower_triangle() const = 0;
 
   /// Shortens a Newton step to where the model can be trusted, before the line search. May add terms to the function
   /// that matter along the step, so that its value at the current point grows.
@@ -41,7 +44,7 @@ struct NewtonOptions {
   double sufficient_decrease = 1e-4;
   int max_halvings = 40;  ///< The line search halves a step this many times at most (unit: halvings)
   PcgOptions solver;
-  bool scalar_jacobi = false;  ///< precondition by the diagonal of the Hessian alone, not by its blocks
+  bool factors = false;  ///< steps are solved by a sparse factor of the Hessian, not by conjugate gradients
   /// Ends when in `window` steps the value fell by less than this share of what it was at the start, without what
   /// unknowns that do not move any more have in it (no unit)
   double decrease = 0;
@@ -55,9 +58,9 @@ struct NewtonResult {
   bool stopped = false;  ///< by the caller
 };
 
-/// Minimises from the current point of the problem: Newton steps by preconditioned conjugate gradients, each shortened
-/// by limit(), then by halving until the filtered step satisfies Armijo's condition. Never accepts a point with a
-/// larger value than the one before. `stop` is asked once a step.
+/// Minimises from the current point of the problem: Newton steps by preconditioned conjugate gradients or by a factor,
+/// each shortened by limit(), then by halving until the filtered step satisfies Armijo's condition. Never accepts a
+/// point with a larger value than the one before. `stop` is asked once a step.
 NewtonResult minimise_newton(NewtonProblem& problem, const NewtonOptions& options,
                              const std::function<bool()>& stop = {});
 

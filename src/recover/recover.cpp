@@ -175,7 +175,7 @@ int Recovery::step(const std::vector<std::uint8_t>& moves, double activation, in
   if (!problem_.start(moves, activation, newton.motion, options_.stationary_steps)) return 0;
   newton.max_steps = most;
   newton.solver = options_.solver;
-  newton.scalar_jacobi = options_.scalar_jacobi;
+  newton.factors = options_.factors;
   newton.decrease = decrease;
   newton.window = options_.stop_window;
   int taken = result_.iterations;
@@ -292,10 +292,9 @@ RecoverOptions RecoverOptions::paper() {
   options.has_last_stage = false;
   options.stop_decrease = 0;
   options.stop_window = 1;
-  options.stationary_steps = 1;
-  options.stop_activation = 0;
-  options.solver = {1e-6, 2000};
-  options.scalar_jacobi = true;
+  options.stationary_steps = std::numeric_limits<int>::max();
+  options.stop_activation = 0.01;
+  options.factors = true;
   options.step.shorten_all = true;
   options.step.kept_distance = CcdOptions{}.slack;
   options.objective.time_step = 1;

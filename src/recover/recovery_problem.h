@@ -32,9 +32,8 @@ class RecoveryProblem final : public NewtonProblem {
   Index unknowns() const override { return moving().count(); }
   double linearise(Eigen::Matrix3Xd& gradient) override;
   void apply_hessian(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const override { hessian_.apply(v, result); }
-  void inverse_blocks(bool diagonal_only, std::vector<Eigen::Matrix3d>& blocks) const override {
-    hessian_.inverse_blocks(diagonal_only, blocks);
-  }
+  void inverse_blocks(std::vector<Eigen::Matrix3d>& blocks) const override { hessian_.inverse_blocks(blocks); }
+  Eigen::SparseMatrix<double> lower_triangle() const override { return hessian_.lower_triangle(); }
   /// Caps the motion of each connected part of the moving vertices. The translation of a part that nothing touches is
   /// not capped: the part goes as a whole until something is in its way. Faces that would flip slide along instead, as
   /// far as possible. Gathers the contacts that the capped step may meet.

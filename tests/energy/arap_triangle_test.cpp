@@ -83,10 +83,11 @@ TEST(ArapTriangle, blocks_are_those_of_the_matrix) {
   const HessianTerms terms =
       linearise_all(ArapTriangle(rest, std::span<const Triangle>(fan).first(1), 0.1), x, 2).hessian;
   const Eigen::MatrixXd hessian = dense(terms, 3);
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Matrix3d block = hessian.block<3, 3>(3 * k, 3 * k);
-    EXPECT_LT((terms.strains[0].block(k) - block).norm(), 1e-12);
-  }
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) {
+      const Eigen::Matrix3d block = hessian.block<3, 3>(3 * k, 3 * l);
+      EXPECT_LT((terms.strains[0].block(k, l) - block).norm(), 1e-12);
+    }
 }
 
 }  // namespace

@@ -39,9 +39,14 @@ struct Bowls final : NewtonProblem {
   void apply_hessian(const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) const override {
     for (Index i = 0; i < unknowns(); ++i) result.col(i) = block(i) * v.col(i);
   }
-  void inverse_blocks(bool, std::vector<Eigen::Matrix3d>& blocks) const override {
+  void inverse_blocks(std::vector<Eigen::Matrix3d>& blocks) const override {
     blocks.resize(unknowns());
     for (Index i = 0; i < unknowns(); ++i) blocks[i] = block(i).inverse();
+  }
+  Eigen::SparseMatrix<double> lower_triangle() const override {
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(3 * unknowns(), 3 * unknowns());
+    for (Index i = 0; i < unknowns(); ++i) whole.block<3, 3>(3 * i, 3 * i) = block(i);
+    return Eigen::MatrixXd(whole.triangularView<Eigen::Lower>()).sparseView();
   }
   void limit(Eigen::Matrix3Xd& step) override {
     step *= std::min(1.0, cap / std::sqrt(step.colwise().squaredNorm().maxCoeff()));
@@ -70,6 +75,20 @@ TEST(Newton, converges_to_the_minimum) {
   EXPECT_LT((bowls.x - bowls.target).norm(), 1e-8);
   EXPECT_LE(result.iterations, 15);
   EXPECT_EQ(bowls.accepted, result.iterations);
+}
+
+TEST(Newton, factors_give_the_steps_of_conjugate_gradients) {
+  Bowls by_gradients(5), by_factors(5);
+  by_gradients.target.col(2) = by_factors.target.col(2) = Eigen::Vector3d(-1, 4, 0.5);
+  NewtonOptions options;
+  options.max_steps = 3;
+  options.solver = {1e-12, 100};
+  minimise_newton(by_gradients, options);
+  options.factors = true;
+  const NewtonResult result = minimise_newton(by_factors, options);
+  EXPECT_LT((by_gradients.x - by_factors.x).norm(), 1e-9);
+  EXPECT_EQ(result.iterations, 3);
+  EXPECT_EQ(result.solver_iterations, 0);
 }
 
 TEST(Newton, short_steps_take_more_iterations) {
