@@ -12,7 +12,7 @@ class Segments:
     """The segments of drawings, one after the other. A drawing is a list of (points (n, 2), is closed)."""
 
     def __init__(self, drawings):
-        a, b, after, drawing, start = [], [], [], [], 0
+        a, b, after, drawing, ends, start = [], [], [], [], [], 0
         for number, polylines in enumerate(drawings):
             for points, closed in polylines:
                 points = np.asarray(points, dtype=float)
@@ -22,11 +22,13 @@ class Segments:
                 after.append(start + np.roll(np.arange(n), -1))
                 if not closed:
                     after[-1][-1] = -1
+                    ends += [(number, *points[0]), (number, *points[-1])]
                 drawing.append(np.full(n, number))
                 start += n
         self.a, self.b = np.concatenate(a), np.concatenate(b)
         self.after = np.concatenate(after)  # the segment that begins where each ends; -1: none
         self.drawing = np.concatenate(drawing)
+        self.ends = set(ends)  # of open polylines: the drawing, x, y
 
 
 def exact_sides(p, q, r):
@@ -66,7 +68,8 @@ def pairs_with_boxes_that_meet(s):
 
 
 def crossings(drawings):
-    """Of each drawing: the number of pairs of its segments that meet anywhere but in the point between neighbours."""
+    """Of each drawing: the number of pairs of its segments that meet anywhere but in the point between neighbours, or in
+    a point of both at which an open polyline ends."""
     s = Segments(drawings)
     found = np.zeros(len(drawings), dtype=int)
     a, b, after = s.a, s.b, s.after
@@ -75,10 +78,19 @@ def crossings(drawings):
         near = by_i[0] * by_i[1] <= 0
         i, j, by_i = i[near], j[near], (by_i[0][near], by_i[1][near])
         meets = exact_sides(a[j], b[j], a[i]) * exact_sides(a[j], b[j], b[i]) <= 0
-        # Neighbours share a point; they overlap where they are on one line and go back.
-        for k in np.nonzero(meets & ((after[i] == j) | (after[j] == i)))[0]:
-            p, q = (i[k], j[k]) if after[i[k]] == j[k] else (j[k], i[k])
-            meets[k] = by_i[0][k] == 0 and by_i[1][k] == 0 and np.dot(b[p] - a[p], b[q] - a[q]) < 0
+        # Segments that share a point overlap where they are on one line and go the same way from there.
+        meets &= ((after[i] != j) & (after[j] != i)) | ((by_i[0] == 0) & (by_i[1] == 0))
+        for k in np.nonzero(meets)[0]:
+            p, q = i[k], j[k]
+            joined = [
+                (x, y)
+                for x, y, is_joint in ((b[p], a[q], after[p] == q), (a[p], b[q], after[q] == p), (a[p], a[q], False), (b[p], b[q], False))
+                if is_joint or (np.array_equal(x, y) and (s.drawing[p], *x) in s.ends)
+            ]
+            if joined:
+                at = joined[0][0]
+                ways = [np.where(np.array_equal(one, at), other, one) - at for one, other in ((a[p], b[p]), (a[q], b[q]))]
+                meets[k] = by_i[0][k] == 0 and by_i[1][k] == 0 and np.dot(*ways) > 0
         found += np.bincount(s.drawing[i[meets]], minlength=len(drawings))
     return found
 
