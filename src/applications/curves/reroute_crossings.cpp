@@ -171,6 +171,37 @@ class Rerouting {
     return other.length < one.length ? other : one;
   }
 
+  /// Of an open curve and a closed one that cross an odd number of times one crossing stays, whatever is exchanged: the
+  /// one that is nearest to an end of the open curve, which is to be drawn back behind it. One flag a crossing.
+  std::vector<std::uint8_t> crossings_left(const std::vector<Measures>& measures) const {
+    std::vector<Index> closed_curve(curves_.crossings.size(), -1);
+    for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c)
+      for (const Waypoint& point : ways_[c])
+        if (is_closed(c) && point.is_crossing()) closed_curve[point.crossing] = c;
+    std::vector<std::uint8_t> is_left(curves_.crossings.size(), 0);
+    struct Met {
+      Index count = 0, nearest = -1;
+      double length = std::numeric_limits<double>::infinity();
+    };
+    for (Index c = 0; c < static_cast<Index>(ways_.size()); ++c) {
+      if (is_closed(c)) continue;
+      std::map<Index, Met> met;  // of each closed curve
+      for (Index k = 0; k < static_cast<Index>(ways_[c].size()); ++k) {
+        const Waypoint& point = ways_[c][k];
+        if (!point.is_crossing() || closed_curve[point.crossing] < 0) continue;
+        Met& with = met[closed_curve[point.crossing]];
+        ++with.count;
+        const double tail = shorter_tail(measures[c], c, k).length;
+        if (tail >= with.length) continue;
+        with.length = tail;
+        with.nearest = point.crossing;
+      }
+      for (const auto& [other, with] : met)
+        if (with.count % 2 == 1 && with.nearest >= 0) is_left[with.nearest] = 1;
+    }
+    return is_left;
+  }
+
   /// The exchange of the shortest parts; none: nothing can be exchanged.
   std::optional<Exchange> shortest_exchange() const {
     std::vector<Measures> measures;
@@ -181,6 +212,7 @@ class Rerouting {
       for (Index k = 0; k < static_cast<Index>(ways_[c].size()); ++k)
         if (ways_[c][k].is_crossing()) places[ways_[c][k].crossing][ways_[c][k].strand] = {c, k};
     }
+    const std::vector<std::uint8_t> is_left = crossings_left(measures);
     std::optional<Exchange> best;
     const auto offer = [&](const Exchange& exchange) {
       if (!(exchange.cost() < (best ? best->cost() : std::numeric_limits<double>::infinity()))) return;
@@ -203,7 +235,7 @@ class Rerouting {
       std::map<Index, std::pair<Index, Index>> seen;  // of each other curve, its first and last crossing so far
       for (Index k = 0; k < static_cast<Index>(ways_[c].size()); ++k) {
         const Waypoint& point = ways_[c][k];
-        if (!point.is_crossing()) continue;
+        if (!point.is_crossing() || is_left[point.crossing] != 0) continue;
         const auto [other, there] = places[point.crossing][1 - point.strand];
         if (const auto [entry, is_first] = seen.emplace(other, std::pair{k, k}); !is_first) {
           offer_arcs(c, entry->second.second, k);
