@@ -15,7 +15,7 @@ namespace {
 
 /// Strips of an annulus before it is untangled (unit: strips)
 constexpr int strip_count = 24;
-/// Ranges of the Gaussian, one after the other (unit: mean edges)
+/// Ranges of the Gaussian, one after the other [E273] (unit: mean edges)
 constexpr std::array<double, 3> annulus_ranges = {8, 4, 2};
 constexpr int annulus_iterations = 30;  ///< Iterations with each range, at most (unit: iterations)
 /// Intersections are counted after this many iterations (unit: iterations)
